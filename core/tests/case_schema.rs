@@ -85,7 +85,7 @@ fn fits_keys(
             .iter()
             .filter(|(key, _)| own(key).is_none() && !dotted(key))
             .all(|(_, v)| fits(root, rule, v)),
-        (word, _) => panic!("the test does not know '{word}'"),
+        (word, _) => panic!("the test has no case for '{word}'"),
     }
 }
 

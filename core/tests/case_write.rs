@@ -108,9 +108,10 @@ impl Dice {
             Shape::Curves | Shape::Shapes | Shape::Outline | Shape::Corners => {
                 self.of_body(shape, used)
             }
-            Shape::Body | Shape::Point | Shape::Curve | Shape::Coordinate | Shape::Name => {
+            Shape::Body | Shape::Point | Shape::Curve | Shape::Coordinate => {
                 Value::Text(self.text())
             }
+            Shape::Joint | Shape::Name => Value::Text(self.text()),
             Shape::Number | Shape::Law => self.formula(),
             Shape::Pair | Shape::LawPair => self.pair(),
             Shape::Triple => Value::List(vec![self.formula(), self.formula(), self.formula()]),

@@ -108,3 +108,100 @@ fn an_action_changes_parameters_and_states() {
     assert!(matches!(failure.reason, Reason::Start { .. }), "{}", failure.reason);
     assert!(!failure.run.trajectory.t.is_empty());
 }
+
+/// A block that a damper brakes: v = v₀ exp(-c t/m), and the damper takes ½ m v₀² - ½ m v².
+const BRAKED: &str = r#"
+[bodies.ground]
+points = { O = [0, 0] }
+[bodies.block]
+mass = 2
+inertia = 1
+points = { P = [0, 0] }
+[joints.guide]
+type = "translational"
+i = "ground.O"
+j = "block.P"
+[forces.brake]
+type = "spring_damper"
+i = "ground.O"
+j = "block.P"
+stiffness = 0
+damping = 3
+[forces.other]
+type = "torsion_spring"
+i = "ground"
+j = "block"
+damping = 0.4
+stiffness = 0
+"#;
+
+#[test]
+fn an_event_where_an_element_has_dissipated_an_energy() {
+    let m = model(BRAKED);
+    let (start, _) = start(&m, &[("block.x", "1"), ("block.vx", "4")], &[]);
+    let lost = |t: f64| 16.0 * (1.0 - (-3.0 * t).exp());
+    let (first, second) = (lost(0.1), lost(0.55));
+    let condition =
+        |name: &str, level: f64| EventOption::new(name, format!("brake.dissipated > {level:.17}"));
+    // the action ends a phase: the sum goes on in the next one
+    let acts = EventOption { acts: true, ..condition("first", first) };
+    let events = vec![acts, condition("second", second), condition("never", 16.1)];
+    let options = Options { events, ..Options::new(1.0) };
+    let prepared = Prepared::new(&m);
+    let mut act = |_: &str, _: &State, _: &_| Some(Change::default());
+    let found = prepared
+        .dynamics_with(&start, &options, |_| Flow::Continue, &mut act)
+        .unwrap_or_else(|failure| panic!("{}", failure.reason));
+    assert_eq!(found.phases.len(), 2);
+    for (event, t) in found.events.iter().zip([0.1, 0.55]) {
+        assert_eq!(event.states.t.len(), 1, "{}", event.name);
+        assert!((event.states.t[0] - t).abs() < 1e-9, "{}: {}", event.name, event.states.t[0]);
+    }
+    assert!(found.events[2].states.t.is_empty());
+}
+
+/// The pin of a wheel carries the radial force of its teeth, F/cos α in all; a condition sees it too.
+#[test]
+fn a_condition_on_a_pin_of_teeth_with_a_pressure_angle() {
+    let m = model(
+        r#"
+[bodies.ground]
+points = { A = [0, 0], B = [0.35, 0] }
+[bodies.one]
+mass = 3
+inertia = 0.02
+points = { A = [0, 0] }
+[bodies.two]
+mass = 5
+inertia = 0.16
+points = { B = [0, 0] }
+[joints.A]
+type = "revolute"
+i = "ground.A"
+j = "one.A"
+[joints.B]
+type = "revolute"
+i = "ground.B"
+j = "two.B"
+[joints.teeth]
+type = "gear"
+i = "one.A"
+j = "two.B"
+radii = [0.1, 0.25]
+pressure_angle = 0.35
+[forces.motor]
+type = "torque"
+j = "one"
+torque = "-4*t"
+"#,
+    );
+    let (start, _) = start(&m, &[], &[]);
+    // T - J₁ α = F r₁ with α = T/(J₁ + J₂ (r₁/r₂)²)
+    let per_torque = (1.0 - 0.02 / (0.02 + 0.16 * 0.16)) / 0.1 / 0.35_f64.cos();
+    let options =
+        Options { events: vec![EventOption::new("load", "B.force > 8")], ..Options::new(1.0) };
+    let found = run(&m, &start, &options);
+    assert_eq!(found.events[0].states.t.len(), 1);
+    let t = 8.0 / (4.0 * per_torque);
+    assert!((found.events[0].states.t[0] - t).abs() < 1e-9, "{} {t}", found.events[0].states.t[0]);
+}

@@ -2,13 +2,13 @@
 
 mod mechanisms;
 
-use kempe::equations::Compiled;
+use kempe::equations::{Compiled, Gains, Workspace};
 use kempe::model::Model;
-use mechanisms::model;
+use mechanisms::{model, start};
 
 /// Bars of these masses that hang on each other, the first on ground.
 fn chain(masses: &[&str]) -> Model {
-    let mut text = "[bodies.ground]\npoints = { Q = [0, 0] }\n".to_string();
+    let mut text = GRAVITY.to_string() + "[bodies.ground]\npoints = { Q = [0, 0] }\n";
     let (mut joints, mut last) = (String::new(), "ground".to_string());
     for (k, mass) in masses.iter().enumerate() {
         text += &format!(
@@ -39,13 +39,99 @@ fn bodies_between_heavier_ones_are_light() {
 }
 
 #[test]
-fn the_examples_have_no_light_bodies() {
+fn the_examples_with_light_bodies() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../examples");
+    let mut found = Vec::new();
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|extension| extension == "toml") {
             let compiled = Compiled::new(&model(&std::fs::read_to_string(&path).unwrap()));
-            assert!(!compiled.added.iter().any(|added| added.any()), "{path:?}");
+            if compiled.added.iter().any(|added| added.any()) {
+                found.push(path.file_stem().unwrap().to_string_lossy().into_owned());
+            }
         }
     }
+    found.sort();
+    assert_eq!(found, ["pump_jack", "rack_steering"], "each has a light link between heavy bodies");
+}
+
+const GRAVITY: &str = "gravity = [0, -9.81]\n";
+
+const SLIDER_CRANK: &str = "[bodies.ground]\npoints = { O = [0, 0] }\n\
+    [bodies.crank]\ntype = 'bar'\nmass = 1\nlength = 0.1\nends = ['O', 'A']\n\
+    [bodies.rod]\ntype = 'bar'\nmass = LIGHT\nlength = 0.3\nends = ['A', 'B']\n\
+    [bodies.piston]\nmass = 2\ninertia = 1\npoints = { B = [0, 0] }\n\
+    [joints]\nO = { type = 'revolute', i = 'ground.O', j = 'crank.O' }\n\
+    A = { type = 'revolute', i = 'crank.A', j = 'rod.A' }\n\
+    B = { type = 'revolute', i = 'rod.B', j = 'piston.B' }\n\
+    S = { type = 'translational', i = 'ground.O', j = 'piston.B', axes = [0, 0] }\n";
+
+const FOUR_BAR: &str = "[bodies.ground]\npoints = { A = [0, 0], D = [4, 0] }\n\
+    [bodies.crank]\ntype = 'bar'\nmass = 1\nlength = 1\nends = ['A', 'B']\n\
+    [bodies.coupler]\ntype = 'bar'\nmass = LIGHT\nlength = 3.5\nends = ['B', 'C']\n\
+    [bodies.rocker]\ntype = 'bar'\nmass = 2\nlength = 2.5\nends = ['D', 'C']\n\
+    [joints]\nA = { type = 'revolute', i = 'ground.A', j = 'crank.A' }\n\
+    B = { type = 'revolute', i = 'crank.B', j = 'coupler.B' }\n\
+    C = { type = 'revolute', i = 'coupler.C', j = 'rocker.C' }\n\
+    D = { type = 'revolute', i = 'ground.D', j = 'rocker.D' }\n";
+
+/// A platform on two crossed bars.
+const SCISSOR: &str = "[bodies.ground]\npoints = { A = [0, 0] }\n\
+    [bodies.left]\nmass = LIGHT\ninertia = LIGHT\npoints = { A = [-1, 0], M = [0, 0], C = [1, 0] }\n\
+    [bodies.right]\nmass = LIGHT\ninertia = LIGHT\npoints = { B = [-1, 0], M = [0, 0], D = [1, 0] }\n\
+    [bodies.foot]\nmass = 1\ninertia = 1\npoints = { B = [0, 0] }\n\
+    [bodies.platform]\nmass = 50\ninertia = 20\npoints = { C = [0, 0], D = [0, 0] }\n\
+    [joints]\nA = { type = 'revolute', i = 'ground.A', j = 'left.A' }\n\
+    M = { type = 'revolute', i = 'left.M', j = 'right.M' }\n\
+    B = { type = 'revolute', i = 'right.B', j = 'foot.B' }\n\
+    S = { type = 'translational', i = 'ground.A', j = 'foot.B', axes = [0, 0] }\n\
+    D = { type = 'revolute', i = 'right.D', j = 'platform.D' }\n\
+    T = { type = 'pin_in_slot', i = 'platform.C', j = 'left.C' }\n";
+
+/// The time of an evaluation with light bodies, and with heavy ones in their place.
+#[test]
+#[ignore = "a measurement: cargo test --release -p kempe --test light_bodies -- --ignored --nocapture"]
+fn the_time_of_light_bodies() {
+    let mechanisms = [
+        ("slider-crank", SLIDER_CRANK, &[("crank.angle", "1"), ("piston.x", "0.35")][..]),
+        ("four-bar", FOUR_BAR, &[("crank.angle", "1"), ("rocker.angle", "2")]),
+        (
+            "scissor",
+            SCISSOR,
+            &[("left.angle", "0.6"), ("right.angle", "2.5"), ("platform.angle", "0")],
+        ),
+    ];
+    for (name, text, hints) in mechanisms {
+        let [heavy, light, massless] = ["1", "1e-9", "0"]
+            .map(|mass| time(&model(&(GRAVITY.to_string() + &text.replace("LIGHT", mass))), hints));
+        println!(
+            "{name}: {heavy:.2} us; 1e-9 kg {:.2}, 0 kg {:.2}",
+            light / heavy,
+            massless / heavy
+        );
+    }
+    let names: Vec<String> = (0..10).map(|k| format!("b{k}.angle")).collect();
+    let hints: Vec<(&str, &str)> = names.iter().map(|name| (&name[..], "0.3")).collect();
+    let [heavy, light] = ["1", "1e-9"].map(|mass| {
+        let masses: Vec<&str> = (0..10).map(|k| if k % 2 == 0 { "1" } else { mass }).collect();
+        time(&chain(&masses), &hints)
+    });
+    println!("chain of ten: {heavy:.2} us; 1e-9 kg {:.2}", light / heavy);
+}
+
+/// The least time of an evaluation, us.
+fn time(m: &Model, hints: &[(&str, &str)]) -> f64 {
+    let (mut state, _) = start(m, &[], hints);
+    // the equations are solved for any velocities
+    state.v.iter_mut().enumerate().for_each(|(k, v)| *v = 0.1 * (k as f64 + 1.0));
+    let mut workspace = Workspace::new(m);
+    let measure = |_| {
+        let began = std::time::Instant::now();
+        for _ in 0..100 {
+            let at = [&state.q[..], &state.v, &state.z];
+            workspace.accelerate(m, 0.0, at, Gains::default()).expect("accelerations");
+        }
+        began.elapsed().as_secs_f64() * 1e4
+    };
+    (0..1000).map(measure).fold(f64::INFINITY, f64::min)
 }

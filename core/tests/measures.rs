@@ -95,7 +95,8 @@ fn a_builder_refuses_a_wrong_measure() {
 #[test]
 fn a_condition_uses_no_quantity_of_a_whole_run() {
     let m = model(FOUR_BAR);
-    for name in ["energy.balance", "drift.balance", "spring.dissipated"] {
+    for (name, instead) in [("energy.balance", "energy.total"), ("drift.balance", "drift.position")]
+    {
         let stop = Value::Text(format!("2*{name} > 1"));
         let fields = [("t_end".to_string(), Value::Number(1.0)), ("stop".to_string(), stop)];
         let found =
@@ -106,6 +107,7 @@ fn a_condition_uses_no_quantity_of_a_whole_run() {
             found[0].message
         );
         assert_eq!(found[0].within, Some(2..2 + name.len()));
+        assert!(found[0].hint.as_deref().is_some_and(|hint| hint.contains(instead)), "{name}");
     }
     assert!(Options::new(1.0).events.is_empty());
 }

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import math
 from pathlib import Path
 
@@ -171,6 +172,37 @@ def test_other_analyses_take_massless_bodies() -> None:
     run = kp.dynamics(model, driven, t_end=1, output_step=0.1, method=kp.DOP853(rtol=1e-12))
     assert over["rocker.angle"] == pytest.approx(run["rocker.angle"], abs=1e-9)
     assert torque == pytest.approx(run["motor.effort"], rel=1e-7)
+
+
+def free_mechanisms() -> dict[str, tuple[kp.Model, dict[str, float]]]:
+    """Mechanisms with their starts, by the massless body that they do not determine."""
+    ghost = kp.Model("points", gravity=(0, -G))
+    ghost.point_mass("stone", mass=1)
+    ghost.point_mass("ghost", mass=0)
+    return {"ghost": (ghost, {"stone.x": 1, "ghost.x": 2}), "rod": hung(0), "link2": slack(0)}
+
+
+@pytest.mark.parametrize("body", ["ghost", "rod", "link2"])
+def test_check_refuses_what_the_run_refuses(
+    body: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    model, given = free_mechanisms()[body]
+    message = refused(model, given)
+    assert kp.mobility(model, kp.assemble(model, given)).undetermined[body] in message
+    tree = model.tree() | {"kempe": 1, "start": {"set": given}}
+    path = tmp_path / "free.json"
+    for analyses, code in [({"run": {"type": "dynamics", "t_end": 0.2}}, 3), ({}, 0)]:
+        path.write_text(json.dumps(tree | {"analyses": analyses}), "utf-8")
+        assert main(["check", str(path)]) == code
+        said = " ".join("".join(capsys.readouterr()).split())
+        assert f"nothing resists {body}." in said
+    # the remedy works
+    tree["bodies"][body]["mass"] = 0.01
+    analyses = {"run": {"type": "dynamics", "t_end": 0.2}}
+    path.write_text(json.dumps(tree | {"analyses": analyses}), "utf-8")
+    assert main(["check", str(path)]) == 0
+    assert "nothing resists" not in capsys.readouterr().out
+    assert kp.load(path).run()["run"].success
 
 
 def test_a_file_with_massless_bodies(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -1,39 +1,58 @@
-//! A model without its released drivers, and the rows of all drivers.
+//! The model of a phase that solves the equations, and the multipliers of the whole model.
 
-use kempe::analyses::dynamics::Prepared;
+use kempe::analyses::dynamics::{Prepared, Setting};
+use kempe::elements::Group;
 use kempe::model::Model;
 use std::sync::Arc;
 
-/// The model that solves the equations. Released drivers have multipliers of zero in the rows of the whole model.
+/// The model that solves the equations. Multipliers are reported in the rows of the whole model, with those of forces with
+/// modes after them. Released drivers have multipliers of zero.
 #[derive(Clone)]
 pub struct Active {
-    /// The model without released drivers.
+    /// The model without released drivers, with an equation for each force that holds.
     pub prepared: Arc<Prepared<Arc<Model>>>,
-    /// The rows of the whole model that it has; None for all.
+    /// The place of each of its rows among the multipliers; None for the same.
     rows: Option<Vec<usize>>,
     /// The number of rows of the whole model.
     n_rows: usize,
+    /// The number of multipliers.
+    n_multipliers: usize,
 }
 
 impl Active {
     /// All of a model.
     pub fn whole(prepared: &Arc<Prepared<Arc<Model>>>) -> Self {
-        let n_rows = prepared.model().layout.n_rows;
-        Self { prepared: Arc::clone(prepared), rows: None, n_rows }
+        let model = prepared.model();
+        let (n_rows, n_multipliers) = (model.layout.n_rows, model.n_multipliers());
+        let rows = (n_multipliers > n_rows).then(|| (0..n_rows).collect());
+        Self { prepared: Arc::clone(prepared), rows, n_rows, n_multipliers }
     }
 
-    /// A model without some drivers.
-    pub fn without(whole: &Arc<Prepared<Arc<Model>>>, released: &[String]) -> Self {
-        if released.is_empty() {
+    /// A model without the drivers that a setting releases, and with forces in its modes.
+    pub fn of_phase(whole: &Arc<Prepared<Arc<Model>>>, setting: &Setting) -> Self {
+        if setting.released.is_empty() && setting.modes.is_empty() {
             return Self::whole(whole);
         }
         let model = whole.model();
-        let kept = model.constraints.iter().zip(&model.layout.constraints);
-        let kept = kept.filter(|(item, _)| !released.contains(&item.name));
+        let open = model.without(&setting.released);
+        let active = if setting.modes.is_empty() { open } else { open.in_modes(&setting.modes) };
+        let place = |item: &kempe::model::ConstraintItem, slots: &kempe::model::Slots| {
+            let row = slots.rows.start;
+            if item.group == Group::Forces {
+                let of = active.forces.iter().position(|force| force.held_row == Some(row));
+                let to = of.and_then(|force| model.forces[force].held_row).expect("a row");
+                return to..to + 1;
+            }
+            let known = model.constraints.iter().position(|known| known.name == item.name);
+            model.layout.constraints[known.expect("the same constraints")].rows.clone()
+        };
+        let items = active.constraints.iter().zip(&active.layout.constraints);
+        let rows = items.flat_map(|(item, slots)| place(item, slots)).collect();
         Self {
-            prepared: Arc::new(Prepared::new(Arc::new(model.without(released)))),
-            rows: Some(kept.flat_map(|(_, slots)| slots.rows.clone()).collect()),
+            rows: Some(rows),
             n_rows: model.layout.n_rows,
+            n_multipliers: model.n_multipliers(),
+            prepared: Arc::new(Prepared::new(Arc::new(active))),
         }
     }
 
@@ -42,14 +61,28 @@ impl Active {
         self.n_rows
     }
 
-    /// Rows of numbers, one for each of its equations, as rows of the whole model.
+    /// The number of multipliers.
+    pub fn n_multipliers(&self) -> usize {
+        self.n_multipliers
+    }
+
+    /// Rows of numbers, one for each of its equations, as multipliers of the whole model.
     pub fn expand(&self, found: Vec<f64>, count: usize) -> Vec<f64> {
+        self.spread(found, count, self.n_multipliers)
+    }
+
+    /// The same as rows of the whole model.
+    pub fn expand_rows(&self, found: Vec<f64>, count: usize) -> Vec<f64> {
+        self.spread(found, count, self.n_rows)
+    }
+
+    fn spread(&self, found: Vec<f64>, count: usize, width: usize) -> Vec<f64> {
         let Some(rows) = &self.rows else { return found };
-        let mut all = vec![0.0; count * self.n_rows];
+        let mut all = vec![0.0; count * width];
         for k in 0..count {
             let own = &found[k * rows.len()..(k + 1) * rows.len()];
-            for (row, x) in rows.iter().zip(own) {
-                all[k * self.n_rows + row] = *x;
+            for (row, x) in rows.iter().zip(own).filter(|(row, _)| **row < width) {
+                all[k * width + row] = *x;
             }
         }
         all

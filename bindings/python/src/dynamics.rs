@@ -69,7 +69,10 @@ impl PyRun {
             })?;
             let layout = &self.parts[0].1.get().model.layout;
             let count = a.len() / layout.n_q.max(1);
-            Ok((table(py, a, (count, layout.n_q))?, table(py, lam, (count, layout.n_rows))?))
+            Ok((
+                table(py, a, (count, layout.n_q))?,
+                table(py, lam, (count, self.parts[0].1.get().active.n_multipliers()))?,
+            ))
         })
     }
 
@@ -95,10 +98,11 @@ impl PyRun {
         self.parts.iter().map(|(first, model)| (*first, written(model.get().setting()))).collect()
     }
 
-    /// The events: name, times, and rows of q, v and z there.
+    /// The events: name, times, rows of q, v and z there, and impulses of the multipliers.
     #[getter]
     fn events<'py>(&self, py: Python<'py>) -> PyResult<Vec<EventRows<'py>>> {
-        let layout = &self.parts[0].1.get().model.layout;
+        let first = self.parts[0].1.get();
+        let (layout, width) = (&first.model.layout, first.active.n_multipliers());
         let rows =
             |values: &[f64], width: usize, count: usize| table(py, values.to_vec(), (count, width));
         let one = |event: &core::EventStates| {
@@ -106,7 +110,10 @@ impl PyRun {
             let (n_q, n_z) = (layout.n_q, layout.n_z);
             let count = t.len();
             let (q, v, z) = (rows(q, n_q, count)?, rows(v, n_q, count)?, rows(z, n_z, count)?);
-            Ok((event.name.clone(), t.clone().into_pyarray(py), q, v, z))
+            let mut impulses = event.impulses.clone();
+            impulses.resize(count * width, 0.0);
+            let impulses = table(py, impulses, (count, width))?;
+            Ok((event.name.clone(), t.clone().into_pyarray(py), q, v, z, impulses))
         };
         self.events.iter().map(one).collect()
     }
@@ -230,10 +237,11 @@ fn phases(
     Ok(parts)
 }
 
-/// The name of an event, its times, and rows of q, v and z.
+/// The name of an event, its times, rows of q, v and z, and of impulses.
 type EventRows<'py> = (
     String,
     Bound<'py, PyArray1<f64>>,
+    Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,
     Bound<'py, PyArray2<f64>>,

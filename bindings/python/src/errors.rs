@@ -62,7 +62,7 @@ pub struct Problem {
     pub position: Option<(usize, usize)>,
 }
 
-/// An error with all it knows; [`Failure::raise`] makes the Python exception of it.
+/// An error with its place, time and remedy; [`Failure::raise`] makes the Python exception of it.
 #[derive(Debug)]
 pub struct Failure {
     kind: Kind,

@@ -70,7 +70,7 @@ pub fn evaluate<'py>(
         let Rates { t, q, v } = &Rates::read(py, &model.model, &t, &q, &v)?;
         let z = &rows(py, "z", &z, (t.len(), model.model.layout.n_z))?;
         let [a, lam] = responses(py, &model.active, core::States { t, q, v, z }, passing)?;
-        let (n, m, count) = (model.model.layout.n_q, model.model.layout.n_rows, t.len());
+        let (n, m, count) = (model.model.layout.n_q, model.active.n_multipliers(), t.len());
         Ok((table(py, a, (count, n))?, table(py, lam, (count, m))?))
     })
 }
@@ -174,7 +174,7 @@ pub fn residual<'py>(
             constraints::velocity_terms(model, motions, t, phi, rate, &mut gamma);
         });
         let shape = (count, active.n_rows());
-        let (phi, rate) = (active.expand(phi, count), active.expand(rate, count));
+        let (phi, rate) = (active.expand_rows(phi, count), active.expand_rows(rate, count));
         Ok((table(py, phi, shape)?, table(py, rate, shape)?))
     })
 }
@@ -242,7 +242,7 @@ pub fn force<'py>(
             }
         };
         let states = Rates::read(py, model, &t, &q, &v)?;
-        let (count, n_z, m) = (states.t.len(), model.layout.n_z, model.layout.n_rows);
+        let (count, n_z, m) = (states.t.len(), model.layout.n_z, model.n_multipliers());
         let z = rows(py, "z", &z, (count, n_z))?;
         let lam = lam.map(|lam| rows(py, "lam", &lam, (count, m))).transpose()?;
         let mut out = Vec::with_capacity(3 * count);
@@ -260,6 +260,38 @@ pub fn force<'py>(
             out.extend([force[0], force[1], sum.torque]);
         });
         table(py, out, (count, 3))
+    })
+}
+
+/// The results of a force element beside its wrenches: (n_t, n).
+#[pyfunction]
+#[pyo3(signature = (model, name, t, q, v, z, lam))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
+pub fn force_results<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    name: &str,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+    z: Rows<'py>,
+    lam: Rows<'py>,
+) -> PyResult<Table<'py>> {
+    guard("force_results", || {
+        let model = &*model.model;
+        let k = model.force(name).ok_or_else(|| unknown(py, "force", name))?;
+        let states = Rates::read(py, model, &t, &q, &v)?;
+        let (count, n_z, m) = (states.t.len(), model.layout.n_z, model.n_multipliers());
+        let z = rows(py, "z", &z, (count, n_z))?;
+        let lam = rows(py, "lam", &lam, (count, m))?;
+        let width = model.forces[k].element.result_quantities().len();
+        let mut out = vec![0.0; width * count];
+        states.each(model, |at, t, motions| {
+            let lam = Some(&lam[at * m..(at + 1) * m]);
+            let acting = Acting { z: &z[at * n_z..(at + 1) * n_z], lam, t };
+            forces::results(model, k, motions, acting, &mut out[at * width..(at + 1) * width]);
+        });
+        table(py, out, (count, width))
     })
 }
 
@@ -281,7 +313,7 @@ pub fn force_energy<'py>(
         let model = &*model.model;
         let k = model.force(name).ok_or_else(|| unknown(py, "force", name))?;
         let states = Rates::read(py, model, &t, &q, &v)?;
-        let (count, n_z, m) = (states.t.len(), model.layout.n_z, model.layout.n_rows);
+        let (count, n_z, m) = (states.t.len(), model.layout.n_z, model.n_multipliers());
         let z = rows(py, "z", &z, (count, n_z))?;
         let lam = lam.map(|lam| rows(py, "lam", &lam, (count, m))).transpose()?;
         let mut out = Vec::with_capacity(2 * count);

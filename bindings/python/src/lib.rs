@@ -1,6 +1,6 @@
 //! The Python module `kempe._core`: a thin layer of arrays, errors and callbacks over the core.
 //!
-//! Nothing here knows mechanics. Every entry point is one line, `guard("its name", || …)`, and
+//! There is no mechanics here. Every entry point is one line, `guard("its name", || …)`, and
 //! every error leaves through [`errors::Failure`], so that Python sees the classes of
 //! `kempe.errors` and never a Rust panic.
 #![forbid(unsafe_code)]
@@ -25,6 +25,7 @@ mod measures;
 mod mobility;
 mod model;
 mod options;
+mod processor;
 mod reactions;
 mod recent_options;
 mod respond;
@@ -85,6 +86,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_class::<model::PyModel>()?;
     module.add_class::<dynamics::PyRun>()?;
     module.add_function(wrap_pyfunction!(version, module)?)?;
+    module.add_function(wrap_pyfunction!(processor::instructions, module)?)?;
+    module.add_function(wrap_pyfunction!(processor::supports_v3, module)?)?;
     module.add_function(wrap_pyfunction!(catalogue, module)?)?;
     module.add_function(wrap_pyfunction!(schema, module)?)?;
     module.add_function(wrap_pyfunction!(is_reserved, module)?)?;
@@ -110,7 +113,9 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(reactions::not_unique, module)?)?;
     module.add_function(wrap_pyfunction!(reactions::results, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::force, module)?)?;
+    module.add_function(wrap_pyfunction!(reactions::impulse, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::force_energy, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::force_results, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::matrices, module)?)?;
     module.add_function(wrap_pyfunction!(measures::measure, module)?)?;
     module.add_function(wrap_pyfunction!(measures::measure_values, module)?)?;

@@ -41,6 +41,7 @@ fn described(found: &Diagnosis) -> Value {
         "singular": singular.collect::<Vec<_>>(),
         "locked": found.locked,
         "loose": found.loose,
+        "undetermined": found.undetermined,
         "four_bars": found.four_bars.iter().map(four_bar).collect::<Vec<_>>(),
     })
 }

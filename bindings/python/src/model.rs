@@ -7,12 +7,12 @@ use crate::guard::guard;
 use crate::recent_options::RecentOptions;
 use kempe::analyses::dynamics::{Prepared, Setting};
 use kempe::elements::{
-    BodyId, Curve, CurveOn, Measured, OwnState, ResultQuantity, SceneSymbol, SymbolEnd,
+    BodyId, Curve, CurveOn, Measured, Mode, OwnState, ResultQuantity, SceneSymbol, SymbolEnd,
 };
 use kempe::equations::reactions::touched;
 use kempe::expression::Table;
 use kempe::math::Local;
-use kempe::model::{Body, Columns, Drawn, Functions, Model};
+use kempe::model::{Body, Columns, Drawn, ForceMode, Functions, Model};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use serde_json::{json, Map, Value};
@@ -55,11 +55,13 @@ impl PyModel {
     /// Of a model of the core in a phase of a run.
     pub fn in_phase(&self, py: Python<'_>, setting: &Setting) -> PyResult<Self> {
         let with_drivers = Setting { released: Vec::new(), ..setting.clone() };
-        let model = with_drivers
-            .model(&self.model)
+        let open = with_drivers
+            .open(&self.model)
             .map_err(|problems| raise_plain(py, Kind::Model, &problems))?;
-        let mut varied = Self::new(model);
-        varied.active = Active::without(&varied.prepared, &setting.released);
+        let marked = (!setting.modes.is_empty()).then(|| open.marked(&setting.modes));
+        let mut varied = Self::new(open);
+        varied.active = Active::of_phase(&varied.prepared, setting);
+        varied.model = marked.map_or(varied.model, Arc::new);
         varied.setting = setting.clone();
         Ok(varied)
     }
@@ -78,8 +80,13 @@ impl PyModel {
         py: Python<'_>,
         parameters: Vec<(String, f64)>,
         released: Vec<String>,
+        modes: Vec<WrittenMode>,
     ) -> PyResult<Self> {
-        guard("Model.variant", || self.in_phase(py, &Setting { parameters, released }))
+        guard("Model.variant", || {
+            let modes = modes.iter().map(|of| read_mode(py, &self.model, of));
+            let modes = modes.collect::<PyResult<_>>()?;
+            self.in_phase(py, &Setting { parameters, released, modes })
+        })
     }
 
     /// The values of parameters and the released drivers by which it differs from the model of the case.
@@ -123,12 +130,48 @@ impl PyModel {
     }
 }
 
-/// Values of parameters, and released drivers.
-pub type Written = (Vec<(String, f64)>, Vec<String>);
+/// A mode of a force: its place, the name of the mode, a sign, the place of another force, and the value that it holds.
+pub type WrittenMode = (usize, String, f64, usize, f64);
+
+/// Values of parameters, released drivers, and modes of forces.
+pub type Written = (Vec<(String, f64)>, Vec<String>, Vec<WrittenMode>);
 
 /// A setting for Python.
 pub fn written(setting: &Setting) -> Written {
-    (setting.parameters.clone(), setting.released.clone())
+    let modes = setting.modes.iter().map(|of| {
+        let (name, sign, leader) = match of.mode {
+            Mode::Open => ("open", 0.0, 0),
+            Mode::Free => ("free", 0.0, 0),
+            Mode::Idle => ("idle", 0.0, 0),
+            Mode::Slides(sign) => ("slides", sign, 0),
+            Mode::Holds(side) => ("holds", side, 0),
+            Mode::Follows { leader, sense } => ("follows", sense, leader),
+        };
+        (of.force, name.to_string(), sign, leader, of.value)
+    });
+    (setting.parameters.clone(), setting.released.clone(), modes.collect())
+}
+
+/// A mode from Python.
+fn read_mode(
+    py: Python<'_>,
+    model: &Model,
+    (force, name, sign, leader, value): &WrittenMode,
+) -> PyResult<ForceMode> {
+    let mode = match name.as_str() {
+        "open" => Mode::Open,
+        "free" => Mode::Free,
+        "idle" => Mode::Idle,
+        "slides" => Mode::Slides(*sign),
+        "holds" => Mode::Holds(*sign),
+        "follows" => Mode::Follows { leader: *leader, sense: *sign },
+        _ => return Err(refuse(py, "modes", format!("there is no mode '{name}'"))),
+    };
+    let has_modes = |k: &usize| model.forces.get(*k).is_some_and(|item| item.held_row.is_some());
+    if !has_modes(force) || matches!(mode, Mode::Follows { leader, .. } if !has_modes(&leader)) {
+        return Err(refuse(py, "modes", format!("force {force} has no modes")));
+    }
+    Ok(ForceMode { force: *force, mode, value: *value, slack: 0.0 })
 }
 
 fn pair(s: &Local) -> Value {
@@ -166,6 +209,7 @@ fn describe(model: &Model) -> Value {
         "n_q": layout.n_q,
         "n_z": layout.n_z,
         "n_rows": layout.n_rows,
+        "n_multipliers": model.n_multipliers(),
         "bodies": bodies.map(|(item, columns)| body(item, *columns)).collect::<Vec<_>>(),
         "constraints": (0..model.constraints.len()).map(|k| constraint(model, k)).collect::<Vec<_>>(),
         "forces": (0..model.forces.len()).map(|k| force(model, k)).collect::<Vec<_>>(),
@@ -276,6 +320,7 @@ fn force(model: &Model, k: usize) -> Value {
     let state = |state: &OwnState| json!({ "name": state.name, "unit": state.unit });
     let parts: Vec<&str> = item.element.parts().iter().map(|p| p.name).collect();
     let points = item.element.points();
+    let of_result = |r: &ResultQuantity| json!({ "name": r.name, "unit": r.unit });
     json!({
         "name": item.name,
         "type": item.element.kind(),
@@ -287,6 +332,8 @@ fn force(model: &Model, k: usize) -> Value {
         "states": item.states.iter().map(state).chain(held).collect::<Vec<_>>(),
         "reaction": item.reaction.map(|joint| model.constraints[joint.0].name.as_str()),
         "points": points.map(|ends| ends.each_ref().map(pair)),
+        "results": item.element.result_quantities().iter().map(of_result).collect::<Vec<_>>(),
+        "reads_multipliers": item.reaction.is_some() || item.held_row.is_some(),
         "measured": measured(item.element.measured()),
     })
 }

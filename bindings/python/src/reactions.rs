@@ -5,12 +5,12 @@ use crate::evaluate::{frame_named, one_of, unknown, Rates};
 use crate::guard::guard;
 use crate::model::PyModel;
 use crate::respond::Table;
-use kempe::elements::BodyId;
-use kempe::equations::forces::Acting;
+use kempe::elements::{BodyId, Mode};
+use kempe::equations::forces::{self, Acting};
 use kempe::equations::newton_euler::balances;
 use kempe::equations::reactions;
 use kempe::math::Wrench;
-use kempe::model::Model;
+use kempe::model::{ForceMode, Model};
 use pyo3::prelude::*;
 use std::collections::BTreeSet;
 
@@ -40,7 +40,7 @@ pub fn reaction<'py>(
         let frame = frame_named(py, frame)?;
         let body = touched(py, model, k, on)?;
         let states = Rates::read(py, model, &t, &q, &q)?;
-        let m = model.layout.n_rows;
+        let m = model.n_multipliers();
         let lam = rows(py, "lam", &lam, (states.t.len(), m))?;
         let own = model.layout.constraints[k].rows.clone();
         let mut out = Vec::with_capacity(3 * states.t.len());
@@ -49,6 +49,46 @@ pub fn reaction<'py>(
             let found = reactions::reaction(model, k, body, frame, motions, t, lam);
             let w = found.unwrap_or_else(Wrench::zero);
             out.extend([w.force.x, w.force.y, w.torque]);
+        });
+        table(py, out, (states.t.len(), 3))
+    })
+}
+
+/// The impulse of a joint, driver, stop or contact on a body at impacts: force times time, and torque times time about the
+/// joint point, or about the origin of the body for a stop or contact.
+#[pyfunction]
+#[pyo3(signature = (model, name, on, t, q, impulses))]
+pub fn impulse<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    name: &str,
+    on: &str,
+    t: Row<'py>,
+    q: Rows<'py>,
+    impulses: Rows<'py>,
+) -> PyResult<Table<'py>> {
+    guard("impulse", || {
+        let known = model.model.force(name).filter(|k| model.model.forces[*k].held_row.is_some());
+        let Some(k) = known else {
+            return reaction(py, model, name, on, "global", t, q, impulses);
+        };
+        let model = &*model.model;
+        let states = Rates::read(py, model, &t, &q, &q)?;
+        let (m, mut out) = (model.n_multipliers(), Vec::new());
+        let impulses = rows(py, "impulses", &impulses, (states.t.len(), m))?;
+        let body = one_of(py, model, &model.forces[k].bodies, name, on)?;
+        let z = vec![0.0; model.layout.n_z];
+        states.each(model, |at, t, motions| {
+            let acting = Acting { z: &z, lam: Some(&impulses[at * m..(at + 1) * m]), t };
+            let mode = Mode::Holds(forces::side(model, k, motions, acting));
+            let resting = model.marked(&[ForceMode { force: k, mode, value: 0.0, slack: 0.0 }]);
+            let mut sum = Wrench::zero();
+            forces::each_wrench(&resting, k, motions, acting, |_, on, wrench| {
+                if on == body {
+                    sum = sum + wrench;
+                }
+            });
+            out.extend([sum.force.x, sum.force.y, sum.torque]);
         });
         table(py, out, (states.t.len(), 3))
     })
@@ -98,7 +138,7 @@ pub fn newton_euler<'py>(
         let model = &*model.model;
         let states = Rates::read(py, model, &t, &q, &v)?;
         let count = states.t.len();
-        let (n, n_z, m) = (model.layout.n_q, model.layout.n_z, model.layout.n_rows);
+        let (n, n_z, m) = (model.layout.n_q, model.layout.n_z, model.n_multipliers());
         let z = rows(py, "z", &z, (count, n_z))?;
         let a = rows(py, "a", &a, (count, n))?;
         let lam = rows(py, "lam", &lam, (count, m))?;
@@ -150,7 +190,7 @@ pub fn results<'py>(
         let model = &*model.model;
         let k = model.constraint(joint).ok_or_else(|| unknown(py, "joint or driver", joint))?;
         let states = Rates::read(py, model, &t, &q, &q)?;
-        let (m, count) = (model.layout.n_rows, states.t.len());
+        let (m, count) = (model.n_multipliers(), states.t.len());
         let lam = rows(py, "lam", &lam, (count, m))?;
         let own = model.layout.constraints[k].rows.clone();
         let width = model.constraints[k].element.result_quantities().len();

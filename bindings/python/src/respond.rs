@@ -42,6 +42,7 @@ pub fn because(py: Python<'_>, reason: core::Reason) -> PyErr {
     let hint = match reason {
         core::Reason::Integration { hint, .. }
         | core::Reason::Start { hint, .. }
+        | core::Reason::Redundant { hint, .. }
         | core::Reason::Law { hint, .. } => hint,
         _ => "look at the solution so far; change the start, or add what decides the motion here",
     };
@@ -51,6 +52,7 @@ pub fn because(py: Python<'_>, reason: core::Reason) -> PyErr {
 /// The error of a state that is there, of which something does not follow.
 pub fn missing(py: Python<'_>, reason: core::Reason) -> PyErr {
     let hint = match reason {
+        core::Reason::Redundant { hint, .. } => hint,
         core::Reason::Integration { .. } => "check forces and laws at this state",
         _ => "positions and velocities are there; look at times beside it, or change the mechanism",
     };
@@ -63,6 +65,9 @@ fn failure(reason: core::Reason, hint: &'static str) -> Failure {
         core::Reason::Option { .. } => Failure::new(Kind::Model, message),
         core::Reason::Start { t, name, .. } => {
             Failure::new(Kind::Assembly, message).name(name).at(t).hint(hint)
+        }
+        core::Reason::Redundant { t, name, .. } => {
+            Failure::new(Kind::Redundancy, message).name(name).at(t).hint(hint)
         }
         core::Reason::Law { t, name, .. } => {
             Failure::new(Kind::Model, message).name(name).at(t).hint(hint)

@@ -18,7 +18,7 @@ const REDUNDANT: f64 = 1e-9;
 const LEFT_OUT: f64 = 1e200;
 
 /// Whether the work shall end early; once true, it stays true.
-pub type Stop<'a> = &'a dyn Fn() -> bool;
+pub type Halt<'a> = &'a dyn Fn() -> bool;
 
 /// The work ended early.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -28,7 +28,7 @@ pub struct Stopped;
 pub struct Closing<'a> {
     model: &'a Model,
     t: f64,
-    stop: Stop<'a>,
+    stop: Halt<'a>,
     /// Rows that are left out; empty for none.
     left_out: Vec<bool>,
     matrix: Augmented,
@@ -42,7 +42,7 @@ pub struct Closing<'a> {
 
 impl<'a> Closing<'a> {
     /// For a model at time `t`.
-    pub fn new(model: &'a Model, t: f64, stop: Stop<'a>) -> Self {
+    pub fn new(model: &'a Model, t: f64, stop: Halt<'a>) -> Self {
         let size = size(model);
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
         let weights = column_scales(model).iter().map(|scale| 1.0 / (scale * scale)).collect();
@@ -73,7 +73,7 @@ impl<'a> Closing<'a> {
     }
 
     /// The function that ends the work.
-    pub fn stop(&self) -> Stop<'a> {
+    pub fn stop(&self) -> Halt<'a> {
         self.stop
     }
 

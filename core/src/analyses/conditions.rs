@@ -2,10 +2,11 @@
 
 use super::quantities::{refuse_whole_run, Quantities};
 use super::signals::{Seen, Signal};
+use super::so_far::{SoFar, PLACES};
 use crate::equations::kinematics::Motions;
-use crate::equations::{Gains, Workspace};
+use crate::equations::Workspace;
 use crate::expression::{Expression, ExpressionError, Inferred, Sense, Symbol, Tape, Values};
-use crate::integrate::Direction;
+use crate::integrate::{Direction, Step};
 use crate::model::{Model, Problem};
 
 /// A condition over the quantities of a model. Its event is a change of sign of its function.
@@ -52,6 +53,14 @@ impl Condition {
         let signals: Vec<Signal> = found.into_iter().map(|(_, signal)| signal).collect();
         let needs_solution = signals.iter().any(|signal| signal.needs_solution(model));
         Ok(Self { tape, signals, comparison, needs_solution })
+    }
+
+    /// The force elements whose dissipated energy it uses.
+    pub fn dissipative(&self) -> impl Iterator<Item = usize> + '_ {
+        self.signals.iter().filter_map(|signal| match signal {
+            Signal::ForceDissipated(k) => Some(*k),
+            _ => None,
+        })
     }
 
     /// Whether it is a comparison.
@@ -102,35 +111,64 @@ pub(super) struct Evaluator {
     motions: Motions,
     workspace: Option<Box<Workspace>>,
     unsolved: [Vec<f64>; 2],
+    /// The run up to the beginning of the present step.
+    pub so_far: SoFar,
 }
 
 impl Evaluator {
-    /// With a copy of a workspace of the equations of motion if they have to be solved.
-    pub fn new(model: &Model, solves: bool, workspace: &Workspace) -> Self {
+    /// With a copy of a workspace of the equations of motion if they have to be solved, and the run so far.
+    pub fn new(model: &Model, solves: bool, workspace: &Workspace, so_far: SoFar) -> Self {
         Self {
             motions: Motions::new(&model.layout),
             workspace: solves.then(|| Box::new(workspace.clone())),
             unsolved: [model.layout.n_q, model.layout.n_rows].map(|n| vec![f64::NAN; n]),
+            so_far,
         }
     }
 
-    /// Gives the state y = (q, v, z, works).
+    /// Gives the state y = (q, v, z, works) at a time of a step.
     pub fn see<R>(
         &mut self,
         model: &Model,
-        t: f64,
-        y: &[f64],
+        (t, y): (f64, &[f64]),
+        step: &Step<'_>,
         give: impl FnOnce(&Seen<'_>) -> R,
     ) -> R {
+        let so_far = (!self.so_far.is_empty()).then(|| self.up_to(model, t, step));
+        self.at(model, t, y, |seen| give(&Seen { so_far: so_far.as_ref(), ..*seen }))
+    }
+
+    /// Goes on to the end of a step that is accepted.
+    pub fn advance(&mut self, model: &Model, step: &Step<'_>) {
+        if !self.so_far.is_empty() {
+            self.so_far = self.up_to(model, step.t, step);
+        }
+    }
+
+    /// The run up to a time of a step.
+    fn up_to(&mut self, model: &Model, t: f64, step: &Step<'_>) -> SoFar {
+        let mut so_far = self.so_far.clone();
+        let (duration, mut y) = (t - step.t_old, step.y.to_vec());
+        let powers = PLACES.map(|place| {
+            let t = step.t_old + place * duration;
+            step.interpolate(t, &mut y);
+            self.at(model, t, &y, |seen| so_far.powers(model, seen.motions, seen.acting()))
+        });
+        so_far.add(duration, &powers);
+        so_far
+    }
+
+    /// Gives a state.
+    fn at<R>(&mut self, model: &Model, t: f64, y: &[f64], give: impl FnOnce(&Seen<'_>) -> R) -> R {
         let [q, v, z, works] = model.layout.split(y);
         self.motions.place(&model.layout, q, v);
         let mut solved = self.unsolved.each_ref().map(Vec::as_slice);
         if let Some(workspace) = &mut self.workspace {
             workspace.motions.pieces.clear();
-            if workspace.accelerate(model, t, [q, v, z], Gains::default()).is_ok() {
+            if workspace.react(model, t, [q, v, z]).is_ok() {
                 solved = [workspace.a(), workspace.lam()];
             }
         }
-        give(&Seen { t, state: [q, v, z], works, motions: &self.motions, solved })
+        give(&Seen { t, state: [q, v, z], works, motions: &self.motions, solved, so_far: None })
     }
 }

@@ -1,6 +1,6 @@
 //! Equations of constraints that depend on the earlier ones at a position.
 
-use super::closing::Stop;
+use super::closing::Halt;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
 use crate::model::{column_scales, Model, MOST_REPORTED};
@@ -29,7 +29,7 @@ pub(super) fn at(
     t: f64,
     q: &[f64],
     tolerance: f64,
-    stop: Stop<'_>,
+    stop: Halt<'_>,
 ) -> Vec<Dependent> {
     let (rows, lengths) = scaled_rows(model, t, q);
     let mut found = match rows.len() <= MOST_DENSE {
@@ -82,7 +82,7 @@ fn sparse(
     model: &Model,
     mut rows: Vec<SparseRow>,
     tolerance: f64,
-    stop: Stop<'_>,
+    stop: Halt<'_>,
 ) -> Option<Vec<Dependent>> {
     let place = places(model);
     for row in &mut rows {

@@ -1,7 +1,7 @@
 //! Measures: named expressions of quantities, evaluated after an analysis.
 //!
 //! A measure may use every quantity by name, parameters, tables and t. It uses no other measure. The values of its
-//! quantities come from the caller, who knows them at all outputs; so a measure may also use quantities of a whole run.
+//! quantities come from the caller, which has them at all outputs; so a measure may also use quantities of a whole run.
 
 use super::quantities::Quantities;
 use super::signal_units::unit_of;

@@ -6,7 +6,7 @@
 //! admissible position, if fewer equations are dependent there. The left null vectors of Φ_q give all joints that take
 //! part.
 
-use super::closing::{Closing, Stop};
+use super::closing::{Closing, Halt};
 use super::dependence::{self, Dependent, MOST_DENSE};
 use crate::elements::{BodyId, Coordinate, CoordinateOf};
 use crate::equations::augmented::Augmented;
@@ -53,7 +53,7 @@ pub fn mobility(model: &Model, t: f64, q: &[f64]) -> Mobility {
 }
 
 /// The same; without a meaning if `stop` became true.
-pub(super) fn mobility_until(model: &Model, t: f64, q: &[f64], stop: Stop<'_>) -> Mobility {
+pub(super) fn mobility_until(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Mobility {
     let (n, m) = (model.layout.n_q, model.layout.n_rows);
     if beyond_doubt(model, t, q) {
         return Mobility { degrees_of_freedom: n - m, rank: m, ..Mobility::default() };
@@ -82,7 +82,7 @@ fn judge(
     t: f64,
     q: &[f64],
     here: Vec<Dependent>,
-    stop: Stop<'_>,
+    stop: Halt<'_>,
 ) -> [Vec<Dependent>; 2] {
     let found = split(model, t, q, &here, stop);
     if found[1].len() < 2 {
@@ -116,7 +116,7 @@ fn split(
     t: f64,
     q: &[f64],
     dependent: &[Dependent],
-    stop: Stop<'_>,
+    stop: Halt<'_>,
 ) -> [Vec<Dependent>; 2] {
     let rows: Vec<usize> = dependent.iter().map(|one| one.row).collect();
     if rows.is_empty() {
@@ -179,7 +179,7 @@ pub(super) fn neighbour(
     t: f64,
     q: &[f64],
     held: usize,
-    stop: Stop<'_>,
+    stop: Halt<'_>,
 ) -> Option<Vec<f64>> {
     let extended = match held.checked_sub(1) {
         Some(_) => {

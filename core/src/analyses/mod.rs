@@ -26,6 +26,7 @@ mod sequence;
 mod signal_names;
 mod signal_units;
 mod signals;
+mod so_far;
 mod state;
 mod uniqueness;
 

@@ -67,12 +67,10 @@ pub(super) fn refuse_whole_run(
     text: &str,
     found: &[(String, Signal)],
 ) -> Result<(), ExpressionError> {
-    let Some((name, _)) = found.iter().find(|(_, signal)| signal.is_of_run()) else {
-        return Ok(());
-    };
+    let why = |(name, signal): &(String, Signal)| Some((name.clone(), signal.of_whole_run()?));
+    let Some((name, [reason, hint])) = found.iter().find_map(why) else { return Ok(()) };
     let start = text.find(name.as_str()).unwrap_or(0);
     let span = start..(start + name.len()).min(text.len());
-    let message = format!("{name} is known at the end of a run only");
-    let hint = "a measure can use it; a condition can use energy.total or energy.dissipated";
+    let message = format!("{name} is known at the end of a run only: {reason}");
     Err(ExpressionError::new(span, message).hint(hint.to_string()))
 }

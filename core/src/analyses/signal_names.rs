@@ -157,6 +157,9 @@ fn of_force(model: &Model, k: usize) -> Family {
     let (item, id) = (&model.forces[k], ElementId::Force(k));
     let mut found = of_measured(offered(model, id), id);
     let mut add = |name: &str, signal: Signal| found.push((name.to_string(), signal));
+    for (place, result) in item.element.result_quantities().iter().enumerate() {
+        add(result.name, Signal::ForceResult { k, place });
+    }
     for (name, part) in [("fx", Part::X), ("fy", Part::Y), ("torque", Part::Torque)] {
         add(name, Signal::Force { k, part });
     }

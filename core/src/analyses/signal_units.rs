@@ -19,6 +19,9 @@ pub(super) fn unit_of(model: &Model, name: &str, signal: &Signal) -> String {
         Signal::Point { order, .. } => of("m", *order),
         Signal::Measured { id, k, order } => of(offered(model, *id)[*k].unit, *order),
         Signal::Reaction { part, .. } | Signal::Force { part, .. } => of_part(*part).to_string(),
+        Signal::ForceResult { k, place } => {
+            model.forces[*k].element.result_quantities()[*place].unit.to_string()
+        }
         Signal::Result { k, place } => {
             model.constraints[*k].element.result_quantities()[*place].unit.to_string()
         }

@@ -1,5 +1,6 @@
 //! Quantities of a motion by name as numbers at one state: positions, rates, accelerations and results.
 
+use super::so_far::SoFar;
 use crate::elements::BodyId;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
@@ -21,6 +22,15 @@ pub(super) struct Seen<'a, S = f64> {
     pub motions: &'a Motions<S>,
     /// Accelerations and multipliers; NaN where they are not unique.
     pub solved: [&'a [S]; 2],
+    /// The run up to the state, if it is known.
+    pub so_far: Option<&'a SoFar>,
+}
+
+impl<S: Real> Seen<'_, S> {
+    /// The quantities on which forces depend beside the motion.
+    pub fn acting(&self) -> Acting<'_, S> {
+        Acting { z: self.state[2], lam: Some(self.solved[1]), t: self.t }
+    }
 }
 
 /// Energies and works.
@@ -80,6 +90,8 @@ pub(super) enum Signal {
     Force { k: usize, part: Part },
     /// A force along the line of two points, > 0 pushes: of a force element on j, or of a joint with opposite sign.
     Line { id: ElementId },
+    /// A result of a force element beside its wrenches.
+    ForceResult { k: usize, place: usize },
     /// Power of a force element on its bodies.
     ForcePower(usize),
     /// Energy that a force element stores.
@@ -104,17 +116,32 @@ impl Signal {
             Self::Reaction { .. } | Self::Result { .. } | Self::Effort(_) | Self::Power(..) => true,
             Self::Line { id: ElementId::Constraint(_) } => true,
             Self::Line { id: ElementId::Force(k) } | Self::Force { k, .. } => {
-                model.forces[*k].reaction.is_some()
+                model.forces[*k].reaction.is_some() || model.forces[*k].held_row.is_some()
             }
             Self::ForcePower(k) | Self::ForceEnergy(k) => model.forces[*k].reaction.is_some(),
-            Self::Constant(_) | Self::State(_) | Self::Energy(_) | Self::Drift { .. } => false,
-            Self::ForceDissipated(_) | Self::Balance => false,
+            Self::ForceResult { k, .. } | Self::ForceDissipated(k) => {
+                let item = &model.forces[*k];
+                item.reaction.is_some() || item.held_row.is_some()
+            }
+            Self::Constant(_) | Self::State(_) | Self::Energy(_) => false,
+            Self::Drift { .. } | Self::Balance => false,
         }
     }
 
-    /// Whether it follows from a whole run only; its value at a state is NaN.
-    pub fn is_of_run(&self) -> bool {
-        matches!(self, Self::Energy(Energy::Balance) | Self::ForceDissipated(_) | Self::Balance)
+    /// Why its value is known at the end of a run only, and what a condition can use; its value at a state is NaN.
+    pub fn of_whole_run(&self) -> Option<[&'static str; 2]> {
+        match self {
+            Self::Energy(Energy::Balance) => Some([
+                "it is relative to the largest energy of the run",
+                "a condition can use energy.total, such as abs(energy.total - 12.5) > 0.01; a measure can use \
+                 energy.balance",
+            ]),
+            Self::Balance => Some([
+                "it is relative to the largest forces of the run",
+                "a condition can use drift.position and drift.velocity; a measure can use drift.balance",
+            ]),
+            _ => None,
+        }
     }
 
     /// Its value.
@@ -145,21 +172,27 @@ impl Signal {
             Self::Power(k, rate) => -own(model, *k, lam)[0] * rate.value(model, seen),
             Self::Force { k, part } => part.of(&force_on_j(model, *k, seen)),
             Self::Line { id } => line(model, *id, seen),
+            Self::ForceResult { k, place } => {
+                let count = model.forces[*k].element.result_quantities().len();
+                let mut out = vec![S::zero(); count];
+                forces::results(model, *k, seen.motions, seen.acting(), &mut out);
+                out[*place]
+            }
             Self::ForcePower(k) => power(model, *k, seen),
-            Self::ForceEnergy(k) => forces::potential(model, *k, seen.motions, acting(seen)),
+            Self::ForceEnergy(k) => forces::potential(model, *k, seen.motions, seen.acting()),
             Self::Energy(of) => energy_of(model, *of, seen),
             Self::Drift { order } => drift(model, *order, seen),
-            Self::ForceDissipated(_) | Self::Balance => S::constant(f64::NAN),
+            Self::ForceDissipated(k) => {
+                let energy = seen.so_far.and_then(|so_far| so_far.of(*k));
+                S::constant(energy.unwrap_or(f64::NAN))
+            }
+            Self::Balance => S::constant(f64::NAN),
         }
     }
 }
 
 fn own<'l, S>(model: &Model<S>, k: usize, lam: &'l [S]) -> &'l [S] {
     &lam[model.layout.constraints[k].rows.clone()]
-}
-
-fn acting<'s, S: Real>(seen: &Seen<'s, S>) -> Acting<'s, S> {
-    Acting { z: seen.state[2], lam: Some(seen.solved[1]), t: seen.t }
 }
 
 /// Body j of an element; an element of one body has it alone.
@@ -175,7 +208,7 @@ fn reaction<S: Real>(model: &Model<S>, k: usize, lam: &[S], seen: &Seen<'_, S>) 
 
 fn force_on_j<S: Real>(model: &Model<S>, k: usize, seen: &Seen<'_, S>) -> Wrench<S> {
     let (on, mut sum) = (body_j(&model.forces[k].bodies), Wrench::zero());
-    forces::each_wrench(model, k, seen.motions, acting(seen), |_, body, wrench| {
+    forces::each_wrench(model, k, seen.motions, seen.acting(), |_, body, wrench| {
         if body == on {
             sum = sum + wrench;
         }
@@ -185,7 +218,7 @@ fn force_on_j<S: Real>(model: &Model<S>, k: usize, seen: &Seen<'_, S>) -> Wrench
 
 fn power<S: Real>(model: &Model<S>, k: usize, seen: &Seen<'_, S>) -> S {
     let mut sum = S::zero();
-    forces::each_wrench(model, k, seen.motions, acting(seen), |_, body, wrench| {
+    forces::each_wrench(model, k, seen.motions, seen.acting(), |_, body, wrench| {
         sum += wrench.power(seen.motions[body.0].twist);
     });
     sum

@@ -119,10 +119,14 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
         (Shape::Flag, _) => wrong(report, node, "true or false"),
         (Shape::Curve, Data::Text(_)) => {}
         (Shape::Curve, _) => wrong(report, node, "a curve as \"body.curve\""),
-        (Shape::Body | Shape::Point | Shape::Coordinate | Shape::Name, Data::Text(_)) => {}
+        (
+            Shape::Body | Shape::Point | Shape::Coordinate | Shape::Joint | Shape::Name,
+            Data::Text(_),
+        ) => {}
         (Shape::Body, _) => wrong(report, node, "the name of a body"),
         (Shape::Point, _) => wrong(report, node, "a point as \"body.point\""),
         (Shape::Coordinate, _) => wrong(report, node, "a coordinate as \"body.angle\""),
+        (Shape::Joint, _) => wrong(report, node, "the name of a joint"),
         (Shape::Name, _) => wrong(report, node, "a name"),
         (Shape::NameList, _) => names(report, node),
         (Shape::Quantities, _) => quantities(report, node),

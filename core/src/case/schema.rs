@@ -220,7 +220,9 @@ fn property(f: &Field) -> Value {
         Shape::Shapes => reference("shapes"),
         Shape::Outline => reference("outline"),
         Shape::Corners => reference("corners"),
-        Shape::Body | Shape::Point | Shape::Coordinate | Shape::Name => json!({ "type": "string" }),
+        Shape::Body | Shape::Point | Shape::Coordinate | Shape::Joint | Shape::Name => {
+            json!({ "type": "string" })
+        }
         Shape::Condition => json!({ "type": "string" }),
         Shape::NameList | Shape::Quantities => {
             json!({ "type": "array", "items": { "type": "string" } })
@@ -304,7 +306,10 @@ fn event() -> Value {
     let properties = json!({
         "condition": { "type": "string", "description": "A comparison, or an expression that becomes zero." },
         "direction": { "enum": DIRECTIONS.map(|(word, _)| word), "description": "Zeros of an expression that count." },
-        "stop": { "type": "boolean", "description": "Whether the run ends there." },
+        "stop": {
+            "type": "boolean",
+            "description": "Whether the run ends there."
+        },
     });
     let table = closed(object(properties), json!({ "required": ["condition"] }));
     json!({ "anyOf": [{ "type": "string" }, table] })

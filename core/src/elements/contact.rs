@@ -65,6 +65,7 @@ impl Curve {
         let count = match self {
             Self::Line { .. } => 1,
             Self::Points(own) => 8 * own.points.len().clamp(20, 200),
+            Self::Formula(own) if own.breaks().is_some() => 720, // of pieces, some of which may be short
             _ => 240,
         };
         let [a, b] = self.range();

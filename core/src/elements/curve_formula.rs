@@ -133,7 +133,8 @@ impl<S: Real> Formula<S> {
     /// the first lane of the scalar.
     pub(super) fn breaks(&self) -> Option<Arc<Knots>> {
         let written = &self.written;
-        if written.x.switches().is_empty() && written.y.switches().is_empty() {
+        let is_smooth = |tape: &Tape| tape.switches().iter().all(|switch| switch.smooth);
+        if is_smooth(&written.x) && is_smooth(&written.y) {
             return None;
         }
         let numbers = self.range.iter().chain(&self.values).map(|x| x.in_lanes()[0]);

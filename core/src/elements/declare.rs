@@ -37,6 +37,12 @@ pub(super) fn join(lines: &[&str]) -> String {
     lines.iter().map(|line| line.trim()).collect::<Vec<_>>().join("\n").trim().to_string()
 }
 
+/// The name of a field that is a word of Rust, such as `r#static`, without its mark.
+#[doc(hidden)]
+pub fn plain(field: &'static str) -> &'static str {
+    field.strip_prefix("r#").unwrap_or(field)
+}
+
 /// Declares an element; see the module's documentation and any element for the form.
 #[macro_export]
 macro_rules! element {
@@ -58,7 +64,7 @@ macro_rules! element {
                     name: $name,
                     doc: $crate::elements::join(&[$($doc),*]),
                     fields: vec![$($crate::elements::Field {
-                        name: stringify!($field),
+                        name: $crate::elements::plain(stringify!($field)),
                         shape: <$crate::elements::$kind as $crate::elements::Kind>::SHAPE,
                         unit: concat!($($(stringify!($unit)),*)?).to_string(),
                         default: <$crate::elements::$kind as $crate::elements::Kind>::DEFAULT

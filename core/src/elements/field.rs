@@ -19,6 +19,8 @@ pub enum Shape {
     Corners,
     /// `body.x`, `body.y` or `body.angle`.
     Coordinate,
+    /// Name of a joint.
+    Joint,
     /// Number or expression in the parameters.
     Number,
     /// Number or expression in the parameters, `t` and the state.

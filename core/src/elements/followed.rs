@@ -17,6 +17,10 @@ impl BodyId {
     }
 }
 
+/// A joint or driver of a model, in the order of the rows of Φ.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct JointId(pub usize);
+
 /// A coordinate of a body or its rate.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Coordinate {

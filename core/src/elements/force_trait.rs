@@ -1,11 +1,13 @@
 //! The physics of a force, stated once.
 
 use super::declare::Element;
-use super::followed::BodyId;
-use super::joint_trait::At;
-use super::kinds::JointId;
+use super::followed::{BodyId, JointId};
+use super::joint_trait::{At, ResultQuantity};
 use super::measured::Measured;
+use super::mode::{Behaviour, Mode};
 use super::symbols::SceneSymbol;
+use super::Constraint;
+use crate::expression::Tape;
 use crate::math::{Local, Motion, Real, Wrench};
 
 /// The quantities that a force may depend on.
@@ -24,6 +26,11 @@ pub struct Situation<'a, S = f64> {
     pub t: S,
     /// The pieces that are held for the switches of the element.
     pub held: Held<'a>,
+    /// The mode of the force in this phase of a run.
+    pub mode: Mode,
+    /// While it [holds](Mode::holds): the multiplier of its equation, whose effort on the coordinate is its negative. Zero
+    /// where the equations are solved and the equation is one of them.
+    pub multiplier: S,
 }
 
 /// The pieces that an integrator holds for the switches of an element during a step.
@@ -138,6 +145,22 @@ pub trait Force: Element {
     /// The position quantities that may be measured on the force.
     const MEASURED: &'static [Measured] = &[];
 
+    /// Whether its only formulas of the state are those of a position quantity that it follows. Its parts then keep their
+    /// nature, and its potential counts.
+    const FOLLOWS: bool = false;
+
+    /// The position quantities of one element, where their units depend on it.
+    fn measured<S>(e: &Self::Over<S>) -> &'static [Measured] {
+        let _ = e;
+        Self::MEASURED
+    }
+
+    /// Whether laws may use its position quantities: they are formulas of the coordinates, without a search.
+    fn has_formulas<S>(e: &Self::Over<S>) -> bool {
+        let _ = e;
+        true
+    }
+
     /// The bodies on which the force acts: i and j first.
     fn bodies<S>(e: &Self::Over<S>) -> Vec<BodyId>;
 
@@ -182,6 +205,48 @@ pub trait Force: Element {
     /// zero is located, and steps of an integrator end there.
     fn switches<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>, out: &mut [S]) {
         let _ = (e, at, out);
+    }
+
+    /// Results beside the wrenches, in the order of [`Force::results`].
+    fn result_quantities<S>(e: &Self::Over<S>) -> &'static [ResultQuantity] {
+        let _ = e;
+        &[]
+    }
+
+    /// The values of [`Force::result_quantities`].
+    fn results<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>, out: &mut [S]) {
+        let _ = (e, at, out);
+    }
+
+    /// The changes of mode during a run; None for a force without any.
+    fn behaviour<S: Real>(e: &Self::Over<S>) -> Option<Behaviour<S>> {
+        let _ = e;
+        None
+    }
+
+    /// The function whose zero may change the mode: the sliding speed of friction, else the gap, > 0 apart.
+    fn threshold<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> S {
+        let _ = (e, at);
+        S::one()
+    }
+
+    /// The largest effort that friction may hold.
+    fn limit<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> S {
+        let _ = (e, at);
+        S::zero()
+    }
+
+    /// The side at which a contact or stop touches: -1 for a lower limit, +1 for an upper one.
+    fn side<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> f64 {
+        let _ = (e, at);
+        -1.0
+    }
+
+    /// The one equation by which the force [holds](Mode::holds): friction its coordinate at `value`, a stop its
+    /// coordinate at the limit of the `side`, or at `value` for side 0, a contact its gap at zero.
+    fn holding(e: &Self::Over<Tape>, side: f64, value: f64) -> Option<Constraint<Tape>> {
+        let _ = (e, side, value);
+        None
     }
 
     /// The relative angle φⱼ - φᵢ at which a rotational spring is relaxed. Assembly counts whole turns

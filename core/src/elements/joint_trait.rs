@@ -126,6 +126,9 @@ pub trait Joint: Element {
     /// Number of internal coordinates, 0 to 3.
     const OWN: usize = 0;
 
+    /// Whether its bodies slide or turn along the first of [`Joint::MEASURED`], so that there may be friction.
+    const RUBS: bool = false;
+
     /// Results beside the reaction, in the order of [`Joint::results`].
     const RESULTS: &'static [ResultQuantity] = &[];
 

@@ -2,14 +2,11 @@
 
 use super::attachment::Attachment;
 use super::field::{Default, Field, Shape};
-use super::followed::{Acted, BodyId, Followed, QuantityOf};
+use super::followed::{Acted, BodyId, Followed, JointId, QuantityOf};
+use super::plain_bearing::Bearing;
 use super::plane_curve::Curve;
 use crate::expression::Tape;
 use crate::math::{Local, Real};
-
-/// A joint or driver of a model, in the order of the rows of Φ.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct JointId(pub usize);
 
 /// A point fixed in a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -52,6 +49,8 @@ pub trait Source {
     fn acted(&mut self, field: &Field) -> Option<Acted<Tape>>;
     /// A joint by name.
     fn joint(&mut self, field: &Field) -> Option<JointId>;
+    /// A joint in which its bodies slide or turn, by name.
+    fn bearing(&mut self, field: &Field) -> Option<Bearing<Tape>>;
     /// A formula in the parameters.
     fn number(&mut self, field: &Field) -> Option<Tape>;
     /// A formula in the parameters, time and state.
@@ -149,7 +148,11 @@ kind!(
 );
 kind!(
     /// A joint.
-    joint, Name, S => JointId, |v, _f| *v
+    joint, Joint, S => JointId, |v, _f| *v
+);
+kind!(
+    /// A joint in which its bodies slide or turn.
+    bearing, Joint, S => Bearing<S>, |v, f| v.map(f)
 );
 kind!(
     /// A constant.

@@ -18,6 +18,9 @@ impl Measured {
     /// The distance of two points.
     pub const LENGTH: Self = Self { names: ["length", "rate", "acceleration"], unit: "m" };
 
+    /// The distance of two elements that may touch, > 0 apart.
+    pub const GAP: Self = Self { names: ["gap", "gap_rate", ""], unit: "m" };
+
     /// SI unit of the derivative of this order.
     pub fn unit_of(&self, order: usize) -> String {
         self.unit.to_string() + ["", "/s", "/s^2"][order]

@@ -6,6 +6,7 @@
 //! here, and give it a test sample and a page. No other source file names it.
 
 mod attachment;
+
 pub(crate) mod contact;
 mod curve_forms;
 mod curve_formula;
@@ -14,13 +15,19 @@ pub(crate) mod derive;
 mod dispatch;
 mod field;
 mod followed;
+mod foot;
+mod force_dispatch;
 mod force_trait;
 mod group;
+mod hertz;
 mod joint_trait;
 mod kinds;
 mod line;
 mod measure;
 mod measured;
+mod mode;
+mod nearest;
+mod plain_bearing;
 mod plane_curve;
 mod pool;
 mod symbols;
@@ -72,19 +79,25 @@ pub mod drivers {
 pub mod forces {
     mod actuator;
     mod bushing;
+    mod contact;
+    mod friction;
     mod generalized_force;
     mod motor;
     mod point_force;
     mod spring_damper;
+    mod stop;
     mod torque;
     mod torsion_spring;
 
     pub use actuator::Actuator;
     pub use bushing::Bushing;
+    pub use contact::{Contact, Resting};
+    pub use friction::Friction;
     pub use generalized_force::GeneralizedForce;
     pub use motor::Motor;
     pub use point_force::PointForce;
     pub use spring_damper::SpringDamper;
+    pub use stop::Stop;
     pub use torque::Torque;
     pub use torsion_spring::TorsionSpring;
 }
@@ -96,26 +109,33 @@ pub mod test_elements;
 use crate::expression::Tape;
 use crate::math::{Lift, Local, Pose, Real, Wrench};
 pub use attachment::Attachment;
+
 pub use curve_forms::{CurveForm, CURVE_FORMS};
 pub use curve_formula::Formula as CurveFormula;
 use declare::join;
+#[doc(hidden)]
+pub use declare::plain;
 pub use declare::{Element, Table};
-use dispatch::{constraints, declared, forces};
+use dispatch::{constraints, declared};
 use drivers::*;
 pub use field::{Default, Field, Shape, TOLERANCES, UNITS_OF_EQUATIONS};
-pub use followed::{Acted, BodyId, Coordinate, CoordinateOf, Followed, QuantityOf};
+pub use followed::{Acted, BodyId, Coordinate, CoordinateOf, Followed, JointId, QuantityOf};
+pub use foot::{rim, Rim};
+use force_dispatch::forces;
 pub use force_trait::{Force, Held, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};
 use forces::*;
 pub use group::Group;
 pub use joint_trait::{At, Equation, Fixes, Joint, Linearized, Moving, Required, ResultQuantity};
 use joints::*;
 pub use kinds::{
-    acted, body, condition, coordinate, curve, equation_unit, flag, frame, joint, law, law_pair,
-    laws, number, optional_condition, optional_law, optional_number, optional_only, optional_pair,
-    optional_unit, pair, point, side, terms, triple, units, CurveOn, EquationUnit, Frame, JointId,
-    Kind, Only, Optional, PointOn, Side, Source,
+    acted, bearing, body, condition, coordinate, curve, equation_unit, flag, frame, joint, law,
+    law_pair, laws, number, optional_condition, optional_law, optional_number, optional_only,
+    optional_pair, optional_unit, pair, point, side, terms, triple, units, CurveOn, EquationUnit,
+    Frame, Kind, Only, Optional, PointOn, Side, Source,
 };
 pub use measured::Measured;
+pub use mode::{Behaviour, Mode};
+pub use plain_bearing::Bearing;
 pub use plane_curve::{Curve, Points as CurvePoints};
 pub use pool::{Place, Pooled, VisitForces, VisitJoints};
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
@@ -147,6 +167,7 @@ constraints! {
         #[cfg(feature = "test-elements")] Pulley,
     }
     Drivers { CoordinateDriver }
+    Forces { Resting }
 }
 
 forces! {
@@ -158,6 +179,9 @@ forces! {
     Bushing,
     GeneralizedForce,
     Motor,
+    Friction,
+    Stop,
+    Contact,
     #[cfg(feature = "test-elements")] Lag,
     #[cfg(feature = "test-elements")] Rubbing,
     #[cfg(feature = "test-elements")] GapSpring,
@@ -168,6 +192,8 @@ forces! {
 /// The declarations of all elements, in the order of the list.
 pub fn catalogue() -> Vec<(Group, Table)> {
     let mut tables = constraint_tables();
+    // equations by which forces hold are not written
+    tables.retain(|(group, _)| *group != Group::Forces);
     tables.extend(force_tables());
     tables
 }

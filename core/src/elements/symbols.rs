@@ -33,6 +33,10 @@ pub enum Mark {
     SpiralSpring,
     /// A rotary dashpot between the bodies, around the joint that they share.
     RotaryDashpot,
+    /// Friction between a pin on i and an eye on j around the point that they share.
+    RubbingPin,
+    /// Friction between a block on j at its point and a guide on i along its axis.
+    RubbingSlide,
     /// A curved arrow: a torque on j.
     TorqueArrow,
     /// A straight arrow: a force on j at its point, along the axis of i.
@@ -41,6 +45,10 @@ pub enum Mark {
     DriveTurn,
     /// A straight arrow: a prescribed position of the point of j along the axis of i.
     DriveShift,
+    /// Stops on i for an angle of j, around the joint that they share.
+    TurnStop,
+    /// A stop on i for the point of j along the axis of i.
+    ShiftStop,
     /// A slot on i along its axis, and a pin on j at its point.
     Slot,
     /// A rack on i along its axis for a wheel on j with this radius in m, < 0 on its right.
@@ -67,6 +75,8 @@ pub enum Mark {
     },
     /// A roller on i around its point, with this radius in m.
     Roller(f64),
+    /// A round end of i around its point, with this radius in m, that touches a curve.
+    Round(f64),
     /// A point of i that touches a curve.
     Contact,
     /// A flat face of i through its point, along the axis of i.
@@ -88,10 +98,14 @@ impl Mark {
             Self::Dashpot => "dashpot",
             Self::SpiralSpring => "spiral_spring",
             Self::RotaryDashpot => "rotary_dashpot",
+            Self::RubbingPin => "rubbing_pin",
+            Self::RubbingSlide => "rubbing_slide",
             Self::TorqueArrow => "torque_arrow",
             Self::ForceArrow => "force_arrow",
             Self::DriveTurn => "drive_turn",
             Self::DriveShift => "drive_shift",
+            Self::TurnStop => "turn_stop",
+            Self::ShiftStop => "shift_stop",
             Self::Slot => "slot",
             Self::ToothedLine(_) => "toothed_line",
             Self::Track(_) => "track",
@@ -101,7 +115,8 @@ impl Mark {
             Self::Toothed { ring: false, .. } => "toothed_wheel",
             Self::Toothed { ring: true, .. } => "toothed_ring",
             Self::Roller(_) => "roller",
-            Self::Contact => "contact",
+            Self::Round(_) => "round",
+            Self::Contact => "touch",
             Self::Face => "face",
         }
     }
@@ -113,7 +128,7 @@ impl Mark {
                 Some([0.0, radius])
             }
             Self::Toothed { radius, .. } => Some([0.0, radius]),
-            Self::Roller(radius) => Some([radius, 0.0]),
+            Self::Roller(radius) | Self::Round(radius) => Some([radius, 0.0]),
             Self::Strands { radii, .. } => Some(radii),
             _ => None,
         }

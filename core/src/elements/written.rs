@@ -116,7 +116,7 @@ macro_rules! declare {
                     $field: impl Into<$crate::elements::argument!($kind)>,
                 ) -> Self {
                     let value: $crate::elements::argument!($kind) = $field.into();
-                    self.with(stringify!($field), value.into())
+                    self.with($crate::elements::plain(stringify!($field)), value.into())
                 }
             )+
         }

@@ -1,10 +1,12 @@
 //! The residuals that implicit methods reduce to zero: r = M a + Φ_qᵀ λ - Q, Φ, Φ_q v + Φ_t, and the rates
 //! ż of first-order states, at any (q, v, a, λ, z). They are evaluated without the solution of equations.
+//!
+//! Q contains the loads of joints only if forces depend on reactions; otherwise they do not change the motion.
 
 use super::forces::{self, Acting};
 use super::kinematics::Motions;
 use super::powers::Powers;
-use super::{constraints, mass, Compiled};
+use super::{constraints, mass, reactions, reactive, Compiled};
 use crate::model::Model;
 
 /// Residuals at one state, with the memory for them.
@@ -54,6 +56,9 @@ impl Balance {
         constraints::jacobian(model, motions, t, jacobian);
         let acting = Acting { z, lam: Some(lam), t };
         forces::generalized(model, &self.compiled, motions, acting, applied, &mut self.powers);
+        if reactive::depends(model) {
+            reactions::add_loads(model, motions, t, lam, applied);
+        }
         forces::state_rates(model, motions, acting, &mut self.state_rates);
         out.iter_mut().zip(&*applied).for_each(|(out, applied)| *out = -applied);
         mass::add_times(model, motions, a, out);

@@ -62,6 +62,24 @@ pub fn velocity_terms<S: Real>(
     }
 }
 
+/// Φ, Φ_q q̇ + Φ_t, γ, each of shape (m), and Φ_q into `entries` as [`jacobian`].
+pub fn terms_and_jacobian<S: Real>(
+    model: &Model<S>,
+    motions: &Motions<S>,
+    t: S,
+    [residual, rate, gamma]: [&mut [S]; 3],
+    entries: &mut [S],
+) {
+    for (k, slots) in model.layout.constraints.iter().enumerate() {
+        linearize_one(model, k, motions, t, |terms, columns| {
+            residual[slots.rows.clone()].copy_from_slice(terms.residual);
+            rate[slots.rows.clone()].copy_from_slice(terms.rate);
+            gamma[slots.rows.clone()].copy_from_slice(terms.gamma);
+            store(columns, slots, entries);
+        });
+    }
+}
+
 /// Φ_q into `entries` as [`jacobian`], and γ̂ = γ - 2α Φ̇ - β² Φ, shape (m), into `right`.
 pub fn linearize<S: Real>(
     model: &Model<S>,
@@ -272,7 +290,8 @@ fn law_terms<S: Real>(
         |body: BodyId, c: Coordinate| -> Jet<S> { c.of(&moving(&motions[body.0]), &Twist::zero()) };
     let residual = |at: &At<'_, Jet<S>>, phi: &mut [Jet<S>]| {
         let (parameters, pieces) = (&model.parameters, &motions.pieces);
-        let values = Laws { parameters, t: at.t, coordinate, z: &[], pieces, function: None };
+        let values =
+            Laws { parameters, t: at.t, coordinate, own: [&[]; 2], z: &[], pieces, function: None };
         law.map(&mut |tape| tape.evaluate(&values)).residual(at, phi);
     };
     terms(at, residual, out);
@@ -293,7 +312,8 @@ fn law_columns<S: Real>(
     };
     let residual = |at: &At<'_, ByThree<S>>, phi: &mut [ByThree<S>]| {
         let (parameters, pieces) = (&model.parameters, &motions.pieces);
-        let values = Laws { parameters, t: at.t, coordinate, z: &[], pieces, function: None };
+        let values =
+            Laws { parameters, t: at.t, coordinate, own: [&[]; 2], z: &[], pieces, function: None };
         law.map(&mut |tape| tape.evaluate(&values)).residual(at, phi);
     };
     let varies = |b: usize| Some(item.bodies[b]) == block.body;

@@ -2,12 +2,12 @@
 
 use super::constraints::{linearize_one, store};
 use super::kinematics::Motions;
+use super::reaction_slopes::rows_of;
 use crate::elements::derive::{seeded, ByThree};
-use crate::elements::BodyId;
+use crate::elements::{BodyId, Mode};
 use crate::math::{Dual, Lift, Pose, Real, Twist, Vec2};
-use crate::model::{Block, Dependence, Model};
+use crate::model::{Block, Columns, Dependence, Model};
 use std::collections::BTreeMap;
-use std::ops::Range;
 
 type D = ByThree<f64>;
 
@@ -23,13 +23,21 @@ pub(super) struct Participants {
     /// The places in z of the states on which it depends.
     pub states: Vec<usize>,
     /// The rows of the multipliers on which it depends.
-    pub rows: Range<usize>,
-    /// For each of the bodies, the pair with each body on which the force acts.
+    pub rows: Vec<usize>,
+    /// The owners of internal coordinates on which its laws depend, with their columns.
+    pub internals: Vec<(usize, Columns)>,
+    /// For each of the bodies, then of the internal owners, the pair with each body on which the force acts.
     pairs: Vec<Vec<(BodyId, usize)>>,
 }
 
 impl Participants {
-    /// The pair (body on which the force acts, body `b` on which it depends).
+    /// The owners of coordinates on which it depends: bodies, then internal ones.
+    pub fn owners(&self) -> impl Iterator<Item = usize> + '_ {
+        let bodies = self.bodies.iter().map(|body| body.0 - 1);
+        bodies.chain(self.internals.iter().map(|(owner, _)| *owner))
+    }
+
+    /// The pair (body on which the force acts, owner `b` on which it depends).
     pub fn pair(&self, b: usize, acted: BodyId) -> Option<usize> {
         self.pairs[b].iter().find(|(body, _)| *body == acted).map(|(_, pair)| *pair)
     }
@@ -73,10 +81,17 @@ pub(super) fn by_force(model: &Model, pairs: &mut Pairs) -> Vec<Participants> {
             depends.bodies.extend((1..model.bodies.len()).map(BodyId));
             depends.states.extend(0..model.layout.n_z);
         }
-        let joint = item.reaction.map(|joint| joint.0);
-        let of_joint = joint.map_or(&[][..], |k| &model.constraints[k].bodies);
-        let mut bodies: Vec<BodyId> =
-            item.bodies.iter().chain(&depends.bodies).chain(of_joint).copied().collect();
+        let seen = |k: usize| {
+            let item = &model.forces[k];
+            let joint = item.reaction.map_or(&[][..], |k| &model.constraints[k.0].bodies);
+            item.bodies.iter().chain(joint)
+        };
+        let leader = match item.mode {
+            Mode::Follows { leader, .. } => Some(leader),
+            _ => None,
+        };
+        let seen = seen(k).chain(leader.into_iter().flat_map(seen));
+        let mut bodies: Vec<BodyId> = seen.chain(&depends.bodies).copied().collect();
         bodies.retain(|body| !body.is_ground());
         bodies.sort_unstable();
         bodies.dedup();
@@ -85,15 +100,32 @@ pub(super) fn by_force(model: &Model, pairs: &mut Pairs) -> Vec<Participants> {
         states.sort_unstable();
         states.dedup();
         let acted = || item.bodies.iter().filter(|body| !body.is_ground());
-        let with = |body: &BodyId, pairs: &mut Pairs| {
-            let pair = |acted: &BodyId| (*acted, pairs.index(acted.0 - 1, body.0 - 1));
+        let internals = internals(model, &depends);
+        let found =
+            Participants { bodies, states, rows: rows_of(model, k), internals, pairs: vec![] };
+        let with = |owner: usize, pairs: &mut Pairs| {
+            let pair = |acted: &BodyId| (*acted, pairs.index(acted.0 - 1, owner));
             acted().map(pair).collect()
         };
-        let pairs = bodies.iter().map(|body| with(body, pairs)).collect();
-        let rows = joint.map_or(0..0, |k| model.layout.constraints[k].rows.clone());
-        Participants { bodies, states, rows, pairs }
+        let pairs = found.owners().map(|owner| with(owner, pairs)).collect();
+        Participants { pairs, ..found }
     };
     (0..model.forces.len()).map(|k| one(k, pairs)).collect()
+}
+
+/// The owners of the internal coordinates on which a law depends, each once, with their columns.
+fn internals(model: &Model, depends: &Dependence) -> Vec<(usize, Columns)> {
+    let owners = model.layout.owners.iter().copied().enumerate().skip(model.bodies.len() - 1);
+    let mut first = 0;
+    let with_places = owners.map(|(owner, columns)| {
+        let places = first..first + columns.count;
+        first = places.end;
+        (owner, columns, places)
+    });
+    let used = with_places.filter(|(_, _, places)| {
+        depends.whole || depends.internals.iter().any(|place| places.contains(place))
+    });
+    used.map(|(owner, columns, _)| (owner, columns)).collect()
 }
 
 /// The blocks that each constraint couples. Without laws, two arbitrary poses show them: if Φ_q of one owner does
@@ -105,7 +137,8 @@ pub(super) fn by_constraint(lifted: &Model<D>, pairs: &mut Pairs) -> Vec<ByConst
         let blocks = &lifted.layout.constraints[k].blocks;
         let mut found = Vec::with_capacity(blocks.len());
         for seed in blocks {
-            let mut coupled = vec![lifted.constraints[k].law.is_some(); blocks.len()];
+            let item = &lifted.constraints[k];
+            let mut coupled = vec![item.law.is_some() || item.element.has_load(); blocks.len()];
             for motions in &trials {
                 changes(lifted, k, seed, motions, &mut columns, &mut coupled);
             }

@@ -7,10 +7,12 @@ use super::powers::Powers;
 use super::reactions::{self, Frame};
 use super::{Compiled, Inertia};
 use crate::elements::{
-    BodyId, Force, ForceElement, Held, Nature, Pooled, Situation, VisitForces, Wrenches,
+    Behaviour, BodyId, Force, ForceElement, Held, Mode, Nature, Pooled, Situation, VisitForces,
+    Wrenches,
 };
 use crate::math::{Motion, Real, Vec2, Wrench};
 use crate::model::{ForceItem, Model};
+use std::borrow::Cow;
 
 /// The quantities that forces may depend on in addition to the motion.
 #[derive(Clone, Copy, Debug)]
@@ -91,7 +93,11 @@ impl<S: Real> Sum<'_, S> {
     fn law(&mut self, item: &ForceItem<S>, k: usize) {
         let at = situation(self.model, k, self.motions, self.acting);
         let element = at_state(self.model, item, self.motions, self.acting);
-        let nature = |part: usize| element.parts()[part].nature.under_law();
+        let follows = element.follows();
+        let nature = |part: usize| match element.parts()[part].nature {
+            nature if follows => nature,
+            nature => nature.under_law(),
+        };
         element.action(&at, Add { sum: self, at: &at, nature });
         self.powers.add_own(element.own_powers(&at));
     }
@@ -116,19 +122,19 @@ impl<S: Real, N: Fn(usize) -> Nature> Wrenches<S> for Add<'_, '_, S, N> {
 }
 
 /// The element of a force at a state: its laws replaced by their values.
-fn at_state<S: Real>(
+pub(super) fn at_state<'m, S: Real>(
     model: &Model<S>,
-    item: &ForceItem<S>,
+    item: &'m ForceItem<S>,
     motions: &Motions<S>,
     Acting { z, t, .. }: Acting<'_, S>,
-) -> ForceElement<S> {
+) -> Cow<'m, ForceElement<S>> {
     match &item.law {
-        None => item.element.clone(),
+        None => Cow::Borrowed(&item.element),
         Some(law) => {
             let function = |k| of_host(model, k, motions, z, t);
             let values = laws::held(&model.parameters, motions, z, t);
             let values = Laws { function: Some(&function), ..values };
-            law.map(&mut |tape| tape.evaluate(&values))
+            Cow::Owned(law.map(&mut |tape| tape.evaluate(&values)))
         }
     }
 }
@@ -144,7 +150,7 @@ fn of_host<S: Real>(model: &Model<S>, k: usize, motions: &Motions<S>, z: &[S], t
 
 /// The situation of force `k`.
 #[inline(always)]
-fn situation<'a, S: Real>(
+pub(super) fn situation<'a, S: Real>(
     model: &'a Model<S>,
     k: usize,
     motions: &'a Motions<S>,
@@ -157,7 +163,99 @@ fn situation<'a, S: Real>(
     };
     let z = &z[model.layout.states[k].clone()];
     let held = Held { pieces: &motions.pieces, first: item.first_switch };
-    Situation { motions, bodies: &item.bodies, z, reaction, t, held }
+    let multiplier = match (item.mode, lam) {
+        (Mode::Follows { leader, sense }, Some(_)) => {
+            following(model, k, (leader, sense), motions, Acting { z, lam, t })
+        }
+        _ => S::zero(),
+    };
+    let (bodies, mode) = (&item.bodies, item.mode);
+    Situation { motions, bodies, z, reaction, t, held, mode, multiplier }
+}
+
+/// The same for reports: a force that holds has its multiplier.
+fn reported<'a, S: Real>(
+    model: &'a Model<S>,
+    k: usize,
+    motions: &'a Motions<S>,
+    acting: Acting<'a, S>,
+) -> Situation<'a, S> {
+    let at = situation(model, k, motions, acting);
+    match at.mode {
+        Mode::Holds(_) => Situation { multiplier: multiplier(model, k, acting), ..at },
+        _ => at,
+    }
+}
+
+/// The multiplier of the equation by which force `k` holds.
+fn multiplier<S: Real>(model: &Model<S>, k: usize, acting: Acting<'_, S>) -> S {
+    let row = model.forces[k].held_row;
+    row.zip(acting.lam).and_then(|(row, lam)| lam.get(row).copied()).unwrap_or(S::zero())
+}
+
+/// The effort of friction that follows another one, with opposite sign: both take the same part of their limits.
+#[cold]
+fn following<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    (leader, sense): (usize, f64),
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+) -> S {
+    let limit = |k: usize| {
+        let at = situation(model, k, motions, Acting { lam: None, ..acting });
+        let reaction = match (model.forces[k].reaction, acting.lam) {
+            (Some(joint), Some(lam)) => seen(model, joint.0, motions, lam, acting.t),
+            _ => Wrench::zero(),
+        };
+        let own = &acting.z[model.layout.states[k].clone()];
+        let element = at_state(model, &model.forces[k], motions, acting);
+        element.limit(&Situation { reaction, z: own, ..at })
+    };
+    let most = limit(leader);
+    let part = multiplier(model, leader, acting) * limit(k) / most;
+    S::select(most, S::constant(sense) * part, S::zero())
+}
+
+/// The function whose zero may change the mode of force `k`.
+pub fn threshold<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+) -> S {
+    let element = at_state(model, &model.forces[k], motions, acting);
+    element.threshold(&reported(model, k, motions, acting))
+}
+
+/// The side at which force `k` touches.
+pub fn side(model: &Model, k: usize, motions: &Motions, acting: Acting<'_, f64>) -> f64 {
+    let element = at_state(model, &model.forces[k], motions, acting);
+    element.side(&reported(model, k, motions, acting))
+}
+
+/// The reserve of force `k` that holds: > 0 until friction slips, or a contact lets go.
+pub fn reserve(model: &Model, k: usize, motions: &Motions, acting: Acting<'_, f64>) -> f64 {
+    let item = &model.forces[k];
+    let element = at_state(model, item, motions, acting);
+    let at = reported(model, k, motions, acting);
+    match (item.mode, element.behaviour()) {
+        (Mode::Holds(_), Some(Behaviour::Sticks)) => element.limit(&at) - at.multiplier.abs(),
+        (Mode::Holds(side), _) => side * at.multiplier,
+        _ => f64::INFINITY,
+    }
+}
+
+/// The results of force `k` beside its wrenches, into `out`.
+pub fn results<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+    out: &mut [S],
+) {
+    let element = at_state(model, &model.forces[k], motions, acting);
+    element.results(&reported(model, k, motions, acting), out);
 }
 
 /// The reaction of a joint on its body j at its joint point, in the global frame.
@@ -185,7 +283,7 @@ pub fn each_wrench<S: Real>(
 ) {
     let item = &model.forces[k];
     let element = at_state(model, item, motions, acting);
-    let at = situation(model, k, motions, acting);
+    let at = reported(model, k, motions, acting);
     element.action(&at, |part, body, w| visit(part, at.bodies[body], w));
 }
 
@@ -241,6 +339,7 @@ pub fn potential<S: Real>(
     let at = &situation(model, k, motions, acting);
     match &item.law {
         None => item.element.potential(at) + item.element.own_energy(at),
+        Some(_) if item.element.follows() => at_state(model, item, motions, acting).potential(at),
         Some(_) if item.states.is_empty() => S::zero(),
         Some(_) => at_state(model, item, motions, acting).own_energy(at),
     }
@@ -254,7 +353,7 @@ pub fn dissipated<S: Real>(
     acting: Acting<'_, S>,
 ) -> S {
     let element = at_state(model, &model.forces[k], motions, acting);
-    let at = situation(model, k, motions, acting);
+    let at = reported(model, k, motions, acting);
     let mut powers = Powers::zero();
     element.action(&at, |part: usize, body: usize, w: Wrench<S>| {
         powers.add(element.parts()[part].nature, || w.power(at.body(body).twist));

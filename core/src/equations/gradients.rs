@@ -70,20 +70,24 @@ impl<'a, S: Real> Gradients<'a, S> {
     /// Turns x = P⁻¹ f into K⁻¹ f. Remainders below rounding of `terms` are left.
     pub fn take_back(&mut self, x: &mut [S], terms: &[S]) {
         let n = self.model.layout.n_q;
-        let mut r = self.additions(&x[..n]);
+        let mut r = vec![S::zero(); n];
+        self.put_additions(&x[..n], &mut r);
         if self.is_settled(&r, terms) {
             return;
         }
         let (mut s, mut p) = (vec![S::zero(); n], vec![S::zero(); x.len()]);
+        let (mut z, mut ez) = (p.clone(), r.clone());
         let mut last = S::zero();
         for _ in 0..STEPS * self.light.len() + MORE {
-            let mut z = r.clone();
-            z.resize(x.len(), S::zero());
+            z[..n].copy_from_slice(&r);
+            z[n..].fill(S::zero());
             self.matrix.solve(&mut z);
-            let (mut own, mut ez) = (self.energy(&z), self.additions(&z[..n]));
+            let mut own = self.energy(&z);
+            self.put_additions(&z[..n], &mut ez);
             if !self.damped && above(dot(&ez, &z), own * S::constant(LIGHT)) {
                 self.purify(&mut z);
-                (own, ez) = (self.energy(&z), self.additions(&z[..n]));
+                own = self.energy(&z);
+                self.put_additions(&z[..n], &mut ez);
             }
             let square = own + dot(&ez, &z);
             if self.is_settled(&ez, terms) {
@@ -91,15 +95,18 @@ impl<'a, S: Real> Gradients<'a, S> {
                 return;
             }
             if !self.damped {
-                self.absorb(x, &mut z, (&mut r, ez));
+                self.absorb(x, &mut z, (&mut r, &ez));
             }
             let beta = S::select(last, square / last, S::zero());
             p.iter_mut().zip(&z).for_each(|(p, z)| *p = *z + beta * *p);
             s.iter_mut().zip(&r).for_each(|(s, r)| *s = *r + beta * *s);
-            let Some(alpha) = self.step(&p, square) else { return };
+            // the additions of p, then the change of r
+            let change = &mut ez;
+            self.put_additions(&p[..n], change);
+            let Some(alpha) = self.step(&p, square, change) else { return };
             x.iter_mut().zip(&p).for_each(|(x, p)| *x += alpha * *p);
-            let change = self.product(&p, &s);
-            r.iter_mut().zip(change).for_each(|(r, change)| *r -= alpha * change);
+            self.put_product(&p[..n], &s, change);
+            r.iter_mut().zip(change).for_each(|(r, change)| *r -= alpha * *change);
             last = square;
         }
     }
@@ -116,18 +123,19 @@ impl<'a, S: Real> Gradients<'a, S> {
     }
 
     /// Adds the multipliers of z = P⁻¹ r to x. What is left of r is (M + E) z.
-    fn absorb(&self, x: &mut [S], z: &mut [S], (r, ez): (&mut Vec<S>, Vec<S>)) {
+    fn absorb(&self, x: &mut [S], z: &mut [S], (r, ez): (&mut [S], &[S])) {
         let n = self.model.layout.n_q;
         x[n..].iter_mut().zip(&z[n..]).for_each(|(x, z)| *x += *z);
         z[n..].fill(S::zero());
-        *r = ez;
+        r.copy_from_slice(ez);
         mass::add_times(self.model, self.motions, &z[..n], r);
     }
 
-    /// The length of a step along p with the square |z|² of the remainder; None if p has no mass in any lane.
-    fn step(&mut self, p: &[S], square: S) -> Option<S> {
+    /// The length of a step along p, whose additions are `ep`, with the square |z|² of the remainder; None if p has no
+    /// mass in any lane.
+    fn step(&mut self, p: &[S], square: S, ep: &[S]) -> Option<S> {
         let own = self.energy(p);
-        let all = own + dot(&self.additions(&p[..self.model.layout.n_q]), p);
+        let all = own + dot(ep, p);
         let moves = own - S::constant(MASSLESS) * all;
         let lost = S::select(square, S::select(moves, S::zero(), S::one()), S::zero());
         if above(lost, S::zero()) {
@@ -137,16 +145,15 @@ impl<'a, S: Real> Gradients<'a, S> {
         above(alpha, S::zero()).then_some(alpha)
     }
 
-    /// The upper part of K p, with s that of P p. Without damping p has no multipliers, and nothing is cancelled.
-    fn product(&self, p: &[S], s: &[S]) -> Vec<S> {
-        let a = &p[..s.len()];
+    /// Turns `out`, the additions of p, into the upper part of K p, with s that of P p. Without damping p has no
+    /// multipliers, and nothing is cancelled.
+    fn put_product(&self, p: &[S], s: &[S], out: &mut [S]) {
         if self.damped {
-            let added = self.additions(a);
-            return s.iter().zip(added).map(|(s, added)| *s - added).collect();
+            out.iter_mut().zip(s).for_each(|(out, s)| *out = *s - *out);
+            return;
         }
-        let mut product = vec![S::zero(); a.len()];
-        mass::add_times(self.model, self.motions, a, &mut product);
-        product
+        out.fill(S::zero());
+        mass::add_times(self.model, self.motions, p, out);
     }
 
     /// pᵀ K p of a direction that meets the constraints up to their damping; never a difference.
@@ -162,13 +169,12 @@ impl<'a, S: Real> Gradients<'a, S> {
         own + dot(&rows, lam)
     }
 
-    /// E a.
-    fn additions(&self, a: &[S]) -> Vec<S> {
-        let mut product = vec![S::zero(); a.len()];
+    /// E a into `out`.
+    fn put_additions(&self, a: &[S], out: &mut [S]) {
+        out.fill(S::zero());
         for (columns, block) in &self.blocks {
-            columns.add(block.times(columns.of(a)), &mut product);
+            columns.add(block.times(columns.of(a)), out);
         }
-        product
     }
 
     fn is_settled(&self, ez: &[S], terms: &[S]) -> bool {

@@ -130,9 +130,8 @@ fn coupled(
     rows: &[(usize, usize)],
 ) -> Vec<(usize, usize)> {
     let own = force.states.iter().map(|&at| states[at].0);
-    let others: Vec<usize> = own.chain(force.rows.clone().map(|row| rows[row].0)).collect();
-    let owners = force.bodies.iter().map(|body| body.0 - 1);
-    let all: Vec<usize> = owners.chain(others.iter().copied()).collect();
+    let others: Vec<usize> = own.chain(force.rows.iter().map(|row| rows[*row].0)).collect();
+    let all: Vec<usize> = force.owners().chain(others.iter().copied()).collect();
     others.iter().flat_map(|&a| all.iter().map(move |&b| (a, b))).collect()
 }
 

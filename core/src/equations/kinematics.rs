@@ -92,6 +92,11 @@ impl<S: Real> Motions<S> {
         x.extend(z);
     }
 
+    /// The internal coordinates of all elements and their rates.
+    pub fn internals(&self) -> [&[S]; 2] {
+        [&self.own, &self.own_rates]
+    }
+
     /// Internal coordinates of an element and their rates.
     pub fn own(&self, columns: Columns) -> (&[S], &[S]) {
         let range = match columns.count {

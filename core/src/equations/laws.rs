@@ -15,6 +15,8 @@ pub struct Laws<'a, S, T, F> {
     pub t: T,
     /// The value of a coordinate of a body.
     pub coordinate: F,
+    /// Internal coordinates of joints and their rates; empty where laws may not use them.
+    pub own: [&'a [T]; 2],
     /// First-order states; empty where laws may not use them.
     pub z: &'a [T],
     /// The piece that is held for each switch of the model; empty if none is held.
@@ -35,6 +37,10 @@ impl<S: Real, T: Lift<S>, F: Fn(BodyId, Coordinate) -> T> Values<T> for Laws<'_,
             Variable::Coordinate(body, coordinate) => (self.coordinate)(body, coordinate),
             Variable::State(k) => self.z[k],
             Variable::Function(k) => self.function.map_or(T::constant(f64::NAN), |f| f(k)),
+            Variable::Internal { place, rate } => {
+                let value = self.own[usize::from(rate)].get(place);
+                value.copied().unwrap_or(T::constant(f64::NAN))
+            }
         }
     }
     fn piece(&self, k: usize) -> f64 {
@@ -42,7 +48,7 @@ impl<S: Real, T: Lift<S>, F: Fn(BodyId, Coordinate) -> T> Values<T> for Laws<'_,
     }
 }
 
-/// Laws at a state, without derivatives and without held pieces.
+/// Laws at a state, without derivatives, internal coordinates and held pieces.
 pub fn at<'a, S: Real>(
     parameters: &'a [S],
     motions: &'a [Motion<S>],
@@ -53,15 +59,15 @@ pub fn at<'a, S: Real>(
         let m = &motions[body.0];
         c.of(&m.pose, &m.twist)
     };
-    Laws { parameters, t, coordinate, z, pieces: &[], function: None }
+    Laws { parameters, t, coordinate, own: [&[]; 2], z, pieces: &[], function: None }
 }
 
-/// Laws at a state, with the pieces that are held there.
+/// Laws at a state, with internal coordinates and the pieces that are held there.
 pub fn held<'a, S: Real>(
     parameters: &'a [S],
     motions: &'a Motions<S>,
     z: &'a [S],
     t: S,
 ) -> Laws<'a, S, S, impl Fn(BodyId, Coordinate) -> S + 'a> {
-    Laws { pieces: &motions.pieces, ..at(parameters, motions, z, t) }
+    Laws { pieces: &motions.pieces, own: motions.internals(), ..at(parameters, motions, z, t) }
 }

@@ -1,8 +1,10 @@
 //! Position quantities of elements at a state, with their rates and accelerations.
 
 use super::kinematics::Motions;
-use crate::elements::{At, BodyId, Measured};
-use crate::math::{Jet, Lift, Local, Pose, Real, Vec2};
+use super::laws::Laws;
+use crate::elements::{At, BodyId, Coordinate, Measured};
+use crate::expression::Tape;
+use crate::math::{Jet, Lift, Local, Pose, Real, Twist, Vec2};
 use crate::model::Model;
 
 /// An element of a model.
@@ -50,7 +52,27 @@ pub fn measured<S: Real>(
             let item = &model.forces[k];
             let bodies: Vec<_> = item.bodies.iter().map(pose).collect();
             let at = At { bodies: &bodies, own: &[], t: Jet::zero() };
-            item.element.map(&mut |s| Jet::lift(*s)).measure(&at, &mut values);
+            let element = match &item.law {
+                Some(law) if item.element.follows() => {
+                    let coordinate = |body: BodyId, c: Coordinate| {
+                        c.of(&moving(model, body, motions, a), &Twist::zero())
+                    };
+                    let (parameters, t) = (&model.parameters, Jet::zero());
+                    let pieces = &motions.pieces;
+                    let values = Laws {
+                        parameters,
+                        t,
+                        coordinate,
+                        own: [&[]; 2],
+                        z: &[],
+                        pieces,
+                        function: None,
+                    };
+                    law.map(&mut |tape: &Tape| tape.evaluate(&values))
+                }
+                _ => item.element.map(&mut |s| Jet::lift(*s)),
+            };
+            element.measure(&at, &mut values);
         }
     }
     values

@@ -14,6 +14,7 @@ use super::gains::Gains;
 use super::kinematics::Motions;
 use super::plan::Plan;
 use super::powers::Powers;
+use super::reaction_slopes::by_multiplier;
 use super::roles::{self, Roles};
 use super::{mass, reactions, reactive, refine, Compiled};
 use crate::math::Real;
@@ -87,7 +88,7 @@ impl<S: Real> Workspace<S> {
         let compiled = Arc::new(Compiled::new(model));
         let roles = Roles::new(model, &compiled, &plan);
         let reactive = reactive::rows(model);
-        let depends = model.forces.iter().any(|force| force.reaction.is_some());
+        let depends = reactive::depends(model);
         let redundant = plan.accepts_redundancy(model);
         let mut matrix = Augmented::on(plan);
         matrix.set_inertia(&compiled);
@@ -204,31 +205,71 @@ impl<S: Real> Workspace<S> {
     /// iterated.
     fn solve_and_refine(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
         let Self { motions, z, compiled, matrix, solution, powers, offset, reactive, .. } = self;
-        let (n, padded) = (self.n_q, self.n_unknowns);
+        let padded = self.n_unknowns;
         let mut right = vec![S::zero(); model.layout.n_rows];
         constraints::linearize(model, motions, t, gains, &mut right, matrix.jacobian_mut());
         right.iter_mut().zip(offset).for_each(|(right, offset)| *right -= *offset);
         matrix.set_mass(compiled, motions);
         matrix.factor()?;
-        let mut respond = |lam: Option<&[S]>| -> Result<Vec<S>, Breakdown> {
-            let mut x = vec![S::zero(); n];
-            x.extend_from_slice(&right);
-            let acting = Acting { z, lam, t };
-            forces::generalized(model, compiled, motions, acting, &mut x[..n], powers);
-            if let Some(lam) = lam {
-                reactions::add_loads(model, motions, t, lam, &mut x[..n]);
-            }
-            let outcome = refine::solve((model, compiled), motions, matrix, &mut x);
-            solution[..n].copy_from_slice(&x[..n]);
-            solution[padded..].copy_from_slice(&x[n..]);
-            outcome.map(|()| x.split_off(n))
-        };
-        let mut lam = respond(None)?;
+        let (solution, powers) = ((&mut solution[..], padded), powers);
+        let mut at = ForGiven { model, compiled, motions, matrix, z, t, right, solution, powers };
+        let mut lam = at.respond(None)?;
         if let Some(&row) = reactive.first() {
-            let converged = reactive::solve(reactive, &mut lam, |lam| respond(Some(lam)))?;
-            return if converged { Ok(()) } else { Err(Breakdown::Reaction(row)) };
+            let found = reactive::solve(reactive, &mut lam, &mut at)?;
+            return if found { Ok(()) } else { Err(Breakdown::Reaction(row)) };
         }
         Ok(())
+    }
+
+    /// The jump of the velocities by which each row of Φ_q v changes by its entry of `rates`, shape (n_rows), without
+    /// forces: [M Φ_qᵀ; Φ_q 0] (Δv, P) = (0, rates). Returns Δv, shape (n_q), and the impulses P, shape (n_rows).
+    ///
+    /// # Errors
+    /// [`Breakdown`] where Φ_q loses rank.
+    pub fn jump(
+        &mut self,
+        model: &Model<S>,
+        t: S,
+        q: &[S],
+        rates: &[S],
+    ) -> Result<[Vec<S>; 2], Breakdown> {
+        self.jump_by(model, t, q, (&vec![S::zero(); self.n_q], rates))
+    }
+
+    /// The jump of the velocities by generalized impulses, shape (n_q), on the mechanism: [M Φ_qᵀ; Φ_q 0] (Δv, P) =
+    /// (impulses, 0). Returns Δv, shape (n_q).
+    ///
+    /// # Errors
+    /// [`Breakdown`] where Φ_q loses rank.
+    pub fn velocity_jump(
+        &mut self,
+        model: &Model<S>,
+        t: S,
+        q: &[S],
+        impulses: &[S],
+    ) -> Result<Vec<S>, Breakdown> {
+        let still = vec![S::zero(); model.layout.n_rows];
+        self.jump_by(model, t, q, (impulses, &still)).map(|[jump, _]| jump)
+    }
+
+    fn jump_by(
+        &mut self,
+        model: &Model<S>,
+        t: S,
+        q: &[S],
+        (impulses, rates): (&[S], &[S]),
+    ) -> Result<[Vec<S>; 2], Breakdown> {
+        self.motions.place(&model.layout, q, &vec![S::zero(); self.n_q]);
+        let Self { motions, compiled, matrix, .. } = self;
+        let mut right = vec![S::zero(); model.layout.n_rows];
+        let gains = Gains::default();
+        constraints::linearize(model, motions, t, gains, &mut right, matrix.jacobian_mut());
+        matrix.set_mass(compiled, motions);
+        matrix.factor()?;
+        let mut x = [impulses, rates].concat();
+        refine::solve((model, compiled), motions, matrix, &mut x)?;
+        let impulses = x.split_off(self.n_q);
+        Ok([x, impulses])
     }
 
     /// ż at the state that was [placed](Self::place), into `out`, shape (n_z).
@@ -271,5 +312,57 @@ impl<S: Real> Workspace<S> {
             }
         }
         powers
+    }
+}
+
+/// The equations of motion at a state, with forces at given multipliers.
+struct ForGiven<'a, S> {
+    model: &'a Model<S>,
+    compiled: &'a Compiled<S>,
+    motions: &'a Motions<S>,
+    matrix: &'a Augmented<S>,
+    z: &'a [S],
+    t: S,
+    /// γ̂.
+    right: Vec<S>,
+    /// (q̈, λ), and the place of λ.
+    solution: (&'a mut [S], usize),
+    powers: &'a mut Powers<S>,
+}
+
+impl<S: Real> ForGiven<'_, S> {
+    /// λ, shape (n_rows).
+    fn respond(&mut self, lam: Option<&[S]>) -> Result<Vec<S>, Breakdown> {
+        let (model, n) = (self.model, self.model.layout.n_q);
+        let mut x = vec![S::zero(); n];
+        x.extend_from_slice(&self.right);
+        let acting = Acting { z: self.z, lam, t: self.t };
+        let q = &mut x[..n];
+        forces::generalized(model, self.compiled, self.motions, acting, q, self.powers);
+        if let Some(lam) = lam {
+            reactions::add_loads(model, self.motions, self.t, lam, q);
+        }
+        let outcome = refine::solve((model, self.compiled), self.motions, self.matrix, &mut x);
+        let (solution, padded) = &mut self.solution;
+        solution[..n].copy_from_slice(&x[..n]);
+        solution[*padded..].copy_from_slice(&x[n..]);
+        outcome.map(|()| x.split_off(n))
+    }
+}
+
+impl<S: Real> reactive::Response<S> for ForGiven<'_, S> {
+    type Error = Breakdown;
+
+    fn multipliers(&mut self, lam: &[S]) -> Result<Vec<S>, Breakdown> {
+        self.respond(Some(lam))
+    }
+
+    fn slopes(&mut self, lam: &[S], row: usize) -> Result<Vec<S>, Breakdown> {
+        let (model, n) = (self.model, self.model.layout.n_q);
+        let acting = Acting { z: self.z, lam: Some(lam), t: self.t };
+        let mut x = by_multiplier(model, self.motions, acting, row);
+        x.resize(n + model.layout.n_rows, S::zero());
+        refine::solve((model, self.compiled), self.motions, self.matrix, &mut x)?;
+        Ok(x.split_off(n))
     }
 }

@@ -14,7 +14,7 @@ use super::forces::{each_wrench, Acting};
 use super::kinematics::Motions;
 use super::measured;
 use super::reactions::{place, reaction, touched, Frame};
-use crate::elements::BodyId;
+use crate::elements::{BodyId, Group};
 use crate::math::{Vec2, Wrench};
 use crate::model::Model;
 
@@ -91,6 +91,9 @@ fn add_reactions(
 ) {
     let lam = acting.lam.unwrap_or_default();
     for (k, slots) in model.layout.constraints.iter().enumerate() {
+        if model.constraints[k].group == Group::Forces {
+            continue; // it is reported as a force
+        }
         let own = &lam[slots.rows.clone()];
         for on in touched(model, k) {
             let found = reaction(model, k, on, Frame::Global, motions, acting.t, own);

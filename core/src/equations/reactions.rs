@@ -5,7 +5,7 @@ use super::constraints;
 use super::kinematics::Motions;
 use crate::elements::derive::with_values;
 use crate::elements::{At, Attachment, BodyId};
-use crate::math::{Local, Pose, Real, Rotation, Vec2, Wrench};
+use crate::math::{Dual, Lift, Local, Pose, Real, Rotation, Vec2, Wrench};
 use crate::model::Model;
 
 /// The frame in which a reaction's components are given.
@@ -116,8 +116,38 @@ pub fn add_loads<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, lam: &[S
     }
 }
 
+/// Adds the derivatives of the loads of all joints by the multiplier of one row, shape (n_q).
+pub fn add_load_slopes<S: Real>(
+    model: &Model<S>,
+    motions: &Motions<S>,
+    t: S,
+    (lam, row): (&[S], usize),
+    out: &mut [S],
+) {
+    for k in loaded(model) {
+        let rows = &model.layout.constraints[k].rows;
+        if !rows.contains(&row) {
+            continue;
+        }
+        let seeded = |at: usize| match at == row {
+            true => Dual::<1, S>::variable(lam[at], 0),
+            false => Dual::lift(lam[at]),
+        };
+        let lam: Vec<Dual<1, S>> = rows.clone().map(seeded).collect();
+        let item = &model.constraints[k];
+        let element = item.element.map(&mut |x: &S| Dual::lift(*x));
+        let pose = |body: &BodyId| motions[body.0].pose.lift();
+        let bodies: Vec<Pose<Dual<1, S>>> = item.bodies.iter().map(pose).collect();
+        let at = At { bodies: &bodies, own: &[], t: Dual::lift(t) };
+        element.load(&at, &lam, &mut |place, w: Wrench<Dual<1, S>>| {
+            let slopes = [w.force.x, w.force.y, w.torque].map(|x| x.slope[0]);
+            model.layout.bodies[item.bodies[place].0].add(slopes, out);
+        });
+    }
+}
+
 /// Gives the load of constraint `k` on each of its bodies, about the origin of its frame.
-fn each_load<S: Real>(
+pub(super) fn each_load<S: Real>(
     model: &Model<S>,
     k: usize,
     motions: &Motions<S>,

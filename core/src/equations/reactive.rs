@@ -7,76 +7,153 @@
 //! [ Φ_q  0   ] [ λ ] = [ γ    ]
 //! ```
 //!
-//! Only the multipliers u of the joints on which forces depend enter Q. Solving the linear equations with Q(u) gives
-//! new multipliers u′(u), and Newton's method solves u′(u) - u = 0. Its start is the solution without these forces, so
-//! that the result does not depend on earlier evaluations. Its matrix has one row for each of the few multipliers u; the
-//! columns are differences.
+//! Only the multipliers u of the joints on which forces depend enter Q. Solving the linear equations with Q(u) gives new
+//! multipliers u′(u), and u′(u) = u is solved by Newton's method with the matrix I - ∂u′/∂u. This matrix has one row for
+//! each of the few multipliers u; its columns are exact.
+//!
+//! There may be several solutions, or none. The one of the motion is that which follows continuously from the solution
+//! u₀ without these forces, as a factor of them grows from 0 to 1: u = (1 - f) u₀ + f u′(u), because u′ is linear in Q.
+//! The determinant of I - f ∂u′/∂u is 1 at first. Where it becomes zero before f = 1, the forces outgrow the reactions
+//! that hold against them: a friction paradox (Painlevé 1895). Newton's method begins at u₀ with f = 1, and only where
+//! that fails f grows in steps. The result does not depend on earlier evaluations.
 
+use super::reaction_slopes::rows_of;
 use super::reactions;
-use crate::math::Real;
+use crate::math::{Largest, Real};
 use crate::model::Model;
 
-/// Most iterations.
-const MOST: usize = 30;
-/// Relative size of the differences.
-const DIFFERENCE: f64 = 1e-7;
+/// Most iterations for one factor of the forces.
+const MOST: usize = 12;
 /// Accepted change of the multipliers, relative to the largest.
 const ACCEPTED: f64 = 1e-12;
+/// Accepted change of the multipliers, relative to the largest of the mechanism, if it does not become smaller.
+const ROUNDING: f64 = 1e-10;
+/// The first and the least step of the factor of the forces.
+const FIRST: f64 = 0.25;
+const LEAST: f64 = 1e-5;
+
+/// Whether forces depend on reactions; then the motion depends on the loads of joints.
+pub fn depends<S: Real>(model: &Model<S>) -> bool {
+    model.forces.iter().any(|force| force.reaction.is_some())
+}
 
 /// The rows of the multipliers on which forces, or loads of joints, depend, ascending.
 pub fn rows<S: Real>(model: &Model<S>) -> Vec<usize> {
-    let joints = model.forces.iter().filter_map(|force| force.reaction.map(|joint| joint.0));
-    let joints = joints.chain(reactions::loaded(model));
-    let mut rows: Vec<usize> =
-        joints.flat_map(|joint| model.layout.constraints[joint].rows.clone()).collect();
+    let of_loads =
+        reactions::loaded(model).flat_map(|joint| model.layout.constraints[joint].rows.clone());
+    let mut rows: Vec<usize> = of_loads.collect();
+    rows.extend((0..model.forces.len()).flat_map(|k| rows_of(model, k)));
     rows.sort_unstable();
     rows.dedup();
     rows
 }
 
+/// The linear equations for forces at given multipliers.
+pub(super) trait Response<S> {
+    /// Why they have no solution.
+    type Error;
+    /// All multipliers for Q at the multipliers `lam`, shape (n_rows).
+    fn multipliers(&mut self, lam: &[S]) -> Result<Vec<S>, Self::Error>;
+    /// The derivatives of all multipliers by that of one row in Q, shape (n_rows).
+    fn slopes(&mut self, lam: &[S], row: usize) -> Result<Vec<S>, Self::Error>;
+}
+
 /// Solves u′(u) = u for the multipliers in `rows`. `lam`, shape (n_rows), contains the multipliers without these forces,
-/// and then the solution. `respond` gives all multipliers of the linear equations with Q at its argument.
+/// and then the solution.
 ///
-/// Returns whether the iteration converged.
+/// Returns whether there is a solution that follows from the multipliers without these forces.
 ///
 /// # Errors
-/// That of `respond`.
-pub(super) fn solve<S: Real, E>(
+/// Those of the linear equations.
+pub(super) fn solve<S: Real, R: Response<S>>(
     rows: &[usize],
     lam: &mut [S],
-    mut respond: impl FnMut(&[S]) -> Result<Vec<S>, E>,
-) -> Result<bool, E> {
-    let of = |lam: &[S]| -> Vec<S> { rows.iter().map(|row| lam[*row]).collect() };
-    for _ in 0..MOST {
-        let found = respond(lam)?;
-        let gap: Vec<S> = of(&found).iter().zip(of(lam)).map(|(new, old)| *new - old).collect();
-        if largest(&gap) <= ACCEPTED * largest(&found) {
-            return Ok(true);
+    response: &mut R,
+) -> Result<bool, R::Error> {
+    let free = lam.to_vec();
+    let mut path = Path { rows, free: &free, response };
+    if path.newton(lam, S::one())? {
+        return Ok(true);
+    }
+    if !free.iter().all(|x| x.is_finite()) {
+        return Ok(true); // the solution is not finite either
+    }
+    lam.copy_from_slice(&free);
+    let (mut factor, mut step) = (0.0, FIRST);
+    while factor < 1.0 {
+        let next = f64::min(factor + step, 1.0);
+        let mut trial = lam.to_vec();
+        if path.newton(&mut trial, S::constant(next))? {
+            lam.copy_from_slice(&trial);
+            (factor, step) = (next, 2.0 * step);
+        } else if step < LEAST {
+            return Ok(false);
+        } else {
+            step *= 0.25;
         }
-        let h = S::constant(DIFFERENCE * largest(&found).max(f64::MIN_POSITIVE));
-        let mut columns = Vec::with_capacity(rows.len());
-        for (k, &row) in rows.iter().enumerate() {
-            let kept = lam[row];
-            lam[row] = kept + h;
-            let moved = of(&respond(lam)?);
-            lam[row] = kept;
+    }
+    Ok(true)
+}
+
+/// The solutions for all factors of the forces.
+struct Path<'a, S, R> {
+    rows: &'a [usize],
+    /// The multipliers without the forces.
+    free: &'a [S],
+    response: &'a mut R,
+}
+
+impl<S: Real, R: Response<S>> Path<'_, S, R> {
+    fn of(&self, lam: &[S]) -> Vec<S> {
+        self.rows.iter().map(|row| lam[*row]).collect()
+    }
+
+    /// Newton's method from `lam`, with a positive determinant on the way.
+    fn newton(&mut self, lam: &mut [S], factor: S) -> Result<bool, R::Error> {
+        let free = self.of(self.free);
+        let mut last = f64::INFINITY;
+        for _ in 0..MOST {
+            let found = self.response.multipliers(lam)?;
+            let own = self.of(&found).into_iter().zip(&free).zip(self.of(lam));
+            let gap: Vec<S> =
+                own.map(|((new, free), old)| *free + factor * (new - *free) - old).collect();
+            let (size, left) = (largest(&self.of(&found)), largest(&gap));
+            let columns = self.columns(lam, factor)?;
+            let Some(step) = eliminate(columns, gap) else { return Ok(false) };
+            if left <= ACCEPTED * size || (left >= last && left <= ROUNDING * largest(&found)) {
+                return Ok(true);
+            }
+            last = left;
+            step.into_iter().zip(self.rows).for_each(|(step, row)| lam[*row] += step);
+        }
+        Ok(false)
+    }
+
+    /// I - f ∂u′/∂u by columns.
+    fn columns(&mut self, lam: &[S], factor: S) -> Result<Vec<Vec<S>>, R::Error> {
+        let mut columns = Vec::with_capacity(self.rows.len());
+        for (k, row) in self.rows.iter().enumerate() {
+            let slopes = self.response.slopes(lam, *row)?;
             let mut column: Vec<S> =
-                moved.iter().zip(of(&found)).map(|(moved, found)| (found - *moved) / h).collect();
+                self.of(&slopes).into_iter().map(|slope| -(factor * slope)).collect();
             column[k] += S::one();
             columns.push(column);
         }
-        eliminate(columns, gap).into_iter().zip(rows).for_each(|(step, row)| lam[*row] += step);
+        Ok(columns)
     }
-    Ok(false)
 }
 
-/// Solves A x = b, where A is given by its columns, without pivoting: where A is far from the unit matrix, the iteration
-/// does not converge anyway.
-fn eliminate<S: Real>(mut columns: Vec<Vec<S>>, mut b: Vec<S>) -> Vec<S> {
+/// Solves A x = b, where A is given by its columns; None if the determinant of A is not positive.
+///
+/// There is no exchange of rows: where A is far from the unit matrix, smaller steps of the factor follow.
+fn eliminate<S: Real>(mut columns: Vec<Vec<S>>, mut b: Vec<S>) -> Option<Vec<S>> {
     let n = b.len();
+    let mut determinant = S::one();
     for k in 0..n {
+        let pivot = columns[k][k];
+        determinant = determinant * S::select(pivot, S::one(), -S::one());
         for row in (0..n).filter(|row| *row != k) {
-            let factor = columns[k][row] / columns[k][k];
+            let factor = columns[k][row] / pivot;
             for column in columns.iter_mut().skip(k + 1) {
                 let above = column[k];
                 column[row] -= factor * above;
@@ -85,11 +162,14 @@ fn eliminate<S: Real>(mut columns: Vec<Vec<S>>, mut b: Vec<S>) -> Vec<S> {
             b[row] -= factor * above;
         }
     }
-    b.iter().enumerate().map(|(k, b)| *b / columns[k][k]).collect()
+    let positive = determinant.in_lanes().iter().all(|sign| *sign > 0.0);
+    let x: Vec<S> = b.iter().enumerate().map(|(k, b)| *b / columns[k][k]).collect();
+    (positive && x.iter().all(|x| x.is_finite())).then_some(x)
 }
 
 /// Largest magnitude over all entries and lanes; NaN where one is not a number.
 fn largest<S: Real>(x: &[S]) -> f64 {
-    let each = x.iter().map(|x| 1.0 / (S::one() / *x).least_magnitude());
-    each.fold(0.0, |most, size| if most.is_nan() || size <= most { most } else { size })
+    let mut largest = Largest::new();
+    x.iter().for_each(|x| largest.add(*x));
+    largest.get()
 }

@@ -49,7 +49,8 @@ pub fn solve<S: Real>(
         return Ok(());
     }
     let mut gradients = Gradients::new((model, compiled), motions, matrix, damped);
-    let terms = |x: &[S]| terms(model, motions, matrix.jacobian(), &b, x);
+    let magnitudes: Vec<S> = matrix.jacobian().iter().map(|x| x.abs()).collect();
+    let terms = |x: &[S]| terms(model, motions, &magnitudes, &b, x);
     gradients.take_back(x, &terms(x));
     let mut last = f64::INFINITY;
     for corrections in 0..MOST {
@@ -96,23 +97,23 @@ fn remainder<S: Real>(
     out
 }
 
-/// |b| + |M a| + |Φ_qᵀ| |λ| and |b| + |Φ_q| |a|: the terms of which the remainder is the difference.
+/// |b| + |M a| + |Φ_qᵀ| |λ| and |b| + |Φ_q| |a|, with the `magnitudes` of Φ_q: the terms of which the remainder is the
+/// difference.
 fn terms<S: Real>(
     model: &Model<S>,
     motions: &Motions<S>,
-    jacobian: &[S],
+    magnitudes: &[S],
     b: &[S],
     x: &[S],
 ) -> Vec<S> {
     let n = model.layout.n_q;
-    let magnitudes = |x: &[S]| x.iter().map(|x| x.abs()).collect::<Vec<S>>();
-    let (entries, sizes) = (magnitudes(jacobian), magnitudes(x));
+    let sizes: Vec<S> = x.iter().map(|x| x.abs()).collect();
     let mut out = vec![S::zero(); x.len()];
     let (upper, lower) = out.split_at_mut(n);
     mass::add_times(model, motions, &x[..n], upper);
     upper.iter_mut().for_each(|out| *out = out.abs());
-    constraints::add_transposed(model, &entries, &sizes[n..], upper);
-    constraints::times_all(model, &entries, &sizes[..n], lower);
+    constraints::add_transposed(model, magnitudes, &sizes[n..], upper);
+    constraints::times_all(model, magnitudes, &sizes[..n], lower);
     out.iter_mut().zip(b).for_each(|(out, b)| *out += b.abs());
     let (upper, lower) = out.split_at_mut(n);
     for part in [upper, lower] {

@@ -44,7 +44,7 @@ pub fn law_values(model: &Model, k: usize, motions: &Motions, t: f64) -> Vec<Jet
         |body: BodyId, c: Coordinate| -> Jet { c.of(&moving(&motions[body.0]), &Twist::zero()) };
     let t = Jet::new(t, 1.0, 0.0);
     let (parameters, pieces) = (&model.parameters, &motions.pieces);
-    let values = Laws { parameters, t, coordinate, z: &[], pieces, function: None };
+    let values = Laws { parameters, t, coordinate, own: [&[]; 2], z: &[], pieces, function: None };
     let mut all = Vec::new();
     law.map(&mut |tape: &Tape| all.push(tape.evaluate(&values)));
     all

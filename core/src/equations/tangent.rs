@@ -15,9 +15,10 @@ use super::coupling::{self, Pairs, Participants};
 use super::forces::{self, Acting};
 use super::kinematics::Motions;
 use super::mass::{self, MassBlock};
+use super::{reactions, reactive};
 use crate::elements::derive::{seeded, ByThree};
 use crate::math::{Dual, Lift, Motion, Real, Twist, Vec2};
-use crate::model::{Block, Body, Model, Slots};
+use crate::model::{Block, Body, Columns, Model, Slots};
 
 type D = ByThree<f64>;
 /// 3 × 3 entries, row by row.
@@ -40,7 +41,7 @@ pub struct Entry {
 pub struct ByStates {
     /// -∂Q/∂z.
     pub forces: Vec<Entry>,
-    /// -∂Q/∂λ of forces that depend on reactions.
+    /// -∂Q/∂λ of forces that depend on reactions, and of the loads of joints.
     pub reactions: Vec<Entry>,
     /// ∂ż/∂q.
     pub by_position: Vec<Entry>,
@@ -77,6 +78,8 @@ pub struct Tangent {
     rates: Vec<D>,
     by_constraint: Vec<coupling::ByConstraint>,
     by_force: Vec<Participants>,
+    /// Whether Q contains the loads of joints.
+    loads: bool,
 }
 
 impl Tangent {
@@ -105,6 +108,7 @@ impl Tangent {
             pairs,
             by_constraint,
             by_force,
+            loads: reactive::depends(model),
         }
     }
 
@@ -144,6 +148,9 @@ impl Tangent {
         for k in 0..self.by_force.len() {
             self.force(k, motions, t);
         }
+        if self.loads {
+            self.loads_by_multipliers(model, motions, t, lam);
+        }
     }
 
     /// (M x - K s, y + ∂ż/∂q s, -B s) into `out`, shape (n_q + n_z + n_rows); x and s have shape (n_q), y has (n_z).
@@ -180,6 +187,7 @@ impl Tangent {
                 }
                 constraints::store(rows, slots, columns);
             });
+            self.load(k, slots, t, seed);
             self.unseed(block, slots, motions);
             for (to, pair) in slots.blocks.iter().zip(&self.by_constraint[k][seed]) {
                 let Some(pair) = *pair else { continue };
@@ -193,6 +201,37 @@ impl Tangent {
             let range = block.first..block.first + 3 * m;
             let values = self.columns[range.clone()].iter();
             self.jacobian[range].iter_mut().zip(values).for_each(|(e, d)| *e = d.value);
+        }
+    }
+
+    /// Derivatives of the load of one constraint by the coordinates of the block that is seeded.
+    fn load(&mut self, k: usize, slots: &Slots, t: f64, seed: usize) {
+        let Self { lifted, motions, lam, by_constraint, stiffness, loads, .. } = self;
+        if !*loads || !lifted.constraints[k].element.has_load() {
+            return;
+        }
+        let lam = &lam[slots.rows.clone()];
+        reactions::each_load(lifted, k, motions, D::lift(t), lam, |body, w| {
+            let to = slots.blocks.iter().position(|block| block.body == Some(body));
+            if let Some(pair) = to.and_then(|to| by_constraint[k][seed][to]) {
+                add(&mut stiffness[pair], [&w.force.x, &w.force.y, &w.torque], -1.0);
+            }
+        });
+    }
+
+    /// Derivatives of the loads of all constraints by their multipliers.
+    fn loads_by_multipliers(&mut self, model: &Model, motions: &Motions, t: f64, lam: &[f64]) {
+        for k in reactions::loaded(model) {
+            let slots = &model.layout.constraints[k];
+            for row in slots.rows.clone() {
+                let mut column = vec![0.0; model.layout.n_q];
+                reactions::add_load_slopes(model, motions, t, (lam, row), &mut column);
+                for block in &slots.blocks {
+                    let of = model.layout.owners[block.owner].of(&column);
+                    let values = of.map(|slope| -slope);
+                    self.states.reactions.push(Entry { owner: block.owner, at: row, values });
+                }
+            }
         }
     }
 
@@ -230,6 +269,14 @@ impl Tangent {
             self.differentiate(k, t, Variable::Velocity(b));
             *self.motions.body_mut(body) = motions[body].lift();
         }
+        for i in 0..self.by_force[k].internals.len() {
+            let (b, columns) = (self.by_force[k].bodies.len() + i, self.by_force[k].internals[i].1);
+            for (by, which) in [(Variable::Position(b), 0), (Variable::Velocity(b), 1)] {
+                self.seed_internal(columns, which, true);
+                self.differentiate(k, t, by);
+                self.seed_internal(columns, which, false);
+            }
+        }
         for s in 0..self.by_force[k].states.len() {
             let at = self.by_force[k].states[s];
             let z = self.z[at].value;
@@ -243,6 +290,13 @@ impl Tangent {
             self.differentiate(k, t, Variable::Multiplier(row));
             self.lam[row] = D::lift(lam);
         }
+    }
+
+    /// Makes internal coordinates, or their rates, the seeds; or takes the seeds away.
+    fn seed_internal(&mut self, columns: Columns, which: usize, seeds: bool) {
+        let (own, rates) = self.motions.own_mut(columns);
+        let all = [own, rates][which].iter_mut().enumerate();
+        all.for_each(|(k, u)| *u = if seeds { D::variable(u.value, k) } else { D::lift(u.value) });
     }
 
     /// Derivatives of one force and its states by the variable that is seeded.
@@ -279,7 +333,8 @@ impl Tangent {
         forces::state_rates_of(lifted, k, motions, acting, &mut rates[states.clone()]);
         for at in states {
             let slope = rates[at].slope;
-            let of = |b: usize| Entry { owner: own.bodies[b].0 - 1, at, values: slope };
+            let owner = |b: usize| own.owners().nth(b).expect("it is one of them");
+            let of = |b: usize| Entry { owner: owner(b), at, values: slope };
             match by {
                 Variable::Position(b) => self.states.by_position.push(of(b)),
                 Variable::Velocity(b) => self.states.by_velocity.push(of(b)),
@@ -293,7 +348,7 @@ impl Tangent {
 /// The variable by which a force is differentiated.
 #[derive(Clone, Copy)]
 enum Variable {
-    /// By the pose of the body with this place among the participants.
+    /// By the pose of the body, or the internal coordinates, with this place among the participants.
     Position(usize),
     /// By its twist.
     Velocity(usize),

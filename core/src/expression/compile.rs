@@ -70,7 +70,7 @@ impl Compiler<'_> {
                 Some(relation) => Instruction::Piecewise(Piecewise::Choose(relation)),
                 None => unreachable!("the parser lets no `if` pass without a condition"),
             },
-            Kind::Step5 => Instruction::Step5,
+            Kind::Step5 => Instruction::Piecewise(Piecewise::Step5),
             Kind::Call(name, count) => self.table(name, *count, node.span.clone(), names)?,
         };
         self.emit(instruction, &node.span)

@@ -164,11 +164,6 @@ fn by_sign<S: Real>(d: S, positive: S, negative: S, zero: S) -> S {
     S::select(d, positive, S::select(-d, negative, zero + d.floor()))
 }
 
-/// y0 + (y1 - y0) poly345((t - t0)/(t1 - t0)).
-pub(super) fn step5<S: Real>([t, t0, y0, t1, y1]: [S; 5]) -> S {
-    y0 + (y1 - y0) * MotionLaw::Poly345.apply((t - t0) / (t1 - t0))
-}
-
 fn larger<S: Real>(a: S, b: S) -> S {
     let half = S::constant(0.5);
     // not by_sign: the tie of two equal infinities is that infinity, though a - b is NaN

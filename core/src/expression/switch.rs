@@ -1,4 +1,4 @@
-//! Operations whose value is smooth only piece by piece: conditions, |x|, steps, minima, harmonic rises, tables.
+//! Operations whose value is smooth only piece by piece: conditions, |x|, steps, minima, motion laws, tables.
 //!
 //! Each has a switch function σ and boundaries on its axis. Between two boundaries lies a *piece*, on which the operation
 //! is smooth. An integrator holds the piece of each switch during a step, so that no stage of the step sees another
@@ -15,8 +15,10 @@ use std::sync::Arc;
 pub(super) enum Piecewise {
     /// One of two values; σ = left - right.
     Choose(Relation),
-    /// |x|, the sign, the unit step, the floor or the harmonic rise of x; σ = x.
+    /// |x|, the sign, the unit step, the floor or a motion law of x; σ = x.
     Unary(Unary),
+    /// A rise from (t0, y0) to (t1, y1); σ = (t - t0) / (t1 - t0).
+    Step5,
     /// The smaller or larger of a and b; σ = a - b.
     Binary(Binary),
 }
@@ -25,8 +27,7 @@ impl Piecewise {
     /// The operation on one number, if it has a switch.
     pub fn unary(operation: Unary) -> Option<Self> {
         use Unary::{Abs, Floor, Motion, Sign, Step};
-        // the other motion laws are C²
-        let switches = matches!(operation, Abs | Floor | Sign | Step | Motion(MotionLaw::Harmonic));
+        let switches = matches!(operation, Abs | Floor | Sign | Step | Motion(_));
         switches.then_some(Self::Unary(operation))
     }
 
@@ -40,6 +41,7 @@ impl Piecewise {
         match self {
             Self::Choose(_) => 3,
             Self::Unary(_) => 1,
+            Self::Step5 => 5,
             Self::Binary(_) => 2,
         }
     }
@@ -48,7 +50,18 @@ impl Piecewise {
     pub fn arguments(self) -> usize {
         match self {
             Self::Choose(_) => 1,
+            Self::Step5 => 4,
             other => other.operands(),
+        }
+    }
+
+    /// Whether the value is C² where the piece changes. The error estimate of a step sees it then, but may miss a short
+    /// pulse.
+    pub fn is_smooth(self) -> bool {
+        match self {
+            Self::Unary(Unary::Motion(law)) => law != MotionLaw::Harmonic,
+            Self::Step5 => true,
+            _ => false,
         }
     }
 
@@ -57,6 +70,7 @@ impl Piecewise {
         match self {
             Self::Choose(_) | Self::Unary(_) => operands[0],
             Self::Binary(_) => operands[0] - operands[1],
+            Self::Step5 => (operands[0] - operands[1]) / (operands[3] - operands[1]),
         }
     }
 
@@ -64,7 +78,7 @@ impl Piecewise {
     pub fn boundaries(self) -> Boundaries {
         match self {
             Self::Unary(Unary::Floor) => Boundaries::Integers,
-            Self::Unary(Unary::Motion(_)) => {
+            Self::Unary(Unary::Motion(_)) | Self::Step5 => {
                 Boundaries::Knots(Arc::new(Knots::new(vec![0.0, 1.0], None)))
             }
             _ => Boundaries::Zero,
@@ -77,6 +91,10 @@ impl Piecewise {
             Self::Choose(relation) => relation.choose(x[0], x[1], x[2]),
             Self::Unary(operation) => operation.apply(x[0]),
             Self::Binary(operation) => operation.apply(x[0], x[1]),
+            Self::Step5 => {
+                let rise = Unary::Motion(MotionLaw::Poly345).apply(self.function(x));
+                x[2] + (x[4] - x[2]) * rise
+            }
         }
     }
 
@@ -87,6 +105,10 @@ impl Piecewise {
             Self::Unary(Unary::Abs) => S::constant(piece) * x[0],
             Self::Unary(Unary::Motion(law)) if piece == 0.0 => law.rise(x[0]),
             Self::Unary(operation) => operation.apply(S::constant(piece)),
+            Self::Step5 if piece == 0.0 => {
+                x[2] + (x[4] - x[2]) * MotionLaw::Poly345.rise(self.function(x))
+            }
+            Self::Step5 => x[if piece < 0.0 { 2 } else { 4 }],
             Self::Binary(operation) => {
                 let first = (operation == Binary::Max) == (piece > 0.0);
                 x[usize::from(!first)]

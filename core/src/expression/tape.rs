@@ -1,6 +1,6 @@
 //! A compiled expression: instructions for a stack of operands.
 
-use super::operation::{step5, Binary, Relation, Unary};
+use super::operation::{Binary, Relation, Unary};
 use super::switch::{Boundaries, Piecewise};
 use super::table::Table;
 use super::{Symbol, MAX_OPERANDS};
@@ -25,8 +25,6 @@ pub(super) enum Instruction {
     Guard,
     /// Replaces the operands of an operation that has a switch.
     Piecewise(Piecewise),
-    /// Replaces (t, t0, y0, t1, y1) by the rise.
-    Step5,
     /// Replaces x by the value of a table, by its place among those of the tape.
     Table(usize),
 }
@@ -40,7 +38,6 @@ impl Instruction {
             Self::Binary(_) => 2,
             Self::Guard => 3,
             Self::Piecewise(operation) => operation.operands(),
-            Self::Step5 => 5,
         }
     }
 }
@@ -132,6 +129,8 @@ pub struct Switch {
     pub state: bool,
     /// Whether its function reads a table.
     pub table: bool,
+    /// Whether the expression is C² where the piece changes.
+    pub smooth: bool,
 }
 
 impl Tape {
@@ -215,7 +214,6 @@ impl Tape {
                         false => operation.value_on(piece, operands),
                     }
                 }
-                Instruction::Step5 => step5(std::array::from_fn(|k| stack[first + k])),
                 Instruction::Table(k) => {
                     let (table, x) = (&self.tables[k], stack[first]);
                     look(Seen::Table(table, x));
@@ -242,14 +240,15 @@ impl Tape {
         self.switches = self.code.iter().filter(|code| self.switch_of(code).is_some()).count();
     }
 
-    /// The boundaries of the switch of an instruction, and the number of operands on which its function depends.
-    fn switch_of(&self, instruction: &Instruction) -> Option<(Boundaries, usize)> {
+    /// The boundaries of the switch of an instruction, the number of operands on which its function depends, and whether
+    /// it is smooth.
+    fn switch_of(&self, instruction: &Instruction) -> Option<(Boundaries, usize, bool)> {
         match *instruction {
             Instruction::Piecewise(operation) => {
-                Some((operation.boundaries(), operation.arguments()))
+                Some((operation.boundaries(), operation.arguments(), operation.is_smooth()))
             }
             Instruction::Table(k) => {
-                self.tables[k].knots().map(|knots| (Boundaries::Knots(Arc::clone(knots)), 1))
+                self.tables[k].knots().map(|knots| (Boundaries::Knots(Arc::clone(knots)), 1, false))
             }
             _ => None,
         }
@@ -264,9 +263,9 @@ impl Tape {
         };
         for instruction in &self.code {
             let operands = stack.split_off(stack.len() - instruction.operands());
-            if let Some((boundaries, arguments)) = self.switch_of(instruction) {
+            if let Some((boundaries, arguments, smooth)) = self.switch_of(instruction) {
                 let [time, state, table] = any(&operands[..arguments]);
-                switches.push(Switch { boundaries, time, state, table });
+                switches.push(Switch { boundaries, time, state, table, smooth });
             }
             stack.push(match instruction {
                 Instruction::Load(Symbol::Time) => [true, false, false],

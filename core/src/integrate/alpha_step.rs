@@ -32,6 +32,8 @@ use super::right_hand_side::all_finite;
 
 /// Largest number of iterations with one matrix.
 const MOST: usize = 10;
+/// Largest number of matrices in one step.
+const MATRICES: usize = 3;
 /// A matrix of an earlier step is renewed if it reduces the error by less.
 const SLOW: f64 = 0.2;
 /// Steps that differ by less share a matrix: differences of times are subject to rounding.
@@ -175,14 +177,22 @@ impl AlphaStep {
         }
         self.predict(h);
         system.linearize(t + h, self.end.iterate());
-        let factored = system.factor(self.coefficients(h));
-        self.factored = factored.then_some(h);
-        self.singular = !factored;
-        let converged = factored && self.newton(system, (t, h), scale, 0.9);
-        if !converged {
-            self.factored = None;
+        for _ in 0..MATRICES {
+            let factored = system.factor(self.coefficients(h));
+            self.factored = factored.then_some(h);
+            self.singular = !factored;
+            if factored && self.newton(system, (t, h), scale, 0.9) {
+                return true;
+            }
+            let ImplicitState { q, v, a, lam, .. } = &self.end;
+            if !factored || ![q, v, a, lam].into_iter().all(|x| all_finite(x)) {
+                break;
+            }
+            // forces may have a kink between the first guess and the end
+            system.linearize(t + h, self.end.iterate());
         }
-        converged
+        self.factored = None;
+        false
     }
 
     /// First guess: v̇ and ż are extrapolated.

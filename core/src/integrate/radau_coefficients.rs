@@ -53,8 +53,8 @@ pub(super) const ERROR: [f64; 3] =
 /// Degree of the continuous extension.
 pub(super) const DEGREE: usize = 4;
 
-/// Coefficients of θ … θ⁴ for the rows: v at the beginning and at the stages for q, which is the integral
-/// of the cubic through them; derivatives at the stages for the rest, the integral of the parabola
+/// Coefficients of θ … θ⁴ for the rows: derivatives at the beginning and at the stages for q and the quadratures, which
+/// are the integrals of the cubic through them; derivatives at the stages for the rest, the integral of the parabola
 /// through them; and 3θ² - 2θ³ for the jump of a projection.
 pub(super) static EXTENSION: LazyLock<[f64; 8 * DEGREE]> = LazyLock::new(|| {
     let mut table = [0.0; 8 * DEGREE];

@@ -340,16 +340,18 @@ impl RadauStep {
     /// Rows of the interpolant of y = (q, v, z, quadratures), except the last.
     pub fn interpolant_rows(&self, rows: &mut [f64]) {
         let ImplicitState { q, z, powers, .. } = &self.start;
-        let (n, states) = (q.len(), z.len());
-        let len = 2 * n + states + powers.len();
+        let (n, works) = (q.len(), 2 * q.len() + z.len());
+        let len = works + powers.len();
         rows.fill(0.0);
         rows[..n].copy_from_slice(&self.start.v);
+        rows[works..len].copy_from_slice(powers);
         for (i, stage) in self.stages.iter().enumerate() {
-            rows[(1 + i) * len..][..n].copy_from_slice(&stage.v);
-            let rest = &mut rows[(4 + i) * len..][n..len];
+            let integrated = &mut rows[(1 + i) * len..][..len];
+            integrated[..n].copy_from_slice(&stage.v);
+            integrated[works..].copy_from_slice(&stage.powers);
+            let rest = &mut rows[(4 + i) * len..][n..works];
             rest[..n].copy_from_slice(&stage.a);
-            rest[n..n + states].copy_from_slice(&stage.dz);
-            rest[n + states..].copy_from_slice(&stage.powers);
+            rest[n..].copy_from_slice(&stage.dz);
         }
     }
 

@@ -187,6 +187,9 @@ impl<S: Real> Real for Jet<S> {
     fn largest_magnitude(self) -> f64 {
         self.value.largest_magnitude()
     }
+    fn of_lanes(values: [f64; 4]) -> Self {
+        Self::lift(S::of_lanes(values))
+    }
     fn in_lanes(self) -> [f64; 4] {
         self.value.in_lanes()
     }

@@ -103,7 +103,7 @@ impl Lanes {
         ];
         columns.map(Self::new)
     }
-    /// -0, whose addition changes no number, not even -0. Compilers do not know its value.
+    /// -0, whose addition changes no number, not even -0. Its value is hidden from compilers.
     #[inline(always)]
     fn nothing() -> Self {
         std::hint::black_box(Self::constant(-0.0))
@@ -254,6 +254,9 @@ impl Real for Lanes {
     fn least_magnitude(self) -> f64 {
         let [a, b, c, d] = self.0.abs().to_array();
         a.min(b).min(c.min(d))
+    }
+    fn of_lanes(values: [f64; 4]) -> Self {
+        Self::new(values)
     }
     fn in_lanes(self) -> [f64; 4] {
         self.to_array()

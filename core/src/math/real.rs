@@ -66,6 +66,10 @@ pub trait Real:
     fn largest_magnitude(self) -> f64;
     /// The value in each lane, derivatives ignored; a scalar without lanes repeats its value.
     fn in_lanes(self) -> [f64; 4];
+    /// The scalar with these values in its lanes, without derivatives; the first one for a scalar without lanes.
+    fn of_lanes(values: [f64; 4]) -> Self {
+        Self::constant(values[0])
+    }
     /// Whether every part, derivatives included, is finite.
     fn is_finite(self) -> bool;
     /// A function that is known by its values alone; derivatives are differences. NaN for a scalar that has no values.

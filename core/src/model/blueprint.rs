@@ -3,7 +3,7 @@
 use super::definition::{Entry, Value};
 use super::doubt::Doubt;
 use super::functions::Functions;
-use super::items::Body;
+use super::items::{Body, ForceMode};
 use super::link::Linker;
 use super::problem::Problem;
 use super::scope::{states, Quantities, Scope};
@@ -37,6 +37,8 @@ pub struct Blueprint {
     pub constraints: Vec<(String, Group, Constraint<Tape>)>,
     /// Forces, with their first-order states.
     pub forces: Vec<(String, &'static [OwnState], ForceElement<Tape>)>,
+    /// The modes of forces in a phase of a run; those that hold have the last constraints, in this order.
+    pub modes: Vec<ForceMode>,
     /// Laws that a host computes.
     pub functions: Option<Functions>,
     /// Angles that look like degrees.

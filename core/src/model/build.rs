@@ -41,6 +41,7 @@ pub fn build(
         forces: Vec::new(),
         functions: definition.functions.clone(),
         doubts: Vec::new(),
+        modes: Vec::new(),
     };
     for (group, entries) in [
         (Group::Joints, &definition.joints),

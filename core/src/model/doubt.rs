@@ -1,11 +1,11 @@
 //! Angles that look like degrees.
 //!
 //! Angles without a unit are in rad. A plain number of 10 or more with at most one decimal, such as 70 or 22.5, is more
-//! likely meant in degrees. A formula such as `4*pi` and a computed number such as 12.566370614359172 are not doubted.
+//! likely meant in degrees. A formula such as `4*pi` and a computed number such as 12.566370614359172 cause no warning.
 
 use super::definition::Value;
 
-/// Least magnitude of a number that is doubted, rad; a turn and a half are less.
+/// Least magnitude of a number that causes a warning, rad; a turn and a half are less.
 const LEAST: f64 = 10.0;
 
 /// An angle that looks like degrees.

@@ -3,7 +3,7 @@
 use super::body_shape::{BodyShape, Weighed};
 use super::curves::Curves;
 use super::outline::Outline;
-use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group, JointId, OwnState};
+use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group, JointId, Mode, OwnState};
 use crate::expression::Tape;
 use crate::math::{Local, Real};
 
@@ -114,6 +114,19 @@ pub struct ConstraintItem<S = f64> {
     pub curve_switch: Option<usize>,
 }
 
+/// The mode of a force in a phase.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ForceMode {
+    /// The place of the force in the model.
+    pub force: usize,
+    /// Its mode.
+    pub mode: Mode,
+    /// The value of the coordinate that friction holds.
+    pub value: f64,
+    /// The rounding error of the gap or force of a contact, below zero by which it changes its mode.
+    pub slack: f64,
+}
+
 /// A force in a model.
 #[derive(Clone, Debug)]
 pub struct ForceItem<S = f64> {
@@ -131,4 +144,9 @@ pub struct ForceItem<S = f64> {
     pub law: Option<Box<ForceElement<Tape>>>,
     /// The first switch of the element itself, without those of its laws, in [`Model::switches`](super::Model).
     pub first_switch: usize,
+    /// How it acts in this phase of a run.
+    pub mode: Mode,
+    /// The row of λ of the equation by which it holds. If this equation is not in the model, it follows all rows of the
+    /// model, in the order of the forces with modes.
+    pub held_row: Option<usize>,
 }

@@ -2,6 +2,7 @@
 
 use super::definition::{Entry, Value};
 use super::items::Body;
+use super::law_faults::WITHOUT_FORMULA;
 use super::problem::Problem;
 use super::problems::MOST_REPORTED;
 use super::scope::{LawOf, Quantities, Reach, Scope};
@@ -200,6 +201,9 @@ impl<'a> Linker<'a> {
             Some(of) if moves(&of) => Some(of),
             Some(_) => self.report(field, format!("'{text}' does not move"), None),
             None => {
+                if let Some(message) = self.quantities.refusal(text) {
+                    return self.report(field, message, Some(WITHOUT_FORMULA.to_string()));
+                }
                 let (owner, word) = text.rsplit_once('.').unwrap_or(("", text));
                 let message = format!("'{word}' is not a position quantity of '{owner}'");
                 let plural = format!("position quantities of {owner}");

@@ -4,9 +4,10 @@ use super::blueprint::Blueprint;
 use super::functions::Functions;
 use super::items::{Body, ConstraintItem, ForceItem};
 use super::layout::{StateLayout, Touched};
+use super::modes;
 use super::switch::{Owner, Switch};
 use super::variable::Dependence;
-use crate::elements::{BodyId, Group};
+use crate::elements::{BodyId, Group, Mode};
 use crate::expression::{Tape, Values};
 use crate::math::{Lift, Real, Vec2};
 use std::sync::Arc;
@@ -91,10 +92,9 @@ impl<S: Real> Model<S> {
                 curve_switch: None,
             });
         }
-        let forces = forces(blueprint, value, &mut switches);
+        let mut forces = forces(blueprint, value, &mut switches);
         curve_switches(&mut constraints, &mut switches);
         let bodies: Vec<_> = blueprint.bodies.iter().map(|b| b.map(value).weighed()).collect();
-        let gravity = Vec2::new(value(&blueprint.gravity[0]), value(&blueprint.gravity[1]));
         let unknowns = bodies[1..].iter().map(|body| if body.turns { 3 } else { 2 });
         let states = forces.iter().map(|item| {
             let sampled = blueprint.functions.iter().flat_map(Functions::sampled).enumerate();
@@ -102,10 +102,11 @@ impl<S: Real> Model<S> {
             (item.states.len(), own.map(|(at, _)| at).collect())
         });
         let layout = StateLayout::new(unknowns, &touched, states);
+        modes::set(&mut forces, &constraints, &layout, &blueprint.modes);
         Self {
             blueprint: Arc::clone(blueprint),
             parameters: parameters.to_vec(),
-            gravity,
+            gravity: Vec2::new(value(&blueprint.gravity[0]), value(&blueprint.gravity[1])),
             driven: constraints.iter().any(|item| item.driven),
             bodies,
             layout,
@@ -163,6 +164,8 @@ fn forces<S: Real>(
             element,
             law,
             first_switch,
+            mode: Mode::Open,
+            held_row: None,
         }
     });
     items.collect()

@@ -1,5 +1,8 @@
 //! The places of names, so that a name is found at once in a large model.
 
+use super::definition::{Definition, Value};
+use super::variable::Variable;
+use crate::elements::own_of;
 use std::collections::HashMap;
 
 /// The places of the names of each kind.
@@ -8,6 +11,8 @@ pub(super) struct Places {
     pub parameters: HashMap<String, usize>,
     pub bodies: HashMap<String, usize>,
     pub states: HashMap<String, usize>,
+    /// Internal coordinates of joints and their rates, such as `cam.u` and `cam.u_rate`.
+    pub internals: HashMap<String, Variable>,
     /// Joints and drivers as they are written.
     pub constraints: HashMap<String, usize>,
     /// Forces as they are written.
@@ -18,5 +23,24 @@ pub(super) struct Places {
 pub(super) fn places<'n>(names: impl Iterator<Item = &'n String>) -> HashMap<String, usize> {
     let mut places = HashMap::new();
     names.enumerate().for_each(|(k, name)| _ = places.entry(name.clone()).or_insert(k));
+    places
+}
+
+/// The internal coordinates of all joints and their rates, in the order of the layout.
+pub(super) fn internals(definition: &Definition) -> HashMap<String, Variable> {
+    let mut places = HashMap::new();
+    let mut place = 0;
+    for entry in &definition.joints {
+        let Some(Value::Text(kind)) = entry.get("type") else { continue };
+        let count = own_of(kind);
+        for k in 1..=count {
+            let number = if count == 1 { String::new() } else { k.to_string() };
+            for (rate, suffix) in [(false, ""), (true, "_rate")] {
+                let name = format!("{}.u{number}{suffix}", entry.name);
+                places.insert(name, Variable::Internal { place, rate });
+            }
+            place += 1;
+        }
+    }
     places
 }

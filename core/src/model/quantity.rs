@@ -73,7 +73,7 @@ impl<'a> Elements<'a> {
 impl Quantities for Elements<'_> {
     fn formula(&self, name: &str, rates: bool) -> Option<Tape> {
         let (owner, word) = name.rsplit_once('.')?;
-        let owner = self.owner(owner)?;
+        let owner = self.owner(owner).filter(Owner::has_formulas)?;
         let (k, order) = place(owner.measured(), word)?;
         let highest = usize::from(rates);
         (order <= highest).then(|| self.formulas.compile(&owner, k, order).0)
@@ -81,7 +81,7 @@ impl Quantities for Elements<'_> {
 
     fn followed(&self, name: &str) -> Option<Followed<Tape>> {
         let (owner, word) = name.rsplit_once('.')?;
-        let owner = self.owner(owner)?;
+        let owner = self.owner(owner).filter(Owner::has_formulas)?;
         let (k, order) = place(owner.measured(), word)?;
         if order > 0 {
             return None;
@@ -91,9 +91,16 @@ impl Quantities for Elements<'_> {
 
     fn gradient(&self, name: &str) -> Option<[[Tape; 3]; 2]> {
         let (owner, word) = name.rsplit_once('.')?;
-        let owner = self.owner(owner)?;
+        let owner = self.owner(owner).filter(Owner::has_formulas)?;
         let (k, _) = place(owner.measured(), word)?;
         Some(self.formulas.gradient_of(&owner, k))
+    }
+
+    fn refusal(&self, name: &str) -> Option<String> {
+        let (owner, word) = name.rsplit_once('.')?;
+        let found = self.owner(owner).filter(|found| !found.has_formulas())?;
+        place(found.measured(), word)?;
+        Some(format!("'{name}' has no formula: the nearest point of the curve is searched"))
     }
 
     fn offered(&self, owner: &str) -> Option<Vec<&'static str>> {
@@ -138,7 +145,7 @@ pub fn quantity_of(blueprint: &Blueprint, owner: &str, word: &str) -> Option<Off
     let name = format!("{owner}.{word}");
     let owner = linked(blueprint, owner)?;
     Some(match place(owner.measured(), word) {
-        Some((k, order @ 0..=1)) => {
+        Some((k, order @ 0..=1)) if owner.has_formulas() => {
             let unit = owner.measured()[k].unit_of(order);
             Offered::Position(formulas.followed(&owner, k, &name), order == 1, unit)
         }
@@ -163,5 +170,5 @@ fn linked(blueprint: &Blueprint, name: &str) -> Option<Owner<Tape>> {
     }
     let mut forces = blueprint.forces.iter();
     let (.., element) = forces.find(|(known, ..)| known == name)?;
-    Some(Owner::Force(element.map(fixed)))
+    Some(Owner::Force(if element.follows() { element.clone() } else { element.map(fixed) }))
 }

@@ -7,7 +7,7 @@ use crate::elements::{
     PointOn, QuantityOf,
 };
 use crate::expression::{Symbol, Tape, Values};
-use crate::math::{Dual, Jet, Lift, Local, Pose, Real, Rotation, Vec2};
+use crate::math::{Dual, Jet, Lift, Local, Pose, Real, Rotation, Twist, Vec2};
 use crate::symbolic::{record, Name, Record, Symbolic};
 
 /// An owner of quantities.
@@ -41,6 +41,14 @@ impl<S> Owner<S> {
             Self::Point(_) => &OF_POINT,
             Self::Constraint(element) => element.measured(),
             Self::Force(element) => element.measured(),
+        }
+    }
+
+    /// Whether its quantities are formulas of the coordinates.
+    pub fn has_formulas(&self) -> bool {
+        match self {
+            Self::Force(element) => element.has_formulas(),
+            _ => true,
         }
     }
 
@@ -82,18 +90,42 @@ impl<S: Real> Owner<S> {
     }
 }
 
-/// Parameters as symbols; fields of elements that are laws are not read.
-struct Parameters<'a>(&'a [Symbolic]);
+/// Parameters, and the coordinates of the bodies of an owner; other laws in its fields are not read.
+struct Known<'a, S, T> {
+    parameters: &'a [S],
+    bodies: &'a [BodyId],
+    poses: &'a [Pose<T>],
+}
 
-impl Values<Symbolic> for Parameters<'_> {
-    fn parameter(&self, k: usize) -> Symbolic {
-        self.0[k]
+impl<S: Real, T: Lift<S>> Values<T> for Known<'_, S, T> {
+    fn parameter(&self, k: usize) -> T {
+        T::lift(self.parameters[k])
     }
-    fn time(&self) -> Symbolic {
-        Symbolic::constant(f64::NAN)
+    fn time(&self) -> T {
+        T::constant(f64::NAN)
     }
-    fn variable(&self, _: usize) -> Symbolic {
-        Symbolic::constant(f64::NAN)
+    fn variable(&self, k: usize) -> T {
+        let Variable::Coordinate(body, of) = Variable::at(k) else { return self.time() };
+        match self.bodies.iter().position(|own| *own == body) {
+            Some(place) if !of.is_rate() => of.of(&self.poses[place], &Twist::zero()),
+            _ => self.time(),
+        }
+    }
+}
+
+/// An owner as symbols.
+struct Recorded<'a> {
+    owner: &'a Owner<Tape>,
+    parameters: Vec<Symbolic>,
+    bodies: Vec<BodyId>,
+    poses: Vec<Pose<Jet<Symbolic>>>,
+}
+
+impl Recorded<'_> {
+    /// Over a scalar, for poses of its bodies.
+    fn over<T: Lift<Symbolic>>(&self, poses: &[Pose<T>]) -> Owner<T> {
+        let known = Known { parameters: &self.parameters, bodies: &self.bodies, poses };
+        self.owner.map(&mut |tape| tape.evaluate(&known))
     }
 }
 
@@ -113,23 +145,24 @@ impl Formulas {
         k: usize,
         order: usize,
     ) -> (Tape, [Attachment<Tape>; 2]) {
-        self.recorded(owner, |poses, over, tape| {
-            let lifted = over.map(&mut |x| Jet::lift(*x));
-            let values = lifted.measure(&At { bodies: poses, own: &[], t: Jet::zero() });
+        self.recorded(owner, |own, tape| {
+            let (poses, over) = (&own.poses, own.over(&own.poses));
+            let values = over.measure(&At { bodies: poses, own: &[], t: Jet::zero() });
             let of = if order == 0 { values[k].value } else { values[k].rate };
             let ends = [0, 1].map(|body| {
                 let Attachment { s, axis } = over.attachment(body);
-                Attachment { s: Local { x: tape(s.x), y: tape(s.y) }, axis: tape(axis) }
+                let [x, y, axis] = [s.x, s.y, axis].map(|x| tape(x.value));
+                Attachment { s: Local { x, y }, axis }
             });
             (tape(of), ends)
         })
     }
 
-    /// Gives the poses of the bodies of an owner and the owner as symbols, and the way from a symbol to a formula.
+    /// Gives an owner as symbols, and the way from a symbol to a formula.
     fn recorded<R>(
         &self,
         owner: &Owner<Tape>,
-        f: impl FnOnce(&[Pose<Jet<Symbolic>>], &Owner<Symbolic>, &dyn Fn(Symbolic) -> Tape) -> R,
+        f: impl FnOnce(&Recorded<'_>, &dyn Fn(Symbolic) -> Tape) -> R,
     ) -> R {
         record(|record| {
             let mut symbols = Vec::new();
@@ -141,20 +174,19 @@ impl Formulas {
             };
             let parameters: Vec<Symbolic> =
                 (0..self.parameters).map(|k| symbol(record, None, Symbol::Parameter(k))).collect();
-            let poses: Vec<Pose<Jet<Symbolic>>> = owner
-                .bodies()
-                .into_iter()
-                .map(|body| self.pose(body, &mut |meaning| symbol(record, None, meaning)))
+            let bodies = owner.bodies();
+            let poses: Vec<Pose<Jet<Symbolic>>> = bodies
+                .iter()
+                .map(|body| self.pose(*body, &mut |meaning| symbol(record, None, meaning)))
                 .collect();
-            let over = owner.map(&mut |tape| tape.evaluate(&Parameters(&parameters)));
-            f(&poses, &over, &|x| record.tape(x, &symbols))
+            let own = Recorded { owner, parameters, bodies, poses };
+            f(&own, &|x| record.tape(x, &symbols))
         })
     }
 
     /// The derivatives of the quantity of an owner at a place by x, y and angle of its bodies i and j.
     pub fn gradient_of(&self, owner: &Owner<Tape>, k: usize) -> [[Tape; 3]; 2] {
-        self.recorded(owner, |poses, over, tape| {
-            let lifted = over.map(&mut |x| Dual::lift(*x));
+        self.recorded(owner, |own, tape| {
             [0, 1].map(|seed| {
                 let pose = |(body, pose): (usize, &Pose<Jet<Symbolic>>)| {
                     let pose = Pose {
@@ -172,9 +204,9 @@ impl Formulas {
                     }
                 };
                 let bodies: Vec<Pose<ByThree<Symbolic>>> =
-                    poses.iter().enumerate().map(pose).collect();
+                    own.poses.iter().enumerate().map(pose).collect();
                 let at = At { bodies: &bodies, own: &[], t: Dual::zero() };
-                lifted.measure(&at)[k].slope.map(tape)
+                own.over(&bodies).measure(&at)[k].slope.map(tape)
             })
         })
     }

@@ -4,9 +4,11 @@ use super::definition::Value;
 use super::scope::Reach;
 use super::unit_check::ANY_UNIT;
 use crate::elements::{
-    Acted, BodyId, CurveOn, Default, Field, Followed, JointId, PointOn, Source, UNITS_OF_EQUATIONS,
+    types_that_rub, Acted, Bearing, BodyId, CurveOn, Default, Field, Followed, JointId, PointOn,
+    Source, UNITS_OF_EQUATIONS,
 };
 use crate::expression::Tape;
+use std::sync::Arc;
 
 use super::link::{did_you_mean, Linker};
 
@@ -88,6 +90,24 @@ impl Source for Linker<'_> {
             did_you_mean(name, &names, "joints")
         });
         self.report(field, format!("unknown joint '{name}'"), hint.flatten())
+    }
+
+    fn bearing(&mut self, field: &Field) -> Option<Bearing<Tape>> {
+        let joint = self.joint(field)?;
+        let (name, _, element) = &self.constraints[joint.0];
+        if !element.rubs() {
+            let kind = element.kind();
+            let message = format!("'{name}' is of type '{kind}', in which there is no friction");
+            let hint = format!("the types with friction are: {}", types_that_rub().join(", "));
+            return self.report(field, message, Some(hint));
+        }
+        let quantity = element.measured().first()?.names[0];
+        let found = self.quantities.followed(&format!("{name}.{quantity}"));
+        let Some(Followed::Quantity(of)) = found else {
+            return self.report(field, format!("the bodies of '{name}' do not move"), None);
+        };
+        let holds_angle = element.equations().iter().any(|equation| equation.unit == "rad");
+        Some(Bearing { joint, holds_angle, ends: of.ends.clone(), coordinate: Arc::from(of) })
     }
 
     fn number(&mut self, field: &Field) -> Option<Tape> {

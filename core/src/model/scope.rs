@@ -4,11 +4,12 @@ use super::body_fields::POINT_MASS;
 use super::definition::{Definition, Entry, Value};
 use super::doubt::Doubt;
 use super::functions::Functions;
-use super::places::{places, Places};
+use super::law_faults::{ambiguity, without_formula};
+use super::places::{internals, places, Places};
 use super::problem::Problem;
 use super::problems::MOST_REPORTED;
 use super::unit_check::check_unit;
-use super::variable::Variable;
+use super::variable::{Dependence, Variable};
 use crate::elements::{states_of, BodyId, Coordinate, Followed, Measured, OwnState};
 use crate::expression::{Expression, ExpressionError, Inferred, Names, Symbol, Table, Tape};
 use std::cell::RefCell;
@@ -65,6 +66,8 @@ pub trait Quantities {
     fn followed(&self, name: &str) -> Option<Followed<Tape>>;
     /// The derivatives of a position quantity by x, y and angle of its bodies i and j.
     fn gradient(&self, name: &str) -> Option<[[Tape; 3]; 2]>;
+    /// Why a quantity that exists has no formula.
+    fn refusal(&self, name: &str) -> Option<String>;
     /// The position quantities of a point or element; None if there is no such owner.
     fn offered(&self, owner: &str) -> Option<Vec<&'static str>>;
     /// Names for suggestions.
@@ -111,8 +114,12 @@ impl Names for Visible<'_> {
             return Some(Symbol::Time);
         }
         let variable = |variable: Variable| Some(Symbol::Variable(variable.index()));
-        if let Some(&k) = scope.places.states.get(name) {
-            return variable(Variable::State(k)).filter(|_| self.reach == Reach::State);
+        let of_state = || {
+            let state = scope.places.states.get(name).map(|k| Variable::State(*k));
+            state.or_else(|| scope.places.internals.get(name).copied())
+        };
+        if let Some(found) = of_state() {
+            return variable(found).filter(|_| self.reach == Reach::State);
         }
         let (body, coordinate) = name.rsplit_once('.')?;
         let body = scope.body(body).filter(|k| *k > 0)?;
@@ -151,6 +158,7 @@ impl Names for Visible<'_> {
         }
         if self.reach == Reach::State {
             known.extend(self.scope.states.iter().cloned());
+            known.extend(self.scope.places.internals.keys().cloned());
         }
         if let Some(law) = self.law {
             let orders = 1 + usize::from(self.reach == Reach::State);
@@ -197,6 +205,7 @@ impl Scope {
         scope.functions.clone_from(&definition.functions);
         let constraints = definition.joints.iter().chain(&definition.drivers);
         scope.places.constraints = places(constraints.map(|entry| &entry.name));
+        scope.places.internals = internals(definition);
         scope.places.forces = places(definition.forces.iter().map(|entry| &entry.name));
         scope
     }
@@ -287,13 +296,15 @@ impl Scope {
                 ..fault
             })?;
             if let Some(name) = names.ambiguous.take() {
-                return Err(ambiguity(text, &name, law));
+                return Err(ambiguity(text, &name, law.map_or("", |law| law.element)));
             }
             check_unit(&e, e.infer(&names, &|symbol| self.dimension(symbol))?, unit)?;
             Ok(tape)
         });
         parsed
             .map_err(|fault| {
+                let refusal = |name: &str| law.and_then(|law| law.quantities.refusal(name));
+                let fault = without_formula(text, fault, refusal);
                 let at = Problem::at(path, fault.message).within(fault.span);
                 problems.push(at.maybe_hint(fault.hint));
             })
@@ -325,6 +336,9 @@ impl Scope {
         let hint = match reach {
             Reach::Parameters => "only laws of drivers and forces may use t and the state",
             Reach::Curve => "a curve is fixed in its body: its formulas may use u and the parameters",
+            Reach::Positions if wide.iter().any(uses_internals) => {
+                "laws of forces, conditions and measures may use u and u_rate of a joint on a curve"
+            }
             Reach::Positions => {
                 "the law of a driver may use t and positions, not velocities: it would not be holonomic"
             }
@@ -376,10 +390,9 @@ impl Scope {
     }
 }
 
-/// The error for a name that is a parameter and a quantity of the element.
-fn ambiguity(text: &str, name: &str, law: Option<LawOf<'_>>) -> ExpressionError {
-    let element = law.map_or("", |law| law.element);
-    let message = format!("'{name}' is a parameter and a quantity of '{element}'");
-    let hint = format!("rename the parameter, or write '{element}.{name}' for the quantity");
-    ExpressionError::new(0..text.len(), message).hint(hint)
+/// Whether a law uses internal coordinates of joints.
+fn uses_internals(tape: &Tape) -> bool {
+    let mut depends = Dependence::default();
+    depends.add(tape);
+    !depends.internals.is_empty()
 }

@@ -25,26 +25,35 @@ pub struct Switch {
     pub state: bool,
     /// Whether it belongs to a law, not to the element itself.
     pub law: bool,
+    /// Whether the law is C² there: steps end at it only if it depends on the time alone.
+    pub smooth: bool,
 }
 
 impl Switch {
     /// Of an element itself: it may depend on everything.
     pub(super) fn of_element(owner: Owner) -> Self {
-        Self { owner, boundaries: Boundaries::Zero, time: true, state: true, law: false }
+        Self {
+            owner,
+            boundaries: Boundaries::Zero,
+            time: true,
+            state: true,
+            law: false,
+            smooth: false,
+        }
     }
 
     /// Of the curve of a joint, at its breaks.
     pub(super) fn of_curve(owner: Owner, breaks: Arc<Knots>) -> Self {
         let boundaries = Boundaries::Knots(breaks);
-        Self { owner, boundaries, time: false, state: true, law: false }
+        Self { owner, boundaries, time: false, state: true, law: false, smooth: false }
     }
 
     /// Adds the switches of a law to the list; returns the law with their indices.
     pub(super) fn number(tape: &Tape, owner: Owner, switches: &mut Vec<Self>) -> Tape {
         let numbered = tape.with_first_switch(switches.len());
         switches.extend(tape.switches().into_iter().map(|switch| {
-            let crate::expression::Switch { boundaries, time, state, .. } = switch;
-            Self { owner, boundaries, time, state, law: true }
+            let crate::expression::Switch { boundaries, time, state, smooth, .. } = switch;
+            Self { owner, boundaries, time, state, law: true, smooth }
         }));
         numbered
     }

@@ -12,15 +12,23 @@ pub enum Variable {
     State(usize),
     /// A law that a host computes, by its number.
     Function(usize),
+    /// An internal coordinate of a joint, or its rate, by its place among those of all joints.
+    Internal {
+        /// The place.
+        place: usize,
+        /// Whether it is the rate.
+        rate: bool,
+    },
 }
 
 impl Variable {
-    /// The index in a formula: even for coordinates, six to a body; odd for states and functions.
+    /// The index in a formula: even for coordinates, six to a body; odd for all others.
     pub fn index(self) -> usize {
         match self {
             Self::Coordinate(body, coordinate) => 2 * (6 * body.0 + coordinate as usize),
             Self::State(k) => 4 * k + 1,
-            Self::Function(k) => 4 * k + 3,
+            Self::Function(k) => 8 * k + 3,
+            Self::Internal { place, rate } => 8 * (2 * place + usize::from(rate)) + 7,
         }
     }
 
@@ -29,7 +37,8 @@ impl Variable {
         match index % 2 {
             0 => Self::Coordinate(BodyId(index / 12), Coordinate::ALL[index / 2 % 6]),
             _ if index % 4 == 1 => Self::State(index / 4),
-            _ => Self::Function(index / 4),
+            _ if index % 8 == 3 => Self::Function(index / 8),
+            _ => Self::Internal { place: index / 16, rate: index / 8 % 2 == 1 },
         }
     }
 }
@@ -43,6 +52,8 @@ pub struct Dependence {
     pub bodies: Vec<BodyId>,
     /// On these first-order states, by their places in z.
     pub states: Vec<usize>,
+    /// On these internal coordinates of joints or their rates, by their places.
+    pub internals: Vec<usize>,
     /// On the whole state, by a function of a host.
     pub whole: bool,
 }
@@ -58,6 +69,7 @@ impl Dependence {
                     Variable::Coordinate(body, _) => self.bodies.push(body),
                     Variable::State(k) => self.states.push(k),
                     Variable::Function(_) => self.whole = true,
+                    Variable::Internal { place, .. } => self.internals.push(place),
                 },
             }
         }
@@ -65,7 +77,9 @@ impl Dependence {
 
     /// Whether anything varies.
     pub fn any(&self) -> bool {
-        self.time || self.whole || !self.bodies.is_empty() || !self.states.is_empty()
+        let of_state =
+            !self.bodies.is_empty() || !self.states.is_empty() || !self.internals.is_empty();
+        self.time || self.whole || of_state
     }
 }
 
@@ -78,9 +92,9 @@ mod tests {
         let mut seen = std::collections::BTreeSet::new();
         for k in 0..20 {
             let coordinates = Coordinate::ALL.map(|c| Variable::Coordinate(BodyId(k), c));
-            for variable in
-                coordinates.into_iter().chain([Variable::State(k), Variable::Function(k)])
-            {
+            let internals = [false, true].map(|rate| Variable::Internal { place: k, rate });
+            let others = [Variable::State(k), Variable::Function(k)].into_iter().chain(internals);
+            for variable in coordinates.into_iter().chain(others) {
                 assert_eq!(Variable::at(variable.index()), variable);
                 assert!(seen.insert(variable.index()), "{variable:?}");
             }

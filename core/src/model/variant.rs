@@ -1,9 +1,11 @@
-//! The same mechanism with other values of some parameters, or without some of its drivers.
+//! The same mechanism with other values of some parameters, without some of its drivers, or with forces in given modes.
 
 use super::blueprint::Blueprint;
+use super::items::ForceMode;
 use super::model::Model;
 use super::problem::Problem;
 use super::{checks, parameters};
+use crate::elements::{Group, Mode};
 use crate::expression::Expression;
 use std::sync::Arc;
 
@@ -38,5 +40,36 @@ impl Model {
         let mut blueprint = Blueprint::clone(&self.blueprint);
         blueprint.constraints.retain(|(name, ..)| !drivers.contains(name));
         Self::new(&Arc::new(blueprint), &self.parameters)
+    }
+}
+
+impl Model {
+    /// The same model with forces in these modes.
+    pub fn in_modes(&self, modes: &[ForceMode]) -> Self {
+        let mut blueprint = Blueprint { modes: modes.to_vec(), ..(*self.blueprint).clone() };
+        for ForceMode { force, mode, value, .. } in modes {
+            let (name, _, element) = &self.blueprint.forces[*force];
+            let Mode::Holds(side) = mode else { continue };
+            let equation = element.holding(*side, *value);
+            let equation = equation.expect("a force that holds has an equation");
+            blueprint.constraints.push((format!("{name} (at rest)"), Group::Forces, equation));
+        }
+        Self::new(&Arc::new(blueprint), &self.parameters)
+    }
+}
+
+impl Model {
+    /// The same with the modes only: multipliers of forces that hold follow the rows of the model, for reports.
+    pub fn marked(&self, modes: &[ForceMode]) -> Self {
+        let blueprint = Blueprint { modes: modes.to_vec(), ..(*self.blueprint).clone() };
+        Self::new(&Arc::new(blueprint), &self.parameters)
+    }
+}
+
+impl<S> Model<S> {
+    /// The number of multipliers with those of the forces with modes, which follow the rows of the model.
+    pub fn n_multipliers(&self) -> usize {
+        let after = self.forces.iter().filter_map(|item| item.held_row);
+        after.map(|row| row + 1).max().unwrap_or(0).max(self.layout.n_rows)
     }
 }

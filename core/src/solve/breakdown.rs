@@ -40,6 +40,15 @@ pub enum Breakdown {
         /// The value or rate before and after.
         values: [f64; 2],
     },
+    /// Constant steps are too long for a contact that begins.
+    Unresolved {
+        /// The force.
+        force: usize,
+        /// About how long it lasts, s.
+        lasts: f64,
+        /// The step, s.
+        step: f64,
+    },
     /// The motion returns to this switch from both sides.
     Sliding(usize),
 }

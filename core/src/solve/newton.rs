@@ -74,7 +74,7 @@ pub enum Damping {
     },
 }
 
-/// When to be content, and when to give up.
+/// When the iteration has succeeded, and when it has failed.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Largest residual norm of a solution.

@@ -64,6 +64,29 @@ fn a_joint_with_a_law_of_time_and_a_driver() {
 }
 
 #[test]
+fn equal_positions_and_rates_with_other_accelerations() {
+    let drivers = [driver("one", "rod.angle", "1 + t^2"), driver("two", "pin.angle", "1 + 2*t^2")];
+    let failure = refused(&model(&rod(&drivers)), &[]);
+    assert_eq!(failure.fault, Fault::Rates);
+    assert_eq!(
+        failure.message,
+        "driver one and driver two contradict each other: where driver one holds, the acceleration of driver two is missed by 2 rad/s²"
+    );
+    // the same motion, once as an angle and once as a length
+    let laws = |more: &str| {
+        let length = format!("sqrt(5 - 4*cos(1 + t)){more}");
+        [driver("turn", "pin.angle", "1 + t"), driver("pull", "rope.length", &length)]
+    };
+    let failure = refused(&model(&rod(&laws(" + 0.3*t^2"))), &[]);
+    assert!(
+        failure.message.ends_with("the acceleration of driver pull is missed by 0.6 m/s²"),
+        "{failure}"
+    );
+    let failure = refused(&model(&rod(&laws(""))), &[]);
+    assert_eq!(failure.fault, Fault::Redundant, "{failure}");
+}
+
+#[test]
 fn equal_positions_with_other_rates() {
     let drivers = [driver("one", "rod.angle", "1 + t"), driver("two", "pin.angle", "1 + 3*t")];
     let failure = refused(&model(&rod(&drivers)), &[]);

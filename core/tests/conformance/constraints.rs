@@ -151,7 +151,7 @@ fn is_global_vector(c: &Constraint, at: &Participants) -> bool {
     as_a_vector(&here).is_some_and(|expected| worst(&there, &expected) < 1e-13)
 }
 
-/// A joint knows its bodies only by their relative positions. Each row stays the same in a common rigid
+/// A joint depends on its bodies only by their relative positions. Each row stays the same in a common rigid
 /// motion; the two rows of a global vector turn with it.
 #[test]
 fn a_rigid_motion_of_all_bodies_changes_no_row() {

@@ -3,7 +3,7 @@
 use crate::mechanisms::{close, worst, Random};
 use crate::samples::{forces, later, motion, random};
 use kempe::elements::forces::PointForce;
-use kempe::elements::{BodyId, ForceElement, Frame, Held, Nature, Situation};
+use kempe::elements::{BodyId, ForceElement, Frame, Held, Mode, Nature, Situation};
 use kempe::math::{Dual, Lanes, Lift, Motion, Real, Vec2, Wrench};
 
 fn each(mut check: impl FnMut(&ForceElement, [f64; 6], [f64; 6])) {
@@ -35,6 +35,8 @@ impl<S: Real> Two<S> {
             reaction: self.2,
             t: S::constant(0.7),
             held: Held::default(),
+            mode: Mode::Open,
+            multiplier: S::zero(),
         }
     }
 }

@@ -105,7 +105,9 @@ fn compare(c: &Constraint, formulas: &Formulas, mut check: impl FnMut(&str, f64,
 
 #[test]
 fn printed_equations_give_the_numbers_of_the_element() {
-    for c in constraints() {
+    let listed = catalogue();
+    let written = |c: &Constraint| listed.iter().any(|(_, table)| table.name == c.kind());
+    for c in constraints().into_iter().filter(written) {
         let formulas = of_element(&c, Form::Expression);
         compare(&c, &formulas, |what, printed, number| {
             close(&format!("{what} of {}", c.kind()), printed, number, 1e-12);

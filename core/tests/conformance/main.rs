@@ -14,6 +14,8 @@ mod formulas;
 mod laws;
 mod mass;
 mod pins;
+mod rubbing;
 mod samples;
 mod spring_damper;
 mod tables;
+mod touching;

@@ -19,12 +19,12 @@ use kempe::elements::{
 use kempe::expression::{Expression, Names, Scope, Symbol, Tape};
 use kempe::math::{Interpolation, Local, Motion, Pose, Real, Twist, Vec2};
 
-fn on(body: usize, x: f64, y: f64) -> PointOn {
+pub fn on(body: usize, x: f64, y: f64) -> PointOn {
     PointOn { body: BodyId(body), s: Local::new(x, y) }
 }
 
 /// A curve of body 2 in one of its forms.
-fn curve(form: &str) -> CurveOn {
+pub fn curve(form: &str) -> CurveOn {
     let local = |x, y| Local::new(x, y);
     let curve = match form {
         "circle" => Curve::Circle { center: local(0.3, -0.2), radius: 0.8 },
@@ -67,7 +67,16 @@ impl Names for WithU<'_> {
 
 /// Joints and drivers; drivers act from ground.
 pub fn constraints() -> Vec<Constraint> {
-    [pins_and_slides(), wheels(), on_curves(), by_formulas(), of_tests(), drivers()].concat()
+    [
+        pins_and_slides(),
+        wheels(),
+        on_curves(),
+        crate::touching::resting(),
+        by_formulas(),
+        of_tests(),
+        drivers(),
+    ]
+    .concat()
 }
 
 fn pins_and_slides() -> Vec<Constraint> {
@@ -220,6 +229,7 @@ pub fn forces() -> Vec<ForceElement> {
         less: Some(0.2),
     }));
     all.extend(motors());
+    all.extend(crate::rubbing::frictions());
     for frame in [Frame::Global, Frame::I, Frame::J] {
         let (force, i) = ([1.2, -0.5], BodyId(1));
         all.push(ForceElement::PointForce(PointForce { i, j: on(2, -1.1, 0.4), force, frame }));
@@ -231,6 +241,8 @@ pub fn forces() -> Vec<ForceElement> {
     all.push(ForceElement::GeneralizedForce(GeneralizedForce { coordinate, value: 0.9 }));
     all.push(ForceElement::Actuator(Actuator { i: from, j: to, force: 1.4 }));
     all.extend(springs());
+    all.extend(crate::touching::stops());
+    all.extend(crate::touching::contacts());
     all
 }
 

@@ -3,7 +3,7 @@
 use crate::mechanisms::{close, every, model, run, start, tolerances};
 use crate::samples::motion;
 use kempe::elements::forces::SpringDamper;
-use kempe::elements::{BodyId, Element, Force, Held, PointOn, Situation};
+use kempe::elements::{BodyId, Element, Force, Held, Mode, PointOn, Situation};
 use kempe::math::{Dual, Lift, Local, Motion, Real, Wrench};
 
 fn spring(free_length: f64) -> SpringDamper {
@@ -30,6 +30,8 @@ fn at<S: Real>(bodies: &[Motion<S>; 2]) -> Situation<'_, S> {
         reaction: Wrench::zero(),
         t: S::zero(),
         held: Held::default(),
+        mode: Mode::Open,
+        multiplier: S::zero(),
     }
 }
 

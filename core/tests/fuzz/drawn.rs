@@ -48,7 +48,7 @@ impl Drawn<'_> {
         }
         self.chain(&mut definition.joints);
         let tables = catalogue();
-        for number in 0..self.random.below(4) {
+        for number in 0..self.random.below(3) {
             let (group, table) = &tables[self.random.below(tables.len())];
             let name = format!("e{number}");
             let fields = self.fields(table);
@@ -225,7 +225,7 @@ impl Drawn<'_> {
             Shape::Points => self.points(),
             Shape::Names | Shape::Columns => Value::List(vec![text("A"), text("B")]),
             Shape::Numbers => Value::List((0..4).map(|k| Value::Number(f64::from(k))).collect()),
-            Shape::Name => {
+            Shape::Joint | Shape::Name => {
                 let known = self.joints.get(self.random.below(self.joints.len())).cloned();
                 text(&known.unwrap_or_default())
             }

@@ -117,7 +117,7 @@ fn a_trial_outside_the_domain_only_shortens_the_step() {
     assert!((y[0] - 0.05_f64.powi(2)).abs() < 1e-3, "{}", y[0]);
 }
 
-/// An oscillator with a quadrature that neither the motion nor its error knows of, which is `flaw` at one evaluation.
+/// An oscillator with a quadrature that neither the motion nor its error contains, which is `flaw` at one evaluation.
 struct Flawed {
     flaw: f64,
     at: usize,

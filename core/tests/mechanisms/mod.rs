@@ -1,6 +1,8 @@
 //! Mechanisms from text, for the tests that include this file; not every test uses all of it.
 #![allow(dead_code)]
 
+pub mod methods;
+
 use kempe::analyses::assemble::{assemble, targets, Failure, Report, Request, Target};
 use kempe::analyses::dynamics::{dynamics, Options, Run, Scheme};
 use kempe::analyses::State;

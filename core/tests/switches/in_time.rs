@@ -116,6 +116,46 @@ fn smooth_pulses_have_their_impulse_within_the_tolerance() {
     }
 }
 
+/// A rise by a motion law after rest, and the same fall: the impulse is the height times the time between them.
+#[test]
+fn a_short_pulse_of_motion_laws_after_a_long_rest_is_found_by_every_method() {
+    let step5 = "step5(t, 5.013, 0, 5.063, 1) - step5(t, 5.163, 0, 5.213, 1)".to_string();
+    let laws =
+        ["cycloidal", "harmonic", "poly345", "poly4567", "modified_sine", "modified_trapezoid"];
+    let pulses = laws.map(|law| format!("{law}((t - 5.013)/0.05) - {law}((t - 5.163)/0.05)"));
+    for pulse in pulses.into_iter().chain([step5]) {
+        let law = format!("20*({pulse})");
+        let (model, state) = wheel(&law);
+        for method in methods(1e-6, 0.002) {
+            let found = run(&law, &model, &state, &options(method.clone(), 10.0));
+            for end in [5.013, 5.063, 5.163, 5.213] {
+                let nearest = found.trajectory.t.iter().map(|t| (t - end).abs());
+                let nearest = nearest.fold(f64::INFINITY, f64::min);
+                assert!(nearest < 1e-14 * 10.0, "{law} by {method:?}: {nearest:e} s at {end}");
+            }
+            let rtol = if method.control().step.is_some() { 1e-5 } else { method.control().rtol };
+            let speed = found.trajectory.v[found.trajectory.v.len() - 1];
+            let what = format!("{law} by {method:?}");
+            close(&what, INERTIA * speed, 20.0 * 0.15, 10.0 * rtol * 3.0);
+        }
+    }
+}
+
+/// Where a motion law depends on the state, steps do not end at its ends: the law is C² there.
+#[test]
+fn smooth_laws_of_the_state_cost_no_switches() {
+    let (model, _) = wheel("step5(wheel.angle, 0, 0, 1, 1) + cycloidal(t)");
+    let smooth: Vec<[bool; 3]> =
+        model.switches.iter().map(|switch| [switch.time, switch.state, switch.smooth]).collect();
+    assert_eq!(smooth, [[false, true, true], [true, false, true]]);
+    let (model, state) = wheel("step5(wheel.angle, 0.001, 1, 0.002, 1.5)");
+    let with = run("by angle", &model, &state, &options(methods(1e-8, 0.1)[0].clone(), 2.0));
+    let speed = with.trajectory.v[with.trajectory.v.len() - 1];
+    let energy = 0.001 + 0.5 * (1.0 + 1.5) * 0.001;
+    let angle = with.trajectory.q[with.trajectory.q.len() - 1];
+    close("energy", 0.5 * INERTIA * speed * speed, energy + 1.5 * (angle - 0.002), 1e-7);
+}
+
 /// The pulse of 0.2 s that every method stepped over.
 #[test]
 fn a_step_ends_at_each_switch() {

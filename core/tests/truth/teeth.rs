@@ -3,7 +3,7 @@
 use crate::mechanisms::{faults, model, run, start};
 use crate::solved::{direction, same, same_vector, Solved};
 use kempe::analyses::dynamics::{Options, Scheme};
-use kempe::integrate::Radau;
+use kempe::integrate::{AlphaParameters, GeneralizedAlpha, Radau};
 use kempe::math::Vec2;
 
 const ALPHA: f64 = 0.35;
@@ -177,5 +177,40 @@ fn a_pressure_angle_of_a_right_angle_or_below_zero_is_refused() {
         let text = pair(1.0, [0.1, 0.2], &format!("pressure_angle = \"{angle}\""));
         let message = faults(&text);
         assert!(message.contains("pressure_angle"), "{message}");
+    }
+}
+
+/// Friction in pin B, which carries the radial force of the teeth too: F/cos α. The acceleration α₁ follows from
+/// (J₁ + k² J₂) α₁ = T - k μ ρ |F|/cos α with k = r₁/r₂ and F = (T - J₁ α₁)/r₁.
+#[test]
+fn friction_in_a_pin_feels_the_radial_force_by_every_method() {
+    let (k, mu, radius) = (0.1 / 0.25, 0.3, 0.05);
+    let friction = format!(
+        "pressure_angle = {ALPHA}\n[forces.rubs]\ntype = \"friction\"\njoint = \"B\"\nkinetic = {mu}\nradius = {radius}\nvelocity = 1e-4\n"
+    );
+    for torque in [2.0_f64, -2.0] {
+        let m = model(&pair(torque, [0.1, 0.25], &friction));
+        let part = torque.signum() * k * mu * radius / (0.1 * ALPHA.cos());
+        let alpha = torque * (1.0 - part) / (0.02 + 0.16 * k * k - part * 0.02);
+        let exact = 4.0 + 0.02 * alpha;
+        let (state, _) = start(&m, &[("one.omega", "4")], &[]);
+        let mut alpha_steps =
+            GeneralizedAlpha::new(AlphaParameters::chung_hulbert(0.8), 1e-11, 1e-13);
+        alpha_steps.control.step = Some(1e-3);
+        for method in [
+            Options::new(1.0).method,
+            Scheme::Radau(Radau::default()),
+            Scheme::GeneralizedAlpha(alpha_steps),
+        ] {
+            let found = run(&m, &state, &Options { method: method.clone(), ..Options::new(0.02) });
+            let n = m.layout.n_q;
+            let omega = found.trajectory.v.rchunks(n).next().expect("a row")[2];
+            assert!((omega - exact).abs() < 1e-10 * exact, "{method:?}: {omega} {exact}");
+            let energies = found.energies(&m).expect("finite");
+            let total = |row: &[f64]| row[0] + row[1] + row[2] - row[3] - row[4];
+            let (first, last) = (&energies[..5], energies.rchunks(5).next().expect("a row"));
+            let change = total(last) - total(first);
+            assert!(change.abs() < 1e-9 * first[0], "{method:?}: {change} J of {} J", first[0]);
+        }
     }
 }

@@ -11,7 +11,7 @@ use super::request::Request;
 use super::target::trimmed;
 use super::velocities;
 
-use crate::analyses::closing::{Closing, Stop};
+use crate::analyses::closing::{Closing, Halt};
 use crate::analyses::dependence;
 use crate::analyses::freedoms::NEARLY;
 use crate::analyses::mobility::moved;
@@ -36,8 +36,8 @@ struct Contradiction {
     /// The one that then does not hold.
     missed: usize,
     by: f64,
-    /// Whether rates are meant.
-    rates: bool,
+    /// The derivative in time that is meant: 0, 1 or 2.
+    order: usize,
 }
 
 /// The driven constraints, and all others.
@@ -60,7 +60,7 @@ fn dependent(
     t: f64,
     q: &[f64],
     (met, last): (&[usize], usize),
-    stop: Stop<'_>,
+    stop: Halt<'_>,
 ) -> Option<Vec<usize>> {
     let kept: Vec<usize> = met.iter().copied().chain([last]).collect();
     let reduced = keeping(model, &kept);
@@ -78,7 +78,7 @@ pub(super) fn of_positions(
     model: &Model,
     request: &Request,
     q: &[f64],
-    stop: Stop<'_>,
+    stop: Halt<'_>,
 ) -> Option<Failure> {
     let t = request.t;
     let [driven, rest] = parts(model).filter(|_| q.len() == model.layout.n_q)?;
@@ -100,14 +100,14 @@ pub(super) fn of_positions(
         near.map_or(Some(Vec::new()), |near| dependent(model, t, &near, (&met, *last), stop))?;
         let phi = Closing::new(model, t, stop).phi(&q);
         let by = phi[rows(last)].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let found = Contradiction { met: met_there, missed: *last, by, rates: false };
+        let found = Contradiction { met: met_there, missed: *last, by, order: 0 };
         return Some(failure(model, request, &found));
     }
     None
 }
 
 /// Joints that contradict each other: their equations depend on each other at every position, but not their values.
-pub(super) fn of_joints(model: &Model, t: f64, q: &[f64], stop: Stop<'_>) -> Option<Failure> {
+pub(super) fn of_joints(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Option<Failure> {
     if model.layout.n_rows > MOST_ROWS || q.len() != model.layout.n_q {
         return None;
     }
@@ -157,7 +157,7 @@ pub(super) fn of_rates(
     request: &Request,
     q: &[f64],
     v: &[f64],
-    stop: Stop<'_>,
+    stop: Halt<'_>,
 ) -> Option<Failure> {
     let t = request.t;
     let [driven, rest] = parts(model)?;
@@ -183,10 +183,49 @@ pub(super) fn of_rates(
         constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
         let rows = model.layout.constraints[last].rows.clone();
         let by = rate[rows].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
-        let found = Contradiction { met: others, missed: last, by, rates: true };
+        let found = Contradiction { met: others, missed: last, by, order: 1 };
         return Some(failure(model, request, &found));
     }
     None
+}
+
+/// Accelerations that contradict each other, where rows of Φ_q depend on each other: Σ y Φ_q = 0 with Σ y γ ≠ 0.
+///
+/// `extended` is the model with drivers for the rates that are set.
+pub(super) fn of_accelerations(
+    [model, extended]: [&Model; 2],
+    request: &Request,
+    q: &[f64],
+    redundant: &[Dependent],
+) -> Option<Failure> {
+    let is_driven = |k: &&usize| model.constraints[**k].driven;
+    let last = |one: &Dependent| one.group.iter().rev().find(is_driven).copied();
+    let left_out: Vec<usize> = redundant.iter().filter_map(last).collect();
+    let kept: Vec<usize> =
+        (0..extended.constraints.len()).filter(|k| !left_out.contains(k)).collect();
+    let mut v = vec![0.0; q.len()];
+    velocities::project(&keeping(extended, &kept), request.t, q, &mut v);
+    let m = model.layout.n_rows;
+    let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
+    let motions = Motions::at(&model.layout, q, &v);
+    constraints::velocity_terms(model, &motions, request.t, &mut phi, &mut rate, &mut gamma);
+    let scales = row_scales(model);
+    redundant.iter().find_map(|one| {
+        let missed = last(one)?;
+        // beside accelerations of a size of the mechanism, or of 1 rad, per s²
+        let parts = one.factors.iter().map(|(row, y)| (y * gamma[*row], (y * scales[*row]).abs()));
+        let (sum, size) = parts.fold((0.0, 0.0), |(sum, size), (part, scale)| {
+            (sum + part, f64::max(size, f64::max(f64::abs(part), scale)))
+        });
+        let rows = &model.layout.constraints[missed].rows;
+        let (_, y) = one.factors.iter().find(|(row, _)| rows.contains(row))?;
+        if f64::abs(sum) <= AGREE * size || !f64::is_finite(sum) {
+            return None;
+        }
+        let met = one.group.iter().copied().filter(|k| *k != missed).collect();
+        let found = Contradiction { met, missed, by: f64::abs(sum / y), order: 2 };
+        Some(failure(model, request, &found))
+    })
 }
 
 /// "driver one" or "set crank.angle = 70°".
@@ -208,7 +247,7 @@ fn place(model: &Model, k: usize) -> Vec<String> {
 }
 
 fn failure(model: &Model, request: &Request, found: &Contradiction) -> Failure {
-    let Contradiction { met, missed, by, rates } = found;
+    let Contradiction { met, missed, by, order } = found;
     let driven: Vec<usize> =
         met.iter().filter(|k| model.constraints[**k].driven).copied().collect();
     // without another driver, the joints decide the quantity
@@ -218,7 +257,7 @@ fn failure(model: &Model, request: &Request, found: &Contradiction) -> Failure {
     let last = label(model, request, *missed);
     let hold = if labels.len() == 1 { "holds" } else { "hold" };
     let unit = model.constraints[*missed].equations[0].unit;
-    let (of, per) = if *rates { ("the rate of ", "/s") } else { ("", "") };
+    let (of, per) = [("", ""), ("the rate of ", "/s"), ("the acceleration of ", "/s²")][*order];
     let missed_by = trimmed(*by, 3);
     let message = format!(
         "{others} and {last} contradict each other: where {others} {hold}, {of}{last} is missed by {missed_by} {unit}{per}"
@@ -229,9 +268,9 @@ fn failure(model: &Model, request: &Request, found: &Contradiction) -> Failure {
     };
     let name = &model.constraints[*missed].name;
     Failure {
-        fault: if *rates { Fault::Rates } else { Fault::Open },
+        fault: if *order > 0 { Fault::Rates } else { Fault::Open },
         name: name.strip_prefix(SET).unwrap_or(name).to_string(),
-        gap: if *rates || unit != "m" { 0.0 } else { *by },
+        gap: if *order > 0 || unit != "m" { 0.0 } else { *by },
         places: driven.iter().chain([missed]).map(|k| place(model, *k)).collect(),
         message,
         hint,

@@ -47,7 +47,8 @@ impl Placer<'_> {
             end.map_or(f64::NAN, |end| coordinate.of(&bodies[end], &Twist::zero()))
         };
         let parameters = &self.equations.model.parameters;
-        let laws = Laws { parameters, t, coordinate, z: &[], pieces: &[], function: None };
+        let laws =
+            Laws { parameters, t, coordinate, own: [&[]; 2], z: &[], pieces: &[], function: None };
         let varying = item.law.as_ref().map(|law| law.map(&mut |tape| tape.evaluate(&laws)));
         let element = varying.as_ref().unwrap_or(&item.element);
         element.residual(&At { bodies: &bodies, own: &[], t }, &mut phi);

@@ -50,7 +50,7 @@ pub use target::{CoordinateTarget, QuantityTarget, Target};
 pub use targets::Targets;
 pub use unset::{Choice, Source, Unset};
 
-use super::closing::Stop;
+use super::closing::Halt;
 use super::curves;
 use super::mobility::mobility_until;
 use super::required;
@@ -76,7 +76,7 @@ pub fn assemble(model: &Model, request: &Request) -> Result<(State, Report), Box
 pub fn assemble_until(
     model: &Model,
     request: &Request,
-    stop: Stop<'_>,
+    stop: Halt<'_>,
 ) -> Result<(State, Report), Box<Failure>> {
     let outcome = complete(model, request, stop);
     match stop() {
@@ -88,7 +88,7 @@ pub fn assemble_until(
 fn complete(
     model: &Model,
     request: &Request,
-    stop: Stop<'_>,
+    stop: Halt<'_>,
 ) -> Result<(State, Report), Box<Failure>> {
     let asked = asked(model, request);
     let extended = holding(model, request);
@@ -110,10 +110,14 @@ fn complete(
     }
     let mobility = mobility_until(model, request.t, &q, stop);
     if !mobility.redundant.is_empty() && !model.allow_redundancy {
-        // drivers that agree on the position may have different rates
-        let rates = rates::contradiction(model, request, &q, stop);
+        // drivers that agree on the position may have different rates or accelerations
+        let named = rates::contradiction(model, request, &q, stop).or_else(|| {
+            let extended = rates::holding_rates(model, request, &q);
+            let redundant = &mobility.redundant_equations;
+            contradiction::of_accelerations([model, &extended], request, &q, redundant)
+        });
         return Err(Box::new(
-            rates.unwrap_or_else(|| failure::redundant(model, request.t, &q, &mobility)),
+            named.unwrap_or_else(|| failure::redundant(model, request.t, &q, &mobility)),
         ));
     }
     if let Some(unmet) = required::loose(model, request.t, &q) {

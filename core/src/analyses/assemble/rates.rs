@@ -6,7 +6,7 @@ use super::holding::held;
 use super::request::Request;
 use super::target::{of_rates, Target};
 use super::velocities;
-use crate::analyses::closing::Stop;
+use crate::analyses::closing::Halt;
 use crate::elements::Followed;
 use crate::equations::at;
 use crate::equations::kinematics::Motions;
@@ -19,7 +19,7 @@ pub(super) fn consistent(
     model: &Model,
     request: &Request,
     q: &[f64],
-    stop: Stop<'_>,
+    stop: Halt<'_>,
 ) -> Result<Vec<f64>, Box<Failure>> {
     let mut v = wanted(model, request, q);
     let extended = holding_rates(model, request, q);
@@ -36,7 +36,7 @@ pub(super) fn contradiction(
     model: &Model,
     request: &Request,
     q: &[f64],
-    stop: Stop<'_>,
+    stop: Halt<'_>,
 ) -> Option<Failure> {
     let extended = holding_rates(model, request, q);
     contradiction::of_rates(&extended, request, q, &wanted(model, request, q), stop)

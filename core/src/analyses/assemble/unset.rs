@@ -9,7 +9,7 @@ use super::rates::holding_rates;
 use super::request::Request;
 use super::target::{of_bodies, of_quantities, of_rates, CoordinateTarget, Target};
 use super::targets::Targets;
-use crate::analyses::closing::Stop;
+use crate::analyses::closing::Halt;
 use crate::analyses::freedoms::freedoms;
 use crate::analyses::mobility::mobility_until;
 use crate::elements::Coordinate;
@@ -74,7 +74,7 @@ pub(super) fn unset(
     request: &Request,
     asked: &Targets,
     [q, v]: [&[f64]; 2],
-    stop: Stop<'_>,
+    stop: Halt<'_>,
 ) -> Unset {
     if request.state.is_some() || stop() {
         return Unset::default();

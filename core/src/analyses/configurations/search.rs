@@ -2,7 +2,7 @@
 
 use super::found::Found;
 use crate::analyses::assemble::{following, place, wind, Targets};
-use crate::analyses::closing::{Closing, Stop};
+use crate::analyses::closing::{Closing, Halt};
 use crate::analyses::kinematics::circuit;
 use crate::elements::{holding, Followed, Group};
 use crate::equations::at;
@@ -19,7 +19,7 @@ const STARTS: usize = 300;
 const IDLE: usize = 60;
 
 /// Adds the positions that starts and circuits reach.
-pub(super) fn search(model: &Model, t: f64, found: &mut Found<'_>, stop: Stop<'_>) {
+pub(super) fn search(model: &Model, t: f64, found: &mut Found<'_>, stop: Halt<'_>) {
     let mut closing = Closing::new(model, t, stop);
     let mut next = found.positions.len();
     let mut try_from = |mut q: Vec<f64>, found: &mut Found<'_>| {
@@ -60,7 +60,7 @@ fn arbitrary(start: usize, body: usize) -> f64 {
 }
 
 /// Follows the circuits of all positions from the given one on.
-fn follow_new(model: &Model, t: f64, found: &mut Found<'_>, next: &mut usize, stop: Stop<'_>) {
+fn follow_new(model: &Model, t: f64, found: &mut Found<'_>, next: &mut usize, stop: Halt<'_>) {
     let mut closing = Closing::new(model, t, stop);
     while *next < found.positions.len() {
         let q = found.positions[*next].clone();

@@ -2,7 +2,7 @@
 
 use super::found::Found;
 use crate::analyses::assemble::{following, place, Targets};
-use crate::analyses::closing::{Closing, Stop};
+use crate::analyses::closing::{Closing, Halt};
 use crate::model::{row_scales, Model};
 
 /// Largest number of combinations.
@@ -11,7 +11,7 @@ const MOST: usize = 20_000;
 const CLOSED: f64 = 1e-7;
 
 /// Adds the positions of all combinations of closures; returns whether there are no others.
-pub(super) fn walk(model: &Model, t: f64, found: &mut Found<'_>, stop: Stop<'_>) -> bool {
+pub(super) fn walk(model: &Model, t: f64, found: &mut Found<'_>, stop: Halt<'_>) -> bool {
     let mut targets = Targets::of(model, t);
     targets.soft.fill([None; 3]);
     let mut closing = Closing::new(model, t, stop);

@@ -21,7 +21,7 @@ use super::dependence;
 use super::freedoms::NEARLY;
 use super::mobility::{mobility, Mobility};
 use super::options::{name, options};
-use super::{Dependent, State};
+use super::{dynamics, Dependent, State};
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
 use crate::model::Model;
@@ -55,6 +55,9 @@ pub struct Diagnosis {
     pub locked: Vec<String>,
     /// Bodies (names) that no chain of joints connects with ground.
     pub loose: Vec<String>,
+    /// Massless bodies (names) whose motion the mechanism does not determine, so that dynamics refuses it; each with the
+    /// message of a run.
+    pub undetermined: Vec<(String, String)>,
     /// Closed loops of four pins.
     pub four_bars: Vec<FourBar>,
 }
@@ -95,6 +98,7 @@ pub fn diagnose(model: &Model, state: &State) -> Diagnosis {
         singular: described(&mobility.singular_equations).into_iter().zip(kinds).collect(),
         locked: bodies::locked(model, *t, q),
         loose: bodies::loose(model),
+        undetermined: dynamics::undetermined(model, *t, q),
         four_bars: four_bars::four_bars(model),
         mobility,
     }

@@ -9,6 +9,7 @@ use super::lane_batch::are_finite;
 use super::model_cache::ModelCache;
 use super::redundant_rows::{exchange, workspace_at};
 use super::run_results::Run;
+use super::shared_reaction;
 use super::trajectory::States;
 use crate::equations::augmented::NearSingular;
 use crate::equations::Workspace;
@@ -53,6 +54,7 @@ pub(super) fn accelerations(
     assert_eq!([q.len(), v.len(), z.len()], lengths, "a row for each time");
     let Some(&from) = t.first() else { return Ok(Accelerations::default()) };
     let start = [&q[..n], &v[..n], &z[..n_z]];
+    shared_reaction::check(model, from, start[0])?;
     let mut one = workspace_at((model, cache), from, start);
     if !passing && !one.matrix.omitted().is_empty() {
         // damped rows have a solution at singular positions too

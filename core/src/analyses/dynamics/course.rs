@@ -7,6 +7,7 @@ use super::clock::Clock;
 use super::event_list::{Function, Watched};
 use super::failure::{Failure, Reason};
 use super::model_cache::ModelCache;
+use super::modes::{self, watched_mode, Place};
 use super::option_checks::check_lengths;
 use super::options::Options;
 use super::run::{run_phase, At, Phase, PhaseEnd, Watcher};
@@ -16,6 +17,7 @@ use super::start_check::StartCheck;
 use crate::analyses::conditions::Condition;
 use crate::analyses::event_options::STOP;
 use crate::analyses::State;
+use crate::elements::Mode;
 use crate::integrate::{Direction, Flow};
 use crate::model::{Model, Problem};
 
@@ -42,6 +44,8 @@ enum Effect {
     Act,
     /// This driver no longer acts.
     Release(String),
+    /// The mode of a force may change; the place among the events of its behaviour.
+    Mode { force: usize, place: usize },
 }
 
 /// An event of the whole run.
@@ -83,7 +87,17 @@ fn planned(model: &Model, options: &Options) -> Vec<Planned> {
             effect: Effect::Release(driver.name.clone()),
         })
     });
-    listed.chain(stop).chain(releases).collect()
+    let modes = model.forces.iter().enumerate().flat_map(|(force, item)| {
+        let names = item.element.behaviour().map(|behaviour| behaviour.events());
+        let named = names.into_iter().flatten().enumerate();
+        named.map(move |(place, name)| Planned {
+            name: format!("{}.{name}", item.name),
+            condition: String::new(),
+            direction: Direction::Any,
+            effect: Effect::Mode { force, place },
+        })
+    });
+    listed.chain(stop).chain(releases).chain(modes).collect()
 }
 
 /// A model of a phase.
@@ -120,19 +134,24 @@ pub(super) fn run<W: FnMut(f64) -> Flow>(
 ) -> Result<Run, Box<Failure>> {
     let began = clock();
     let events = planned(base.0, options);
-    let mut setting =
-        Setting { parameters: options.parameters.clone(), released: options.release.clone() };
+    let mut setting = Setting::of(options);
     let named = |event: &Planned| EventStates { name: event.name.clone(), ..Default::default() };
     let mut run = Run { events: events.iter().map(named).collect(), ..Run::default() };
     let mut own = Own::of(base.0, &setting, start.t)?;
     options.check(own.as_ref().map_or(base.0, |own| &own.model), start)?;
     let mut at = At::begin(base.0, start, options, &mut run);
+    let mut stall = Stall::default();
+    if modes::has_modes(base.0) {
+        check_modes(own.as_ref().map_or(base.0, |own| &own.model), start, options, &mut at)?;
+        settle(&events, &mut at, (base.0, &mut setting), &mut run)?;
+        own = Own::of(base.0, &setting, at.t)?;
+    }
     loop {
         let (model, cache) = own.as_ref().map_or(base, |own| (&own.model, &own.cache));
         let conditions = conditions(model, &setting, &events)?;
-        let watched = watched(&events, &conditions, &setting.released);
+        let watched = watched(model, &events, &conditions, &setting.released);
         run.settings.push(setting.clone());
-        let phase = Phase::new(model);
+        let phase = Phase { project_velocities: holds(&setting), ..Phase::new(model) };
         let outcome = run_phase((&phase, cache), watched, &mut at, options, &mut run, &mut watcher);
         run.statistics.seconds = clock() - began;
         let ended = outcome.and_then(|ended| match ended {
@@ -143,14 +162,12 @@ pub(super) fn run<W: FnMut(f64) -> Flow>(
             PhaseEnd::Stopped => Ok(None),
             PhaseEnd::Event => {
                 let before = setting.clone();
-                let flow = take_effect(
-                    &events,
-                    &mut at,
-                    (base.0, &mut setting),
-                    options,
-                    &mut act,
-                    &mut run,
-                )?;
+                let changing = (base.0, &mut setting);
+                let flow = take_effect(&events, &mut at, changing, options, &mut act, &mut run)?;
+                if flow == Flow::Continue && modes::has_modes(base.0) {
+                    stall.look(base.0, at.t, &setting)?;
+                    settle(&events, &mut at, (base.0, &mut setting), &mut run)?;
+                }
                 Ok((flow == Flow::Continue).then_some(before))
             }
         });
@@ -168,6 +185,17 @@ pub(super) fn run<W: FnMut(f64) -> Flow>(
     }
 }
 
+/// Checks a start with forces that have modes.
+fn check_modes(
+    model: &Model,
+    start: &State,
+    options: &Options,
+    at: &mut At,
+) -> Result<(), Box<Failure>> {
+    StartCheck::of_run(options).check(model, at.t, [&start.q, &start.v, &start.z])?;
+    modes::check(model, &Place { t: at.t, y: &mut at.y })
+}
+
 /// The model of the next phase, which must meet its constraints where it begins.
 fn changed(
     base: &Model,
@@ -178,7 +206,10 @@ fn changed(
     let own = Own::of(base, setting, at.t)?;
     let model = own.as_ref().map_or(base, |own| &own.model);
     let [q, v, z, _] = model.layout.split(&at.y);
-    StartCheck::of_change(options).check(model, at.t, [q, v, z])?;
+    let check = StartCheck::of_change(options);
+    // what begins to hold has a small speed, which the phase removes
+    let check = if holds(setting) { check.of_positions() } else { check };
+    check.check(model, at.t, [q, v, z])?;
     Ok(own)
 }
 
@@ -187,10 +218,13 @@ fn conditions(
     model: &Model,
     setting: &Setting,
     events: &[Planned],
-) -> Result<Vec<Condition>, Box<Failure>> {
+) -> Result<Vec<Option<Condition>>, Box<Failure>> {
     let released = &setting.released;
     let read = |event: &Planned| {
-        Condition::read(model, released, &event.condition).map_err(|problem| {
+        if matches!(event.effect, Effect::Mode { .. }) {
+            return Ok(None);
+        }
+        Condition::read(model, released, &event.condition).map(Some).map_err(|problem| {
             let message = format!("events.{}: {}", event.name, problem.message);
             Reason::Option { name: "events", message }.into()
         })
@@ -199,19 +233,96 @@ fn conditions(
 }
 
 fn watched<'c>(
+    model: &Model,
     events: &[Planned],
-    conditions: &'c [Condition],
+    conditions: &'c [Option<Condition>],
     released: &[String],
 ) -> Vec<Watched<'c>> {
     let watched = events.iter().zip(conditions).map(|(event, condition)| {
+        if let Effect::Mode { force, place } = event.effect {
+            let (function, direction) = watched_mode(model, force, place);
+            let ends = modes::has_mode(model, force);
+            return Watched { function: Function::Mode(function), direction, ends, listed: !ends };
+        }
         let done = matches!(&event.effect, Effect::Release(driver) if released.contains(driver));
+        let condition = condition.as_ref().filter(|_| !done);
         Watched {
-            function: if done { Function::Given(&never) } else { Function::Condition(condition) },
-            direction: condition.direction(event.direction),
+            function: condition.map_or(Function::Given(&never), Function::Condition),
+            direction: condition.map_or(event.direction, |c| c.direction(event.direction)),
             ends: event.effect != Effect::None,
+            listed: true,
         }
     });
     watched.collect()
+}
+
+/// Changes of mode that follow each other without time between them.
+#[derive(Default)]
+struct Stall {
+    t: f64,
+    count: usize,
+}
+
+impl Stall {
+    /// Most changes at one time, and for each force with modes.
+    const MOST: [usize; 2] = [200, 20];
+    /// Spacings of numbers that count as one time.
+    const SPACINGS: f64 = 64.0;
+
+    fn look(&mut self, model: &Model, t: f64, setting: &Setting) -> Result<(), Box<Failure>> {
+        let one_time = (t - self.t).abs() <= Self::SPACINGS * f64::EPSILON * t.abs();
+        (self.t, self.count) = (t, if one_time { self.count + 1 } else { 0 });
+        let [most, each] = Self::MOST;
+        if self.count <= most + each * setting.modes.len() {
+            return Ok(());
+        }
+        let names: Vec<&str> =
+            setting.modes.iter().map(|of| model.forces[of.force].name.as_str()).collect();
+        let message = format!(
+            "contacts or friction change their modes without end at t = {t:.6} s, among them {}",
+            names.join(", ")
+        );
+        let hint =
+            "give a stop or contact a stiffness in place of restitution, or friction a velocity";
+        Err(Reason::Integration { t, message, hint }.into())
+    }
+}
+
+/// Whether a force holds in a phase.
+fn holds(setting: &Setting) -> bool {
+    setting.modes.iter().any(|of| matches!(of.mode, Mode::Holds(_)))
+}
+
+/// Decides the modes of the next phase; velocities jump where contacts hit.
+fn settle(
+    events: &[Planned],
+    at: &mut At,
+    (base, setting): (&Model, &mut Setting),
+    run: &mut Run,
+) -> Result<(), Box<Failure>> {
+    let open = setting.open(base).map_err(|problems| impossible(&problems, at.t))?;
+    let of_force = |index: &usize| match events[*index].effect {
+        Effect::Mode { force, .. } => Some(force),
+        _ => None,
+    };
+    let fired: Vec<usize> = at.fired.iter().filter_map(of_force).collect();
+    let (t, before) = (at.t, at.y.clone());
+    let mut place = Place { t, y: &mut at.y };
+    let settled = modes::settle(&open, &mut place, &setting.modes, &fired)?;
+    let index = |force: usize, of: usize| {
+        let wanted = Effect::Mode { force, place: of };
+        events.iter().position(|event| event.effect == wanted).expect("it was planned")
+    };
+    for k in &settled.hits {
+        let index = index(*k, 0);
+        run.add_event(&base.layout, index, t, &before);
+        run.events[index].impulses.extend(&settled.impulses);
+    }
+    for (k, of) in &settled.changed {
+        run.add_event(&base.layout, index(*k, *of), t, &before);
+    }
+    setting.modes = settled.modes;
+    Ok(())
 }
 
 /// The function of an event that does not happen any more.
@@ -230,7 +341,7 @@ fn take_effect(
 ) -> Result<Flow, Box<Failure>> {
     for event in at.fired.clone().into_iter().map(|index| &events[index]) {
         match &event.effect {
-            Effect::None => {}
+            Effect::None | Effect::Mode { .. } => {}
             Effect::Release(driver) => setting.released.push(driver.clone()),
             Effect::Stop => {
                 run.stopped_by = Some(event.name.clone());

@@ -3,9 +3,11 @@
 //! An event that ends its phase is located where the solution itself has it: the step is taken again up to the event,
 //! and the time is corrected until the function is zero at the end of a step.
 
+use super::modes::ModeFunction;
 use super::motion_ode::MotionOde;
 use crate::analyses::conditions::{Condition, Evaluator};
 use crate::analyses::signals::Seen;
+use crate::analyses::so_far::SoFar;
 use crate::integrate::{crossings, Crossing, Direction, Step};
 use crate::model::Model;
 
@@ -32,6 +34,8 @@ fn parts(model: &Model, step: &Step<'_>) -> usize {
 pub(super) enum Function<'a> {
     /// Of a condition in a case.
     Condition(&'a Condition),
+    /// Of a force with modes; positive while its mode lasts.
+    Mode(ModeFunction),
     /// g(t, q, v, z) of a caller.
     Given(&'a dyn Fn(f64, [&[f64]; 3]) -> f64),
 }
@@ -40,6 +44,7 @@ impl Function<'_> {
     fn value(&self, model: &Model, seen: &Seen<'_>) -> f64 {
         match self {
             Self::Condition(condition) => condition.value(model, seen),
+            Self::Mode(of) => of.value(model, seen),
             Self::Given(g) => g(seen.t, seen.state),
         }
     }
@@ -48,7 +53,7 @@ impl Function<'_> {
     fn at_zero(&self) -> f64 {
         let holds = match self {
             Self::Condition(condition) => condition.holds_at_zero(),
-            Self::Given(_) => None,
+            Self::Mode(_) | Self::Given(_) => None,
         };
         holds.map_or(0.0, |holds| if holds { f64::MIN_POSITIVE } else { -f64::MIN_POSITIVE })
     }
@@ -61,6 +66,8 @@ pub(super) struct Watched<'a> {
     pub direction: Direction,
     /// Whether the phase ends at it.
     pub ends: bool,
+    /// Whether it is listed where its function changes sign; otherwise what follows decides.
+    pub listed: bool,
 }
 
 /// What follows a step.
@@ -85,22 +92,39 @@ pub(super) struct EventList<'a> {
 }
 
 impl<'a> EventList<'a> {
-    /// Of a phase that begins at `t`, with the events that ended the one before.
+    /// Of a phase that begins at `t`, with the events that ended the one before and the run up to there.
     pub fn new(
         ode: &MotionOde<'_>,
         watched: Vec<Watched<'a>>,
         t: f64,
         fired: &[usize],
+        mut so_far: SoFar,
     ) -> Option<Self> {
         if watched.is_empty() {
             return None;
         }
         let solves = watched.iter().any(|event| match event.function {
             Function::Condition(condition) => condition.needs_solution,
+            Function::Mode(of) => of.needs_solution(),
             Function::Given(_) => false,
         });
-        let evaluator = Evaluator::new(ode.model, solves, &ode.workspace);
+        for event in &watched {
+            if let Function::Condition(condition) = event.function {
+                so_far.watch(condition.dissipative());
+            }
+        }
+        let evaluator = Evaluator::new(ode.model, solves, &ode.workspace, so_far);
         Some(Self { watched, evaluator, began: (t, fired.to_vec()), awaited: None, tries: 0 })
+    }
+
+    /// The run up to the last accepted step.
+    pub fn so_far(self) -> SoFar {
+        self.evaluator.so_far
+    }
+
+    /// Whether an event is listed where its function changes sign.
+    pub fn lists(&self, index: usize) -> bool {
+        self.watched[index].listed
     }
 
     /// The events in a step of a phase that ends at `t_end` at the latest. The interpolant is prepared.
@@ -115,7 +139,10 @@ impl<'a> EventList<'a> {
             (None, Some((_, index))) => Some((self.later(model, step, index, t_end), index)),
             (None, None) => None,
         };
-        let Some((t, index)) = end else { return Found::Events(found) };
+        let Some((t, index)) = end else {
+            self.evaluator.advance(model, step);
+            return Found::Events(found);
+        };
         let done = together(t, step.t) || self.tries >= AGAIN && arrived.is_some();
         if !done {
             self.tries += 1;
@@ -123,6 +150,7 @@ impl<'a> EventList<'a> {
             return Found::Again(t);
         }
         (self.awaited, self.tries) = (None, 0);
+        self.evaluator.advance(model, step);
         let mut found: Vec<Crossing> = found;
         if found.iter().all(|crossing| crossing.index != index) {
             let rising = self.watched[index].direction != Direction::Falling;
@@ -143,12 +171,17 @@ impl<'a> EventList<'a> {
         let Self { watched, evaluator, began, .. } = self;
         let directions: Vec<Direction> = watched.iter().map(|event| event.direction).collect();
         let mut functions = |t: f64, y: &[f64], out: &mut [f64]| {
-            evaluator.see(model, t, y, |seen| {
+            evaluator.see(model, (t, y), step, |seen| {
                 let values = watched.iter().map(|event| event.function.value(model, seen));
                 out.iter_mut().zip(values).for_each(|(out, value)| *out = value);
             });
             if t == began.0 {
                 began.1.iter().for_each(|index| out[*index] = 0.0);
+                // the mode may end again within a time that is short beside the steps
+                let of_mode = |event: &Watched<'_>| matches!(event.function, Function::Mode(_));
+                let modes =
+                    watched.iter().zip(out).filter(|(event, _)| of_mode(event) && event.ends);
+                modes.for_each(|(_, out)| *out = out.max(f64::MIN_POSITIVE));
                 return;
             }
             for (event, out) in watched.iter().zip(out) {
@@ -163,9 +196,10 @@ impl<'a> EventList<'a> {
         let function = self.watched[index].function;
         let h = SLOPE * (step.t - step.t_old);
         let mut y = step.y.to_vec();
-        let at = self.evaluator.see(model, step.t, &y, |seen| function.value(model, seen));
+        let at = self.evaluator.see(model, (step.t, &y), step, |seen| function.value(model, seen));
         step.interpolate(step.t - h, &mut y);
-        let before = self.evaluator.see(model, step.t - h, &y, |seen| function.value(model, seen));
+        let before =
+            self.evaluator.see(model, (step.t - h, &y), step, |seen| function.value(model, seen));
         let by = -at * h / (at - before);
         // only a small correction: the function crosses zero here
         let by = if by.is_finite() && by * h > 0.0 && by.abs() < h.abs() { by } else { 0.0 };

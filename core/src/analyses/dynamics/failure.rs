@@ -44,6 +44,17 @@ pub enum Reason {
         /// Remedy.
         hint: &'static str,
     },
+    /// A joint repeats others, so that its reaction, on which a force depends, is not unique.
+    Redundant {
+        /// Time, s.
+        t: f64,
+        /// The joint.
+        name: String,
+        /// Description.
+        message: String,
+        /// Remedy.
+        hint: &'static str,
+    },
     /// A law that no run can follow, found before the run.
     Law {
         /// The time at which it cannot, s.
@@ -111,9 +122,11 @@ impl Failure {
             }
             Breakdown::Reaction(row) => {
                 let message = format!(
-                    "no reaction of {} at t = {t:.6} s agrees with the forces that depend on it: \
-                     with so much friction the mechanism jams; reduce the coefficient of friction",
-                    name(row)
+                    "friction paradox (Painlevé) in joint {} at t = {t:.6} s: no reaction agrees with the \
+                     friction that it causes, so that the mechanism jams ({}); reduce the coefficient of \
+                     friction, or give the friction a constant load",
+                    name(row),
+                    positions(model, q)
                 );
                 (name(row), message)
             }
@@ -138,7 +151,7 @@ impl Failure {
                             must meet the constraints; check the size of the forces";
                 return Reason::Integration { t, message, hint }.into();
             }
-            Breakdown::Jump { .. } | Breakdown::Sliding(_) => {
+            Breakdown::Jump { .. } | Breakdown::Sliding(_) | Breakdown::Unresolved { .. } => {
                 return at_switch(model, t, breakdown)
             }
             Breakdown::NotFinite => return Self::undefined(model, t, q),
@@ -216,13 +229,23 @@ impl Failure {
     }
 }
 
-/// A law jumps, or the motion slides along a switch.
+/// A law jumps, the motion slides along a switch, or a contact begins for which the steps are too long.
 fn at_switch(model: &Model, t: f64, breakdown: Breakdown) -> Box<Failure> {
     let switch = match breakdown {
         Breakdown::Sliding(switch) => switch,
         Breakdown::Jump { constraint, position, values } => {
             let message = Jump { constraint, position, values }.describe(model, t);
             return Reason::Integration { t, message, hint: SMOOTH }.into();
+        }
+        Breakdown::Unresolved { force, lasts, step } => {
+            let name = &model.forces[force].name;
+            let message = format!(
+                "constant steps of {step:.3e} s are too long for {name}, which begins to touch at t = {t:.6} s and \
+                 does so for about {lasts:.1e} s"
+            );
+            let hint = "use at least ten steps for this time, a method that chooses its steps such as auto or dop853, \
+                        or restitution in place of stiffness";
+            return Reason::Integration { t, message, hint }.into();
         }
         other => unreachable!("{other:?} is not at a switch"),
     };
@@ -232,7 +255,8 @@ fn at_switch(model: &Model, t: f64, breakdown: Breakdown) -> Box<Failure> {
         if law { "a law of " } else { "" },
         owner_name(model, owner)
     );
-    let hint = "replace the jump by a steep smooth function: sign(x) by tanh(x/x0), with x0 small against the usual x";
+    let hint = "use a friction element, which may stick and whose load may be a law; or replace the jump by a steep smooth \
+                function: sign(x) by tanh(x/x0), with x0 small against the usual x";
     Reason::Integration { t, message, hint }.into()
 }
 
@@ -288,13 +312,18 @@ const MOST_BODIES: usize = 4;
 fn place(model: &Model, t: f64, q: &[f64], row: usize) -> String {
     let joints = dependent(model, t, q, row);
     let joints: Vec<&str> = joints.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+    format!(" (joints {}; {})", joints.join(", "), positions(model, q))
+}
+
+/// The positions of the bodies.
+fn positions(model: &Model, q: &[f64]) -> String {
     let bodies = model.bodies.iter().zip(&model.layout.bodies).skip(1).take(MOST_BODIES);
     let bodies = bodies.map(|(body, columns)| (body, columns.of(q)));
     let bodies: Vec<String> = bodies
         .map(|(b, q)| format!("{} x = {:.6} y = {:.6} angle = {:.6}", b.name, q[0], q[1], q[2]))
         .collect();
     let more = if model.bodies.len() > MOST_BODIES + 1 { ", …" } else { "" };
-    format!(" (joints {}; at {}{more})", joints.join(", "), bodies.join(", "))
+    format!("at {}{more}", bodies.join(", "))
 }
 
 impl fmt::Display for Reason {
@@ -302,6 +331,7 @@ impl fmt::Display for Reason {
         match self {
             Self::Singular { message, .. }
             | Self::Start { message, .. }
+            | Self::Redundant { message, .. }
             | Self::Law { message, .. }
             | Self::Option { message, .. }
             | Self::Integration { message, .. } => f.write_str(message),

@@ -1,7 +1,7 @@
 //! The law without a value, where a run fails because the motion is not finite.
 
 use crate::elements::{catalogue, Group};
-use crate::equations::at;
+use crate::equations::held;
 use crate::equations::kinematics::Motions;
 use crate::expression::Tape;
 use crate::model::{Model, Variable};
@@ -38,14 +38,13 @@ pub(super) fn undefined_law(
 
 fn undefined_at(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Option<LawFault> {
     let motions = Motions::at(&model.layout, q, v);
-    let motions: &[_] = &motions;
-    let values = at(&model.parameters, motions, z, t);
+    let values = held(&model.parameters, &motions, z, t);
     // None where a law has a value; else why it has none, if that is known
     let without = |tape: &Tape| {
         // the states of elements are unknown where only the position is
         let known = |k: &usize| match Variable::at(*k) {
             Variable::State(k) => k < z.len(),
-            Variable::Coordinate(..) => true,
+            Variable::Coordinate(..) | Variable::Internal { .. } => true,
             Variable::Function(_) => false,
         };
         let finite = !tape.variables().all(|k| known(&k)) || tape.evaluate(&values).is_finite();

@@ -18,9 +18,18 @@ use crate::solve::{SparseRank, SparseRow, RANK_TOLERANCE};
 /// # Errors
 /// [`Failure`] with [`Reason::Singular`], which names a massless body with a freedom of its own.
 pub(super) fn check(model: &Model, t: f64, q: &[f64]) -> Result<(), Box<Failure>> {
+    match undetermined(model, t, q).into_iter().next() {
+        Some((name, message)) => Err(Reason::Singular { t, name, message }.into()),
+        None => Ok(()),
+    }
+}
+
+/// The massless bodies, or joints with internal coordinates, whose motion is not determined at a position, each with a
+/// message about one of its coordinates.
+pub(in crate::analyses) fn undetermined(model: &Model, t: f64, q: &[f64]) -> Vec<(String, String)> {
     let massless = columns(model);
     if massless.is_empty() {
-        return Ok(());
+        return Vec::new();
     }
     let mut entries = vec![0.0; model.layout.n_entries];
     constraints::jacobian(model, &Motions::at_rest(&model.layout, q), t, &mut entries);
@@ -37,11 +46,15 @@ pub(super) fn check(model: &Model, t: f64, q: &[f64]) -> Result<(), Box<Failure>
     };
     let rows: Vec<SparseRow> = massless.iter().map(normal).collect();
     let found = SparseRank::new(&rows, model.layout.n_rows, RANK_TOLERANCE, &|| false);
-    let free = found.and_then(|found| found.dependent.first().copied());
-    free.map_or(Ok(()), |k| {
+    let dependent = found.map(|found| found.dependent).unwrap_or_default();
+    let mut messages: Vec<(String, String)> = Vec::new();
+    for k in dependent {
         let (name, message) = no_mass::undetermined(model, t, massless[k]);
-        Err(Reason::Singular { t, name, message }.into())
-    })
+        if messages.iter().all(|(known, _)| *known != name) {
+            messages.push((name, message));
+        }
+    }
+    messages
 }
 
 /// The coordinates that move no mass; none if every body has mass.

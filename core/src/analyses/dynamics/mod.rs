@@ -8,6 +8,7 @@
 //! | `options`, `option_checks` | options, and the combinations that are refused |
 //! | `absolute_tolerance` | absolute tolerances of lengths, angles and first-order states |
 //! | `massless`, `no_mass` | massless bodies whose motion is not determined |
+//! | `shared_reaction` | forces that depend on a reaction which is not unique |
 //! | `start_check` | states from which a run may start |
 //! | `run`, `run_results`, `stepper` | a run through its phases, and its outcome; a stepper for callers |
 //! | `course`, `setting`, `event_list` | phases that follow from events, their models, and the events of a phase |
@@ -16,6 +17,7 @@
 //! | `implicit_motion` | an implicit method, with the interface of explicit ones |
 //! | `initial_stiffness`, `stiffness_detection` | whether a model is stiff at the start, and on the way |
 //! | `switch_schedule`, `switching` | switches in time, found before a run; switches during a run |
+//! | `contact_resolution` | the first steps of compliant contacts |
 //! | `singularity_passage`, `singularity_forecast`, `branch_averaging` | singular positions |
 //! | `redundant_rows` | redundant equations that a run leaves out |
 //! | `singularity_handover` | methods that leave singular positions to DOP853 |
@@ -32,6 +34,7 @@ mod accelerations;
 mod branch_averaging;
 mod clock;
 mod constraint_violation;
+mod contact_resolution;
 mod course;
 mod energies;
 mod event_list;
@@ -47,6 +50,7 @@ mod method_options;
 mod method_switching;
 mod methods;
 mod model_cache;
+mod modes;
 mod motion_dae;
 mod motion_ode;
 mod motion_stepper;
@@ -61,6 +65,7 @@ mod run;
 mod run_results;
 mod sampling;
 mod setting;
+mod shared_reaction;
 mod singularity_forecast;
 mod singularity_handover;
 mod singularity_passage;
@@ -77,6 +82,7 @@ pub use clock::{system_clock, Clock};
 pub use course::{Act, Change};
 pub use energies::ENERGIES;
 pub use failure::{Failure, Reason};
+pub(in crate::analyses) use massless::undetermined;
 pub use methods::{Auto, Scheme};
 pub use options::{most_steps, read, Options, Output, Singularity};
 pub use prepared::Prepared;

@@ -9,9 +9,12 @@ use crate::analyses::mobility;
 use crate::equations::augmented::NearSingular;
 use crate::equations::{Gains, Workspace};
 use crate::integrate::{all_finite, Manifold, Ode, Structure, TimesToAvoid, TrialChanges};
-use crate::model::Model;
+use crate::model::{size, Model};
 use crate::solve::Breakdown;
 use crate::stabilize::{Projection, Projector, StepwiseBaumgarte};
+
+/// Sizes of the mechanism, or radians, beyond which a trial state cannot be part of its motion.
+const FAR: f64 = 1e6;
 
 /// The right side of forward dynamics.
 pub(super) struct MotionOde<'a> {
@@ -24,6 +27,8 @@ pub(super) struct MotionOde<'a> {
     /// Whether singular positions are passed.
     pub passing: bool,
     pub passage: SingularityPassage,
+    /// Where the last evaluation had no solution, which a shorter step may avoid.
+    pub paradox: Option<(f64, Breakdown)>,
 }
 
 impl<'a> MotionOde<'a> {
@@ -43,7 +48,8 @@ impl<'a> MotionOde<'a> {
             Stabilization::BaumgarteFromStep => Some(StepwiseBaumgarte::new(model)),
             _ => None,
         };
-        Self { model, workspace, gains: options.gains(), stepwise, projector, passing, passage }
+        let (gains, paradox) = (options.gains(), None);
+        Self { model, workspace, gains, stepwise, projector, passing, passage, paradox }
     }
 
     /// Factorisations in addition to those of evaluations.
@@ -124,8 +130,13 @@ impl<'a> MotionOde<'a> {
             self.workspace.place(self.model, [q, v, z]);
         }
         self.workspace.place_states(z); // projection does not set z
+        self.paradox = None;
         if let Err(breakdown) = self.workspace.respond(self.model, t, self.gains) {
             dy.fill(f64::NAN);
+            if matches!(breakdown, Breakdown::Reaction(_)) || self.is_far(y) {
+                self.paradox = Some((t, breakdown));
+                return Ok(());
+            }
             return self.stop_if_finite(breakdown, t, y);
         }
         if !self.passage.watch(self.model, &self.workspace, t, v) {
@@ -139,6 +150,13 @@ impl<'a> MotionOde<'a> {
         self.workspace.state_rates(self.model, t, dz);
         works.copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
         Ok(())
+    }
+
+    /// Whether a trial state is so far away that rounding errors make constraints dependent.
+    #[cold]
+    fn is_far(&self, y: &[f64]) -> bool {
+        let [q, ..] = self.model.layout.split(y);
+        q.iter().any(|q| q.abs() > FAR * size(self.model))
     }
 
     /// Stops where the accelerations are not unique. A trial state that is not finite is rejected, because a shorter

@@ -1,5 +1,6 @@
 //! The stepper of any method on the equations of motion of a model.
 
+use super::contact_resolution::Steps;
 use super::failure::{Failure, Reason};
 use super::implicit_motion::ImplicitMotion;
 use super::method_switching::MethodSwitching;
@@ -111,7 +112,13 @@ impl<'a> MotionStepper<'a> {
                 Kind::Auto(Box::new(MethodSwitching::new(&ode, options, auto, t, y)?))
             }
         };
-        let switching = Switching::new(&mut ode, schedule, t, options.t_end, y).map(Box::new);
+        let steps = match (&method, control.step) {
+            (_, None) => Steps::Chosen,
+            (Scheme::Radau(_) | Scheme::GeneralizedAlpha(_), _) => Steps::Implicit,
+            (_, Some(step)) => Steps::Constant(step),
+        };
+        let switching = Switching::new(&mut ode, (schedule, steps), t, options.t_end, y);
+        let switching = switching.map(Box::new);
         let mut stepper =
             Self { ode, kind, switching, sample: None, taken_again: 0, passed: Vec::new() };
         if stepper.switching.is_some() {
@@ -137,6 +144,10 @@ impl<'a> MotionStepper<'a> {
                 sample.put(self.ode.model, &mut y);
             }
             switching.pass(&mut self.ode, t, &y)?;
+            self.hold(switching, t, &y)?;
+        } else if t == self.kind.get().t_end() {
+            // a switch was given up at the end of the last step
+            let y = self.y().to_vec();
             self.hold(switching, t, &y)?;
         }
         self.sample = None;
@@ -292,7 +303,7 @@ impl<'a> MotionStepper<'a> {
     /// A failure in terms of the mechanism.
     pub fn failure(&self, cause: Cause<Breakdown>) -> Box<Failure> {
         let (model, y) = (self.ode.model, self.y());
-        match (&cause, self.ode.passage.undecided) {
+        match (&cause, self.ode.passage.undecided.or(self.ode.paradox)) {
             (Cause::NotFinite { .. }, Some((t, breakdown))) => {
                 Failure::at_state(model, t, model.layout.split(y)[0], breakdown)
             }

@@ -14,6 +14,7 @@ use super::stabilizations::Stabilization;
 use super::start_check::StartCheck;
 use super::switch_schedule::Schedule;
 use crate::analyses::curves::Ranges;
+use crate::analyses::so_far::SoFar;
 use crate::analyses::State;
 use crate::integrate::{Cause, Direction, Flow, Step};
 use crate::model::Model;
@@ -73,7 +74,7 @@ pub(super) fn simulate<W: FnMut(f64) -> Flow>(
         options.check(phase.model, start)?;
     }
     let mut run = Run::default();
-    let mut at = At { t0: start.t, t: start.t, y: Vec::new(), fired: Vec::new() };
+    let mut at = At { t0: start.t, t: start.t, ..At::default() };
     for (k, (phase, cache)) in phases.iter().enumerate() {
         if k == 0 {
             at = At::begin(phase.model, start, options, &mut run);
@@ -84,6 +85,7 @@ pub(super) fn simulate<W: FnMut(f64) -> Flow>(
             function: Function::Given(event.g),
             direction: event.direction,
             ends: true,
+            listed: true,
         });
         let watched = given.collect();
         let outcome = run_phase((phase, cache), watched, &mut at, &options, &mut run, &mut watcher);
@@ -99,6 +101,7 @@ pub(super) fn simulate<W: FnMut(f64) -> Flow>(
 }
 
 /// The place of a run in its phases.
+#[derive(Default)]
 pub(super) struct At {
     /// The start of the run.
     t0: f64,
@@ -106,6 +109,8 @@ pub(super) struct At {
     pub y: Vec<f64>,
     /// The events that ended the last phase.
     pub fired: Vec<usize>,
+    /// What conditions know of the run.
+    pub so_far: SoFar,
 }
 
 impl At {
@@ -115,7 +120,7 @@ impl At {
         let mut y = [&start.q[..], &start.v, &start.z].concat();
         y.resize(model.layout.n_y(), 0.0);
         (run.trajectory, run.dense) = recorder::tables(model, options, t0);
-        Self { t0, t: t0, y, fired: Vec::new() }
+        Self { t0, t: t0, y, ..Self::default() }
     }
 }
 
@@ -163,7 +168,8 @@ pub(super) fn run_phase<W: FnMut(f64) -> Flow>(
         Err(breakdown) => Err(Failure::at_state(model, at.t, &q, breakdown)),
         Ok(()) if recorder.begin(at.t, &at.y) == Flow::Stop => Ok(PhaseEnd::Stopped),
         Ok(()) => {
-            let events = EventList::new(&ode, watched, at.t, &at.fired);
+            let so_far = std::mem::take(&mut at.so_far);
+            let events = EventList::new(&ode, watched, at.t, &at.fired, so_far);
             step_through(ode, events, at, options, (&mut recorder, watcher), schedule, run)
         }
     };
@@ -220,6 +226,7 @@ fn step_through<W: FnMut(f64) -> Flow>(
     run.passed.append(&mut stepper.passed);
     at.t = stepper.t();
     at.y.copy_from_slice(stepper.y());
+    at.so_far = events.map(EventList::so_far).unwrap_or_default();
     outcome
 }
 
@@ -265,7 +272,8 @@ fn next_step<W: FnMut(f64) -> Flow>(
     if flow == Flow::Continue {
         flow = recorder.step(&step, watch);
     }
-    for event in &happened {
+    let listed = |index: usize| events.as_ref().is_some_and(|events| events.lists(index));
+    for event in happened.iter().filter(|event| listed(event.index)) {
         let y = recorder.state_in(&step, event.t);
         run.add_event(&model.layout, event.index, event.t, &y);
     }

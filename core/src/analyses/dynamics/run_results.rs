@@ -46,6 +46,9 @@ pub struct EventStates {
     pub name: String,
     /// A row for each time.
     pub states: Trajectory,
+    /// Impulses of all multipliers, those of forces with modes after the rows of the model, N·s or N·m·s: a row for each
+    /// time of a contact that hits, otherwise empty.
+    pub impulses: Vec<f64>,
 }
 
 /// A singular position that a run passed. With σ the smallest singular value of Φ_q relative to its rows, an error e of

@@ -10,6 +10,7 @@ use super::massless;
 use super::model_cache::ModelCache;
 use super::options::Options;
 use super::redundant_rows::workspace_at;
+use super::shared_reaction;
 use super::stabilizations::Stabilization;
 use crate::analyses::required::{self, Unmet};
 use crate::elements::Group;
@@ -119,6 +120,7 @@ impl StartCheck {
             return Err(Reason::Start { t, name, message, hint }.into());
         }
         massless::check(model, t, q)?;
+        shared_reaction::check(model, t, q)?;
         let Some(limit) = self.rate else { return Ok(()) };
         let pace = largest(model, v).max(1.0);
         let checked = level(&rate, limit * pace, "/s").check(model, t, self.hint);

@@ -8,9 +8,11 @@
 //! is released: its law then decides by itself, until it has kept one piece for [`CALM`] steps. Otherwise the motion
 //! slides along the switch, which laws cannot describe, and the run ends.
 
+mod calm;
 mod curve_break;
 mod narrow;
 
+use super::contact_resolution::{self, Steps};
 use super::law_jump::Jump;
 use super::motion_ode::MotionOde;
 use super::switch_schedule::{changed_constraints, Schedule};
@@ -78,6 +80,9 @@ pub(super) struct Switching {
     due: Option<Due>,
     /// Evaluates the functions of switches.
     workspace: Option<Box<Workspace>>,
+    steps: Steps,
+    /// Ends of the first steps of a contact, last ones first.
+    graded: Vec<f64>,
     motions: Motions,
     sigma: Vec<f64>,
     /// The largest derivative of each component so far.
@@ -88,14 +93,15 @@ impl Switching {
     /// Of a run that begins with `y` at `t`; None without switches.
     pub fn new(
         ode: &mut MotionOde<'_>,
-        schedule: Schedule,
+        (schedule, steps): (Schedule, Steps),
         t: f64,
         t_end: f64,
         y: &[f64],
     ) -> Option<Self> {
         let model = ode.model;
         let n = model.switches.len();
-        let on_state: Vec<usize> = (0..n).filter(|k| model.switches[*k].state).collect();
+        let on_state = |k: &usize| model.switches[*k].state && !model.switches[*k].smooth;
+        let on_state: Vec<usize> = (0..n).filter(on_state).collect();
         if schedule.times.is_empty() && on_state.is_empty() {
             return None;
         }
@@ -115,6 +121,8 @@ impl Switching {
             on_state,
             due: None,
             workspace: reactive.then(|| Box::new(ode.workspace.clone())),
+            steps,
+            graded: Vec::new(),
             motions: Motions::new(&model.layout),
             sigma: vec![0.0; n],
             largest: vec![0.0; y.len()],
@@ -171,7 +179,9 @@ impl Switching {
     pub fn end(&self) -> f64 {
         let due = self.due.as_ref().map(|due| due.t);
         let next = self.schedule.times.get(self.next).map(|(t, _)| *t);
-        due.or(next).unwrap_or(self.t_end)
+        let first = due.or(next).unwrap_or(self.t_end);
+        let graded = self.graded.last().filter(|t| self.sign * (first - **t) > 0.0);
+        graded.copied().unwrap_or(first)
     }
 
     /// Whether a switch is at `t`.
@@ -187,7 +197,7 @@ impl Switching {
 
     /// Continues from another state: the pieces of the switches on the state are those at `y`.
     pub fn restart(&mut self, ode: &mut MotionOde<'_>, t: f64, y: &[f64]) {
-        self.due = None;
+        (self.due, self.graded) = (None, Vec::new());
         ode.workspace.motions.pieces.clear();
         self.begin(ode, t, y);
     }
@@ -203,6 +213,7 @@ impl Switching {
         y: &[f64],
     ) -> Result<(), Cause<Breakdown>> {
         let mut changes = Vec::new();
+        self.graded.retain(|end| self.sign * (end - t) > 0.0);
         if let Some(due) = self.due.take_if(|due| due.t == t) {
             changes = due.changes;
         }
@@ -241,6 +252,10 @@ impl Switching {
             if history.quick > STUCK {
                 self.release(ode, t, y, *switch)?;
             }
+        }
+        let ends = contact_resolution::ends(ode, (t, y), changes, (self.steps, self.sign));
+        if let Some(ends) = ends.map_err(|error| Cause::Equations { t, error })? {
+            self.graded = ends;
         }
         if self.workspace.is_some() {
             self.follow_reactions(model, t, y);
@@ -371,23 +386,5 @@ impl Switching {
         }
         self.hold_calm(model, step);
         After::Accept
-    }
-
-    /// Holds released switches again that have kept one piece.
-    fn hold_calm(&mut self, model: &Model, step: &Step<'_>) {
-        if self.on_state.iter().all(|k| !self.pieces[*k].is_nan()) {
-            return;
-        }
-        self.evaluate_at(model, step, step.t);
-        for k in &self.on_state {
-            let piece = model.switches[*k].boundaries.piece(self.sigma[*k]);
-            let History { last, calm: (before, steps), .. } = &mut self.history[*k];
-            *steps = if piece == *before { *steps + 1 } else { 0 };
-            *before = piece;
-            // a switch that was on its boundary at the start was not released
-            if self.pieces[*k].is_nan() && (last.is_nan() || *steps >= CALM) {
-                self.pieces[*k] = piece;
-            }
-        }
     }
 }

@@ -5,8 +5,14 @@ use super::search::{relative, zero};
 use super::statics::{Place, Statics};
 use crate::analyses::linearization::coordinate;
 use crate::analyses::State;
-use crate::model::Model;
+use crate::elements::Behaviour;
+use crate::equations::forces::{self, Acting};
+use crate::equations::kinematics::Motions;
+use crate::model::{size, Model, Problem};
 use crate::solve::Eigen;
+
+/// Depth that counts as rounding, relative to the size of the mechanism.
+const BEYOND: f64 = 1e-9;
 
 /// A position of rest.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +45,7 @@ impl Equilibrium {
     /// At a place of a model whose last `holders` rows are those of holders.
     pub(super) fn at(statics: &Statics<'_>, place: &Place, holders: usize) -> Result<Self, Reason> {
         let model = statics.model;
+        not_beyond_a_stop(model, statics.t, place)?;
         let local = statics.local(place)?;
         let scaled = Eigen::of(&local.stiffness, local.gradient.len()).values;
         let limit = zero(&local.stiffness, place.scale);
@@ -66,6 +73,27 @@ impl Equilibrium {
             steps: 0,
             relaxed: 0,
         })
+    }
+}
+
+/// Refuses a place beyond a stop or contact with restitution: it has no force there.
+fn not_beyond_a_stop(model: &Model, t: f64, place: &Place) -> Result<(), Reason> {
+    let motions = Motions::at_rest(&model.layout, &place.q);
+    let acting = Acting { z: &place.z, lam: None, t };
+    let beyond = |k: &usize| {
+        let impacts =
+            matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Impacts { .. }));
+        impacts && forces::threshold(model, *k, &motions, acting) < -BEYOND * size(model)
+    };
+    match (0..model.forces.len()).find(beyond) {
+        None => Ok(()),
+        Some(k) => {
+            let name = &model.forces[k].name;
+            let message =
+                "the mechanism would come to rest beyond it, where restitution gives no force";
+            let problem = Problem::at(&["forces", name], message);
+            Err(Reason::Option(vec![problem.hint("give it a stiffness in place of restitution")]))
+        }
     }
 }
 

@@ -12,6 +12,7 @@ use super::solution::{Point, Solver};
 use crate::analyses::mobility::mobility;
 use crate::analyses::State;
 use crate::model::Model;
+use std::sync::Arc;
 
 /// Largest motion over a step: the root mean square over the coordinates, lengths relative to the size of the mechanism.
 const LONGEST: f64 = 0.05;
@@ -31,9 +32,9 @@ const START: f64 = 1e-9;
 /// Follows a motion.
 pub(in crate::analyses) struct Continuation<'a> {
     solver: Solver<'a>,
-    point: Point,
+    point: Arc<Point>,
     /// The point before, if the motion between is smooth.
-    before: Option<Point>,
+    before: Option<Arc<Point>>,
     /// The next step, if the last one limits it.
     length: f64,
     /// The sign of det Φ_q at the point, if it is known.
@@ -58,7 +59,7 @@ impl<'a> Continuation<'a> {
         match solver.point(*t, q.clone()) {
             Some(point) => Ok(Self {
                 solver,
-                point,
+                point: point.into(),
                 before: None,
                 length: f64::INFINITY,
                 orientation: None,
@@ -69,7 +70,7 @@ impl<'a> Continuation<'a> {
     }
 
     /// The motion now.
-    pub fn point(&self) -> &Point {
+    pub fn point(&self) -> &Arc<Point> {
         &self.point
     }
 
@@ -93,11 +94,11 @@ impl<'a> Continuation<'a> {
         while h.abs() >= shortest {
             // the last step ends at the goal exactly
             let t = if h == left { goal } else { self.point.t + h };
-            let predicted = self.point.predicted(h, self.before.as_ref());
-            if let Some(next) = self.solver.point(t, predicted.clone()) {
-                if self.is_near(&next, &predicted, h) && self.keeps_orientation(&next) {
+            let predicted = self.point.predicted(h, self.before.as_deref());
+            if let Some(next) = self.solver.point(t, predicted) {
+                if self.is_near(&next) && self.keeps_orientation(&next) {
                     self.length = 2.0 * h.abs();
-                    self.before = Some(std::mem::replace(&mut self.point, next));
+                    self.before = Some(std::mem::replace(&mut self.point, next.into()));
                     return Ok(());
                 }
             }
@@ -105,7 +106,7 @@ impl<'a> Continuation<'a> {
             self.rejected += 1;
             if h == left && h.abs() <= SHORT * most {
                 if let Some(next) = self.across(goal) {
-                    self.point = next;
+                    self.point = next.into();
                     (self.before, self.orientation) = (None, None);
                     return Ok(());
                 }
@@ -113,7 +114,7 @@ impl<'a> Continuation<'a> {
             h *= 0.5;
         }
         self.length = f64::INFINITY;
-        self.point = passage::around(&mut self.solver, &self.point, goal)?;
+        self.point = passage::around(&mut self.solver, &self.point, goal)?.into();
         (self.before, self.orientation) = (None, None);
         Ok(())
     }
@@ -123,8 +124,8 @@ impl<'a> Continuation<'a> {
     fn across(&mut self, goal: f64) -> Option<Point> {
         let h = 2.0 * (goal - self.point.t);
         let predicted = self.point.predicted(h, None);
-        let beyond = self.solver.point(self.point.t + h, predicted.clone())?;
-        if !self.is_near(&beyond, &predicted, h) {
+        let beyond = self.solver.point(self.point.t + h, predicted)?;
+        if !self.is_near(&beyond) {
             return None;
         }
         let middle = Point { t: goal, ..Quintic::new(&self.point, &beyond).at(0.5) };
@@ -145,16 +146,14 @@ impl<'a> Continuation<'a> {
         keeps
     }
 
-    /// Whether a point lies where the last one leads.
-    fn is_near(&self, next: &Point, predicted: &[f64], h: f64) -> bool {
+    /// Whether a point that was just solved for lies where the last one leads.
+    fn is_near(&self, next: &Point) -> bool {
+        let h = next.t - self.point.t;
         let moved = self.solver.apart(&next.q, &self.point.q);
-        let corrected = self.solver.apart(&next.q, predicted);
-        let expected: Vec<f64> =
-            self.point.v.iter().zip(&self.point.a).map(|(v, a)| v + h * a).collect();
-        let turned = self.solver.apart(&next.v, &expected);
+        let turned = self.solver.turned(&self.point, next);
         let fastest = self.solver.norm(&next.v).max(self.solver.norm(&self.point.v));
         moved <= 2.0 * LONGEST
-            && corrected <= SMALL.max(CORRECTION * moved)
+            && self.solver.corrected <= SMALL.max(CORRECTION * moved)
             && (turned <= TURN * fastest || turned * h.abs() <= SMALL)
     }
 }

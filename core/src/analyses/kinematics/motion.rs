@@ -1,12 +1,13 @@
 //! The result of kinematics.
 
 use super::solution::Point;
+use std::sync::Arc;
 
 /// A motion through chosen times.
 #[derive(Clone, Debug, Default)]
 pub struct Motion {
     /// The motion at the start and after each step of the continuation.
-    pub points: Vec<Point>,
+    pub points: Vec<Arc<Point>>,
     /// The chosen times, as places among the points.
     pub outputs: Vec<usize>,
     /// Steps that were taken again, shorter.
@@ -23,6 +24,6 @@ impl Motion {
 
     /// The motion at the chosen times.
     pub fn at_outputs(&self) -> impl Iterator<Item = &Point> {
-        self.outputs.iter().map(|place| &self.points[*place])
+        self.outputs.iter().map(|place| &*self.points[*place])
     }
 }

@@ -63,6 +63,8 @@ pub(super) struct Solver<'a> {
     /// Velocities of a mechanism at rest.
     rest: Vec<f64>,
     motions: Motions,
+    /// The sizes of the corrections of the last position together.
+    pub corrected: f64,
     /// Part of the worst pivot that the last factorisation left.
     kept: f64,
     /// Least part of a pivot at a regular position; none before the first factorisation.
@@ -89,6 +91,7 @@ impl<'a> Solver<'a> {
             rows,
             rest: vec![0.0; n],
             motions: Motions::new(&model.layout),
+            corrected: 0.0,
             kept: 1.0,
             regular: None,
             terms: std::array::from_fn(|_| vec![0.0; m]),
@@ -99,53 +102,74 @@ impl<'a> Solver<'a> {
 
     /// The root mean square of x, scaled.
     pub fn norm(&self, x: &[f64]) -> f64 {
-        self.apart(x, &self.rest)
+        self.mean(x.iter().copied())
     }
 
     /// The same of a - b.
     pub fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
-        let squares = a.iter().zip(b).zip(&self.weights).map(|((a, b), w)| (a - b) * (a - b) * w);
-        (squares.sum::<f64>() / a.len().max(1) as f64).sqrt()
+        self.mean(a.iter().zip(b).map(|(a, b)| a - b))
+    }
+
+    /// The same of v - (v₀ + h a₀): the change of the velocity that a constant acceleration leaves out.
+    pub fn turned(&self, from: &Point, to: &Point) -> f64 {
+        let h = to.t - from.t;
+        let all = from.v.iter().zip(&from.a).zip(&to.v);
+        self.mean(all.map(|((v, a), next)| next - (v + h * a)))
+    }
+
+    fn mean(&self, x: impl Iterator<Item = f64>) -> f64 {
+        let squares = x.zip(&self.weights).map(|(x, w)| x * x * w);
+        (squares.sum::<f64>() / self.weights.len().max(1) as f64).sqrt()
     }
 
     /// Closes a position that is nearly closed, and solves for its rates. None if Newton's method does not contract at
     /// once, or Φ_q is singular.
-    pub fn point(&mut self, t: f64, q: Vec<f64>) -> Option<Point> {
-        let q = self.closed(t, q)?;
-        self.factored(t)?;
-        let v = self.solved(1, -1.0);
-        self.evaluate(t, &q, Some(&v));
-        let a = self.solved(2, 1.0);
+    pub fn point(&mut self, t: f64, mut q: Vec<f64>) -> Option<Point> {
+        self.close(t, &mut q)?;
+        self.factor()?;
+        let v = self.solve(1, -1.0).to_vec();
+        self.set_gamma(t, &v);
+        let a = self.solve(2, 1.0).to_vec();
         v.iter().chain(&a).all(|x| x.is_finite()).then_some(Point { t, q, v, a })
     }
 
-    /// Newton's method; Φ and its rate without velocities belong to the position that it returns.
-    fn closed(&mut self, t: f64, mut q: Vec<f64>) -> Option<Vec<f64>> {
+    /// Newton's method; Φ_q and the terms without velocities belong to the position that it leaves.
+    fn close(&mut self, t: f64, q: &mut [f64]) -> Option<()> {
         let mut last = f64::INFINITY;
+        self.corrected = 0.0;
         for _ in 0..MOST {
-            self.evaluate(t, &q, None);
+            self.evaluate(t, q);
             let gap = self.gap();
             if gap <= CLOSED {
-                return Some(q);
+                return Some(());
             }
-            self.factored(t)?;
-            let step = self.solved(0, -1.0);
-            let size = self.norm(&step);
+            self.factor()?;
+            self.solve(0, -1.0);
+            let step = &self.solution[..q.len()];
+            let size = self.norm(step);
             if size.is_nan() || size > CONTRACTS * last {
                 // rounding: the position as it was evaluated
-                return (gap <= ROUNDING).then_some(q);
+                return (gap <= ROUNDING).then_some(());
             }
-            q.iter_mut().zip(&step).for_each(|(q, dq)| *q += dq);
+            q.iter_mut().zip(step).for_each(|(q, dq)| *q += dq);
+            self.corrected += size;
             last = size;
         }
         None
     }
 
-    /// Φ, its rate and γ at a motion, or at rest.
-    fn evaluate(&mut self, t: f64, q: &[f64], v: Option<&[f64]>) {
-        let Self { model, motions, terms, rest, .. } = self;
-        motions.place(&model.layout, q, v.unwrap_or(rest));
-        let [phi, rate, gamma] = terms;
+    /// Φ, its rate, γ and Φ_q of a mechanism at rest.
+    fn evaluate(&mut self, t: f64, q: &[f64]) {
+        let Self { model, matrix, motions, terms, rest, .. } = self;
+        motions.place(&model.layout, q, rest);
+        let terms = terms.each_mut().map(|term| &mut term[..]);
+        constraints::terms_and_jacobian(model, motions, t, terms, matrix.jacobian_mut());
+    }
+
+    /// γ at the last position with the velocities v.
+    fn set_gamma(&mut self, t: f64, v: &[f64]) {
+        let Self { model, motions, terms: [phi, rate, gamma], .. } = self;
+        motions.set_rates(&model.layout, v);
         constraints::velocity_terms(model, motions, t, phi, rate, gamma);
     }
 
@@ -155,45 +179,42 @@ impl<'a> Solver<'a> {
         scaled.fold(0.0, |most, x| if x.is_nan() { f64::INFINITY } else { most.max(x) })
     }
 
-    /// Factorises at the last motion. None where a pivot is lost.
-    fn factored(&mut self, t: f64) -> Option<()> {
-        let Self { model, matrix, motions, .. } = self;
-        constraints::jacobian(model, motions, t, matrix.jacobian_mut());
-        matrix.factor().ok()?;
-        let kept = matrix.cancellation().map_or(1.0, |(_, kept)| kept);
-        self.kept = kept;
-        let least = *self.regular.get_or_insert(REGULAR.min(OF_FIRST * kept));
-        (model.allow_redundancy || kept > least).then_some(())
+    /// Factorises Φ_q of the last position. None where a pivot is lost.
+    fn factor(&mut self) -> Option<()> {
+        self.matrix.factor().ok()?;
+        self.kept = self.matrix.cancellation().map_or(1.0, |(_, kept)| kept);
+        let least = *self.regular.get_or_insert(REGULAR.min(OF_FIRST * self.kept));
+        (self.model.allow_redundancy || self.kept > least).then_some(())
     }
 
-    /// x of Φ_q x = `sign` times one of the terms.
-    fn solved(&mut self, term: usize, sign: f64) -> Vec<f64> {
+    /// x of Φ_q x = `sign` times one of the terms; it stays in `solution`.
+    fn solve(&mut self, term: usize, sign: f64) -> &[f64] {
         let n = self.model.layout.n_q;
         let (upper, lower) = self.solution.split_at_mut(n);
         upper.fill(0.0);
         lower.iter_mut().zip(&self.terms[term]).for_each(|(x, term)| *x = sign * term);
         self.matrix.solve(&mut self.solution);
-        let mut x = self.solution[..n].to_vec();
         if self.model.allow_redundancy {
-            self.correct(&mut x, (term, sign));
+            self.correct(term, sign);
         }
-        x
+        &self.solution[..n]
     }
 
-    /// One correction of `x` for the damping of redundant rows, of which an error in its proportion is left.
-    fn correct(&mut self, x: &mut [f64], (term, sign): (usize, f64)) {
-        let (upper, lower) = self.solution.split_at_mut(x.len());
-        upper.fill(0.0);
-        constraints::times_all(self.model, self.matrix.jacobian(), x, lower);
-        let wanted = lower.iter_mut().zip(&self.terms[term]);
+    /// One correction of the solution for the damping of redundant rows, of which an error in its proportion is left.
+    fn correct(&mut self, term: usize, sign: f64) {
+        let (x, lower) = self.solution.split_at_mut(self.model.layout.n_q);
+        let mut change = vec![0.0; x.len() + lower.len()];
+        let left = &mut change[x.len()..];
+        constraints::times_all(self.model, self.matrix.jacobian(), x, left);
+        let wanted = left.iter_mut().zip(&self.terms[term]);
         wanted.for_each(|(left, term)| *left = sign * term - *left);
-        self.matrix.solve(&mut self.solution);
-        x.iter_mut().zip(&self.solution).for_each(|(x, dx)| *x += dx);
+        self.matrix.solve(&mut change);
+        x.iter_mut().zip(&change).for_each(|(x, dx)| *x += dx);
     }
 
     /// Φ at a position, scaled, for the path by its length.
     pub fn phi(&mut self, t: f64, q: &[f64]) -> Vec<f64> {
-        self.evaluate(t, q, None);
+        self.evaluate(t, q);
         self.terms[0].iter().zip(&self.rows).map(|(phi, scale)| phi / scale).collect()
     }
 
@@ -216,11 +237,9 @@ impl<'a> Solver<'a> {
 
     /// Φ_q, scaled, with the column Φ_t, row by row, shape (n_rows, n_q + 1). `unit` is the scale of t.
     pub fn extended(&mut self, t: f64, q: &[f64], unit: f64) -> Vec<f64> {
-        self.evaluate(t, q, None);
-        let Self { model, motions, terms, .. } = self;
-        let n = model.layout.n_q;
-        let mut entries = vec![0.0; model.layout.n_entries];
-        constraints::jacobian(model, motions, t, &mut entries);
+        self.evaluate(t, q);
+        let Self { model, matrix, terms, .. } = self;
+        let (n, entries) = (model.layout.n_q, matrix.jacobian());
         let mut full = vec![0.0; model.layout.n_rows * (n + 1)];
         for (row, column, at) in model.layout.positions() {
             full[row * (n + 1) + column] = entries[at] * self.columns[column] / self.rows[row];

@@ -267,7 +267,7 @@ impl Equations<'_> {
         let t = D::lift(self.t);
         let works = [D::zero(); crate::model::WORKS];
         let (state, solved) = ([&q[..], &v, &z], [&a[..], &lam]);
-        f(model, &Seen { t, state, works: &works, motions: &motions, solved })
+        f(model, &Seen { t, state, works: &works, motions: &motions, solved, so_far: None })
     }
 }
 

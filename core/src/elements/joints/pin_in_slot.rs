@@ -25,6 +25,7 @@ element! {
 }
 
 impl Joint for PinInSlot {
+    const RUBS: bool = true;
     const MEASURED: &'static [Measured] = &[Measured::DISPLACEMENT];
     fn bodies<S>(e: &PinInSlot<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]

@@ -22,6 +22,7 @@ element! {
 }
 
 impl Joint for Revolute {
+    const RUBS: bool = true;
     const MEASURED: &'static [Measured] = &[Measured::ANGLE];
     const CONSTANT_COLUMNS: bool = true;
 

@@ -36,6 +36,7 @@ fn directions<S: Real>(e: &Translational<S>, i: &Pose<S>) -> (Vec2<S>, Vec2<S>) 
 }
 
 impl Joint for Translational {
+    const RUBS: bool = true;
     const MEASURED: &'static [Measured] = &[Measured::DISPLACEMENT];
 
     fn bodies<S>(e: &Translational<S>) -> Vec<BodyId> {

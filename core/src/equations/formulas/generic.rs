@@ -4,8 +4,8 @@ use super::names::{curve, function, internal, point, BodyName, Coordinates};
 use super::scalars::{scalars, Scalar};
 use super::{print, residual, Formulas};
 use crate::elements::{
-    Acted, BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveOn, Default, Field, Followed,
-    Group, JointId, PointOn, Source,
+    Acted, Bearing, BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveOn, Default, Field,
+    Followed, Group, JointId, PointOn, Source,
 };
 use crate::expression::Tape;
 use crate::math::{Local, Pose};
@@ -127,6 +127,9 @@ impl Source for Sample {
     }
     fn joint(&mut self, _: &Field) -> Option<JointId> {
         Some(JointId(0))
+    }
+    fn bearing(&mut self, _: &Field) -> Option<Bearing<Tape>> {
+        None // forces have no equations
     }
     fn number(&mut self, _: &Field) -> Option<Tape> {
         Some(Tape::from(0.0))

@@ -36,8 +36,15 @@ pub fn of_constraint(
         let coordinate = |body: BodyId, c: Coordinate| {
             find(body).map_or(Symbolic::zero(), |(_, coordinates)| coordinates.of(c))
         };
-        let values =
-            Laws { parameters: &parameters, t, coordinate, z: &[], pieces: &[], function: None };
+        let values = Laws {
+            parameters: &parameters,
+            t,
+            coordinate,
+            own: [&[]; 2],
+            z: &[],
+            pieces: &[],
+            function: None,
+        };
         let mut points = points(record, model, element, written).into_iter();
         let mut over = element.map(&mut |tape| match points.next().flatten() {
             Some(component) => component,
@@ -80,7 +87,8 @@ fn points(
 ) -> Vec<Option<Symbolic>> {
     let coordinate = |_: BodyId, _: Coordinate| 0.0;
     let parameters = &model.parameters;
-    let reference = Laws { parameters, t: 0.0, coordinate, z: &[], pieces: &[], function: None };
+    let reference =
+        Laws { parameters, t: 0.0, coordinate, own: [&[]; 2], z: &[], pieces: &[], function: None };
     let mut values = Vec::new();
     element.map(&mut |tape| values.push(tape.evaluate(&reference)));
     let mut all = Vec::new();

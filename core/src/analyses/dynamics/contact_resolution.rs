@@ -1,0 +1,129 @@
+//! Steps at the beginning of compliant contacts.
+//!
+//! A mass m, as the contact feels it through the mechanism, that arrives with the speed v at k δⁿ stays in contact for
+//! about 3 δ/v with the depth δ = ((n + 1) m v²/(2 k))^(1/(n + 1)). Constant steps of an explicit method may be too long
+//! for that. Methods that choose their steps find the error of steps that are too long, but where n is not an integer, the
+//! force begins like tⁿ, without higher derivatives, and estimates of the error are too small there: the first steps are
+//! graded.
+
+use super::modes::Place;
+use super::motion_ode::MotionOde;
+use crate::elements::Behaviour;
+use crate::model::{Model, Owner};
+use crate::solve::Breakdown;
+
+/// Least number of constant steps in a contact.
+const STEPS: f64 = 10.0;
+/// Time in contact over depth and speed: π for a linear spring, 2.94 for a sphere.
+const DURATION: f64 = 3.0;
+/// Ends of the first steps, as parts of the time in contact.
+const GRADED: [f64; 4] = [0.25, 0.05, 0.01, 0.002];
+
+/// The steps of a method.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Steps {
+    /// Of constant length, of an explicit method.
+    Constant(f64),
+    /// The same of an implicit method.
+    Implicit,
+    /// Chosen by the error.
+    Chosen,
+}
+
+/// A contact that begins.
+struct Onset {
+    force: usize,
+    exponent: f64,
+    /// About how long it lasts, s.
+    lasts: f64,
+}
+
+/// The ends of the first steps, last ones first, of contacts that begin at a state where these switches change; None if
+/// none begins. With the steps of the method, and the direction of time.
+///
+/// # Errors
+/// [`Breakdown::Unresolved`] if constant steps are too long.
+pub(super) fn ends(
+    ode: &mut MotionOde<'_>,
+    at: (f64, &[f64]),
+    changes: &[(usize, f64)],
+    (steps, sign): (Steps, f64),
+) -> Result<Option<Vec<f64>>, Breakdown> {
+    let Some(onset) = Onset::find(ode, at, changes)? else { return Ok(None) };
+    Ok(Some(onset.ends(steps)?.into_iter().map(|after| at.0 + sign * after).collect()))
+}
+
+impl Onset {
+    /// The shortest contact that begins where these switches change.
+    fn find(
+        ode: &mut MotionOde<'_>,
+        at: (f64, &[f64]),
+        changes: &[(usize, f64)],
+    ) -> Result<Option<Self>, Breakdown> {
+        let mut found: Option<Self> = None;
+        for (switch, piece) in changes {
+            let Owner::Force(force) = ode.model.switches[*switch].owner else { continue };
+            if *piece > 0.0 && ode.model.forces[force].first_switch == *switch {
+                let own = Self::of_force(ode, at, force)?;
+                found = own.into_iter().chain(found).min_by(|a, b| a.lasts.total_cmp(&b.lasts));
+            }
+        }
+        Ok(found)
+    }
+
+    fn of_force(
+        ode: &mut MotionOde<'_>,
+        (t, y): (f64, &[f64]),
+        force: usize,
+    ) -> Result<Option<Self>, Breakdown> {
+        let model = ode.model;
+        let Some(Behaviour::Compliant { stiffness, exponent }) =
+            model.forces[force].element.behaviour()
+        else {
+            return Ok(None);
+        };
+        let speed = -Place { t, y: &mut y.to_vec() }.gap_rates(model, &[force])[0];
+        let gradient = gradient(model, (t, y), force);
+        let response =
+            ode.workspace.velocity_jump(model, t, model.layout.split(y)[0], &gradient)?;
+        let per_mass: f64 = gradient.iter().zip(&response).map(|(g, v)| g * v).sum();
+        let work = 0.5 * speed * speed / per_mass;
+        let depth = ((exponent + 1.0) * work / stiffness).powf(1.0 / (exponent + 1.0));
+        let lasts = DURATION * depth / speed;
+        Ok((speed > 0.0 && lasts.is_finite()).then_some(Self { force, exponent, lasts }))
+    }
+
+    /// The times after its beginning at which the first steps end, last ones first.
+    fn ends(&self, steps: Steps) -> Result<Vec<f64>, Breakdown> {
+        let Self { force, exponent, lasts } = *self;
+        match steps {
+            Steps::Constant(step) if STEPS * step > lasts => {
+                Err(Breakdown::Unresolved { force, lasts, step })
+            }
+            Steps::Chosen if exponent.fract() != 0.0 => {
+                Ok(GRADED.iter().map(|part| part * lasts).collect())
+            }
+            _ => Ok(Vec::new()),
+        }
+    }
+}
+
+/// The derivatives of the rate of the gap by the rates of the coordinates.
+fn gradient(model: &Model, (t, y): (f64, &[f64]), force: usize) -> Vec<f64> {
+    let mut y = y.to_vec();
+    let mut rate = |one: Option<usize>| {
+        let [_, v, ..] = model.layout.split_mut(&mut y);
+        v.fill(0.0);
+        if let Some(k) = one {
+            v[k] = 1.0;
+        }
+        Place { t, y: &mut y }.gap_rates(model, &[force])[0]
+    };
+    let still = rate(None);
+    let mut gradient = vec![0.0; model.layout.n_q];
+    for body in model.forces[force].element.bodies() {
+        let columns = model.layout.bodies[body.0].range();
+        columns.for_each(|k| gradient[k] = rate(Some(k)) - still);
+    }
+    gradient
+}

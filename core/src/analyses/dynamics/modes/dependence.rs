@@ -1,0 +1,143 @@
+//! Which friction and contacts can hold together, and what follows for the others.
+//!
+//! Equations may depend on others. Where they depend on those of other friction, friction follows it. Where joints and
+//! drivers alone hold the coordinate of friction, it is idle until a driver moves it, and where its speed is zero for a
+//! moment only, it slides on.
+
+use super::super::model_cache::ModelCache;
+use super::super::redundant_rows::workspace_at;
+use super::place::{largest, mode_of, Place, STILL};
+use crate::analyses::mobility;
+use crate::elements::{Behaviour, Mode};
+use crate::equations::constraints;
+use crate::equations::forces::{self, Acting};
+use crate::equations::kinematics::Motions;
+use crate::model::{size, ForceMode, Model};
+
+/// Speed at which friction in a joint that drivers hold begins to slide, relative to the speeds of the mechanism.
+const BEGINS: f64 = 1e-6;
+
+/// The modes of forces that hold together: their equations are independent of each other and of the joints. The `free`
+/// modes have the directions in which friction slides otherwise.
+pub(super) fn independent(
+    model: &Model,
+    place: &Place<'_>,
+    free: &[ForceMode],
+    candidates: &[(usize, f64)],
+) -> Vec<ForceMode> {
+    let holds = |(k, side): &(usize, f64)| ForceMode {
+        force: *k,
+        mode: Mode::Holds(*side),
+        value: 0.0,
+        slack: 0.0,
+    };
+    let all: Vec<ForceMode> = candidates.iter().map(holds).collect();
+    let [q, ..] = place.state(model);
+    let phase = model.in_modes(&all);
+    let found = mobility(&phase, place.t, q);
+    if found.redundant.is_empty() && found.singular.is_empty() {
+        let row = |own: &ForceMode| phase.forces[own.force].held_row.expect("it holds");
+        let with_value =
+            |own: &ForceMode| ForceMode { value: value_of(&phase, place, row(own)), ..*own };
+        return all.iter().map(with_value).collect();
+    }
+    let mut held: Vec<ForceMode> = Vec::new();
+    let mut others: Vec<ForceMode> = Vec::new();
+    for own in all {
+        let mut tried = held.clone();
+        tried.push(own);
+        let phase = model.in_modes(&tried);
+        let found = mobility(&phase, place.t, q);
+        let row = phase.forces[own.force].held_row.expect("it holds");
+        let last = phase.layout.owner(row).0;
+        let group = found.redundant.iter().chain(&found.singular).find(|of| of.contains(&last));
+        match group {
+            None => {
+                let value = value_of(&phase, place, row);
+                held.push(ForceMode { value, ..own });
+            }
+            Some(_) => {
+                others.push(dependent(model, place, &held, (own.force, mode_of(free, own.force))))
+            }
+        }
+    }
+    held.extend(others);
+    held
+}
+
+/// The value that a row of a phase holds: that of a coordinate if friction sticks, zero for a contact.
+fn value_of(phase: &Model, place: &Place<'_>, row: usize) -> f64 {
+    let owner = phase.forces.iter().find(|item| item.held_row == Some(row));
+    let Some(Behaviour::Sticks) = owner.and_then(|item| item.element.behaviour()) else {
+        return 0.0;
+    };
+    let [q, ..] = place.state(phase);
+    let mut residual = vec![0.0; phase.layout.n_rows];
+    constraints::residual(phase, &Motions::at_rest(&phase.layout, q), place.t, &mut residual);
+    residual[row]
+}
+
+/// The mode of a force whose equation depends on those that hold, on joints and on drivers.
+fn dependent(
+    model: &Model,
+    place: &Place<'_>,
+    held: &[ForceMode],
+    (force, free): (usize, Mode),
+) -> ForceMode {
+    let of = |mode: Mode, slack: f64| ForceMode { force, mode, value: 0.0, slack };
+    if !matches!(model.forces[force].element.behaviour(), Some(Behaviour::Sticks)) {
+        return of(Mode::Idle, 0.0);
+    }
+    if let Some((leader, sense)) = leader(model, place, held, force) {
+        return of(Mode::Follows { leader, sense }, 0.0);
+    }
+    let begins = BEGINS * place.speed_scale(model, held).max(size(model));
+    match passes(model, place, held, (force, free, begins)) {
+        true => of(free, 0.0),
+        false => of(Mode::Idle, begins),
+    }
+}
+
+/// The friction that holds without which a friction would slide, and the sign of its speed then.
+fn leader(
+    model: &Model,
+    place: &Place<'_>,
+    held: &[ForceMode],
+    force: usize,
+) -> Option<(usize, f64)> {
+    let sticks = |k: usize| matches!(model.forces[k].element.behaviour(), Some(Behaviour::Sticks));
+    let [q, _, z] = place.state(model);
+    let phase = model.in_modes(held);
+    let mut workspace = workspace_at((&phase, &ModelCache::default()), place.t, place.state(model));
+    let speed = |v: &[f64]| {
+        let motions = Motions::at(&model.layout, q, v);
+        forces::threshold(model, force, &motions, Acting { z, lam: None, t: place.t })
+    };
+    let mut found: Option<(f64, usize)> = None;
+    for own in held.iter().filter(|own| sticks(own.force)) {
+        let mut rates = vec![0.0; phase.layout.n_rows];
+        rates[phase.forces[own.force].held_row.expect("it holds")] = 1.0;
+        let Ok([dv, _]) = workspace.jump(&phase, place.t, q, &rates) else { continue };
+        let ratio = speed(&dv) - speed(&vec![0.0; dv.len()]);
+        let counts = ratio.abs() > STILL * largest(&dv);
+        if counts && found.is_none_or(|(most, _)| ratio.abs() > most.abs()) {
+            found = Some((ratio, own.force));
+        }
+    }
+    found.map(|(ratio, leader)| (leader, ratio.signum()))
+}
+
+/// Whether friction slides on that has no speed for a moment only: its speed changes its sign while the mechanism moves,
+/// or a driver begins to move it. Speed or acceleration then has the direction in which it slides.
+fn passes(
+    model: &Model,
+    place: &Place<'_>,
+    held: &[ForceMode],
+    (force, free, begins): (usize, Mode, f64),
+) -> bool {
+    let (Mode::Slides(sign), Ok(workspace)) = (free, place.solved(&model.in_modes(held))) else {
+        return false;
+    };
+    let jet = place.gap_jets(model, &[force], workspace.a())[0];
+    sign * jet.value > 0.5 * begins || sign * jet.rate > STILL * largest(workspace.a())
+}

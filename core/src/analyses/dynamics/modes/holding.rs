@@ -1,0 +1,240 @@
+//! Contacts that rest and friction that sticks.
+//!
+//! All contacts that touch without speed and all friction without speed hold at first. Equations that depend on others
+//! are left out: friction follows another one then, and a contact is idle. While a contact pulls or friction exceeds its
+//! limit, the one that does so most lets go.
+
+use super::super::failure::Failure;
+use super::dependence::independent;
+use super::impacts::{self, restitution};
+use super::place::{largest, mode_of, with_modes, Place, STILL};
+use crate::elements::{Behaviour, Mode};
+use crate::equations::forces::{self, Acting};
+use crate::equations::kinematics::Motions;
+use crate::math::Jet;
+use crate::model::{ForceMode, Model};
+
+/// Part of the limit by which a reserve may be negative.
+const ROUNDING: f64 = 1e-11;
+/// Part of the limit that may be left at the event where the reserve becomes zero: its time follows from an interpolant.
+const USED_UP: f64 = 1e-6;
+
+/// Rate of a gap, m/s or rad/s, below which the next flight is so low that rounding errors of the gap count.
+const SLOW: f64 = 2e-7;
+/// Most forces of which all combinations are tried.
+const MOST_TRIED: usize = 5;
+/// Part of the forces of a state below which a force is noise.
+const NOISE: f64 = 1e-13;
+
+/// The modes of all forces that have any, with the contacts that touch, the forces whose modes ended, and the largest rate
+/// before the velocities jumped, if they did.
+pub(super) fn decide(
+    model: &Model,
+    place: &mut Place<'_>,
+    before: &[ForceMode],
+    (touching, fired, jumped): (&[usize], &[usize], Option<f64>),
+) -> Result<Vec<ForceMode>, Box<Failure>> {
+    let rest = at_rest(model, place, before, touching)?;
+    impacts::halt(model, place, &rest)?;
+    let all: Vec<usize> = with_modes(model).collect();
+    let thresholds = place.thresholds(model, &all);
+    // after an impact that stops the mechanism, rounding errors are all that is left
+    let speed = place.speed_scale(model, before).max(jumped.unwrap_or(0.0));
+    let jumped = jumped.is_some();
+    let mut modes: Vec<ForceMode> = Vec::new();
+    let mut candidates = Vec::new();
+    for (k, threshold) in all.iter().zip(&thresholds) {
+        let free = match model.forces[*k].element.behaviour() {
+            Some(Behaviour::Sticks) => {
+                let old = mode_of(before, *k);
+                let still = threshold.abs() <= STILL * speed || *threshold == 0.0;
+                let was = !jumped && (fired.contains(k) || old.holds());
+                if was || still {
+                    candidates.push(*k);
+                }
+                match old {
+                    Mode::Slides(sign) if !jumped && !fired.contains(k) => Mode::Slides(sign),
+                    Mode::Slides(sign) if !jumped => Mode::Slides(-sign),
+                    _ => Mode::Slides(if *threshold < 0.0 { -1.0 } else { 1.0 }),
+                }
+            }
+            _ => {
+                if rest.contains(k) {
+                    candidates.push(*k);
+                }
+                Mode::Free
+            }
+        };
+        modes.push(ForceMode { force: *k, mode: free, value: 0.0, slack: 0.0 });
+    }
+    let contact =
+        |k: &usize| !matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Sticks));
+    // what let go holds only where nothing else does
+    let ended = |k: &usize| fired.contains(k) && mode_of(before, *k).holds();
+    candidates.sort_by_key(|k| (ended(k), !contact(k), *k));
+    let ended: Vec<usize> = candidates.iter().copied().filter(ended).collect();
+    let mut modes = hold(model, place, modes, (&candidates, &ended))?;
+    give_slack(model, place, touching, &mut modes);
+    Ok(modes)
+}
+
+/// The slack of contacts that touch and of what holds: the rounding errors of gaps and forces.
+fn give_slack(model: &Model, place: &Place<'_>, touching: &[usize], modes: &mut [ForceMode]) {
+    let rates = place.gap_rates(model, touching);
+    let gaps = place.thresholds(model, touching);
+    let noise = NOISE * place.force_scale(model, &[]);
+    for own in modes {
+        let at = touching.iter().position(|k| *k == own.force);
+        own.slack = match (own.mode, at) {
+            (Mode::Free, Some(at)) if rates[at] > SLOW => 0.0,
+            // a gap that was held is not exactly zero
+            (Mode::Free, Some(at)) => place.rounding(model, own.force) + (-gaps[at]).max(0.0),
+            (Mode::Holds(_) | Mode::Follows { .. }, _) => noise,
+            _ => own.slack,
+        };
+    }
+}
+
+/// The contacts that touch without speed, or whose next flight would be lower than the rounding error of the gap.
+fn at_rest(
+    model: &Model,
+    place: &Place<'_>,
+    before: &[ForceMode],
+    touching: &[usize],
+) -> Result<Vec<usize>, Box<Failure>> {
+    if touching.is_empty() {
+        return Ok(Vec::new());
+    }
+    let free = before.iter().map(|of| match of.mode {
+        Mode::Slides(_) => *of,
+        _ => ForceMode { mode: Mode::Free, ..*of },
+    });
+    let phase = model.in_modes(&free.collect::<Vec<_>>());
+    let workspace = place.solved(&phase)?;
+    let gaps = place.gap_jets(model, touching, workspace.a());
+    let rests = |(k, gap): &(&usize, Jet)| {
+        let low = 0.5 * gap.rate * gap.rate <= -gap.second * place.rounding(model, **k);
+        gap.rate <= restitution(model, **k).1 || low
+    };
+    Ok(touching.iter().zip(gaps).filter(rests).map(|(k, _)| *k).collect())
+}
+
+/// Lets the candidates hold, without those that cannot. Those that `ended` have no reserve left.
+fn hold(
+    model: &Model,
+    place: &Place<'_>,
+    free: Vec<ForceMode>,
+    (candidates, ended): (&[usize], &[usize]),
+) -> Result<Vec<ForceMode>, Box<Failure>> {
+    let sides = place.sides(model, candidates);
+    let all: Vec<(usize, f64)> = candidates.iter().copied().zip(sides).collect();
+    let (mut left, mut now) = (all.clone(), free.clone());
+    let found = loop {
+        let modes = with_held(model, place, &now, &left);
+        let ended = with_leaders(&modes, ended);
+        let Some((force, slides)) = worst(&model.in_modes(&modes), place, &ended)? else {
+            break modes;
+        };
+        left.retain(|(k, _)| *k != force);
+        let own = now.iter_mut().find(|of| of.force == force).expect("it has modes");
+        if let Some(sign) = slides {
+            own.mode = Mode::Slides(sign);
+        }
+    };
+    if moves_apart(model, place, &found, candidates)? || candidates.len() > MOST_TRIED {
+        return Ok(found);
+    }
+    // what let go first may be needed later: all combinations, those that hold most first
+    for choice in 0..3_usize.pow(candidates.len() as u32) {
+        let of = |place: usize| choice / 3_usize.pow(place as u32) % 3;
+        let (mut now, mut left) = (free.clone(), Vec::new());
+        for (place, (k, side)) in all.iter().enumerate() {
+            let own = now.iter_mut().find(|of| of.force == *k).expect("it has modes");
+            match (of(place), own.mode) {
+                (0, _) => left.push((*k, *side)),
+                (way, Mode::Slides(_)) => own.mode = Mode::Slides([1.0, -1.0][way - 1]),
+                _ => {}
+            }
+        }
+        let modes = with_held(model, place, &now, &left);
+        let ended = with_leaders(&modes, ended);
+        if worst(&model.in_modes(&modes), place, &ended)?.is_none()
+            && moves_apart(model, place, &modes, candidates)?
+        {
+            return Ok(modes);
+        }
+    }
+    Ok(found)
+}
+
+/// The modes with some forces that hold, as far as their equations are independent.
+fn with_held(
+    model: &Model,
+    place: &Place<'_>,
+    free: &[ForceMode],
+    left: &[(usize, f64)],
+) -> Vec<ForceMode> {
+    let mut modes = free.to_vec();
+    for own in independent(model, place, free, left) {
+        *modes.iter_mut().find(|of| of.force == own.force).expect("it has modes") = own;
+    }
+    modes
+}
+
+/// Whether the contacts among the candidates that are free move apart, and friction that slides moves in its direction.
+fn moves_apart(
+    model: &Model,
+    place: &Place<'_>,
+    modes: &[ForceMode],
+    candidates: &[usize],
+) -> Result<bool, Box<Failure>> {
+    let phase = model.in_modes(modes);
+    let workspace = place.solved(&phase)?;
+    let fastest = largest(workspace.a());
+    let gaps = place.gap_jets(model, candidates, workspace.a());
+    let fits = |(k, jet): (&usize, Jet)| match mode_of(modes, *k) {
+        Mode::Free => jet.second >= -STILL * fastest,
+        Mode::Slides(sign) => sign * jet.rate >= -STILL * fastest,
+        _ => true,
+    };
+    Ok(candidates.iter().zip(gaps).all(fits))
+}
+
+/// The forces that ended, with those that they follow: all of them have reached their limits.
+fn with_leaders(held: &[ForceMode], ended: &[usize]) -> Vec<usize> {
+    let leader = |own: &ForceMode| match own.mode {
+        Mode::Follows { leader, .. } if ended.contains(&own.force) => Some(leader),
+        _ => None,
+    };
+    ended.iter().copied().chain(held.iter().filter_map(leader)).collect()
+}
+
+/// The force that exceeds what it can hold most, and the direction in which friction slides then.
+fn worst(
+    phase: &Model,
+    place: &Place<'_>,
+    ended: &[usize],
+) -> Result<Option<(usize, Option<f64>)>, Box<Failure>> {
+    let ([q, v, z], t) = (place.state(phase), place.t);
+    let workspace = place.solved(phase)?;
+    let motions = Motions::at(&phase.layout, q, v);
+    let lam = workspace.lam();
+    let acting = Acting { z, lam: Some(lam), t };
+    let scale = place.force_scale(phase, lam);
+    let mut found: Option<(f64, usize, Option<f64>)> = None;
+    for (k, item) in phase.forces.iter().enumerate() {
+        let (Mode::Holds(_), Some(row)) = (item.mode, item.held_row) else { continue };
+        let reserve = forces::reserve(phase, k, &motions, acting);
+        let sticks = matches!(item.element.behaviour(), Some(Behaviour::Sticks));
+        let part = reserve / if sticks { lam[row].abs().max(NOISE * scale) } else { scale };
+        let least = match (ended.contains(&k), sticks) {
+            (true, _) => USED_UP,
+            (_, true) => -ROUNDING,
+            (_, false) => -NOISE,
+        };
+        if part < least && found.is_none_or(|(most, ..)| part < most) {
+            found = Some((part, k, sticks.then_some(lam[row].signum())));
+        }
+    }
+    Ok(found.map(|(_, k, sign)| (k, sign)))
+}

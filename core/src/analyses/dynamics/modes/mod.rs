@@ -1,0 +1,121 @@
+//! The modes of forces at the start of a phase: which friction slides or sticks, which contacts are apart or rest.
+//!
+//! | file | concept |
+//! |---|---|
+//! | `mode_events` | the functions whose zeros may change a mode |
+//! | `place` | a state in which modes are decided |
+//! | `impacts` | jumps of velocities where contacts hit |
+//! | `dependence` | which of them can hold together, and what follows for the others |
+//! | `holding` | contacts that rest and friction that sticks |
+
+mod dependence;
+mod holding;
+mod impacts;
+mod mode_events;
+mod place;
+
+pub(super) use mode_events::{watched_mode, ModeFunction};
+pub(super) use place::{has_mode, Place};
+
+use place::{is_contact, largest, with_modes};
+
+use super::failure::{Failure, Reason};
+use crate::analyses::mobility;
+use crate::elements::{Behaviour, Mode};
+use crate::equations::constraints;
+use crate::equations::kinematics::Motions;
+use crate::model::{ForceMode, Model};
+use impacts::Hits;
+
+/// The modes of the next phase, and what happened.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Settled {
+    /// The mode of each force that has modes.
+    pub modes: Vec<ForceMode>,
+    /// Contacts that hit, with the impulses of all multipliers.
+    pub hits: Vec<usize>,
+    /// The impulses of the joints and contacts, shape (n_multipliers).
+    pub impulses: Vec<f64>,
+    /// Other changes: the force, and the place of its event.
+    pub changed: Vec<(usize, usize)>,
+}
+
+/// Decides the modes at a state, whose velocities jump where contacts hit. `fired` are the forces whose modes ended
+/// there; without modes `before`, the run begins.
+///
+/// # Errors
+/// [`Failure`] where contacts hit without end, and where the equations have no solution.
+pub(super) fn settle(
+    model: &Model,
+    place: &mut Place<'_>,
+    before: &[ForceMode],
+    fired: &[usize],
+) -> Result<Settled, Box<Failure>> {
+    let touching = impacts::touching(model, place, before);
+    let fastest = largest(place.state(model)[1]);
+    let Hits { hits, impulses } = impacts::resolve(model, place, &touching)?;
+    let jumped = (!hits.is_empty()).then_some(fastest);
+    let modes = holding::decide(model, place, before, (&touching, fired, jumped))?;
+    let mut changed = Vec::new();
+    for (old, new) in before.iter().zip(&modes) {
+        let sticks = matches!(model.forces[old.force].element.behaviour(), Some(Behaviour::Sticks));
+        match (old.mode.holds(), new.mode.holds(), sticks) {
+            (false, true, true) => changed.push((old.force, 0)),
+            (true, false, _) if !hits.contains(&old.force) => changed.push((old.force, 1)),
+            _ => {}
+        }
+    }
+    Ok(Settled { modes, hits, impulses, changed })
+}
+
+/// Refuses a start beyond a stop or contact with restitution, and a stop whose coordinate drivers hold.
+///
+/// # Errors
+/// [`Failure`] with [`Reason::Start`].
+pub(super) fn check(model: &Model, place: &Place<'_>) -> Result<(), Box<Failure>> {
+    let t = place.t;
+    let all: Vec<usize> = with_modes(model).filter(|k| is_contact(model, *k)).collect();
+    for (k, gap) in all.iter().zip(place.thresholds(model, &all)) {
+        let name = model.forces[*k].name.clone();
+        if Place::is_closed(-gap, model, *k) {
+            continue;
+        }
+        let message = format!("the state is beyond {name} at t = {t:.6} s: its gap is {gap:.3e}");
+        let hint =
+            "start where the gap is not negative, or give a stiffness in place of restitution";
+        return Err(Reason::Start { t, name, message, hint }.into());
+    }
+    for k in all.iter().filter(|_| model.driven) {
+        let Some(driver) = held_by(model, place, *k) else { continue };
+        let name = model.forces[*k].name.clone();
+        let message =
+            format!("{name} acts on a coordinate that {driver} holds, which no impact can change");
+        let hint =
+            "remove the stop, release the driver, or give a stiffness in place of restitution";
+        return Err(Reason::Start { t, name, message, hint }.into());
+    }
+    Ok(())
+}
+
+/// The driver, or the joint, that holds the coordinate of a stop.
+fn held_by(model: &Model, place: &Place<'_>, force: usize) -> Option<String> {
+    let [q, ..] = place.state(model);
+    let at = |value: f64| {
+        model.in_modes(&[ForceMode { force, mode: Mode::Holds(0.0), value, slack: 0.0 }])
+    };
+    let open = at(0.0);
+    let row = open.forces[force].held_row?;
+    let mut residual = vec![0.0; open.layout.n_rows];
+    constraints::residual(&open, &Motions::at_rest(&open.layout, q), place.t, &mut residual);
+    let held = at(residual[row]);
+    let last = held.layout.owner(row).0;
+    let found = mobility(&held, place.t, q);
+    let group = found.redundant.into_iter().find(|group| group.contains(&last))?;
+    let driver = group.iter().find(|k| model.constraints.get(**k).is_some_and(|item| item.driven));
+    driver.map(|k| model.constraints[*k].name.clone())
+}
+
+/// Whether a model has forces with modes.
+pub(super) fn has_modes(model: &Model) -> bool {
+    with_modes(model).next().is_some()
+}

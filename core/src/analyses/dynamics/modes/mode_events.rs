@@ -1,0 +1,83 @@
+//! The functions whose zeros may change the mode of a force. Each is positive while the mode lasts.
+
+use crate::analyses::signals::Seen;
+use crate::elements::{Behaviour, Mode};
+use crate::equations::forces::{self, Acting};
+use crate::integrate::Direction;
+use crate::model::Model;
+
+/// A function of a force.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ModeFunction {
+    /// Sliding speed or gap, times a sign, and the slack of the mode.
+    Threshold {
+        /// The force.
+        force: usize,
+        /// ±1.
+        sign: f64,
+        /// Added to it.
+        slack: f64,
+    },
+    /// What is left until friction slips or a contact lets go, and the slack of the mode.
+    Reserve {
+        /// The force.
+        force: usize,
+        /// Added to it.
+        slack: f64,
+    },
+    /// The speed at which friction begins to slide in a joint that drivers hold, less the speed.
+    Begins {
+        /// The force.
+        force: usize,
+        /// This speed.
+        at: f64,
+    },
+    /// Of a mode that does not end by itself.
+    Never,
+}
+
+impl ModeFunction {
+    /// Whether it needs multipliers.
+    pub fn needs_solution(self) -> bool {
+        matches!(self, Self::Reserve { .. })
+    }
+
+    /// Its value at a state.
+    pub fn value(self, model: &Model, seen: &Seen<'_>) -> f64 {
+        let acting = Acting { z: seen.state[2], lam: Some(seen.solved[1]), t: seen.t };
+        match self {
+            Self::Threshold { force, sign, slack } => {
+                sign * forces::threshold(model, force, seen.motions, acting) + slack
+            }
+            Self::Reserve { force, slack } => {
+                forces::reserve(model, force, seen.motions, acting) + slack
+            }
+            Self::Begins { force, at } => {
+                at - forces::threshold(model, force, seen.motions, acting).abs()
+            }
+            Self::Never => 1.0,
+        }
+    }
+}
+
+/// The function of an event of a force, by its place in [`Behaviour::events`], with the direction that counts. The modes
+/// are those of the model.
+pub fn watched_mode(model: &Model, force: usize, place: usize) -> (ModeFunction, Direction) {
+    let item = &model.forces[force];
+    let slack =
+        model.blueprint.modes.iter().find(|of| of.force == force).map_or(0.0, |of| of.slack);
+    let threshold = |sign: f64| ModeFunction::Threshold { force, sign, slack };
+    let (gap, falling) = (threshold(1.0), Direction::Falling);
+    let reserve = ModeFunction::Reserve { force, slack };
+    match (item.element.behaviour(), item.mode, place) {
+        (Some(Behaviour::Compliant { .. }), _, 0) => (gap, falling),
+        (Some(Behaviour::Compliant { .. }), _, _) => (gap, Direction::Rising),
+        (Some(Behaviour::Sticks), Mode::Slides(sign), 0) => (threshold(sign), falling),
+        (Some(Behaviour::Impacts { .. }), Mode::Free, 0) => (gap, falling),
+        (Some(_), Mode::Holds(_), 1) => (reserve, falling),
+        (Some(Behaviour::Sticks), Mode::Idle, 1) => {
+            (ModeFunction::Begins { force, at: slack }, falling)
+        }
+        _ => (ModeFunction::Never, falling),
+    }
+}

@@ -1,0 +1,152 @@
+//! A state in which modes are decided.
+
+use super::super::failure::Failure;
+use super::super::model_cache::ModelCache;
+use super::super::redundant_rows::workspace_at;
+use crate::elements::{Behaviour, Mode};
+use crate::equations::energy;
+use crate::equations::forces::{self, Acting};
+use crate::equations::kinematics::Motions;
+use crate::equations::{Gains, Workspace};
+use crate::math::{Jet, Lift};
+use crate::model::{size, ForceMode, Model};
+
+/// Speed of friction that counts as zero, relative to the speeds of the mechanism; accelerations likewise.
+pub const STILL: f64 = 1e-9;
+
+/// Largest gap of a contact that touches: relative to the size of the mechanism, or in rad.
+const TOUCHING: f64 = 1e-10;
+
+/// Spacings of numbers within which a gap is uncertain.
+const ROUNDING: f64 = 64.0;
+
+/// A state y = (q, v, z, works) at a time.
+pub struct Place<'y> {
+    pub t: f64,
+    pub y: &'y mut [f64],
+}
+
+impl Place<'_> {
+    /// q, v and z.
+    pub fn state(&self, model: &Model) -> [&[f64]; 3] {
+        let [q, v, z, _] = model.layout.split(self.y);
+        [q, v, z]
+    }
+
+    /// The accelerations and multipliers of a phase.
+    ///
+    /// # Errors
+    /// [`Failure`] where the equations have no solution.
+    pub fn solved(&self, phase: &Model) -> Result<Workspace, Box<Failure>> {
+        let (t, state) = (self.t, self.state(phase));
+        let mut workspace = workspace_at((phase, &ModelCache::default()), t, state);
+        let solved = workspace.accelerate(phase, t, state, Gains::default());
+        solved.map_err(|breakdown| Failure::at_state(phase, t, state[0], breakdown))?;
+        Ok(workspace)
+    }
+
+    /// A speed beside which rounding errors of speeds are small: the largest rate of the state, and what the
+    /// accelerations give it within the size of the mechanism.
+    pub fn speed_scale(&self, model: &Model, modes: &[ForceMode]) -> f64 {
+        let fastest = largest(self.state(model)[1]);
+        let workspace = self.solved(&model.in_modes(modes));
+        let accelerations = workspace.map_or(0.0, |workspace| largest(workspace.a()));
+        fastest.max((size(model) * accelerations).sqrt())
+    }
+
+    /// The functions whose zeros may change the modes of forces: gaps or speeds.
+    pub fn thresholds(&self, model: &Model, forces: &[usize]) -> Vec<f64> {
+        let [q, v, z] = self.state(model);
+        let motions = Motions::at(&model.layout, q, v);
+        let acting = Acting { z, lam: None, t: self.t };
+        forces.iter().map(|k| forces::threshold(model, *k, &motions, acting)).collect()
+    }
+
+    /// The sides at which contacts touch.
+    pub fn sides(&self, model: &Model, forces: &[usize]) -> Vec<f64> {
+        let [q, v, z] = self.state(model);
+        let motions = Motions::at(&model.layout, q, v);
+        let acting = Acting { z, lam: None, t: self.t };
+        forces.iter().map(|k| forces::side(model, *k, &motions, acting)).collect()
+    }
+
+    /// The rates of the gaps of contacts.
+    pub fn gap_rates(&self, model: &Model, contacts: &[usize]) -> Vec<f64> {
+        let still = vec![0.0; model.layout.n_q];
+        self.gap_jets(model, contacts, &still).iter().map(|gap| gap.rate).collect()
+    }
+
+    /// The gaps of contacts with their first and second derivatives in time, or the speeds of friction with their first
+    /// one, for accelerations `a`.
+    pub fn gap_jets(&self, model: &Model, contacts: &[usize], a: &[f64]) -> Vec<Jet> {
+        if contacts.is_empty() {
+            return Vec::new();
+        }
+        let [q, v, z] = self.state(model);
+        let lifted: Model<Jet> = model.lift();
+        let moving = q.iter().zip(v).zip(a);
+        let q: Vec<Jet> = moving.map(|((q, v), a)| Jet::new(*q, *v, *a)).collect();
+        let of = |x: &[f64]| -> Vec<Jet> { x.iter().map(|x| Jet::lift(*x)).collect() };
+        let rates: Vec<Jet> = v.iter().zip(a).map(|(v, a)| Jet::new(*v, *a, 0.0)).collect();
+        let motions = Motions::at(&lifted.layout, &q, &rates);
+        let z = of(z);
+        let acting = Acting { z: &z, lam: None, t: Jet::new(self.t, 1.0, 0.0) };
+        contacts.iter().map(|k| forces::threshold(&lifted, *k, &motions, acting)).collect()
+    }
+
+    /// A force beside which rounding errors of the forces of a state are small: that of the largest kinetic energy per
+    /// size, weight, and multipliers; at least that which gives the heaviest body the acceleration of a size per s².
+    pub fn force_scale(&self, model: &Model, lam: &[f64]) -> f64 {
+        let [q, v, _] = self.state(model);
+        let energy = energy::kinetic(model, &Motions::at(&model.layout, q, v));
+        let heaviest = model.bodies.iter().fold(0.0, |most: f64, body| most.max(body.mass));
+        let weight = heaviest * (model.gravity.norm() + size(model));
+        lam.iter().fold((energy / size(model)).max(weight), |most, lam| most.max(lam.abs()))
+    }
+
+    /// The rounding error of a gap.
+    pub fn rounding(&self, model: &Model, force: usize) -> f64 {
+        let q = self.state(model)[0];
+        let largest = q.iter().fold(unit(model, force), |most: f64, q| most.max(q.abs()));
+        ROUNDING * f64::EPSILON * largest
+    }
+
+    /// Whether the gap of a contact is closed.
+    pub fn is_closed(gap: f64, model: &Model, force: usize) -> bool {
+        gap <= TOUCHING * unit(model, force)
+    }
+}
+
+/// The size of the mechanism for a gap that is a length, 1 rad for one that is an angle.
+fn unit(model: &Model, force: usize) -> f64 {
+    let measured = model.forces[force].element.measured();
+    match measured.first().is_some_and(|of| of.unit == "rad") {
+        true => 1.0,
+        false => size(model),
+    }
+}
+
+/// Whether a force with modes is a stop or contact.
+pub fn is_contact(model: &Model, force: usize) -> bool {
+    matches!(model.forces[force].element.behaviour(), Some(Behaviour::Impacts { .. }))
+}
+
+/// The forces with modes.
+pub fn with_modes(model: &Model) -> impl Iterator<Item = usize> + '_ {
+    (0..model.forces.len()).filter(|k| has_mode(model, *k))
+}
+
+/// The mode of a force in a list.
+pub fn mode_of(modes: &[ForceMode], force: usize) -> Mode {
+    modes.iter().find(|of| of.force == force).map_or(Mode::Open, |of| of.mode)
+}
+
+/// Whether a force has modes.
+pub fn has_mode(model: &Model, force: usize) -> bool {
+    model.forces[force].element.behaviour().is_some_and(|of| of.has_modes())
+}
+
+/// The largest magnitude.
+pub fn largest(x: &[f64]) -> f64 {
+    x.iter().fold(0.0, |most: f64, x| most.max(x.abs()))
+}

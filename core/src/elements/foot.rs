@@ -1,0 +1,229 @@
+//! The curve of a contact: the place on it that is nearest to a point, with the direction away from it.
+//!
+//! Lines and circles have closed forms. Another curve is searched over `f64`, lane by lane; two steps of Newton's method
+//! over the scalar then give u its derivatives (implicit function), exact to third order.
+//!
+//! The body is on the other side of the curve. An open curve ends with a corner: on the side of the contact, the point
+//! beyond an end is as far as the corner. Behind a line, the normals at its ends bound the body, so that the gap is
+//! continuous there; behind another open curve, they do so beyond its ends only.
+
+use super::field::{Field, Shape};
+use super::kinds::{self, CurveOn, Kind, Side, Source};
+use super::nearest::{Along, Search};
+use super::plane_curve::Curve;
+use crate::expression::Tape;
+use crate::math::{Local, Real};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
+/// Searches that are kept for each element.
+const MOST_KNOWN: usize = 8;
+
+/// A curve of a body, and what a search needs of it.
+#[derive(Clone, Debug)]
+pub struct Rim<S = f64> {
+    /// The curve.
+    pub on: CurveOn<S>,
+    /// One search, or one for each lane.
+    searches: OnceLock<Vec<Arc<Search>>>,
+    /// The latest searches of this element over any scalar and for any parameters.
+    known: Arc<Mutex<Vec<Arc<Search>>>>,
+}
+
+impl<S> Rim<S> {
+    /// Of a curve.
+    pub fn new(on: CurveOn<S>) -> Self {
+        Self { on, searches: OnceLock::new(), known: Arc::default() }
+    }
+
+    /// Whether the nearest point has a closed form.
+    pub fn is_closed_form(&self) -> bool {
+        matches!(self.on.curve, Curve::Line { .. } | Curve::Circle { .. })
+    }
+}
+
+/// A curve of a contact.
+#[allow(non_camel_case_types)] // a type in `element!`, written like a word
+#[derive(Clone, Copy, Debug)]
+pub enum rim {}
+
+impl Kind for rim {
+    type Over<S> = Rim<S>;
+    const SHAPE: Shape = Shape::Curve;
+    fn read(source: &mut dyn Source, field: &Field) -> Option<Rim<Tape>> {
+        source.curve(field).map(Rim::new)
+    }
+    fn map<S, T>(value: &Rim<S>, f: &mut dyn FnMut(&S) -> T) -> Rim<T> {
+        let known = Arc::clone(&value.known);
+        Rim { on: kinds::curve::map(&value.on, f), searches: OnceLock::new(), known }
+    }
+}
+
+/// The nearest place of a curve, in its frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Near<S> {
+    /// The distance, > 0 on the side of the contact.
+    pub distance: S,
+    /// The gradient of the distance, a unit vector away from the body of the curve.
+    pub away: Local<S>,
+    /// The nearest point.
+    pub place: Local<S>,
+}
+
+impl<S: Real> Rim<S> {
+    /// The place nearest to p, on a side.
+    pub(super) fn near(&self, p: Local<S>, side: Side) -> Near<S> {
+        let out = S::constant(match side {
+            Side::Right => 1.0,
+            Side::Left => -1.0,
+        });
+        match &self.on.curve {
+            Curve::Circle { center, radius } => of_circle(p, *center, *radius, out),
+            Curve::Line { from, to } => of_line(p, *from, *to, out),
+            curve => self.searched(curve, p, out),
+        }
+    }
+
+    fn searches(&self) -> &[Arc<Search>] {
+        self.searches.get_or_init(|| {
+            let numbers = |lane: usize| self.numbers(lane);
+            let first = numbers(0);
+            let lanes = if (1..4).all(|lane| numbers(lane) == first) { 1 } else { 4 };
+            let search = |lane: usize| {
+                let numbers = numbers(lane);
+                let mut known = self.known.lock().unwrap_or_else(PoisonError::into_inner);
+                if let Some(same) = known.iter().find(|search| search.numbers == numbers) {
+                    return Arc::clone(same);
+                }
+                let curve = self.on.curve.map(&mut |x: &S| x.in_lanes()[lane]);
+                let found = Arc::new(Search::new(curve, numbers));
+                known.truncate(MOST_KNOWN - 1);
+                known.insert(0, Arc::clone(&found));
+                found
+            };
+            (0..lanes).map(search).collect()
+        })
+    }
+
+    /// The numbers that determine the curve in a lane.
+    fn numbers(&self, lane: usize) -> Vec<f64> {
+        let of = |x: &S| x.in_lanes()[lane];
+        let mut all = Vec::new();
+        match &self.on.curve {
+            Curve::Points(own) => all.extend(own.points.iter().flat_map(|s| [of(&s.x), of(&s.y)])),
+            curve => drop(curve.map(&mut |x: &S| all.push(of(x)))),
+        }
+        all
+    }
+
+    fn searched(&self, curve: &Curve<S>, p: Local<S>, out: S) -> Near<S> {
+        let searches = self.searches();
+        let (x, y) = (p.x.in_lanes(), p.y.in_lanes());
+        let mut found = [(0.0, 0.0); 4];
+        for lane in 0..4 {
+            let same = lane > 0 && searches.len() == 1 && (x[lane], y[lane]) == (x[0], y[0]);
+            found[lane] = if same {
+                found[0]
+            } else {
+                let search = &searches[lane.min(searches.len() - 1)];
+                match search.nearest(Local::new(x[lane], y[lane])) {
+                    Along::Within(u) => (u, 0.0),
+                    Along::First(u) => (u, -1.0),
+                    Along::Last(u) => (u, 1.0),
+                }
+            };
+        }
+        let end = S::of_lanes(found.map(|(_, end)| end));
+        let [first, last] = curve.range();
+        let within = S::of_lanes(found.map(|(u, _)| u));
+        let u = S::select(end, last, S::select(-end, first, within));
+        let terms = curve.derivatives(u);
+        let inner = S::constant(0.5) - end * end;
+        let (c, first) = at_foot(terms, p, inner);
+        let tangent = first.scale(S::one() / first.norm());
+        let normal = (-tangent.perp()).scale(out);
+        let arm = p - c;
+        let within = Near { distance: normal.dot(arm), away: normal, place: c };
+        if found.iter().all(|(_, end)| *end == 0.0) {
+            return within;
+        }
+        choose(inner, within, beyond(c, tangent.scale(end), normal, arm))
+    }
+}
+
+/// C and C′ at the foot of p on the cubic with these derivatives; at its start where `inner` ≤ 0.
+fn at_foot<S: Real>(
+    [c0, c1, c2, c3]: [Local<S>; 4],
+    p: Local<S>,
+    inner: S,
+) -> (Local<S>, Local<S>) {
+    let (half, sixth) = (S::constant(0.5), S::constant(1.0 / 6.0));
+    let mut d = S::zero();
+    let at = |d: S| {
+        let square = half * d * d;
+        let c = c0 + c1.scale(d) + c2.scale(square) + c3.scale(sixth * d * d * d);
+        (c, c1 + c2.scale(d) + c3.scale(square), c2 + c3.scale(d))
+    };
+    for _ in 0..2 {
+        let (c, first, second) = at(d);
+        let (arm, speed) = (c - p, first.dot(first));
+        let bend = speed + arm.dot(second);
+        // at a centre of curvature the foot jumps, and has no derivatives
+        let regular = bend * bend - S::constant(1e-12) * speed * speed;
+        let step = arm.dot(first) / S::select(regular, bend, S::one());
+        let moves = S::select(regular, inner, -S::one());
+        d -= S::select(moves, step, S::zero());
+    }
+    let (c, first, _) = at(d);
+    (c, first)
+}
+
+/// Beyond an end: as far as the corner, or behind it as the normal at the end. `arm` leads from the end to p.
+fn beyond<S: Real>(end: Local<S>, on: Local<S>, normal: Local<S>, arm: Local<S>) -> Near<S> {
+    let (along, up) = (on.dot(arm), normal.dot(arm));
+    let squared = arm.dot(arm);
+    let distance = S::select(squared, squared.sqrt(), S::zero());
+    let part = |a: S, b: S| S::select(squared, a / distance, b);
+    let away = Local::new(part(arm.x, on.x), part(arm.y, on.y));
+    let corner = Near { distance, away, place: end };
+    let behind = Near { distance: along, away: on, place: end + normal.scale(up) };
+    choose(up, corner, behind)
+}
+
+fn choose<S: Real>(condition: S, positive: Near<S>, otherwise: Near<S>) -> Near<S> {
+    let pick = |a: S, b: S| S::select(condition, a, b);
+    let both = |a: Local<S>, b: Local<S>| Local::new(pick(a.x, b.x), pick(a.y, b.y));
+    Near {
+        distance: pick(positive.distance, otherwise.distance),
+        away: both(positive.away, otherwise.away),
+        place: both(positive.place, otherwise.place),
+    }
+}
+
+fn of_circle<S: Real>(p: Local<S>, center: Local<S>, radius: S, out: S) -> Near<S> {
+    let arm = p - center;
+    let squared = arm.dot(arm);
+    let from = S::select(squared, squared.sqrt(), S::zero());
+    // the centre is as far from every point
+    let part = |x: S, other: S| S::select(squared, x / from, other);
+    let radial = Local::new(part(arm.x, S::one()), part(arm.y, S::zero()));
+    let place = center + radial.scale(radius);
+    Near { distance: out * (from - radius), away: radial.scale(out), place }
+}
+
+fn of_line<S: Real>(p: Local<S>, from: Local<S>, to: Local<S>, out: S) -> Near<S> {
+    let along = to - from;
+    let length = along.norm();
+    let tangent = along.scale(S::one() / length);
+    let normal = (-tangent.perp()).scale(out);
+    let u = tangent.dot(p - from);
+    let up = normal.dot(p - from);
+    let level = Near { distance: up, away: normal, place: from + tangent.scale(u) };
+    let (first, last) = (-u, u - length);
+    let ends = |end: Local<S>, on: Local<S>| beyond(end, on, normal, p - end);
+    // behind the line, the nearest boundary is the line or the normal at an end
+    let outside = choose(first, ends(from, -tangent), choose(last, ends(to, tangent), level));
+    let wall = |by: S, on: Local<S>| Near { distance: by, away: on, place: p - on.scale(by) };
+    let walls = choose(first - last, wall(first, -tangent), wall(last, tangent));
+    let nearer = S::select(-up, walls.distance - up, -S::one());
+    choose(nearer, walls, outside)
+}

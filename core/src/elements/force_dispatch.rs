@@ -1,0 +1,216 @@
+//! Dispatch from a force of a model to the physics of its type: an enum over all types, and pools of elements by type. The
+//! macro is called once, in `mod.rs`.
+
+macro_rules! forces {
+    ($($(#[$on:meta])* $Name:ident),+ $(,)?) => {
+        /// A force of any type.
+        #[derive(Clone, Debug)]
+        #[allow(missing_docs)] // each variant is documented at its element
+        pub enum ForceElement<S = f64> {
+            $($(#[$on])* $Name($Name<S>),)+
+        }
+
+        impl ForceElement<Tape> {
+            /// Reads an element by the name of its type; the outer None if there is no such type.
+            pub fn read(kind: &str, source: &mut dyn Source) -> Option<Option<Self>> {
+                $($(#[$on])* {
+                    if kind == <$Name>::NAME {
+                        return Some(<$Name>::read(source).map(Self::$Name));
+                    }
+                })+
+                None
+            }
+        }
+
+        /// The position quantities of a force of a type.
+        pub fn measured_of(kind: &str) -> &'static [Measured] {
+            $($(#[$on])* {
+                if kind == <$Name>::NAME {
+                    return <$Name as Force>::MEASURED;
+                }
+            })+
+            &[]
+        }
+
+        /// The first-order states of a force of a type for which the named fields are `given`.
+        pub fn states_of(kind: &str, given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {
+            $($(#[$on])* {
+                if kind == <$Name>::NAME {
+                    return <$Name as Force>::states(given);
+                }
+            })+
+            &[]
+        }
+
+        impl<S> ForceElement<S> {
+            /// The same force over another scalar.
+            pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> ForceElement<T> {
+                match self { $($(#[$on])* Self::$Name(e) => ForceElement::$Name(<$Name>::map(e, f)),)+ }
+            }
+            /// The number of scalars of each field, in the order of [`ForceElement::map`].
+            pub fn scalars(&self) -> Vec<usize> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::scalars(e),)+ }
+            }
+            /// Name of the type.
+            pub fn kind(&self) -> &'static str {
+                match self { $($(#[$on])* Self::$Name(_) => <$Name>::NAME,)+ }
+            }
+            /// The bodies on which the force acts: i and j first.
+            pub fn bodies(&self) -> Vec<BodyId> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::bodies(e),)+ }
+            }
+            /// The position quantities that may be measured on it.
+            pub fn measured(&self) -> &'static [Measured] {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::measured(e),)+ }
+            }
+            /// Whether laws may use them.
+            pub fn has_formulas(&self) -> bool {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::has_formulas(e),)+ }
+            }
+            /// Whether its only formulas of the state are those of a position quantity that it follows.
+            pub fn follows(&self) -> bool {
+                match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::FOLLOWS,)+ }
+            }
+            /// The named parts, in the order of [`ForceElement::action`].
+            pub fn parts(&self) -> &'static [Part] {
+                match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::PARTS,)+ }
+            }
+            /// Results beside the wrenches.
+            pub fn result_quantities(&self) -> &'static [ResultQuantity] {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::result_quantities(e),)+ }
+            }
+            /// The joint whose reaction enters the force.
+            pub fn reaction(&self) -> Option<JointId> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::reaction(e),)+ }
+            }
+        }
+
+        impl ForceElement<Tape> {
+            /// The equation by which it holds.
+            pub fn holding(&self, side: f64, value: f64) -> Option<Constraint<Tape>> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::holding(e, side, value),)+ }
+            }
+        }
+
+        impl ForceElement {
+            /// The symbols that a drawing shows for it.
+            pub fn symbols(&self) -> Vec<SceneSymbol> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::symbols(e),)+ }
+            }
+            /// A field with an impossible value, and the reason.
+            pub fn fault(&self) -> Option<(&'static str, String)> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::fault(e),)+ }
+            }
+        }
+
+        impl<S: Real> ForceElement<S> {
+            /// The wrench of each part on each body, see [`Force::action`].
+            pub fn action(&self, at: &Situation<'_, S>, out: impl Wrenches<S>) {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::action(e, at, out),)+ }
+            }
+            /// The values of [`measured`](Self::measured).
+            pub fn measure(&self, at: &At<'_, S>, out: &mut [S]) {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::measure(e, at, out),)+ }
+            }
+            /// ż of the element.
+            pub fn state_rates(&self, at: &Situation<'_, S>, out: &mut [S]) {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::state_rates(e, at, out),)+ }
+            }
+            /// Powers beside those of the wrenches.
+            pub fn own_powers(&self, at: &Situation<'_, S>) -> OwnPowers<S> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::own_powers(e, at),)+ }
+            }
+            /// Number of switches.
+            pub fn switch_count(&self) -> usize {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::switch_count(e),)+ }
+            }
+            /// The functions of the switches.
+            pub fn switches(&self, at: &Situation<'_, S>, out: &mut [S]) {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::switches(e, at, out),)+ }
+            }
+            /// The values of [`result_quantities`](Self::result_quantities).
+            pub fn results(&self, at: &Situation<'_, S>, out: &mut [S]) {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::results(e, at, out),)+ }
+            }
+            /// The changes of mode during a run.
+            pub fn behaviour(&self) -> Option<Behaviour<S>> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::behaviour(e),)+ }
+            }
+            /// The function whose zero may change the mode.
+            pub fn threshold(&self, at: &Situation<'_, S>) -> S {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::threshold(e, at),)+ }
+            }
+            /// The largest effort that friction may hold.
+            pub fn limit(&self, at: &Situation<'_, S>) -> S {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::limit(e, at),)+ }
+            }
+            /// The side at which a contact or stop touches.
+            pub fn side(&self, at: &Situation<'_, S>) -> f64 {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::side(e, at),)+ }
+            }
+            /// The relative angle at which a rotational spring is relaxed.
+            pub fn free_angle(&self) -> Option<S> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::free_angle(e),)+ }
+            }
+            /// The points of body i and body j between which the force acts along their line.
+            pub fn points(&self) -> Option<[Local<S>; 2]> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::points(e),)+ }
+            }
+            /// Energy stored in the states, J.
+            pub fn own_energy(&self, at: &Situation<'_, S>) -> S {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::own_energy(e, at),)+ }
+            }
+            /// Potential energy of the conservative parts, J.
+            pub fn potential(&self, at: &Situation<'_, S>) -> S {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::potential(e, at),)+ }
+            }
+        }
+
+        /// Forces, stored together by type; only the types that occur.
+        #[derive(Clone, Debug)]
+        pub struct ForcePools<S = f64>(Vec<ForcePool<S>>);
+
+        /// All forces of one type.
+        #[derive(Clone, Debug)]
+        enum ForcePool<S> {
+            $($(#[$on])* $Name(Vec<Pooled<$Name<S>>>),)+
+        }
+
+        impl<S> std::default::Default for ForcePools<S> {
+            fn default() -> Self {
+                Self(Vec::new())
+            }
+        }
+
+        impl<S: Real> ForcePools<S> {
+            /// Adds a force.
+            pub fn push(&mut self, force: &ForceElement<S>, place: Place) {
+                match force { $($(#[$on])* ForceElement::$Name(e) => {
+                    let entry = Pooled { element: e.clone(), place };
+                    for pool in &mut self.0 {
+                        if let ForcePool::$Name(pool) = pool {
+                            return pool.push(entry);
+                        }
+                    }
+                    self.0.push(ForcePool::$Name(vec![entry]));
+                })+ }
+            }
+            /// Passes every type that occurs to the visitor.
+            #[inline(always)]
+            pub fn visit(&self, visitor: &mut impl VisitForces<S>) {
+                for pool in &self.0 {
+                    match pool { $($(#[$on])* ForcePool::$Name(p) => visitor.visit::<$Name>(p),)+ }
+                }
+            }
+        }
+
+        #[allow(clippy::vec_init_then_push)] // some entries exist only with a feature
+        fn force_tables() -> Vec<(Group, Table)> {
+            let mut all = Vec::new();
+            $($(#[$on])* all.push(declared::<$Name>(Group::Forces));)+
+            all
+        }
+    };
+}
+
+pub(super) use forces;

@@ -1,0 +1,234 @@
+//! Friction in a joint: it depends on the load that the joint carries (Coulomb, Stribeck).
+//!
+//! With v the rate of the displacement of a slide, or radius × φ̇ of a pin, the force along the slide, or around the
+//! pin, is
+//!
+//! ```text
+//! -(N μ(v) s(v) + c v)        μ = μ_k + (μ_s - μ_k) exp(-(v/v_s)²)        s = tanh(v/v₀)
+//! ```
+//!
+//! on body j, opposite on body i at the same place; times the radius it is a torque. N is the magnitude of the reaction
+//! of the joint, or for a slide of length l the larger of |F| and 2 |T| / l: a torque loads both ends of the slide.
+//! Without v₀, s is the sign of v, and where v is zero the joint may stick: then the friction has any value up to μ_s N,
+//! and an equation holds the coordinate of the joint. The reaction depends on the friction in turn, see `equations/reactive.rs`.
+
+use crate::elements::{
+    element, holding, Behaviour, BodyId, Constraint, Followed, Force, JointId, Mark, Mode, Nature,
+    Part, ResultQuantity, SceneSymbol, Situation, SymbolEnd, Wrenches,
+};
+use crate::expression::Tape;
+use crate::math::{Real, Wrench};
+
+element! {
+    /// Friction in a joint: the force on body j along the slide, or around the pin, is
+    /// -(load μ s + viscous v), opposite on body i at the same place; × radius as a torque. v is the rate of the slide,
+    /// or radius × omega of the pin. μ = kinetic + (static - kinetic) exp(-(v/stribeck)²), and without stribeck kinetic.
+    /// s = tanh(v/velocity), and without velocity the sign of v. load is the magnitude of the reaction of the joint.
+    Friction, "friction" {
+        /// The joint: revolute, translational or pin_in_slot.
+        joint: bearing,
+        /// Coefficient of friction while the joint slides.
+        kinetic: number,
+        /// Coefficient of friction up to which the joint sticks; kinetic if absent.
+        r#static: optional_number,
+        /// Radius of the pin of a revolute joint.
+        radius: optional_number [m],
+        /// Length of the guide of a translational joint: the load is then the larger of |F| and 2 |T| / guide.
+        guide: number [m] = 0.0,
+        /// Speed of the Stribeck curve, at which most of the difference between static and kinetic is gone.
+        stribeck: optional_number [m/s],
+        /// Force per speed, without load.
+        viscous: number [N*s/m] = 0.0,
+        /// Speed at which the friction is 76 % of its full value; without it the joint may stick.
+        velocity: optional_number [m/s],
+        /// Load in place of the reaction, such as that of a brake; may use `t` and the state; below 0 it counts as 0.
+        load: optional_law [N],
+    }
+}
+
+/// The places of the parts.
+const DRY: usize = 0;
+const VISCOUS: usize = 1;
+
+/// Results of friction: those of a slide, and of a pin.
+const SLIDING: [ResultQuantity; 3] = results("force", "N");
+const TURNING: [ResultQuantity; 3] = results("torque", "N*m");
+
+const fn results(effort: &'static str, unit: &'static str) -> [ResultQuantity; 3] {
+    const fn of(name: &'static str, unit: &'static str) -> ResultQuantity {
+        ResultQuantity { name, unit, negative: None }
+    }
+    [of(effort, unit), of("load", "N"), of("sticking", "")]
+}
+
+impl<S: Real> Friction<S> {
+    /// The effort of a force along the slide, or around the pin; and the speed of a rate.
+    fn times_radius(&self, x: S) -> S {
+        match self.radius {
+            Some(radius) => radius * x,
+            None => x,
+        }
+    }
+
+    /// The speed v at which body j slides on body i, m/s.
+    fn speed(&self, at: &Situation<'_, S>) -> S {
+        self.times_radius(self.joint.rate(at.i(), at.j()))
+    }
+
+    /// The load, N.
+    fn normal(&self, at: &Situation<'_, S>) -> S {
+        if let Some(load) = self.load {
+            return S::select(load, load, S::zero());
+        }
+        let Wrench { force, torque } = at.reaction;
+        let squared = force.dot(force);
+        let force = S::select(squared, squared.sqrt(), S::zero());
+        if !self.joint.holds_angle {
+            return force;
+        }
+        let of_torque = S::constant(2.0) * torque.abs() / self.guide;
+        force.max(S::select(self.guide, of_torque, S::zero()))
+    }
+
+    /// μ at a speed.
+    fn coefficient(&self, speed: S) -> S {
+        match (self.r#static, self.stribeck) {
+            (Some(most), Some(stribeck)) => {
+                let part = speed / stribeck;
+                self.kinetic + (most - self.kinetic) * (-(part * part)).exp()
+            }
+            _ => self.kinetic,
+        }
+    }
+
+    /// s at a speed.
+    fn sense(&self, speed: S, mode: Mode) -> S {
+        let (one, zero) = (S::one(), S::zero());
+        match (self.velocity, mode) {
+            (Some(velocity), _) => (speed / velocity).tanh(),
+            (None, Mode::Slides(sign)) => S::constant(sign),
+            (None, _) => S::select(speed, one, S::select(-speed, -one, zero)),
+        }
+    }
+
+    /// The efforts of the dry and of the viscous part on the coordinate of the joint, N or N·m.
+    fn efforts(&self, at: &Situation<'_, S>) -> [S; 2] {
+        if at.mode.holds() {
+            return [-at.multiplier, S::zero()];
+        }
+        let speed = self.speed(at);
+        let dry = self.normal(at) * self.coefficient(speed) * self.sense(speed, at.mode);
+        [dry, self.viscous * speed].map(|force| -self.times_radius(force))
+    }
+
+    /// Puts an effort on body j, and the opposite on body i.
+    fn put(&self, part: usize, effort: S, at: &Situation<'_, S>, out: &mut impl Wrenches<S>) {
+        if self.joint.turns() {
+            out.put(part, 0, Wrench::torque(-effort));
+            out.put(part, 1, Wrench::torque(effort));
+            return;
+        }
+        let place = self.joint.place(&at.j().pose);
+        let force = self.joint.direction(&at.i().pose).scale(effort);
+        out.put(part, 0, Wrench::at(place - at.i().pose.r, -force));
+        out.put(part, 1, Wrench::at(place - at.j().pose.r, force));
+    }
+}
+
+impl Force for Friction {
+    const PARTS: &'static [Part] = &[
+        Part { name: "dry", nature: Nature::Dissipative },
+        Part { name: "viscous", nature: Nature::Dissipative },
+    ];
+
+    fn bodies<S>(e: &Friction<S>) -> Vec<BodyId> {
+        e.joint.bodies().into()
+    }
+
+    fn reaction<S>(e: &Friction<S>) -> Option<JointId> {
+        e.load.is_none().then_some(e.joint.joint)
+    }
+
+    fn action<S: Real>(e: &Friction<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
+        let [dry, viscous] = e.efforts(at);
+        e.put(DRY, dry, at, &mut out);
+        e.put(VISCOUS, viscous, at, &mut out);
+    }
+
+    fn result_quantities<S>(e: &Friction<S>) -> &'static [ResultQuantity] {
+        match e.joint.turns() {
+            true => &TURNING,
+            false => &SLIDING,
+        }
+    }
+
+    fn results<S: Real>(e: &Friction<S>, at: &Situation<'_, S>, out: &mut [S]) {
+        let [dry, viscous] = e.efforts(at);
+        let sticks = if at.mode.holds() { S::one() } else { S::zero() };
+        out.copy_from_slice(&[dry + viscous, e.normal(at), sticks]);
+    }
+
+    fn behaviour<S: Real>(e: &Friction<S>) -> Option<Behaviour<S>> {
+        e.velocity.is_none().then_some(Behaviour::Sticks)
+    }
+
+    fn threshold<S: Real>(e: &Friction<S>, at: &Situation<'_, S>) -> S {
+        e.speed(at)
+    }
+
+    fn limit<S: Real>(e: &Friction<S>, at: &Situation<'_, S>) -> S {
+        e.times_radius(e.r#static.unwrap_or(e.kinetic) * e.normal(at))
+    }
+
+    fn holding(e: &Friction<Tape>, _: f64, value: f64) -> Option<Constraint<Tape>> {
+        let coordinate = Followed::Quantity(Box::new((*e.joint.coordinate).clone()));
+        Some(holding(coordinate, Tape::from(value)))
+    }
+
+    fn symbols(e: &Friction) -> Vec<SceneSymbol> {
+        let [body_i, body_j] = e.joint.bodies();
+        let end = |body, k: usize| SymbolEnd {
+            body,
+            point: Some(e.joint.ends[k].s),
+            axis: e.joint.ends[k].axis,
+        };
+        let mark = if e.joint.turns() { Mark::RubbingPin } else { Mark::RubbingSlide };
+        vec![SceneSymbol { mark, i: end(body_i, 0), j: end(body_j, 1) }]
+    }
+
+    fn fault(e: &Friction) -> Option<(&'static str, String)> {
+        let negative = |field, x: f64| (x < 0.0).then(|| (field, must("not be negative")));
+        let positive = |field, x: Option<f64>| {
+            x.is_some_and(|x| x <= 0.0).then(|| (field, must("be positive")))
+        };
+        let below = || ("static", must("not be below kinetic"));
+        belongs(e)
+            .or_else(|| negative("kinetic", e.kinetic))
+            .or_else(|| e.r#static.is_some_and(|most| most < e.kinetic).then(below))
+            .or_else(|| positive("radius", e.radius))
+            .or_else(|| negative("guide", e.guide))
+            .or_else(|| positive("stribeck", e.stribeck))
+            .or_else(|| negative("viscous", e.viscous))
+            .or_else(|| positive("velocity", e.velocity))
+            .or_else(|| negative("load", e.load.unwrap_or(0.0)))
+    }
+}
+
+fn must(be: &str) -> String {
+    format!("must {be}")
+}
+
+/// A field that is missing, or that does not belong to the joint.
+fn belongs(e: &Friction) -> Option<(&'static str, String)> {
+    let (field, message) = match (e.joint.turns(), e.radius) {
+        (true, None) => {
+            ("radius", "missing: friction in a revolute joint needs the radius of its pin")
+        }
+        (false, Some(_)) => ("radius", "belongs to revolute joints; remove it"),
+        _ if e.guide != 0.0 && (e.joint.turns() || !e.joint.holds_angle) => {
+            ("guide", "belongs to translational joints; remove it")
+        }
+        _ => return None,
+    };
+    Some((field, message.to_string()))
+}

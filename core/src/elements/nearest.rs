@@ -1,0 +1,174 @@
+//! The nearest point of a curve: a tree of circles around its pieces, then Newton's method.
+//!
+//! The curve is divided into equal pieces of u. A circle encloses each piece, and a circle each pair of circles, up to one
+//! around the whole curve. A query descends first to the circle that may be nearer, and leaves out each circle that is
+//! farther than a chord found so far: its cost is of the order of the depth of the tree. On the chord of the nearest
+//! piece, Newton's method on (C - p)·C′ = 0 begins.
+
+use super::plane_curve::Curve;
+use crate::math::Local;
+
+/// The least number of pieces, a power of two.
+const PIECES: usize = 512;
+
+/// Pieces of a spline for each of its points.
+const OF_POINT: usize = 12;
+
+/// Newton's method ends after so many steps.
+const STEPS: usize = 20;
+
+/// A circle around a part of the curve.
+#[derive(Clone, Copy, Debug)]
+struct Circle {
+    center: Local,
+    radius: f64,
+}
+
+/// Where the nearest point lies along a curve.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Along {
+    /// Between the ends, at this u.
+    Within(f64),
+    /// At the first end; the curve goes on in the direction away from p.
+    First(f64),
+    /// At the last end.
+    Last(f64),
+}
+
+/// A curve that is ready to be searched.
+#[derive(Debug)]
+pub(super) struct Search {
+    curve: Curve,
+    /// The numbers of the curve, which determine it.
+    pub numbers: Vec<f64>,
+    /// C at the ends of the pieces.
+    points: Vec<Local>,
+    range: [f64; 2],
+    /// The root first, the children of k at 2k + 1 and 2k + 2.
+    tree: Vec<Circle>,
+}
+
+fn apart(a: Local, b: Local) -> f64 {
+    (a.x - b.x).hypot(a.y - b.y)
+}
+
+/// The point at a share of the way from a to b.
+fn between(a: Local, b: Local, share: f64) -> Local {
+    Local::new(a.x + share * (b.x - a.x), a.y + share * (b.y - a.y))
+}
+
+/// The circle around two circles.
+fn around(a: Circle, b: Circle) -> Circle {
+    let distance = apart(a.center, b.center);
+    if distance + b.radius <= a.radius {
+        return a;
+    }
+    if distance + a.radius <= b.radius {
+        return b;
+    }
+    let radius = 0.5 * (distance + a.radius + b.radius);
+    Circle { center: between(a.center, b.center, (radius - a.radius) / distance), radius }
+}
+
+impl Search {
+    /// Of a curve without a fault.
+    pub fn new(curve: Curve, numbers: Vec<f64>) -> Self {
+        let count = match &curve {
+            Curve::Points(own) => OF_POINT * own.points.len(),
+            _ => 0,
+        };
+        let count = count.max(PIECES).next_power_of_two();
+        let [a, b] = curve.range();
+        let at = |share: f64| curve.point(a + (b - a) * share / count as f64);
+        let points: Vec<Local> = (0..=count).map(|k| at(k as f64)).collect();
+        let piece = |k: usize| {
+            let (from, to) = (points[k], points[k + 1]);
+            let center = between(from, to, 0.5);
+            // twice the rise of the arc over its chord, for arcs that are not circles
+            let radius = 0.5 * apart(from, to) + 2.0 * apart(at(k as f64 + 0.5), center);
+            Circle { center, radius }
+        };
+        let mut tree = vec![Circle { center: points[0], radius: 0.0 }; 2 * count - 1];
+        for k in (0..tree.len()).rev() {
+            tree[k] = match k >= count - 1 {
+                true => piece(k + 1 - count),
+                false => around(tree[2 * k + 1], tree[2 * k + 2]),
+            };
+        }
+        Self { numbers, points, range: [a, b], tree, curve }
+    }
+
+    /// The nearest point to p, in the frame of the curve.
+    pub fn nearest(&self, p: Local) -> Along {
+        if !(p.x.is_finite() && p.y.is_finite()) {
+            return Along::Within(f64::NAN);
+        }
+        self.refined(p, self.start(p))
+    }
+
+    /// The u of the nearest point of the chords.
+    fn start(&self, p: Local) -> f64 {
+        let leaves = self.points.len() - 1;
+        let (mut best, mut share) = (f64::INFINITY, 0.0);
+        let mut stack = [(0_usize, 0.0_f64); 64];
+        let mut open = 1;
+        while open > 0 {
+            open -= 1;
+            let (k, bound) = stack[open];
+            if bound >= best {
+                continue;
+            }
+            if k >= leaves - 1 {
+                let piece = k + 1 - leaves;
+                let (distance, along) = to_chord(p, self.points[piece], self.points[piece + 1]);
+                if distance < best {
+                    (best, share) = (distance, piece as f64 + along);
+                }
+                continue;
+            }
+            let child = |k: usize| (k, apart(p, self.tree[k].center) - self.tree[k].radius);
+            let (left, right) = (child(2 * k + 1), child(2 * k + 2));
+            let (near, far) = if left.1 <= right.1 { (left, right) } else { (right, left) };
+            (stack[open], stack[open + 1]) = (far, near);
+            open += 2;
+        }
+        let [a, b] = self.range;
+        a + (b - a) * share / leaves as f64
+    }
+
+    /// Newton's method from u.
+    fn refined(&self, p: Local, mut u: f64) -> Along {
+        let [a, b] = self.range;
+        let piece = (b - a) / (self.points.len() - 1) as f64;
+        let periodic = self.curve.periodic();
+        let mut out = 0.0;
+        for _ in 0..STEPS {
+            let [c, first, second, _] = self.curve.derivatives(u);
+            let d = Local::new(c.x - p.x, c.y - p.y);
+            let speed = first.dot(first);
+            // where p is beyond the centre of curvature, a step of Gauss still goes down
+            let bend = (speed + d.dot(second)).max(0.1 * speed);
+            let step = (-d.dot(first) / bend).clamp(-2.0 * piece, 2.0 * piece);
+            let next = u + step;
+            out = if periodic { 0.0 } else { next - next.clamp(a, b) };
+            let moved = next - out - u;
+            u = next - out;
+            if moved.abs() <= 1e-15 * (b - a) {
+                break;
+            }
+        }
+        match () {
+            () if out < 0.0 => Along::First(u),
+            () if out > 0.0 => Along::Last(u),
+            () => Along::Within(u),
+        }
+    }
+}
+
+/// The distance of p from a chord, and the share of the way to its nearest point.
+fn to_chord(p: Local, from: Local, to: Local) -> (f64, f64) {
+    let (chord, arm) = (between(Local::zero(), to - from, 1.0), p - from);
+    let share = (chord.dot(arm) / chord.dot(chord)).clamp(0.0, 1.0);
+    let share = if share.is_nan() { 0.0 } else { share };
+    (apart(p, between(from, to, share)), share)
+}

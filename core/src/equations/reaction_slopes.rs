@@ -1,0 +1,116 @@
+//! Derivatives of forces by the multipliers on which they depend, by dual numbers.
+//!
+//! A force sees the reaction of one joint, which is linear in the multipliers of that joint. Friction that follows
+//! another one also depends on the multiplier and on the limit of the other.
+
+use super::forces::{self, Acting};
+use super::kinematics::Motions;
+use super::reactions;
+use crate::elements::{BodyId, ForceElement, Mode, Situation};
+use crate::math::{Dual, Lift, Motion, Real, Vec2, Wrench};
+use crate::model::Model;
+
+type D<S> = Dual<1, S>;
+
+/// ∂(Q + loads)/∂λ of one row, shape (n_q).
+pub fn by_multiplier<S: Real>(
+    model: &Model<S>,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+    row: usize,
+) -> Vec<S> {
+    let mut column = vec![S::zero(); model.layout.n_q];
+    let mut unit = vec![S::zero(); model.n_multipliers()];
+    unit[row] = S::one();
+    if let Some(lam) = acting.lam {
+        reactions::add_load_slopes(model, motions, acting.t, (lam, row), &mut column);
+    }
+    let seed = Seed { model, motions, acting, row, unit: &unit };
+    for (k, item) in model.forces.iter().enumerate() {
+        if rows_of(model, k).contains(&row) {
+            let multiplier = seed.multiplier(k);
+            seed.with(k, multiplier, |element, at| {
+                element.action(at, |_: usize, body: usize, w: Wrench<D<S>>| {
+                    let [x, y, torque] = [w.force.x, w.force.y, w.torque].map(|x| x.slope[0]);
+                    model.layout.bodies[item.bodies[body].0].add([x, y, torque], &mut column);
+                });
+            });
+        }
+    }
+    column
+}
+
+/// The rows of the multipliers on which force `k` depends.
+pub fn rows_of<S>(model: &Model<S>, k: usize) -> Vec<usize> {
+    let item = &model.forces[k];
+    let seen = |k: usize| model.forces[k].reaction.map(|joint| joint.0);
+    let rows = |joint: usize| model.layout.constraints[joint].rows.clone();
+    let mut all: Vec<usize> = seen(k).into_iter().flat_map(rows).collect();
+    if let Mode::Follows { leader, .. } = item.mode {
+        all.extend(seen(leader).into_iter().flat_map(rows));
+        all.extend(model.forces[leader].held_row);
+    }
+    all.sort_unstable();
+    all.dedup();
+    all
+}
+
+/// The multiplier of one row as the variable.
+#[derive(Clone, Copy)]
+struct Seed<'a, S> {
+    model: &'a Model<S>,
+    motions: &'a Motions<S>,
+    acting: Acting<'a, S>,
+    row: usize,
+    /// 1 at the row.
+    unit: &'a [S],
+}
+
+impl<S: Real> Seed<'_, S> {
+    /// Calls `f` with force `k` in its situation, as dual numbers.
+    fn with<R>(
+        &self,
+        k: usize,
+        multiplier: D<S>,
+        f: impl FnOnce(&ForceElement<D<S>>, &Situation<'_, D<S>>) -> R,
+    ) -> R {
+        let Self { model, motions, acting, unit, .. } = *self;
+        let at = forces::situation(model, k, motions, acting);
+        let slope = forces::situation(model, k, motions, Acting { lam: Some(unit), ..acting });
+        let element = forces::at_state(model, &model.forces[k], motions, acting);
+        let element = element.map(&mut |x: &S| D::lift(*x));
+        let own: Vec<Motion<D<S>>> = at.bodies.iter().map(|b| motions[b.0].lift()).collect();
+        let bodies: Vec<BodyId> = (0..own.len()).map(BodyId).collect();
+        let z: Vec<D<S>> = at.z.iter().map(|z| D::lift(*z)).collect();
+        let situation = Situation {
+            motions: &own,
+            bodies: &bodies,
+            z: &z,
+            reaction: seeded(at.reaction, slope.reaction),
+            t: D::lift(at.t),
+            held: at.held,
+            mode: at.mode,
+            multiplier,
+        };
+        f(&element, &situation)
+    }
+
+    /// The effort that force `k` takes over from another one, with opposite sign; zero if it does not follow any.
+    fn multiplier(&self, k: usize) -> D<S> {
+        let Mode::Follows { leader, sense } = self.model.forces[k].mode else { return D::zero() };
+        let limit = |k: usize| self.with(k, D::zero(), |element, at| element.limit(at));
+        let row = self.model.forces[leader].held_row;
+        let held = row.zip(self.acting.lam).map_or(S::zero(), |(row, lam)| lam[row]);
+        let slope = if row == Some(self.row) { S::one() } else { S::zero() };
+        let most = limit(leader);
+        let part = D { value: held, slope: [slope] } * limit(k) / most;
+        D::select(most, D::constant(sense) * part, D::zero())
+    }
+}
+
+/// A wrench with the slope of a second one.
+fn seeded<S: Real>(value: Wrench<S>, slope: Wrench<S>) -> Wrench<D<S>> {
+    let both = |value: S, slope: S| D { value, slope: [slope] };
+    let force = Vec2::new(both(value.force.x, slope.force.x), both(value.force.y, slope.force.y));
+    Wrench { force, torque: both(value.torque, slope.torque) }
+}

@@ -1,0 +1,32 @@
+//! The modes of forces in a phase of a run, and the places of their multipliers.
+
+use super::items::{ConstraintItem, ForceItem, ForceMode};
+use super::layout::StateLayout;
+use crate::elements::{Group, Mode};
+use crate::math::Real;
+
+/// Sets the modes of forces, and the places of their multipliers.
+pub(super) fn set<S: Real>(
+    forces: &mut [ForceItem<S>],
+    constraints: &[ConstraintItem<S>],
+    layout: &StateLayout,
+    modes: &[ForceMode],
+) {
+    let with_modes = |item: &&mut ForceItem<S>| {
+        item.element.behaviour().is_some_and(|behaviour| behaviour.has_modes())
+    };
+    for (k, item) in forces.iter_mut().filter(with_modes).enumerate() {
+        item.held_row = Some(layout.n_rows + k);
+    }
+    let held = constraints.iter().position(|item| item.group == Group::Forces);
+    let mut held = held.unwrap_or(constraints.len())..;
+    for ForceMode { force, mode, .. } in modes {
+        forces[*force].mode = *mode;
+        if matches!(mode, Mode::Holds(_)) {
+            let slots = held.next().and_then(|k| layout.constraints.get(k));
+            if let Some(slots) = slots {
+                forces[*force].held_row = Some(slots.rows.start);
+            }
+        }
+    }
+}

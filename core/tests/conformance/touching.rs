@@ -1,0 +1,57 @@
+//! Samples of stops and contacts.
+
+use crate::samples::{curve, on};
+use kempe::elements::forces::{Contact, Resting, Stop};
+use kempe::elements::{BodyId, Constraint, Coordinate, CoordinateOf, ForceElement, Rim, Side};
+
+pub fn stops() -> Vec<ForceElement> {
+    let mut all = Vec::new();
+    let limits = [(Some(-0.3), None, 1.0), (None, Some(0.4), 1.5), (Some(-0.3), Some(0.8), 2.2)];
+    for (lower, upper, exponent) in limits {
+        let coordinate = CoordinateOf { body: BodyId(2), coordinate: Coordinate::Angle }.into();
+        let (stiffness, damping) = (Some(7.0), 0.4);
+        let (restitution, rest_speed) = (None, 1e-9);
+        all.push(ForceElement::Stop(Stop {
+            coordinate,
+            lower,
+            upper,
+            stiffness,
+            exponent,
+            damping,
+            restitution,
+            rest_speed,
+        }));
+    }
+    all
+}
+
+pub fn contacts() -> Vec<ForceElement> {
+    let mut all = Vec::new();
+    for form in ["circle", "line", "points", "formula"] {
+        for side in [Side::Right, Side::Left] {
+            all.push(ForceElement::Contact(Contact {
+                i: on(1, 0.2, -0.4),
+                curve: Rim::new(curve(form)),
+                radius: 0.3,
+                side,
+                stiffness: Some(1.0),
+                exponent: 1.5,
+                damping: 0.3,
+                friction: 0.2,
+                velocity: Some(0.5),
+                restitution: None,
+                rest_speed: 1e-9,
+            }));
+        }
+    }
+    all
+}
+
+/// Equations by which forces hold.
+pub fn resting() -> Vec<Constraint> {
+    let of = |form: &str, side: Side| {
+        let curve = Rim::new(curve(form));
+        Constraint::Resting(Resting { i: on(1, 0.2, -0.4), curve, radius: 0.3, side })
+    };
+    vec![of("circle", Side::Left), of("line", Side::Right), of("points", Side::Right)]
+}

@@ -1,0 +1,22 @@
+"""Impacts, rest, sticking and sliding of random mechanisms."""
+
+import pytest
+from stress.random_impacts import faults
+from stress.random_stops import BEYOND, deepest
+
+
+@pytest.mark.parametrize("seed", range(36))
+def test_a_random_mechanism(seed: int) -> None:
+    assert not faults(seed)
+
+
+@pytest.mark.parametrize("seed", range(12))
+def test_a_random_chain(seed: int) -> None:
+    assert not faults(seed, "chain")
+
+
+@pytest.mark.parametrize("seed", [0, 1, 2, 4, 5])
+def test_no_stop_is_missed(seed: int) -> None:
+    depth, impacts = deepest(seed)
+    assert impacts > 0
+    assert depth < BEYOND
