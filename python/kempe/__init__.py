@@ -51,6 +51,7 @@ Results:
 Show:
     plot                    figures
     animate, player         videos and pages with the motion
+    write_report            a report with data, equations, figures, as HTML or PDF
     units                   units of tables, figures and CSV files
 
 All errors are KempeErrors. ``help(kp.Model)`` and the like describe each name.
@@ -61,7 +62,10 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
+from kempe import _processor
 from kempe._version import __version__
+
+_processor.load_core()
 
 if TYPE_CHECKING:
     from kempe import design as design
@@ -101,6 +105,7 @@ if TYPE_CHECKING:
     from kempe.freedom import MobilityResult as MobilityResult
     from kempe.freedom import mobility as mobility
     from kempe.functions import Sampled as Sampled
+    from kempe.lab_report import write_report as write_report
     from kempe.linearization import ModesResult as ModesResult
     from kempe.linearization import modes as modes
     from kempe.matrices import Labelled as Labelled
@@ -217,6 +222,7 @@ _HOME = {
     "still": "draw.still",
     "study": "studies",
     "units": "display_units",
+    "write_report": "lab_report",
 }
 
 __all__ = ["__version__", *_HOME]  # noqa: PLE0604

@@ -15,16 +15,21 @@ _F = NDArray[np.float64]
 def version() -> str:
     """Version of the compiled core."""
 
+def instructions() -> str:
+    """The instructions for which the core was compiled: ``x86-64-v3``, or the architecture."""
+
+def supports_v3() -> bool:
+    """Whether the processor and the operating system support x86-64-v3."""
+
 def catalogue() -> str:
     """All types of a case with their fields, as JSON.
 
     ``{"bodies": [table], "tables": [table], "joints": …, "drivers": …, "forces": …, "methods": …,
     "stabilizations": …, "analyses": …}`` with ``table = {"name", "doc", "fields": [{"name",
-    "shape", "unit", "default", "doc"}]}``; joints and drivers have
-    ``"formulas"`` as ``formulas`` gives them, in Unicode. Shapes are body, point,
-    coordinate, number, law, pair and others. ``"functions": [{"name", "arguments", "doc"}]`` and
-    ``"units": [{"name", "si", "dimension"}]`` describe the language of formulas; ``si`` is the
-    factor to the SI unit.
+    "shape", "unit", "default", "doc"}]}``; joints and drivers have ``"formulas"`` as ``formulas``
+    gives them, in Unicode. Shapes are body, point, coordinate, number, law, pair and others.
+    ``"functions": [{"name", "arguments", "doc"}]`` and ``"units": [{"name", "si", "dimension"}]``
+    describe the language of formulas; ``si`` is the factor to the SI unit.
     """
 
 def schema() -> str:
@@ -32,6 +37,8 @@ def schema() -> str:
 
 def is_reserved(name: str) -> bool:
     """Whether no element may have a name: ``t``, ``pi``, ``deg`` and ``ground``."""
+
+_Mode = tuple[int, str, float, int, float]
 
 class Case:
     """A parsed case with a valid structure."""
@@ -116,27 +123,21 @@ class Model:
         """
 
     def table(self, name: str, derivative: int, x: _F) -> _F:
-        """Values of a table or of one of its derivatives up to the fifth, in SI units.
-
-        NaN where it has none.
-
-        Raises:
-            ModelError: there is no such table, or the derivative is too high.
-        """
+        """Values of a table or of one of its derivatives up to the fifth, in SI units, or NaN."""
 
     def symbols(self) -> str:
-        """The symbols that a drawing shows for the elements, in the order of the model, as JSON.
-
+        """The symbols that a drawing shows for the elements, in the order of the model, as JSON:
         ``[{"element": name, "mark": word, "i": end, "j": end, "radius": null | m}]``, where an end
         is ``{"body": number, "point": null | [x, y], "axis": angle}``.
         """
 
-    setting: tuple[list[tuple[str, float]], list[str]]
-    """Values of parameters and released drivers by which it differs from the model of the case."""
+    setting: tuple[list[tuple[str, float]], list[str], list[_Mode]]
+    """Values of parameters, released drivers and modes by which it differs from the case's."""
 
-    def variant(self, parameters: list[tuple[str, float]], released: list[str]) -> Model:
-        """The same model with other values of parameters and with released drivers.
-
+    def variant(
+        self, parameters: list[tuple[str, float]], released: list[str], modes: list[_Mode]
+    ) -> Model:
+        """The same model with other parameters, with released drivers and modes of forces.
         Released drivers keep their rows; their multipliers and residuals are zero.
 
         Raises:
@@ -172,10 +173,10 @@ class Run:
     """JSON: ``{"steps", "rejected", "evaluations", "jacobians", "iterations", "factorisations",
     "seconds"}``, with ``"method"`` and ``"why"`` for the automatic choice."""
 
-    settings: list[tuple[int, tuple[list[tuple[str, float]], list[str]]]]
-    """The first row of each phase, with the parameters and released drivers in it."""
-    events: list[tuple[str, _F, _F, _F, _F]]
-    """Name, times (n,) and rows of q, v and z of each event."""
+    settings: list[tuple[int, tuple[list[tuple[str, float]], list[str], list[_Mode]]]]
+    """The first row of each phase, with parameters, released drivers and modes of forces in it."""
+    events: list[tuple[str, _F, _F, _F, _F, _F]]
+    """Name, times (n,) and rows of q, v and z of each event, and impulses of the multipliers."""
 
     def responses(self, rows: int | None = None) -> tuple[_F, _F]:
         """Accelerations (n_t, n_q) and multipliers (n_t, n_rows), at all or the first times."""
@@ -207,9 +208,8 @@ def assemble(
 
     Returns:
         t, q, v, z and a report as JSON: ``{"iterations": [{"residual", "step", "damping"}],
-        "degrees_of_freedom", "modes": [{"bodies", "joint", "side": "left" | "right" |
-        "ahead" | "behind", "folded": bool | None}],
-        "warnings": [text]}``.
+        "degrees_of_freedom", "modes": [{"bodies", "joint", "side": "left" | "right" | "ahead" |
+        "behind", "folded": bool | None}], "warnings": [text]}``.
 
     Raises:
         AssemblyError, RedundancyError, ModelError.
@@ -231,9 +231,7 @@ def dynamics(
     Args:
         model: the mechanism.
         t: time of the state, s.
-        q: (n_q,).
-        v: (n_q,).
-        z: (n_z,).
+        q, v, z: (n_q,), (n_q,), (n_z,).
         options: JSON, an entry of ``analyses`` as in a file.
         progress: function that is called repeatedly with the time reached, s.
         t_end: end time, s; replaces the one in the options. The options are parsed once for each
@@ -368,6 +366,8 @@ def force(
     ``lam`` are the multipliers, (n_t, n_rows), for an element into which a reaction enters.
     """
 
+def impulse(model: Model, name: str, on: str, t: _F, q: _F, impulses: _F) -> _F: ...
+def force_results(model: Model, name: str, t: _F, q: _F, v: _F, z: _F, lam: _F) -> _F: ...
 def force_energy(model: Model, name: str, t: _F, q: _F, v: _F, z: _F, lam: _F | None = None) -> _F:
     """Energy that a force element stores, J, and power that it dissipates, W: (n_t, 2)."""
 

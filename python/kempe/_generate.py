@@ -13,11 +13,12 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from kempe import _core, _reference, files
+from kempe import _core, _reference, files, templates
 
 WIDTH = 100
+EXAMPLES = Path(__file__).parents[2] / "examples"
 SECTIONS = ("joints", "drivers", "forces")
-REFERENCES = ("body", "point", "curve", "coordinate")
+REFERENCES = ("body", "point", "curve", "coordinate", "joint")
 TYPES = dict.fromkeys(REFERENCES, "str") | {
     "number": "Number",
     "law": "Number",
@@ -285,7 +286,7 @@ def camel(name: str) -> str:
 
 
 def main() -> None:
-    """Write the files beside this one, and the page in ``docs``."""
+    """Write the files beside this one, the page in ``docs``, and the copies of the examples."""
     here = Path(__file__)
     written = {
         here.with_name("elements.py"): source,
@@ -295,6 +296,10 @@ def main() -> None:
     for target, text in written.items():
         files.write_text(target, text(_core.catalogue()))
         print(f"{target} written")
+    for example in sorted(path for path in EXAMPLES.iterdir() if path.is_file()):
+        target = here.parent / "templates" / templates.stored(example.name)
+        files.write_text(target, files.read_text(example))
+    print(f"{target.parent} copied from {EXAMPLES}")
 
 
 if __name__ == "__main__":

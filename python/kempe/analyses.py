@@ -74,7 +74,7 @@ def assemble(
     hint = encode(numbers(guess, "guess"))
     if from_state is not None:
         refuse_foreign(compiled, from_state)
-        compiled = compiled.variant(([], released(compiled, from_state)))
+        compiled = compiled.variant(([], released(compiled, from_state), []))
         t = float(from_state.t) if t is None else t
         q, v, z = (np.array(part) for part in (from_state.q, from_state.v, from_state.z))
         z = z if len(z) == compiled.n_z else np.zeros(compiled.n_z)
@@ -180,10 +180,11 @@ def _simulate(
             error.solution = Solution(model, partial, method)  # type: ignore[attr-defined]
         raise
     solution = Solution(model, run, method)
-    if any(any(info.events) for info in model.constraints.values()):
-        from kempe.events import EventWarning, warnings_of
+    declared = any(any(info.events) for info in model.constraints.values())
+    if declared or run.events:
+        from kempe.events import EventWarning, true_at_start, warnings_of
 
-        for warning in warnings_of(solution):
+        for warning in [*warnings_of(solution), *true_at_start(solution, wanted.entry)]:
             warnings.warn(warning, EventWarning, stacklevel=3)
     return solution
 

@@ -41,7 +41,7 @@ _SAMPLES = 9
 #: Statistics that are counts.
 _COUNTS = {"steps", "rejected", "evaluations", "jacobians", "iterations", "factorisations"}
 _DENSE = ("dense_t", "dense_y", "dense_c")
-_EVENTS = ("event_t", "event_q", "event_v", "event_z")
+_EVENTS = ("event_t", "event_q", "event_v", "event_z", "event_impulses")
 
 #: Letters for the sizes of an array, such as n for the number of times, or the size itself.
 _Shape = tuple["int | str", ...]
@@ -73,7 +73,7 @@ def _about(solution: Solution) -> dict[str, Any]:
         "message": solution.message,
         "statistics": dict(solution.statistics),
         "projection": solution._run.projection,
-        "settings": [[row, list(map(list, p)), released] for row, (p, released) in settings],
+        "settings": [[row, list(map(list, p)), *rest] for row, (p, *rest) in settings],
         "variable": [solution.variable.name, solution.variable.unit],
         "events": [[name, len(t)] for name, t, *_ in solution._run.events],
     }
@@ -195,7 +195,7 @@ def _read_arrays(
 
 def _shapes(stored: zipfile.ZipFile, model: CompiledModel) -> dict[str, _Shape]:
     present = set(stored.namelist())
-    rows = {"q": model.n_q, "v": model.n_q, "a": model.n_q, "lam": model.n_rows, "energy": 5}
+    rows = {"q": model.n_q, "v": model.n_q, "a": model.n_q, "lam": model.n_multipliers, "energy": 5}
     shapes: dict[str, _Shape] = {"t": ("n",)}
     shapes |= {name: ("n", count) for name, count in rows.items()}
     if "z.npy" in present or model.n_z:
@@ -205,6 +205,7 @@ def _shapes(stored: zipfile.ZipFile, model: CompiledModel) -> dict[str, _Shape]:
         shapes |= {"dense_t": ("k + 1",), "dense_y": ("k", n_y), "dense_c": ("k", n_y, "degree")}
     if present & {f"{name}.npy" for name in _EVENTS}:
         widths = {"event_q": model.n_q, "event_v": model.n_q, "event_z": model.n_z}
+        widths |= {"event_impulses": model.n_multipliers}
         shapes |= {"event_t": ("events",)}
         shapes |= {name: ("events", width) for name, width in widths.items()}
     return shapes
@@ -262,12 +263,13 @@ def _run(about: Mapping[str, Any], arrays: Mapping[str, Floats]) -> StoredRun:
 def _settings(about: Mapping[str, Any], count: int) -> Settings:
     """The phases; files of version 0.1 have one."""
     found = []
-    for row, parameters, released in about.get("settings", [[0, [], []]]):
+    for row, parameters, released, *rest in about.get("settings", [[0, [], []]]):
         numbers = all(isinstance(x, int | float) for _, x in parameters)
         if not isinstance(row, int) or not 0 <= row <= count or not numbers:
             _refuse("its phases are damaged")
         given = [(str(name), float(x)) for name, x in parameters]
-        found.append((row, (given, list(map(str, released)))))
+        modes = [tuple(mode) for mode in rest[0]] if rest else []
+        found.append((row, (given, list(map(str, released)), modes)))
     if not found or found[0][0] != 0 or any(a >= b for (a, _), (b, _) in pairwise(found)):
         _refuse("its phases are damaged")
     return found
@@ -281,12 +283,15 @@ def _events(about: Mapping[str, Any], arrays: Mapping[str, Floats]) -> list[Even
     if sum(n for _, n in counts) != len(arrays.get("event_t", ())):
         _refuse("its events are damaged")
     ends = np.cumsum([n for _, n in counts])
-    widths = (arrays[name].shape[1] for name in ("q", "v", "z"))
+    widths = [arrays[name].shape[1] for name in ("q", "v", "z", "lam")]
     empty = dict(zip(_EVENTS, [np.zeros(0), *(np.zeros((0, n)) for n in widths)], strict=True))
     found: list[EventRows] = []
     for (name, n), end in zip(counts, ends, strict=True):
-        t, q, v, z = (arrays.get(part, none)[end - n : end] for part, none in empty.items())
-        found.append((str(name), t, q, v, z))
+        t, *rows = (arrays.get(part, none)[end - n : end] for part, none in empty.items())
+        q, v, z, impulses = rows
+        found.append(
+            (str(name), t, q, v, z, impulses if len(impulses) == n else np.zeros((n, widths[-1])))
+        )
     return found
 
 

@@ -292,6 +292,15 @@ class Case:
         core = _core.Case(json.dumps(tree, allow_nan=False), "json", None)
         files.write_text(path, core.write(form))
 
+    def text(self) -> str:
+        """The case as TOML, as ``save`` writes it.
+
+        Raises:
+            ModelError: a law is a Python function, which no file contains.
+        """
+        self.tree()
+        return self._core().write("toml")
+
     def _core(self) -> _core.Case:
         tree = self._with_rest(self.model.shown())
         return _core.Case(json.dumps(tree, allow_nan=False), "json", None)

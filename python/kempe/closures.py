@@ -130,7 +130,7 @@ def find_configurations(
 ) -> ConfigurationsResult:
     """The configurations with the options of an entry of a case; see ``configurations``."""
     refuse_foreign(model, start)
-    model = model.variant(([], released(model, start)))
+    model = model.variant(([], released(model, start), []))
     limit = int(entry.get("limit", LIMIT))
     return _found(model, numbers(entry.get("set"), "set"), limit, float(start.t), start)
 

@@ -131,11 +131,10 @@ class CompiledModel:
         return other
 
     def variant(self, setting: Setting) -> CompiledModel:
-        """The same model with other parameters and released drivers; see ``kempe.phases``."""
-        parameters, released = setting
-        if not parameters and not released:
+        """The same model in another setting; see ``kempe.phases``."""
+        if not any(setting):
             return self
-        other = CompiledModel(self.core.variant(parameters, released), self._case, self._model)
+        other = CompiledModel(self.core.variant(*setting), self._case, self._model)
         other._analyses = self._analyses
         other._functions, other._origin = self._functions, self
         return other
@@ -185,6 +184,11 @@ class CompiledModel:
     def n_rows(self) -> int:
         """Number of constraint equations."""
         return int(self._about["n_rows"])
+
+    @property
+    def n_multipliers(self) -> int:
+        """Number of multipliers: those of the constraints, then of forces that stick or rest."""
+        return int(self._about["n_multipliers"])
 
     @cached_property
     def all_bodies(self) -> Mapping[str, BodyInfo]:
@@ -333,7 +337,7 @@ def _restored(
     model: Model,
     case: str,
     analyses: Mapping[str, Any] | None,
-    setting: Setting = ([], []),
+    setting: Setting = ([], [], []),
 ) -> CompiledModel:
     """A compiled model from its text; that of the user's model if the text is the same."""
     made = model.compile() if model.json() == case else CompiledModel.from_case(case)

@@ -705,6 +705,161 @@ class Motor(Element):
     }
 
 
+@dataclass(frozen=True)
+class Friction(Element):
+    """An element of type ``friction``.
+
+    Friction in a joint: the force on body j along the slide, or around the pin, is -(load μ s +
+    viscous v), opposite on body i at the same place; × radius as a torque. v is the rate of the
+    slide, or radius × omega of the pin. μ = kinetic + (static - kinetic) exp(-(v/stribeck)²),
+    and without stribeck kinetic. s = tanh(v/velocity), and without velocity the sign of v. load
+    is the magnitude of the reaction of the joint.
+
+    Attributes:
+        joint: The joint: revolute, translational or pin_in_slot.
+        kinetic: Coefficient of friction while the joint slides.
+        static: Coefficient of friction up to which the joint sticks; kinetic if absent.
+        radius: Radius of the pin of a revolute joint [m].
+        guide: Length of the guide of a translational joint: the load is then the larger of |F|
+            and 2 |T| / guide [m].
+        stribeck: Speed of the Stribeck curve, at which most of the difference between static
+            and kinetic is gone [m/s].
+        viscous: Force per speed, without load [N*s/m].
+        velocity: Speed at which the friction is 76 % of its full value; without it the joint
+            may stick [m/s].
+        load: Load in place of the reaction, such as that of a brake; may use `t` and the state;
+            below 0 it counts as 0 [N].
+    """
+
+    joint: str
+    kinetic: Number
+    static: Number | None = None
+    radius: Number | None = None
+    guide: Number = 0.0
+    stribeck: Number | None = None
+    viscous: Number = 0.0
+    velocity: Number | None = None
+    load: Law | None = None
+    section: ClassVar[str] = "forces"
+    kind: ClassVar[str] = "friction"
+    value_kinds: ClassVar[Mapping[str, str]] = {
+        "joint": "joint",
+        "kinetic": "number",
+        "static": "number",
+        "radius": "number",
+        "guide": "number",
+        "stribeck": "number",
+        "viscous": "number",
+        "velocity": "number",
+        "load": "law",
+    }
+
+
+@dataclass(frozen=True)
+class Stop(Element):
+    """An element of type ``stop``.
+
+    Stop: pushes a position quantity back where it exceeds a limit, by N = max(0, stiffness ×
+    depth^exponent × (1 + damping × d depth/dt)); or, with `restitution`, the quantity leaves
+    the limit with -restitution times the rate of its arrival, or rests there. The effort acts
+    on both bodies of the quantity, opposite; on ground for the quantity of a single body. Give
+    one limit or both, and either `stiffness` or `restitution`.
+
+    Attributes:
+        coordinate: The quantity, such as `crank.angle`, `crank.B.x` or `slide.displacement`.
+        lower: Its least value [m or rad].
+        upper: Its largest value [m or rad].
+        stiffness: Force or torque over depth^exponent, SI: N/m or N*m/rad for an exponent of 1,
+            else the force or torque at a depth of 1 m or 1 rad, as a number without a unit
+            [any].
+        exponent: Exponent of the depth.
+        damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth [s/m
+            or s/rad].
+        restitution: Rate after an impact over the rate before it, from 0 to 1, in place of
+            stiffness.
+        rest_speed: With restitution: the rate below which it rests, instead of leaving again
+            [m/s or rad/s].
+    """
+
+    coordinate: str
+    lower: Number | None = None
+    upper: Number | None = None
+    stiffness: Number | None = None
+    exponent: Number = 1.0
+    damping: Number = 0.0
+    restitution: Number | None = None
+    rest_speed: Number = 1e-09
+    section: ClassVar[str] = "forces"
+    kind: ClassVar[str] = "stop"
+    value_kinds: ClassVar[Mapping[str, str]] = {
+        "coordinate": "coordinate",
+        "lower": "number",
+        "upper": "number",
+        "stiffness": "number",
+        "exponent": "number",
+        "damping": "number",
+        "restitution": "number",
+        "rest_speed": "number",
+    }
+
+
+@dataclass(frozen=True)
+class Contact(Element):
+    """An element of type ``contact``.
+
+    Contact of a point or circle of body i with a curve of its body j. gap = distance from the
+    curve, > 0 on its side, - radius. With the depth -gap > 0, the force stiffness ×
+    depth^exponent × (1 + damping × d depth/dt), if > 0, pushes the bodies apart along the
+    normal at the nearest point of the curve, and friction × that force × tanh(v/velocity) acts
+    there against the tangential velocity v. With `restitution`, the bodies leave each other
+    with -restitution times the rate of their approach, or rest on each other, without friction.
+
+    Attributes:
+        i: Point of body i, as `body.point`.
+        curve: Curve of body j, as `body.curve`.
+        radius: Radius of the circle around the point, 0 for the point itself [m].
+        side: Side of the curve on which the point is, seen along growing u.
+        stiffness: Force over depth^exponent, SI: the force at a depth of 1 m, as a number
+            without a unit; N/m for an exponent of 1 [any].
+        exponent: Exponent of the depth; 1.5 for a sphere on a plane (Hertz).
+        damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
+            [s/m].
+        friction: Coefficient of friction, with velocity.
+        velocity: Tangential velocity at which friction has 76 % of its full value [m/s].
+        restitution: Rate after an impact over the rate before it, from 0 to 1, in place of
+            stiffness.
+        rest_speed: With restitution: the rate below which it rests, instead of leaving again
+            [m/s].
+    """
+
+    i: str
+    curve: str
+    radius: Number = 0.0
+    side: Literal["right", "left"] = "right"
+    stiffness: Number | None = None
+    exponent: Number = 1.5
+    damping: Number = 0.0
+    friction: Number = 0.0
+    velocity: Number | None = None
+    restitution: Number | None = None
+    rest_speed: Number = 1e-09
+    section: ClassVar[str] = "forces"
+    kind: ClassVar[str] = "contact"
+    value_kinds: ClassVar[Mapping[str, str]] = {
+        "i": "point",
+        "curve": "curve",
+        "radius": "number",
+        "side": "word",
+        "stiffness": "number",
+        "exponent": "number",
+        "damping": "number",
+        "friction": "number",
+        "velocity": "number",
+        "restitution": "number",
+        "rest_speed": "number",
+    }
+
+
 class ElementMethods:
     """The methods of ``Model`` that add an element."""
 
@@ -1258,5 +1413,169 @@ class ElementMethods:
                 free_speed=free_speed,
                 command=command,
                 i=i,
+            )
+        )
+
+    def friction(
+        self,
+        name: str,
+        joint: str,
+        *,
+        kinetic: Number,
+        static: Number | None = None,
+        radius: Number | None = None,
+        guide: Number = 0.0,
+        stribeck: Number | None = None,
+        viscous: Number = 0.0,
+        velocity: Number | None = None,
+        load: Law | None = None,
+    ) -> Friction:
+        """Add an element of type ``friction`` and return it.
+
+        Friction in a joint: the force on body j along the slide, or around the pin, is -(load μ s +
+        viscous v), opposite on body i at the same place; × radius as a torque. v is the rate of the
+        slide, or radius × omega of the pin. μ = kinetic + (static - kinetic) exp(-(v/stribeck)²),
+        and without stribeck kinetic. s = tanh(v/velocity), and without velocity the sign of v. load
+        is the magnitude of the reaction of the joint.
+
+        Args:
+            name: its name in the model.
+            joint: The joint: revolute, translational or pin_in_slot.
+            kinetic: Coefficient of friction while the joint slides.
+            static: Coefficient of friction up to which the joint sticks; kinetic if absent.
+            radius: Radius of the pin of a revolute joint [m].
+            guide: Length of the guide of a translational joint: the load is then the larger of |F|
+                and 2 |T| / guide [m].
+            stribeck: Speed of the Stribeck curve, at which most of the difference between static
+                and kinetic is gone [m/s].
+            viscous: Force per speed, without load [N*s/m].
+            velocity: Speed at which the friction is 76 % of its full value; without it the joint
+                may stick [m/s].
+            load: Load in place of the reaction, such as that of a brake; may use `t` and the state;
+                below 0 it counts as 0 [N].
+        """
+        return self._add(
+            Friction(
+                name,
+                joint=joint,
+                kinetic=kinetic,
+                static=static,
+                radius=radius,
+                guide=guide,
+                stribeck=stribeck,
+                viscous=viscous,
+                velocity=velocity,
+                load=load,
+            )
+        )
+
+    def stop(
+        self,
+        name: str,
+        coordinate: str,
+        *,
+        lower: Number | None = None,
+        upper: Number | None = None,
+        stiffness: Number | None = None,
+        exponent: Number = 1.0,
+        damping: Number = 0.0,
+        restitution: Number | None = None,
+        rest_speed: Number = 1e-09,
+    ) -> Stop:
+        """Add an element of type ``stop`` and return it.
+
+        Stop: pushes a position quantity back where it exceeds a limit, by N = max(0, stiffness ×
+        depth^exponent × (1 + damping × d depth/dt)); or, with `restitution`, the quantity leaves
+        the limit with -restitution times the rate of its arrival, or rests there. The effort acts
+        on both bodies of the quantity, opposite; on ground for the quantity of a single body. Give
+        one limit or both, and either `stiffness` or `restitution`.
+
+        Args:
+            name: its name in the model.
+            coordinate: The quantity, such as `crank.angle`, `crank.B.x` or `slide.displacement`.
+            lower: Its least value [m or rad].
+            upper: Its largest value [m or rad].
+            stiffness: Force or torque over depth^exponent, SI: N/m or N*m/rad for an exponent of 1,
+                else the force or torque at a depth of 1 m or 1 rad, as a number without a unit
+                [any].
+            exponent: Exponent of the depth.
+            damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth [s/m
+                or s/rad].
+            restitution: Rate after an impact over the rate before it, from 0 to 1, in place of
+                stiffness.
+            rest_speed: With restitution: the rate below which it rests, instead of leaving again
+                [m/s or rad/s].
+        """
+        return self._add(
+            Stop(
+                name,
+                coordinate=coordinate,
+                lower=lower,
+                upper=upper,
+                stiffness=stiffness,
+                exponent=exponent,
+                damping=damping,
+                restitution=restitution,
+                rest_speed=rest_speed,
+            )
+        )
+
+    def contact(
+        self,
+        name: str,
+        i: str,
+        curve: str,
+        *,
+        radius: Number = 0.0,
+        side: Literal["right", "left"] = "right",
+        stiffness: Number | None = None,
+        exponent: Number = 1.5,
+        damping: Number = 0.0,
+        friction: Number = 0.0,
+        velocity: Number | None = None,
+        restitution: Number | None = None,
+        rest_speed: Number = 1e-09,
+    ) -> Contact:
+        """Add an element of type ``contact`` and return it.
+
+        Contact of a point or circle of body i with a curve of its body j. gap = distance from the
+        curve, > 0 on its side, - radius. With the depth -gap > 0, the force stiffness ×
+        depth^exponent × (1 + damping × d depth/dt), if > 0, pushes the bodies apart along the
+        normal at the nearest point of the curve, and friction × that force × tanh(v/velocity) acts
+        there against the tangential velocity v. With `restitution`, the bodies leave each other
+        with -restitution times the rate of their approach, or rest on each other, without friction.
+
+        Args:
+            name: its name in the model.
+            i: Point of body i, as `body.point`.
+            curve: Curve of body j, as `body.curve`.
+            radius: Radius of the circle around the point, 0 for the point itself [m].
+            side: Side of the curve on which the point is, seen along growing u.
+            stiffness: Force over depth^exponent, SI: the force at a depth of 1 m, as a number
+                without a unit; N/m for an exponent of 1 [any].
+            exponent: Exponent of the depth; 1.5 for a sphere on a plane (Hertz).
+            damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
+                [s/m].
+            friction: Coefficient of friction, with velocity.
+            velocity: Tangential velocity at which friction has 76 % of its full value [m/s].
+            restitution: Rate after an impact over the rate before it, from 0 to 1, in place of
+                stiffness.
+            rest_speed: With restitution: the rate below which it rests, instead of leaving again
+                [m/s].
+        """
+        return self._add(
+            Contact(
+                name,
+                i=i,
+                curve=curve,
+                radius=radius,
+                side=side,
+                stiffness=stiffness,
+                exponent=exponent,
+                damping=damping,
+                friction=friction,
+                velocity=velocity,
+                restitution=restitution,
+                rest_speed=rest_speed,
             )
         )

@@ -11,10 +11,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from functools import partial
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from kempe import _core
 from kempe.arrays import Floats, fixed
 from kempe.errors import KempeError
 from kempe.fine import fine
@@ -43,12 +44,31 @@ class EventTimes:
     Attributes:
         name: its name, such as ``hit``, or joint and event, such as ``cam.lift_off``.
         t: its times, (n_events,), s.
-        states: the state at each of them.
+        states: the state at each of them; where a contact hits, before the impact.
     """
 
     name: str
     t: Floats
     states: tuple[State, ...]
+    _impulses: Floats
+
+    def impulse(self, joint: str, *, on: str) -> Floats:
+        """The impulse of a joint on a body at each time, (n_events, 2), N·s, global.
+
+        It is zero for an event without an impact.
+
+        Args:
+            joint: a joint or driver, or a contact or stop.
+            on: one of its bodies.
+
+        Raises:
+            ModelError: there is no such joint, or ``on`` is not one of its bodies.
+        """
+        found = np.zeros((len(self.t), 2))
+        for k, (state, impulse) in enumerate(zip(self.states, self._impulses, strict=False)):
+            rows = np.atleast_1d(state.t), np.atleast_2d(state.q), np.atleast_2d(impulse)
+            found[k] = _core.impulse(state.compiled.core, joint, on, *rows)[0, :2]
+        return fixed(found)
 
     def __repr__(self) -> str:
         times = ", ".join(f"{t:g}" for t in self.t[:3])
@@ -63,16 +83,18 @@ def events(solution: Solution) -> Mapping[str, EventTimes]:
     one, they are the outputs at which the value is negative for the first time.
     """
     found = {}
-    for name, t, q, v, z in solution._run.events:
+    for name, t, q, v, z, impulses in solution._run.events:
         at = zip(t, q, v, z, strict=True)
         states = tuple(solution._state_before(float(t), *of) for t, *of in at)
-        found[name] = EventTimes(name, fixed(t), states)
+        found[name] = EventTimes(name, fixed(t), states, fixed(impulses))
     for joint, info in solution.compiled.constraints.items():
         for (quantity, _), event in zip(info.results, info.events, strict=True):
             if event is not None:
                 name = f"{joint}.{event}"
                 times = _times(solution, partial(_result, joint, quantity))
-                found[name] = EventTimes(name, fixed(np.array(times)), _states(solution, times))
+                states = _states(solution, times)
+                none = np.zeros((len(times), solution.compiled.n_multipliers))
+                found[name] = EventTimes(name, fixed(np.array(times)), states, fixed(none))
     return MappingProxyType(found)
 
 
@@ -90,6 +112,44 @@ def warnings_of(solution: Solution) -> list[str]:
                 f"({kind.replace('_', ' ')}), and the run goes on"
             )
     return found
+
+
+def true_at_start(solution: Solution, entry: Mapping[str, Any]) -> list[str]:
+    """A warning for each stop and release that did not happen and was true at the start.
+
+    Args:
+        solution: the solution.
+        entry: the options of its run.
+    """
+    stops = {"stop": entry.get("stop")} | {
+        name: event["condition"]
+        for name, event in entry.get("events", {}).items()
+        if isinstance(event, Mapping) and event.get("stop")
+    }
+    effects = {name: ("stopped the run", text) for name, text in stops.items() if text}
+    for name, driver in solution.compiled.tree.get("drivers", {}).items():
+        if (text := driver.get("release")) and name not in solution.initial.compiled.released:
+            effects[f"{name}.release"] = f"released {name}", text
+    found = []
+    for name, (effect, condition) in effects.items():
+        if not len(solution.events[name].t) and _holds(solution.initial, condition):
+            found.append(
+                f"{name}: '{condition}' is true at the start, and it never {effect}: it counts "
+                f"when it becomes true, so it has to become false first"
+            )
+    return found
+
+
+def _holds(state: State, condition: str) -> bool:
+    """Whether a comparison is true at a state; False for an expression."""
+    expression, core = f"if({condition}, 1, 0)", state.compiled.core
+    try:
+        names, _ = _core.measure(core, expression)
+        values = np.array([[state[name] for name in names]], dtype=np.float64)
+        found = _core.measure_values(core, expression, np.atleast_1d(state.t), values)
+    except KempeError:
+        return False
+    return bool(found[0])
 
 
 def _result(joint: str, quantity: str, motion: Motion) -> Floats:

@@ -6,6 +6,7 @@ import math
 from weakref import WeakKeyDictionary
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kempe.arrays import Floats
 from kempe.energy import Energy
@@ -42,7 +43,7 @@ def fine(motion: Motion) -> Motion:
 
 
 def _evaluated(solution: Solution) -> Motion:
-    found = solution(_instants(solution))
+    found = solution(_with_jumps(solution, _instants(solution)))
     try:
         _ = found.lam
     except KempeError:
@@ -64,6 +65,21 @@ def _instants(solution: Solution) -> Floats:
     inside = bounds[:-1, None] + shares * np.diff(bounds)[:, None]
     found = np.append(inside.ravel(), bounds[-1])
     return found[:: math.ceil(len(found) / most)] if len(found) > 2 * most else found
+
+
+def _with_jumps(solution: Solution, instants: Floats) -> Floats:
+    """The instants and, where a solution has two states at one time, the number before it."""
+    jumps = solution.t[1:][np.diff(solution.t) == 0.0]
+    if not len(jumps):
+        return instants
+    forward = 1.0 if solution.t[-1] >= solution.t[0] else -1.0
+    before = np.nextafter(jumps, -forward * np.inf)
+    return forward * np.unique(forward * np.concatenate([instants, before, jumps]))
+
+
+def jumps(t: Floats) -> NDArray[np.intp]:
+    """The places in times of a motion before which its values jump."""
+    return np.flatnonzero(np.abs(np.diff(t)) <= np.spacing(np.abs(t[1:]))) + 1
 
 
 def fine_energies(solution: Solution) -> tuple[Floats, Energy]:

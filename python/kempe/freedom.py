@@ -114,6 +114,8 @@ class MobilityResult(Result):
         singular: equations that others imply at this position only.
         locked: bodies that cannot move, even if the drivers are released.
         loose: bodies that no chain of joints connects with ground.
+        undetermined: massless bodies whose motion the mechanism does not determine, by name, each
+            with the message with which ``dynamics`` refuses the mechanism.
         four_bars: closed loops of four pins.
     """
 
@@ -129,6 +131,7 @@ class MobilityResult(Result):
         self.singular = tuple(_redundancy(each) for each in found["singular"])
         self.locked: tuple[str, ...] = tuple(found["locked"])
         self.loose: tuple[str, ...] = tuple(found["loose"])
+        self.undetermined: dict[str, str] = dict(found["undetermined"])
         self.four_bars = tuple(_four_bar(each) for each in found["four_bars"])
 
     @property
@@ -148,6 +151,7 @@ class MobilityResult(Result):
             "singular": [asdict(each) for each in self.singular],
             "locked": list(self.locked),
             "loose": list(self.loose),
+            "undetermined": self.undetermined,
             "four_bars": [asdict(each) for each in self.four_bars],
         }
 
@@ -163,6 +167,7 @@ class MobilityResult(Result):
             lines.append(f"cannot move: {few(self.locked)}")
         if self.loose:
             lines.append(f"not connected with ground: {few(self.loose)}")
+        lines += _limited(list(self.undetermined.values()))
         return lines + _limited([_loop(each) for each in self.four_bars])
 
     def _without_drivers(self) -> str:
@@ -184,8 +189,8 @@ def mobility(model: Model | CompiledModel, state: State) -> MobilityResult:
     """What a mechanism can do at an assembled position.
 
     Degrees of freedom by Grübler's count and by rank; redundant equations with all joints that take
-    part; singular positions with their kind; locked and loose bodies; four-bar loops by Grashof.
-    Masses and forces are not needed.
+    part; singular positions with their kind; locked and loose bodies; massless bodies whose motion
+    is not determined; four-bar loops by Grashof. Forces are not needed.
 
     Args:
         model: the mechanism. ``redundancy="allow"`` lets one with redundant joints be assembled.

@@ -147,6 +147,8 @@ class ForceInfo:
         places: slice of its first-order states in z; empty for most forces.
         states: names and units of its first-order states, such as ``("current", "A")``.
         reaction: the joint whose reaction enters it; None for most forces.
+        reads_multipliers: whether it depends on multipliers.
+        results: names and units of its results beside its wrenches, such as ``("load", "N")``.
         measured: its position quantities.
     """
 
@@ -160,6 +162,8 @@ class ForceInfo:
     places: slice
     states: tuple[tuple[str, str], ...]
     reaction: str | None
+    reads_multipliers: bool
+    results: tuple[tuple[str, str], ...]
     measured: tuple[Measured, ...]
 
     def __repr__(self) -> str:
@@ -244,5 +248,7 @@ def force(entry: dict[str, Any]) -> ForceInfo:
         places=slice(*entry["places"]),
         states=_units(entry["states"]),
         reaction=entry["reaction"],
+        reads_multipliers=entry["reads_multipliers"],
+        results=_units(entry["results"]),
         measured=_measured(entry["measured"]),
     )

@@ -281,7 +281,7 @@ def linearized(
     if not isinstance(state, State):
         raise ModelError(f"state: {state!r} is not a State", hint="kp.assemble(model) returns one")
     refuse_foreign(model, state)
-    model = model.variant(([], released(model, state)))
+    model = model.variant(([], released(model, state), []))
     options = json.loads(_core.modes_options(model.core, encode(core_options(entry))))
     names = options["inputs"], options["outputs"]
     found = _core.linearize(model.core, state.t, state.q, state.v, state.z, *names)

@@ -188,17 +188,23 @@ class Motion:
     def action(self, name: str, on: str, part: str | None, frame: str) -> Floats:
         """Force and torque of a force element on a body, (…, 3); see ``ForceView``."""
         rows = *self._rows(), np.atleast_2d(self.z)
-        seen = self.compiled.forces[name].reaction is not None
+        seen = self.compiled.forces[name].reads_multipliers
         lam = np.atleast_2d(self.lam) if seen else None
         (found,) = self._by_phase(
             lambda core, *of: (_core.force(core, name, on, part, frame, *of),), *rows, lam
         )
         return self._as_given(found)
 
+    def force_results(self, name: str) -> Floats:
+        """Results of a force element beside its wrenches, (…, n); see ``ForceInfo.results``."""
+        rows = *self._rows(), np.atleast_2d(self.z), np.atleast_2d(self.lam)
+        (found,) = self._by_phase(lambda core, *of: (_core.force_results(core, name, *of),), *rows)
+        return self._as_given(found)
+
     def force_energy(self, name: str) -> Floats:
         """Energy that a force element stores and power that it dissipates, (…, 2), J and W."""
         rows = *self._rows(), np.atleast_2d(self.z)
-        seen = self.compiled.forces[name].reaction is not None
+        seen = self.compiled.forces[name].reads_multipliers
         lam = np.atleast_2d(self.lam) if seen else None
         (found,) = self._by_phase(
             lambda core, *of: (_core.force_energy(core, name, *of),), *rows, lam

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import html
-import io
 from collections.abc import Iterable, Sequence
 from typing import TYPE_CHECKING
 
@@ -78,10 +77,7 @@ def drawing(state: State) -> str:
     with style.applied():
         figure = style.figure(style.WIDTH * 0.6)
         mechanism(state, ax=figure.add_subplot())
-        text = io.StringIO()
-        figure.savefig(text, format="svg", metadata={"Date": None})
-    svg = text.getvalue()
-    return svg[svg.index("<svg") :].replace(
+    return style.svg(figure).replace(
         "<svg ", f'<svg style="display: block; max-width: {_WIDTH}px" ', 1
     )
 

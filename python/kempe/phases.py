@@ -1,4 +1,4 @@
-"""The phases of a run: the parameters and the released drivers of its rows."""
+"""The phases of a run: the parameters, released drivers and modes of forces of its rows."""
 
 from __future__ import annotations
 
@@ -14,8 +14,10 @@ if TYPE_CHECKING:
     from kempe import _core
     from kempe.compiled import CompiledModel
 
-#: Values of parameters that differ from those of the case, and released drivers.
-Setting: TypeAlias = "tuple[list[tuple[str, float]], list[str]]"
+#: Force, name of its mode, sign, leader and held value.
+Mode: TypeAlias = "tuple[int, str, float, int, float]"
+#: Values of parameters that differ from those of the case, released drivers, and modes of forces.
+Setting: TypeAlias = "tuple[list[tuple[str, float]], list[str], list[Mode]]"
 #: The first row of each phase, with its setting.
 Settings: TypeAlias = "Sequence[tuple[int, Setting]]"
 

@@ -252,6 +252,9 @@ def of_force(motion: Motion, info: ForceInfo) -> Family:
         found["dissipated"] = Quantity("J", partial(getattr, view, "dissipated"))
     for name, unit in info.states:
         found[name] = Quantity(unit, partial(view.state, name))
+    results = partial(motion.force_results, info.name)
+    for k, (name, unit) in enumerate(info.results):
+        found[name] = Quantity(unit, partial(_column, results, k))
     for body in dict.fromkeys(info.bodies):
         found[f"torque_on_{body}"] = Quantity("N*m", partial(view.torque, on=body))
     return found

@@ -244,7 +244,8 @@ def _state(model: CompiledModel, t: float, point: Mapping[str, Any]) -> State:
     """A state whose multipliers are those of statics; its accelerations are zero."""
     q = np.array(point["q"], dtype=float)
     state = State(model, t, q, np.zeros(len(q)), z=np.array(point["z"], dtype=float))
-    lam = np.array(point["lam"], dtype=float)
+    lam = np.zeros(model.n_multipliers)
+    lam[: len(point["lam"])] = point["lam"]
     vars(state)["_dynamics"] = fixed(np.zeros(len(q))), fixed(lam)
     return state
 

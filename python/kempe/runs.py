@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 #: Name of an event, its times, and rows of q, v and z there.
-EventRows: TypeAlias = "tuple[str, Floats, Floats, Floats, Floats]"
+EventRows: TypeAlias = "tuple[str, Floats, Floats, Floats, Floats, Floats]"
 
 
 @dataclass(frozen=True)
@@ -34,7 +34,7 @@ class StoredRun:
         statistics: steps, evaluations and times, as JSON.
         projection: tolerance of the projection of the states; None without projection.
         settings: the first row of each phase, with its parameters and released drivers.
-        events: name, times and rows of q, v and z of each event.
+        events: name, times, rows of q, v and z, and of impulses, of each event.
     """
 
     t: Floats
@@ -50,7 +50,7 @@ class StoredRun:
     message: str
     statistics: str
     projection: float | None
-    settings: Settings = ((0, ([], [])),)
+    settings: Settings = ((0, ([], [], [])),)
     events: Sequence[EventRows] = ()
 
     def responses(self, rows: int | None = None) -> tuple[Floats, Floats]:
@@ -117,12 +117,12 @@ class PartialRun:
 
     @property
     def events(self) -> Sequence[EventRows]:
-        """Name, times and rows of q, v and z of each event, up to the last row."""
+        """Name, times and rows of q, v, z and impulses of each event, up to the last row."""
         found = []
         for name, t, *rows in self.run.events:
             before = t <= self.run.t[self.rows - 1]
-            q, v, z = (values[before] for values in rows)
-            found.append((name, t[before], q, v, z))
+            q, v, z, impulses = (values[before] for values in rows)
+            found.append((name, t[before], q, v, z, impulses))
         return found
 
     @property

@@ -81,7 +81,7 @@ def rest(
     found = json.loads(_core.equilibrium(model.core, *at, text, progress))
     over = entry.get("over")
     values = found.get("values", [None])
-    models = [model.variant(([(over, x)], [])) if over else model for x in values]
+    models = [model.variant(([(over, x)], [], [])) if over else model for x in values]
     return EquilibriumResult(start, models, entry, found)
 
 
@@ -145,4 +145,4 @@ def _checked(model: CompiledModel, start: State) -> CompiledModel:
     if not isinstance(start, State):
         raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) returns one")
     refuse_foreign(model, start)
-    return model.variant(([], released(model, start)))
+    return model.variant(([], released(model, start), []))

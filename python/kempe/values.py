@@ -316,6 +316,7 @@ CHECKS: Mapping[str, Callable[[object, str], Any]] = {
     "body": reference,
     "point": reference,
     "coordinate": reference,
+    "joint": reference,
     "number": number,
     "law": law,
     "pair": pair,

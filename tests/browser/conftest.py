@@ -1,4 +1,4 @@
-"""A headless Chromium, and pages in it that are watched for messages, errors and requests."""
+"""Pages of a headless Chromium that are watched for messages, errors and requests."""
 
 import os
 import shutil
@@ -52,17 +52,6 @@ def chromium() -> str | None:
     """The browser that $CHROMIUM names, or the one of the system."""
     named = os.environ.get("CHROMIUM")
     return named or next(filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None)
-
-
-@pytest.fixture(scope="session")
-def browser() -> Iterator["sync_api.Browser"]:
-    path = chromium()
-    if path is None:
-        pytest.skip("no Chromium (Debian: apt install chromium), and $CHROMIUM names none")
-    with sync_api.sync_playwright() as playwright:
-        started = playwright.chromium.launch(executable_path=path, args=FLAGS)
-        yield started
-        started.close()
 
 
 @dataclass

@@ -16,7 +16,7 @@ from draw.mechanisms import (
     slider_crank,
     sprung,
 )
-from house.places import PACKAGE
+from house.places import PACKAGE, ROOT
 from kempe.draw.frame import frame_items
 from kempe.draw.placing import View, place
 from PIL import Image
@@ -376,3 +376,15 @@ def plain_script(name: str) -> str:
     """A module of the page as a script whose functions everybody sees."""
     text = (PACKAGE / "draw" / "assets" / f"{name}.js").read_text(encoding="utf-8")
     return re.sub(r"^(import .*;$|export )", "", text, flags=re.MULTILINE)
+
+
+def test_a_motion_over_a_quantity_shows_its_name_and_unit(opened: Any) -> None:
+    case = kp.load(ROOT / "examples" / "four_bar.toml")
+    turned = kp.kinematics(
+        case.model, case.start(), over="crank.angle", range=["70 deg", "90 deg"], n=21
+    )
+    watched = opened(turned, 1280, 720)
+    watched.page.evaluate(f"kempe.seek({float(np.radians(80.0))})")
+    assert watched.page.inner_text("#variable") == "crank.angle ="
+    assert watched.page.inner_text("#now") == "80.000°"
+    assert watched.page.inner_text("#end") == "of 90°"

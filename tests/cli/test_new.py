@@ -46,7 +46,7 @@ def test_every_example_can_be_written_and_equals_the_one_in_the_sources() -> Non
     for name, file in FILES.items():
         assert main(["new", name]) == 0
         written = Path(file).read_bytes()
-        assert written == (ROOT / "examples" / file).read_bytes(), f"copy {file} to templates"
+        assert written == (ROOT / "examples" / file).read_bytes(), "run python -m kempe._generate"
 
 
 def test_a_new_program_runs(capsys: pytest.CaptureFixture[str]) -> None:
@@ -118,7 +118,7 @@ def test_a_failed_write_leaves_the_old_file(
 @pytest.mark.parametrize(
     ("words", "code", "told"),
     [
-        (["nothing"], 2, f"there is {', '.join(NAMES)}"),
+        (["nothing"], 2, f"there is {', '.join(NAMES[:20])}"),
         (["slidercrank"], 2, "did you mean 'slider_crank'?"),
         (["pendulum", "mine.txt"], 4, "must end in .toml"),
         (["n_four_bar", "mine.toml"], 4, "must end in .py"),

@@ -41,7 +41,7 @@ def test_curves_are_outlines_and_belong_to_the_area() -> None:
 
 @pytest.mark.parametrize(
     ("joint", "fields", "mark"),
-    [("point", {}, "contact"), ("roller", {"radius": 0.01}, "roller"), ("flat", {}, "face")],
+    [("point", {}, "touch"), ("roller", {"radius": 0.01}, "roller"), ("flat", {}, "face")],
 )
 def test_a_joint_on_a_curve_has_its_symbol_on_body_i(
     joint: str, fields: dict[str, float], mark: str

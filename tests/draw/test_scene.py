@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from draw.mechanisms import moving, pendulum, point_pendulum, slider_crank, sprung
 from house.places import ROOT
+from kempe.draw.frame import Frame
 from kempe.draw.geometry import placed, smooth
 from kempe.draw.numbers import plain, round_below
 from kempe.draw.scene import playback_rate
@@ -246,3 +247,25 @@ def test_round_numbers(value: float, expected: float) -> None:
 )
 def test_playback_takes_a_bearable_time(duration: float, rate: float) -> None:
     assert playback_rate(duration) == pytest.approx(rate)
+
+
+def over_a_crank() -> kp.Solution:
+    case = kp.load(ROOT / "examples" / "four_bar.toml")
+    return kp.kinematics(
+        case.model, case.start(), over="crank.angle", range=["70 deg", "90 deg"], n=5
+    )
+
+
+def test_frames_over_a_quantity_have_its_name_and_unit(four_bar: kp.Solution) -> None:
+    of_time = kp.scene(four_bar)["variable"]
+    assert of_time == {"name": "t", "unit": "s", "shown": "s", "divisor": 1.0}
+    turned = over_a_crank()
+    told = kp.scene(turned)
+    jsonschema.validate(told, SCHEMA)
+    of = told["variable"]
+    assert (of["name"], of["unit"], of["shown"]) == ("crank.angle", "rad", "°")
+    assert told["frames"]["t"][-1] / of["divisor"] == pytest.approx(90.0)
+    picture = Frame(told)
+    picture.put(len(told["frames"]["t"]) - 1)
+    texts = [text.get_text() for text in picture.axes.texts]
+    assert "crank.angle = 90.000°" in [text.replace("\\", "") for text in texts]

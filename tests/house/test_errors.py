@@ -33,6 +33,8 @@ RUN = _core.dynamics(MODEL, T, Q, V, Z, OPTIONS, None)
 
 CALLS: dict[str, Callable[[], object]] = {
     "version": _core.version,
+    "instructions": _core.instructions,
+    "supports_v3": _core.supports_v3,
     "catalogue": _core.catalogue,
     "schema": _core.schema,
     "is_reserved": lambda: _core.is_reserved("t"),
@@ -45,7 +47,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "Case.check": lambda: CASE.check(MODEL),
     "Case.analyses": CASE.analyses,
     "Model.describe": MODEL.describe,
-    "Model.variant": lambda: MODEL.variant([], []),
+    "Model.variant": lambda: MODEL.variant([], [], []),
     "Model.symbols": MODEL.symbols,
     "Model.table": lambda: MODEL.table("lift", 0, ROW[0]),
     "Model.allowing_redundancy": MODEL.allowing_redundancy,
@@ -74,6 +76,10 @@ CALLS: dict[str, Callable[[], object]] = {
     "place": lambda: _core.place(MODEL, "C", "rocker", TIMES, ROW),
     "newton_euler": lambda: _core.newton_euler(MODEL, TIMES, ROW, ROW, STATES, ROW, LAM),
     "results": lambda: _core.results(MODEL, "C", TIMES, ROW, LAM),
+    "force_results": lambda: _core.force_results(
+        MODEL, "spring", TIMES, ROW, ROW, STATES, np.zeros((1, 8))
+    ),
+    "impulse": lambda: _core.impulse(MODEL, "C", "rocker", TIMES, ROW, np.zeros((1, 8))),
     "force_energy": lambda: _core.force_energy(MODEL, "spring", TIMES, ROW, ROW, STATES),
     "force": lambda: _core.force(
         MODEL, "spring", "rocker", None, "global", TIMES, ROW, ROW, STATES

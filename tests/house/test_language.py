@@ -22,6 +22,12 @@ STILTED = {
     r"(?:asks|asked) (?:for|of)": "requests, needs, contains",
     r"waits? for none": "a statement",
     r"wants": "needs, expects",
+    r"who (?:\w+ ){0,4}for": "a condition with a noun",
+    r"knows": "contains, has",
+    r"(?:do|does) not know": "a statement without knowledge",
+    r"says? so": "the statement itself",
+    r"(?:is|are|was|were|not) doubted": "causes a warning",
+    r"closed? in to": "located",
     r"nothing (?:is )?said": "a default",
     r"(?:code|model|file|message|method|page|report|solution|core) says": "contains, states",
     r"(?:is|be) said": "is stated",
@@ -107,6 +113,9 @@ def test_the_english_is_plain() -> None:
         ("the mechanism goes\ntogether", 1),
         ("first\ncase.toml is right; go on", 2),
         ("Should one not exist, the error comes then.", 1),
+        ("a search that\nknows nothing", 2),
+        ("who looks for a joint", 1),
+        ("A run that stops says so.", 1),
     ],
 )
 def test_a_stilted_expression_is_found(text: str, line: int) -> None:

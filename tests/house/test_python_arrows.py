@@ -9,7 +9,17 @@ import pytest
 from house.places import PACKAGE
 
 #: Parts that use the interface of Solution only; the command line uses the public interface only.
-NO_CORE = {"plot", "draw", "report", "cli", "errors", "_version", "__init__", "__main__"}
+NO_CORE = {
+    "plot",
+    "draw",
+    "report",
+    "lab_report",
+    "cli",
+    "errors",
+    "_version",
+    "__init__",
+    "__main__",
+}
 
 #: Parts that only they themselves and the given module may import.
 PRIVATE = {"cli": {"cli", "__main__"}}

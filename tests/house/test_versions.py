@@ -20,6 +20,33 @@ def test_there_is_one_version() -> None:
     assert f"version: {kempe.__version__}\n" in citation
 
 
+def test_lock_file_and_crates_have_the_version() -> None:
+    text = (ROOT / "Cargo.lock").read_text(encoding="utf-8")
+    locked = dict(re.findall(r'^name = "(kempe.*)"\nversion = "(.+)"$', text, re.M))
+    assert locked == dict.fromkeys(["kempe", "kempe-python", "kempe-wasm"], kempe.__version__)
+    for crate in ("core", "bindings/python", "bindings/wasm"):
+        manifest = (ROOT / crate / "Cargo.toml").read_text(encoding="utf-8")
+        assert "\nversion.workspace = true\n" in manifest, crate
+
+
+def test_no_later_version_is_in_the_changelog() -> None:
+    text = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
+    first, *released = re.findall(r"^## \[(.+?)\]", text, re.M)
+    assert first == "Unreleased"
+    assert not released or numbers(released[0]) <= numbers(kempe.__version__)
+
+
+def numbers(version: str) -> list[int]:
+    return [int(part) for part in version.split(".")]
+
+
+def test_the_page_of_the_installation_names_packages_of_the_version() -> None:
+    page = (ROOT / "docs" / "install.md").read_text(encoding="utf-8")
+    named = re.findall(r"dist/kempe-(\d+\.\d+\.\d+)", page)
+    assert named
+    assert set(named) == {kempe.__version__}
+
+
 def test_set_up_and_cargo_require_the_same_rust() -> None:
     script = (ROOT / "tools" / "setup.sh").read_text(encoding="utf-8")
     assert f"RUST_MINOR={cargo('rust-version').split('.')[1]} " in script

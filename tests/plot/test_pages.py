@@ -10,10 +10,12 @@ import pytest
 from kempe import plot
 from kempe.draw.labels import clipped_lengths
 from kempe.plot.page import file_names
+from kempe.report.summary import summary
 from matplotlib.text import Text
 from plot.conftest import NAMES, chain, driven, pendulum
 from plot.overlaps import boxes, cut_off, overlaps
 from plot.paintings import links
+from singular.equal_cranks import cranks, run
 
 FLAGSHIP = [
     "01_mechanism",
@@ -231,3 +233,21 @@ def test_pages_are_saved_in_a_folder_given_as_text(
         kp.plot.save([page], "figures", ["jpg"])
     with pytest.raises(kp.ModelError, match="is not a page"):
         kp.plot.save(["energy"], "figures")
+
+
+def test_passed_singular_positions_are_marked() -> None:
+    """Two equal cranks are in line with their rod at each half turn."""
+    of = cranks(2, number=2)
+    sol = run(of)
+    times = [one["t"] for one in summary(sol)["singular"]]
+    assert times
+    page = next(page for page in plot.pages(sol) if page.name == "reactions")
+    figure = page.draw()
+    for axes in figure.axes:
+        marks = [line for line in axes.lines if line.get_color() == "#777777"]
+        if axes.lines:
+            found = [float(line.get_xdata()[0]) for line in marks]
+            assert found == pytest.approx(times)
+            assert {line.get_linestyle() for line in marks} == {"--"}
+    words = [text.get_text() for axes in figure.axes for text in axes.texts]
+    assert words.count("singular position") == 1

@@ -2,8 +2,10 @@
 
 import re
 
+import kempe as kp
 import numpy as np
 import pytest
+from kempe import plot
 from kempe.draw.labels import Taken, clipped_lengths, place_labels
 from kempe.draw.units import axis_label, scale
 from plot.conftest import ROOT
@@ -114,3 +116,22 @@ def test_axes_of_benchmarks_and_validation_are_labelled_in_the_same_way() -> Non
     assert len(found) >= 6
     for text in found:
         assert re.fullmatch(r"[^\[\],]+ / \S+", text), text
+
+
+def test_residuals_have_display_units_if_all_constraints_have_one_unit() -> None:
+    m = kp.Model("rod", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    m.bar("rod", mass=1, length=1, ends=("A", "B"))
+    m.revolute("pin", "ground.O", "rod.A")
+    sol = kp.dynamics(m, kp.assemble(m), t_end=0.5)
+
+    def largest() -> float:
+        drawn = [line.get_ydata() for line in plot.residual(sol).lines]
+        return max(float(np.max(values)) for values in drawn)
+
+    in_metres = largest()
+    with kp.units("mm"):
+        axes = plot.residual(sol)
+        assert axes.get_ylabel() == "residual / (mm, mm/s)"
+        # sizes of rounding errors
+        assert largest() == pytest.approx(1e3 * in_metres)

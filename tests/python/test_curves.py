@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import pickle
 import warnings
 from pathlib import Path
@@ -201,3 +202,53 @@ def test_u_has_the_unit_of_its_curve(curve: dict[str, object], unit: str) -> Non
     assert start["follower.y"] > 0.04
     assert m.compile().column_units()[-1] == unit
     assert f"contact.u = {start['contact.u']:.6g} {unit}" in " ".join(str(start).split())
+
+
+def bead_on_a_ring() -> kp.Model:
+    """A bead of 0.5 kg on a ring of 0.8 m, with a force along the ring that its parameter gives."""
+    m = kp.Model("ring", gravity=(0, 0), parameters={"k": 3.0, "c": 0.4})
+    m.ground.curves(ring={"circle": [0.2, -0.1, 0.8]})
+    m.point_mass("bead", mass=0.5)
+    m.point_on_curve("wire", "bead.P", "ground.ring")
+    along = "(-k*wire.u - c*wire.u_rate)"
+    m.force("push", "bead.P", force=[f"-{along}*sin(wire.u)", f"{along}*cos(wire.u)"])
+    return m
+
+
+RING_RATE = 0.4 / (2 * 0.5)
+#: m R u'' + c u' + k u = 0, where u is an angle and the force is along the ring
+RING_OMEGA = math.sqrt(3.0 / (0.5 * 0.8) - (RING_RATE / 0.8) ** 2)
+
+
+@pytest.mark.parametrize(
+    "method",
+    [kp.DOP853(rtol=1e-12, atol=1e-14), kp.Radau(rtol=1e-11, atol=1e-13)],
+    ids=["dop", "radau"],
+)
+def test_a_force_may_depend_on_the_parameter_of_a_curve(method: kp.DOP853 | kp.Radau) -> None:
+    m = bead_on_a_ring()
+    angle = 0.9
+    at = {"bead.x": 0.2 + 0.8 * math.cos(angle), "bead.y": -0.1 + 0.8 * math.sin(angle)}
+    sol = kp.dynamics(
+        m, kp.assemble(m, guess=at, set={"bead.x": at["bead.x"]}), t_end=6, method=method
+    )
+    decay = RING_RATE / 0.8
+    wave = np.cos(RING_OMEGA * sol.t) + decay / RING_OMEGA * np.sin(RING_OMEGA * sol.t)
+    exact = angle * np.exp(-decay * sol.t) * wave
+    np.testing.assert_allclose(sol["wire.u"], exact, atol=1e-9)
+
+
+def test_modes_see_the_parameter_of_a_curve_in_laws() -> None:
+    m = bead_on_a_ring()
+    rest = kp.assemble(m, guess={"bead.x": 1.0, "bead.y": -0.1}, set={"bead.y": -0.1})
+    eigenvalue = kp.modes(m, rest).eigenvalues[0]
+    assert eigenvalue.real == pytest.approx(-RING_RATE / 0.8, rel=1e-10)
+    assert abs(eigenvalue.imag) == pytest.approx(RING_OMEGA, rel=1e-10)
+
+
+def test_the_law_of_a_driver_may_not_depend_on_the_parameter_of_a_curve() -> None:
+    m = bead_on_a_ring()
+    m.body("wheel", mass=1, inertia=1)
+    m.coordinate_driver("drive", "wheel.angle", value="wire.u")
+    with pytest.raises(kp.ModelError, match="laws of forces, conditions and measures may use u"):
+        kp.assemble(m)

@@ -90,3 +90,19 @@ def test_dissipated_energy_belongs_to_a_solution_with_an_interpolant() -> None:
     with pytest.raises(kp.ModelError, match="dense_output=True"):
         _ = bare.force("s").dissipated
     assert "s.dissipated" not in bare.to_dataframe(frames=()).columns
+
+
+@pytest.mark.parametrize("method", [kp.DOP853(rtol=1e-10), kp.Radau(rtol=1e-9)], ids=str)
+def test_a_run_stops_where_friction_has_dissipated_an_energy(method: kp.DOP853 | kp.Radau) -> None:
+    """The pin of a pendulum carries a load that varies; the sum agrees with that of reports."""
+    m = kp.Model("pendulum", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    m.bar("bar", mass=3, length=1.2, ends=("O", "P"))
+    m.revolute("pin", "ground.O", "bar.O")
+    m.friction("rubs", "pin", kinetic=0.2, radius=0.05, velocity=1e-2)
+    m.torsion_spring("damper", "ground", "bar", stiffness=0, damping=0.3)
+    sol = kp.dynamics(m, kp.assemble(m), t_end=10, method=method, stop="rubs.dissipated > 2.5")
+    assert sol.status == 1 and 0.5 < sol.t[-1] < 10
+    assert sol["rubs.dissipated"][-1] == pytest.approx(2.5, rel=1e-9)
+    both = sol["rubs.dissipated"] + sol["damper.dissipated"]
+    np.testing.assert_allclose(both, sol.energy.dissipated, rtol=1e-5, atol=1e-6)

@@ -165,3 +165,45 @@ release = ["turn"]
     assert not braked["turn.effort"].any() and not again["turn.effort"].any()
     assert abs(again["bar.alpha"][0] + 1.5 * G) < 1e-9
     assert again["bar.omega"][0] == 2.0
+
+
+BOUNCE = """
+[forces.floor]
+type = "stop"
+coordinate = "ball.y"
+lower = 0
+restitution = 0.8
+[analyses.fall]
+type = "dynamics"
+t_end = 2.2
+events = { "low" = "ball.y < 1", "never" = "ball.y > 9" }
+"""
+
+
+def test_a_run_writes_its_events_as_a_table(tmp_path: Path) -> None:
+    """A ball from 5 m passes 1 m and hits the floor."""
+    file, folder = tmp_path / "bounce.toml", tmp_path / "out"
+    file.write_text(text(BOUNCE))
+    command = ["run", str(file), "-o", str(folder), "--no-figures", "-q", "--units", "mm"]
+    assert main(command) == 0
+    header, *lines = (folder / "events.csv").read_text().splitlines()
+    assert header == "event,t [s],ball.x [mm],ball.y [mm],ball.vx [mm/s],ball.vy [mm/s]"
+    rows = [line.split(",") for line in lines]
+    assert [row[0] for row in rows] == ["low", "floor.hit"]
+    times = [math.sqrt(8 / G), math.sqrt(10 / G)]
+    for row, t, height in zip(rows, times, (1.0, 0.0), strict=True):
+        assert float(row[1]) == pytest.approx(t, abs=1e-12)
+        assert float(row[3]) == pytest.approx(1e3 * height, abs=1e-9)
+        assert float(row[5]) == pytest.approx(-1e3 * G * t, rel=1e-12)
+    summary = json.loads((folder / "summary.json").read_text())
+    assert "events.csv" in summary["files"]
+
+
+def test_a_run_without_events_writes_no_table_of_them(tmp_path: Path) -> None:
+    file, folder = tmp_path / "drop.toml", tmp_path / "out"
+    file.write_text(text('[analyses.fall]\ntype = "dynamics"\nt_end = 0.1\n'))
+    assert main(["run", str(file), "-o", str(folder), "--no-figures", "-q"]) == 0
+    assert not (folder / "events.csv").exists()
+    (folder / "events.csv").write_text("of an earlier run")
+    assert main(["run", str(file), "-o", str(folder), "--no-figures", "-q"]) == 0
+    assert not (folder / "events.csv").exists()

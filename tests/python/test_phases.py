@@ -112,7 +112,8 @@ def test_a_release_is_kept_in_files_and_copies(tmp_path: Path) -> None:
 
 def test_a_release_that_is_true_at_the_start_waits() -> None:
     m = driven("crank.angle > 60*deg")
-    sol = kp.dynamics(m, started(m), t_end=0.2)
+    with pytest.warns(kp.EventWarning, match=r"motor\.release: .* is true at the start"):
+        sol = kp.dynamics(m, started(m), t_end=0.2)
     assert not len(sol.events["motor.release"].t)
     assert sol["motor.effort"].all()
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import copy
 import math
 import pickle
+import warnings
 from pathlib import Path
 from typing import Any
 
@@ -337,3 +338,31 @@ def test_events_are_marked_in_figures_and_in_the_player() -> None:
     assert [text.get_text() for axes in figure.axes for text in axes.texts].count("low") == 1
     assert scene(sol)["events"] == [{"name": "low", "t": pytest.approx(sol.events["low"].t[0])}]
     assert scene(sol.final)["events"] == []
+
+
+def test_a_stop_that_is_true_at_the_start_is_reported() -> None:
+    with pytest.warns(kp.EventWarning, match="stop: 'ball.y < 6' is true at the start") as told:
+        sol = dropped(t_end=0.5, stop="ball.y < 6")
+    assert len(told) == 1 and sol.status == 0
+    with pytest.warns(kp.EventWarning, match="low: 'ball.y < 2' is true at the start"):
+        m = ball(1.0)
+        start = kp.assemble(m)
+        events = {"low": kp.Event("ball.y < 2", stop=True), "high": "ball.y < 3"}
+        kp.dynamics(m, start, t_end=0.1, events=events)
+
+
+def test_a_release_that_is_true_at_the_start_is_reported() -> None:
+    m = ball()
+    m.coordinate_driver("hold", "ball.y", value="5 - t", release="ball.y > 2")
+    with pytest.warns(kp.EventWarning, match=r"hold\.release: .* and it never released hold"):
+        kp.dynamics(m, kp.assemble(m), t_end=1.0)
+
+
+def test_a_stop_that_happens_later_or_is_false_is_not_reported() -> None:
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        thrown = ball(1.0)
+        start = kp.assemble(thrown, set={"ball.vy": 9.0})
+        sol = kp.dynamics(thrown, start, t_end=3.0, stop="ball.y < 2")
+        assert sol.t[-1] == pytest.approx((9 + math.sqrt(81 - 2 * G)) / G)
+        dropped(t_end=0.1, stop="ball.y < 1", events={"other": "ball.y < 6"})

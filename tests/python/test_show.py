@@ -193,7 +193,7 @@ def numbers(state: kp.State, equations: Equations) -> dict[str, float]:
 
 
 def evaluated(text: str, values: dict[str, float]) -> float:
-    """The value of a formula by sympy, which knows nothing of how it was written."""
+    """The value of a formula by sympy, without regard to how it was written."""
     plain = text.replace("^", "**")
     for name in sorted(values, key=len, reverse=True):
         plain = plain.replace(name, name.replace(".", "__")) if "." in name else plain

@@ -93,7 +93,7 @@ def test_a_force_that_depends_on_a_reaction_is_given_the_multipliers(
 
     monkeypatch.setattr("kempe.motion._core.force", force)
     seeing = CompiledModel(start.compiled.core, start.compiled.case)
-    seeing._about["forces"][0]["reaction"] = "D"
+    seeing._about["forces"][0]["reads_multipliers"] = True
     for model in (start.compiled, seeing):
         kp.State(model, 0.0, start.q, start.v).force("spring").torque(on="rocker")
     (_, without), (z, lam) = given

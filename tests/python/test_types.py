@@ -1,4 +1,4 @@
-"""A type checker knows views, scalars and choices."""
+"""A type checker finds the types of views, scalars and choices."""
 
 from pathlib import Path
 

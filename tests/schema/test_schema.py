@@ -84,7 +84,7 @@ def closed(path: list[Any]) -> bool:
     match path:
         case ["parameters"] | ["tables" | "bodies" | "joints" | "drivers" | "forces" | "analyses"]:
             return False
-        case ["start", "set" | "guess", *_] | ["analyses", _, "set"]:
+        case ["measures"] | ["start", "set" | "guess", *_] | ["analyses", _, "set" | "parameters"]:
             return False
         case [*_, "points" | "through" | "curves" | "terms"]:
             return False

@@ -13,7 +13,7 @@ from kempe import _core
 from schema.cases import cases, places, typo
 
 CASES = cases()
-MEANT = re.compile(r"'([^']*)'[^']*; did you mean '([^']*)'\?")
+MEANT = re.compile(r"'([^']*)'[^;]*; did you mean '([^']*)'\?")
 
 
 def faults(case: dict[str, Any]) -> list[str]:
@@ -31,7 +31,7 @@ def faults(case: dict[str, Any]) -> list[str]:
 
 def replaced(node: dict[str, Any], key: str, wrong: str, meant: str) -> None:
     """Replaces a part of a key."""
-    name = key.replace(wrong, meant)
+    name = key.replace(wrong, meant, 1)
     entries = [(name if known == key else known, value) for known, value in node.items()]
     node.clear()
     node.update(entries)
@@ -64,6 +64,10 @@ def test_suggestions_remove_the_fault(name: str) -> None:
             if is_key:
                 replaced(own, wrong, part, meant)
             else:
-                own[own_key] = wrong.replace(part, meant)
-            assert faults(case) == [], f"{wrong!r} of {word!r} at {key!r}: {part!r} as {meant!r}"
+                own[own_key] = wrong.replace(part, meant, 1)
+            left = faults(case)
+            if wrong.replace(part, meant, 1) != word:
+                # another valid formula, such as pi for pi*h, may lead to other faults
+                left = [text for text in left if f"'{part}'" in text]
+            assert left == [], f"{wrong!r} of {word!r} at {key!r}: {part!r} as {meant!r}"
     assert applied > 20

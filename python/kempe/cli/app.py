@@ -22,6 +22,8 @@ from kempe.cli.new import EXAMPLES as NEW_EXAMPLES
 from kempe.cli.new import new as new_command
 from kempe.cli.plot import EXAMPLES as PLOT_EXAMPLES
 from kempe.cli.plot import plot as plot_command
+from kempe.cli.report import EXAMPLES as REPORT_EXAMPLES
+from kempe.cli.report import report as report_command
 from kempe.cli.run import EXAMPLES as RUN_EXAMPLES
 from kempe.cli.run import run as run_command
 from kempe.cli.schema import EXAMPLES as SCHEMA_EXAMPLES
@@ -31,16 +33,16 @@ from kempe.cli.show import show as show_command
 from kempe.cli.study import EXAMPLES as STUDY_EXAMPLES
 from kempe.cli.study import study as study_command
 
-#: Commands that run the analyses of one type, with those that they start from.
+#: Commands that run the analyses of one type in a case, with those that they start from.
 ANALYSES = {
-    "dynamics": "simulations",
-    "kinematics": "analyses of the motion that drivers determine",
-    "inverse_dynamics": "analyses of efforts and reactions",
-    "equilibrium": "analyses of rest positions and their stability",
-    "modes": "frequencies, damping and shapes of small motions",
-    "limits": "limits of motion",
-    "configurations": "lists of the assembly modes",
-    "mobility": "analyses of the mobility",
+    "dynamics": "Simulate the motion under the forces of a case.",
+    "kinematics": "Compute the motion that the drivers of a case determine.",
+    "inverse_dynamics": "Compute this motion with the efforts of the drivers and all reactions.",
+    "equilibrium": "Find where a mechanism rests, and whether it is stable there.",
+    "modes": "Compute frequencies, damping and shapes of small motions.",
+    "limits": "Find how far a mechanism can move, and whether a crank turns fully.",
+    "configurations": "List all positions in which a mechanism can be assembled.",
+    "mobility": "Count freedoms, and find redundant joints and singular positions.",
 }
 
 app = typer.Typer(
@@ -52,11 +54,12 @@ app = typer.Typer(
 )
 app.command("run", epilog=RUN_EXAMPLES)(run_command)
 for _type, _about in ANALYSES.items():
-    app.command(_type, help=f"Run the {_about} of a case.")(run_command)
+    app.command(_type, help=_about)(run_command)
 app.command("check", epilog=CHECK_EXAMPLES)(check_command)
 app.command("show", epilog=SHOW_EXAMPLES)(show_command)
 app.command("plot", epilog=PLOT_EXAMPLES)(plot_command)
 app.command("animate", epilog=ANIMATE_EXAMPLES)(animate_command)
+app.command("report", epilog=REPORT_EXAMPLES)(report_command)
 app.command("study", epilog=STUDY_EXAMPLES)(study_command)
 app.command("new", epilog=NEW_EXAMPLES)(new_command)
 app.command("schema", epilog=SCHEMA_EXAMPLES)(schema_command)

@@ -25,10 +25,13 @@ from kempe.cli.arguments import (
 )
 from kempe.cli.console import answers, heading
 from kempe.cli.failure import document
+from kempe.errors import SingularityError
+from kempe.sequence import of_type
 
 if TYPE_CHECKING:
     from kempe.assembly_report import AssemblyReport
     from kempe.case import Case
+    from kempe.freedom import MobilityResult
     from kempe.state import State
 
 EXAMPLES = """Examples:
@@ -65,10 +68,26 @@ def check(  # noqa: PLR0917 - typer distinguishes options by their annotations
         heading(console, "Mobility")
         for line in freedom.report():
             console.print(Text(f"  {line}"))
+        _refuse_undetermined(case, state, freedom)
     analyses = ", ".join(f"{name} ({entry['type']})" for name, entry in case.analyses.items())
     console.print()
     name = "standard input" if str(file) == STDIN else file
     console.print(Text(f"{name}: OK; analyses: {analyses or 'none'}"))
+
+
+def _refuse_undetermined(case: Case, state: State, freedom: MobilityResult) -> None:
+    """Refuse what the run of a case refuses before its first step.
+
+    Raises:
+        SingularityError: dynamics starts with a massless body whose motion is not determined.
+    """
+    runs = any(
+        entry["type"] == "dynamics" and entry["from"] == "start"
+        for entry in of_type(case.analyses, "dynamics").values()
+    )
+    if runs and freedom.undetermined:
+        name, message = next(iter(freedom.undetermined.items()))
+        raise SingularityError(message, name=name, t=float(state.t))
 
 
 def _report(report: AssemblyReport) -> dict[str, Any]:

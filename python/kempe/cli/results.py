@@ -12,13 +12,14 @@ if TYPE_CHECKING:
     from kempe.solution import Solution
 
 SUMMARY = "summary.json"
+EVENTS = "events.csv"
 FILES = ("solution.npz", "solution.csv", SUMMARY)
 
 
 def write_results(
     solution: Solution, summary: dict[str, Any], folder: Path, drawing: Drawing
 ) -> list[Path]:
-    """Write solution, table, drawings, figures and summary; return the list of files.
+    """Write solution, tables, drawings, figures and summary; return the list of files.
 
     The summary is written last, because it lists all files.
 
@@ -32,11 +33,13 @@ def write_results(
         FileError: a file cannot be written.
     """
     from kempe.cli.drawings import write_drawings, write_figures
+    from kempe.event_table import write_events
 
     data, text, overview = (folder / name for name in FILES)
     solution.save(data)
     solution.to_csv(text)
-    written = [data, text, overview, *write_drawings(solution, folder, drawing)]
+    occurred = [folder / EVENTS] if write_events(solution, folder / EVENTS) else []
+    written = [data, text, *occurred, overview, *write_drawings(solution, folder, drawing)]
     written += write_figures(solution, folder, drawing)
     _write_summary(overview, summary, written)
     return written

@@ -16,6 +16,7 @@ from kempe.cli.failure import document
 if TYPE_CHECKING:
     from rich.console import Console
 
+    from kempe.case import Case
     from kempe.studies import Study
 
 EXAMPLES = """Examples:
@@ -42,21 +43,12 @@ def study(  # noqa: PLR0917 - typer distinguishes options by their annotations
     as_json: AsJson = False,
 ) -> None:
     """Compute an analysis with many options, compare the results and summarize them."""
-    import warnings
-
-    from kempe.analyses import AssemblyWarning
-    from kempe.events import EventWarning
     from kempe.plot import study_figures
-    from kempe.studies import study as compute
     from kempe.studies.table import json_text
 
     with document(as_json) as content, shown_in(units):
         case = read_case(file, Changes(settings))
-        silent = not remarks().is_terminal
-        with warnings.catch_warnings(), remarks().status("", spinner="line") as status:
-            warnings.simplefilter("ignore", AssemblyWarning)
-            warnings.simplefilter("ignore", EventWarning)
-            found = compute(case, analysis, progress=None if silent else status.update)
+        found = computed(case, analysis)
         console = answers(silent=as_json)
         _show(console, found)
         folder = output or Path("out") / stem(file) / "study"
@@ -66,6 +58,21 @@ def study(  # noqa: PLR0917 - typer distinguishes options by their annotations
     heading(console, "Files")
     for path in written:
         console.print(Text(f"  {path}"))
+
+
+def computed(case: Case, analysis: str | None = None) -> Study:
+    """The study of an analysis; a terminal shows the variant that is computed."""
+    import warnings
+
+    from kempe.analyses import AssemblyWarning
+    from kempe.events import EventWarning
+    from kempe.studies import study as compute
+
+    silent = not remarks().is_terminal
+    with warnings.catch_warnings(), remarks().status("", spinner="line") as status:
+        warnings.simplefilter("ignore", AssemblyWarning)
+        warnings.simplefilter("ignore", EventWarning)
+        return compute(case, analysis, progress=None if silent else status.update)
 
 
 def _show(console: Console, found: Study) -> None:

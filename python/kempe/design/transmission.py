@@ -2,7 +2,7 @@
 
 The transmission angle μ at the joint of a coupler and an output link is the angle between their
 lines (Alt, 1932; Norton, *Design of Machinery*, section 3.3). For a slide the line of the
-output is the normal of the slide. 90° is best; textbooks ask for at least 40°.
+output is the normal of the slide. 90° is best; textbooks recommend at least 40°.
 """
 
 from __future__ import annotations

@@ -22,8 +22,19 @@ def body(described: dict[str, Any]) -> Iterator[Item]:
     """A moving body, or what ground has as an outline."""
     if described["drawn"]:
         yield from _drawn(described)
-    elif described["number"]:
+    elif described["number"] and not is_plate(described):
         yield from _link(described)
+
+
+def is_plate(described: dict[str, Any]) -> bool:
+    """Whether a body has a closed curve around its points: the curve is all of it."""
+    corners = np.array(described["outline"])
+    return any(all(winding([ring], at) for at in corners) for ring in _rings(described))
+
+
+def _rings(described: dict[str, Any]) -> list[Floats]:
+    """The closed curves of a body, each (n, 2), m."""
+    return [np.array(curve["points"]) for curve in described["curves"] if curve["closed"]]
 
 
 def middles(described: dict[str, Any]) -> Iterator[Floats]:
@@ -31,7 +42,9 @@ def middles(described: dict[str, Any]) -> Iterator[Floats]:
     areas = [np.array(part["points"]) for part in described["drawn"] if part["form"] == "area"]
     drawn = [at for part in described["drawn"] for at in part["points"]]
     corners = np.array(drawn or described["outline"])
-    if not drawn and described["curves"] and len(corners) == 1:
+    if not drawn and len(corners) > 1 and is_plate(described):
+        areas = _rings(described)
+    elif not drawn and described["curves"] and len(corners) == 1:
         corners = np.array(described["curves"][0]["points"])
     across = [(0, len(corners) // 2)]
     if areas:

@@ -138,7 +138,7 @@ class Display:
         marked = Places(self._near)
         for symbol in self.scene["symbols"]:
             ends = self._ends(symbol)
-            for path in ends[1:] if symbol["mark"] in symbols.UNMARKED_I else ends:
+            for path in ends[symbols.unmarked(symbol) :]:
                 marked.is_new(path)
         for body in self.scene["bodies"]:
             for point in body["points"]:
@@ -156,8 +156,16 @@ class Display:
 
     # --- names ------------------------------------------------------------------------------------
 
+    @property
+    def contacts(self) -> list[dict[str, Any]]:
+        """The symbols of forces at a point of body i that touches a curve."""
+        joints = {joint["name"] for joint in self.scene["joints"]}
+        marks = ("touch", "round")
+        found = (symbol for symbol in self.scene["symbols"] if symbol["mark"] in marks)
+        return [symbol for symbol in found if symbol["element"] not in joints]
+
     def name_joints(self) -> None:
-        """Write the names of the joints, of those at one place together, and of free points."""
+        """Write the names of joints and contacts, one text for each place, and of free points."""
         joints = self.scene["joints"]
         if len(joints) > MOST_NAMES:
             return
@@ -173,13 +181,19 @@ class Display:
             if k == len(found):
                 found.append(("joint", [], upright(number, at)))
             found[k][1].append(one_line(joint["name"]))
+        for symbol in self.contacts:
+            number, at = symbol["bodies"][0], symbol["points"][0]
+            k = places.index(self._path(number, at))
+            if k == len(found):
+                found.append(("element", [], upright(number, at)))
+            found[k][1].append(one_line(symbol["element"]))
         count = sum(len(body["points"]) for body in self.scene["bodies"])
         for body in self.scene["bodies"] if count <= MOST_NAMES else []:
             for point in body["points"]:
                 k = places.index(self._path(body["number"], point["at"]))
                 if k == len(found):
                     found.append(("point", [], upright(body["number"], point["at"])))
-                if found[k][0] == "point":  # where there is a joint its points go unnamed
+                if found[k][0] == "point":  # where there is a joint or a contact, points go unnamed
                     found[k][1].append(one_line(point["name"]))
         for role, names, frame in found:
             self.name(role, BETWEEN_NAMES.join(dict.fromkeys(names)), frame)
@@ -187,6 +201,7 @@ class Display:
     def name_elements(self) -> None:
         """Write the names of forces and drivers beside their symbols."""
         seen = {joint["name"] for joint in self.scene["joints"]}
+        seen |= {symbol["element"] for symbol in self.contacts}
         for symbol in self.scene["symbols"]:
             if symbol["element"] in seen or len(seen) > MOST_NAMES:
                 continue
@@ -197,7 +212,9 @@ class Display:
                 frame = items.between((i, j), symbol["points"])
                 self.name(role, symbol["element"], frame)
             else:
-                self.name(role, symbol["element"], upright(j, symbol["points"][1]))
+                k = 0 if symbol["mark"] == "shift_stop" else 1
+                frame = upright(symbol["bodies"][k], symbol["points"][k])
+                self.name(role, symbol["element"], frame)
 
     def number_bodies(self, index_base: int = 1, *, names: bool = False) -> None:
         """Write a number in a circle on each body, and its name beside it.

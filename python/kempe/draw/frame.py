@@ -150,7 +150,10 @@ class Frame:
     def put(self, k: int) -> None:
         """Move everything to where it is at frame k."""
         self.painting.poses = self._poses[k]
-        self._clock.set_text(f"t = {self._scene['frames']['t'][k]:.3f} s")
+        of = self._scene["variable"]
+        gap = "" if of["shown"] == "°" else " "
+        value = self._scene["frames"]["t"][k] / of["divisor"]
+        self._clock.set_text(verbatim(f"{of['name']} = {value:.3f}{gap}{of['shown']}"))
 
     def save(self, k: int, path: Path | str) -> None:
         """Write frame k as PNG, whole or not at all; its names are laid out as in a figure.

@@ -148,11 +148,13 @@ def accuracy(drawn: Solution | State, motion: Motion) -> float | None:
         return None
     try:
         middle = drawn((motion.t[:-1] + motion.t[1:]) / 2.0)
-        a, lam = (motion.a, middle.a), (motion.lam, middle.lam)
+        a, rows = (motion.a, middle.a), (motion.lam, middle.lam)
     except KempeError:
         return None
     turning = np.array([name.endswith(".angle") for name in motion.compiled.column_names()], bool)
     units = np.array(motion.compiled.row_units())
+    # those of forces with modes follow the rows of the model
+    lam = (rows[0][:, : units.size], rows[1][:, : units.size])
     groups = [(a, turning), (a, ~turning), *((lam, units == unit) for unit in set(units))]
     return max(
         _error_half_way(motion.t, frames[:, of_one_unit], exact[:, of_one_unit])

@@ -13,6 +13,7 @@ import numpy as np
 
 from kempe.arrays import Floats
 from kempe.compiled import ACCELERATIONS, COORDINATES, RATES, CompiledModel
+from kempe.display_units import display
 from kempe.draw import arrows, channels, sampling, shapes
 from kempe.draw.numbers import plain, round_below, rounded
 from kempe.draw.units import scale
@@ -22,6 +23,7 @@ from kempe.names import unknown
 from kempe.solution import Solution
 from kempe.state import State
 from kempe.values import instance, texts
+from kempe.variable import Variable
 
 Scene: TypeAlias = dict[str, Any]
 
@@ -68,11 +70,10 @@ def scene(
     model = solution_or_state.compiled
     motion = sampling.sampled(solution_or_state, frames, channels.numbers_per_frame(model), span)
     bodies = [shapes.body(model, name) for name in model.all_bodies]
-    joints = [shapes.joint(model, name) for name in model.joints]
-    symbols = shapes.symbols(motion)
+    joints, symbols = [shapes.joint(model, name) for name in model.joints], shapes.symbols(motion)
     bounds = shapes.bounds(motion, bodies, joints, symbols)
     size = float(max(bounds[2:] - bounds[:2])) or 1.0
-    reactions, paths = _reactions(motion), _traces(motion, size, traces)
+    paths = _traces(motion, size, traces)
     peaks = arrows.peaks(solution_or_state, motion, arrows.tracked(bodies, paths))
     return {
         "scene": FORMAT,
@@ -85,12 +86,13 @@ def scene(
         "joints": joints,
         "symbols": symbols,
         "traces": paths,
+        "variable": _variable(solution_or_state.variable),
         "frames": {
             "t": plain(motion.t),
             "poses": plain(_of_bodies(motion, COORDINATES), _DIGITS_OF_POSES),
             "rates": plain(_of_bodies(motion, RATES)),
             "accelerations": plain(_of_bodies(motion, ACCELERATIONS)),
-            "reactions": plain(reactions),
+            "reactions": plain(_reactions(motion)),
         },
         "interpolation": sampling.interpolation(solution_or_state, motion, size),
         "accuracy": _short(sampling.accuracy(solution_or_state, motion)),
@@ -114,6 +116,12 @@ def _events(drawn: Solution | State, motion: Motion) -> list[dict[str, Any]]:
         if first <= t <= last
     ]
     return [{"name": name, "t": rounded(t)} for t, name in sorted(found)[:_MOST_EVENTS]]
+
+
+def _variable(of: Variable) -> dict[str, Any]:
+    """What ``t`` of the frames is, and the unit in which drawings write it."""
+    shown = display(of.unit, "deg") if of.unit == "rad" else display(of.unit)
+    return {"name": of.name, "unit": of.unit, "shown": shown.symbol, "divisor": shown.divisor}
 
 
 def _short(share: float | None) -> float | None:

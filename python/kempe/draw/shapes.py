@@ -100,6 +100,8 @@ def _symbol(motion: Motion, told: dict[str, Any]) -> dict[str, Any]:
         found["reach"] = _distance(motion, found)
     elif told["mark"] == "face":
         found["reach"] = _touched(motion, found)
+    elif told["mark"] == "shift_stop":
+        found["points"][0] = _stopped(motion, found)
     if told["mark"] == "force_arrow":
         found["axes"][0] = _pushing(motion, found)
     elif told["mark"] == "torque_arrow":
@@ -118,6 +120,18 @@ def _pushing(motion: Motion, symbol: dict[str, Any]) -> float:
         return float(symbol["axes"][0])
     turned = np.arctan2(force[k, 1], force[k, 0]) - np.atleast_1d(motion.body(i).angle)[k]
     return float(np.arctan2(np.sin(turned), np.cos(turned)))
+
+
+def _stopped(motion: Motion, symbol: dict[str, Any]) -> list[float]:
+    """The place of a stop on body i, beside which the point of j is where it comes nearest."""
+    i, j = (motion.body(_name(motion, number)) for number in symbol["bodies"])
+    at, axis = symbol["points"][0], symbol["axes"][0]
+    away = np.atleast_2d(j.at(symbol["points"][1]).position - i.at(at).position)
+    turn = np.atleast_1d(i.angle + axis)
+    along = away[:, 0] * np.cos(turn) + away[:, 1] * np.sin(turn)
+    aside = away[:, 1] * np.cos(turn) - away[:, 0] * np.sin(turn)
+    k = int(np.nan_to_num(along, nan=-np.inf).argmax())
+    return _numbers((at[0] - aside[k] * math.sin(axis), at[1] + aside[k] * math.cos(axis)))
 
 
 def _sign(values: Floats) -> int:

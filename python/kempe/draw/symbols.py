@@ -22,6 +22,8 @@ _SPIRAL = (4.5, 12.0)  # inner and outer radius
 _WINDINGS = 5.0 * np.pi
 _FIRST_RING, _RING = 13.0, 8.0
 _EYE = 8.5  # radius of the eye of a sleeve
+_PAD = 3.0  # half thickness of a brake pad around a pin
+_STOP = 9.0  # half the height of a stop
 _FACE = 8.0  # overhang of a face beyond its contacts
 
 
@@ -128,7 +130,30 @@ def _slot(symbol: Symbol) -> Iterator[Item]:
     yield from pin_at(symbol, 1)
 
 
-def _contact(symbol: Symbol) -> Iterator[Item]:
+def _rubbing_slide(symbol: Symbol) -> Iterator[Item]:
+    """Teeth of friction on both sides of the block of body j."""
+    (i, j), at = symbol["bodies"], symbol["points"][1]
+    frame = on_body(j, at, turns_with=i, turn=symbol["axes"][0])
+    for side in (1.0, -1.0):
+        x = np.linspace(-_BLOCK[1, 0], _BLOCK[1, 0], 11)
+        y = side * np.where(np.arange(11) % 2, _RAIL + 2.5, _RAIL - 2.5)
+        teeth = print_points(np.column_stack([x, y]))
+        yield line(symbol["element"], frame, teeth, "force", FORCE, layer=items.PIN)
+
+
+def _rubbing_pin(symbol: Symbol, rings: Rings) -> Iterator[Item]:
+    """Two brake pads on body j around the pin."""
+    r = rings.radius(symbol, _FIRST_RING - 2.0)
+    frame = on_body(symbol["bodies"][1], symbol["points"][1])
+    for middle in (0.0, np.pi):
+        begin, end = middle - 0.6, middle + 0.6
+        outer, inner = items.arc(r + _PAD, begin, end), items.arc(r - _PAD, end, begin)
+        pad = print_points(np.vstack([outer, inner]))
+        yield fill(symbol["element"], frame, pad, "force", tint=0.6)
+        yield line(symbol["element"], frame, pad, "force", FORCE, closed=True)
+
+
+def _touch(symbol: Symbol) -> Iterator[Item]:
     """The point of body i that slides on a curve."""
     frame = upright(symbol["bodies"][0], symbol["points"][0])
     dot = print_points(items.circle(3.5))
@@ -185,6 +210,22 @@ def _rotary_dashpot(symbol: Symbol, rings: Rings) -> Iterator[Item]:
         yield line(symbol["element"], frame, print_points(points), "force", FORCE)
 
 
+def _shift_stop(symbol: Symbol) -> Iterator[Item]:
+    """A stop of body i, hatched on the side to which nothing passes."""
+    i = symbol["bodies"][0]
+    frame = on_body(i, symbol["points"][0], turn=symbol["axes"][0])
+    face = print_points([(0.0, -_STOP), (0.0, _STOP)])
+    yield line(symbol["element"], frame, face, f"body {i}", 2.0, hatch=-1)
+
+
+def _turn_stop(symbol: Symbol, _: Rings) -> Iterator[Item]:
+    """A stop of body i at an angle of body j around their joint."""
+    (i, j), r = symbol["bodies"], _FIRST_RING + _RING
+    frame = on_body(j, symbol["points"][1], turns_with=i, turn=symbol["axes"][0])
+    rows = print_points([(r - 5.0, 0.0), (r + 5.0, 0.0)])
+    yield line(symbol["element"], frame, rows, f"body {i}", 4.0)
+
+
 def _curved_arrow(symbol: Symbol, rings: Rings, colour: str, width: float) -> Iterator[Item]:
     """An arrow around the pin, counter-clockwise unless its sense is negative."""
     r = rings.radius(symbol)
@@ -212,8 +253,11 @@ _AT: dict[str, Callable[[Symbol], Iterator[Item]]] = {
     "crossed_strands": lambda symbol: wheels.strands(symbol, crossed=True),
     "circle": wheels.circle,
     "roller": wheels.roller,
-    "contact": _contact,
+    "round": wheels.round_end,
+    "rubbing_slide": _rubbing_slide,
+    "touch": _touch,
     "face": _face,
+    "shift_stop": _shift_stop,
     "force_arrow": lambda symbol: _straight_arrow(symbol, "force", 1.6),
     "drive_shift": lambda symbol: _straight_arrow(symbol, "drive", 2.4),
 }
@@ -229,7 +273,9 @@ ALONG: dict[str, Callable[[Symbol, float], Iterator[Item]]] = {
 AROUND: dict[str, Callable[[Symbol, Rings], Iterator[Item]]] = {
     "spiral_spring": _spiral,
     "rotary_dashpot": _rotary_dashpot,
+    "rubbing_pin": _rubbing_pin,
     "torque_arrow": lambda symbol, rings: _curved_arrow(symbol, rings, "force", 1.6),
+    "turn_stop": _turn_stop,
     "drive_turn": lambda symbol, rings: _curved_arrow(symbol, rings, "drive", 2.4),
 }
 #: Symbols that turn on a pin where an end of theirs is on ground.
@@ -241,11 +287,20 @@ UNMARKED_I = (
     *WHEELS,
     "slide",
     "slot",
+    "rubbing_slide",
     "track",
     "face",
     "toothed_line",
     "force_arrow",
     "drive_shift",
 )
+#: Marks that show neither point.
+_UNMARKED = ("shift_stop", "round")
 #: The vocabulary.
 MARKS = (*_AT, *ALONG, *AROUND)
+
+
+def unmarked(symbol: Symbol) -> int:
+    """How many of the two points of a symbol it does not mark, that of body i first."""
+    mark = symbol["mark"]
+    return 2 if mark in _UNMARKED else int(mark in UNMARKED_I)

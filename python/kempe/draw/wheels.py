@@ -131,3 +131,11 @@ def roller(symbol: Symbol) -> Iterator[Item]:
     yield fill(of, frame, rim, "paper", layer=items.BODY)
     yield line(of, frame, rim, f"body {i}", 1.4, layer=items.BODY, closed=True)
     yield from pin_at(symbol, 0)
+
+
+def round_end(symbol: Symbol) -> Iterator[Item]:
+    """A round end of body i."""
+    (i, _), of = symbol["bodies"], symbol["element"]
+    frame, rim = on_body(i, symbol["points"][0]), metres(items.circle(symbol["radii"][0], 64))
+    yield fill(of, frame, rim, f"body {i}", layer=items.BODY, tint=0.72)
+    yield line(of, frame, rim, f"body {i}", 1.4, layer=items.BODY, closed=True)

@@ -9,6 +9,7 @@ import numpy as np
 
 from kempe.arrays import Floats
 from kempe.draw.units import NOISE, Scale, scale
+from kempe.fine import jumps
 from kempe.plot import style
 from kempe.plot.legend import above_or_beside
 from kempe.plot.panel import CONSTANT, Curve, Panel
@@ -59,8 +60,10 @@ def add_lines(
     """One line for each curve; points where there are too few times for a line."""
     instants = np.atleast_1d(t) / time.unit.divisor
     marker = {"marker": "o"} if len(instants) < 3 else {}
+    breaks = jumps(np.atleast_1d(t))
+    instants = np.insert(instants, breaks, np.nan)
     for k, one in enumerate(curves):
-        values = np.atleast_1d(one.values)
+        values = np.insert(np.atleast_1d(one.values), breaks, np.nan)
         shown = values if divisor == 1.0 else values / divisor
         look = {**style.line(k), **marker, **one.line}
         axes.plot(instants, shown, label=one.label, **look)

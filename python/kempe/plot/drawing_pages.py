@@ -24,9 +24,8 @@ _LEFT, _RIGHT, _ABOVE, _BELOW = 19.0, 3.0, 7.0, 11.0
 _HIGHEST = 150.0
 
 
-def of_mechanism(solution: Solution) -> Page:
+def of_mechanism(state: State) -> Page:
     """The mechanism with its dimensions."""
-    state = solution.initial
 
     def draw() -> Figure:
         figure, axes = _paper(state)

@@ -83,7 +83,7 @@ def _families(
     solution: Solution, index_base: int, most: int | None, cut: float | None
 ) -> Iterator[list[Page]]:
     model = solution.compiled
-    yield [drawing_pages.of_mechanism(solution)]
+    yield [drawing_pages.of_mechanism(solution.initial)]
     yield [drawing_pages.of_configuration("initial", solution.initial, index_base)]
     yield [drawing_pages.of_configuration("final", solution.final, index_base)]
     over_time = TimePages(solution, drawing_pages.unit_of_length(solution), cut, index_base)

@@ -29,7 +29,7 @@ def at_rest(state: State) -> Scene:
     """The scene of a position alone, without forces: also where these are not unique."""
     still = State(state.compiled, state.t, state.q, np.zeros_like(state.v), z=state.z)
     # in place of what follows from the equations of motion
-    vars(still)["_dynamics"] = (np.zeros_like(still.q), np.zeros(still.compiled.n_rows))
+    vars(still)["_dynamics"] = (np.zeros_like(still.q), np.zeros(still.compiled.n_multipliers))
     return scene_of(still)
 
 

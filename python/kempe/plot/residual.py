@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from kempe.display_units import Shown, display
 from kempe.draw.units import axis_label
 from kempe.plot import style
 from kempe.plot.curves import finish
@@ -20,6 +21,8 @@ if TYPE_CHECKING:
 def residual(solution: Solution, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
     """Draw the envelopes of the largest |Φ| and |Φ_q q̇ + Φ_t| on a logarithmic axis.
 
+    They are in display units if all constraints have the same unit, otherwise in SI units.
+
     Args:
         solution: the solution.
         ax: where to; a figure of its own when None.
@@ -30,11 +33,17 @@ def residual(solution: Solution, *, ax: Axes | None = None, cut: float | None = 
     units = list(dict.fromkeys(solution.compiled.row_units())) or ["m"]
     time = TimeAxis.of(solution.t, cut, solution.variable)
     t = solution.t / time.unit.divisor
-    drawn = {"position, max |Φ|": drift.position, "velocity, max |dΦ/dt|": drift.velocity}
+    shown = [[display(of) for of in (unit, f"{unit}/s")] for unit in units]
+    if len(units) > 1:
+        shown = [[Shown(unit), Shown(f"{unit}/s")] for unit in units]
+    drawn = {
+        "position, max |Φ|": drift.position / shown[0][0].divisor,
+        "velocity, max |dΦ/dt|": drift.velocity / shown[0][1].divisor,
+    }
     with style.on(ax) as axes:
         for k, (label, values) in enumerate(drawn.items()):
             draw_envelope(axes, t, values, label, style.line(k))
         logarithmic(axes, [envelope(t, values)[2] for values in drawn.values()])
-        axes.set_ylabel(axis_label("residual", [*units, *(f"{unit}/s" for unit in units)]))
+        axes.set_ylabel(axis_label("residual", [of[k].symbol for k in (0, 1) for of in shown]))
         finish(axes, time, Panel("", "", [], "Constraints", legend=True))
         return axes

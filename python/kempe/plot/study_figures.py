@@ -13,6 +13,7 @@ from kempe.plot.study_history import error_history, residual_history
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
     from kempe.studies import Study
 
@@ -28,6 +29,14 @@ FIGURES: dict[str, Callable[[Study, Axes], None]] = {
 HEIGHTS = {"gaps": 110.0, "work_precision": 90.0}
 
 
+def drawn(study: Study, name: str) -> Figure:
+    """One of the figures, drawn, without a window."""
+    with style.applied():
+        figure = style.figure(HEIGHTS.get(name, style.HEIGHT))
+        FIGURES[name](study, figure.add_subplot())
+    return figure
+
+
 def write(study: Study, folder: Path) -> list[Path]:
     """Draw all figures of a study into a folder; returns the files.
 
@@ -35,9 +44,6 @@ def write(study: Study, folder: Path) -> list[Path]:
         FileError: a file cannot be written.
     """
     written: list[Path] = []
-    for name, draw in FIGURES.items():
-        with style.applied():
-            figure = style.figure(HEIGHTS.get(name, style.HEIGHT))
-            draw(study, figure.add_subplot())
-        written += style.save(figure, folder / name)
+    for name in FIGURES:
+        written += style.save(drawn(study, name), folder / name)
     return written

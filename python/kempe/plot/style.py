@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -164,6 +165,17 @@ def save(made: Figure, path: Path, formats: Sequence[str] = ("png",)) -> list[Pa
                 _print(made, name, file)
             written.append(target)
     return written
+
+
+def svg(made: Figure) -> str:
+    """A figure as an SVG element for a page, without the declarations of a file."""
+    file = io.BytesIO()
+    with applied():
+        lay_out(made)
+        made.set_layout_engine("none")
+        _print(made, "svg", file)
+    text = file.getvalue().decode("utf-8")
+    return text[text.index("<svg") :]
 
 
 def lay_out(made: Figure) -> None:

@@ -1,4 +1,4 @@
-"""The examples of the source tree, for ``kempe new``; a test compares them with ``examples/``."""
+"""The examples of the source tree, for ``kempe new``; ``python -m kempe._generate`` copies them."""
 
 from __future__ import annotations
 
@@ -7,29 +7,23 @@ from pathlib import Path
 from kempe import files
 from kempe.names import one_of
 
+#: A program is stored as text, so that it is not a module of the package.
+_TEXT = ".txt"
+
+
+def _files() -> dict[str, str]:
+    found = (path.name.removesuffix(_TEXT) for path in Path(__file__).parent.iterdir())
+    return {Path(name).stem: name for name in sorted(found) if not name.startswith("__")}
+
+
 #: The name of each example and the file that ``kempe new`` writes.
-FILES = {
-    "pendulum": "pendulum.toml",
-    "slider_crank": "slider_crank.toml",
-    "four_bar": "four_bar.toml",
-    "six_bar": "six_bar.toml",
-    "scotch_yoke": "scotch_yoke.toml",
-    "quick_return": "quick_return.toml",
-    "cam_roller": "cam_roller.toml",
-    "planetary_gear": "planetary_gear.toml",
-    "watt_six_bar": "watt_six_bar.toml",
-    "peaucellier": "peaucellier.toml",
-    "jansen_leg": "jansen_leg.toml",
-    "toggle_press": "toggle_press.toml",
-    "excavator": "excavator.toml",
-    "boom": "boom.toml",
-    "engine": "engine.toml",
-    "motor_press": "motor_press.toml",
-    "garage_door": "garage_door.toml",
-    "squeezer": "squeezer.toml",
-    "n_four_bar": "n_four_bar.py",
-}
+FILES = _files()
 NAMES = tuple(FILES)
+
+
+def stored(file: str) -> str:
+    """The name under which the package stores a file of an example."""
+    return file + _TEXT if file.endswith(".py") else file
 
 
 def template(name: str) -> str:
@@ -42,10 +36,7 @@ def template(name: str) -> str:
         ModelError: there is no such example.
     """
     one_of("example", name, NAMES)
-    file = FILES[name]
-    # A program is stored as text, so that it is not a module of the package.
-    stored = f"{file}.txt" if file.endswith(".py") else file
-    return files.read_text(Path(__file__).with_name(stored))
+    return files.read_text(Path(__file__).with_name(stored(FILES[name])))
 
 
 def title(name: str) -> str:

@@ -24,7 +24,8 @@ class ForceView(Generic[S]):
 
     Each part has its own ``<part>_torque(on=…)`` and ``<part>_force(on=…)``, such as
     ``stiffness_torque`` and ``damping_torque`` of a torsion spring. Each first-order state is an
-    attribute, such as ``current`` of a motor, (n_t,).
+    attribute, such as ``current`` of a motor, (n_t,), and so is each result, such as ``load`` of
+    friction or ``gap`` of a stop.
 
     Attributes:
         info: the element.
@@ -125,6 +126,9 @@ class ForceView(Generic[S]):
             raise AttributeError(name)  # while a copy is made
         if name in self.states:
             return self.state(name)
+        if name in (results := [known for known, _ in self.info.results]):
+            values = self._motion.force_results(self.name)[..., results.index(name)]
+            return cast(S, scalar(values))
         part, _, what = name.rpartition("_")
         if what not in ("force", "torque") or part not in self.info.parts:
             states = f"; its states: {', '.join(self.states)}" if self.states else ""
@@ -139,7 +143,8 @@ class ForceView(Generic[S]):
 
     def __dir__(self) -> list[str]:
         made = [f"{part}_{what}" for part in self.parts for what in ("force", "torque")]
-        return [*super().__dir__(), *made, *self.states]
+        results = (name for name, _ in self.info.results)
+        return [*super().__dir__(), *made, *self.states, *results]
 
     def __repr__(self) -> str:
         return f"<{self.info.type} {self.name!r}: {self.info.i} - {self.info.j}>"

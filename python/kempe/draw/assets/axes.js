@@ -9,14 +9,14 @@ const TICK_TEXT = 12;
 
 /** Axes of a plot of a size, px, over a span of time. */
 export class Axes {
-  constructor(context, { width, height }, span, { range, log }) {
-    Object.assign(this, { width, height, span, range, log });
+  constructor(context, { width, height }, span, { range, log, divisor }) {
+    Object.assign(this, { width, height, span, range, log, divisor });
     const count = Math.max(2, Math.floor((height - TOP - BOTTOM) / 36));
     this.up = log ? decades(...range, count) : ticks(...range, count);
     context.font = font(TICK_TEXT);
     const widest = Math.max(...this.up.values.map((value) => context.measureText(this.up.write(value)).width));
     this.left = Math.ceil(Math.max(34, widest + 16));
-    this.across = ticks(span.from, span.to, Math.max(2, Math.floor((width - this.left) / 90)));
+    this.across = ticks(span.from / divisor, span.to / divisor, Math.max(2, Math.floor((width - this.left) / 90)));
   }
 
   /** Where a time and a value (of the logarithm on a logarithmic axis) are, px. */
@@ -74,7 +74,7 @@ export class Axes {
     context.textBaseline = "top";
     context.stroke(new Path2D(`M${this.left} ${base + 0.5}H${this.width - RIGHT}`));
     for (const value of this.across.values) {
-      const x = Math.round(this.place(value, this.range[0])[0]) + 0.5;
+      const x = Math.round(this.place(value * this.divisor, this.range[0])[0]) + 0.5;
       const text = this.across.write(value);
       const half = context.measureText(text).width / 2 + 2;
       context.stroke(new Path2D(`M${x} ${base}v5`));

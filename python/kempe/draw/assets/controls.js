@@ -26,7 +26,7 @@ export class Controls {
     const share = (t - this.motion.begin) / (this.motion.end - this.motion.begin || 1);
     tick.type = "button";
     tick.className = "event";
-    tick.title = `${name}: ${t.toFixed(this.decimals)} s`;
+    tick.title = `${name}: ${this.motion.written(t, this.decimals)}`;
     tick.setAttribute("aria-label", tick.title);
     tick.style.left = `calc(8px + ${share} * (100% - 16px))`;
     tick.addEventListener("click", () => this.clock.seek(t));
@@ -64,7 +64,7 @@ export class Controls {
   }
 
   paint() {
-    const written = `${this.clock.t.toFixed(this.decimals)} s`;
+    const written = this.motion.written(this.clock.t, this.decimals);
     this.find("now").textContent = written;
     const scrub = this.find("scrub");
     scrub.value = String(this.clock.t);

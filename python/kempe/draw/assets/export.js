@@ -7,10 +7,11 @@ const TITLE = 34;
 const ENTRY = 20;
 const GAP = 12;
 
-/** Curves at all frames as CSV, one line per time, in SI units and rad; all digits of the page. */
+/** Curves at all frames as CSV, one line per frame, in SI units and rad; all digits of the page. */
 export function csv(motion, curves) {
   const distinct = [...new Map(curves.map((curve) => [curve.name, curve])).values()];
-  const head = ["t [s]", ...distinct.map(({ name, unit }) => `${name} [${plainUnit(unit)}]`)].map(cell);
+  const { name, unit } = motion.variable;
+  const head = [`${name} [${unit}]`, ...distinct.map(({ name, unit }) => `${name} [${plainUnit(unit)}]`)].map(cell);
   const number = (value) => (Number.isFinite(value) ? String(value) : "nan");
   const lines = motion.t.map((t, k) => [t, ...distinct.map(({ values }) => values[k])].map(number).join(","));
   return [head.join(","), ...lines, ""].join("\n");
@@ -28,30 +29,30 @@ function cell(text) {
 }
 
 /** A picture of the drawing. */
-export function drawingPicture(drawing, t, title, colours) {
+export function drawingPicture(drawing, t, instant, title, colours) {
   const { width, height } = drawing.view;
   return picture(width, height + TITLE, colours, (context) => {
-    paintTitle(context, title, `t = ${t} s`, width, colours);
+    paintTitle(context, title, instant, width, colours);
     context.translate(0, TITLE);
     context.beginPath();
     context.rect(0, 0, width, height);
     context.clip();
-    drawing.paint(Number(t), colours, context);
+    drawing.paint(t, colours, context);
   });
 }
 
 /** A picture of all plots with their legends. */
-export function plotsPicture(cards, t, title, colours) {
+export function plotsPicture(cards, t, instant, title, colours) {
   const width = Math.max(...cards.map(({ plot }) => plot.width));
   const columns = Math.max(1, Math.floor(width / 260));
   const rows = ({ entries }) => Math.ceil(entries.length / columns);
   const height = cards.reduce((sum, card) => sum + card.plot.height + ENTRY * rows(card) + GAP, TITLE);
   return picture(width, height, colours, (context) => {
-    paintTitle(context, title, `t = ${t} s`, width, colours);
+    paintTitle(context, title, instant, width, colours);
     context.translate(0, TITLE);
     for (const card of cards) {
       context.save();
-      card.plot.paintAll(context, Number(t), colours);
+      card.plot.paintAll(context, t, colours);
       context.restore();
       context.translate(0, card.plot.height);
       card.entries.forEach((entry, k) => paintEntry(context, entry, (k % columns) * (width / columns), Math.floor(k / columns), colours));
@@ -73,15 +74,15 @@ function picture(width, height, colours, paint) {
   return canvas;
 }
 
-function paintTitle(context, title, time, width, colours) {
+function paintTitle(context, title, instant, width, colours) {
   context.fillStyle = colours.text;
   context.textBaseline = "middle";
   context.font = font(13);
   context.textAlign = "right";
-  context.fillText(time, width - 12, TITLE / 2);
+  context.fillText(instant, width - 12, TITLE / 2);
   context.font = font(14, 600);
   context.textAlign = "left";
-  context.fillText(title, 12, TITLE / 2, width - 40 - context.measureText(time).width);
+  context.fillText(title, 12, TITLE / 2, width - 40 - context.measureText(instant).width);
 }
 
 function paintEntry(context, { curve, value }, left, row, colours) {

@@ -16,7 +16,7 @@ const byId = (id) => document.getElementById(id);
 const scene = JSON.parse(byId("scene").textContent);
 const title = scene.title || "Linkage";
 const motion = new Motion(scene);
-const decimals = timeDecimals(motion.t);
+const decimals = timeDecimals(motion.t.map((t) => t / motion.variable.divisor));
 const clock = new Clock(motion, scene.playback.rate, repaint);
 const drawing = new Drawing(byId("drawing"), scene, motion);
 const templates = { card: byId("plot-card"), entry: byId("legend-entry") };
@@ -48,7 +48,9 @@ function paint() {
 function showTitle() {
   byId("title").textContent = title;
   byId("title").title = scene.title;
-  byId("end").textContent = `of ${Number(motion.end.toFixed(decimals))} s`;
+  byId("variable").textContent = `${motion.variable.name} =`;
+  if (motion.variable.unit !== "s") byId("now").setAttribute("aria-label", motion.variable.name);
+  byId("end").textContent = `of ${motion.withUnit(Number((motion.end / motion.variable.divisor).toFixed(decimals)))}`;
   byId("drawing").setAttribute("aria-label", `Drawing of ${scene.title || "the linkage"}`);
 }
 
@@ -74,12 +76,17 @@ function addPlot() {
   plots.cards[plots.cards.length - 1].element.scrollIntoView({ block: "nearest" });
 }
 
+/** The present instant as a number and as text. */
+function instant() {
+  return [clock.t, motion.named(clock.t, decimals)];
+}
+
 function saveDrawing() {
-  download(fileName(title, "drawing.png"), drawingPicture(drawing, clock.t.toFixed(decimals), title, paperPalette()));
+  download(fileName(title, "drawing.png"), drawingPicture(drawing, ...instant(), title, paperPalette()));
 }
 
 function savePlots() {
-  download(fileName(title, "plots.png"), plotsPicture(plots.cards, clock.t.toFixed(decimals), title, paperPalette()));
+  download(fileName(title, "plots.png"), plotsPicture(plots.cards, ...instant(), title, paperPalette()));
 }
 
 function saveValues() {

@@ -1,4 +1,4 @@
-// The motion of the scene: where everything is at any time, and how it moves. Knows no screen.
+// The motion of the scene: where everything is at any time, and how it moves. It needs no screen.
 
 const GROUND = [0, 0, 0];
 
@@ -7,6 +7,7 @@ export class Motion {
   constructor(scene) {
     this.scene = scene;
     this.t = scene.frames.t;
+    this.variable = scene.variable;
     this.begin = this.t[0];
     this.end = this.t[this.t.length - 1];
     this.smooth = scene.interpolation === "cubic";
@@ -24,6 +25,21 @@ export class Motion {
     const h = this.t[high] - this.t[low];
     const share = h > 0 ? (t - this.t[low]) / h : 0;
     return { low, high, h, share: this.smooth ? share : Math.round(share) };
+  }
+
+  /** The variable of the frames as text, such as `0.250 s` or `30.000°`. */
+  written(t, decimals) {
+    return this.withUnit((t / this.variable.divisor).toFixed(decimals));
+  }
+
+  withUnit(number) {
+    const { shown } = this.variable;
+    return `${number}${shown === "°" ? "" : " "}${shown}`;
+  }
+
+  /** The same with its name, such as `t = 0.250 s`. */
+  named(t, decimals) {
+    return `${this.variable.name} = ${this.written(t, decimals)}`;
   }
 
   /** The frame nearest to t. */

@@ -94,7 +94,7 @@ export class Plot {
   }
 
   paintStill(context, colours) {
-    this.axes = new Axes(context, this, this.span, { range: this.range, log: this.onLog });
+    this.axes = new Axes(context, this, this.span, { range: this.range, log: this.onLog, divisor: this.motion.variable.divisor });
     this.axes.paint(context, this.label, colours);
     context.save();
     this.axes.clip(context);

@@ -1,0 +1,58 @@
+"""Formulas as MathML, which browsers typeset without a script."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from kempe.lab_report.blocks import Formula
+
+#: Formulas with more signs than this do not fit on a page.
+LONGEST = 420
+_FUNCTIONS = re.compile(r"(<mi>(?:sin|cos|tan|sinh|cosh|tanh|exp|ln|max|min)</mi>)")
+#: What opens and closes a group in LaTeX, within which a line does not break.
+_GROUPS = re.compile(r"\\left|\\right|\\begin|\\end|[{}]")
+_TEXT = re.compile(r"\\text\{((?:\\.|[^{}])*)\}")
+
+
+def formula(latex: str, number: str = "") -> Formula:
+    """A formula in LaTeX; lines may break before its terms.
+
+    Args:
+        latex: the formula.
+        number: its number in the literature, such as "6.3.18".
+    """
+    return Formula(tuple(_mathml(term) for term in terms(latex)), number)
+
+
+def is_readable(latex: str) -> bool:
+    """Whether a formula is short enough to be read, and has no branches."""
+    if "\\begin{cases}" in latex:
+        return False
+    return len(re.sub(r"\\[A-Za-z]+|[{}\\\s]", "", latex)) <= LONGEST
+
+
+def terms(latex: str) -> Iterator[str]:
+    """The terms of a sum, each with its sign; one term for anything else."""
+    depth, begin, at = 0, 0, 0
+    while at < len(latex):
+        group = _GROUPS.match(latex, at)
+        if group:
+            depth += 1 if group[0] in ("\\left", "\\begin", "{") else -1
+            at = group.end()
+            continue
+        if depth == 0 and at > begin and latex.startswith((" + ", " - "), at):
+            yield latex[begin:at]
+            begin = at + 1
+            at += 2
+        at += 1
+    yield latex[begin:]
+
+
+def _mathml(latex: str) -> str:
+    from latex2mathml.converter import convert
+
+    plain = _TEXT.sub(lambda found: found[0].replace("\\_", "_"), latex)
+    # an operand before the sign makes it the sign of a sum, with the space around it
+    signed = f"{{}} {plain}" if plain.startswith(("+ ", "- ")) else plain
+    return _FUNCTIONS.sub(r'\1<mspace width="0.17em"></mspace>', convert(signed))

@@ -1,0 +1,223 @@
+"""The results of a motion: figures, peaks, accuracy, energy, events, measures and settling."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import numpy as np
+
+from kempe.display_units import display, heading
+from kempe.lab_report.blocks import Block, Cell, Paragraph, Section, Table
+from kempe.lab_report.figures import MOST, Figures
+from kempe.lab_report.printed import FEW, ROUNDING, number, quantity
+from kempe.names import few
+from kempe.solution import Solution
+
+#: Statistics of a measure that have its unit.
+_STATISTICS = ("max", "min", "mean", "rms", "final")
+#: Figures that no part of the section repeats.
+_LEFT_OUT = ("mechanism", "initial", "final", "x", "y", "angle")
+
+
+class Told:
+    """The summary of a motion, with the unit of its variable.
+
+    Attributes:
+        summary: the summary, see ``kempe.report.summary``.
+        unit, usual: SI unit of the variable, and the unit where none was chosen.
+    """
+
+    def __init__(self, solution: Solution) -> None:
+        self.summary: Mapping[str, Any] = solution.summary
+        peaks = self.summary["peaks"]
+        every = [*peaks["reactions"], *peaks["forces"]]
+        self._least = ROUNDING * max((abs(of["force"]) for of in every), default=0.0)
+        self._size = max(1e-3, float(np.abs(solution.q).max(initial=0.0)))
+        self.unit = solution.variable.unit
+        self.usual = "deg" if self.unit == "rad" else None
+
+    def peaks(self, kind: str) -> list[dict[str, Any]]:
+        """The largest "reactions" or "forces", with zeros in the place of rounding errors."""
+        least = {"force": self._least, "torque": self._least * self._size}
+        return [
+            {**of, **{name: 0.0 for name, small in least.items() if abs(of[name]) <= small}}
+            for of in self.summary["peaks"][kind]
+        ]
+
+    def at(self, value: float) -> Cell:
+        """A time, or a value of the driven quantity, in a cell."""
+        return number(value, self.unit, self.usual)
+
+    def place(self, value: float) -> str:
+        """The same in a sentence."""
+        return quantity(value, self.unit, self.usual)
+
+    def header(self, word: str = "at") -> str:
+        """The head of a column of times."""
+        return heading(word, self.unit, self.usual)
+
+
+def motion(name: str, solution: Solution) -> Section:
+    """All results of a motion."""
+    told, figures = Told(solution), Figures(solution, name)
+    span = told.summary["time"]
+    over = f"over {solution.variable.words}"
+    return Section(
+        f"Results of {name}",
+        [
+            Paragraph(
+                f"The motion {over} from {told.place(span['start'])} to {told.place(span['end'])} "
+                f"has {span['outputs']} outputs. End: {told.summary['message']}.",
+                warning=not told.summary["success"],
+            ),
+        ],
+        [
+            Section("Motion", [*figures.named("motion"), *_velocities(solution, figures)]),
+            Section("Events", [_events(told)]),
+            Section("Settling", [_settling(told)] if solution.variable.is_time else []),
+            Section("Forces", [_forces(told), *figures.beginning("torque_")]),
+            Section("Reactions", _reactions(solution, told, figures)),
+            Section("Measures", [_measures(told), *figures.beginning("measure_")]),
+            Section("Design", _design(solution, figures)),
+            Section("Accuracy", [*_accuracy(told), *figures.named("residual")]),
+            Section("Energy", [_energy(told), *figures.named("energy")]),
+        ],
+    )
+
+
+def _velocities(solution: Solution, figures: Figures) -> Sequence[Block]:
+    bodies = solution.compiled.bodies
+    captions = {
+        name: f"Velocity and acceleration of body {info.number}, {name}"
+        for name, info in bodies.items()
+    }
+    return figures.about(captions)
+
+
+def _events(told: Told) -> Table:
+    rows: list[tuple[Cell, ...]] = []
+    for name, times in told.summary["events"].items():
+        rows += [(name, str(k), told.at(t)) for k, t in enumerate(times, 1)][:MOST]
+        if len(times) > MOST:
+            rows.append((name, f"{MOST + 1} to {len(times)}", f"until {told.place(times[-1])}"))
+    return Table("Events", ("event", "no.", told.header()), rows)
+
+
+def _settling(told: Told) -> Table:
+    rows: list[tuple[Cell, ...]] = []
+    if not any(of["time"] for of in told.summary["settling"]):
+        return Table("Settling", (), rows)
+    for of in told.summary["settling"]:
+        settled: Cell = "does not turn" if not of["moves"] else "does not settle"
+        if of["moves"] and of["time"] is not None:
+            settled = told.at(of["time"])
+        rows.append((of["body"], settled, number(of["angle"], "rad", "deg")))
+    caption = "Settling of the angles, within 0.5 % of the largest deviation from the end"
+    header = ("body", told.header("settled at"), heading("last angle", "rad", "deg"))
+    return Table(caption, header, rows)
+
+
+def _forces(told: Told) -> Table:
+    peaks = told.peaks("forces")
+    header, cells = _peaks(told, peaks)
+    rows = []
+    for of, row in zip(peaks, cells, strict=True):
+        parts = (f"{part} {number(v, 'N*m').text}" for part, v in of["torque_by_part"].items())
+        rows.append((of["name"], of["on"], *row, ", ".join(parts)))
+    last = f"largest torque of parts / {display('N*m').symbol}"
+    return Table("Largest forces and torques", ("force", "on", *header, last), rows)
+
+
+def _reactions(solution: Solution, told: Told, figures: Figures) -> list[Block]:
+    peaks = told.peaks("reactions")
+    header, cells = _peaks(told, peaks)
+    rows = [(of["joint"], of["on"], *row) for of, row in zip(peaks, cells, strict=True)]
+    blocks: list[Block] = [Table("Largest reactions", ("joint", "on", *header), rows)]
+    open_ones = [of["joint"] for of in peaks if not of["unique"]]
+    if open_ones:
+        told_of = "are not unique; their values have the smallest multipliers"
+        blocks.append(Paragraph(f"The reactions of {few(open_ones)} {told_of}.", warning=True))
+    unbounded = [of["joint"] for of in peaks if of["unbounded_at"]]
+    if unbounded:
+        told_of = "have no bound at singular positions, which the peaks do not include"
+        blocks.append(Paragraph(f"The reactions of {few(unbounded)} {told_of}.", warning=True))
+    if solution.compiled.constraints:
+        blocks += [*figures.named("reactions"), *figures.beginning("reactions_")]
+    return blocks
+
+
+def _peaks(told: Told, peaks: Sequence[Mapping[str, Any]]) -> tuple[list[str], list[list[Cell]]]:
+    """Header and cells of forces and torques; a column of zeros is left out."""
+    kinds = [("force", "N"), ("torque", "N*m")]
+    shown = [(name, unit) for name, unit in kinds if any(of[name] for of in peaks)]
+    header = [word for name, unit in shown for word in (heading(name, unit), told.header())]
+    cells = [
+        [
+            cell
+            for name, unit in shown
+            for cell in (number(of[name], unit), told.at(of[f"{name}_at"]))
+        ]
+        for of in peaks
+    ]
+    return header, cells
+
+
+def _measures(told: Told) -> Table:
+    rows = []
+    for of in told.summary["measures"]:
+        values = [number(of[name], of["unit"]) for name in _STATISTICS]
+        times = (
+            "–" if of.get(name) is None else number(of[name], unit)
+            for name, unit in (("settling", "s"), ("frequency", "Hz"))
+        )
+        unit = display(of["unit"]).symbol if of["unit"] else ""
+        rows.append((of["name"], of["expression"], unit, *values, *times))
+    header = ("measure", "expression", "unit", *_STATISTICS, "settled at / s", "frequency / Hz")
+    return Table("Measures", header, rows)
+
+
+def _design(solution: Solution, figures: Figures) -> list[Block]:
+    """Coupler curves, transmission angles, efforts and the like."""
+    model = solution.compiled
+    known = {*_LEFT_OUT, "motion", "residual", "energy", "reactions", *model.bodies}
+    beginnings = ("torque_", "reactions_", "measure_", "x_", "y_", "angle_")
+    found = figures.others(lambda about: about in known or about.startswith(beginnings))
+    return [*found]
+
+
+def _accuracy(told: Told) -> list[Block]:
+    summary = told.summary
+    worst = summary["peaks"]["residual"]
+    rows: list[tuple[Cell, ...]] = []
+    if worst is not None:
+        value = number(worst["value"], worst["unit"], digits=FEW)
+        symbol = display(worst["unit"]).symbol
+        where = f"{worst['equation']} at {told.place(worst['at'])}"
+        rows.append(("largest residual of a constraint", value, symbol, where))
+        rate = number(summary["peaks"]["residual_rate"], digits=FEW)
+        rows.append(("largest residual of a velocity equation", rate, "m/s or rad/s", ""))
+    balance = number(summary["newton_euler"], digits=FEW)
+    rows.append(("Newton–Euler balance", balance, "", "of the largest force or moment on a body"))
+    blocks: list[Block] = [Table("Accuracy", ("", "value", "unit", ""), rows)]
+    singular = [
+        (told.at(of["t"]), few(of["joints"]), number(of["error"], digits=FEW))
+        for of in summary["singular"]
+    ]
+    header = (told.header(), "joints", "relative error beside it, about")
+    blocks.append(Table("Singular positions that were passed", header, singular[:MOST]))
+    return blocks
+
+
+def _energy(told: Told) -> Table:
+    energy = told.summary["energy"]
+    largest = f"at {told.place(energy['largest_kinetic_at'])}"
+    rows: list[tuple[Cell, ...]] = [
+        ("largest kinetic energy", number(energy["largest_kinetic"], "J"), largest),
+        ("dissipated until the end", number(energy["dissipated"], "J"), ""),
+        ("work of drivers and forces until the end", number(energy["work"], "J"), ""),
+        ("scale: largest energy of the run", number(energy["scale"], "J"), ""),
+    ]
+    balance = number(energy["largest_imbalance"], digits=FEW)
+    rows.append(("largest error of the balance, relative to the scale", balance, ""))
+    return Table("Energy", ("", heading("value", "J"), ""), rows)
