@@ -18,7 +18,8 @@ def requirements(purpose: str) -> list[str]:
     table = tomllib.loads(text)
     names = table["build-system"]["requires"] + table["project"]["dependencies"]
     if purpose == "test":
-        names += table["project"]["optional-dependencies"]["test"]
+        extras = table["project"]["optional-dependencies"]
+        names += extras["test"] + extras["docs"]
     return names
 
 

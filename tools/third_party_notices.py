@@ -1,0 +1,114 @@
+"""Write THIRD_PARTY_NOTICES.txt: the licences of the Rust crates in the compiled core.
+
+    .venv/bin/python tools/third_party_notices.py
+
+The crates are those that cargo links into the extension of Python on any system. Crates that only
+compile it, such as procedural macros, are not part of it. Wheels contain the file. The licences of
+Rust's standard library come from the toolchain (tools/build_packages.py).
+"""
+
+import json
+import re
+import subprocess
+from dataclasses import dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+TARGET = ROOT / "THIRD_PARTY_NOTICES.txt"
+#: Licences that kempe, MIT OR Apache-2.0, may include. The first that a crate offers is taken.
+ACCEPTED = ("MIT", "Zlib", "BSD-2-Clause", "BSD-3-Clause", "ISC", "Apache-2.0", "Unicode-3.0")
+#: Words that occur in the text of a licence only.
+MARKS = {
+    "MIT": "Permission is hereby granted, free of charge",
+    "Zlib": "This software is provided 'as-is'",
+    "BSD-2-Clause": "Redistribution and use in source and binary forms",
+    "Apache-2.0": "TERMS AND CONDITIONS FOR USE, REPRODUCTION, AND DISTRIBUTION",
+}
+INTRODUCTION = """\
+The compiled core of kempe contains the following Rust crates. Each is used under the licence that
+its heading names. kempe itself is licensed under MIT OR Apache-2.0.
+"""
+
+
+@dataclass(frozen=True)
+class Crate:
+    """A crate with the licences that it offers, as an SPDX expression, and its folder."""
+
+    name: str
+    version: str
+    offered: str
+    folder: Path
+
+    def notice(self) -> tuple[str, list[str]]:
+        """The chosen licence and its texts in the crate, one for each part with its own."""
+        if "AND" in self.offered or "WITH" in self.offered:
+            raise SystemExit(f"{self.name}: decide by hand on its licence {self.offered!r}")
+        offered = re.split(r"\s+OR\s+|/", self.offered.strip("()"))
+        for licence in ACCEPTED:
+            texts = self._texts(licence) if licence in offered else []
+            if texts:
+                return licence, texts
+        raise SystemExit(f"{self.name}: none of its licences {offered} is accepted, or has a text")
+
+    def _texts(self, licence: str) -> list[str]:
+        paths = sorted(path for path in self.folder.rglob("LICENSE*") if path.is_file())
+        paths = [path for path in paths if not {"test", "tests"} & set(path.parts)]
+        texts = [normal(path.read_text("utf-8")) for path in paths]
+        return list(dict.fromkeys(text for text in texts if MARKS[licence] in one_line(text)))
+
+
+def one_line(text: str) -> str:
+    """A text without line breaks."""
+    return " ".join(text.split())
+
+
+def normal(text: str) -> str:
+    """A text without blanks at the ends of lines."""
+    return "\n".join(line.rstrip() for line in text.strip().splitlines())
+
+
+def linked() -> set[tuple[str, str]]:
+    """Names and versions of the crates of others in the extension, on all systems."""
+    tree = cargo("tree", "-p", "kempe-python", "-e", "normal,no-proc-macro", "--target", "all",
+                 "--prefix", "none")  # fmt: skip
+    words = [line.split() for line in tree.splitlines()]
+    crates = {(name, version.removeprefix("v")) for name, version, *_ in words}
+    return {crate for crate in crates if not crate[0].startswith("kempe")}
+
+
+def crates() -> list[Crate]:
+    """The crates of others in the extension, by name."""
+    found = json.loads(cargo("metadata", "--format-version", "1"))["packages"]
+    inside = linked()
+    return sorted(
+        (
+            Crate(
+                one["name"], one["version"], one["license"] or "", Path(one["manifest_path"]).parent
+            )
+            for one in found
+            if (one["name"], one["version"]) in inside
+        ),
+        key=lambda crate: crate.name,
+    )
+
+
+def cargo(*words: str) -> str:
+    """The output of a command of cargo."""
+    done = subprocess.run(
+        ["cargo", *words, "--locked"], cwd=ROOT, check=True, stdout=subprocess.PIPE, text=True
+    )
+    return done.stdout
+
+
+def notices() -> str:
+    """The content of the file."""
+    parts = [INTRODUCTION]
+    for crate in crates():
+        licence, texts = crate.notice()
+        heading = f"{crate.name} {crate.version} ({licence})"
+        parts += [f"{heading}\n{'-' * len(heading)}\n", *(f"{text}\n" for text in texts)]
+    return "\n".join(parts)
+
+
+if __name__ == "__main__":
+    TARGET.write_text(notices(), encoding="utf-8", newline="\n")
