@@ -24,6 +24,8 @@ from stress.rubbing import SIZE, Drawn
 
 #: Largest error of the energies, relative to the largest of them.
 ENERGY = 1e-6
+#: Energy of a mechanism that hardly moves, J.
+LEAST_ENERGY = 1e-6
 #: Deepest place beyond a stop or in a contact with restitution, m or rad.
 BEYOND = 1e-6
 #: Deepest place in a compliant stop or contact: what the energy of the motion gives, or this part
@@ -82,7 +84,7 @@ def residuals(made: Drawn, sol: kp.Solution) -> dict[str, float]:
     """Errors of a motion relative to their limits."""
     energy = sol.energy
     parts = (energy.kinetic, energy.potential - energy.potential[0], energy.dissipated, energy.work)
-    scale = max(1e-2, *(np.abs(part).max() for part in parts))
+    scale = max(LEAST_ENERGY, energy.scale)
     fine = sol(np.linspace(sol.t[0], sol.t[-1], 1000))
     forces = made.model.tree().get("forces", {})
     total = sum(np.abs(part).max() for part in parts)
@@ -96,7 +98,7 @@ def residuals(made: Drawn, sol: kp.Solution) -> dict[str, float]:
         else:
             hard.append(depth / BEYOND)
     return {
-        "energy balance": float(np.abs(energy.balance).max() / scale / ENERGY),
+        "energy balance": float(np.ptp(energy.total) / scale / ENERGY),
         "energy gained": float(-np.diff(energy.dissipated).min(initial=0.0) / scale / ENERGY),
         "open joints": float(np.abs(sol.drift.position).max() / OPEN),
         "depth, restitution": max(hard),

@@ -65,3 +65,23 @@ def test_the_mass_of_a_contact_is_that_of_the_mechanism() -> None:
         else:
             sol = kp.dynamics(m, start, t_end=0.002, method=kp.RK4(step=step * LASTS))
             assert sol["rod.omega"][-1] == pytest.approx(0.5 * SPEED, rel=1e-3)
+
+
+@pytest.mark.parametrize("other", [False, True])
+def test_an_upper_limit_is_met_as_a_lower_one(other: bool) -> None:
+    """The same motion in a mirror: as many steps, beside a limit on the other side that is not met."""
+
+    def run(sign: float) -> kp.Solution:
+        m = kp.Model("point and limits")
+        m.point_mass("ball", mass=MASS)
+        limits = {"lower" if sign > 0 else "upper": 0.0}
+        if other:
+            limits["upper" if sign > 0 else "lower"] = sign
+        m.stop("touch", "ball.y", **limits, stiffness=STIFFNESS, exponent=1.5)
+        given = {"ball.x": 0, "ball.y": sign * 0.1 * SPEED, "ball.vy": -sign * SPEED}
+        return kp.dynamics(m, kp.assemble(m, set=given), t_end=0.2, output_step=0.05)
+
+    up, down = run(1.0), run(-1.0)
+    assert up.statistics["steps"] == down.statistics["steps"]
+    assert up["ball.y"] == pytest.approx(-down["ball.y"], abs=1e-12)
+    assert abs(down.energy.balance).max() < 1e-7

@@ -15,6 +15,9 @@ pub(super) const TURNED: f64 = 0.1;
 /// Part that the worst pivot keeps of its magnitude beside a singular position; it is of the order of the square of the
 /// distance. Branches that differ by less than a tolerance are far nearer.
 pub(super) const NEAR: f64 = 1e-4;
+/// Largest distance of two states on different branches beside a singular position, as a part of the mechanism's size or
+/// in rad.
+pub(super) const BESIDE: f64 = 1e-3;
 /// Distances of the neighbouring states, as parts of the mechanism's size or in rad: first far away, where the
 /// branches are well apart, then nearer, where the error by curvature is smaller.
 const AHEAD: [f64; 3] = [0.2, 0.05, 0.0125];

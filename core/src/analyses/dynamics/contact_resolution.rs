@@ -63,7 +63,7 @@ impl Onset {
         let mut found: Option<Self> = None;
         for (switch, piece) in changes {
             let Owner::Force(force) = ode.model.switches[*switch].owner else { continue };
-            if *piece > 0.0 && ode.model.forces[force].first_switch == *switch {
+            if *piece > 0.0 {
                 let own = Self::of_force(ode, at, force)?;
                 found = own.into_iter().chain(found).min_by(|a, b| a.lasts.total_cmp(&b.lasts));
             }

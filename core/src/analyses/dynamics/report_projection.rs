@@ -115,6 +115,15 @@ impl ReportProjection<'_> {
         matrix.regularised() || kept < branch_averaging::NEAR
     }
 
+    /// Whether two states are so near each other that they may lie on two branches beside a singular position. States
+    /// computed from the neighbours of a mechanism at rest are not: its rates are rounding errors.
+    fn is_beside(&self, y: &[f64], other: &[f64]) -> bool {
+        let [q, ..] = self.model.layout.split(y);
+        let [to, ..] = self.model.layout.split(other);
+        let apart = self.projector.as_ref().map(|projector| projector.largest_difference(q, to));
+        apart.is_some_and(|apart| apart < branch_averaging::BESIDE)
+    }
+
     /// The same. If it ends on another branch beside a singular position, the state is computed from neighbouring
     /// states, if this changes the rates less.
     ///
@@ -136,7 +145,7 @@ impl ReportProjection<'_> {
         let [q, v, ..] = layout.split_mut(&mut other);
         let taken = branch_averaging::take(projector, &mut self.workspace, t, (q, v));
         let placed = taken.is_ok() && self.place(t, &mut other).is_ok();
-        if placed && turned(self, &other) < turn {
+        if placed && turned(self, &other) < turn && self.is_beside(&other, y) {
             y.copy_from_slice(&other);
             return Ok(());
         }
