@@ -212,7 +212,9 @@ impl<S: Real> Workspace<S> {
         matrix.set_mass(compiled, motions);
         matrix.factor()?;
         let (solution, powers) = ((&mut solution[..], padded), powers);
-        let mut at = ForGiven { model, compiled, motions, matrix, z, t, right, solution, powers };
+        let force = 0.0;
+        let mut at =
+            ForGiven { model, compiled, motions, matrix, z, t, right, solution, powers, force };
         let mut lam = at.respond(None)?;
         if let Some(&row) = reactive.first() {
             let found = reactive::solve(reactive, &mut lam, &mut at)?;
@@ -328,6 +330,8 @@ struct ForGiven<'a, S> {
     /// (q̈, λ), and the place of λ.
     solution: (&'a mut [S], usize),
     powers: &'a mut Powers<S>,
+    /// The largest generalized force.
+    force: f64,
 }
 
 impl<S: Real> ForGiven<'_, S> {
@@ -342,6 +346,7 @@ impl<S: Real> ForGiven<'_, S> {
         if let Some(lam) = lam {
             reactions::add_loads(model, self.motions, self.t, lam, q);
         }
+        self.force = reactive::largest(q);
         let outcome = refine::solve((model, self.compiled), self.motions, self.matrix, &mut x);
         let (solution, padded) = &mut self.solution;
         solution[..n].copy_from_slice(&x[..n]);
@@ -355,6 +360,10 @@ impl<S: Real> reactive::Response<S> for ForGiven<'_, S> {
 
     fn multipliers(&mut self, lam: &[S]) -> Result<Vec<S>, Breakdown> {
         self.respond(Some(lam))
+    }
+
+    fn largest_force(&self) -> f64 {
+        self.force
     }
 
     fn slopes(&mut self, lam: &[S], row: usize) -> Result<Vec<S>, Breakdown> {

@@ -28,6 +28,8 @@ const MOST: usize = 12;
 const ACCEPTED: f64 = 1e-12;
 /// Accepted change of the multipliers, relative to the largest of the mechanism, if it does not become smaller.
 const ROUNDING: f64 = 1e-10;
+/// Load, relative to the largest force, that is a rounding error: its direction, and the friction with it, is arbitrary.
+const NOISE: f64 = 1e-13;
 /// The first and the least step of the factor of the forces.
 const FIRST: f64 = 0.25;
 const LEAST: f64 = 1e-5;
@@ -54,6 +56,8 @@ pub(super) trait Response<S> {
     type Error;
     /// All multipliers for Q at the multipliers `lam`, shape (n_rows).
     fn multipliers(&mut self, lam: &[S]) -> Result<Vec<S>, Self::Error>;
+    /// The largest generalized force at the last multipliers.
+    fn largest_force(&self) -> f64;
     /// The derivatives of all multipliers by that of one row in Q, shape (n_rows).
     fn slopes(&mut self, lam: &[S], row: usize) -> Result<Vec<S>, Self::Error>;
 }
@@ -118,6 +122,9 @@ impl<S: Real, R: Response<S>> Path<'_, S, R> {
             let gap: Vec<S> =
                 own.map(|((new, free), old)| *free + factor * (new - *free) - old).collect();
             let (size, left) = (largest(&self.of(&found)), largest(&gap));
+            if size <= NOISE * self.response.largest_force() {
+                return Ok(true);
+            }
             let columns = self.columns(lam, factor)?;
             let Some(step) = eliminate(columns, gap) else { return Ok(false) };
             if left <= ACCEPTED * size || (left >= last && left <= ROUNDING * largest(&found)) {
@@ -168,7 +175,7 @@ fn eliminate<S: Real>(mut columns: Vec<Vec<S>>, mut b: Vec<S>) -> Option<Vec<S>>
 }
 
 /// Largest magnitude over all entries and lanes; NaN where one is not a number.
-fn largest<S: Real>(x: &[S]) -> f64 {
+pub(super) fn largest<S: Real>(x: &[S]) -> f64 {
     let mut largest = Largest::new();
     x.iter().for_each(|x| largest.add(*x));
     largest.get()

@@ -17,6 +17,8 @@ const AGAIN: usize = 6;
 const CLOSE: f64 = 32.0;
 /// Part of a step over which the slope of a function is taken.
 const SLOPE: f64 = 1e-3;
+/// Part of its value at the beginning of a step that a function near an event has lost.
+const NEAR: f64 = 0.1;
 
 /// Parts into which a step is divided at least, and at most.
 const PARTS: [usize; 2] = [6, 20_000];
@@ -74,7 +76,7 @@ pub(super) struct Watched<'a> {
 pub(super) enum Found {
     /// These events are in it.
     Events(Vec<Crossing>),
-    /// The same, and the phase ends with the step.
+    /// The same, and the phase ends with the step, also if none is at its end.
     End(Vec<Crossing>),
     /// The step is taken again, to end at this time.
     Again(f64),
@@ -136,12 +138,13 @@ impl<'a> EventList<'a> {
         let arrived = self.awaited.filter(|(t, _)| *t == step.t);
         let end = match (ending, arrived) {
             (Some(event), _) => Some((event.t, event.index)),
-            (None, Some((_, index))) => Some((self.later(model, step, index, t_end), index)),
+            (None, Some((_, index))) => self.later(model, step, index, t_end).map(|t| (t, index)),
             (None, None) => None,
         };
         let Some((t, index)) = end else {
             self.evaluator.advance(model, step);
-            return Found::Events(found);
+            // the phase ends where the event was expected, and the next one continues
+            return if arrived.is_some() { Found::End(found) } else { Found::Events(found) };
         };
         let done = together(t, step.t) || self.tries >= AGAIN && arrived.is_some();
         if !done {
@@ -191,23 +194,24 @@ impl<'a> EventList<'a> {
         crossings(step, parts(model, step), &directions, &mut functions)
     }
 
-    /// The time of an event that is expected at the end of a step and lies slightly later.
-    fn later(&mut self, model: &Model, step: &Step<'_>, index: usize, t_end: f64) -> f64 {
+    /// The time of an event that is expected at the end of a step and lies slightly later; None if the interpolant had it
+    /// there wrongly.
+    fn later(&mut self, model: &Model, step: &Step<'_>, index: usize, t_end: f64) -> Option<f64> {
         let function = self.watched[index].function;
         let h = SLOPE * (step.t - step.t_old);
-        let mut y = step.y.to_vec();
-        let at = self.evaluator.see(model, (step.t, &y), step, |seen| function.value(model, seen));
-        step.interpolate(step.t - h, &mut y);
-        let before =
-            self.evaluator.see(model, (step.t - h, &y), step, |seen| function.value(model, seen));
+        let mut beside = step.y.to_vec();
+        step.interpolate(step.t - h, &mut beside);
+        let states = [(step.t_old, step.y_old), (step.t - h, &beside), (step.t, step.y)];
+        let [old, before, at] = states.map(|state| {
+            self.evaluator.see(model, state, step, |seen| function.value(model, seen))
+        });
         let by = -at * h / (at - before);
         // only a small correction: the function crosses zero here
-        let by = if by.is_finite() && by * h > 0.0 && by.abs() < h.abs() { by } else { 0.0 };
-        let t = step.t + by;
-        if (t - t_end) * h > 0.0 {
-            t_end
-        } else {
-            t
+        let small = by.is_finite() && by * h > 0.0 && by.abs() < h.abs();
+        if !small && at * old > 0.0 && at.abs() > NEAR * old.abs() {
+            return None;
         }
+        let t = step.t + if small { by } else { 0.0 };
+        Some(if (t - t_end) * h > 0.0 { t_end } else { t })
     }
 }

@@ -204,7 +204,8 @@ fn step_through<W: FnMut(f64) -> Flow>(
     at.fired.clear();
     let outcome = loop {
         if stepper.t() == recorder.t_end {
-            break Ok(if at.fired.is_empty() { PhaseEnd::Reached } else { PhaseEnd::Event });
+            let ended = at.fired.is_empty() && recorder.t_end == options.t_end;
+            break Ok(if ended { PhaseEnd::Reached } else { PhaseEnd::Event });
         }
         match next_step(&mut stepper, &mut events, (recorder, watcher), run, &mut at.fired) {
             Ok(Next::Step(Flow::Continue)) => {
