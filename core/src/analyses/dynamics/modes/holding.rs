@@ -75,6 +75,12 @@ pub(super) fn decide(
     let ended: Vec<usize> = candidates.iter().copied().filter(ended).collect();
     let mut modes = hold(model, place, modes, (&candidates, &ended))?;
     give_slack(model, place, touching, &mut modes);
+    for (own, threshold) in modes.iter_mut().zip(&thresholds) {
+        if let (Mode::Slides(sign), true) = (own.mode, threshold.abs() <= STILL * speed) {
+            // a rounding error of the speed may have the other direction
+            own.slack = 2.0 * (-sign * threshold).max(0.0);
+        }
+    }
     Ok(modes)
 }
 
