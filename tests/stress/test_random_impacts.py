@@ -10,6 +10,16 @@ def test_a_random_mechanism(seed: int) -> None:
     assert not faults(seed)
 
 
+#: Stops that were left at an upper limit, loads that are rounding errors, friction exactly at its
+#: limit, a mechanism that rests between a stop and its friction.
+DIFFICULT = (107, 632, 659, 911, 985, 1482, 1870, 1939, 1941)
+
+
+@pytest.mark.parametrize("seed", DIFFICULT)
+def test_a_difficult_mechanism(seed: int) -> None:
+    assert not faults(seed)
+
+
 @pytest.mark.parametrize("seed", range(12))
 def test_a_random_chain(seed: int) -> None:
     assert not faults(seed, "chain")
