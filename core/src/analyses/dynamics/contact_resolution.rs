@@ -1,10 +1,10 @@
-//! Steps at the beginning of compliant contacts.
+//! Steps at the beginning and at the end of compliant contacts.
 //!
 //! A mass m, as the contact feels it through the mechanism, that arrives with the speed v at k δⁿ stays in contact for
 //! about 3 δ/v with the depth δ = ((n + 1) m v²/(2 k))^(1/(n + 1)). Constant steps of an explicit method may be too long
 //! for that. Methods that choose their steps find the error of steps that are too long, but where n is not an integer, the
-//! force begins like tⁿ, without higher derivatives, and estimates of the error are too small there: the first steps are
-//! graded.
+//! force begins and ends like tⁿ, without higher derivatives, and estimates of the error are too small there: the first and
+//! the last steps are graded.
 
 use super::modes::Place;
 use super::motion_ode::MotionOde;
@@ -16,7 +16,7 @@ use crate::solve::Breakdown;
 const STEPS: f64 = 10.0;
 /// Time in contact over depth and speed: π for a linear spring, 2.94 for a sphere.
 const DURATION: f64 = 3.0;
-/// Ends of the first steps, as parts of the time in contact.
+/// Ends of the first steps, as parts of the time in contact, and of the last ones, as parts of one step.
 const GRADED: [f64; 4] = [0.25, 0.05, 0.01, 0.002];
 
 /// The steps of a method.
@@ -51,6 +51,29 @@ pub(super) fn ends(
 ) -> Result<Option<Vec<f64>>, Breakdown> {
     let Some(onset) = Onset::find(ode, at, changes)? else { return Ok(None) };
     Ok(Some(onset.ends(steps)?.into_iter().map(|after| at.0 + sign * after).collect()))
+}
+
+/// The ends of the last steps, last ones first, before a compliant contact lets go at the end of a step: the force ends as
+/// it begins.
+pub(super) fn before_release(
+    model: &Model,
+    changes: &[(usize, f64)],
+    (from, to): (f64, f64),
+    steps: Steps,
+) -> Vec<f64> {
+    let lets_go = |(switch, piece): &(usize, f64)| match model.switches[*switch].owner {
+        Owner::Force(force) if *piece < 0.0 => {
+            let behaviour = model.forces[force].element.behaviour();
+            matches!(behaviour, Some(Behaviour::Compliant { exponent, .. }) if exponent.fract() != 0.0)
+        }
+        _ => false,
+    };
+    match steps {
+        Steps::Chosen if changes.iter().any(lets_go) => {
+            GRADED.iter().rev().map(|part| to - part * (to - from)).collect()
+        }
+        _ => Vec::new(),
+    }
 }
 
 impl Onset {

@@ -344,6 +344,10 @@ impl Switching {
         self.evaluate_at(model, step, first);
         let next = |k: usize| (k, model.switches[k].boundaries.next(self.sigma[k], self.pieces[k]));
         let changes: Vec<_> = together.into_iter().map(next).collect();
+        if self.due.is_none() && first != step.t {
+            let within = (step.t_old, first);
+            self.graded = contact_resolution::before_release(model, &changes, within, self.steps);
+        }
         self.due = Some(Due { t: first, changes, tries: tries + 1 });
         match first == step.t {
             true => After::Accept,

@@ -1,8 +1,12 @@
-//! Narrow pieces, which a step enters at its beginning and leaves before its first sample.
+//! Pieces that a step enters at its beginning and leaves before its first sample: narrow ones, through their other
+//! boundary, and others where the motion turns back at once, as in a short flight between two contacts.
 
 use super::Switching;
 use crate::integrate::Step;
 use crate::model::Model;
+
+/// Halvings of a step in which a short stay in a piece is looked for.
+const HALVINGS: i32 = 20;
 
 impl Switching {
     /// The functions of all switches at a time of a step.
@@ -14,7 +18,7 @@ impl Switching {
         self.evaluate(model, t, &y);
     }
 
-    /// The first of the given switches that left a narrow piece: its time, the switch, and the piece beyond.
+    /// The first of the given switches that left its piece: its time, the switch, and the piece beyond.
     pub(super) fn first_through(
         &mut self,
         model: &Model,
@@ -22,18 +26,15 @@ impl Switching {
         indices: &[usize],
     ) -> Option<(f64, usize, f64)> {
         let sign = self.sign;
-        let found = indices.iter().filter_map(|index| self.through(model, step, *index));
+        let found = indices.iter().filter_map(|index| {
+            let k = self.on_state[*index];
+            self.through(model, step, k).or_else(|| self.back(model, step, k))
+        });
         found.min_by(|a, b| (sign * a.0).total_cmp(&(sign * b.0)))
     }
 
     /// The time at which a switch left a narrow piece that it entered at the beginning of a step, and the piece beyond.
-    fn through(
-        &mut self,
-        model: &Model,
-        step: &Step<'_>,
-        index: usize,
-    ) -> Option<(f64, usize, f64)> {
-        let k = self.on_state[index];
+    fn through(&mut self, model: &Model, step: &Step<'_>, k: usize) -> Option<(f64, usize, f64)> {
         let boundaries = &model.switches[k].boundaries;
         let [low, high] = boundaries.of(self.pieces[k]);
         self.evaluate_at(model, step, step.t_old);
@@ -58,5 +59,25 @@ impl Switching {
         }
         // the far boundary of a half line is infinite, and never passed
         Some((b, k, boundaries.beside(far, above)))
+    }
+
+    /// The time at which a switch left the piece in which it was for a short time, and the piece beyond.
+    fn back(&mut self, model: &Model, step: &Step<'_>, k: usize) -> Option<(f64, usize, f64)> {
+        let boundaries = &model.switches[k].boundaries;
+        let piece = self.pieces[k];
+        let mut is_within = |t: f64| {
+            self.evaluate_at(model, step, t);
+            boundaries.margin(self.sigma[k], piece) > 0.0
+        };
+        let after = |halvings: i32| step.t_old + 0.5_f64.powi(halvings) * (step.t - step.t_old);
+        let halvings = (1..=HALVINGS).find(|halvings| is_within(after(*halvings)))?;
+        let (mut a, mut b) = (after(halvings), after(halvings - 1));
+        let spacing = 4.0 * f64::EPSILON * step.t.abs().max(step.t_old.abs());
+        while (b - a).abs() > spacing {
+            let middle = a + 0.5 * (b - a);
+            *(if is_within(middle) { &mut a } else { &mut b }) = middle;
+        }
+        self.evaluate_at(model, step, b);
+        Some((b, k, boundaries.next(self.sigma[k], piece)))
     }
 }
