@@ -109,7 +109,8 @@ def warnings_of(solution: Solution) -> list[str]:
             found.append(
                 f"{event.name}: {count}, first at t = {event.t[0]:.6g} s; from there the joint "
                 f"{joint} holds bodies together that would separate "
-                f"({kind.replace('_', ' ')}), and the run goes on"
+                f"({kind.replace('_', ' ')}), and the run goes on; a contact with restitution in "
+                f"place of the joint lets them separate and meet again"
             )
     return found
 
