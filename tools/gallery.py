@@ -162,8 +162,8 @@ def page(name: str) -> str:
         f"{_STYLE}></iframe>\n",
         filled(
             f"`kempe new {name}` writes this case, [{name}.toml](../../examples/{name}.toml), and "
-            f"`kempe run {name}.toml` computes the motion. The run writes `out/{name}/animation.html`, "
-            "[the player](../page.md) of the motion."
+            f"`kempe run {name}.toml` computes the motion. The run writes "
+            f"`out/{name}/animation.html`, [the player](../page.md) of the motion."
         ),
         f"```toml\n{text(name)}```\n",
     )
