@@ -108,17 +108,17 @@ def elements(catalogue: str) -> str:
     parts = [ELEMENTS_HEADER]
     for section in ("joints", "drivers", "forces"):
         rows = [shown_element(declared["name"]) for declared in told[section]]
-        parts.append(f"## {SECTIONS[section][0]}\n\n{table(('', 'element', ''), rows)}")
+        parts.append(f"## {SECTIONS[section][0]}\n\n{table(('element', ''), rows)}")
     return "\n".join(parts)
 
 
-def shown_element(name: str) -> tuple[str, str, str]:
-    """The drawing of an element, a link to its page, and the first sentence there."""
+def shown_element(name: str) -> tuple[str, str]:
+    """The drawing of an element above a link to its page, and the first sentence there."""
     text = (ELEMENTS.parent / f"{name}.md").read_text("utf-8")
     found = _TITLE_AND_FIRST_SENTENCE.match(text)
     assert found, f"docs/elements/{name}.md does not begin with a title and a paragraph"
-    drawing = f'<img src="../images/elements/{name}.png" width="150" alt="">'
-    return drawing, f"[{found[1]}]({name}.md)", " ".join(found[2].split())
+    drawing = f'<img src="../images/elements/{name}.png" width="180" alt="">'
+    return f"{drawing}<br>[{found[1]}]({name}.md)", " ".join(found[2].split())
 
 
 def entry(declared: dict[str, Any]) -> str:
