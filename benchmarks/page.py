@@ -71,7 +71,7 @@ def machine(found: dict[str, Any]) -> str:
         f"Measured on {found['date']}: {at['processor']}, {at['cores']} cores, {at['system']},"
         f" Python {at['python']}; {versions}. Medians of up to {found['repeat']} runs;"
         " runs of more than two seconds are measured once."
-        " [performance.md](performance.md#where-the-time-goes) has the changes of the core since then."
+        " [performance.md](performance.md#where-the-time-goes) has later changes of the core."
     ]
     lines += [f"Missing: {tool}: {why}." for tool, why in found["missing"].items()]
     return "\n".join(lines) + "\n"
