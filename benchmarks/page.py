@@ -30,10 +30,10 @@ alternation, and are compared with the same reference solution.
 
 ```sh
 pip install 'kempe[bench]'
-python benchmarks/run.py                     # all measurements, half an hour; needs Rust
-python benchmarks/run.py --quick             # a short run on the flagship
+python benchmarks/run.py             # all measurements, half an hour; needs Rust
+python benchmarks/run.py --quick     # a short run on the flagship
 python benchmarks/run.py --problems flagship --tools kempe,mujoco
-python benchmarks/run.py --page              # page and figures from the stored results
+python benchmarks/run.py --page      # page and figures from the stored results
 ```
 """
 
@@ -71,6 +71,7 @@ def machine(found: dict[str, Any]) -> str:
         f"Measured on {found['date']}: {at['processor']}, {at['cores']} cores, {at['system']},"
         f" Python {at['python']}; {versions}. Medians of up to {found['repeat']} runs;"
         " runs of more than two seconds are measured once."
+        " [performance.md](performance.md#where-the-time-goes) has later changes of the core."
     ]
     lines += [f"Missing: {tool}: {why}." for tool, why in found["missing"].items()]
     return "\n".join(lines) + "\n"

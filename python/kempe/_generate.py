@@ -2,7 +2,8 @@
 
 The catalogue is the one statement of the fields of elements, analyses and options. The typed
 dataclasses and the methods of ``Model`` in ``elements.py`` follow from it, and so do the classes in
-``options.py`` and the reference page, so that adding one of them touches no Python by hand.
+``options.py``, the reference page and the list of elements. Adding one of them touches no Python by
+hand.
 """
 
 from __future__ import annotations
@@ -286,12 +287,13 @@ def camel(name: str) -> str:
 
 
 def main() -> None:
-    """Write the files beside this one, the page in ``docs``, and the copies of the examples."""
+    """Write the files beside this one, the pages in ``docs``, and the copies of the examples."""
     here = Path(__file__)
     written = {
         here.with_name("elements.py"): source,
         here.with_name("options.py"): options_source,
         _reference.TARGET: _reference.page,
+        _reference.ELEMENTS: _reference.elements,
     }
     for target, text in written.items():
         files.write_text(target, text(_core.catalogue()))

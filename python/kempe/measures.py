@@ -61,6 +61,11 @@ def measure_infos(model: CompiledModel) -> Iterator[MeasureInfo]:
         yield MeasureInfo(name, expression, tuple(used), unit)
 
 
+def parameter_unit(model: CompiledModel, name: str) -> str:
+    """The SI unit of a parameter that is written with one; "SI" for a parameter without a unit."""
+    return str(_core.measure(model.core, f"`{name}`")[1])
+
+
 def values(motion: Motion, name: str) -> Floats:
     """Values of a measure at the times of a motion, (n_t,).
 

@@ -35,7 +35,7 @@ def of_model(model: Model) -> str:
         ]
     except KempeError as error:  # a model that is not finished
         return _block(model.title, _paragraph(repr(model)), _paragraph(str(error)))
-    tables = [table(("", "body", "type", "mass / kg", "inertia / kg m²"), bodies)]
+    tables = [table(("", "body", "type", "mass / kg", "inertia / kg·m²"), bodies)]
     rows = [(joint.name, joint.type, joint.i, joint.j) for joint in model.constraints.values()]
     rows += [(force.name, force.type, force.i, force.j) for force in model.forces.values()]
     if rows:

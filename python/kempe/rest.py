@@ -24,7 +24,7 @@ _MOST = 20
 #: Ends of a path.
 _ENDS = {
     "last": "the path reached the end of the range",
-    "first": "the path turned and came back to the begin of the range",
+    "first": "the path turned and came back to the beginning of the range",
     "lost": "the path could not be followed further",
     "long": "the path has very many points and was ended",
 }

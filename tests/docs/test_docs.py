@@ -51,8 +51,11 @@ def test_every_page_is_in_the_index() -> None:
 
 
 def test_the_reference_matches_the_catalogue() -> None:
-    written = _reference.TARGET.read_text("utf-8")
-    assert _reference.page(_core.catalogue()) == written, "run python -m kempe._generate"
+    for target, text in (
+        (_reference.TARGET, _reference.page),
+        (_reference.ELEMENTS, _reference.elements),
+    ):
+        assert text(_core.catalogue()) == target.read_text("utf-8"), "run python -m kempe._generate"
 
 
 @pytest.mark.parametrize(

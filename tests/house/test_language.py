@@ -42,6 +42,11 @@ STILTED = {
     r"(?<!more.)alike": "in the same way",
     r"but for": "except",
     r"for good": "permanently",
+    r"shall": "must, has to, is to",
+    r"lets go": "is released, separates, slips",
+    r"gets nothing": "has no, is unchanged",
+    r"the begin": "the beginning",
+    r"(?:would|will|does|do) not do(?=[:;.,])": "cannot be used",
     rf"(?<!here.)(?<!that.)(?:is|are) no (?!{PLAIN_AFTER_NO})\w+": "is not a",
     r"is right(?=[;.:\n])": "is valid, is correct",
 }
@@ -116,6 +121,8 @@ def test_the_english_is_plain() -> None:
         ("a search that\nknows nothing", 2),
         ("who looks for a joint", 1),
         ("A run that stops says so.", 1),
+        ("Lines would not do: they are open.", 1),
+        ("The lid\nshall close.", 2),
     ],
 )
 def test_a_stilted_expression_is_found(text: str, line: int) -> None:

@@ -62,7 +62,8 @@ def test_the_data_are_those_of_the_linkage(page: Page) -> None:
     stiffness, damping, free = page.table("Force elements").rows
     assert [cell.text for cell in stiffness[2:]] == ["stiffness", "k", "1·10⁶", "N·m/rad"]
     assert [cell.text for cell in damping[2:]] == ["damping", "c", "10000", "N·m·s/rad"]
-    assert [cell.text for cell in free[2:4]] == ["free_angle", "270*deg"]
+    assert [cell.text for cell in free[2:]] == ["free_angle", "270*deg", "4.71239", "rad"]
+    assert any("bar" in told and "mass length^2/12" in told for told in page.paragraphs)
 
 
 def test_the_points_of_the_bodies_meet_at_the_start(page: Page) -> None:

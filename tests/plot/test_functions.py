@@ -288,3 +288,17 @@ def test_the_drawing_gives_lengths_spring_and_gravity(flagship: kp.Solution) -> 
 def test_what_does_not_exist_is_refused(flagship: kp.Solution, draw: Draw, words: str) -> None:
     with pytest.raises(kp.ModelError, match=words):
         draw(flagship)
+
+
+def test_the_parameter_of_a_path_has_its_unit() -> None:
+    m = kp.Model("rod on a spring", gravity=(0, -9.81), parameters={"mass": "2 kg"})
+    m.ground.points(O=(0, 0))
+    m.bar("rod", mass="mass", length=1, ends=("O", "P"))
+    m.revolute("O", "ground.O", "rod.O")
+    m.torsion_spring("spring", "ground", "rod", stiffness=50)
+    found = kp.equilibrium(m, kp.assemble(m), over="mass", range=(1, 3))
+    assert plot.path(found, "rod.angle").get_xlabel() == "mass / kg"
+    with kp.units("g"):
+        axes = plot.path(found, "rod.angle")
+    assert axes.get_xlabel() == "mass / g"
+    assert axes.lines[0].get_xdata()[-1] == pytest.approx(3000)

@@ -100,9 +100,10 @@ def test_a_circle_is_on_the_peak_and_its_text_four_points_beside_it() -> None:
         assert points * (near - up) == pytest.approx(4.0 * side, abs=0.6)
 
 
-def test_a_text_at_an_edge_ends_there() -> None:
+def test_a_text_at_an_edge_ends_two_points_beside_it() -> None:
     axes = marked((0.0, 3.0, 1), (10.0, -2.0, -1), (9.9, 0.0, 1))
     first, last, near = (text.get_window_extent() for text in axes.texts)
-    assert first.x0 == pytest.approx(axes.bbox.x0, abs=3.0)
-    assert last.x1 == pytest.approx(axes.bbox.x1, abs=3.0)
-    assert near.x1 == pytest.approx(axes.bbox.x1, abs=3.0)
+    inset = 2.0 * axes.figure.dpi / 72.0
+    assert first.x0 - axes.bbox.x0 == pytest.approx(inset, abs=2.0)
+    assert axes.bbox.x1 - last.x1 == pytest.approx(inset, abs=2.0)
+    assert axes.bbox.x1 - near.x1 == pytest.approx(inset, abs=2.0)

@@ -25,6 +25,15 @@ def is_wide(page: Any) -> bool:
     return wide
 
 
+def lost_formulas(page: Any) -> int:
+    """The number of formulas that are typeset, but too narrow to be seen."""
+    lost: int = page.evaluate(
+        """() => [...document.querySelectorAll("mjx-container > svg")]
+          .filter((one) => one.getBoundingClientRect().width < 3).length"""
+    )
+    return lost
+
+
 def pages(site: Path) -> list[Path]:
     """All pages, except that for wrong addresses; the gallery shows the players."""
     return sorted(
@@ -68,21 +77,26 @@ def server(site: Path) -> Iterator[str]:
 
 
 def test_every_page_opens(site: Path, browser: Any, server: str) -> None:
-    """On the desktop, then in the window of a phone: no message, no other host, no wide page."""
+    """On the desktop, then in the window of a phone: no message, no other host, no wide page.
+
+    Formulas are visible in both.
+    """
     watched = Watched(browser, "desktop", allowed=server)
-    page, wide = watched.page, []
+    page, wide, lost = watched.page, [], []
     for path in pages(site):
         name = path.relative_to(site).as_posix()
         page.set_viewport_size(size("desktop"))
         page.goto(f"{server}{name}")
         if "arithmatex" in path.read_text("utf-8"):
             page.wait_for_selector("mjx-container", state="attached")
-        wide += [f"{name} on a desktop"] if is_wide(page) else []
-        page.set_viewport_size(size("phone"))
-        wide += [f"{name} on a phone"] if is_wide(page) else []
+        for window in WINDOWS:
+            page.set_viewport_size(size(window))
+            wide += [f"{name} on a {window}"] if is_wide(page) else []
+            lost += [f"{name} on a {window}"] if lost_formulas(page) else []
         assert not watched.complaints, name
     watched.context.close()
     assert not wide
+    assert not lost
 
 
 @pytest.mark.parametrize("window", WINDOWS)

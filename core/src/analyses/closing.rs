@@ -17,7 +17,7 @@ const REDUNDANT: f64 = 1e-9;
 /// Damping of a row that is left out: its multiplier becomes zero.
 const LEFT_OUT: f64 = 1e200;
 
-/// Whether the work shall end early; once true, it stays true.
+/// Whether the work has to end early; once true, it stays true.
 pub type Halt<'a> = &'a dyn Fn() -> bool;
 
 /// The work ended early.
@@ -77,7 +77,7 @@ impl<'a> Closing<'a> {
         self.stop
     }
 
-    /// Whether the work shall end.
+    /// Whether the work has to end.
     pub fn stopped(&self) -> bool {
         (self.stop)()
     }

@@ -44,7 +44,7 @@ pub enum Behaviour<S> {
         /// The speed below which it rests.
         rest_speed: S,
     },
-    /// It touches and lets go without a change of mode; events `hit` and `release`.
+    /// It touches and separates without a change of mode; events `hit` and `release`.
     Compliant {
         /// k of the force k δⁿ, N/mⁿ.
         stiffness: S,

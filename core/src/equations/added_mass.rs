@@ -5,7 +5,7 @@
 //!
 //! A body is light if it carries loads between heavier ones. Its branches are what each of its joints leads to; ground is
 //! a branch of infinite mass. Only the load of the second heaviest branch passes through the body. So a light pendulum on
-//! a heavy cart gets nothing, because it has one branch, and a watch beside a locomotive gets nothing, because no joint
+//! a heavy cart has no addition, because it has one branch, and neither has a watch beside a locomotive, because no joint
 //! connects them. Where two branches lead to ground, the heaviest body that is connected counts.
 
 use crate::math::Real;

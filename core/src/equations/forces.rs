@@ -234,7 +234,7 @@ pub fn side(model: &Model, k: usize, motions: &Motions, acting: Acting<'_, f64>)
     element.side(&reported(model, k, motions, acting))
 }
 
-/// The reserve of force `k` that holds: > 0 until friction slips, or a contact lets go.
+/// The reserve of force `k` that holds: > 0 until friction slips, or a contact separates.
 pub fn reserve(model: &Model, k: usize, motions: &Motions, acting: Acting<'_, f64>) -> f64 {
     let item = &model.forces[k];
     let element = at_state(model, item, motions, acting);

@@ -58,7 +58,7 @@ Output = Annotated[
     typer.Option("--output", "-o", help="The file; by default animation.* beside the results."),
 ]
 FormOption = Annotated[
-    Form | None, typer.Option("--format", help="By default, from the ending of the file.")
+    Form | None, typer.Option("--format", help="Format; by default that of the ending of the file.")
 ]
 FramesPerSecond = Annotated[
     float | None, typer.Option("--fps", help="Pictures per second of a video or GIF.")
@@ -81,7 +81,9 @@ At = Annotated[
     float | None,
     typer.Option("--at", metavar="SECONDS", help="Write a picture (PNG) of this time only, s."),
 ]
-Labels = Annotated[bool, typer.Option("--labels/--no-labels", help="Write numbers and names.")]
+Labels = Annotated[
+    bool, typer.Option("--labels/--no-labels", help="Show numbers of bodies and names.")
+]
 
 
 def animate(  # noqa: PLR0917 - typer distinguishes options by their annotations

@@ -37,7 +37,7 @@ from kempe.cli.study import study as study_command
 ANALYSES = {
     "dynamics": "Simulate the motion under the forces of a case.",
     "kinematics": "Compute the motion that the drivers of a case determine.",
-    "inverse_dynamics": "Compute this motion with the efforts of the drivers and all reactions.",
+    "inverse_dynamics": "Compute a driven motion, the efforts of its drivers and all reactions.",
     "equilibrium": "Find where a mechanism rests, and whether it is stable there.",
     "modes": "Compute frequencies, damping and shapes of small motions.",
     "limits": "Find how far a mechanism can move, and whether a crank turns fully.",

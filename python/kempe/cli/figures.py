@@ -39,7 +39,7 @@ IndexBase = Annotated[
 TimeAxis = Annotated[
     Axis,
     typer.Option(
-        "--time-axis", help="compressed draws the rest after a transient on a short grey part."
+        "--time-axis", help="compressed: the rest after a transient takes a short grey part."
     ),
 ]
 

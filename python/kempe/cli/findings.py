@@ -152,7 +152,7 @@ def _columns(peaks: list[dict[str, Any]], at: str) -> tuple[list[str], list[list
 
 
 def _header(title: str, unit: str, usual: str | None = None) -> str:
-    return units_heading(title, unit, usual if unit == "rad" else None).replace("·", " ")
+    return units_heading(title, unit, usual if unit == "rad" else None)
 
 
 def _number(value: float, unit: str, usual: str | None = None) -> str:

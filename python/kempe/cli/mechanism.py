@@ -28,7 +28,7 @@ def show_mechanism(console: Console, state: State) -> None:
         (str(b.number), b.name, b.type, figure(b.mass), figure(b.inertia))
         for b in model.bodies.values()
     ]
-    table(console, ("", "name", "type", "mass / kg", "inertia / kg m²"), bodies, left=3)
+    table(console, ("", "name", "type", "mass / kg", "inertia / kg·m²"), bodies, left=3)
     for title, elements in (
         ("Joints", model.joints),
         ("Drivers", model.drivers),

@@ -49,14 +49,16 @@ def report(  # noqa: PLR0917 - typer distinguishes options by their annotations
     output: Annotated[
         Path | None,
         typer.Option(
-            "--output", "-o", help="The file, .html or .pdf; by default report.html beside results."
+            "--output",
+            "-o",
+            help="The file, .html or .pdf; by default report.html beside the results.",
         ),
     ] = None,
     pdf: Annotated[
         bool, typer.Option("--pdf", help="Write a PDF too, printed by Chromium, Chrome or Edge.")
     ] = False,
     study: Annotated[
-        bool, typer.Option("--study", help="Include a study of stabilization, method, tolerance.")
+        bool, typer.Option("--study", help="Include the comparison of kempe study.")
     ] = False,
     units: Units = None,
     settings: Settings = None,
@@ -66,7 +68,7 @@ def report(  # noqa: PLR0917 - typer distinguishes options by their annotations
     atol: AbsoluteTolerance = None,
     step: Step = None,
 ) -> None:
-    """Write the report of a case, whose analyses are run, or of a solution that was saved."""
+    """Write a report of a case, which is simulated first, or of a solution that was saved."""
     from kempe.lab_report.write import checked, page, store
 
     changes = Changes(settings, t_end, method, rtol, atol, step)

@@ -84,7 +84,7 @@ def run(  # noqa: PLR0917 - typer uses the annotations of options and arguments
     time_axis: figures.TimeAxis = figures.Axis.linear,
     units: Units = None,
     video: Annotated[
-        Form | None, typer.Option("--animate", help="Also write a video or GIF.")
+        Form | None, typer.Option("--animate", help="Also write a video (mp4) or a GIF.")
     ] = None,
 ) -> None:
     """Assemble a mechanism, run its analyses and write the results."""

@@ -63,10 +63,11 @@ def _flag(name: str, told: str) -> Any:
 
 Time = Annotated[
     float | None,
-    typer.Option("--t", metavar="SECONDS", help="Time of the simulation, s; its start if absent."),
+    typer.Option("--t", metavar="SECONDS", help="Time of the simulation, s; by default its start."),
 ]
 FormOption = Annotated[
-    Form | None, typer.Option("--format", help="By default, from the ending of -o, or text.")
+    Form | None,
+    typer.Option("--format", help="Format; by default that of the ending of -o, or text."),
 ]
 Output = Annotated[
     Path | None, typer.Option("--output", "-o", help="A file in place of the terminal.")
@@ -75,22 +76,24 @@ Output = Annotated[
 
 def show(  # noqa: PLR0917 - typer distinguishes options by their annotations
     file: CaseOrSolution,
-    jacobian: Annotated[bool, _flag("jacobian", "Φ_q; shown if nothing is named.")] = False,
+    jacobian: Annotated[
+        bool, _flag("jacobian", "The Jacobian Φ_q; shown if no matrix is named.")
+    ] = False,
     mass: Annotated[bool, _flag("mass", "The mass matrix M.")] = False,
     kkt: Annotated[bool, _flag("kkt", "The augmented matrix [M Φ_qᵀ; Φ_q 0].")] = False,
     rhs: Annotated[bool, _flag("rhs", "[Q; γ], right side of the augmented equations.")] = False,
     gamma: Annotated[bool, _flag("gamma", "γ, right side of the accelerations.")] = False,
     forces: Annotated[bool, _flag("forces", "The generalized forces Q.")] = False,
-    residual: Annotated[bool, _flag("residual", "Φ.")] = False,
+    residual: Annotated[bool, _flag("residual", "The residual Φ of the constraints.")] = False,
     nu: Annotated[bool, _flag("nu", "ν = -Φ_t, right side of the velocities.")] = False,
     accelerations: Annotated[bool, _flag("accelerations", "The accelerations q̈.")] = False,
     multipliers: Annotated[bool, _flag("multipliers", "The multipliers λ.")] = False,
     iterations: Annotated[
-        bool, _flag("iterations", "Newton–Raphson from the unchanged guess.")
+        bool, _flag("iterations", "Newton–Raphson iterations from the unchanged guess.")
     ] = False,
     symbolic: Annotated[bool, _flag("symbolic", "Φ, Φ_q and γ of each joint as formulas.")] = False,
     assembly: Annotated[
-        bool, _flag("assembly", "With the driver rows of the coordinates that the start sets.")
+        bool, _flag("assembly", "Add rows for the coordinates that the start sets.")
     ] = False,
     t: Time = None,
     form: FormOption = None,

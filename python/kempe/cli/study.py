@@ -32,17 +32,17 @@ EXAMPLES = """Examples:
 def study(  # noqa: PLR0917 - typer distinguishes options by their annotations
     file: File,
     analysis: Annotated[
-        str | None, typer.Option("--analysis", help="Which analysis; the first if absent.")
+        str | None, typer.Option("--analysis", help="Name of the analysis; by default the first.")
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option("--output", "-o", help="Folder for results; out/<FILE>/study if absent."),
+        typer.Option("--output", "-o", help="Folder for results; default out/<FILE>/study."),
     ] = None,
     settings: Settings = None,
     units: Units = None,
     as_json: AsJson = False,
 ) -> None:
-    """Compute an analysis with many options, compare the results and summarize them."""
+    """Compare stabilizations, methods and tolerances on one analysis."""
     from kempe.plot import study_figures
     from kempe.studies.table import json_text
 

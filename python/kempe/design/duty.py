@@ -198,7 +198,7 @@ class Flywheel:
     stored: Floats
 
     def __repr__(self) -> str:
-        return f"<Flywheel: {self.inertia:.6g} kg m² for ΔE = {self.energy:.6g} J>"
+        return f"<Flywheel: {self.inertia:.6g} kg·m² for ΔE = {self.energy:.6g} J>"
 
 
 def flywheel(

@@ -9,10 +9,12 @@ from typing import Any
 from kempe import mobility
 from kempe.catalogue import about, declared
 from kempe.display_units import Shown, heading
+from kempe.errors import KempeError
 from kempe.lab_report.blocks import Block, Cell, Paragraph, Points, Section, Table
 from kempe.lab_report.figures import drawn
 from kempe.lab_report.printed import ROUNDING, number, text
 from kempe.lab_report.subject import Subject
+from kempe.model import Model
 from kempe.plot.drawing_pages import of_configuration, of_mechanism
 
 #: Fields of elements that other tables contain.
@@ -54,6 +56,7 @@ def data(subject: Subject) -> Section:
             Paragraph(f"Acceleration of free fall: [{gravity}] {unit} in x and y of ground."),
             _parameters(subject),
             _bodies(subject),
+            Points(list(_forms(subject))),
             _points(subject),
             _shapes(tree),
             _fields("Force elements", "forces", subject),
@@ -90,6 +93,12 @@ def _bodies(subject: Subject) -> Table:
         heading("centre y′", "m"),
     )
     return Table("Bodies; mass centres in the frames of the bodies", header, rows)
+
+
+def _forms(subject: Subject) -> Iterator[str]:
+    """What the types of bodies mean that determine their inertia themselves."""
+    kinds = dict.fromkeys(info.type for info in subject.model.bodies.values())
+    return (f"{kind}: {about('bodies', kind)}" for kind in kinds if kind != "body")
 
 
 def _points(subject: Subject) -> Table:
@@ -160,13 +169,22 @@ def _between(entry: Mapping[str, Any]) -> str:
 
 
 def _value(value: Any, subject: Subject) -> tuple[Cell, Cell]:
-    """A field as written, and its value if it is a number or a parameter."""
+    """A field as written, and its value if it is a number or a formula in the parameters."""
     if isinstance(value, int | float) and not isinstance(value, bool):
         return text(value), number(value)
-    known = subject.model.parameters
     if isinstance(value, str):
-        return value, number(known[value]) if value in known else ""
+        found = _evaluated(value, subject.tree.get("parameters", {}))
+        return value, number(found) if found is not None else ""
     return _compact(value), ""
+
+
+def _evaluated(formula: str, parameters: Mapping[str, Any]) -> float | None:
+    """The number of a formula in the parameters; None for a law, a name and a function."""
+    name = "value_" + "_".join(parameters)  # no parameter has this name
+    try:
+        return Model("a formula", parameters={**parameters, name: formula}).parameters[name]
+    except KempeError:
+        return None
 
 
 def _laws(group: str, subject: Subject) -> Iterator[str]:

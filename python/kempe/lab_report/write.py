@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import datetime
+import re
 from collections.abc import Mapping
 from importlib import resources
 from pathlib import Path
@@ -26,11 +27,14 @@ from kempe.lab_report.summary import at_a_glance
 from kempe.solution import Solution
 
 if TYPE_CHECKING:
+    from markupsafe import Markup
+
     from kempe.result import Result
     from kempe.studies import Study
 
 #: Endings of the name of a report.
 ENDINGS = (".html", ".pdf")
+_SUBSCRIPT = re.compile(r"Φ_(\w)")
 
 
 def write_report(
@@ -113,6 +117,7 @@ def typeset(found: Subject) -> str:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["subscripts"] = subscripts
     style = (resources.files("kempe.lab_report") / "assets" / "report.css").read_text("utf-8")
     about: Mapping[str, Any] = {
         "title": found.model.title or "Linkage",
@@ -122,6 +127,13 @@ def typeset(found: Subject) -> str:
         "sections": _sections(found),
     }
     return environment.get_template("report.html").render(about)
+
+
+def subscripts(text: str) -> Markup:
+    """A text as HTML, with the letter after ``Φ_`` as a subscript."""
+    from markupsafe import Markup, escape
+
+    return Markup(_SUBSCRIPT.sub(r"Φ<sub>\1</sub>", str(escape(text))))
 
 
 def _sections(found: Subject) -> list[Section]:

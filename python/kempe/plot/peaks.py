@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 #: Room for the text of a peak, and its distance from the curve, points.
 ROOM, _GAP = 17.0, 4.0
+#: Its least distance from the sides of the axes, points.
+_INSET = 2.0
 _SIZE = 8.0
 #: Of two opposite peaks the smaller one is marked too from this share of the larger one on.
 _WORTH = 0.3
@@ -75,7 +77,7 @@ def add_peaks(axes: Axes, marks: Sequence[Mark], unit: Scale, time: Scale) -> No
         x, y = extreme.t / time.divisor, extreme.value / unit.divisor
         axes.scatter([x], [y], s=11.0, facecolor="white", edgecolor=colour, linewidth=1.0, zorder=4)
         words = peak_text(extreme, unit, time)
-        half = measured(words, _SIZE, bold=False, slanted=False)[0] / 2.0 / width
+        half = (measured(words, _SIZE, bold=False, slanted=False)[0] / 2.0 + _INSET) / width
         share = float(axes.transAxes.inverted().transform(axes.transData.transform((x, y)))[0])
         axes.text(
             float(np.clip(share, half, max(half, 1.0 - half))),

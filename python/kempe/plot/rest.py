@@ -10,8 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kempe.arrays import Floats
+from kempe.display_units import display
 from kempe.draw.scene import scene
 from kempe.draw.units import Scale, scale
+from kempe.measures import parameter_unit
 from kempe.plot import style
 from kempe.plot.page import Page
 from kempe.plot.picture import drawn, frame, paint
@@ -147,7 +149,8 @@ def _finished(made: Figure, panels: list[Axes], result: EquilibriumResult) -> Fi
 
 def _over_parameter(axes: Axes, result: EquilibriumResult, y: Floats, shown: Scale) -> None:
     stable = np.asarray(result.stable, dtype=bool)
-    x, y = result.values, y / shown.divisor
+    across, divisor = _parameter(result)
+    x, y = result.values / divisor, y / shown.divisor
     for part, kind in _parts(stable):
         label = "stable" if kind else "unstable"
         axes.plot(x[part], y[part], color=style.colour(0), label=label, **_KINDS[kind])
@@ -158,7 +161,18 @@ def _over_parameter(axes: Axes, result: EquilibriumResult, y: Floats, shown: Sca
         if places:
             chosen = list(places)
             axes.plot(x[chosen], y[chosen], label=label, **look)
-    axes.set_xlabel(f"{style.verbatim(str(result.over))}, SI units")
+    axes.set_xlabel(across)
+
+
+def _parameter(result: EquilibriumResult) -> tuple[str, float]:
+    """The parameter of a path with its unit, and the divisor of its values."""
+    name = str(result.over)
+    unit = parameter_unit(result.state.compiled, name)
+    words = style.verbatim(name)
+    if unit == "SI":
+        return f"{words}, SI units", 1.0
+    shown = display(unit)
+    return (words if unit == "1" else f"{words} / {shown.symbol}"), shown.divisor
 
 
 def _parts(stable: NDArray[np.bool_]) -> Iterator[tuple[slice, bool]]:

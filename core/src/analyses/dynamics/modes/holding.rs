@@ -2,7 +2,7 @@
 //!
 //! All contacts that touch without speed and all friction without speed hold at first. Equations that depend on others
 //! are left out: friction follows another one then, and a contact is idle. While a contact pulls or friction exceeds its
-//! limit, the one that does so most lets go.
+//! limit, the one with the largest excess is released.
 
 use super::super::failure::Failure;
 use super::dependence::independent;
@@ -69,7 +69,7 @@ pub(super) fn decide(
     }
     let contact =
         |k: &usize| !matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Sticks));
-    // what let go holds only where nothing else does
+    // what was released holds only where nothing else does
     let ended = |k: &usize| fired.contains(k) && mode_of(before, *k).holds();
     candidates.sort_by_key(|k| (ended(k), !contact(k), *k));
     let ended: Vec<usize> = candidates.iter().copied().filter(ended).collect();
@@ -150,7 +150,7 @@ fn hold(
     if moves_apart(model, place, &found, candidates)? || candidates.len() > MOST_TRIED {
         return Ok(found);
     }
-    // what let go first may be needed later: all combinations, those that hold most first
+    // what was released first may be needed later: all combinations, those that hold most first
     for choice in 0..3_usize.pow(candidates.len() as u32) {
         let of = |place: usize| choice / 3_usize.pow(place as u32) % 3;
         let (mut now, mut left) = (free.clone(), Vec::new());

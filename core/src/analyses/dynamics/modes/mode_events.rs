@@ -18,7 +18,7 @@ pub enum ModeFunction {
         /// Added to it.
         slack: f64,
     },
-    /// What is left until friction slips or a contact lets go, and the slack of the mode.
+    /// What is left until friction slips or a contact separates, and the slack of the mode.
     Reserve {
         /// The force.
         force: usize,
