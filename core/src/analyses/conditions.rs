@@ -1,9 +1,10 @@
 //! Conditions on quantities of a motion: a comparison, or an expression that becomes zero.
 
 use super::quantities::Quantities;
-use super::signals::{Seen, Signal};
+use super::signals::{energies, Energy, Seen, Signal};
 use super::so_far::{SoFar, PLACES};
 use crate::equations::kinematics::Motions;
+use crate::equations::newton_euler::balances;
 use crate::equations::Workspace;
 use crate::expression::{Expression, ExpressionError, Inferred, Sense, Symbol, Tape, Values};
 use crate::integrate::{Direction, Step};
@@ -54,9 +55,16 @@ impl Condition {
         Ok(Self { tape, signals, comparison, needs_solution })
     }
 
-    /// The quantities that it uses.
-    pub fn signals(&self) -> &[Signal] {
-        &self.signals
+    /// Has the quantities of the run so far watched that it uses.
+    pub fn watch(&self, so_far: &mut SoFar) {
+        for signal in &self.signals {
+            match signal {
+                Signal::ForceDissipated(k) => so_far.watch_element(*k),
+                Signal::Energy(Energy::Balance) => so_far.watch_energy(),
+                Signal::Balance => so_far.watch_reactions(),
+                _ => {}
+            }
+        }
     }
 
     /// Whether it is a comparison.
@@ -147,16 +155,21 @@ impl Evaluator {
             let powers = PLACES.map(|place| {
                 let t = step.t_old + place * duration;
                 step.interpolate(t, &mut y);
-                self.at(model, t, &y, |seen| so_far.powers(model, seen))
+                self.at(model, t, &y, |seen| so_far.powers(model, seen.motions, seen.acting()))
             });
             so_far.add(duration, &powers);
         }
         if so_far.balances() {
-            if !so_far.has_begun() {
-                self.at(model, step.t_old, step.y_old, |seen| so_far.balance(model, seen));
+            let mut balance = |seen: &Seen<'_>| {
+                let [a, _] = seen.solved;
+                let bodies = || balances(model, seen.motions, a, seen.acting());
+                so_far.balance(|| energies(model, seen), bodies);
+            };
+            if !self.so_far.has_begun() {
+                self.at(model, step.t_old, step.y_old, &mut balance);
             }
             if t == step.t {
-                self.at(model, t, step.y, |seen| so_far.balance(model, seen));
+                self.at(model, t, step.y, &mut balance);
             }
         }
         so_far

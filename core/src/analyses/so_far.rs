@@ -7,10 +7,10 @@
 //! The balances are errors of the integration. Between two steps they would show those of the interpolant. So they keep
 //! their values during a step and change at its end, and a shorter step is of no use to find their events.
 
-use super::balances::{EnergyBalance, ReactionBalance};
-use super::signals::{energies, Energy, Seen, Signal};
-use crate::equations::forces;
-use crate::equations::newton_euler::balances;
+use super::balances::{Energies, EnergyBalance, ReactionBalance};
+use crate::equations::forces::{self, Acting};
+use crate::equations::kinematics::Motions;
+use crate::equations::newton_euler::BodyBalance;
 use crate::model::Model;
 
 /// Places of Gauss and Legendre in [0, 1]. The rule is exact to degree 9.
@@ -40,22 +40,21 @@ pub(super) struct SoFar {
 }
 
 impl SoFar {
-    /// Watches what these quantities need; sums that exist go on.
-    pub fn watch(&mut self, signals: &[Signal]) {
-        for signal in signals {
-            match signal {
-                Signal::ForceDissipated(k) if self.of(*k).is_none() => {
-                    self.elements.push((*k, 0.0));
-                }
-                Signal::Energy(Energy::Balance) => {
-                    self.energy.get_or_insert_with(EnergyBalance::new);
-                }
-                Signal::Balance => {
-                    self.reactions.get_or_insert_with(ReactionBalance::new);
-                }
-                _ => {}
-            }
+    /// Watches the energy that an element dissipates; a sum that exists goes on.
+    pub fn watch_element(&mut self, k: usize) {
+        if self.of(k).is_none() {
+            self.elements.push((k, 0.0));
         }
+    }
+
+    /// Watches the balance of energy.
+    pub fn watch_energy(&mut self) {
+        self.energy.get_or_insert_with(EnergyBalance::new);
+    }
+
+    /// Watches the balance of the forces on the bodies.
+    pub fn watch_reactions(&mut self) {
+        self.reactions.get_or_insert_with(ReactionBalance::new);
     }
 
     /// Whether elements are watched.
@@ -98,18 +97,22 @@ impl SoFar {
     }
 
     /// The power that each element dissipates at a state, W.
-    pub fn powers(&self, model: &Model, seen: &Seen<'_>) -> Vec<f64> {
-        let of = |(k, _): &(usize, f64)| forces::dissipated(model, *k, seen.motions, seen.acting());
+    pub fn powers(&self, model: &Model, motions: &Motions, acting: Acting<'_, f64>) -> Vec<f64> {
+        let of = |(k, _): &(usize, f64)| forces::dissipated(model, *k, motions, acting);
         self.elements.iter().map(of).collect()
     }
 
     /// Takes the balances on to a state; the first one is the start of the run.
-    pub fn balance(&mut self, model: &Model, seen: &Seen<'_>) {
+    pub fn balance(
+        &mut self,
+        energies: impl FnOnce() -> Energies<f64>,
+        bodies: impl FnOnce() -> Vec<BodyBalance>,
+    ) {
         if let Some(balance) = &mut self.energy {
-            balance.add(energies(model, seen));
+            balance.add(energies());
         }
         if let Some(balance) = &mut self.reactions {
-            balance.add(&balances(model, seen.motions, seen.solved[0], seen.acting()));
+            balance.add(&bodies());
         }
     }
 }

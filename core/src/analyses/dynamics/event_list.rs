@@ -110,7 +110,7 @@ impl<'a> EventList<'a> {
         });
         for event in &watched {
             if let Function::Condition(condition) = event.function {
-                so_far.watch(condition.signals());
+                condition.watch(&mut so_far);
             }
         }
         let evaluator = Evaluator::new(ode.model, solves, &ode.workspace, so_far);
