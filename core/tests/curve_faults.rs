@@ -86,3 +86,52 @@ fn faulty_curves_are_refused() {
     );
     assert!(wrong.contains("no curve 'rin'") && wrong.contains("did you mean 'rim'"), "{wrong}");
 }
+
+/// Parts of a formula must meet with one derivative, at conditions inside the range too.
+#[test]
+fn corners_and_gaps_of_formulas_are_refused_with_their_place() {
+    let corner = |law: &str, place: &str| {
+        refuses(law, POINT, &["contact.curve", "a corner", place, "C' jumps"]);
+        refuses(law, FLAT, &["a corner", place]);
+    };
+    // r' changes by 0.02 m where the sine changes its sign
+    corner("{ polar = \"0.05 + 0.01*abs(sin(u - 1))\" }", "u = 1.000000 at (0.027015, 0.042074)");
+    corner("{ polar = \"0.05 + max(0, 0.01*sin(u - 1))\" }", "u = 1.000000");
+    corner(
+        "{ x = \"u\", y = \"if(u < 0.25, 0, u - 0.25)\", range = [0, 1] }",
+        "(0.250000, 0.000000)",
+    );
+    corner("{ x = \"u\", y = \"min(u, 2*u - 0.3)\", range = [0, 1] }", "(0.300000, 0.300000)");
+    // one direction on both sides, but u runs twice as fast
+    corner("{ x = \"if(u < 0.5, u, 2*u - 0.5)\", y = \"0\", range = [0, 1] }", "u = 0.500000");
+    for law in ["if(u < 2, 0.05, if(u < 4, 0.051, 0.05))", "0.05 + 0.001*floor(cos(u - 2))"] {
+        refuses(&format!("{{ polar = \"{law}\" }}"), POINT, &["a gap of 1.000e-3 m", "u = "]);
+    }
+    for smooth in
+        ["abs(sin(u - 1))^3", "max(0, sin(u - 1))^2", "(harmonic(u - 1) - harmonic(u - 4))"]
+    {
+        refuses(&format!("{{ polar = \"0.05 + 0.001*{smooth}\" }}"), POINT, &[]);
+    }
+    // a sharp bend is not a corner
+    refuses("{ x = \"u\", y = \"if(u < 0, 0, 5e4*u^2)\", range = [-1, 1] }", POINT, &[]);
+}
+
+#[test]
+fn corners_of_linear_tables_are_refused() {
+    let with = |kind: &str| {
+        let tables =
+            format!("[tables.lift]\nx = [0, 2, 4]\ny = [0, 0.01, 0]\ninterpolation = \"{kind}\"\n");
+        let curve = "{ x = \"u\", y = \"lift(u)\", range = [0, 4] }";
+        faults(&format!(
+            "{tables}[bodies.ground]\npoints = {{ O = [0, 0] }}\ncurves = {{ wire = {curve} }}\n[bodies.b]\nmass = 1\n\
+             inertia = 1\npoints = {{ P = [0, 0] }}\n[joints.c]\ntype = \"point_on_curve\"\ni = \"b.P\"\ncurve = \"ground.wire\"\n"
+        ))
+    };
+    assert!(
+        with("linear").contains("a corner for u = 2.000000 at (2.000000, 0.010000) m"),
+        "{}",
+        with("linear")
+    );
+    assert_eq!(with("cubic"), "");
+    assert_eq!(with("monotone"), "");
+}

@@ -2,12 +2,10 @@
 
 mod mechanisms;
 
-use kempe::analyses::dynamics::Options;
 use kempe::analyses::measures::{check, Measure};
 use kempe::case::{read, Format};
-use kempe::model::Value;
 use kempe::{ModelBuilder, Problems};
-use mechanisms::{faults, four_bar, model, FOUR_BAR};
+use mechanisms::{faults, four_bar, FOUR_BAR};
 
 #[test]
 fn a_measure_lists_its_quantities_and_has_a_unit() {
@@ -90,24 +88,4 @@ fn a_builder_refuses_a_wrong_measure() {
     m.measure("slip", "block.slip");
     let Problems(found) = m.build().expect_err("no such quantity");
     assert_eq!(found[0].path, ["measures", "slip"]);
-}
-
-#[test]
-fn a_condition_uses_no_quantity_of_a_whole_run() {
-    let m = model(FOUR_BAR);
-    for (name, instead) in [("energy.balance", "energy.total"), ("drift.balance", "drift.position")]
-    {
-        let stop = Value::Text(format!("2*{name} > 1"));
-        let fields = [("t_end".to_string(), Value::Number(1.0)), ("stop".to_string(), stop)];
-        let found =
-            kempe::analyses::dynamics::read(&m, &fields, &[]).expect_err("known at the end");
-        assert!(
-            found[0].message.contains("known at the end of a run only"),
-            "{}",
-            found[0].message
-        );
-        assert_eq!(found[0].within, Some(2..2 + name.len()));
-        assert!(found[0].hint.as_deref().is_some_and(|hint| hint.contains(instead)), "{name}");
-    }
-    assert!(Options::new(1.0).events.is_empty());
 }

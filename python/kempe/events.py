@@ -181,7 +181,7 @@ def _times(solution: Solution, read: Read) -> list[float]:
         before = np.flatnonzero(values[:k] >= 0.0)
         if motion is not solution and len(before):
             at = _crossing(solution, read, float(motion.t[before[-1]]), at)
-        found.append(at)
+        found.append(at + 0.0)  # no -0.0
     return found
 
 

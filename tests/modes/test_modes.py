@@ -220,6 +220,9 @@ def test_faults_are_named() -> None:
         kp.modes(m, rest, inputs="rod.angle")
     with pytest.raises(kp.ModelError, match="n: 0"):
         kp.modes(m, rest, n=0)
+    for name in ("energy.balance", "drift.balance", "spring.dissipated", "energy.total"):
+        with pytest.raises(kp.ModelError, match=f"'{name}' depends on the run"):
+            kp.modes(m, rest, outputs=[name])
     with pytest.raises(kp.ModelError, match=r"energy\.work"):
         kp.modes(m, rest, outputs=["energy.work"])
     with pytest.raises(kp.AssemblyError, match="open by"):

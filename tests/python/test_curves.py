@@ -252,3 +252,46 @@ def test_the_law_of_a_driver_may_not_depend_on_the_parameter_of_a_curve() -> Non
     m.coordinate_driver("drive", "wheel.angle", value="wire.u")
     with pytest.raises(kp.ModelError, match="laws of forces, conditions and measures may use u"):
         kp.assemble(m)
+
+
+def pressed(load: str, angle: str = "0") -> tuple[kp.Model, kp.State]:
+    """A roller on an eccentric disc; at rest the load on its rod alone makes the normal force."""
+    m = kp.Model("pressed")
+    m.ground.points(O=(0, 0), S=(0, 0))
+    rim = {"rim": {"circle": [0.01, 0, 0.05]}}
+    m.body("cam", mass=1, inertia=1, points={"C": (0, 0)}, curves=rim)
+    m.body("rod", mass=1, inertia=1, points={"T": (0, 0)})
+    m.revolute("O", "ground.O", "cam.C")
+    m.translational("guide", "ground.S", "rod.T", axes=("90*deg", "90*deg"))
+    m.roller_on_curve("contact", "rod.T", "cam.rim", radius=0.01)
+    m.coordinate_driver("motor", "cam.angle", value=angle)
+    m.force("push", "rod.T", force=["0", load])
+    return m, kp.assemble(m, guess={"rod.y": 0.06})
+
+
+METHODS = [kp.Auto(), kp.Radau(), kp.RK4(step=0.01), kp.GeneralizedAlpha()]
+
+
+@pytest.mark.parametrize("method", METHODS, ids=lambda method: method.kind)
+@pytest.mark.parametrize(
+    ("load", "times"),
+    [("-1", []), ("-t", []), ("-t^2", []), ("1", [0]), ("1 - 4*t", [0]), ("t", [0]), ("t^2", [0])],
+)
+@pytest.mark.filterwarnings("ignore::kempe.EventWarning")
+def test_lift_off_at_the_start(load: str, times: list[float], method: Any) -> None:
+    """A force that is negative or becomes so at once is one event at t = 0; zero alone is none."""
+    m, start = pressed(load)
+    sol = kp.dynamics(m, start, t_end=1, output_step=0.1, method=method)
+    found = sol.events["contact.lift_off"].t
+    np.testing.assert_array_equal(found, times)
+    assert not np.signbit(found).any()  # "t = 0 s", not "t = -0 s"
+
+
+@pytest.mark.parametrize("angle", ["0", "0.3", "0.001*t"])
+def test_generalized_alpha_holds_a_driven_mechanism_on_its_branch(angle: str) -> None:
+    """Nothing but the constraints decides the motion, and the steps become long."""
+    m, start = pressed("-1", angle)
+    grid = {"t_end": 100, "output_step": 1}
+    sol = kp.dynamics(m, start, **grid, method=kp.GeneralizedAlpha())
+    exact = kp.kinematics(m, start, **grid)
+    np.testing.assert_allclose(sol["rod.y"], exact["rod.y"], atol=1e-9)

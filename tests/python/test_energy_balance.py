@@ -112,3 +112,65 @@ def test_all_reports_of_a_creeping_run_have_one_balance(method: Any, allowed: fl
     drawn = plot.energy_balance(sol)
     heights = np.concatenate([np.asarray(line.get_ydata(), float) for line in drawn.lines])
     assert heights.max() == pytest.approx(imbalance, rel=1e-9)
+
+
+def swinging() -> tuple[kp.Model, kp.State]:
+    m = kp.Model("pendulum", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    m.bar("rod", mass=2, length=1, ends=("O", "P"))
+    m.revolute("pin", "ground.O", "rod.O")
+    m.torsion_spring("damper", "ground", "rod", stiffness=0, damping=0.3)
+    return m, kp.assemble(m, {"rod.angle": 0})
+
+
+COARSE = [kp.DOP853(rtol=1e-3, atol=1e-3), kp.RK4(step=0.02), kp.GeneralizedAlpha()]
+
+
+@pytest.mark.parametrize("method", COARSE, ids=lambda method: method.kind)
+def test_a_run_stops_where_its_balance_is_lost(method: Any) -> None:
+    """The stop is the end of the first step at which the balance of the run so far is too large."""
+    m, start = swinging()
+    grid = {"t_end": 5, "output_step": 1e-3, "method": method}
+    free = kp.dynamics(m, start, **grid)
+    worst = np.abs(free.energy.balance).max()
+    assert kp.dynamics(m, start, **grid, stop=f"abs(energy.balance) > {2 * worst}").status == 0
+    limit = worst / 100
+    stop = f"abs(energy.balance) > {limit}"
+    stopped = kp.dynamics(m, start, **grid, stop=stop, events={"drift": "drift.balance > 1e-9"})
+    assert stopped.status == 1 and 0 < stopped.t[-1] < 1
+    assert abs(stopped["energy.balance"][-1]) > limit
+    assert not len(stopped.events["drift"].t)
+
+
+@pytest.mark.parametrize("limit", [1e-7, 5e-7, 1e-6])
+def test_the_balance_of_a_condition_is_that_of_a_run_that_ends_there(limit: float) -> None:
+    m, start = swinging()
+    grid = {"t_end": 5, "output_step": 0.05, "method": kp.RK4(step=0.05)}
+    energy = kp.dynamics(m, start, **grid).energy
+    ended = [energy.at(np.arange(k + 1)).balance[-1] for k in range(101)]
+    above = np.abs(ended) > limit
+    sol = kp.dynamics(m, start, **grid, events={"lost": f"abs(energy.balance) > {limit}"})
+    expected = 0.05 * np.flatnonzero(above[1:] & ~above[:-1]) + 0.05
+    assert len(expected)
+    np.testing.assert_allclose(sol.events["lost"].t, expected, rtol=1e-9)
+
+
+def test_a_balance_goes_on_after_an_action() -> None:
+    """The action takes half of the speed: three quarters of the kinetic energy are lost."""
+    m, start = swinging()
+
+    def brake(state: kp.State) -> kp.State:
+        return kp.State(m, state.t, state.q, state.v / 2)
+
+    events = {
+        "lowest": kp.Event("rod.angle < -90*deg", action=brake),
+        "lost": "energy.balance < -0.6",
+        "more": "energy.balance < -0.62",
+    }
+    sol = kp.dynamics(m, start, t_end=0.8, output_step=1e-2, events=events)
+    before = sol.energy.kinetic[sol.t == sol.events["lowest"].t[0]][0]
+    assert sol.energy.balance[-1] == pytest.approx(-0.75 * before / sol.energy.scale, rel=1e-6)
+    assert -0.62 < sol.energy.balance[-1] < -0.6
+    assert len(sol.events["lowest"].t) == 1
+    assert len(sol.events["lost"].t) == 1 and not len(sol.events["more"].t)
+    assert sol.events["lowest"].t[0] <= sol.events["lost"].t[0] < sol.events["lowest"].t[0] + 0.1

@@ -270,9 +270,3 @@ def test_an_expression_without_a_value_is_an_error() -> None:
     sol = kp.dynamics(m, kp.assemble(m), t_end=0.1)
     with pytest.raises(kp.ModelError, match="the measure has no value there"):
         _ = sol["root"]
-
-
-def test_a_condition_refuses_what_only_the_end_of_a_run_tells() -> None:
-    m = shaker()
-    with pytest.raises(kp.ModelError, match=r"energy\.balance is known at the end of a run only"):
-        kp.dynamics(m, kp.assemble(m), t_end=0.1, stop="energy.balance > 1")

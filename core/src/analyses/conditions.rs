@@ -1,9 +1,10 @@
 //! Conditions on quantities of a motion: a comparison, or an expression that becomes zero.
 
-use super::quantities::{refuse_whole_run, Quantities};
-use super::signals::{Seen, Signal};
+use super::quantities::Quantities;
+use super::signals::{energies, Energy, Seen, Signal};
 use super::so_far::{SoFar, PLACES};
 use crate::equations::kinematics::Motions;
+use crate::equations::newton_euler::balances;
 use crate::equations::Workspace;
 use crate::expression::{Expression, ExpressionError, Inferred, Sense, Symbol, Tape, Values};
 use crate::integrate::{Direction, Step};
@@ -36,7 +37,6 @@ impl Condition {
         let (expression, comparison) = Expression::parse_condition(text)?;
         let quantities = Quantities::of(model, released);
         let tape = expression.compile(&quantities)?;
-        refuse_whole_run(text, &quantities.found.borrow())?;
         let inferred = &model.blueprint.inferred;
         expression.infer(&quantities, &|symbol| match symbol {
             Symbol::Parameter(k) => inferred[k],
@@ -55,12 +55,16 @@ impl Condition {
         Ok(Self { tape, signals, comparison, needs_solution })
     }
 
-    /// The force elements whose dissipated energy it uses.
-    pub fn dissipative(&self) -> impl Iterator<Item = usize> + '_ {
-        self.signals.iter().filter_map(|signal| match signal {
-            Signal::ForceDissipated(k) => Some(*k),
-            _ => None,
-        })
+    /// Has the quantities of the run so far watched that it uses.
+    pub fn watch(&self, so_far: &mut SoFar) {
+        for signal in &self.signals {
+            match signal {
+                Signal::ForceDissipated(k) => so_far.watch_element(*k),
+                Signal::Energy(Energy::Balance) => so_far.watch_energy(),
+                Signal::Balance => so_far.watch_reactions(),
+                _ => {}
+            }
+        }
     }
 
     /// Whether it is a comparison.
@@ -134,27 +138,40 @@ impl Evaluator {
         step: &Step<'_>,
         give: impl FnOnce(&Seen<'_>) -> R,
     ) -> R {
-        let so_far = (!self.so_far.is_empty()).then(|| self.up_to(model, t, step));
-        self.at(model, t, y, |seen| give(&Seen { so_far: so_far.as_ref(), ..*seen }))
+        let so_far = self.up_to(model, t, step);
+        self.at(model, t, y, |seen| give(&Seen { so_far: Some(&so_far), ..*seen }))
     }
 
     /// Goes on to the end of a step that is accepted.
     pub fn advance(&mut self, model: &Model, step: &Step<'_>) {
-        if !self.so_far.is_empty() {
-            self.so_far = self.up_to(model, step.t, step);
-        }
+        self.so_far = self.up_to(model, step.t, step);
     }
 
     /// The run up to a time of a step.
     fn up_to(&mut self, model: &Model, t: f64, step: &Step<'_>) -> SoFar {
         let mut so_far = self.so_far.clone();
-        let (duration, mut y) = (t - step.t_old, step.y.to_vec());
-        let powers = PLACES.map(|place| {
-            let t = step.t_old + place * duration;
-            step.interpolate(t, &mut y);
-            self.at(model, t, &y, |seen| so_far.powers(model, seen.motions, seen.acting()))
-        });
-        so_far.add(duration, &powers);
+        if so_far.sums() {
+            let (duration, mut y) = (t - step.t_old, step.y.to_vec());
+            let powers = PLACES.map(|place| {
+                let t = step.t_old + place * duration;
+                step.interpolate(t, &mut y);
+                self.at(model, t, &y, |seen| so_far.powers(model, seen.motions, seen.acting()))
+            });
+            so_far.add(duration, &powers);
+        }
+        if so_far.balances() {
+            let mut balance = |seen: &Seen<'_>| {
+                let [a, _] = seen.solved;
+                let bodies = || balances(model, seen.motions, a, seen.acting());
+                so_far.balance(|| energies(model, seen), bodies);
+            };
+            if !self.so_far.has_begun() {
+                self.at(model, step.t_old, step.y_old, &mut balance);
+            }
+            if t == step.t {
+                self.at(model, t, step.y, &mut balance);
+            }
+        }
         so_far
     }
 

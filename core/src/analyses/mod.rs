@@ -1,6 +1,7 @@
 //! The analyses of a model: free functions of model, state and options.
 
 pub mod assemble;
+mod balances;
 mod closing;
 mod conditions;
 pub mod configurations;

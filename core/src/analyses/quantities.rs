@@ -2,7 +2,7 @@
 
 use super::signal_names::{names, signal};
 use super::signals::Signal;
-use crate::expression::{ExpressionError, Names, Symbol, Table};
+use crate::expression::{Names, Symbol, Table};
 use crate::model::Model;
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -60,17 +60,4 @@ impl Names for Quantities<'_> {
     fn tables(&self) -> &[Arc<Table>] {
         &self.model.blueprint.tables
     }
-}
-
-/// Refuses a quantity that is known at the end of a run only.
-pub(super) fn refuse_whole_run(
-    text: &str,
-    found: &[(String, Signal)],
-) -> Result<(), ExpressionError> {
-    let why = |(name, signal): &(String, Signal)| Some((name.clone(), signal.of_whole_run()?));
-    let Some((name, [reason, hint])) = found.iter().find_map(why) else { return Ok(()) };
-    let start = text.find(name.as_str()).unwrap_or(0);
-    let span = start..(start + name.len()).min(text.len());
-    let message = format!("{name} is known at the end of a run only: {reason}");
-    Err(ExpressionError::new(span, message).hint(hint.to_string()))
 }

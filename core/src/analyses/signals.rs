@@ -1,5 +1,6 @@
 //! Quantities of a motion by name as numbers at one state: positions, rates, accelerations and results.
 
+use super::balances::{total, Energies};
 use super::so_far::SoFar;
 use crate::elements::BodyId;
 use crate::equations::forces::{self, Acting};
@@ -41,7 +42,7 @@ pub(super) enum Energy {
     Dissipated,
     Work,
     Total,
-    /// Change of the total relative to the scale of the run.
+    /// Change of the total relative to the energies of the run so far.
     Balance,
 }
 
@@ -102,7 +103,7 @@ pub(super) enum Signal {
     Energy(Energy),
     /// Largest violation of the constraints, or of their rates.
     Drift { order: usize },
-    /// Largest Newton–Euler residual, relative to the scale of the run.
+    /// Largest Newton–Euler residual, relative to the forces of the run so far.
     Balance,
 }
 
@@ -114,6 +115,7 @@ impl Signal {
             | Self::Point { order, .. }
             | Self::Measured { order, .. } => *order == 2,
             Self::Reaction { .. } | Self::Result { .. } | Self::Effort(_) | Self::Power(..) => true,
+            Self::Balance => true,
             Self::Line { id: ElementId::Constraint(_) } => true,
             Self::Line { id: ElementId::Force(k) } | Self::Force { k, .. } => {
                 model.forces[*k].reaction.is_some() || model.forces[*k].held_row.is_some()
@@ -124,23 +126,7 @@ impl Signal {
                 item.reaction.is_some() || item.held_row.is_some()
             }
             Self::Constant(_) | Self::State(_) | Self::Energy(_) => false,
-            Self::Drift { .. } | Self::Balance => false,
-        }
-    }
-
-    /// Why its value is known at the end of a run only, and what a condition can use; its value at a state is NaN.
-    pub fn of_whole_run(&self) -> Option<[&'static str; 2]> {
-        match self {
-            Self::Energy(Energy::Balance) => Some([
-                "it is relative to the largest energy of the run",
-                "a condition can use energy.total, such as abs(energy.total - 12.5) > 0.01; a measure can use \
-                 energy.balance",
-            ]),
-            Self::Balance => Some([
-                "it is relative to the largest forces of the run",
-                "a condition can use drift.position and drift.velocity; a measure can use drift.balance",
-            ]),
-            _ => None,
+            Self::Drift { .. } => false,
         }
     }
 
@@ -182,13 +168,15 @@ impl Signal {
             Self::ForceEnergy(k) => forces::potential(model, *k, seen.motions, seen.acting()),
             Self::Energy(of) => energy_of(model, *of, seen),
             Self::Drift { order } => drift(model, *order, seen),
-            Self::ForceDissipated(k) => {
-                let energy = seen.so_far.and_then(|so_far| so_far.of(*k));
-                S::constant(energy.unwrap_or(f64::NAN))
-            }
-            Self::Balance => S::constant(f64::NAN),
+            Self::ForceDissipated(k) => of_run(seen, |so_far| so_far.of(*k)),
+            Self::Balance => of_run(seen, SoFar::reaction_balance),
         }
     }
+}
+
+/// A value of the run up to the state; not a number where the run is not known.
+fn of_run<S: Real>(seen: &Seen<'_, S>, value: impl Fn(&SoFar) -> Option<f64>) -> S {
+    S::constant(seen.so_far.and_then(value).unwrap_or(f64::NAN))
 }
 
 fn own<'l, S>(model: &Model<S>, k: usize, lam: &'l [S]) -> &'l [S] {
@@ -253,13 +241,17 @@ fn energy_of<S: Real>(model: &Model<S>, of: Energy, seen: &Seen<'_, S>) -> S {
         Energy::Potential => energy::potential(model, seen.motions, seen.state[2], seen.t),
         Energy::Dissipated => works(0),
         Energy::Work => works(1) + works(2),
-        Energy::Balance => S::constant(f64::NAN),
-        Energy::Total => {
-            let all = [Energy::Kinetic, Energy::Potential, Energy::Dissipated];
-            let work = -energy_of(model, Energy::Work, seen);
-            all.into_iter().fold(work, |sum, of| sum + energy_of(model, of, seen))
-        }
+        Energy::Total => total(energies(model, seen)),
+        Energy::Balance => of_run(seen, SoFar::energy_balance),
     }
+}
+
+/// The energies at a state, J.
+pub(super) fn energies<S: Real>(model: &Model<S>, seen: &Seen<'_, S>) -> Energies<S> {
+    let works = [0, 1, 2].map(|k| seen.works.get(k).copied().unwrap_or(S::zero()));
+    let kinetic = energy::kinetic(model, seen.motions);
+    let potential = energy::potential(model, seen.motions, seen.state[2], seen.t);
+    [kinetic, potential, works[0], works[1], works[2]]
 }
 
 fn drift<S: Real>(model: &Model<S>, order: usize, seen: &Seen<'_, S>) -> S {

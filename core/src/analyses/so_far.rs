@@ -1,10 +1,16 @@
-//! The energy that force elements have dissipated from the start of a run up to a state, for conditions.
+//! What conditions use of a run from its start up to a state: the energy that force elements have dissipated, and the
+//! balances of energies and reactions.
 //!
 //! The power is integrated on the interpolant of each step, as in reports. So the sums need no states of their own, and
 //! steps do not depend on the conditions of a run.
+//!
+//! The balances are errors of the integration. Between two steps they would show those of the interpolant. So they keep
+//! their values during a step and change at its end, and a shorter step is of no use to find their events.
 
+use super::balances::{Energies, EnergyBalance, ReactionBalance};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
+use crate::equations::newton_euler::BodyBalance;
 use crate::model::Model;
 
 /// Places of Gauss and Legendre in [0, 1]. The rule is exact to degree 9.
@@ -24,25 +30,57 @@ const WEIGHTS: [f64; 5] = [
     0.118_463_442_528_094_54,
 ];
 
-/// The force elements that conditions watch, each with the energy that it has dissipated, J.
+/// The force elements that conditions watch, each with the energy that it has dissipated, J, and the
+/// balances that they watch.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SoFar {
     elements: Vec<(usize, f64)>,
+    energy: Option<EnergyBalance>,
+    reactions: Option<ReactionBalance>,
 }
 
 impl SoFar {
-    /// Watches these elements too; sums that exist go on.
-    pub fn watch(&mut self, elements: impl Iterator<Item = usize>) {
-        for k in elements {
-            if self.of(k).is_none() {
-                self.elements.push((k, 0.0));
-            }
+    /// Watches the energy that an element dissipates; a sum that exists goes on.
+    pub fn watch_element(&mut self, k: usize) {
+        if self.of(k).is_none() {
+            self.elements.push((k, 0.0));
         }
     }
 
-    /// Whether no element is watched.
-    pub fn is_empty(&self) -> bool {
-        self.elements.is_empty()
+    /// Watches the balance of energy.
+    pub fn watch_energy(&mut self) {
+        self.energy.get_or_insert_with(EnergyBalance::new);
+    }
+
+    /// Watches the balance of the forces on the bodies.
+    pub fn watch_reactions(&mut self) {
+        self.reactions.get_or_insert_with(ReactionBalance::new);
+    }
+
+    /// Whether elements are watched.
+    pub fn sums(&self) -> bool {
+        !self.elements.is_empty()
+    }
+
+    /// Whether balances are watched.
+    pub fn balances(&self) -> bool {
+        self.energy.is_some() || self.reactions.is_some()
+    }
+
+    /// Whether the balances have a value.
+    pub fn has_begun(&self) -> bool {
+        let values = [self.energy_balance(), self.reaction_balance()];
+        values.into_iter().flatten().all(|value| !value.is_nan())
+    }
+
+    /// The balance of energy; None if it is not watched.
+    pub fn energy_balance(&self) -> Option<f64> {
+        self.energy.map(|balance| balance.present)
+    }
+
+    /// The largest balance of the forces on a body; None if it is not watched.
+    pub fn reaction_balance(&self) -> Option<f64> {
+        self.reactions.as_ref().map(|balance| balance.present)
     }
 
     /// The energy that a force element has dissipated, J; None if it is not watched.
@@ -62,5 +100,19 @@ impl SoFar {
     pub fn powers(&self, model: &Model, motions: &Motions, acting: Acting<'_, f64>) -> Vec<f64> {
         let of = |(k, _): &(usize, f64)| forces::dissipated(model, *k, motions, acting);
         self.elements.iter().map(of).collect()
+    }
+
+    /// Takes the balances on to a state; the first one is the start of the run.
+    pub fn balance(
+        &mut self,
+        energies: impl FnOnce() -> Energies<f64>,
+        bodies: impl FnOnce() -> Vec<BodyBalance>,
+    ) {
+        if let Some(balance) = &mut self.energy {
+            balance.add(energies());
+        }
+        if let Some(balance) = &mut self.reactions {
+            balance.add(&bodies());
+        }
     }
 }

@@ -1,5 +1,6 @@
 //! Search along a curve: the nearest contact, and places where a curve cannot carry a joint.
 
+use super::corner::{jump, Jump};
 use super::plane_curve::Curve;
 use crate::math::{Interpolation, Local};
 
@@ -137,7 +138,7 @@ impl Curve {
     }
 }
 
-/// A place where the curve stops or turns back: C′ = 0, or C has no value.
+/// A place where the curve stops or turns back, C′ = 0, where it jumps or has a corner, or where C has no value.
 pub(super) fn cusp(curve: &Curve) -> Option<String> {
     if curve.fault().is_some() {
         return None; // it is reported at the curve
@@ -158,6 +159,14 @@ pub(super) fn cusp(curve: &Curve) -> Option<String> {
     });
     if let Some(u) = places(curve).find(|u| !speed(*u).is_finite() || !finite(curve.point(*u))) {
         return Some(format!("it has no value with a derivative at u = {u:.6}"));
+    }
+    let size = places(curve).map(|u| curve.point(u).norm()).fold(0.0, f64::max);
+    if let Some(Jump { u, order, by }) = jump(curve, [size, largest]) {
+        let at = place(curve, u);
+        return Some(match order {
+            0 => format!("it has a gap of {by:.3e} m for {at}; its parts must meet"),
+            _ => format!("it has a corner for {at}: C' jumps by {by:.3e} m; its parts must have one C' there"),
+        });
     }
     let slowest = least(curve, speed);
     (speed(slowest) <= 1e-6 * largest).then(|| {

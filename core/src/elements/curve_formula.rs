@@ -129,12 +129,11 @@ impl<S: Real> Formula<S> {
 }
 
 impl<S: Real> Formula<S> {
-    /// The places of u at which a condition of a formula changes, and the seam of a periodic curve with conditions; of
-    /// the first lane of the scalar.
+    /// The places of u at which a condition of a formula changes, where its motion laws begin and end, and then the seam
+    /// of a periodic curve; of the first lane of the scalar.
     pub(super) fn breaks(&self) -> Option<Arc<Knots>> {
         let written = &self.written;
-        let is_smooth = |tape: &Tape| tape.switches().iter().all(|switch| switch.smooth);
-        if is_smooth(&written.x) && is_smooth(&written.y) {
+        if written.x.switches().is_empty() && written.y.switches().is_empty() {
             return None;
         }
         let numbers = self.range.iter().chain(&self.values).map(|x| x.in_lanes()[0]);

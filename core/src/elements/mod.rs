@@ -8,6 +8,7 @@
 mod attachment;
 
 pub(crate) mod contact;
+mod corner;
 mod curve_forms;
 mod curve_formula;
 mod declare;

@@ -163,8 +163,8 @@ impl<S: Real> Curve<S> {
         }
     }
 
-    /// The places of u at which the curve is not smooth: where a condition of a formula changes, and the points of a
-    /// spline whose curvature jumps.
+    /// The places of u at which the curve is not smooth: where a condition of a formula changes or one of its motion
+    /// laws begins or ends, and the points of a spline whose curvature jumps.
     pub fn breaks(&self) -> Option<Arc<Knots>> {
         match self {
             Self::Formula(formula) => formula.breaks(),

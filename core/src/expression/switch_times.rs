@@ -40,8 +40,7 @@ pub fn switch_times(
     search(tape, &tape.switches(), parameters, span, out)
 }
 
-/// The same for an expression of one variable, such as a curve, over this variable in place of the time, without places
-/// where it is C².
+/// The same for an expression of one variable, such as a curve, over this variable in place of the time.
 ///
 /// # Errors
 /// As [`switch_times`].
@@ -51,7 +50,7 @@ pub fn switch_places(
     span: [f64; 2],
     out: &mut Vec<f64>,
 ) -> Result<(), TooManySwitches> {
-    let varies = |s: Switch| Switch { time: (s.time || s.state) && !s.smooth, state: false, ..s };
+    let varies = |s: Switch| Switch { time: s.time || s.state, state: false, ..s };
     let switches: Vec<Switch> = tape.switches().into_iter().map(varies).collect();
     search(tape, &switches, parameters, span, out)
 }

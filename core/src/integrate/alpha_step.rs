@@ -308,13 +308,20 @@ impl AlphaStep {
         for (i, error) in error_z.iter_mut().enumerate() {
             *error = c_z * jerk(end.dz[i] - start.dz[i], of_z.slope[i]);
         }
+        // with a whole step that is determined by the constraints nothing else shows that it is too long
+        let whole = scale.norm(of_q, &[], &[]);
         for x in [of_q, error_v] {
             self.dv.copy_from_slice(x);
             system.system.normal(&mut self.dv);
             x.iter_mut().zip(&self.dv).for_each(|(x, normal)| *x -= normal);
         }
         let [dq, dv, dz] = &self.error;
-        scale.norm(dq, dv, dz)
+        let along = scale.norm(dq, dv, dz);
+        if whole > scale.far() {
+            along.max(whole)
+        } else {
+            along
+        }
     }
 
     /// The norm of corrections that are rounding alone: of q relative to its largest component, since

@@ -3,6 +3,9 @@
 use super::implicit_state::ImplicitState;
 use super::step_control::{Atol, StepControl};
 
+/// Relative error of the positions beyond which a step may end on another branch of the constraints.
+const FAR: f64 = 1e-2;
+
 /// Error weights of q, then of v, then of z.
 #[derive(Clone, Debug)]
 pub(super) struct ErrorWeights {
@@ -29,6 +32,11 @@ impl ErrorWeights {
                 *weight = atol + self.rtol * a.abs().max(b.abs());
             }
         }
+    }
+
+    /// The norm beyond which errors normal to the constraints count, although the constraints remove them.
+    pub fn far(&self) -> f64 {
+        FAR / self.rtol
     }
 
     /// √(mean (xᵢ / weightᵢ)²) over q, v and z; 0 / 0 counts as nothing.

@@ -185,6 +185,8 @@ impl RadauStepper {
                     size = SHORTEN * h.abs();
                     dae.counts.rejected += 1;
                     rejected = true;
+                    // the middle of the shorter step is elsewhere, and may have a tangent where that of this one has none
+                    self.method.step.fresh = false;
                 }
                 self.method.keep_tangent = false;
                 continue;

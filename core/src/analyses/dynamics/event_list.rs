@@ -112,7 +112,7 @@ impl<'a> EventList<'a> {
         });
         for event in &watched {
             if let Function::Condition(condition) = event.function {
-                so_far.watch(condition.dissipative());
+                condition.watch(&mut so_far);
             }
         }
         let evaluator = Evaluator::new(ode.model, solves, &ode.workspace, so_far);

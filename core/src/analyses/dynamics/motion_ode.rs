@@ -7,7 +7,7 @@ use super::singularity_passage::{would_pass, SingularityPassage};
 use super::stabilizations::Stabilization;
 use crate::analyses::mobility;
 use crate::equations::augmented::NearSingular;
-use crate::equations::{Gains, Workspace};
+use crate::equations::{constraints, Gains, Workspace};
 use crate::integrate::{all_finite, Manifold, Ode, Structure, TimesToAvoid, TrialChanges};
 use crate::model::{size, Model};
 use crate::solve::Breakdown;
@@ -133,6 +133,9 @@ impl<'a> MotionOde<'a> {
         self.paradox = None;
         if let Err(breakdown) = self.workspace.respond(self.model, t, self.gains) {
             dy.fill(f64::NAN);
+            if self.is_undefined(t) {
+                return Ok(()); // a shorter step may avoid it
+            }
             if matches!(breakdown, Breakdown::Reaction(_)) || self.is_far(y) {
                 self.paradox = Some((t, breakdown));
                 return Ok(());
@@ -157,6 +160,14 @@ impl<'a> MotionOde<'a> {
     fn is_far(&self, y: &[f64]) -> bool {
         let [q, ..] = self.model.layout.split(y);
         q.iter().any(|q| q.abs() > FAR * size(self.model))
+    }
+
+    /// Whether a constraint has no derivative at a trial state, such as a table of a curve beyond its ends.
+    #[cold]
+    fn is_undefined(&self, t: f64) -> bool {
+        let mut jacobian = vec![0.0; self.model.layout.n_entries];
+        constraints::jacobian(self.model, &self.workspace.motions, t, &mut jacobian);
+        !all_finite(&jacobian)
     }
 
     /// Stops where the accelerations are not unique. A trial state that is not finite is rejected, because a shorter

@@ -51,7 +51,9 @@ impl Input {
 pub(super) fn output(model: &Model, name: &str) -> Result<Signal, Problem> {
     match signal(model, name) {
         Some(
-            Signal::Energy(Energy::Dissipated | Energy::Work | Energy::Total)
+            Signal::Energy(Energy::Dissipated | Energy::Work | Energy::Total | Energy::Balance)
+            | Signal::ForceDissipated(_)
+            | Signal::Balance
             | Signal::Drift { .. },
         ) => {
             let message = format!("'{name}' depends on the run, not on the state alone");
