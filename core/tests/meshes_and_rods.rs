@@ -85,7 +85,7 @@ fn meshes_of_two_wheels() {
     }
 }
 
-/// Wheels whose ratio is no fraction of small numbers mesh at more angles than are listed.
+/// Wheels with an irrational ratio mesh at more angles than are listed.
 #[test]
 fn more_meshes_than_the_limit() {
     let m = model(&wheels("type = 'gear'", [1.0, 2.0_f64.sqrt()], 1.0 + 2.0_f64.sqrt()));
@@ -129,7 +129,7 @@ fn a_geared_five_bar() {
     }
 }
 
-/// A coupling 1:2 counts the turns of the rocker of a four-bar, which no dyad knows.
+/// A coupling 1:2 counts the turns of the rocker of a four-bar; a dyad closes at any of them.
 #[test]
 fn a_coupling_counts_whole_turns() {
     let m = model(

@@ -21,7 +21,7 @@ struct Rod {
 }
 
 impl Placer<'_> {
-    /// Constraint `k` as a rod that holds body `b`; None if it is none, or if its length depends on positions.
+    /// Constraint `k` as a rod that holds body `b`; None if it is not one, or if its length depends on positions.
     fn rod(&self, k: usize, b: usize) -> Option<Rod> {
         let item = &self.equations.model.constraints[k];
         let element = at_time(self.equations.model, item, self.targets.t)?;
@@ -33,7 +33,7 @@ impl Placer<'_> {
         held.then(|| Rod { constraint: k, own, from: other.point(at_other), length })
     }
 
-    /// The poses at which rod `k` has its length; None if the constraint is no rod.
+    /// The poses at which rod `k` has its length; None if the constraint is not a rod.
     pub fn at_rod(&self, k: usize, b: usize, freedom: &Freedom) -> Option<Vec<Pose>> {
         let rod = self.rod(k, b)?;
         let at: Vec<f64> = match freedom {
