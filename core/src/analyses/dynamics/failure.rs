@@ -84,7 +84,7 @@ pub enum Reason {
     },
 }
 
-/// Mismatch of lengths, relative to the size, from which motions that pass a change point are told apart.
+/// Mismatch of lengths, relative to the size, from which motions that pass a change point are distinct.
 const MEET: f64 = 1e-8;
 
 impl From<Reason> for Box<Failure> {
@@ -323,7 +323,7 @@ fn place(model: &Model, t: f64, q: &[f64], row: usize) -> String {
 fn beside(model: &Model, t: f64, q: &[f64], (row, left): (usize, f64)) -> String {
     let size = size(model);
     format!(
-        "singular position at t = {t:.6} s: two motions pass each other without meeting, too near to be told apart, \
+        "singular position at t = {t:.6} s: two motions pass each other without meeting, too near to be distinguished, \
          because lengths miss a change point by a little, less than {:.0e} m{}; make the lengths exact, so that the \
          motions meet, or, if no constraint is redundant, change them by more than {:.0e} m",
         left * size,
