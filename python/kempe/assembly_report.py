@@ -43,12 +43,12 @@ class Iteration:
 
 @dataclass(frozen=True)
 class Mode:
-    """The side on which a dyad was closed.
+    """The side on which a dyad was closed, or a body on two rods (``distance``).
 
     Attributes:
-        bodies: the bodies of the dyad.
-        joint: the joint between them.
-        anchors: the outer joints of the dyad.
+        bodies: the bodies of the dyad, or the one on two rods.
+        joint: the joint between them, or the body on two rods.
+        anchors: the outer joints of the dyad, or the rods.
         side: side of the line from the first to the second anchor on which the joint lies, "left"
             or "right". If the second anchor is a slide: "ahead" of the first anchor along the
             slide, or "behind" it.

@@ -104,7 +104,7 @@ def configurations(
 ) -> ConfigurationsResult:
     """All positions in which a mechanism closes.
 
-    Where dyads alone place all bodies, all combinations of their closures are computed, and
+    Where dyads, rods and wheels that mesh place all bodies, all combinations are computed, and
     ``complete`` is true. Otherwise Newton's method starts from many positions, and from each one
     found the driven values are followed through their limits until they return; ``complete`` is
     then false, even if all have been found. Guesses are not used.

@@ -26,6 +26,9 @@ const EXCURSION_WITHOUT: f64 = 3e-4;
 /// Largest residual of an equation that holds, relative to the size of the mechanism. Others have a residual of the
 /// order of the square of the excursion.
 const HOLDS: f64 = 1e-11;
+/// The same as a multiple of what joints are open at the start, where lengths do not match exactly: an excursion changes
+/// this residual by a part of itself.
+const MISMATCH: f64 = 10.0;
 /// Largest number of bodies whose angle is tried to reach a neighbouring position, and of excursions without the dependent
 /// equations.
 const EXCURSIONS: usize = 6;
@@ -124,6 +127,9 @@ fn split(
     }
     let mut closing = Closing::new(model, t, stop).without(&rows);
     let scales = row_scales(model);
+    let mismatch =
+        closing.phi(q).iter().zip(&scales).fold(0.0, |most: f64, (x, s)| most.max((x / s).abs()));
+    let small = HOLDS.max(MISMATCH * mismatch);
     let mut holds = vec![true; rows.len()];
     // one excursion may by chance keep an equation almost satisfied
     for number in 0..EXCURSIONS {
@@ -133,7 +139,7 @@ fn split(
         }
         let phi = closing.phi(&near);
         for (row, holds) in rows.iter().zip(&mut holds) {
-            *holds &= phi[*row].abs() <= HOLDS * scales[*row];
+            *holds &= phi[*row].abs() <= small * scales[*row];
         }
         if !holds.contains(&true) {
             break;

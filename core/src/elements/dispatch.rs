@@ -115,6 +115,10 @@ macro_rules! constraints {
             pub fn own_start(&self, bodies: &[Pose]) -> Vec<f64> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::own_start(e, bodies),)+)+ }
             }
+            /// The constant modulo which the last equation is taken, if there is one.
+            pub fn modulus(&self) -> Option<f64> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::modulus(e),)+)+ }
+            }
             /// A field with an impossible value, and the reason.
             pub fn fault(&self) -> Option<(&'static str, String)> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::fault(e),)+)+ }

@@ -223,6 +223,13 @@ pub trait Joint: Element {
         Vec::new()
     }
 
+    /// The constant modulo which the last equation is taken, so that a body may have several angles at one place of the
+    /// others, as meshed wheels do; None if there is none.
+    fn modulus(e: &Self::Over<f64>) -> Option<f64> {
+        let _ = e;
+        None
+    }
+
     /// The symbols that a drawing shows for the element; a law that varies is NaN here.
     fn symbols(e: &Self::Over<f64>) -> Vec<SceneSymbol> {
         let _ = e;

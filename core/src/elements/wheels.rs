@@ -29,9 +29,14 @@ pub(super) fn rolled<S: Real>(d: Vec2<S>, [r_i, r_j]: [S; 2], sigma: f64, at: &A
     r_i * (at.i().angle - theta) + S::constant(sigma) * r_j * (at.j().angle - theta)
 }
 
+/// What a whole turn of θ changes, 2π `radius`.
+pub(super) fn whole_turn<S: Real>(radius: S) -> S {
+    S::constant(std::f64::consts::TAU) * radius
+}
+
 /// `x` modulo 2π `radius`, nearest 0: a whole turn of θ changes nothing.
 pub(super) fn nearest<S: Real>(x: S, radius: S) -> S {
-    let turn = S::constant(std::f64::consts::TAU) * radius;
+    let turn = whole_turn(radius);
     x - turn * (x / turn + S::constant(0.5)).floor()
 }
 

@@ -24,102 +24,132 @@ const LIGHT: f64 = 10.0;
 const STEPS: usize = 2;
 const MORE: usize = 10;
 
-/// The additions at a state, and memory.
-pub(super) struct Gradients<'a, S> {
-    model: &'a Model<S>,
-    motions: &'a Motions<S>,
-    matrix: &'a Augmented<S>,
-    /// Whether rows are damped.
-    damped: bool,
-    /// E, block by block.
-    blocks: Vec<(Columns, MassBlock<S>)>,
-    /// The coordinates of E.
-    light: Vec<usize>,
-    undetermined: Option<usize>,
+/// The additions E, block by block.
+pub(super) type Additions<S> = Vec<(Columns, MassBlock<S>)>;
+
+/// Vectors of the iteration, kept from one solution to the next.
+#[derive(Clone, Debug)]
+pub(super) struct Vectors<S> {
+    r: Vec<S>,
+    s: Vec<S>,
+    p: Vec<S>,
+    z: Vec<S>,
+    ez: Vec<S>,
+    open: Vec<S>,
 }
 
-impl<'a, S: Real> Gradients<'a, S> {
-    /// At a state with its factors.
-    pub fn new(
-        (model, compiled): (&'a Model<S>, &Compiled<S>),
-        motions: &'a Motions<S>,
-        matrix: &'a Augmented<S>,
-        damped: bool,
-    ) -> Self {
-        let mut blocks = Vec::new();
-        for (k, added) in compiled.added.iter().enumerate().filter(|(_, added)| added.any()) {
-            let center = model.bodies[k + 1].center;
-            let [mass, inertia] = [added.mass, added.inertia].map(S::constant);
-            let coupling = motions[k + 1].pose.global(center).perp().scale(mass);
-            let inertia = inertia + mass * center.dot(center);
-            blocks.push((model.layout.bodies[k + 1], MassBlock { mass, coupling, inertia }));
+impl<S> Default for Vectors<S> {
+    fn default() -> Self {
+        let [r, s, p, z, ez, open] = [(); 6].map(|()| Vec::new());
+        Self { r, s, p, z, ez, open }
+    }
+}
+
+impl<S: Real> Vectors<S> {
+    /// Zeros for `n` coordinates, and `all` with the rows.
+    fn clear(&mut self, n: usize, all: usize) {
+        for (vector, length) in [
+            (&mut self.r, n),
+            (&mut self.s, n),
+            (&mut self.ez, n),
+            (&mut self.p, all),
+            (&mut self.z, all),
+            (&mut self.open, all),
+        ] {
+            vector.clear();
+            vector.resize(length, S::zero());
         }
-        let own = S::constant(compiled.own_mass);
-        let coupling = crate::math::Vec2::zero();
-        let block = MassBlock { mass: own, coupling, inertia: own };
-        blocks.extend(model.layout.owners[compiled.added.len()..].iter().map(|c| (*c, block)));
-        let light = blocks.iter().flat_map(|(columns, _)| columns.range()).collect();
-        Self { model, motions, matrix, damped, blocks, light, undetermined: None }
     }
+}
 
-    /// The coordinate of a direction without mass, if one was met.
-    pub fn undetermined(&self) -> Option<usize> {
-        self.undetermined
+/// Puts the additions at a state into `blocks`.
+pub(super) fn put_blocks<S: Real>(
+    model: &Model<S>,
+    compiled: &Compiled<S>,
+    motions: &Motions<S>,
+    blocks: &mut Additions<S>,
+) {
+    blocks.clear();
+    for (k, added) in compiled.added.iter().enumerate().filter(|(_, added)| added.any()) {
+        let center = model.bodies[k + 1].center;
+        let [mass, inertia] = [added.mass, added.inertia].map(S::constant);
+        let coupling = motions[k + 1].pose.global(center).perp().scale(mass);
+        let inertia = inertia + mass * center.dot(center);
+        blocks.push((model.layout.bodies[k + 1], MassBlock { mass, coupling, inertia }));
     }
+    let own = S::constant(compiled.own_mass);
+    let coupling = crate::math::Vec2::zero();
+    let block = MassBlock { mass: own, coupling, inertia: own };
+    blocks.extend(model.layout.owners[compiled.added.len()..].iter().map(|c| (*c, block)));
+}
 
+/// The additions at a state.
+pub(super) struct Gradients<'a, S> {
+    pub model: &'a Model<S>,
+    pub motions: &'a Motions<S>,
+    pub matrix: &'a Augmented<S>,
+    /// Whether rows are damped.
+    pub damped: bool,
+    /// M, body by body.
+    pub masses: &'a [MassBlock<S>],
+    pub blocks: &'a [(Columns, MassBlock<S>)],
+    pub undetermined: Option<usize>,
+}
+
+impl<S: Real> Gradients<'_, S> {
     /// Turns x = P⁻¹ f into K⁻¹ f. Remainders below rounding of `terms` are left.
-    pub fn take_back(&mut self, x: &mut [S], terms: &[S]) {
+    pub fn take_back(&mut self, x: &mut [S], terms: &[S], vectors: &mut Vectors<S>) {
         let n = self.model.layout.n_q;
-        let mut r = vec![S::zero(); n];
-        self.put_additions(&x[..n], &mut r);
-        if self.is_settled(&r, terms) {
+        vectors.clear(n, x.len());
+        let Vectors { r, s, p, z, ez, open } = vectors;
+        self.put_additions(&x[..n], r);
+        if self.is_settled(r, terms) {
             return;
         }
-        let (mut s, mut p) = (vec![S::zero(); n], vec![S::zero(); x.len()]);
-        let (mut z, mut ez) = (p.clone(), r.clone());
         let mut last = S::zero();
-        for _ in 0..STEPS * self.light.len() + MORE {
-            z[..n].copy_from_slice(&r);
+        let light: usize = self.blocks.iter().map(|(columns, _)| columns.count).sum();
+        for _ in 0..STEPS * light + MORE {
+            z[..n].copy_from_slice(r);
             z[n..].fill(S::zero());
-            self.matrix.solve(&mut z);
-            let mut own = self.energy(&z);
-            self.put_additions(&z[..n], &mut ez);
-            if !self.damped && above(dot(&ez, &z), own * S::constant(LIGHT)) {
-                self.purify(&mut z);
-                own = self.energy(&z);
-                self.put_additions(&z[..n], &mut ez);
+            self.matrix.solve(z);
+            let mut own = self.energy(z);
+            self.put_additions(&z[..n], ez);
+            if !self.damped && above(dot(ez, z), own * S::constant(LIGHT)) {
+                self.purify(z, open);
+                own = self.energy(z);
+                self.put_additions(&z[..n], ez);
             }
-            let square = own + dot(&ez, &z);
-            if self.is_settled(&ez, terms) {
-                x.iter_mut().zip(&z).for_each(|(x, z)| *x += *z);
+            let square = own + dot(ez, z);
+            if self.is_settled(ez, terms) {
+                x.iter_mut().zip(&*z).for_each(|(x, z)| *x += *z);
                 return;
             }
             if !self.damped {
-                self.absorb(x, &mut z, (&mut r, &ez));
+                self.absorb(x, z, (r, ez));
             }
             let beta = S::select(last, square / last, S::zero());
-            p.iter_mut().zip(&z).for_each(|(p, z)| *p = *z + beta * *p);
-            s.iter_mut().zip(&r).for_each(|(s, r)| *s = *r + beta * *s);
+            p.iter_mut().zip(&*z).for_each(|(p, z)| *p = *z + beta * *p);
+            s.iter_mut().zip(&*r).for_each(|(s, r)| *s = *r + beta * *s);
             // the additions of p, then the change of r
-            let change = &mut ez;
+            let change = &mut *ez;
             self.put_additions(&p[..n], change);
-            let Some(alpha) = self.step(&p, square, change) else { return };
-            x.iter_mut().zip(&p).for_each(|(x, p)| *x += alpha * *p);
-            self.put_product(&p[..n], &s, change);
-            r.iter_mut().zip(change).for_each(|(r, change)| *r -= alpha * *change);
+            let Some(alpha) = self.step(p, square, change) else { return };
+            x.iter_mut().zip(&*p).for_each(|(x, p)| *x += alpha * *p);
+            self.put_product(&p[..n], s, change);
+            r.iter_mut().zip(&*change).for_each(|(r, change)| *r -= alpha * *change);
             last = square;
         }
     }
 
     /// Takes what violates the constraints from z. A long step follows along a direction of hardly any mass, and rounding
     /// errors of massless coordinates, which the constraints determine, must not be taken for such a direction.
-    fn purify(&self, z: &mut [S]) {
+    fn purify(&self, z: &mut [S], open: &mut [S]) {
         let n = self.model.layout.n_q;
-        let mut open = vec![S::zero(); z.len()];
+        open[..n].fill(S::zero());
         constraints::times_all(self.model, self.matrix.jacobian(), &z[..n], &mut open[n..]);
         open[n..].iter_mut().for_each(|open| *open = -*open);
-        self.matrix.solve(&mut open);
-        z.iter_mut().zip(&open).for_each(|(z, open)| *z += *open);
+        self.matrix.solve(open);
+        z.iter_mut().zip(&*open).for_each(|(z, open)| *z += *open);
     }
 
     /// Adds the multipliers of z = P⁻¹ r to x. What is left of r is (M + E) z.
@@ -128,7 +158,7 @@ impl<'a, S: Real> Gradients<'a, S> {
         x[n..].iter_mut().zip(&z[n..]).for_each(|(x, z)| *x += *z);
         z[n..].fill(S::zero());
         r.copy_from_slice(ez);
-        mass::add_times(self.model, self.motions, &z[..n], r);
+        mass::add_blocks(self.model, self.masses, &z[..n], r);
     }
 
     /// The length of a step along p, whose additions are `ep`, with the square |z|² of the remainder; None if p has no
@@ -153,7 +183,7 @@ impl<'a, S: Real> Gradients<'a, S> {
             return;
         }
         out.fill(S::zero());
-        mass::add_times(self.model, self.motions, p, out);
+        mass::add_blocks(self.model, self.masses, p, out);
     }
 
     /// pᵀ K p of a direction that meets the constraints up to their damping; never a difference.
@@ -172,14 +202,14 @@ impl<'a, S: Real> Gradients<'a, S> {
     /// E a into `out`.
     fn put_additions(&self, a: &[S], out: &mut [S]) {
         out.fill(S::zero());
-        for (columns, block) in &self.blocks {
+        for (columns, block) in self.blocks {
             columns.add(block.times(columns.of(a)), out);
         }
     }
 
     fn is_settled(&self, ez: &[S], terms: &[S]) -> bool {
-        let open = |k: &usize| above(ez[*k].abs(), terms[*k] * S::constant(SETTLED));
-        !self.light.iter().any(open)
+        let open = |k: usize| above(ez[k].abs(), terms[k] * S::constant(SETTLED));
+        !self.blocks.iter().flat_map(|(columns, _)| columns.range()).any(open)
     }
 
     /// The coordinate that has the largest part in a direction.

@@ -59,6 +59,24 @@ pub fn add_times<S: Real>(model: &Model<S>, motions: &[Motion<S>], x: &[S], y: &
     }
 }
 
+/// The blocks of all moving bodies into `blocks`.
+pub(super) fn put_blocks<S: Real>(
+    model: &Model<S>,
+    motions: &[Motion<S>],
+    blocks: &mut Vec<MassBlock<S>>,
+) {
+    blocks.clear();
+    let bodies = model.bodies.iter().zip(motions).skip(1);
+    blocks.extend(bodies.map(|(body, motion)| block(body, motion)));
+}
+
+/// [`add_times`] with blocks that are known.
+pub(super) fn add_blocks<S: Real>(model: &Model<S>, blocks: &[MassBlock<S>], x: &[S], y: &mut [S]) {
+    for (block, columns) in blocks.iter().zip(&model.layout.bodies[1..]) {
+        columns.add(block.times(columns.of(x)), y);
+    }
+}
+
 /// xᵀ M x as a sum of squares, so that nothing is cancelled.
 pub fn twice_energy<S: Real>(model: &Model<S>, motions: &[Motion<S>], x: &[S]) -> S {
     let bodies = model.bodies.iter().zip(motions).zip(&model.layout.bodies).skip(1);

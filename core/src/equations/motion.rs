@@ -45,6 +45,8 @@ pub struct Workspace<S = f64> {
     powers: Powers<S>,
     /// A constant vector that is subtracted from γ; empty if absent.
     offset: Vec<S>,
+    /// Vectors of solutions by a modified matrix.
+    memory: refine::Memory<S>,
     /// Whether one elimination does not solve the equations: inertia is added, redundant rows are damped, or forces
     /// depend on reactions.
     modified: bool,
@@ -107,6 +109,7 @@ impl<S: Real> Workspace<S> {
             solution: vec![S::zero(); n_unknowns + m],
             powers: Powers::zero(),
             offset: Vec::new(),
+            memory: refine::Memory::default(),
             n_q: model.layout.n_q,
             n_unknowns,
         }
@@ -204,7 +207,9 @@ impl<S: Real> Workspace<S> {
     /// The same by the whole matrix; the factor may be that of a modified matrix. Forces that depend on reactions are
     /// iterated.
     fn solve_and_refine(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
-        let Self { motions, z, compiled, matrix, solution, powers, offset, reactive, .. } = self;
+        let Self {
+            motions, z, compiled, matrix, solution, powers, offset, reactive, memory, ..
+        } = self;
         let padded = self.n_unknowns;
         let mut right = vec![S::zero(); model.layout.n_rows];
         constraints::linearize(model, motions, t, gains, &mut right, matrix.jacobian_mut());
@@ -213,8 +218,19 @@ impl<S: Real> Workspace<S> {
         matrix.factor()?;
         let (solution, powers) = ((&mut solution[..], padded), powers);
         let force = 0.0;
-        let mut at =
-            ForGiven { model, compiled, motions, matrix, z, t, right, solution, powers, force };
+        let mut at = ForGiven {
+            model,
+            compiled,
+            motions,
+            matrix,
+            z,
+            t,
+            right,
+            solution,
+            powers,
+            force,
+            memory,
+        };
         let mut lam = at.respond(None)?;
         if let Some(&row) = reactive.first() {
             let found = reactive::solve(reactive, &mut lam, &mut at)?;
@@ -262,14 +278,14 @@ impl<S: Real> Workspace<S> {
         (impulses, rates): (&[S], &[S]),
     ) -> Result<[Vec<S>; 2], Breakdown> {
         self.motions.place(&model.layout, q, &vec![S::zero(); self.n_q]);
-        let Self { motions, compiled, matrix, .. } = self;
+        let Self { motions, compiled, matrix, memory, .. } = self;
         let mut right = vec![S::zero(); model.layout.n_rows];
         let gains = Gains::default();
         constraints::linearize(model, motions, t, gains, &mut right, matrix.jacobian_mut());
         matrix.set_mass(compiled, motions);
         matrix.factor()?;
         let mut x = [impulses, rates].concat();
-        refine::solve((model, compiled), motions, matrix, &mut x)?;
+        refine::solve((model, compiled), motions, matrix, &mut x, memory)?;
         let impulses = x.split_off(self.n_q);
         Ok([x, impulses])
     }
@@ -332,6 +348,7 @@ struct ForGiven<'a, S> {
     powers: &'a mut Powers<S>,
     /// The largest generalized force.
     force: f64,
+    memory: &'a mut refine::Memory<S>,
 }
 
 impl<S: Real> ForGiven<'_, S> {
@@ -347,7 +364,8 @@ impl<S: Real> ForGiven<'_, S> {
             reactions::add_loads(model, self.motions, self.t, lam, q);
         }
         self.force = reactive::largest(q);
-        let outcome = refine::solve((model, self.compiled), self.motions, self.matrix, &mut x);
+        let of = (model, self.compiled);
+        let outcome = refine::solve(of, self.motions, self.matrix, &mut x, self.memory);
         let (solution, padded) = &mut self.solution;
         solution[..n].copy_from_slice(&x[..n]);
         solution[*padded..].copy_from_slice(&x[n..]);
@@ -371,7 +389,7 @@ impl<S: Real> reactive::Response<S> for ForGiven<'_, S> {
         let acting = Acting { z: self.z, lam: Some(lam), t: self.t };
         let mut x = by_multiplier(model, self.motions, acting, row);
         x.resize(n + model.layout.n_rows, S::zero());
-        refine::solve((model, self.compiled), self.motions, self.matrix, &mut x)?;
+        refine::solve((model, self.compiled), self.motions, self.matrix, &mut x, self.memory)?;
         Ok(x.split_off(n))
     }
 }

@@ -7,8 +7,9 @@
 //! singular positions the ridge. The remainder is computed with K, so the limit is exact.
 
 use super::augmented::Augmented;
-use super::gradients::Gradients;
+use super::gradients::{put_blocks, Additions, Gradients, Vectors};
 use super::kinematics::Motions;
+use super::mass::MassBlock;
 use super::{constraints, mass, Compiled};
 use crate::math::Real;
 use crate::model::Model;
@@ -27,6 +28,28 @@ const SIGNIFICANT: f64 = 1e-9;
 /// numbers have.
 const LEAST: f64 = 1e-10;
 
+/// Vectors of a solution, kept for the next one.
+#[derive(Clone, Debug)]
+pub struct Memory<S> {
+    b: Vec<S>,
+    /// |Φ_q|.
+    magnitudes: Vec<S>,
+    sizes: Vec<S>,
+    terms: Vec<S>,
+    correction: Vec<S>,
+    masses: Vec<MassBlock<S>>,
+    blocks: Additions<S>,
+    vectors: Vectors<S>,
+}
+
+impl<S> Default for Memory<S> {
+    fn default() -> Self {
+        let [b, magnitudes, sizes, terms, correction] = [(); 5].map(|()| Vec::new());
+        let (masses, blocks, vectors) = (Vec::new(), Vec::new(), Vectors::default());
+        Self { b, magnitudes, sizes, terms, correction, masses, blocks, vectors }
+    }
+}
+
 /// Solves K x = b; `x` contains b at first and the solution afterwards, shape (n_q + n_rows).
 ///
 /// # Errors
@@ -36,38 +59,49 @@ pub fn solve<S: Real>(
     motions: &Motions<S>,
     matrix: &Augmented<S>,
     x: &mut [S],
+    memory: &mut Memory<S>,
 ) -> Result<(), Breakdown> {
-    let b = x.to_vec();
+    let Memory { b, magnitudes, sizes, terms, correction, masses, blocks, vectors } = memory;
+    b.clear();
+    b.extend_from_slice(x);
     let damped = matrix.regularised() || matrix.damps();
     matrix.solve(x);
+    mass::put_blocks(model, motions, masses);
     if !compiled.adds_mass {
         for _ in 0..FOR_REDUNDANCY {
-            let mut correction = remainder(model, motions, matrix.jacobian(), &b, x);
-            matrix.solve(&mut correction);
-            x.iter_mut().zip(&correction).for_each(|(x, dx)| *x += *dx);
+            put_remainder(model, masses, matrix.jacobian(), (b, x), correction);
+            matrix.solve(correction);
+            x.iter_mut().zip(&*correction).for_each(|(x, dx)| *x += *dx);
         }
         return Ok(());
     }
-    let mut gradients = Gradients::new((model, compiled), motions, matrix, damped);
-    let magnitudes: Vec<S> = matrix.jacobian().iter().map(|x| x.abs()).collect();
-    let terms = |x: &[S]| terms(model, motions, &magnitudes, &b, x);
-    gradients.take_back(x, &terms(x));
+    put_blocks(model, compiled, motions, blocks);
+    let mut gradients =
+        Gradients { model, motions, matrix, damped, masses, blocks, undetermined: None };
+    magnitudes.clear();
+    magnitudes.extend(matrix.jacobian().iter().map(|x| x.abs()));
+    put_terms(model, masses, magnitudes, (b, x), sizes, terms);
+    gradients.take_back(x, terms, vectors);
     let mut last = f64::INFINITY;
     for corrections in 0..MOST {
-        let mut correction = remainder(model, motions, matrix.jacobian(), &b, x);
-        let terms = terms(x);
-        let left = largest(&correction, &terms);
+        put_remainder(model, masses, matrix.jacobian(), (b, x), correction);
+        put_terms(model, masses, magnitudes, (b, x), sizes, terms);
+        let left = largest(correction, terms);
         let needed = damped && corrections < FOR_REDUNDANCY;
         if !needed && (left <= ROUNDING || left > 0.5 * last) {
             last = left.min(last);
             break;
         }
         last = left;
-        matrix.solve(&mut correction);
-        gradients.take_back(&mut correction, &terms);
-        x.iter_mut().zip(&correction).for_each(|(x, dx)| *x += *dx);
+        matrix.solve(correction);
+        gradients.take_back(correction, terms, vectors);
+        x.iter_mut().zip(&*correction).for_each(|(x, dx)| *x += *dx);
+        // the first solution left this part; that of the correction leaves as small a part of it
+        if !damped && left <= SIGNIFICANT {
+            break;
+        }
     }
-    match gradients.undetermined() {
+    match gradients.undetermined {
         Some(column) if last > SIGNIFICANT => Err(Breakdown::Column(column)),
         _ => Ok(()),
     }
@@ -79,38 +113,41 @@ fn largest<S: Real>(remainder: &[S], terms: &[S]) -> f64 {
     remainder.iter().zip(terms).map(|both| part(both).largest_magnitude()).fold(0.0, f64::max)
 }
 
-/// b - K x.
-fn remainder<S: Real>(
+/// b - K x into `out`.
+fn put_remainder<S: Real>(
     model: &Model<S>,
-    motions: &Motions<S>,
+    masses: &[MassBlock<S>],
     jacobian: &[S],
-    b: &[S],
-    x: &[S],
-) -> Vec<S> {
+    (b, x): (&[S], &[S]),
+    out: &mut Vec<S>,
+) {
     let n = model.layout.n_q;
-    let mut out = vec![S::zero(); x.len()];
+    out.clear();
+    out.resize(x.len(), S::zero());
     let ((a, lam), (upper, lower)) = (x.split_at(n), out.split_at_mut(n));
     constraints::add_transposed(model, jacobian, lam, upper);
-    mass::add_times(model, motions, a, upper);
+    mass::add_blocks(model, masses, a, upper);
     constraints::times_all(model, jacobian, a, lower);
     out.iter_mut().zip(b).for_each(|(out, b)| *out = *b - *out);
-    out
 }
 
-/// |b| + |M a| + |Φ_qᵀ| |λ| and |b| + |Φ_q| |a|, with the `magnitudes` of Φ_q: the terms of which the remainder is the
-/// difference.
-fn terms<S: Real>(
+/// |b| + |M a| + |Φ_qᵀ| |λ| and |b| + |Φ_q| |a| into `out`, with the `magnitudes` of Φ_q: the terms of which the remainder
+/// is the difference. `sizes` is memory.
+fn put_terms<S: Real>(
     model: &Model<S>,
-    motions: &Motions<S>,
+    masses: &[MassBlock<S>],
     magnitudes: &[S],
-    b: &[S],
-    x: &[S],
-) -> Vec<S> {
+    (b, x): (&[S], &[S]),
+    sizes: &mut Vec<S>,
+    out: &mut Vec<S>,
+) {
     let n = model.layout.n_q;
-    let sizes: Vec<S> = x.iter().map(|x| x.abs()).collect();
-    let mut out = vec![S::zero(); x.len()];
+    sizes.clear();
+    sizes.extend(x.iter().map(|x| x.abs()));
+    out.clear();
+    out.resize(x.len(), S::zero());
     let (upper, lower) = out.split_at_mut(n);
-    mass::add_times(model, motions, &x[..n], upper);
+    mass::add_blocks(model, masses, &x[..n], upper);
     upper.iter_mut().for_each(|out| *out = out.abs());
     constraints::add_transposed(model, magnitudes, &sizes[n..], upper);
     constraints::times_all(model, magnitudes, &sizes[..n], lower);
@@ -120,5 +157,4 @@ fn terms<S: Real>(
         let least = part.iter().copied().fold(S::zero(), S::max) * S::constant(LEAST);
         part.iter_mut().for_each(|out| *out = out.max(least));
     }
-    out
 }

@@ -13,6 +13,13 @@ pub enum Breakdown {
     Passable(usize),
     /// This row depends on the others where the motion is almost at rest under load.
     AtRest(usize),
+    /// This row almost depends on the others where two motions pass each other without meeting.
+    Beside {
+        /// The row.
+        row: usize,
+        /// Part of its pivot that is left: at least the mismatch of lengths, relative to the size.
+        left: f64,
+    },
     /// Newton's iteration leaves this row open.
     Open {
         /// The row with the largest residual.

@@ -102,6 +102,10 @@ fn count_rows(matrix: &[f64], columns: usize) -> usize {
 
 /// Euclidean length, without overflow or underflow.
 fn length(x: &[f64]) -> f64 {
+    let square = dot(x, x);
+    if (1e-280..1e280).contains(&square) {
+        return square.sqrt();
+    }
     let largest = x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
     if largest == 0.0 {
         return 0.0;
@@ -125,8 +129,17 @@ fn reflect(rows: &mut [Vec<f64>], pivot: usize, left: &[usize], k: usize) {
     rows[pivot][k] = beta;
 }
 
+/// Four sums, so that they are added at the same time.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
+    let (fours, others) = (a.chunks_exact(4), b.chunks_exact(4));
+    let last = fours.remainder().iter().zip(others.remainder()).map(|(a, b)| a * b).sum::<f64>();
+    let mut sums = [0.0; 4];
+    for (a, b) in fours.zip(others) {
+        for k in 0..4 {
+            sums[k] += a[k] * b[k];
+        }
+    }
+    sums.iter().sum::<f64>() + last
 }
 
 /// For each dependent row d the y with y_d = 1 and, over the independent rows, R₁₁ y = -r_d; then

@@ -17,7 +17,7 @@ fn without_a_guess_it_takes_one_and_says_so() {
     let mode = &report.modes[0];
     assert_eq!(
         (mode.bodies.clone(), mode.joint.as_str()),
-        (["coupler".into(), "rocker".into()], "C")
+        (vec!["coupler".into(), "rocker".into()], "C")
     );
     assert_eq!(mode.anchors, ["B", "D"]);
     let c = c_of(&state);

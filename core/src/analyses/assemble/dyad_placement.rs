@@ -146,7 +146,7 @@ impl Placer<'_> {
     }
 
     /// Angle of a body whose arm must point along `global`.
-    fn dyad_angle(&self, b: usize, global: Vec2, arm: Local) -> f64 {
+    pub fn dyad_angle(&self, b: usize, global: Vec2, arm: Local) -> f64 {
         if arm.norm() == 0.0 {
             return self.targets.value(b, 2).unwrap_or(0.0);
         }

@@ -60,37 +60,55 @@ impl Placer<'_> {
         if !self.is_open(b) {
             return;
         }
-        let freedom = match (self.carried(b).next(), self.rail(b)) {
+        let pin = self.carried(b).next();
+        let freedom = match (pin, self.rail(b)) {
             (Some((leg, target)), _) => Freedom::Turn(leg, target),
             (None, Some((_, rail))) => Freedom::Slide(rail),
-            _ => return,
+            (None, None) => {
+                if let Some(angle) = self.targets.hard[b][2] {
+                    self.close_rods_of(b, angle);
+                }
+                return;
+            }
         };
         for at in 0..self.equations.of[b].len() {
             let k = self.equations.of[b][at];
-            let solutions = self.solutions(k, b, &freedom);
+            let (solutions, all) = self.solutions(k, b, &freedom);
             if let Some(pose) = self.chosen(b, &solutions) {
-                self.result.assumed = true;
+                self.result.assumed |= !all;
                 return self.put(b, pose);
             }
         }
     }
 
-    /// The poses at which an equation of constraint `k` holds, the preferred first.
-    fn solutions(&self, k: usize, b: usize, freedom: &Freedom) -> Vec<Pose> {
+    /// The poses at which an equation of constraint `k` holds, the preferred first, and whether there are no others.
+    fn solutions(&self, k: usize, b: usize, freedom: &Freedom) -> (Vec<Pose>, bool) {
         let fixes = self.equations.model.constraints[k].element.fixes();
         if fixes.contains(&Fixes::Contact) {
-            return self.contacts(k, b, freedom);
+            return (self.contacts(k, b, freedom), false);
+        }
+        if let Some(poses) = self.at_rod(k, b, freedom) {
+            return (poses, true);
         }
         let Some(m) = self.phi(k, b, &freedom.pose(0.0)).map(|phi| phi.len()) else {
-            return Vec::new();
+            return (Vec::new(), false);
         };
         let turns = fixes.contains(&Fixes::Turn);
         let row = |row: usize| {
             move |x: f64| self.phi(k, b, &freedom.pose(x)).map_or(f64::NAN, |phi| phi[row])
         };
         let soft = self.targets.value(b, 2).unwrap_or(0.0);
+        let mut all = turns && self.turns_about_its_centre(k, b, freedom);
+        let every = all && self.targets.every_solution && self.targets.soft[b][2].is_none();
         let found = match freedom {
-            Freedom::Turn(..) if turns => newton(row(m - 1), soft, 1.0).into_iter().collect(),
+            Freedom::Turn(..) if turns => match newton(row(m - 1), soft, 1.0) {
+                Some(x) if every => {
+                    let (meshes, complete) = self.meshes(k, x, row(m - 1));
+                    all &= complete;
+                    meshes
+                }
+                found => found.into_iter().collect(),
+            },
             Freedom::Turn(..) => (0..m)
                 .map(|r| around(row(r), NOTHING * self.equations.size))
                 .find(|found| !found.is_empty())
@@ -121,7 +139,7 @@ impl Placer<'_> {
         if fixes.contains(&Fixes::Line) {
             poses.sort_by_key(|pose| !self.is_ahead(k, b, pose));
         }
-        poses
+        (poses, all)
     }
 
     /// Whether the point of body j is ahead of that of body i along the axis of constraint `k`.
@@ -139,7 +157,7 @@ impl Placer<'_> {
     }
 
     /// The pose nearest to the targets of body `b`; without that, an undecided choice.
-    fn chosen(&mut self, b: usize, poses: &[Pose]) -> Option<Pose> {
+    pub fn chosen(&mut self, b: usize, poses: &[Pose]) -> Option<Pose> {
         if poses.len() < 2 {
             return poses.first().copied();
         }
@@ -147,7 +165,10 @@ impl Placer<'_> {
         let off = |pose: &Pose| -> Option<f64> {
             let is = [pose.r.x, pose.r.y, pose.angle];
             let asked = (0..3).filter_map(|c| {
-                let asked = self.targets.value(b, c)?;
+                let asked = match self.targets.every_solution {
+                    true => self.targets.soft[b][c],
+                    false => self.targets.value(b, c),
+                }?;
                 Some(((is[c] - asked) / scales[c]).powi(2))
             });
             asked.reduce(|a, b| a + b)

@@ -27,11 +27,13 @@ mod placer;
 mod rates;
 mod report;
 mod request;
+mod rod_placement;
 mod slider_placement;
 mod target;
 mod targets;
 mod unset;
 mod velocities;
+mod wheel_placement;
 mod worklist;
 
 pub use super::closing::Closing;

@@ -1,13 +1,13 @@
 //! First positions of all bodies, as data.
 
-/// Two bodies closed as a dyad.
+/// Two bodies closed as a dyad, or a body on two rods.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dyad {
-    /// The two bodies.
+    /// The two bodies; the same twice on two rods.
     pub bodies: [usize; 2],
-    /// The joint between them.
+    /// The joint between them; on two rods, the first rod.
     pub joint: usize,
-    /// Joints that carry them.
+    /// Joints that carry them; on two rods, these.
     pub anchors: [usize; 2],
     /// Whether the two closures are different positions.
     pub has_other: bool,

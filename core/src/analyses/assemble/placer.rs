@@ -7,6 +7,7 @@
 //! * a dyad with a neighbour: two bodies pinned to each other and to placed bodies. The joint between them is
 //!   an intersection of two circles, so there are two closures;
 //! * a slide on a placed body, and a pin, a coordinate or a link to a placed body;
+//! * its angle and two rods;
 //! * a pin or a slide on a placed body, and an equation to placed bodies, such as that of a gear.
 //!
 //! If no body can be placed, a coordinate is taken from the guess, or several angles are tried. Choices that
@@ -235,6 +236,7 @@ impl Placer<'_> {
         };
         match pin {
             Some((leg, target)) => self.hang(b, &leg, target, angle),
+            None if self.close_rods_of(b, angle) => {}
             None => {
                 let [x, y] = [0, 1].map(|c| self.targets.value(b, c).unwrap_or(0.0));
                 self.put(b, Pose::new(x, y, angle));

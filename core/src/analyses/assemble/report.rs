@@ -8,12 +8,12 @@ use crate::math::{Local, Motion, Rotation, Vec2};
 use crate::model::{listed, Doubt, Model, MOST_REPORTED};
 use crate::solve::newton::Record;
 
-/// The closure of a dyad, one of two.
+/// The closure of a dyad or of two rods, one of two.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Mode {
-    /// The two bodies.
-    pub bodies: [String; 2],
-    /// The joint between them.
+    /// The two bodies, or the one that two rods hold.
+    pub bodies: Vec<String>,
+    /// The joint between them, or the body that two rods hold.
     pub joint: String,
     /// The joints that carry them.
     pub anchors: [String; 2],
@@ -49,6 +49,16 @@ pub(super) fn modes(model: &Model, dyads: &[Dyad], q: &[f64]) -> Vec<Mode> {
     let motions = Motions::at_rest(&model.layout, q);
     let name = |k: usize| model.constraints[k].name.clone();
     let of = |dyad: &Dyad| {
+        let [first, second] = dyad.bodies;
+        let body = |b: usize| model.bodies[b].name.clone();
+        if first == second {
+            return on_rods(
+                dyad,
+                body(first),
+                [&name(dyad.anchors[0]), &name(dyad.anchors[1])],
+                (model, &motions),
+            );
+        }
         let [p1, p2] = dyad.anchors.map(|k| point(model, &motions, k));
         let joint = point(model, &motions, dyad.joint);
         let left = if dyad.slides {
@@ -60,7 +70,7 @@ pub(super) fn modes(model: &Model, dyads: &[Dyad], q: &[f64]) -> Vec<Mode> {
         let pin = dyad.opposite.map(|k| side(point(model, &motions, k)));
         let pin = pin.filter(|side| side.abs() > ON_LINE * (p2 - p1).dot(p2 - p1));
         Mode {
-            bodies: dyad.bodies.map(|b| model.bodies[b].name.clone()),
+            bodies: dyad.bodies.map(body).to_vec(),
             joint: name(dyad.joint),
             anchors: dyad.anchors.map(name),
             left,
@@ -69,6 +79,30 @@ pub(super) fn modes(model: &Model, dyads: &[Dyad], q: &[f64]) -> Vec<Mode> {
         }
     };
     dyads.iter().filter(|d| d.has_other).map(of).collect()
+}
+
+/// The side of a body on two rods: that of the line between the far ends, after both near ends have been moved to one place.
+fn on_rods(
+    dyad: &Dyad,
+    body: String,
+    rods: [&str; 2],
+    (model, motions): (&Model, &[Motion]),
+) -> Mode {
+    let ends = dyad.anchors.map(|k| {
+        let item = &model.constraints[k];
+        let own = usize::from(item.bodies[1].0 == dyad.bodies[0]);
+        [own, 1 - own]
+            .map(|end| motions[item.bodies[end].0].pose.point(item.element.attachment(end).s))
+    });
+    let [first, second] = ends.map(|[own, far]| own - far);
+    Mode {
+        bodies: vec![body.clone()],
+        joint: body,
+        anchors: rods.map(str::to_string),
+        left: (first - second).cross(first) > 0.0,
+        slides: false,
+        folded: None,
+    }
 }
 
 /// A warning for each dyad that no guess decided and whose unfolded closure did not lead to an assembly.

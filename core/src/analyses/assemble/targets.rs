@@ -1,7 +1,7 @@
 //! Targets for coordinates before assembly: `set` (held exactly) and `guess` (approached).
 
-use crate::elements::{BodyId, Coordinate, CoordinateOf, Fixes};
-use crate::model::{Dependence, Model};
+use crate::elements::{BodyId, Constraint, Coordinate, CoordinateOf, Fixes};
+use crate::model::{ConstraintItem, Dependence, Model};
 
 /// Target values, by body (ground first) and coordinate x, y, angle.
 #[derive(Clone, Debug, PartialEq)]
@@ -14,14 +14,18 @@ pub struct Targets {
     pub soft: Vec<[Option<f64>; 3]>,
     /// Whether the soft angle decides the whole turn.
     pub turn: Vec<bool>,
+    /// Whether all solutions of equations are numbered choices where no soft target decides. Otherwise hard targets decide
+    /// too, and wheels mesh at the angle nearest to zero.
+    pub every_solution: bool,
 }
 
 impl Targets {
     /// Drivers at time `t` are hard, drawn poses are soft.
     pub fn of(model: &Model, t: f64) -> Self {
         let n = model.bodies.len();
-        let mut targets =
-            Self { t, hard: vec![[None; 3]; n], soft: vec![[None; 3]; n], turn: vec![false; n] };
+        let none = || vec![[None; 3]; n];
+        let turn = vec![false; n];
+        let mut targets = Self { t, hard: none(), soft: none(), turn, every_solution: false };
         for (k, body) in model.bodies.iter().enumerate() {
             if let Some(drawn) = body.drawn {
                 targets.soft[k] = drawn.map(Some);
@@ -68,27 +72,20 @@ pub fn nearest_turn(angle: f64, to: f64) -> f64 {
 }
 
 /// The value that a coordinate driver prescribes at `t`, if it depends only on time.
-fn driven(
-    model: &Model,
-    item: &crate::model::ConstraintItem,
-    t: f64,
-) -> Option<(BodyId, Coordinate, f64)> {
-    let element = match &item.law {
-        None => item.element.clone(),
-        Some(law) => {
-            let mut depends = Dependence::default();
-            law.map(&mut |tape| depends.add(tape));
-            if !depends.bodies.is_empty() {
-                return None;
-            }
-            let values = crate::equations::at(&model.parameters, &[], &[], t);
-            law.map(&mut |tape| tape.evaluate(&values))
-        }
-    };
-    element.fixes().into_iter().find_map(|fixed| match fixed {
+fn driven(model: &Model, item: &ConstraintItem, t: f64) -> Option<(BodyId, Coordinate, f64)> {
+    at_time(model, item, t)?.fixes().into_iter().find_map(|fixed| match fixed {
         Fixes::Coordinate(CoordinateOf { body, coordinate }, value) if value.is_finite() => {
             Some((body, coordinate, value))
         }
         _ => None,
     })
+}
+
+/// A constraint with the values of its laws at `t`; None if these depend on positions.
+pub(super) fn at_time(model: &Model, item: &ConstraintItem, t: f64) -> Option<Constraint> {
+    let Some(law) = &item.law else { return Some(item.element.clone()) };
+    let mut depends = Dependence::default();
+    law.map(&mut |tape| depends.add(tape));
+    let values = crate::equations::at(&model.parameters, &[], &[], t);
+    depends.bodies.is_empty().then(|| law.map(&mut |tape| tape.evaluate(&values)))
 }

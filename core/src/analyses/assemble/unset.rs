@@ -7,7 +7,7 @@
 
 use super::rates::holding_rates;
 use super::request::Request;
-use super::target::{of_bodies, of_quantities, of_rates, CoordinateTarget, Target};
+use super::target::{of_bodies, of_motion, of_quantities, of_rates, CoordinateTarget, Target};
 use super::targets::Targets;
 use crate::analyses::closing::Halt;
 use crate::analyses::freedoms::freedoms;
@@ -104,7 +104,12 @@ pub(super) fn unset(
     // otherwise the rates of the coordinates that were set or are named
     let known = coordinates.iter().map(|(_, body, coordinate)| (*body, coordinate.column()));
     let first = guesses.iter().chain(of_bodies(&request.set)).map(column).chain(known);
-    let rates = named(model, &all(&held), first);
+    // without `set` the velocities have the same freedoms
+    let free_rates = match of_motion(&request.set).next() {
+        None => moving,
+        Some(_) => all(&held),
+    };
+    let rates = named(model, &free_rates, first);
     let still = v.iter().all(|v| *v == 0.0);
     let position = |at| choice(model, at, q, source(model, request, asked, at, q));
     let rate = |(column, body, coordinate): Candidate| {

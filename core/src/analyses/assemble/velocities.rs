@@ -97,7 +97,8 @@ fn nearest(
 ) {
     if let Some(compiled) = mass.filter(|compiled| compiled.adds_mass) {
         let mut exact = x.clone();
-        if refine::solve((model, compiled), motions, matrix, &mut exact).is_ok() {
+        let memory = &mut refine::Memory::default();
+        if refine::solve((model, compiled), motions, matrix, &mut exact, memory).is_ok() {
             *x = exact;
             return;
         }

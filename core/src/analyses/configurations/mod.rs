@@ -1,19 +1,21 @@
 //! All positions in which a mechanism closes, for given values of its drivers and of `set`.
 //!
-//! Where dyads alone place all bodies, each has at most two closures, and all combinations are computed: the list is
-//! complete. Otherwise Newton's method starts from many positions, and from each position found the path of every driven
+//! Where dyads, rods and meshed wheels place all bodies, each has a known number of closures, and all combinations are
+//! computed: the list is complete. Otherwise Newton's method starts from many positions, and from each position found the path of every driven
 //! value is followed through its limits until it returns; other positions with the same value lie on it.
 //!
 //! | file | concept |
 //! |---|---|
 //! | `found` | positions without duplicates |
-//! | `walk` | all closures of dyads |
+//! | `walk` | all closures of dyads, rods and meshed wheels |
 //! | `search` | starts of Newton's method, and circuits |
+//! | `turns` | whole turns that couplings count |
 //! | `options` | options of the analysis |
 
 mod found;
 mod options;
 mod search;
+mod turns;
 mod walk;
 
 pub use options::Options;
@@ -29,7 +31,7 @@ use found::Found;
 pub struct Configurations {
     /// The states, with the reports of their assembly.
     pub states: Vec<(State, Report)>,
-    /// Whether there are no others: proven, where dyads place all bodies.
+    /// Whether there are no others: proven, where dyads, rods and meshed wheels place all bodies.
     pub complete: bool,
 }
 
@@ -69,6 +71,7 @@ pub fn configurations(
     }
     if !complete {
         search::search(&held, request.t, &mut found, stop);
+        turns::turn(&held, request.t, &mut found, stop);
     }
     if let Some(degrees_of_freedom) = free(&found) {
         return Err(Failure::Free { degrees_of_freedom });

@@ -28,6 +28,7 @@ pub(super) fn search(model: &Model, t: f64, found: &mut Found<'_>, stop: Halt<'_
         closes && found.add(q)
     };
     let mut targets = Targets::of(model, t);
+    targets.every_solution = true;
     let mut choices = Some(Vec::new());
     for _ in 0..PLACEMENTS {
         let Some(taken) = choices.take().filter(|_| !stop() && !found.is_full()) else { break };

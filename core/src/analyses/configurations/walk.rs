@@ -1,6 +1,7 @@
-//! All closures of dyads.
+//! All closures of dyads, rods and meshed wheels.
 
 use super::found::Found;
+use super::turns::counted;
 use crate::analyses::assemble::{following, place, Targets};
 use crate::analyses::closing::{Closing, Halt};
 use crate::model::{row_scales, Model};
@@ -10,15 +11,18 @@ const MOST: usize = 20_000;
 /// Largest residual of a position of which all bodies are placed exactly, relative to the size of the mechanism.
 const CLOSED: f64 = 1e-7;
 
-/// Adds the positions of all combinations of closures; returns whether there are no others.
+/// Adds the positions of all combinations of closures and meshes; returns whether there are no others.
 pub(super) fn walk(model: &Model, t: f64, found: &mut Found<'_>, stop: Halt<'_>) -> bool {
     let mut targets = Targets::of(model, t);
     targets.soft.fill([None; 3]);
+    targets.every_solution = true;
     let mut closing = Closing::new(model, t, stop);
     let scales = row_scales(model);
     let mut choices = Some(Vec::new());
+    // a dyad closes at any whole turn of its bodies
+    let proven = counted(model).is_empty();
     for _ in 0..MOST {
-        let Some(taken) = choices.take() else { return true };
+        let Some(taken) = choices.take() else { return proven };
         let placement = place(model, &targets, &taken);
         if placement.assumed {
             return false;

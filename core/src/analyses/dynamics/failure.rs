@@ -8,7 +8,7 @@ use crate::analyses::mobility::dependent;
 use crate::elements::Equation;
 use crate::expression::TABLE_ENDS;
 use crate::integrate::Cause;
-use crate::model::{Model, Switch};
+use crate::model::{size, Model, Switch};
 use crate::solve::Breakdown;
 use std::fmt;
 
@@ -84,6 +84,9 @@ pub enum Reason {
     },
 }
 
+/// Mismatch of lengths, relative to the size, from which motions that pass a change point are distinct.
+const MEET: f64 = 1e-8;
+
 impl From<Reason> for Box<Failure> {
     fn from(reason: Reason) -> Self {
         Self::new(Failure { reason, run: Run::default() })
@@ -120,6 +123,7 @@ impl Failure {
                 );
                 (name(row), message)
             }
+            Breakdown::Beside { row, left } => (name(row), beside(model, t, q, (row, left))),
             Breakdown::Reaction(row) => {
                 let message = format!(
                     "friction paradox (Painlevé) in joint {} at t = {t:.6} s: no reaction agrees with the \
@@ -313,6 +317,19 @@ fn place(model: &Model, t: f64, q: &[f64], row: usize) -> String {
     let joints = dependent(model, t, q, row);
     let joints: Vec<&str> = joints.iter().map(|k| model.constraints[*k].name.as_str()).collect();
     format!(" (joints {}; {})", joints.join(", "), positions(model, q))
+}
+
+/// Two motions that pass each other without meeting.
+fn beside(model: &Model, t: f64, q: &[f64], (row, left): (usize, f64)) -> String {
+    let size = size(model);
+    format!(
+        "singular position at t = {t:.6} s: two motions pass each other without meeting, too near to be distinguished, \
+         because lengths miss a change point by a little, less than {:.0e} m{}; make the lengths exact, so that the \
+         motions meet, or, if no constraint is redundant, change them by more than {:.0e} m",
+        left * size,
+        place(model, t, q, row),
+        MEET * size
+    )
 }
 
 /// The positions of the bodies.

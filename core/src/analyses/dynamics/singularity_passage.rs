@@ -43,6 +43,8 @@ pub(super) struct SingularityPassage {
     /// Whether singular positions are passed at all.
     passing: bool,
     approach: SingularityForecast,
+    /// Least pivot of the undecided trial states since the last step.
+    least: f64,
     residual: Vec<f64>,
     loads: Vec<f64>,
 }
@@ -70,6 +72,7 @@ impl SingularityPassage {
             singularity: options.singularity,
             passing,
             approach: SingularityForecast::default(),
+            least: f64::INFINITY,
             residual: Vec::new(),
             loads: Vec::new(),
         }
@@ -105,7 +108,12 @@ impl SingularityPassage {
             return Ok(());
         }
         if self.misses_gamma(model, work, t) {
-            return Err(Breakdown::Row(row));
+            self.least = self.least.min(ratio);
+            // a motion without drivers is tangent to its branch
+            return Err(match model.driven {
+                true => Breakdown::Row(row),
+                false => Breakdown::Beside { row, left: self.least },
+            });
         }
         if self.rests(model, work, t, v) {
             return Err(Breakdown::AtRest(row));
@@ -136,6 +144,7 @@ impl SingularityPassage {
     /// Accepts the trial of the last forecast; the workspace belongs to its end.
     pub fn accept(&mut self, t: f64, work: &Workspace) {
         if self.passing {
+            self.least = f64::INFINITY;
             let end = work.matrix.cancellation();
             let passed = self.approach.accept(end.map(|(_, ratio)| (t, ratio)));
             if let (Some((at, slope)), Some((row, _))) = (passed, end) {

@@ -5,7 +5,7 @@
 //! a branch cut, so Φ is taken modulo 2π (rᵢ + σ rⱼ), nearest 0; where that is 0, θ cancels. λ is the difference of
 //! the forces of the two strands. The mechanism must hold the distance of the centres, which may have any value > 0.
 
-use crate::elements::wheels::{centres, nearest, radius_fault, rolled, TANGENTIAL};
+use crate::elements::wheels::{centres, nearest, radius_fault, rolled, whole_turn, TANGENTIAL};
 use crate::elements::{
     element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Required,
     ResultQuantity, SceneSymbol,
@@ -51,11 +51,18 @@ impl Joint for Belt {
         phi[0] = match e.crossed {
             true => nearest(rolled(d, e.radii, 1.0, at) - e.offset, r_i + r_j),
             false => {
-                let (x, most) = (rolled(d, e.radii, -1.0, at) - e.offset, S::constant(EQUAL));
-                let differs = (r_i - r_j).abs() - most * (r_i + r_j);
-                S::select(differs, nearest(x, r_i - r_j), x)
+                let x = rolled(d, e.radii, -1.0, at) - e.offset;
+                S::select(differ(e.radii), nearest(x, r_i - r_j), x)
             }
         };
+    }
+
+    fn modulus(e: &Belt) -> Option<f64> {
+        let [r_i, r_j] = e.radii;
+        match e.crossed {
+            true => Some(whole_turn(r_i + r_j)),
+            false => (differ(e.radii) > 0.0).then(|| whole_turn(r_i - r_j)),
+        }
     }
 
     fn requires<S: Real>(e: &Belt<S>, at: &At<'_, S>) -> Vec<Required<S>> {
@@ -84,4 +91,9 @@ impl Joint for Belt {
     fn fault(e: &Belt) -> Option<(&'static str, String)> {
         e.radii.iter().find_map(|radius| radius_fault("radii", *radius, false))
     }
+}
+
+/// Positive where the radii differ, so that θ does not cancel.
+fn differ<S: Real>([r_i, r_j]: [S; 2]) -> S {
+    (r_i - r_j).abs() - S::constant(EQUAL) * (r_i + r_j)
 }

@@ -12,7 +12,9 @@
 //! teeth apart for both signs of λ: external wheels away from each other, a wheel inside a ring towards the centre of
 //! the ring. As the centres are held, this force does no work; only the reactions of the pins change.
 
-use crate::elements::wheels::{centres, nearest, radii, radius_fault, rolled, TANGENTIAL};
+use crate::elements::wheels::{
+    centres, nearest, radii, radius_fault, rolled, whole_turn, TANGENTIAL,
+};
 use crate::elements::{
     element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Required,
     ResultQuantity, SceneSymbol,
@@ -91,6 +93,10 @@ impl Joint for Gear {
 
     fn requires<S: Real>(e: &Gear<S>, at: &At<'_, S>) -> Vec<Required<S>> {
         centres(measure::apart(at, &e.i, &e.j), Some(sum(e).1.abs()))
+    }
+
+    fn modulus(e: &Gear) -> Option<f64> {
+        Some(whole_turn(sum(e).1))
     }
 
     fn symbols(e: &Gear) -> Vec<SceneSymbol> {
