@@ -10,9 +10,9 @@ def test_a_random_mechanism(seed: int) -> None:
     assert not faults(seed)
 
 
-#: Stops that were left at an upper limit, loads that are rounding errors, friction exactly at its
+#: Upper limits, flights shorter than a step, loads that are rounding errors, friction exactly at its
 #: limit, a mechanism that rests between a stop and its friction.
-DIFFICULT = (107, 632, 659, 911, 985, 1482, 1870, 1939, 1941)
+DIFFICULT = (107, 438, 632, 659, 911, 920, 985, 1071, 1478, 1482, 1870, 1939, 1941)
 
 
 @pytest.mark.parametrize("seed", DIFFICULT)
