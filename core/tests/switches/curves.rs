@@ -74,7 +74,7 @@ fn a_bead_enters_an_arc_at_constant_speed() {
     }
 }
 
-/// A bead of 1 kg starts at x = 1 with 1 m/s on a wire that is level but for a bump 20 mm high and 50 mm long.
+/// A bead of 1 kg starts at x = 1 with 1 m/s on a wire that is level except for a bump 20 mm high and 50 mm long.
 fn wire_with_a_bump(y: &str, table: &str) -> (Model, State) {
     let m = model(&format!(
         "gravity = [0, -9.81]\n{table}[bodies.ground]\ncurves = {{ wire = {{ x = \"u\", y = \"{y}\", range = [-1, 6] }} }}\n\
