@@ -10,8 +10,8 @@ def test_a_random_mechanism(seed: int) -> None:
     assert not faults(seed)
 
 
-#: Upper limits, flights shorter than a step, loads that are rounding errors, friction exactly at its
-#: limit, a mechanism that rests between a stop and its friction.
+#: Upper limits, flights shorter than a step, loads that are rounding errors, friction exactly at
+#: its limit, a mechanism that rests between a stop and its friction.
 DIFFICULT = (107, 438, 632, 659, 911, 920, 985, 1071, 1478, 1482, 1870, 1939, 1941)
 
 

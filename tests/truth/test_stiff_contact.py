@@ -69,7 +69,7 @@ def test_the_mass_of_a_contact_is_that_of_the_mechanism() -> None:
 
 @pytest.mark.parametrize("other", [False, True])
 def test_an_upper_limit_is_met_as_a_lower_one(other: bool) -> None:
-    """The same motion in a mirror: as many steps, beside a limit on the other side that is not met."""
+    """The same motion in a mirror takes as many steps; the other limit is not met."""
 
     def run(sign: float) -> kp.Solution:
         m = kp.Model("point and limits")
