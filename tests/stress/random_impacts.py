@@ -22,8 +22,9 @@ import numpy as np
 from stress.colliding import KINDS
 from stress.rubbing import SIZE, Drawn
 
-#: Largest error of the energies, relative to the largest of them.
-ENERGY = 1e-6
+#: Largest error of the energies, relative to the largest of them. By default, positions have errors
+#: of 1e-8 of the size, and a compliant contact that takes all the energy is 1e-3 of the size deep.
+ENERGY = 1e-5
 #: Energy of a mechanism that hardly moves, J.
 LEAST_ENERGY = 1e-6
 #: Deepest place beyond a stop or in a contact with restitution, m or rad.

@@ -53,15 +53,15 @@ pub(super) fn ends(
     Ok(Some(onset.ends(steps)?.into_iter().map(|after| at.0 + sign * after).collect()))
 }
 
-/// The ends of the last steps, last ones first, before a compliant contact lets go at the end of a step: the force ends as
-/// it begins.
+/// The ends of the last steps, last ones first, before a compliant contact is released at the end of a step: the force
+/// ends as it begins.
 pub(super) fn before_release(
     model: &Model,
     changes: &[(usize, f64)],
     (from, to): (f64, f64),
     steps: Steps,
 ) -> Vec<f64> {
-    let lets_go = |(switch, piece): &(usize, f64)| match model.switches[*switch].owner {
+    let is_released = |(switch, piece): &(usize, f64)| match model.switches[*switch].owner {
         Owner::Force(force) if *piece < 0.0 => {
             let behaviour = model.forces[force].element.behaviour();
             matches!(behaviour, Some(Behaviour::Compliant { exponent, .. }) if exponent.fract() != 0.0)
@@ -69,7 +69,7 @@ pub(super) fn before_release(
         _ => false,
     };
     match steps {
-        Steps::Chosen if changes.iter().any(lets_go) => {
+        Steps::Chosen if changes.iter().any(is_released) => {
             GRADED.iter().rev().map(|part| to - part * (to - from)).collect()
         }
         _ => Vec::new(),
