@@ -7,7 +7,7 @@
 use super::super::failure::Failure;
 use super::dependence::independent;
 use super::impacts::{self, restitution};
-use super::place::{largest, mode_of, with_modes, Place, STILL};
+use super::place::{largest, mode_of, unit, with_modes, Place, STILL};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
@@ -19,6 +19,8 @@ const ROUNDING: f64 = 1e-11;
 /// Part of the limit that may be left at the event where the reserve becomes zero: its time follows from an interpolant.
 const USED_UP: f64 = 1e-6;
 
+/// Height of a flight, as a part of the mechanism's size or in rad, below which a contact without losses rests.
+const LOW: f64 = 1e-10;
 /// Rate of a gap, m/s or rad/s, below which the next flight is so low that rounding errors of the gap count.
 const SLOW: f64 = 2e-7;
 /// Most forces of which all combinations are tried.
@@ -119,8 +121,11 @@ fn at_rest(
     let workspace = place.solved(&phase)?;
     let gaps = place.gap_jets(model, touching, workspace.a());
     let rests = |(k, gap): &(&usize, Jet)| {
-        let low = 0.5 * gap.rate * gap.rate <= -gap.second * place.rounding(model, **k);
-        gap.rate <= restitution(model, **k).1 || low
+        let (restitution, rest_speed) = restitution(model, **k);
+        // bounces that lose nothing here and are damped elsewhere become ever more frequent
+        let least = if restitution < 1.0 { 0.0 } else { LOW * unit(model, **k) };
+        let height = least.max(place.rounding(model, **k));
+        gap.rate <= rest_speed || 0.5 * gap.rate * gap.rate <= -gap.second * height
     };
     Ok(touching.iter().zip(gaps).filter(rests).map(|(k, _)| *k).collect())
 }

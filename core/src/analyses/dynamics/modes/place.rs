@@ -118,7 +118,7 @@ impl Place<'_> {
 }
 
 /// The size of the mechanism for a gap that is a length, 1 rad for one that is an angle.
-fn unit(model: &Model, force: usize) -> f64 {
+pub fn unit(model: &Model, force: usize) -> f64 {
     let measured = model.forces[force].element.measured();
     match measured.first().is_some_and(|of| of.unit == "rad") {
         true => 1.0,
