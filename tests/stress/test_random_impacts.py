@@ -11,7 +11,7 @@ def test_a_random_mechanism(seed: int) -> None:
 
 
 #: Upper limits, flights shorter than a step, loads that are rounding errors, friction exactly at
-#: its limit, a mechanism that rests between a stop and its friction, elastic bounces that are damped.
+#: its limit, a rest between a stop and friction, elastic bounces that are damped.
 DIFFICULT = (107, 438, 632, 659, 911, 920, 985, 1071, 1478, 1482, 1770, 1870, 1939, 1941)
 
 
