@@ -2,7 +2,7 @@
 
     PYTHONPATH=tests python -m stress.random_impacts 0 2000
 
-tries the seeds from 0 to 1999, lists every fault and every error, and prints how the runs ended,
+tries the seeds from 0 to 1999, lists every fault, and prints how the runs ended,
 their largest residuals and the slowest run. The exit code is 1 if there is a fault.
 """
 
@@ -47,16 +47,14 @@ class Outcome:
         seed: the seed.
         kind: kind of the mechanism.
         ended: "done", or the type of the error.
-        message: the message of the error.
         seconds: CPU time of the run, s.
         residuals: residuals by name, each relative to its limit.
-        faults: violations of the requirements.
+        faults: violations of the requirements; every error of kempe is one.
     """
 
     seed: int
     kind: str
     ended: str = "done"
-    message: str = ""
     seconds: float = 0.0
     residuals: dict[str, float] = field(default_factory=dict)
     faults: list[str] = field(default_factory=list)
@@ -132,9 +130,8 @@ def outcome(seed: int, kind: str | None = None) -> Outcome:
         out.seconds, out.ended = time.process_time() - begin, str(error)
     except kp.KempeError as error:
         out.seconds = out.seconds or time.process_time() - begin
-        out.ended, out.message = type(error).__name__, str(error).replace("\n", " ")
-        if isinstance(error, kp.InternalError):
-            out.faults.append(out.message)
+        out.ended = type(error).__name__
+        out.faults.append(f"{out.ended}: {error}".replace("\n", " "))
     out.faults += [
         f"{what} {value:.2g} times its limit"
         for what, value in out.residuals.items()
@@ -143,12 +140,6 @@ def outcome(seed: int, kind: str | None = None) -> Outcome:
     if out.seconds > PATIENCE:
         out.faults.append(f"took {out.seconds:.1f} s")
     return out
-
-
-def faults(seed: int, kind: str | None = None) -> list[str]:
-    """What is wrong with the run of a seed; an error of kempe is one fault."""
-    found = outcome(seed, kind)
-    return found.faults + ([f"{found.ended}: {found.message}"] if found.message else [])
 
 
 def say(text: str) -> None:
@@ -183,8 +174,8 @@ def main() -> int:
     with multiprocessing.get_context("spawn").Pool(asked.processes) as pool:
         for o in pool.imap_unordered(outcome, range(asked.first, asked.last)):
             outcomes.append(o)
-            if o.faults or o.message:
-                say(f"{o.seed} {o.kind}: {'; '.join(o.faults) or o.ended + ': ' + o.message}")
+            if o.faults:
+                say(f"{o.seed} {o.kind}: {'; '.join(o.faults)}")
     summary(outcomes)
     return int(any(o.faults for o in outcomes))
 

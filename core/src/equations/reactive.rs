@@ -122,7 +122,7 @@ impl<S: Real, R: Response<S>> Path<'_, S, R> {
             let gap: Vec<S> =
                 own.map(|((new, free), old)| *free + factor * (new - *free) - old).collect();
             let (size, left) = (largest(&self.of(&found)), largest(&gap));
-            if size <= NOISE * self.response.largest_force() {
+            if size <= NOISE * self.response.largest_force().max(largest(&found)) {
                 return Ok(true);
             }
             let columns = self.columns(lam, factor)?;

@@ -79,8 +79,8 @@ pub(super) fn decide(
     give_slack(model, place, touching, &mut modes);
     for (own, threshold) in modes.iter_mut().zip(&thresholds) {
         if let (Mode::Slides(sign), true) = (own.mode, threshold.abs() <= STILL * speed) {
-            // a rounding error of the speed may have the other direction
-            own.slack = 2.0 * (-sign * threshold).max(0.0);
+            // a rounding error of the speed may have the other direction, and at rest all of it is rounding
+            own.slack = (-2.0 * sign * threshold).max(NOISE * speed);
         }
     }
     Ok(modes)
@@ -139,21 +139,10 @@ fn hold(
 ) -> Result<Vec<ForceMode>, Box<Failure>> {
     let sides = place.sides(model, candidates);
     let all: Vec<(usize, f64)> = candidates.iter().copied().zip(sides).collect();
-    let (mut left, mut now) = (all.clone(), free.clone());
-    let found = loop {
-        let modes = with_held(model, place, &now, &left);
-        let ended = with_leaders(&modes, ended);
-        let Some((force, slides)) = worst(&model.in_modes(&modes), place, &ended)? else {
-            break modes;
-        };
-        left.retain(|(k, _)| *k != force);
-        let own = now.iter_mut().find(|of| of.force == force).expect("it has modes");
-        if let Some(sign) = slides {
-            own.mode = Mode::Slides(sign);
-        }
-    };
-    if moves_apart(model, place, &found, candidates)? || candidates.len() > MOST_TRIED {
-        return Ok(found);
+    let found = released(model, place, free.clone(), (&all, ended));
+    let fits = |modes: &[ForceMode]| moves_apart(model, place, modes, candidates);
+    if found.as_ref().is_ok_and(|modes| fits(modes)) || candidates.len() > MOST_TRIED {
+        return found;
     }
     // what was released first may be needed later: all combinations, those that hold most first
     for choice in 0..3_usize.pow(candidates.len() as u32) {
@@ -169,13 +158,34 @@ fn hold(
         }
         let modes = with_held(model, place, &now, &left);
         let ended = with_leaders(&modes, ended);
-        if worst(&model.in_modes(&modes), place, &ended)?.is_none()
-            && moves_apart(model, place, &modes, candidates)?
-        {
+        // friction in directions that do not belong together may have no solution
+        if matches!(worst(&model.in_modes(&modes), place, &ended), Ok(None)) && fits(&modes) {
             return Ok(modes);
         }
     }
-    Ok(found)
+    found
+}
+
+/// Releases the force with the largest excess until none exceeds its limit.
+fn released(
+    model: &Model,
+    place: &Place<'_>,
+    mut now: Vec<ForceMode>,
+    (all, ended): (&[(usize, f64)], &[usize]),
+) -> Result<Vec<ForceMode>, Box<Failure>> {
+    let mut left = all.to_vec();
+    loop {
+        let modes = with_held(model, place, &now, &left);
+        let ended = with_leaders(&modes, ended);
+        let Some((force, slides)) = worst(&model.in_modes(&modes), place, &ended)? else {
+            return Ok(modes);
+        };
+        left.retain(|(k, _)| *k != force);
+        let own = now.iter_mut().find(|of| of.force == force).expect("it has modes");
+        if let Some(sign) = slides {
+            own.mode = Mode::Slides(sign);
+        }
+    }
 }
 
 /// The modes with some forces that hold, as far as their equations are independent.
@@ -198,9 +208,9 @@ fn moves_apart(
     place: &Place<'_>,
     modes: &[ForceMode],
     candidates: &[usize],
-) -> Result<bool, Box<Failure>> {
+) -> bool {
     let phase = model.in_modes(modes);
-    let workspace = place.solved(&phase)?;
+    let Ok(workspace) = place.solved(&phase) else { return false };
     let fastest = largest(workspace.a());
     let gaps = place.gap_jets(model, candidates, workspace.a());
     let fits = |(k, jet): (&usize, Jet)| match mode_of(modes, *k) {
@@ -208,7 +218,7 @@ fn moves_apart(
         Mode::Slides(sign) => sign * jet.rate >= -STILL * fastest,
         _ => true,
     };
-    Ok(candidates.iter().zip(gaps).all(fits))
+    candidates.iter().zip(gaps).all(fits)
 }
 
 /// The forces that ended, with those that they follow: all of them have reached their limits.
