@@ -122,12 +122,14 @@ impl<S: Real, R: Response<S>> Path<'_, S, R> {
             let gap: Vec<S> =
                 own.map(|((new, free), old)| *free + factor * (new - *free) - old).collect();
             let (size, left) = (largest(&self.of(&found)), largest(&gap));
-            if size <= NOISE * self.response.largest_force().max(largest(&found)) {
+            let noise = NOISE * self.response.largest_force().max(largest(&found));
+            if size <= noise {
                 return Ok(true);
             }
             let columns = self.columns(lam, factor)?;
             let Some(step) = eliminate(columns, gap) else { return Ok(false) };
-            if left <= ACCEPTED * size || (left >= last && left <= ROUNDING * largest(&found)) {
+            let rounding = noise.max(ROUNDING * largest(&found));
+            if left <= ACCEPTED * size || (left >= last && left <= rounding) {
                 return Ok(true);
             }
             last = left;
