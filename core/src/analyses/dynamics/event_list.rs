@@ -17,8 +17,8 @@ const AGAIN: usize = 6;
 const CLOSE: f64 = 32.0;
 /// Part of a step over which the slope of a function is taken.
 const SLOPE: f64 = 1e-3;
-/// Part of its value at the beginning of a step that a function near an event has lost.
-const NEAR: f64 = 0.1;
+/// Part of its value at the beginning of a step that a function may have left at an event.
+const NEAR: f64 = 1e-6;
 
 /// Parts into which a step is divided at least, and at most.
 const PARTS: [usize; 2] = [6, 20_000];
@@ -202,9 +202,12 @@ impl<'a> EventList<'a> {
         let mut beside = step.y.to_vec();
         step.interpolate(step.t - h, &mut beside);
         let states = [(step.t_old, step.y_old), (step.t - h, &beside), (step.t, step.y)];
-        let [old, before, at] = states.map(|state| {
+        let [mut old, before, at] = states.map(|state| {
             self.evaluator.see(model, state, step, |seen| function.value(model, seen))
         });
+        if step.t_old == self.began.0 && matches!(function, Function::Mode(_)) {
+            old = old.max(f64::MIN_POSITIVE); // the mode has just begun
+        }
         let by = -at * h / (at - before);
         // only a small correction: the function crosses zero here
         let small = by.is_finite() && by * h > 0.0 && by.abs() < h.abs();
