@@ -3,7 +3,7 @@
 With one freedom there are two ways to slide. For each, the signs of the friction are known, and the
 loads follow from Newton–Euler equations with loads N = |λ(N)|. A way is that of the motion if the
 mechanism accelerates along it. The directions of friction in pins belong together: with others the
-equations may have no solution, which is no paradox of the mechanism.
+equations may have no solution, which is not a paradox of the mechanism.
 """
 
 from __future__ import annotations

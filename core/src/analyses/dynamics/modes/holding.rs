@@ -103,31 +103,43 @@ fn give_slack(model: &Model, place: &Place<'_>, touching: &[usize], modes: &mut 
     }
 }
 
-/// The contacts that touch without speed, or whose next flight would be lower than the rounding error of the gap.
+/// The contacts that touch without speed, or whose next flight would be lower than the rounding error of the gap. Where
+/// one rests, the flights of others may be lower.
 fn at_rest(
     model: &Model,
     place: &Place<'_>,
     before: &[ForceMode],
     touching: &[usize],
 ) -> Result<Vec<usize>, Box<Failure>> {
-    if touching.is_empty() {
-        return Ok(Vec::new());
-    }
     let free = before.iter().map(|of| match of.mode {
         Mode::Slides(_) => *of,
         _ => ForceMode { mode: Mode::Free, ..*of },
     });
-    let phase = model.in_modes(&free.collect::<Vec<_>>());
-    let workspace = place.solved(&phase)?;
-    let gaps = place.gap_jets(model, touching, workspace.a());
-    let rests = |(k, gap): &(&usize, Jet)| {
-        let (restitution, rest_speed) = restitution(model, **k);
-        // bounces that lose nothing here and are damped elsewhere become ever more frequent
-        let least = if restitution < 1.0 { 0.0 } else { LOW * unit(model, **k) };
-        let height = least.max(place.rounding(model, **k));
-        gap.rate <= rest_speed || 0.5 * gap.rate * gap.rate <= -gap.second * height
-    };
-    Ok(touching.iter().zip(gaps).filter(rests).map(|(k, _)| *k).collect())
+    let free: Vec<ForceMode> = free.collect();
+    let mut rest: Vec<usize> = Vec::new();
+    loop {
+        let others: Vec<usize> = touching.iter().copied().filter(|k| !rest.contains(k)).collect();
+        if others.is_empty() {
+            return Ok(rest);
+        }
+        let sides = rest.iter().copied().zip(place.sides(model, &rest)).collect::<Vec<_>>();
+        let modes =
+            if rest.is_empty() { free.clone() } else { with_held(model, place, &free, &sides) };
+        let workspace = place.solved(&model.in_modes(&modes))?;
+        let gaps = place.gap_jets(model, &others, workspace.a());
+        let rests = |(k, gap): &(&usize, Jet)| {
+            let (restitution, rest_speed) = restitution(model, **k);
+            // bounces that lose nothing here and are damped elsewhere become ever more frequent
+            let least = if restitution < 1.0 { 0.0 } else { LOW * unit(model, **k) };
+            let height = least.max(place.rounding(model, **k));
+            gap.rate <= rest_speed || 0.5 * gap.rate * gap.rate <= -gap.second * height
+        };
+        let more: Vec<usize> = others.iter().zip(gaps).filter(rests).map(|(k, _)| *k).collect();
+        if more.is_empty() {
+            return Ok(rest);
+        }
+        rest.extend(more);
+    }
 }
 
 /// Lets the candidates hold, without those that cannot. Those that `ended` have no reserve left.
