@@ -62,9 +62,7 @@ def ways(start: kp.State, rubbing: dict[str, float]) -> list[Floats]:
         free = inverse @ np.append(smooth.Q, smooth.gamma)
         rows = [9 + 2 * list(PINS).index(pin) for pin in rubbing]
 
-        def solution(
-            loads: Floats, free: Floats = free, columns: list[Floats] = columns
-        ) -> Floats:
+        def solution(loads: Floats, free: Floats = free, columns: list[Floats] = columns) -> Floats:
             return free + np.transpose(columns) @ loads
 
         def excess(loads: Floats, rows: list[int] = rows) -> Floats:
