@@ -125,7 +125,10 @@ fn at_rest(
         let sides = rest.iter().copied().zip(place.sides(model, &rest)).collect::<Vec<_>>();
         let modes =
             if rest.is_empty() { free.clone() } else { with_held(model, place, &free, &sides) };
-        let workspace = place.solved(&model.in_modes(&modes))?;
+        let workspace = match place.solved(&model.in_modes(&modes)) {
+            Err(_) if !rest.is_empty() => return Ok(rest),
+            solved => solved?,
+        };
         let gaps = place.gap_jets(model, &others, workspace.a());
         let rests = |(k, gap): &(&usize, Jet)| {
             let (restitution, rest_speed) = restitution(model, **k);
