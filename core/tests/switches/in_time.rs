@@ -57,8 +57,8 @@ fn constant_pulse(random: &mut Random) -> Pulse {
     Pulse { law, impulse }
 }
 
-/// A random law that is smooth between its switches, with its exact impulse.
-fn smooth_pulse(random: &mut Random) -> Pulse {
+/// A random law that is smooth between its switches, with its exact impulse and the time in which it changes.
+fn smooth_pulse(random: &mut Random) -> (Pulse, f64) {
     let mut number = |low: f64, high: f64| {
         let x: f64 = low + 0.5 * (high - low) * (random.next() + 1.0);
         (1e4 * x).round() / 1e4
@@ -75,11 +75,11 @@ fn smooth_pulse(random: &mut Random) -> Pulse {
         _ => {
             // max and min clamp a ramp
             let law = format!("{height}*max(0, min(1, {part}))");
-            return Pulse { law, impulse: height * (0.5 * on + 10.0 - b) };
+            return (Pulse { law, impulse: height * (0.5 * on + 10.0 - b) }, on);
         }
     };
     let law = format!("if(t < {a}, 0, if(t < {b}, {height}*{shape}, 0))");
-    Pulse { law, impulse: height * mean * on }
+    (Pulse { law, impulse: height * mean * on }, on)
 }
 
 #[test]
@@ -103,11 +103,16 @@ fn constant_pulses_have_their_impulse_by_every_method() {
 fn smooth_pulses_have_their_impulse_within_the_tolerance() {
     let mut random = Random::new(12);
     for _ in 0..count(30, 500) {
-        let Pulse { law, impulse } = smooth_pulse(&mut random);
+        let (Pulse { law, impulse }, on) = smooth_pulse(&mut random);
         let (model, state) = wheel(&law);
         for method in methods(1e-6, 0.002) {
             let control = method.control();
-            let rtol = if control.step.is_some() { 1e-5 } else { control.rtol };
+            let rtol = match (&method, control.step) {
+                // of order 2: the trapezoidal rule misses (h/on)² of a parabola
+                (Scheme::GeneralizedAlpha(_), Some(h)) => 0.15 * (h / on).powi(2),
+                (_, Some(_)) => 1e-5,
+                (_, None) => control.rtol,
+            };
             let found = run(&law, &model, &state, &options(method.clone(), 10.0));
             let speed = found.trajectory.v[found.trajectory.v.len() - 1];
             let what = format!("{law} by {method:?}");
