@@ -4,13 +4,14 @@
 //! interpolant of each step (`integrate::scan`); where one leaves its piece, the step is taken again up to that time, with
 //! the old piece, and the next step begins with the new one.
 //!
-//! A switch that changes back at once holds the motion between two pieces. Where the accelerations of both are equal it
-//! is released: its law then decides by itself, until it has kept one piece for [`CALM`] steps. Otherwise the motion
-//! slides along the switch, which laws cannot describe, and the run ends.
+//! A switch that changes back at once holds the motion between two pieces (`sliding`). Where the accelerations of both
+//! are equal it is released: its law then decides by itself, until it has kept one piece for [`CALM`] steps. Otherwise the
+//! motion slides along the switch, which laws cannot describe, and the run ends.
 
 mod calm;
 mod curve_break;
 mod narrow;
+mod sliding;
 
 use super::contact_resolution::{self, Steps};
 use super::law_jump::Jump;
@@ -19,7 +20,7 @@ use super::switch_schedule::{changed_constraints, Schedule};
 use crate::equations::forces::Acting;
 use crate::equations::kinematics::Motions;
 use crate::equations::{switches, Gains, Workspace};
-use crate::integrate::{scan, Cause, Direction, Ode, Scan, Step};
+use crate::integrate::{scan, Cause, Direction, Scan, Step};
 use crate::model::{Model, Owner};
 use crate::solve::Breakdown;
 
@@ -29,8 +30,6 @@ const STUCK: usize = 8;
 const SHORT: f64 = 1e-9;
 /// Steps on one piece after which a released switch is held again.
 const CALM: usize = 10;
-/// Smallest jump of the accelerations at which a motion can slide, relative to the largest ones.
-const JUMPS: f64 = 1e-6;
 /// Times a step is taken again for one switch, as its interpolant becomes more accurate.
 const AGAIN: usize = 3;
 
@@ -249,7 +248,7 @@ impl Switching {
             let history = &mut self.history[*switch];
             history.quick = if (t - history.last).abs() <= short { history.quick + 1 } else { 0 };
             history.last = t;
-            if history.quick > STUCK {
+            if history.quick > STUCK || self.returns(ode, (t, y), *switch, &before) {
                 self.release(ode, t, y, *switch)?;
             }
         }
@@ -273,39 +272,6 @@ impl Switching {
                 self.pieces[*k] = piece;
             }
         }
-    }
-
-    /// Releases a switch that changes back at once, if the motion is continuous there.
-    fn release(
-        &mut self,
-        ode: &mut MotionOde<'_>,
-        t: f64,
-        y: &[f64],
-        switch: usize,
-    ) -> Result<(), Cause<Breakdown>> {
-        let boundaries = &ode.model.switches[switch].boundaries;
-        self.evaluate(ode.model, t, y);
-        let other = boundaries.next(self.sigma[switch], self.pieces[switch]);
-        let mut rates = [vec![0.0; y.len()], vec![0.0; y.len()]];
-        let held = std::mem::take(&mut ode.workspace.motions.pieces);
-        for (piece, rates) in [self.pieces[switch], other].into_iter().zip(&mut rates) {
-            ode.workspace.motions.pieces.clone_from(&self.pieces);
-            ode.workspace.motions.pieces[switch] = piece;
-            ode.rate(t, y, rates).map_err(|error| Cause::Equations { t, error })?;
-        }
-        ode.workspace.motions.pieces = held;
-        let controlled = ode.structure().controlled();
-        let [one, other] = &rates;
-        let jumps = (0..controlled).any(|i| {
-            let scale = self.largest[i].max(one[i].abs()).max(other[i].abs());
-            (one[i] - other[i]).abs() > JUMPS * scale && scale > 0.0
-        });
-        if jumps {
-            return Err(Cause::Equations { t, error: Breakdown::Sliding(switch) });
-        }
-        self.pieces[switch] = f64::NAN;
-        self.history[switch] = History { last: t, quick: 0, calm: (f64::NAN, 0) };
-        Ok(())
     }
 
     /// Whether steps have to be scanned.
