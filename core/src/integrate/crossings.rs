@@ -29,8 +29,9 @@ pub struct Crossing {
 /// The signs of functions over a step.
 #[derive(Clone, Debug, Default)]
 pub struct Scan {
-    /// The first change of sign of each function that has one in a direction that counts; in order of time.
-    pub crossings: Vec<Crossing>,
+    /// The changes of sign in a direction that counts that come before all others: several where functions change
+    /// together, in their order.
+    pub first: Vec<Crossing>,
     /// The functions that are below zero at all samples after the beginning.
     pub negative: Vec<usize>,
 }
@@ -38,19 +39,24 @@ pub struct Scan {
 /// Evaluates functions at a time and a state, into its last argument. NaN has no sign.
 pub type Functions<'a> = &'a mut dyn FnMut(f64, &[f64], &mut [f64]);
 
-/// Samples `count` functions over a step and locates their first changes of sign, to four spacings of numbers. A change
-/// at the very beginning belongs to the step before.
-pub fn scan(step: &Step<'_>, count: usize, functions: Functions<'_>, direction: Direction) -> Scan {
-    let mut scan = Scan::default();
+/// Samples `count` functions over a step and locates the first changes of sign, to four spacings of numbers. A change
+/// at the very beginning belongs to the step before. Changes of a function after `until` of its index do not count.
+pub fn scan(
+    step: &Step<'_>,
+    count: usize,
+    functions: Functions<'_>,
+    direction: Direction,
+    until: &dyn Fn(usize) -> Option<f64>,
+) -> Scan {
     let mut sampled = Sampled::new(step, count, functions);
+    let (mut changes, mut negative) = (Vec::new(), Vec::new());
     for (index, points) in sampled.points().into_iter().enumerate() {
-        scan.crossings.extend(sampled.changes(index, &points, direction, 1));
+        changes.extend(sampled.changes(index, &points, direction, 1));
         if points[1..].iter().all(|(_, value)| *value < 0.0) {
-            scan.negative.push(index);
+            negative.push(index);
         }
     }
-    sort(step, &mut scan.crossings);
-    scan
+    Scan { first: sampled.first(changes, until), negative }
 }
 
 /// All changes of sign, each function with its own direction: in order of time, and at one time in the order of the
@@ -67,7 +73,8 @@ pub fn crossings(
     let mut all = Vec::new();
     for (index, direction) in directions.iter().enumerate() {
         let points: Vec<Point> = rows.iter().map(|(t, row)| (*t, row[index])).collect();
-        all.extend(sampled.changes(index, &points, *direction, usize::MAX));
+        let changes = sampled.changes(index, &points, *direction, usize::MAX);
+        all.extend(changes.iter().map(|change| sampled.close(change)));
     }
     sort(step, &mut all);
     all.dedup_by(|b, a| a.index == b.index && (b.t - a.t).abs() <= together(step));
@@ -92,6 +99,30 @@ fn sort(step: &Step<'_>, crossings: &mut [Crossing]) {
 type Point = (f64, f64);
 /// A time and the values of all functions there.
 type Sample = (f64, Vec<f64>);
+
+/// A change of sign between two times.
+#[derive(Clone, Copy, Debug)]
+struct Change {
+    index: usize,
+    old: Point,
+    new: Point,
+    rising: bool,
+}
+
+impl Change {
+    /// Whether the function has changed at a value between the two times.
+    fn is_past(&self, value: f64) -> bool {
+        if self.rising {
+            value >= 0.0
+        } else {
+            value <= 0.0
+        }
+    }
+
+    fn at(&self, t: f64) -> Crossing {
+        Crossing { index: self.index, t, rising: self.rising }
+    }
+}
 
 /// The place of a further sample between two; not their middle, which functions of a period may hit again.
 const BETWEEN: f64 = 0.45;
@@ -179,14 +210,17 @@ impl<'a, 'b> Sampled<'a, 'b> {
         points: &[Point],
         direction: Direction,
         most: usize,
-    ) -> Vec<Crossing> {
+    ) -> Vec<Change> {
+        let between = |old: Point, new: Point| {
+            direction.counts(old.1, new.1).map(|rising| Change { index, old, new, rising })
+        };
         let mut found = Vec::new();
         for k in 1..points.len() {
             if found.len() >= most {
                 break;
             }
-            if let Some(crossing) = self.between(index, points[k - 1], points[k], direction) {
-                found.push(crossing);
+            if let Some(change) = between(points[k - 1], points[k]) {
+                found.push(change);
                 continue;
             }
             // the samples approach zero and turn back
@@ -194,31 +228,77 @@ impl<'a, 'b> Sampled<'a, 'b> {
             if let Some([before, beyond, after]) =
                 self.turn(index, [points[k - 1], points[k], *next])
             {
-                found.extend(self.between(index, before, beyond, direction));
-                found.extend(self.between(index, beyond, after, direction));
+                found.extend(between(before, beyond));
+                found.extend(between(beyond, after));
             }
         }
         found.truncate(most);
         found
     }
 
-    /// The change of sign between two times.
-    fn between(
-        &mut self,
-        index: usize,
-        a: Point,
-        b: Point,
-        direction: Direction,
-    ) -> Option<Crossing> {
-        let rising = direction.counts(a.1, b.1)?;
-        if b.1 == 0.0 {
-            return Some(Crossing { index, t: b.0, rising });
+    /// The time just past a change.
+    fn close(&mut self, change: &Change) -> Crossing {
+        let Change { index, old, new, .. } = *change;
+        if new.1 == 0.0 {
+            return change.at(new.0);
         }
-        let sign = b.1.signum();
-        let bracket = Bracket { old: (a.0, sign * a.1), new: (b.0, sign * b.1) };
-        let spacing = f64::EPSILON * a.0.abs().max(b.0.abs());
-        let t = bracket.close(4.0 * spacing, |t| sign * self.at(t)[index]);
-        Some(Crossing { index, t, rising })
+        let sign = new.1.signum();
+        let bracket = Bracket { old: (old.0, sign * old.1), new: (new.0, sign * new.1) };
+        let spacing = f64::EPSILON * old.0.abs().max(new.0.abs());
+        change.at(bracket.close(4.0 * spacing, |t| sign * self.at(t)[index]))
+    }
+
+    /// The changes that come first. A change is closed in only if it comes before those found so far, so that the cost
+    /// of many functions that change in one step is linear in their number.
+    fn first(
+        &mut self,
+        changes: Vec<Change>,
+        until: &dyn Fn(usize) -> Option<f64>,
+    ) -> Vec<Crossing> {
+        let mut found: Vec<Crossing> = Vec::new();
+        let mut limit: Option<Sample> = None;
+        let mut around: Option<[Sample; 2]> = None;
+        for mut change in changes {
+            if let Some(t) = until(change.index) {
+                let sample = limit.take_if(|limit| limit.0 == t);
+                let sample = limit.insert(sample.unwrap_or_else(|| self.sample(t)));
+                let Some(sooner) = self.sooner(&change, sample) else { continue };
+                change = sooner;
+            }
+            if let Some([before, first]) = &around {
+                if self.sooner(&change, first).is_none() {
+                    continue;
+                }
+                let Some(sooner) = self.sooner(&change, before) else {
+                    found.push(change.at(first.0));
+                    continue;
+                };
+                change = sooner;
+            }
+            let crossing = self.close(&change);
+            let sign = (self.step.t - self.step.t_old).signum();
+            let before = crossing.t - sign * together(self.step);
+            around = Some([self.sample(before), self.sample(crossing.t)]);
+            found = vec![crossing];
+        }
+        found.sort_by_key(|crossing| crossing.index);
+        found
+    }
+
+    /// A change within the time up to a sample; None if it comes later.
+    fn sooner(&self, change: &Change, (t, row): &Sample) -> Option<Change> {
+        let sign = (self.step.t - self.step.t_old).signum();
+        let (from, to) = (sign * change.old.0, sign * change.new.0);
+        let value = row[change.index];
+        match sign * t {
+            t if t <= from => None,
+            t if t >= to => Some(*change),
+            _ => change.is_past(value).then_some(Change { new: (*t, value), ..*change }),
+        }
+    }
+
+    fn sample(&mut self, t: f64) -> Sample {
+        (t, self.at(t).to_vec())
     }
 
     /// A point on the other side of zero between three samples of one sign, between the points next to it.

@@ -90,10 +90,10 @@ fn roots_at_the_ends_belong_to_one_step() {
 }
 
 #[test]
-fn several_functions_are_scanned_for_all_their_first_changes() {
+fn several_functions_are_scanned_for_their_first_changes() {
     let band = |t: f64, middle: f64, half: f64| half - (t - middle).abs();
     let mut evaluate = |t: f64, y: &[f64], out: &mut [f64]| {
-        assert!((t - y[0]).abs() < 1e-15 && out.len() == 8);
+        assert!((t - y[0]).abs() < 1e-15 && out.len() == 9);
         out.copy_from_slice(&[
             t - 0.25,                         // one change
             band(t, -0.3, 0.15),              // two in a step
@@ -103,22 +103,49 @@ fn several_functions_are_scanned_for_all_their_first_changes() {
             -1.0 - t * t,                     // always negative
             f64::NAN,                         // no sign
             1.0 - t,                          // zero at the end
+            3.0 * (t - 0.25),                 // together with the first one
         ]);
     };
+    // the first ones are left out in turn
+    let rounds: [(&[usize], &[(usize, bool)], f64); 3] = [
+        (&[], &[(1, true)], -0.45),
+        (&[1, 2], &[(0, true), (8, true)], 0.25),
+        (&[0, 1, 2, 8], &[(7, false)], 1.0),
+    ];
     with_unit_step(|step| {
-        let found = scan(step, 8, &mut evaluate, Direction::Any);
-        let expected = [(1, -0.45, true), (0, 0.25, true), (2, 0.25, false), (7, 1.0, false)];
-        assert_eq!(found.crossings.len(), expected.len(), "{found:?}");
-        for (index, t, rising) in expected {
-            let crossing = found.crossings.iter().find(|c| c.index == index).expect("a crossing");
-            assert!((crossing.t - t).abs() < 1e-14, "{crossing:?}");
-            assert_eq!(crossing.rising, rising);
+        for (without, expected, t) in rounds {
+            let until = |k: usize| without.contains(&k).then_some(-0.9);
+            let found = scan(step, 9, &mut evaluate, Direction::Any, &until);
+            let which: Vec<_> = found.first.iter().map(|c| (c.index, c.rising)).collect();
+            assert_eq!(which, expected);
+            assert!(found.first.iter().all(|c| (c.t - t).abs() < 1e-14), "{found:?}");
+            assert_eq!(found.negative, [5]);
         }
-        assert!(found.crossings.windows(2).all(|w| w[0].t <= w[1].t));
-        assert_eq!(found.negative, [5]);
-        let falling = scan(step, 8, &mut evaluate, Direction::Falling);
-        let which: Vec<usize> = falling.crossings.iter().map(|c| c.index).collect();
-        assert_eq!(which, [1, 2, 7]);
-        assert!((falling.crossings[0].t + 0.15).abs() < 1e-14);
+        let falling = scan(step, 9, &mut evaluate, Direction::Falling, &|_| None);
+        assert_eq!(falling.first.len(), 1);
+        assert_eq!(falling.first[0].index, 1);
+        assert!((falling.first[0].t + 0.15).abs() < 1e-14);
     });
+}
+
+/// Each evaluation has the cost of all functions: their number must not grow with that of the changes.
+#[test]
+fn a_thousand_changes_in_a_step_cost_few_evaluations() {
+    for spread in [0.0, 1e-12, 1e-3] {
+        let mut evaluations = 0;
+        let mut evaluate = |t: f64, _: &[f64], out: &mut [f64]| {
+            evaluations += 1;
+            for (k, out) in out.iter_mut().enumerate() {
+                let at = 0.3 + spread * ((k * 617) % 1000) as f64;
+                *out = (at - t) * (2.0 + t);
+            }
+        };
+        with_unit_step(|step| {
+            let found = scan(step, 1000, &mut evaluate, Direction::Any, &|_| None);
+            assert_eq!(found.first.len(), if spread == 0.0 { 1000 } else { 1 });
+            assert_eq!(found.first[0].index, 0);
+            assert!((found.first[0].t - 0.3).abs() < 1e-14);
+        });
+        assert!(evaluations < 300, "{evaluations} with {spread}");
+    }
 }

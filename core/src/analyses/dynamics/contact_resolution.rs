@@ -9,6 +9,7 @@
 use super::modes::Place;
 use super::motion_ode::MotionOde;
 use crate::elements::Behaviour;
+use crate::math::Jet;
 use crate::model::{Model, Owner};
 use crate::solve::Breakdown;
 
@@ -83,32 +84,36 @@ impl Onset {
         at: (f64, &[f64]),
         changes: &[(usize, f64)],
     ) -> Result<Option<Self>, Breakdown> {
-        let mut found: Option<Self> = None;
-        for (switch, piece) in changes {
-            let Owner::Force(force) = ode.model.switches[*switch].owner else { continue };
-            if *piece > 0.0 {
-                let own = Self::of_force(ode, at, force)?;
-                found = own.into_iter().chain(found).min_by(|a, b| a.lasts.total_cmp(&b.lasts));
-            }
+        let model = ode.model;
+        let begun = changes.iter().filter(|(_, piece)| *piece > 0.0);
+        let compliant = begun.filter_map(|(switch, _)| match model.switches[*switch].owner {
+            Owner::Force(force) => match model.forces[force].element.behaviour()? {
+                Behaviour::Compliant { stiffness, exponent } => Some((force, stiffness, exponent)),
+                _ => None,
+            },
+            Owner::Constraint(_) => None,
+        });
+        let (mut found, mut lifted): (Option<Self>, Option<Model<Jet>>) = (None, None);
+        for contact in compliant {
+            let lifted = lifted.get_or_insert_with(|| model.lift());
+            let own = Self::of_contact(ode, lifted, at, contact)?;
+            found = own.into_iter().chain(found).min_by(|a, b| a.lasts.total_cmp(&b.lasts));
         }
         Ok(found)
     }
 
-    fn of_force(
+    fn of_contact(
         ode: &mut MotionOde<'_>,
+        lifted: &Model<Jet>,
         (t, y): (f64, &[f64]),
-        force: usize,
+        (force, stiffness, exponent): (usize, f64, f64),
     ) -> Result<Option<Self>, Breakdown> {
         let model = ode.model;
-        let Some(Behaviour::Compliant { stiffness, exponent }) =
-            model.forces[force].element.behaviour()
-        else {
-            return Ok(None);
-        };
-        let speed = -Place { t, y: &mut y.to_vec() }.gap_rates(model, &[force])[0];
-        let gradient = gradient(model, (t, y), force);
+        let mut y = y.to_vec();
+        let speed = -Place { t, y: &mut y }.gap_rate(lifted, force);
+        let gradient = gradient(lifted, (t, &mut y.clone()), force);
         let response =
-            ode.workspace.velocity_jump(model, t, model.layout.split(y)[0], &gradient)?;
+            ode.workspace.velocity_jump(model, t, model.layout.split(&y)[0], &gradient)?;
         let per_mass: f64 = gradient.iter().zip(&response).map(|(g, v)| g * v).sum();
         let work = 0.5 * speed * speed / per_mass;
         let depth = ((exponent + 1.0) * work / stiffness).powf(1.0 / (exponent + 1.0));
@@ -131,16 +136,15 @@ impl Onset {
     }
 }
 
-/// The derivatives of the rate of the gap by the rates of the coordinates.
-fn gradient(model: &Model, (t, y): (f64, &[f64]), force: usize) -> Vec<f64> {
-    let mut y = y.to_vec();
+/// The derivatives of the rate of the gap by the rates of the coordinates, which are changed.
+fn gradient(model: &Model<Jet>, (t, y): (f64, &mut [f64]), force: usize) -> Vec<f64> {
     let mut rate = |one: Option<usize>| {
-        let [_, v, ..] = model.layout.split_mut(&mut y);
+        let [_, v, ..] = model.layout.split_mut(y);
         v.fill(0.0);
         if let Some(k) = one {
             v[k] = 1.0;
         }
-        Place { t, y: &mut y }.gap_rates(model, &[force])[0]
+        Place { t, y }.gap_rate(model, force)
     };
     let still = rate(None);
     let mut gradient = vec![0.0; model.layout.n_q];

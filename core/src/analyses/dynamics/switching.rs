@@ -284,29 +284,14 @@ impl Switching {
         if let Some(after) = self.approach(model, step) {
             return after;
         }
-        let sign = self.sign;
-        let scanned = self.scan(model, step);
-        let own = |k: usize| self.on_state[k];
         let spacing = 4.0 * f64::EPSILON * step.t.abs().max(step.t_old.abs());
-        // with a more accurate interpolant the same switch may lie slightly earlier; it is approached a few times
-        let (goal, tries) = match &self.due {
-            Some(due) if due.tries >= AGAIN => {
-                (due.t - sign * (step.t - step.t_old).abs(), due.tries)
-            }
-            Some(due) => (due.t, due.tries),
-            None => (f64::NAN, 0),
-        };
-        let awaited = |k: usize| {
-            self.due.as_ref().is_some_and(|due| due.changes.iter().any(|(switch, _)| *switch == k))
-        };
-        let earlier = |t: f64, k: usize| !awaited(k) || sign * (goal - t) > 1e3 * spacing;
-        let found =
-            scanned.crossings.iter().filter(|crossing| earlier(crossing.t, own(crossing.index)));
-        let Some(first) = found.clone().map(|crossing| crossing.t).next() else {
+        let scanned = self.scan(model, step, spacing);
+        let Some(first) = scanned.first.first().map(|crossing| crossing.t) else {
             return self.after_smooth_step(model, step, &scanned);
         };
-        let together: Vec<usize> =
-            found.filter(|c| sign * (c.t - first) <= 2.0 * spacing).map(|c| own(c.index)).collect();
+        let tries = self.due.as_ref().map_or(0, |due| due.tries);
+        let together = scanned.first.iter().map(|crossing| self.on_state[crossing.index]);
+        let together: Vec<usize> = together.collect();
         self.evaluate_at(model, step, first);
         let next = |k: usize| (k, model.switches[k].boundaries.next(self.sigma[k], self.pieces[k]));
         let changes: Vec<_> = together.into_iter().map(next).collect();
@@ -321,17 +306,26 @@ impl Switching {
         }
     }
 
-    /// The crossings of the margins of the held pieces.
-    fn scan(&mut self, model: &Model, step: &Step<'_>) -> Scan {
+    /// The first crossings of the margins of the held pieces. With a more accurate interpolant the switches that are due
+    /// may lie slightly earlier: they are approached a few times.
+    fn scan(&mut self, model: &Model, step: &Step<'_>, spacing: f64) -> Scan {
         let on_state = std::mem::take(&mut self.on_state);
+        let due = self.due.take();
+        let (sign, length) = (self.sign, (step.t - step.t_old).abs());
+        let until = |index: usize| {
+            let due = due.as_ref()?;
+            let is_due = due.changes.iter().any(|(switch, _)| *switch == on_state[index]);
+            let earlier = if due.tries >= AGAIN { length } else { 1e3 * spacing };
+            is_due.then(|| due.t - sign * earlier)
+        };
         let mut margins = |t: f64, y: &[f64], out: &mut [f64]| {
             self.evaluate(model, t, y);
             for (out, k) in out.iter_mut().zip(&on_state) {
                 *out = model.switches[*k].boundaries.margin(self.sigma[*k], self.pieces[*k]);
             }
         };
-        let scanned = scan(step, on_state.len(), &mut margins, Direction::Falling);
-        self.on_state = on_state;
+        let scanned = scan(step, on_state.len(), &mut margins, Direction::Falling, &until);
+        (self.on_state, self.due) = (on_state, due);
         scanned
     }
 

@@ -8,7 +8,7 @@ use crate::equations::energy;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::{Gains, Workspace};
-use crate::math::{Jet, Lift};
+use crate::math::{Jet, Lift, Real};
 use crate::model::{size, ForceMode, Model};
 
 /// Speed of friction that counts as zero, relative to the speeds of the mechanism; accelerations likewise.
@@ -28,7 +28,7 @@ pub struct Place<'y> {
 
 impl Place<'_> {
     /// q, v and z.
-    pub fn state(&self, model: &Model) -> [&[f64]; 3] {
+    pub fn state<S: Real>(&self, model: &Model<S>) -> [&[f64]; 3] {
         let [q, v, z, _] = model.layout.split(self.y);
         [q, v, z]
     }
@@ -76,14 +76,22 @@ impl Place<'_> {
         self.gap_jets(model, contacts, &still).iter().map(|gap| gap.rate).collect()
     }
 
+    /// The rate of the gap of a contact of a lifted model.
+    pub fn gap_rate(&self, lifted: &Model<Jet>, contact: usize) -> f64 {
+        self.jets(lifted, &[contact], &vec![0.0; lifted.layout.n_q])[0].rate
+    }
+
     /// The gaps of contacts with their first and second derivatives in time, or the speeds of friction with their first
     /// one, for accelerations `a`.
     pub fn gap_jets(&self, model: &Model, contacts: &[usize], a: &[f64]) -> Vec<Jet> {
         if contacts.is_empty() {
             return Vec::new();
         }
-        let [q, v, z] = self.state(model);
-        let lifted: Model<Jet> = model.lift();
+        self.jets(&model.lift(), contacts, a)
+    }
+
+    fn jets(&self, lifted: &Model<Jet>, contacts: &[usize], a: &[f64]) -> Vec<Jet> {
+        let [q, v, z] = self.state(lifted);
         let moving = q.iter().zip(v).zip(a);
         let q: Vec<Jet> = moving.map(|((q, v), a)| Jet::new(*q, *v, *a)).collect();
         let of = |x: &[f64]| -> Vec<Jet> { x.iter().map(|x| Jet::lift(*x)).collect() };
@@ -91,7 +99,7 @@ impl Place<'_> {
         let motions = Motions::at(&lifted.layout, &q, &rates);
         let z = of(z);
         let acting = Acting { z: &z, lam: None, t: Jet::new(self.t, 1.0, 0.0) };
-        contacts.iter().map(|k| forces::threshold(&lifted, *k, &motions, acting)).collect()
+        contacts.iter().map(|k| forces::threshold(lifted, *k, &motions, acting)).collect()
     }
 
     /// A force beside which rounding errors of the forces of a state are small: that of the largest kinetic energy per
