@@ -80,6 +80,16 @@ fn faulty_curves_are_refused() {
     refuses("{ polar = \"0.1 + t\" }", POINT, &["polar", "time t"]);
     let open = "{ x = \"u\", y = \"u^2\", range = [0, 1], periodic = true }";
     refuses(open, POINT, &["periodic", "apart"]);
+    // a unit circle with a gap of 2e-6 m, and one whose derivative turns by about 1e-5 rad
+    let circle = |y: &str| {
+        let range = "range = [0, 6.283185307179586], periodic = true";
+        format!("{{ x = \"cos(u)\", y = \"{y}\", {range} }}")
+    };
+    refuses(&circle("sin(u)"), POINT, &[]);
+    let gap = "sin(u) + 2e-6*u/6.283185307179586";
+    refuses(&circle(gap), POINT, &["periodic", "the ends are 2.000e-6 m apart"]);
+    let corner = "sin(u) + 1e-6*u*(u - 6.283185307179586)";
+    refuses(&circle(corner), POINT, &["periodic", "a corner where it closes itself"]);
     let wrong = faults(
         "[bodies.b]\nmass = 1\ninertia = 1\npoints = { P = [0, 0] }\n[bodies.ground]\ncurves = { rim = { circle = \
          [0, 0, 1] } }\n[joints.c]\ntype = \"point_on_curve\"\ni = \"b.P\"\ncurve = \"ground.rin\"\n",

@@ -12,6 +12,8 @@ use super::step::Step;
 const PARTS: usize = 12;
 /// Spacings of numbers within which changes of sign count as one time.
 const TOGETHER: f64 = 8.0;
+/// Changes within this many times that span after one that ends a step are kept.
+const AFTER: f64 = 8.0;
 /// Parabolas that are tried to find a zero between samples of one sign.
 const PARABOLAS: usize = 4;
 
@@ -60,22 +62,28 @@ pub fn scan(
 }
 
 /// All changes of sign, each function with its own direction: in order of time, and at one time in the order of the
-/// functions. The step is divided into `parts`, and further where a parabola through three samples reaches zero or the
-/// samples do not follow a parabola, so that functions which oscillate within a step are resolved.
+/// functions. Those after the first change of a function that `ends` are left out. The step is divided into `parts`, and
+/// further where a parabola through three samples reaches zero or the samples do not follow a parabola, so that
+/// functions which oscillate within a step are resolved.
 pub fn crossings(
     step: &Step<'_>,
     parts: usize,
     directions: &[Direction],
     functions: Functions<'_>,
+    ends: &dyn Fn(usize) -> bool,
 ) -> Vec<Crossing> {
     let mut sampled = Sampled::new(step, directions.len(), functions);
     let rows = sampled.resolved(parts);
-    let mut all = Vec::new();
+    let mut changes = Vec::new();
     for (index, direction) in directions.iter().enumerate() {
         let points: Vec<Point> = rows.iter().map(|(t, row)| (*t, row[index])).collect();
-        let changes = sampled.changes(index, &points, *direction, usize::MAX);
-        all.extend(changes.iter().map(|change| sampled.close(change)));
+        changes.extend(sampled.changes(index, &points, *direction, usize::MAX));
     }
+    let around = sampled.earliest(changes.iter().filter(|change| ends(change.index)));
+    let mut all = match &around {
+        None => changes.iter().map(|change| sampled.close(change)).collect(),
+        Some(around) => sampled.up_to(around, &changes),
+    };
     sort(step, &mut all);
     all.dedup_by(|b, a| a.index == b.index && (b.t - a.t).abs() <= together(step));
     all
@@ -248,41 +256,55 @@ impl<'a, 'b> Sampled<'a, 'b> {
         change.at(bracket.close(4.0 * spacing, |t| sign * self.at(t)[index]))
     }
 
-    /// The changes that come first. A change is closed in only if it comes before those found so far, so that the cost
-    /// of many functions that change in one step is linear in their number.
+    /// Samples just before and just past the earliest change. A change is closed in only if it comes before those found
+    /// so far: the cost of many functions that change in one step is linear in their number.
+    fn earliest<'c>(&mut self, changes: impl Iterator<Item = &'c Change>) -> Option<[Sample; 2]> {
+        let sign = (self.step.t - self.step.t_old).signum();
+        let mut around: Option<[Sample; 2]> = None;
+        for change in changes {
+            let sooner =
+                around.as_ref().map_or(Some(*change), |[past, _]| self.sooner(change, past));
+            let Some(change) = sooner else { continue };
+            let t = self.close(&change).t;
+            around = Some([t - sign * together(self.step), t].map(|t| self.sample(t)));
+        }
+        around
+    }
+
+    /// The changes that come first, without those of a function after `until` of its index.
     fn first(
         &mut self,
         changes: Vec<Change>,
         until: &dyn Fn(usize) -> Option<f64>,
     ) -> Vec<Crossing> {
-        let mut found: Vec<Crossing> = Vec::new();
         let mut limit: Option<Sample> = None;
-        let mut around: Option<[Sample; 2]> = None;
-        for mut change in changes {
-            if let Some(t) = until(change.index) {
-                let sample = limit.take_if(|limit| limit.0 == t);
-                let sample = limit.insert(sample.unwrap_or_else(|| self.sample(t)));
-                let Some(sooner) = self.sooner(&change, sample) else { continue };
-                change = sooner;
+        let counts = |change: Change| {
+            let Some(t) = until(change.index) else { return Some(change) };
+            let sample = limit.take().filter(|limit| limit.0 == t);
+            let sample = limit.insert(sample.unwrap_or_else(|| self.sample(t)));
+            self.sooner(&change, sample)
+        };
+        let changes: Vec<Change> = changes.into_iter().filter_map(counts).collect();
+        let Some([_, first]) = self.earliest(changes.iter()) else { return Vec::new() };
+        let together = changes.iter().filter(|change| self.sooner(change, &first).is_some());
+        together.map(|change| change.at(first.0)).collect()
+    }
+
+    /// The changes up to the earliest one that ends the step, and shortly after it.
+    fn up_to(&mut self, [before, first]: &[Sample; 2], changes: &[Change]) -> Vec<Crossing> {
+        let sign = (self.step.t - self.step.t_old).signum();
+        let after = self.sample(first.0 + sign * AFTER * together(self.step));
+        let of = |change: &Change| {
+            if let Some(earlier) = self.sooner(change, before) {
+                return Some(self.close(&earlier));
             }
-            if let Some([before, first]) = &around {
-                if self.sooner(&change, first).is_none() {
-                    continue;
-                }
-                let Some(sooner) = self.sooner(&change, before) else {
-                    found.push(change.at(first.0));
-                    continue;
-                };
-                change = sooner;
+            // rounding errors may hide at the later sample what the first one shows
+            if self.sooner(change, first).is_some() {
+                return Some(change.at(first.0));
             }
-            let crossing = self.close(&change);
-            let sign = (self.step.t - self.step.t_old).signum();
-            let before = crossing.t - sign * together(self.step);
-            around = Some([self.sample(before), self.sample(crossing.t)]);
-            found = vec![crossing];
-        }
-        found.sort_by_key(|crossing| crossing.index);
-        found
+            self.sooner(change, &after).map(|later| self.close(&later))
+        };
+        changes.iter().filter_map(of).collect()
     }
 
     /// A change within the time up to a sample; None if it comes later.

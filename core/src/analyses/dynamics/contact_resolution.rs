@@ -31,16 +31,26 @@ pub(super) enum Steps {
     Chosen,
 }
 
+impl Steps {
+    /// Whether contacts with this exponent change the steps.
+    fn depend_on(self, exponent: f64) -> bool {
+        match self {
+            Self::Constant(_) => true,
+            Self::Implicit => false,
+            Self::Chosen => exponent.fract() != 0.0,
+        }
+    }
+}
+
 /// A contact that begins.
 struct Onset {
     force: usize,
-    exponent: f64,
     /// About how long it lasts, s.
     lasts: f64,
 }
 
 /// The ends of the first steps, last ones first, of contacts that begin at a state where these switches change; None if
-/// none begins. With the steps of the method, and the direction of time.
+/// none begins that changes the steps. With the steps of the method, and the direction of time.
 ///
 /// # Errors
 /// [`Breakdown::Unresolved`] if constant steps are too long.
@@ -50,7 +60,7 @@ pub(super) fn ends(
     changes: &[(usize, f64)],
     (steps, sign): (Steps, f64),
 ) -> Result<Option<Vec<f64>>, Breakdown> {
-    let Some(onset) = Onset::find(ode, at, changes)? else { return Ok(None) };
+    let Some(onset) = Onset::find(ode, at, changes, steps)? else { return Ok(None) };
     Ok(Some(onset.ends(steps)?.into_iter().map(|after| at.0 + sign * after).collect()))
 }
 
@@ -78,17 +88,20 @@ pub(super) fn before_release(
 }
 
 impl Onset {
-    /// The shortest contact that begins where these switches change.
+    /// The shortest contact that begins where these switches change, of those that change the steps.
     fn find(
         ode: &mut MotionOde<'_>,
         at: (f64, &[f64]),
         changes: &[(usize, f64)],
+        steps: Steps,
     ) -> Result<Option<Self>, Breakdown> {
         let model = ode.model;
         let begun = changes.iter().filter(|(_, piece)| *piece > 0.0);
         let compliant = begun.filter_map(|(switch, _)| match model.switches[*switch].owner {
             Owner::Force(force) => match model.forces[force].element.behaviour()? {
-                Behaviour::Compliant { stiffness, exponent } => Some((force, stiffness, exponent)),
+                Behaviour::Compliant { stiffness, exponent } if steps.depend_on(exponent) => {
+                    Some((force, stiffness, exponent))
+                }
                 _ => None,
             },
             Owner::Constraint(_) => None,
@@ -118,19 +131,17 @@ impl Onset {
         let work = 0.5 * speed * speed / per_mass;
         let depth = ((exponent + 1.0) * work / stiffness).powf(1.0 / (exponent + 1.0));
         let lasts = DURATION * depth / speed;
-        Ok((speed > 0.0 && lasts.is_finite()).then_some(Self { force, exponent, lasts }))
+        Ok((speed > 0.0 && lasts.is_finite()).then_some(Self { force, lasts }))
     }
 
     /// The times after its beginning at which the first steps end, last ones first.
     fn ends(&self, steps: Steps) -> Result<Vec<f64>, Breakdown> {
-        let Self { force, exponent, lasts } = *self;
+        let Self { force, lasts } = *self;
         match steps {
             Steps::Constant(step) if STEPS * step > lasts => {
                 Err(Breakdown::Unresolved { force, lasts, step })
             }
-            Steps::Chosen if exponent.fract() != 0.0 => {
-                Ok(GRADED.iter().map(|part| part * lasts).collect())
-            }
+            Steps::Chosen => Ok(GRADED.iter().map(|part| part * lasts).collect()),
             _ => Ok(Vec::new()),
         }
     }

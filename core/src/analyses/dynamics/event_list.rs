@@ -191,7 +191,8 @@ impl<'a> EventList<'a> {
                 *out = if *out == 0.0 { event.function.at_zero() } else { *out };
             }
         };
-        crossings(step, parts(model, step), &directions, &mut functions)
+        let ends = |index: usize| watched[index].ends;
+        crossings(step, parts(model, step), &directions, &mut functions, &ends)
     }
 
     /// The time of an event that is expected at the end of a step and lies slightly later; None if the interpolant had it
