@@ -106,21 +106,19 @@ fn several_functions_are_scanned_for_their_first_changes() {
             3.0 * (t - 0.25),                 // together with the first one
         ]);
     };
-    // the first ones are left out in turn
-    let rounds: [(&[usize], &[(usize, bool)], f64); 3] = [
-        (&[], &[(1, true)], -0.45),
-        (&[1, 2], &[(0, true), (8, true)], 0.25),
-        (&[0, 1, 2, 8], &[(7, false)], 1.0),
-    ];
     with_unit_step(|step| {
-        for (without, expected, t) in rounds {
+        // the first ones are left out in turn
+        let mut check = |without: &[usize], expected: &[(usize, bool)], t: f64| {
             let until = |k: usize| without.contains(&k).then_some(-0.9);
             let found = scan(step, 9, &mut evaluate, Direction::Any, &until);
             let which: Vec<_> = found.first.iter().map(|c| (c.index, c.rising)).collect();
             assert_eq!(which, expected);
             assert!(found.first.iter().all(|c| (c.t - t).abs() < 1e-14), "{found:?}");
             assert_eq!(found.negative, [5]);
-        }
+        };
+        check(&[], &[(1, true)], -0.45);
+        check(&[1, 2], &[(0, true), (8, true)], 0.25);
+        check(&[0, 1, 2, 8], &[(7, false)], 1.0);
         let falling = scan(step, 9, &mut evaluate, Direction::Falling, &|_| None);
         assert_eq!(falling.first.len(), 1);
         assert_eq!(falling.first[0].index, 1);

@@ -316,7 +316,7 @@ impl Switching {
             let due = due.as_ref()?;
             let is_due = due.changes.iter().any(|(switch, _)| *switch == on_state[index]);
             let earlier = if due.tries >= AGAIN { length } else { 1e3 * spacing };
-            is_due.then(|| due.t - sign * earlier)
+            is_due.then_some(due.t - sign * earlier)
         };
         let mut margins = |t: f64, y: &[f64], out: &mut [f64]| {
             self.evaluate(model, t, y);
