@@ -12,8 +12,9 @@ use super::step::Step;
 const PARTS: usize = 12;
 /// Spacings of numbers within which changes of sign count as one time.
 const TOGETHER: f64 = 8.0;
-/// Changes within this many times that span after one that ends a step are kept.
-const AFTER: f64 = 8.0;
+/// Changes within this many times that span before the first one count as simultaneous, as rounding errors of functions may
+/// shift them; those as much after one that ends a step are kept.
+const NEAR: f64 = 8.0;
 /// Parabolas that are tried to find a zero between samples of one sign.
 const PARABOLAS: usize = 4;
 
@@ -262,11 +263,14 @@ impl<'a, 'b> Sampled<'a, 'b> {
         let sign = (self.step.t - self.step.t_old).signum();
         let mut around: Option<[Sample; 2]> = None;
         for change in changes {
-            let sooner =
-                around.as_ref().map_or(Some(*change), |[past, _]| self.sooner(change, past));
-            let Some(change) = sooner else { continue };
-            let t = self.close(&change).t;
-            around = Some([t - sign * together(self.step), t].map(|t| self.sample(t)));
+            if around.as_ref().is_some_and(|[before, _]| !self.has_changed(change, before)) {
+                continue;
+            }
+            let t = self.close(change).t;
+            if around.as_ref().is_none_or(|[_, first]| sign * t < sign * first.0) {
+                let before = t - sign * NEAR * together(self.step);
+                around = Some([before, t].map(|t| self.sample(t)));
+            }
         }
         around
     }
@@ -274,49 +278,42 @@ impl<'a, 'b> Sampled<'a, 'b> {
     /// The changes that come first, without those of a function after `until` of its index.
     fn first(
         &mut self,
-        changes: Vec<Change>,
+        mut changes: Vec<Change>,
         until: &dyn Fn(usize) -> Option<f64>,
     ) -> Vec<Crossing> {
         let mut limit: Option<Sample> = None;
-        let counts = |change: Change| {
-            let Some(t) = until(change.index) else { return Some(change) };
+        changes.retain(|change| {
+            let Some(t) = until(change.index) else { return true };
             let sample = limit.take().filter(|limit| limit.0 == t);
             let sample = limit.insert(sample.unwrap_or_else(|| self.sample(t)));
-            self.sooner(&change, sample)
-        };
-        let changes: Vec<Change> = changes.into_iter().filter_map(counts).collect();
+            self.has_changed(change, sample)
+        });
         let Some([_, first]) = self.earliest(changes.iter()) else { return Vec::new() };
-        let together = changes.iter().filter(|change| self.sooner(change, &first).is_some());
+        let together = changes.iter().filter(|change| self.has_changed(change, &first));
         together.map(|change| change.at(first.0)).collect()
     }
 
     /// The changes up to the earliest one that ends the step, and shortly after it.
     fn up_to(&mut self, [before, first]: &[Sample; 2], changes: &[Change]) -> Vec<Crossing> {
         let sign = (self.step.t - self.step.t_old).signum();
-        let after = self.sample(first.0 + sign * AFTER * together(self.step));
-        let of = |change: &Change| {
-            if let Some(earlier) = self.sooner(change, before) {
-                return Some(self.close(&earlier));
+        let after = self.sample(first.0 + sign * NEAR * together(self.step));
+        let mut found = Vec::new();
+        for change in changes {
+            // rounding errors may hide at a later sample what the first one shows
+            if !self.has_changed(change, before) && self.has_changed(change, first) {
+                found.push(change.at(first.0));
+            } else if self.has_changed(change, before) || self.has_changed(change, &after) {
+                found.push(self.close(change));
             }
-            // rounding errors may hide at the later sample what the first one shows
-            if self.sooner(change, first).is_some() {
-                return Some(change.at(first.0));
-            }
-            self.sooner(change, &after).map(|later| self.close(&later))
-        };
-        changes.iter().filter_map(of).collect()
+        }
+        found
     }
 
-    /// A change within the time up to a sample; None if it comes later.
-    fn sooner(&self, change: &Change, (t, row): &Sample) -> Option<Change> {
+    /// Whether a function has changed at a sample.
+    fn has_changed(&self, change: &Change, (t, row): &Sample) -> bool {
         let sign = (self.step.t - self.step.t_old).signum();
         let (from, to) = (sign * change.old.0, sign * change.new.0);
-        let value = row[change.index];
-        match sign * t {
-            t if t <= from => None,
-            t if t >= to => Some(*change),
-            _ => change.is_past(value).then_some(Change { new: (*t, value), ..*change }),
-        }
+        sign * t > from && (sign * t >= to || change.is_past(row[change.index]))
     }
 
     fn sample(&mut self, t: f64) -> Sample {
