@@ -258,7 +258,7 @@ impl<'a, 'b> Sampled<'a, 'b> {
     }
 
     /// Samples just before and just past the earliest change. A change is closed in only if it comes before those found
-    /// so far: the cost of many functions that change in one step is linear in their number.
+    /// so far, which few of many changes do unless they are simultaneous up to rounding errors.
     fn earliest<'c>(&mut self, changes: impl Iterator<Item = &'c Change>) -> Option<[Sample; 2]> {
         let sign = (self.step.t - self.step.t_old).signum();
         let mut around: Option<[Sample; 2]> = None;
