@@ -17,7 +17,7 @@ HOME_OF_WASM=$ROOT/target/wasm
 DEBIAN=$HOME_OF_WASM/debian
 TARGET=wasm32-unknown-unknown
 PACKAGES="rustc-web cargo-web rust-web-src lld-19"
-MODULE=$HOME_OF_WASM/build/$TARGET/wasm/kempe_wasm.wasm
+MODULE=$HOME_OF_WASM/build/$TARGET/wasm/kempe_web.wasm
 
 say() { printf 'wasm: %s\n' "$*" >&2; }
 
@@ -85,13 +85,13 @@ wasm_cargo() {
 }
 
 check() {
-    wasm_cargo check --quiet --locked -p kempe-wasm || exit 1
+    wasm_cargo check --quiet --locked -p kempe-web || exit 1
     say "the core compiles for $TARGET"
 }
 
 run() {
     command -v node >/dev/null 2>&1 || no_toolchain "no node found: install Node 18 or later"
-    wasm_cargo build --quiet --locked --profile wasm -p kempe-wasm || exit 1
+    wasm_cargo build --quiet --locked --profile wasm -p kempe-web || exit 1
     node "$ROOT/tools/wasm_four_bar.mjs" "$MODULE" || exit 1
 }
 

@@ -1,93 +1,16 @@
-//! The declarations of elements, bodies and options as JSON.
+//! The catalogue of a case with the equations of joints and drivers, as JSON.
 
 use crate::formulas::declared;
-use kempe::analyses::options::Declaration;
-use kempe::analyses::{declarations, option_families};
-use kempe::elements::{catalogue, Default, Field, Group, Shape, Table};
-use kempe::expression::unit::{Unit, UNITS};
-use kempe::expression::{Function, FUNCTIONS};
-use kempe::model::{body_tables, shape_tables, table_fields};
-use serde_json::{json, Map, Value};
+use kempe::elements::Group;
 
-fn default(field: &Field) -> Value {
-    match field.default {
-        None => Value::Null,
-        Some(Default::Absent) => json!({ "absent": true }),
-        Some(Default::Number(x)) => json!(x),
-        Some(Default::Pair(p)) => json!(p),
-        Some(Default::Triple(x)) => json!(x),
-        Some(Default::Flag(flag)) => json!(flag),
-        Some(Default::Type(name) | Default::Body(name)) => json!(name),
-    }
-}
-
-fn shape(shape: Shape) -> Value {
-    match shape {
-        Shape::Word(words) => json!({ "words": words }),
-        Shape::Options(family) => json!({ "options": family }),
-        Shape::LawPair => json!("law_pair"),
-        Shape::NameList => json!("name_list"),
-        plain => json!(format!("{plain:?}").to_lowercase()),
-    }
-}
-
-fn field(field: &Field) -> Value {
-    json!({
-        "name": field.name,
-        "shape": shape(field.shape),
-        "unit": field.unit,
-        "required": field.default.is_none(),
-        "default": default(field),
-        "doc": field.doc,
-    })
-}
-
-fn table(table: &Table) -> Value {
-    let fields: Vec<Value> = table.fields.iter().map(field).collect();
-    json!({ "name": table.name, "doc": table.doc, "fields": fields })
-}
-
-/// An analysis or a set of options, with its class in Python.
-fn options(declared: &Declaration) -> Value {
-    let mut value = table(&declared.table);
-    value["class"] = json!(declared.class);
-    value
-}
-
-fn function(function: &Function) -> Value {
-    json!({ "name": function.name, "arguments": function.arguments, "doc": function.doc })
-}
-
-fn unit((name, unit): &(&str, Unit)) -> Value {
-    json!({ "name": name, "si": unit.scale(1.0), "dimension": unit.dimension.to_string() })
-}
-
-/// An element, with its equations if it is a joint or driver.
-fn element(group: Group, own: &Table) -> Value {
-    let mut value = table(own);
-    if group != Group::Forces {
-        value["formulas"] = declared(group, own.name);
-    }
-    value
-}
-
-/// The allowed content of a case by section, then the functions and units of formulas.
+/// The allowed content of a case by section; joints and drivers have their equations.
 pub fn all() -> String {
-    let mut sections = Map::new();
-    sections.insert("bodies".into(), body_tables().iter().map(table).collect());
-    sections.insert("shapes".into(), shape_tables().iter().map(table).collect());
-    sections.insert("tables".into(), json!([table(&table_fields())]));
-    for group in [Group::Joints, Group::Drivers, Group::Forces] {
-        let tables = catalogue();
-        let own = tables.iter().filter(|(g, _)| *g == group).map(|(_, t)| element(group, t));
-        sections.insert(group.section().into(), own.collect());
+    let mut sections = kempe::case::catalogue();
+    for group in [Group::Joints, Group::Drivers] {
+        for element in sections[group.section()].as_array_mut().into_iter().flatten() {
+            let name = element["name"].as_str().unwrap_or_default().to_string();
+            element["formulas"] = declared(group, &name);
+        }
     }
-    for family in option_families() {
-        let plural = format!("{}s", family.name);
-        sections.insert(plural, family.options.iter().map(options).collect());
-    }
-    sections.insert("analyses".into(), declarations().iter().map(options).collect());
-    sections.insert("functions".into(), FUNCTIONS.iter().map(function).collect());
-    sections.insert("units".into(), UNITS.iter().map(unit).collect());
-    Value::Object(sections).to_string()
+    sections.to_string()
 }

@@ -118,8 +118,36 @@ impl<'a> Closing<'a> {
         phi
     }
 
+    /// aᵀ W b, without unit: lengths are relative to the size of the mechanism.
+    pub fn product(&self, a: &[f64], b: &[f64]) -> f64 {
+        a.iter().zip(b).zip(&self.weights).map(|((a, b), w)| a * w * b).sum()
+    }
+
+    /// The motions x that generalized forces f would cause if W were the mass matrix: [W Φ_qᵀ; Φ_q 0] [x; λ] = [f; 0].
+    /// None where the matrix cannot be factorised.
+    pub fn motions_under(&mut self, q: &[f64], forces: &[Vec<f64>; 2]) -> Option<[Vec<f64>; 2]> {
+        if !self.set_matrix(q, 0.0) {
+            return None;
+        }
+        let n = q.len();
+        Some(forces.each_ref().map(|force| {
+            self.solution.fill(0.0);
+            self.solution[..n].copy_from_slice(force);
+            self.matrix.solve(&mut self.solution);
+            self.solution[..n].to_vec()
+        }))
+    }
+
     fn at(&self, q: &[f64]) -> Motions {
         Motions::at_rest(&self.model.layout, q)
+    }
+
+    /// Factorises the matrix at a position; whether that succeeded.
+    fn set_matrix(&mut self, q: &[f64], levenberg: f64) -> bool {
+        let motions = self.at(q);
+        self.matrix.set_weights(&self.weights);
+        constraints::jacobian(self.model, &motions, self.t, self.matrix.jacobian_mut());
+        self.factor(levenberg) || self.factor(levenberg.max(REDUNDANT.sqrt()))
     }
 
     fn factor(&mut self, levenberg: f64) -> bool {
@@ -165,10 +193,7 @@ impl Equations for Closing<'_> {
         levenberg: f64,
         step: &mut [f64],
     ) -> Result<(), Self::Stop> {
-        let motions = self.at(q);
-        self.matrix.set_weights(&self.weights);
-        constraints::jacobian(self.model, &motions, self.t, self.matrix.jacobian_mut());
-        if !self.factor(levenberg) && !self.factor(levenberg.max(REDUNDANT.sqrt())) {
+        if !self.set_matrix(q, levenberg) {
             step.fill(f64::NAN);
             return Ok(());
         }

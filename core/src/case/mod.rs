@@ -13,11 +13,12 @@
 //! | `names`, `values`, `fields`, `tables`, `bodies`, `start`, `check` | tree → [`Case`], with every fault of structure |
 //! | `write_value`, `write_json`, `write_toml`, `write` | [`Case`] → text |
 //! | `faults` | faults of start and analyses that only the model shows |
-//! | `schema` | the JSON Schema |
+//! | `schema`, `catalogue` | the JSON Schema; the declarations of all that a case may contain |
 
 mod bodies;
 mod body_builder;
 mod builder;
+mod catalogue;
 mod check;
 mod contents;
 mod diagnostic;
@@ -44,6 +45,7 @@ mod write_value;
 
 pub use body_builder::{Bar, BodyBuilder, General, Ground, PointMass};
 pub use builder::ModelBuilder;
+pub use catalogue::catalogue;
 pub use contents::{Case, Format, Start, FORMAT_VERSION, MOST_BYTES, MOST_REPORTED};
 use diagnostic::shown;
 pub use diagnostic::Diagnostic;

@@ -7,12 +7,15 @@
 //! | `remedies` | what may be freed in the joints of a redundancy |
 //! | `bodies` | bodies that cannot move, and bodies that no joint holds |
 //! | `four_bars` | closed loops of four pins, by Grashof's rule |
+//! | `as_json` | a diagnosis as JSON |
 
+mod as_json;
 mod bodies;
 mod four_bars;
 mod passing;
 mod remedies;
 
+pub use as_json::json as as_json;
 pub use four_bars::{FourBar, Grashof};
 pub use passing::Kind;
 pub use remedies::{remedies, Along, Remedy};

@@ -67,6 +67,13 @@ impl fmt::Display for Limit {
     }
 }
 
+/// Two bodies that are in line at a position where the mechanism moves with these rates, shape (n_q), although some
+/// of its pins are at rest.
+pub(in crate::analyses) fn in_line(model: &Model, q: &[f64], rates: &[f64]) -> Option<[String; 2]> {
+    let motions = Motions::at(&model.layout, q, rates);
+    Moving { model, motions: &motions, least: least(model, rates) }.in_line()
+}
+
 /// A value with its unit, angles in degrees.
 pub(in crate::analyses) fn written(value: f64, unit: &str) -> String {
     match unit {

@@ -33,7 +33,7 @@ mod works;
 pub(in crate::analyses) use circuit::{circuit, same};
 pub(in crate::analyses) use continuation::Continuation;
 pub use dead_point::Limit;
-pub(in crate::analyses) use dead_point::{driven, written};
+pub(in crate::analyses) use dead_point::{driven, in_line, written};
 pub use failure::{Failure, Reason};
 pub use motion::Motion;
 pub use options::{InverseOptions, Options};

@@ -1,0 +1,65 @@
+//! Why a request fails.
+
+use kempe::case::{Diagnostic, Document};
+use kempe::model::Problem;
+use serde_json::{json, Value};
+
+/// A message with its remedy, and the faults of a text.
+#[derive(Debug, Default)]
+pub struct Fault {
+    message: String,
+    hint: Option<String>,
+    problems: Vec<Value>,
+}
+
+impl Fault {
+    /// With a message.
+    pub fn new(message: impl Into<String>) -> Self {
+        Self { message: message.into(), ..Self::default() }
+    }
+
+    /// With a remedy; an empty text is none.
+    pub fn hint(self, hint: impl Into<String>) -> Self {
+        Self { hint: Some(hint.into()).filter(|hint| !hint.is_empty()), ..self }
+    }
+
+    /// Of faults of a model, without places in a text.
+    pub fn of_problems(found: &[Problem]) -> Self {
+        let first = found.first().map_or_else(String::new, ToString::to_string);
+        Self { message: first, hint: None, problems: found.iter().map(problem).collect() }
+    }
+
+    /// As the value of `error` in a reply.
+    pub fn value(&self) -> Value {
+        json!({ "message": self.message, "hint": self.hint, "problems": self.problems })
+    }
+
+    /// As a reply.
+    pub fn reply(&self) -> String {
+        json!({ "error": self.value() }).to_string()
+    }
+}
+
+/// A fault of a text.
+pub fn diagnostic(found: &Diagnostic) -> Value {
+    let place = |number: usize| (found.line > 0).then_some(number);
+    let length = found.excerpt.chars().filter(|c| *c == '^').count().max(1);
+    json!({
+        "message": found.message, "hint": found.hint, "path": found.path.join("."),
+        "line": place(found.line), "column": place(found.column), "length": length,
+    })
+}
+
+/// A fault of a model with its place in the text, if the text has one.
+pub fn placed(document: &Document, found: &[Problem]) -> Vec<Value> {
+    let mut found: Vec<Diagnostic> = found.iter().map(|p| document.diagnose(p)).collect();
+    found.sort_by_key(|d| (d.line, d.column));
+    found.iter().map(diagnostic).collect()
+}
+
+fn problem(found: &Problem) -> Value {
+    json!({
+        "message": found.message, "hint": found.hint, "path": found.path.join("."),
+        "line": null, "column": null, "length": 1,
+    })
+}

@@ -1,0 +1,83 @@
+//! The kempe core for web pages: a request as JSON text in, a reply as JSON text out. `README.md` lists them.
+//!
+//! The page writes a request at the address that [`request`] returns, calls [`call`], and reads the reply. Long lists of
+//! numbers lie in memory at [`numbers`]. One [`Session`] is kept; tests in Rust use it without WebAssembly.
+#![deny(unsafe_code)]
+
+mod catalogue;
+mod convert;
+mod dragged;
+mod editing;
+mod fault;
+mod live;
+mod loaded;
+mod mechanism;
+mod modes;
+mod pose;
+mod run;
+mod session;
+
+pub use session::Session;
+
+use std::cell::RefCell;
+
+thread_local! {
+    static MODULE: RefCell<Module> = RefCell::default();
+}
+
+/// The session with the texts that go in and out.
+#[derive(Default)]
+struct Module {
+    request: Vec<u8>,
+    reply: String,
+    session: Session,
+}
+
+impl Module {
+    fn room(&mut self, length: usize) -> *mut u8 {
+        self.request = vec![0; length];
+        self.request.as_mut_ptr()
+    }
+
+    fn call(&mut self) {
+        self.reply = match std::str::from_utf8(&self.request) {
+            Ok(text) => self.session.call(text),
+            Err(fault) => fault::Fault::new(format!("the request is not UTF-8: {fault}")).reply(),
+        };
+        self.request = Vec::new();
+    }
+}
+
+fn module<T>(f: impl FnOnce(&mut Module) -> T) -> T {
+    MODULE.with(|module| f(&mut module.borrow_mut()))
+}
+
+/// Declares functions that JavaScript may call.
+macro_rules! export {
+    ($($(#[doc = $doc:literal])+ fn $name:ident($($argument:ident: $Type:ty),*) -> $Result:ty = $call:expr;)+) => {
+        $(
+            $(#[doc = $doc])+
+            #[allow(unsafe_code)] // an exported name could collide with another; these do not
+            #[no_mangle]
+            pub extern "C" fn $name($($argument: $Type),*) -> $Result {
+                let call: fn(&mut Module, $($Type),*) -> $Result = $call;
+                module(|module| call(module, $($argument),*))
+            }
+        )+
+    };
+}
+
+export! {
+    /// Address of room for a request of so many bytes in UTF-8.
+    fn request(length: usize) -> *mut u8 = Module::room;
+    /// Answers the request.
+    fn call() -> () = Module::call;
+    /// Address of the reply, in UTF-8.
+    fn reply() -> *const u8 = |module| module.reply.as_ptr();
+    /// Its number of bytes.
+    fn reply_length() -> usize = |module| module.reply.len();
+    /// Address of the numbers of the last reply that has any, in double precision.
+    fn numbers() -> *const f64 = |module| module.session.numbers().as_ptr();
+    /// Their count.
+    fn numbers_length() -> usize = |module| module.session.numbers().len();
+}

@@ -1,0 +1,273 @@
+//! Dynamics that goes on while a page shows it: computed a little ahead, and begun anew where the user interferes.
+
+use crate::convert::Fields;
+use crate::dragged::moving;
+use crate::fault::Fault;
+use crate::loaded::Loaded;
+use crate::pose::pose;
+use kempe::analyses::dynamics::{ENERGIES, Prepared, Run};
+use kempe::case::Case;
+use kempe::equations::constraints;
+use kempe::equations::kinematics::Motions;
+use kempe::model::{Entry, Value as Written, WORKS};
+use kempe::{build, Flow, Model, Options, State};
+use serde_json::{json, Value};
+use std::sync::Arc;
+
+/// Time that is computed ahead, s.
+const AHEAD: f64 = 0.25;
+/// Outputs in it.
+const OUTPUTS: f64 = 30.0;
+/// Most steps between two replies; then the motion is slower than real time.
+const MOST_STEPS: usize = 4000;
+/// Names of what holds the mouse; users cannot write names with a space at the start.
+const PULL: &str = "pull by hand";
+
+/// A motion in progress.
+pub struct Live {
+    prepared: Prepared<Arc<Model>>,
+    state: State,
+    /// Works before the present run, J.
+    works: [f64; WORKS],
+    /// The total energy at the start, J, and the scale of energies so far.
+    start: f64,
+    scale: f64,
+    ahead: Option<Run>,
+    events: Vec<Value>,
+    pull: Option<Pull>,
+}
+
+/// The spring between the mouse and a point of a body.
+#[derive(Clone, PartialEq)]
+struct Pull {
+    body: String,
+    point: [f64; 2],
+    to: [f64; 2],
+    stiffness: f64,
+    damping: f64,
+}
+
+impl Live {
+    /// Begins at the present state.
+    pub fn begin(loaded: &Loaded) -> Result<Self, Fault> {
+        if !loaded.assembled {
+            return Err(Fault::new("the mechanism does not close").hint("assemble it first"));
+        }
+        let mut live = Self {
+            prepared: Prepared::new(Arc::clone(&loaded.model)),
+            state: loaded.state.clone(),
+            works: [0.0; WORKS],
+            start: 0.0,
+            scale: 0.0,
+            ahead: None,
+            events: Vec::new(),
+            pull: None,
+        };
+        live.mark_energy();
+        Ok(live)
+    }
+
+    /// The present state.
+    pub fn state(&self) -> &State {
+        &self.state
+    }
+
+    /// Goes on by a time; the reply has the state that was reached.
+    pub fn advance(&mut self, by: f64) -> Value {
+        let (goal, mut steps, mut ended) = (self.state.t + by, 0, None);
+        while ended.is_none() && self.state.t < goal && steps < MOST_STEPS {
+            if self.ahead.as_ref().is_none_or(|run| run.trajectory.t.last() <= Some(&self.state.t)) {
+                ended = self.compute(goal, &mut steps);
+            }
+            let Some(run) = &self.ahead else { break };
+            let reached = run.trajectory.t.iter().take_while(|t| **t <= goal).count();
+            // outputs are near enough for a picture; the last one is where the next run begins
+            let row = reached.max(1).min(run.trajectory.t.len()) - 1;
+            let next = row_of(run, row, self.prepared.model());
+            if next.t <= self.state.t {
+                self.ahead = None;
+                break;
+            }
+            self.state = next;
+        }
+        self.reply(ended)
+    }
+
+    /// Computes ahead from the present state; the reason for which the motion ended, if it did.
+    fn compute(&mut self, goal: f64, steps: &mut usize) -> Option<String> {
+        self.settle_works();
+        let span = AHEAD.max(goal - self.state.t);
+        let mut options = Options::new(self.state.t + span);
+        options.output_step = Some((goal - self.state.t).min(AHEAD / OUTPUTS));
+        options.dense_output = false;
+        let mut count = 0;
+        let outcome = self.prepared.dynamics(&self.state, &options, |_| {
+            count += 1;
+            if count >= MOST_STEPS { Flow::Stop } else { Flow::Continue }
+        });
+        *steps += count;
+        let (run, ended) = match outcome {
+            Ok(run) => (run, None),
+            Err(failure) => (failure.run, Some(failure.reason.to_string())),
+        };
+        for event in &run.events {
+            let times = event.states.t.iter();
+            self.events.extend(times.map(|t| json!({ "name": event.name, "t": t })));
+        }
+        let moves = run.trajectory.t.len() > 1;
+        self.ahead = Some(run);
+        ended.filter(|_| !moves)
+    }
+
+    /// Works up to the present state.
+    fn present_works(&self) -> [f64; WORKS] {
+        let mut works = self.works;
+        if let Some(run) = &self.ahead {
+            let row = run.trajectory.t.iter().take_while(|t| **t <= self.state.t).count().max(1) - 1;
+            let own = &run.trajectory.works[WORKS * row..WORKS * (row + 1)];
+            works.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
+        }
+        works
+    }
+
+    fn settle_works(&mut self) {
+        self.works = self.present_works();
+        self.ahead = None;
+    }
+
+    /// Kinetic and potential energy, dissipated energy, works of drivers and of applied forces, J.
+    fn energies(&self) -> [f64; ENERGIES] {
+        let State { t, q, v, z } = &self.state;
+        let states = kempe::analyses::dynamics::States { t: &[*t], q, v, z };
+        let found = self.prepared.energies(states, &self.present_works()).unwrap_or_default();
+        found.try_into().unwrap_or([f64::NAN; ENERGIES])
+    }
+
+    /// What was done before does not count in the balance.
+    fn mark_energy(&mut self) {
+        self.works = [0.0; WORKS];
+        self.ahead = None;
+        let [kinetic, potential, ..] = self.energies();
+        (self.start, self.scale) = (kinetic + potential, kinetic.abs());
+    }
+
+    fn reply(&mut self, ended: Option<String>) -> Value {
+        let model = Arc::clone(self.prepared.model());
+        let [kinetic, potential, dissipated, drivers, forces] = self.energies();
+        let work = drivers + forces;
+        let total = kinetic + potential + dissipated - work;
+        let moved = (potential + dissipated - work - self.start).abs();
+        self.scale = self.scale.max(kinetic).max(moved).max(dissipated).max(work.abs());
+        let balance = if self.scale > 0.0 { (total - self.start) / self.scale } else { 0.0 };
+        let mut reply = pose(&model, &self.state);
+        reply["energy"] = json!({
+            "kinetic": kinetic, "potential": potential, "dissipated": dissipated, "work": work,
+            "balance": balance,
+        });
+        reply["drift"] = json!(drift(&model, &self.state));
+        let (now, later): (Vec<Value>, Vec<Value>) = std::mem::take(&mut self.events)
+            .into_iter()
+            .partition(|event| event["t"].as_f64() <= Some(self.state.t));
+        self.events = later;
+        reply["events"] = json!(now);
+        reply["ended"] = json!(ended);
+        reply
+    }
+
+    /// Pulls at a point, or lets it go.
+    pub fn pull(&mut self, loaded: &Loaded, fields: &Fields<'_>) -> Result<Value, Fault> {
+        let pull = match fields.get("body") {
+            None => None,
+            Some(_) => Some(Pull {
+                body: fields.text("body")?.to_string(),
+                point: fields.pair("point")?,
+                to: fields.pair("to")?,
+                stiffness: fields.number("stiffness")?,
+                damping: fields.number_or("damping", 0.0)?,
+            }),
+        };
+        if pull == self.pull {
+            return Ok(json!({}));
+        }
+        let model = match &pull {
+            None => Arc::clone(&loaded.model),
+            Some(pull) => Arc::new(pulled(loaded, pull)?),
+        };
+        self.pull = pull;
+        self.go_on_with(model);
+        Ok(json!({}))
+    }
+
+    /// Continues with another model of the same coordinates.
+    pub fn go_on_with(&mut self, model: Arc<Model>) {
+        self.settle_works();
+        self.prepared = Prepared::new(model);
+        self.mark_energy();
+    }
+
+    /// Continues from another state.
+    pub fn go_on_from(&mut self, state: State) {
+        self.settle_works();
+        self.state = state;
+        self.mark_energy();
+    }
+}
+
+/// The model with a spring between a point of a body and a place.
+fn pulled(loaded: &Loaded, pull: &Pull) -> Result<Model, Fault> {
+    moving(&loaded.model, &pull.body)?;
+    let Case { definition, .. } = &loaded.case;
+    let mut definition = definition.clone();
+    let place = |[x, y]: [f64; 2]| Written::List(vec![Written::Number(x), Written::Number(y)]);
+    add_point(&mut definition.bodies, "ground", place(pull.to));
+    add_point(&mut definition.bodies, &pull.body, place(pull.point));
+    let text = |text: String| Written::Text(text);
+    let triple = |x: f64| Written::List([x, x, 0.0].map(Written::Number).to_vec());
+    definition.forces.push(Entry {
+        name: PULL.to_string(),
+        fields: vec![
+            ("type".to_string(), text("bushing".to_string())),
+            ("i".to_string(), text(format!("ground.{PULL}"))),
+            ("j".to_string(), text(format!("{}.{PULL}", pull.body))),
+            ("stiffness".to_string(), triple(pull.stiffness)),
+            ("damping".to_string(), triple(pull.damping)),
+        ],
+    });
+    let parameters: Vec<(String, Written)> = loaded.values();
+    build(&definition, &parameters).map_err(|found| Fault::of_problems(&found))
+}
+
+fn add_point(bodies: &mut Vec<Entry>, body: &str, at: Written) {
+    if !bodies.iter().any(|entry| entry.name == body) {
+        bodies.push(Entry { name: body.to_string(), fields: Vec::new() });
+    }
+    let Some(entry) = bodies.iter_mut().find(|entry| entry.name == body) else { return };
+    if entry.get("points").is_none() {
+        entry.fields.push(("points".to_string(), Written::Table(Vec::new())));
+    }
+    for (key, value) in &mut entry.fields {
+        if let (true, Written::Table(points)) = (key == "points", value) {
+            points.push((PULL.to_string(), at.clone()));
+        }
+    }
+}
+
+fn row_of(run: &Run, row: usize, model: &Model) -> State {
+    let part = |table: &[f64], width: usize| table[width * row..width * (row + 1)].to_vec();
+    let (track, layout) = (&run.trajectory, &model.layout);
+    State {
+        t: track.t[row],
+        q: part(&track.q, layout.n_q),
+        v: part(&track.v, layout.n_q),
+        z: part(&track.z, layout.n_z),
+    }
+}
+
+/// The largest violation of the constraints and of their rates, in m, rad, m/s and rad/s.
+fn drift(model: &Model, state: &State) -> [f64; 2] {
+    let motions = Motions::at(&model.layout, &state.q, &state.v);
+    let m = model.layout.n_rows;
+    let [mut phi, mut rate, mut gamma] = [0, 1, 2].map(|_| vec![0.0; m]);
+    constraints::velocity_terms(model, &motions, state.t, &mut phi, &mut rate, &mut gamma);
+    [phi, rate].map(|rows| rows.iter().fold(0.0, |most: f64, x| most.max(x.abs())))
+}

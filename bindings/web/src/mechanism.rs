@@ -1,0 +1,62 @@
+//! A model as a page sees it.
+
+use kempe::case::Case;
+use kempe::elements::Group;
+use kempe::expression::Inferred;
+use kempe::model::{Body, Value as Written};
+use kempe::Model;
+use serde_json::{json, Map, Value};
+
+/// Bodies, elements, parameters and analyses of a model.
+pub fn mechanism(case: &Case, model: &Model) -> Value {
+    let group = |group: Group| -> Vec<Value> {
+        let items = model.constraints.iter().filter(|item| item.group == group);
+        items.map(|item| json!({ "name": item.name, "type": item.element.kind() })).collect()
+    };
+    let forces = model.forces.iter();
+    let forces: Vec<Value> =
+        forces.map(|item| json!({ "name": item.name, "type": item.element.kind() })).collect();
+    let blueprint = &model.blueprint;
+    let parameters = blueprint.parameters.iter().zip(&model.parameters).zip(&blueprint.inferred);
+    let parameters: Vec<Value> = parameters
+        .map(|((name, value), unit)| json!({ "name": name, "value": value, "unit": unit_of(unit) }))
+        .collect();
+    let analyses = case.analyses.iter().map(|entry| {
+        let kind = match entry.get("type") {
+            Some(Written::Text(kind)) => kind.as_str(),
+            _ => "",
+        };
+        json!({ "name": entry.name, "type": kind })
+    });
+    json!({
+        "title": case.definition.title,
+        "gravity": [model.gravity.x, model.gravity.y],
+        "bodies": model.bodies.iter().enumerate().map(body).collect::<Vec<_>>(),
+        "joints": group(Group::Joints),
+        "drivers": group(Group::Drivers),
+        "forces": forces,
+        "parameters": parameters,
+        "analyses": analyses.collect::<Vec<_>>(),
+    })
+}
+
+fn body((k, body): (usize, &Body)) -> Value {
+    let points = body.points.iter().map(|(name, s)| (name.clone(), json!([s.x, s.y])));
+    json!({
+        "name": body.name, "kind": body.kind, "ground": k == 0,
+        "points": points.collect::<Map<_, _>>(),
+        "center": [body.center.x, body.center.y], "mass": body.mass, "inertia": body.inertia,
+    })
+}
+
+/// The unit of a parameter; none where it is not known.
+fn unit_of(inferred: &Inferred) -> Option<String> {
+    match inferred {
+        Inferred::Of(of) => Some(match of.common_unit() {
+            Some(unit) => unit.to_string(),
+            None if of.to_string() == "1" => "rad".to_string(),
+            None => of.to_string(),
+        }),
+        Inferred::Number | Inferred::Open => None,
+    }
+}

@@ -1,0 +1,269 @@
+//! Dragging: the position of a mechanism in which a point of a body is as near as possible to a target.
+//!
+//! With K = [W Φ_qᵀ; Φ_q 0] and J the Jacobian of the point, Y = K⁻¹ [Jᵀ; 0] contains the motions under unit forces at the
+//! point, if W were the mass matrix, and G = J Y (2 × 2) the motions of the point. A step Y (G + μ 1)⁻¹ r moves the point by
+//! the way r that is left, as far as the constraints allow. Newton's method then closes the mechanism. Steps are short, so
+//! that the mechanism stays on its branch.
+//!
+//! A mechanism with one degree of freedom has a path. At a dead point, the velocity of the point along the path changes its
+//! sign. A step across it is refused, because the way back would lead to the other branch.
+
+use super::closing::Closing;
+use super::kinematics::in_line;
+use crate::elements::BodyId;
+use crate::equations::kinematics::Motions;
+use crate::math::{Local, Vec2};
+use crate::model::Model;
+
+/// Largest number of steps.
+const MOST_STEPS: usize = 100;
+/// Longest step: the root of the sum of squares over the coordinates, lengths relative to the size of the mechanism.
+const LONGEST: f64 = 0.1;
+/// Step that counts as none.
+const NO_STEP: f64 = 1e-9;
+/// Largest correction by the closing, as a part of the step.
+const CORRECTION: f64 = 0.3;
+/// Least cosine between the directions of the path before and after a step.
+const TURN: f64 = 0.9;
+/// Values of μ, relative to the larger eigenvalue of G, the later ones where the first make no progress: at the
+/// end of its reach, the point of an arm can move across the arm only.
+const SOFT: [f64; 4] = [1e-9, 1e-4, 1e-2, 1.0];
+/// Relative difference of distances that count as equal.
+const SAME: f64 = 1e-10;
+/// Least part of the predicted progress.
+const PROGRESS: f64 = 0.1;
+/// Times that a step along a path is halved.
+const HALVINGS: usize = 16;
+/// Times that another step is halved.
+const FEW: usize = 3;
+
+/// The point that is dragged.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Grip {
+    /// Its body.
+    pub body: BodyId,
+    /// The point in the frame of the body, m.
+    pub point: Local,
+    /// Degrees of freedom of the mechanism.
+    pub degrees_of_freedom: usize,
+}
+
+/// The result of dragging.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dragged {
+    /// The position, shape (n_q).
+    pub q: Vec<f64>,
+    /// Distance of the point from the target, m.
+    pub distance: f64,
+    /// The dead point that ends the motion, if there is one.
+    pub dead_point: Option<DeadPoint>,
+}
+
+/// A position that the dragged point cannot pass.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct DeadPoint {
+    /// Two bodies that are in line there, if there are such.
+    pub in_line: Option<[String; 2]>,
+}
+
+/// Moves the point towards `target`, from the closed position `q`; constraints are those at time `t`.
+///
+/// None if `q` is singular in such a way that no motion can be computed there.
+pub fn drag(model: &Model, t: f64, q: &[f64], grip: Grip, target: Vec2) -> Option<Dragged> {
+    let mut hand = Hand { model, grip, closing: Closing::new(model, t, &|| false), target };
+    let mut place = hand.place(q.to_vec())?;
+    let mut dead_point = None;
+    for _ in 0..MOST_STEPS {
+        if hand.length(&place.step(SOFT[0])) <= NO_STEP {
+            break;
+        }
+        // a single path needs no choice of direction, but short steps at its end
+        let outcome = match grip.degrees_of_freedom {
+            1 => hand.advance(&place, SOFT[0], HALVINGS),
+            _ => SOFT.iter().fold(Err(false), |outcome, soft| {
+                outcome.or_else(|_| hand.advance(&place, *soft, FEW))
+            }),
+        };
+        match outcome {
+            Ok(next) => place = next,
+            Err(blocked) => {
+                let path = place.path(&hand).filter(|_| blocked);
+                let in_line = |path: Path| in_line(model, &place.q, &path.rates);
+                dead_point = path.map(|path| DeadPoint { in_line: in_line(path) });
+                break;
+            }
+        }
+    }
+    Some(Dragged { distance: place.way.norm(), q: place.q, dead_point })
+}
+
+/// What is dragged, and where to.
+struct Hand<'a> {
+    model: &'a Model,
+    grip: Grip,
+    closing: Closing<'a>,
+    target: Vec2,
+}
+
+impl Hand<'_> {
+    /// Length of a step: the square root of xᵀ W x.
+    fn length(&self, x: &[f64]) -> f64 {
+        self.closing.product(x, x).sqrt()
+    }
+
+    fn place(&mut self, q: Vec<f64>) -> Option<Place> {
+        let layout = &self.model.layout;
+        let motions = Motions::at_rest(layout, &q);
+        let pose = motions[self.grip.body.0].pose;
+        let lever = pose.global(self.grip.point).perp();
+        let columns = layout.bodies[self.grip.body.0].range();
+        let row = |own: [f64; 3]| {
+            let mut row = vec![0.0; layout.n_q];
+            row[columns.clone()].iter_mut().zip(own).for_each(|(x, own)| *x = own);
+            row
+        };
+        let jacobian = [row([1.0, 0.0, lever.x]), row([0.0, 1.0, lever.y])];
+        let motions = self.closing.motions_under(&q, &jacobian)?;
+        let g = [0, 1].map(|i| [0, 1].map(|j| dot(&jacobian[i], &motions[j])));
+        let g = [g[0][0], 0.5 * (g[0][1] + g[1][0]), g[1][1]];
+        Some(Place { way: self.target - pose.point(self.grip.point), q, jacobian, motions, g })
+    }
+
+    /// The place after the largest part of a step that leads nearer to the target, on the same branch; or whether a dead
+    /// point is in the way.
+    fn advance(&mut self, place: &Place, soft: f64, halvings: usize) -> Result<Place, bool> {
+        let (step, path) = (place.step(soft), place.path(self));
+        let whole = self.length(&step);
+        let (mut part, mut blocked) = (1.0_f64.min(LONGEST / whole), false);
+        for _ in 0..halvings {
+            let predicted: Vec<f64> =
+                place.q.iter().zip(&step).map(|(q, dq)| q + part * dq).collect();
+            if let Some(next) = self.closed(&predicted, CORRECTION * part * whole) {
+                let course = match path.as_ref().zip(next.path(self)) {
+                    Some((old, new)) => old.follows(&new, &self.closing),
+                    None => Course::Ahead,
+                };
+                blocked |= course == Course::Back;
+                if course == Course::Ahead && next.is_better(place, part * place.progress(&step)) {
+                    return Ok(next);
+                }
+            }
+            part *= 0.5;
+        }
+        Err(blocked)
+    }
+
+    /// The closed position near a predicted one; None if it is farther than `most`.
+    fn closed(&mut self, predicted: &[f64], most: f64) -> Option<Place> {
+        let mut next = predicted.to_vec();
+        let (_, closed) = self.closing.close(&mut next);
+        let change: Vec<f64> = next.iter().zip(predicted).map(|(a, b)| a - b).collect();
+        if !closed || self.length(&change) > most {
+            return None;
+        }
+        self.place(next)
+    }
+}
+
+/// A position, and what forces at the point can do there.
+struct Place {
+    q: Vec<f64>,
+    /// The way r from the point to the target, m.
+    way: Vec2,
+    /// J, one row for each axis.
+    jacobian: [Vec<f64>; 2],
+    /// Y, one motion for each axis.
+    motions: [Vec<f64>; 2],
+    /// G: xx, xy, yy.
+    g: [f64; 3],
+}
+
+impl Place {
+    /// The larger eigenvalue of G, and its direction.
+    fn principal(&self) -> (f64, Vec2) {
+        let [xx, xy, yy] = self.g;
+        let half = 0.5 * (xx - yy);
+        let angle = 0.5 * xy.atan2(half);
+        (0.5 * (xx + yy) + half.hypot(xy), Vec2::new(angle.cos(), angle.sin()))
+    }
+
+    /// rᵀ G r: zero where the distance has an extreme.
+    fn drive(&self) -> f64 {
+        let ([xx, xy, yy], Vec2 { x, y }) = (self.g, self.way);
+        xx * x * x + 2.0 * xy * x * y + yy * y * y
+    }
+
+    /// The way by which a step approaches the target to first order, relative to the distance.
+    fn progress(&self, step: &[f64]) -> f64 {
+        let moved = Vec2::new(dot(&self.jacobian[0], step), dot(&self.jacobian[1], step));
+        self.way.dot(moved) / self.way.dot(self.way)
+    }
+
+    /// Whether it is nearer to the target by a fair part of what was predicted, or as near but closer to an extreme.
+    fn is_better(&self, before: &Self, predicted: f64) -> bool {
+        let [now, then] = [self.way.norm(), before.way.norm()];
+        let nearer = now < (1.0 - SAME.max(PROGRESS * predicted)) * then;
+        nearer || ((now - then).abs() <= SAME * then && self.drive() < before.drive())
+    }
+
+    /// Y (G + μ 1)⁻¹ r, with μ relative to the larger eigenvalue of G.
+    fn step(&self, soft: f64) -> Vec<f64> {
+        let soft = soft * self.principal().0.max(f64::MIN_POSITIVE);
+        let ([xx, xy, yy], r) = ([self.g[0] + soft, self.g[1], self.g[2] + soft], self.way);
+        let det = xx * yy - xy * xy;
+        let force = Vec2::new((yy * r.x - xy * r.y) / det, (xx * r.y - xy * r.x) / det);
+        self.along(force)
+    }
+
+    fn along(&self, force: Vec2) -> Vec<f64> {
+        let pairs = self.motions[0].iter().zip(&self.motions[1]);
+        pairs.map(|(x, y)| force.x * x + force.y * y).collect()
+    }
+
+    /// The path of a mechanism with one freedom.
+    fn path(&self, hand: &Hand<'_>) -> Option<Path> {
+        if hand.grip.degrees_of_freedom != 1 {
+            return None;
+        }
+        let mut rates = self.along(self.principal().1);
+        let length = hand.length(&rates);
+        rates.iter_mut().for_each(|x| *x /= length);
+        let velocity = Vec2::new(dot(&self.jacobian[0], &rates), dot(&self.jacobian[1], &rates));
+        (length > 0.0).then_some(Path { rates, velocity })
+    }
+}
+
+/// The direction in which a mechanism with one freedom moves.
+struct Path {
+    /// Of unit length.
+    rates: Vec<f64>,
+    /// Of the dragged point.
+    velocity: Vec2,
+}
+
+/// How a path continues another one.
+#[derive(Clone, Copy, PartialEq)]
+enum Course {
+    Ahead,
+    /// The point goes back on its own path.
+    Back,
+    /// It is another path.
+    Aside,
+}
+
+impl Path {
+    fn follows(&self, next: &Self, closing: &Closing<'_>) -> Course {
+        let cosine = closing.product(&self.rates, &next.rates);
+        if cosine.abs() < TURN {
+            return Course::Aside;
+        }
+        match cosine.signum() * self.velocity.dot(next.velocity) < 0.0 {
+            true => Course::Back,
+            false => Course::Ahead,
+        }
+    }
+}
+
+fn dot(a: &[f64], b: &[f64]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| a * b).sum()
+}

@@ -1,0 +1,120 @@
+//! Values of quantities by name at the states of a run.
+//!
+//! The names are those of conditions and measures, such as `crank.B.vx` or `C.force`. A run has phases, with released
+//! drivers and modes of forces; each state is read with the model of its phase.
+
+use super::dynamics::{Prepared, Run, Setting, States};
+use super::signal_names::{names, signal};
+use super::signal_units::unit_of;
+use super::signals::{Energy, Seen, Signal};
+use super::State;
+use crate::equations::kinematics::Motions;
+use crate::integrate::Flow;
+use crate::model::{did_you_mean, Model, Problem, WORKS};
+
+/// A quantity that can be read.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Readable {
+    /// Its name, such as `crank.angle`.
+    pub name: String,
+    /// Its SI unit, such as `rad`; `1` for a number.
+    pub unit: String,
+}
+
+/// All quantities of a model, without those that need the interpolants of a run: the energy that one element has
+/// dissipated, and the balances.
+pub fn readable(model: &Model) -> Vec<Readable> {
+    let known = names(model, "").into_iter().filter_map(|name| Some((signal(model, &name)?, name)));
+    let readable = known.filter(|(signal, _)| !needs_interpolants(signal));
+    readable.map(|(signal, name)| Readable { unit: unit_of(model, &name, &signal), name }).collect()
+}
+
+/// The quantity with this name.
+///
+/// # Errors
+/// The model has none, or it needs the interpolants of a run.
+pub fn find(model: &Model, name: &str) -> Result<Readable, Problem> {
+    let nowhere: [&str; 0] = [];
+    match signal(model, name) {
+        Some(signal) if needs_interpolants(&signal) => {
+            let message = format!("'{name}' cannot be read here");
+            Err(Problem::at(&nowhere, message).hint("it is a result of kempe.run"))
+        }
+        Some(signal) => {
+            Ok(Readable { name: name.to_string(), unit: unit_of(model, name, &signal) })
+        }
+        None => {
+            let known = names(model, name);
+            let problem = Problem::at(&nowhere, format!("there is no quantity '{name}'"));
+            let known: Vec<&str> = known.iter().map(String::as_str).collect();
+            let near = did_you_mean(name, &known, "quantities");
+            Err(problem.maybe_hint(near))
+        }
+    }
+}
+
+/// The values of quantities at all reported states, a row for each quantity; not a number where accelerations or
+/// reactions are not unique.
+pub fn of_run(model: &Model, run: &Run, names: &[&str]) -> Vec<Vec<f64>> {
+    let mut found: Vec<Vec<f64>> = names.iter().map(|_| Vec::new()).collect();
+    let plain = Setting::default();
+    for phase in 0..run.phases.len() {
+        let setting = run.settings.get(phase).unwrap_or(&plain);
+        let (states, first) = (run.states_of(phase), run.phases[phase]);
+        let works = &run.trajectory.works[WORKS * first..WORKS * (first + states.t.len())];
+        let active = setting.model(model).unwrap_or_else(|_| model.clone());
+        let rows = of_states(&active, (states, works), names, run.passing);
+        found.iter_mut().zip(rows).for_each(|(all, own)| all.extend(own));
+    }
+    found
+}
+
+/// The values at one state without a run.
+pub fn of_state(model: &Model, state: &State, names: &[&str]) -> Vec<f64> {
+    let State { t, q, v, z } = state;
+    let states = States { t: &[*t], q, v, z };
+    let rows = of_states(model, (states, &[0.0; WORKS]), names, true);
+    rows.into_iter().map(|row| row[0]).collect()
+}
+
+fn of_states(
+    model: &Model,
+    (states, works): (States<'_>, &[f64]),
+    names: &[&str],
+    passing: bool,
+) -> Vec<Vec<f64>> {
+    // a driver that was released acts no more
+    let signals: Vec<Signal> =
+        names.iter().map(|name| signal(model, name).unwrap_or(Signal::Constant(0.0))).collect();
+    let (n, n_z, m) = (model.layout.n_q, model.layout.n_z, model.layout.n_rows);
+    let solves = signals.iter().any(|signal| signal.needs_solution(model));
+    let solved = solves
+        .then(|| Prepared::new(model).accelerations(states, passing, |_| Flow::Continue).ok())
+        .flatten();
+    let unsolved = [vec![f64::NAN; n], vec![f64::NAN; m]];
+    let mut motions = Motions::new(&model.layout);
+    let mut found: Vec<Vec<f64>> = names.iter().map(|_| Vec::new()).collect();
+    for (k, &t) in states.t.iter().enumerate() {
+        let own = [&states.q[n * k..n * (k + 1)], &states.v[n * k..n * (k + 1)]];
+        motions.place(&model.layout, own[0], own[1]);
+        let at = solved.as_ref().map_or([&unsolved[0][..], &unsolved[1]], |solved| {
+            [&solved.a[n * k..n * (k + 1)], &solved.lam[m * k..m * (k + 1)]]
+        });
+        let seen = Seen {
+            t,
+            state: [own[0], own[1], &states.z[n_z * k..n_z * (k + 1)]],
+            works: &works[WORKS * k..WORKS * (k + 1)],
+            motions: &motions,
+            solved: at,
+            so_far: None,
+        };
+        let values = signals.iter().map(|signal| signal.value(model, &seen));
+        found.iter_mut().zip(values).for_each(|(row, value)| row.push(value));
+    }
+    found
+}
+
+fn needs_interpolants(signal: &Signal) -> bool {
+    let balance = matches!(signal, Signal::Energy(Energy::Balance) | Signal::Balance);
+    balance || matches!(signal, Signal::ForceDissipated(_))
+}
