@@ -67,7 +67,8 @@ fn closed_form([crank, coupler, rocker, ground]: [f64; 4], angle: f64) -> [f64; 
     let b = [crank * angle.cos(), crank * angle.sin()];
     let d = [ground - b[0], -b[1]];
     let line = d[0].hypot(d[1]);
-    let inner = ((coupler * coupler + line * line - rocker * rocker) / (2.0 * coupler * line)).acos();
+    let inner =
+        ((coupler * coupler + line * line - rocker * rocker) / (2.0 * coupler * line)).acos();
     let first = d[1].atan2(d[0]) + inner;
     let c = [b[0] + coupler * first.cos(), b[1] + coupler * first.sin()];
     [first, c[1].atan2(c[0] - ground)]

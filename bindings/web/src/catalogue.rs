@@ -2,8 +2,8 @@
 
 use kempe::case;
 use kempe::elements::{Fixes, Group};
-use kempe::{build, Definition, Entry, Model};
 use kempe::model::Value as Written;
+use kempe::{build, Definition, Entry, Model};
 use serde_json::{json, Value};
 
 /// The catalogue, the JSON Schema and the version. Joints between two points say whether they only hold the points together.

@@ -7,6 +7,8 @@ use toml_edit::{Array, DocumentMut, InlineTable, Item, Key, Table, TableLike};
 
 /// Sections whose entries have headers of their own.
 const OF_ENTRIES: [&str; 6] = ["tables", "bodies", "joints", "drivers", "forces", "analyses"];
+/// Keys whose values are words of the format, or texts for people.
+const OF_WORDS: [&str; 2] = ["type", "title"];
 
 /// The text with all changes: `{ path, value }`, `{ path, rename }` or `{ path, remove: true }`.
 pub fn edit(text: &str, changes: &Value) -> Result<Value, Fault> {
@@ -151,7 +153,7 @@ fn rename_key(table: &mut dyn TableLike, old: &str, new: &str) {
 /// Replaces a name in all texts and in the keys that consist of names, such as "crank.angle".
 fn rename_in(table: &mut dyn TableLike, old: &str, new: &str) {
     let keys: Vec<String> = table.iter().map(|(key, _)| key.to_string()).collect();
-    for key in keys {
+    for key in keys.into_iter().filter(|key| !OF_WORDS.contains(&key.as_str())) {
         if let Some(dotted) = key.contains('.').then(|| replaced(&key, old, new)).flatten() {
             rename_key(table, &key, &dotted);
             continue;

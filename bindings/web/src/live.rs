@@ -5,7 +5,7 @@ use crate::dragged::moving;
 use crate::fault::Fault;
 use crate::loaded::Loaded;
 use crate::pose::pose;
-use kempe::analyses::dynamics::{ENERGIES, Prepared, Run};
+use kempe::analyses::dynamics::{Prepared, Run, ENERGIES};
 use kempe::case::Case;
 use kempe::equations::constraints;
 use kempe::equations::kinematics::Motions;
@@ -14,10 +14,13 @@ use kempe::{build, Flow, Model, Options, State};
 use serde_json::{json, Value};
 use std::sync::Arc;
 
-/// Time that is computed ahead, s.
+/// Advances that are computed ahead, and the longest time of them, s, unless one advance is longer.
+const ADVANCES: f64 = 15.0;
 const AHEAD: f64 = 0.25;
-/// Outputs in it.
-const OUTPUTS: f64 = 30.0;
+/// Outputs in one advance; the picture lags by less than the time between them.
+const OUTPUTS: f64 = 4.0;
+/// Part of an advance that is rounding.
+const SAME: f64 = 1e-6;
 /// Most steps between two replies; then the motion is slower than real time.
 const MOST_STEPS: usize = 4000;
 /// Names of what holds the mouse; users cannot write names with a space at the start.
@@ -27,6 +30,8 @@ const PULL: &str = "pull by hand";
 pub struct Live {
     prepared: Prepared<Arc<Model>>,
     state: State,
+    /// The time that was requested, s; the state is at the last output before it.
+    goal: f64,
     /// Works before the present run, J.
     works: [f64; WORKS],
     /// The total energy at the start, J, and the scale of energies so far.
@@ -56,6 +61,7 @@ impl Live {
         let mut live = Self {
             prepared: Prepared::new(Arc::clone(&loaded.model)),
             state: loaded.state.clone(),
+            goal: loaded.state.t,
             works: [0.0; WORKS],
             start: 0.0,
             scale: 0.0,
@@ -74,36 +80,42 @@ impl Live {
 
     /// Goes on by a time; the reply has the state that was reached.
     pub fn advance(&mut self, by: f64) -> Value {
-        let (goal, mut steps, mut ended) = (self.state.t + by, 0, None);
-        while ended.is_none() && self.state.t < goal && steps < MOST_STEPS {
-            if self.ahead.as_ref().is_none_or(|run| run.trajectory.t.last() <= Some(&self.state.t)) {
-                ended = self.compute(goal, &mut steps);
-            }
-            let Some(run) = &self.ahead else { break };
-            let reached = run.trajectory.t.iter().take_while(|t| **t <= goal).count();
+        let (mut steps, mut ended) = (0, None);
+        self.goal += by;
+        loop {
             // outputs are near enough for a picture; the last one is where the next run begins
-            let row = reached.max(1).min(run.trajectory.t.len()) - 1;
-            let next = row_of(run, row, self.prepared.model());
-            if next.t <= self.state.t {
-                self.ahead = None;
+            let next = self.row_before(self.goal + SAME * by);
+            if let Some(next) = next.map(|(run, row)| row_of(run, row, self.prepared.model())) {
+                self.state = next;
+            }
+            let last = self.ahead.as_ref().and_then(|run| run.trajectory.t.last());
+            let left = last.is_none_or(|last| *last < self.goal - by / OUTPUTS);
+            if !left || steps >= MOST_STEPS || ended.is_some() || by <= 0.0 {
                 break;
             }
-            self.state = next;
+            ended = self.compute(by, &mut steps);
+        }
+        if steps >= MOST_STEPS || ended.is_some() {
+            self.goal = self.state.t;
         }
         self.reply(ended)
     }
 
     /// Computes ahead from the present state; the reason for which the motion ended, if it did.
-    fn compute(&mut self, goal: f64, steps: &mut usize) -> Option<String> {
+    fn compute(&mut self, by: f64, steps: &mut usize) -> Option<String> {
         self.settle_works();
-        let span = AHEAD.max(goal - self.state.t);
+        let span = (ADVANCES * by).min(AHEAD).max(self.goal - self.state.t);
         let mut options = Options::new(self.state.t + span);
-        options.output_step = Some((goal - self.state.t).min(AHEAD / OUTPUTS));
+        options.output_step = Some(by / OUTPUTS);
         options.dense_output = false;
         let mut count = 0;
         let outcome = self.prepared.dynamics(&self.state, &options, |_| {
             count += 1;
-            if count >= MOST_STEPS { Flow::Stop } else { Flow::Continue }
+            if count >= MOST_STEPS {
+                Flow::Stop
+            } else {
+                Flow::Continue
+            }
         });
         *steps += count;
         let (run, ended) = match outcome {
@@ -119,11 +131,16 @@ impl Live {
         ended.filter(|_| !moves)
     }
 
+    /// The run ahead, and the last of its rows up to a time.
+    fn row_before(&self, t: f64) -> Option<(&Run, usize)> {
+        let run = self.ahead.as_ref()?;
+        Some((run, run.trajectory.t.iter().take_while(|own| **own <= t).count().checked_sub(1)?))
+    }
+
     /// Works up to the present state.
     fn present_works(&self) -> [f64; WORKS] {
         let mut works = self.works;
-        if let Some(run) = &self.ahead {
-            let row = run.trajectory.t.iter().take_while(|t| **t <= self.state.t).count().max(1) - 1;
+        if let Some((run, row)) = self.row_before(self.state.t) {
             let own = &run.trajectory.works[WORKS * row..WORKS * (row + 1)];
             works.iter_mut().zip(own).for_each(|(sum, own)| *sum += own);
         }
@@ -208,7 +225,7 @@ impl Live {
     /// Continues from another state.
     pub fn go_on_from(&mut self, state: State) {
         self.settle_works();
-        self.state = state;
+        (self.goal, self.state) = (state.t, state);
         self.mark_energy();
     }
 }

@@ -60,9 +60,8 @@ fn start(case: Case, model: Model) -> (Loaded, Result<assemble::Report, Fault>) 
     let model = Arc::new(model);
     let request = case.start.request(&model);
     let outcome = match &request {
-        Ok(request) => assemble(&model, request).map_err(|failure| {
-            Fault::new(failure.message.clone()).hint(failure.hint.clone())
-        }),
+        Ok(request) => assemble(&model, request)
+            .map_err(|failure| Fault::new(failure.message.clone()).hint(failure.hint.clone())),
         Err(problems) => Err(Fault::new(problems.to_string())),
     };
     let assembled = outcome.is_ok();

@@ -74,14 +74,16 @@ impl Ran {
                 let options = driven::Options::checked(model, &entry.fields, &path);
                 Self::kinematics(model, start, &options.map_err(problems)?)
             }
-            _ => Err(Fault::new(format!("the analysis '{}' has no motion", entry.name))
-                .hint("its result is in kempe.run; here dynamics, kinematics and inverse_dynamics run")),
+            _ => Err(Fault::new(format!("the analysis '{}' has no motion", entry.name)).hint(
+                "its result is in kempe.run; here dynamics, kinematics and inverse_dynamics run",
+            )),
         }
     }
 
     fn dynamics(model: &Arc<Model>, start: &State, options: &Options) -> Self {
         let options = Options { dense_output: false, ..options.clone() };
-        let outcome = Prepared::new(Arc::clone(model)).dynamics(start, &options, |_| Flow::Continue);
+        let outcome =
+            Prepared::new(Arc::clone(model)).dynamics(start, &options, |_| Flow::Continue);
         let (run, error) = match outcome {
             Ok(run) => (run, None),
             Err(failure) => (failure.run, Some(failure.reason.to_string())),
@@ -89,7 +91,11 @@ impl Ran {
         Self { model: Arc::clone(model), run, error }
     }
 
-    fn kinematics(model: &Arc<Model>, start: &State, options: &driven::Options) -> Result<Self, Fault> {
+    fn kinematics(
+        model: &Arc<Model>,
+        start: &State,
+        options: &driven::Options,
+    ) -> Result<Self, Fault> {
         if options.over.is_some() {
             return Err(Fault::new("kinematics over a quantity does not run here yet")
                 .hint("use t_end and output_step, or kempe.run"));
@@ -105,9 +111,9 @@ impl Ran {
     /// The reply.
     pub fn described(&self) -> Value {
         let Run { trajectory, statistics, events, .. } = &self.run;
-        let times = events.iter().flat_map(|event| {
-            event.states.t.iter().map(|t| json!({ "name": event.name, "t": t }))
-        });
+        let times = events
+            .iter()
+            .flat_map(|event| event.states.t.iter().map(|t| json!({ "name": event.name, "t": t })));
         let mut times: Vec<Value> = times.collect();
         times.sort_by(|a, b| a["t"].as_f64().partial_cmp(&b["t"].as_f64()).expect("numbers"));
         let status = match (&self.error, self.run.reached, &self.run.stopped_by) {

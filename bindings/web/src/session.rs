@@ -179,11 +179,8 @@ impl Session {
         let model = loaded.model.with_values(values).map_err(|found| Fault::of_problems(&found))?;
         let before = (Arc::clone(&loaded.model), loaded.state.clone());
         loaded.model = Arc::new(model);
-        let near = Request {
-            state: Some(loaded.state.clone()),
-            t: loaded.state.t,
-            ..Request::default()
-        };
+        let near =
+            Request { state: Some(loaded.state.clone()), t: loaded.state.t, ..Request::default() };
         if let Err(fault) = loaded.assemble(near) {
             (loaded.model, loaded.state) = before;
             return Err(fault);
@@ -214,9 +211,8 @@ impl Session {
 impl Loaded {
     /// Assembles the mechanism; the state stays where that fails.
     pub fn assemble(&mut self, request: Request) -> Result<(), Fault> {
-        let (state, _) = close(&self.model, &request).map_err(|failure| {
-            Fault::new(failure.message.clone()).hint(failure.hint.clone())
-        })?;
+        let (state, _) = close(&self.model, &request)
+            .map_err(|failure| Fault::new(failure.message.clone()).hint(failure.hint.clone()))?;
         (self.state, self.assembled) = (state, true);
         Ok(())
     }
@@ -225,9 +221,8 @@ impl Loaded {
     pub fn start(&self) -> Result<State, Fault> {
         let request = self.case.start.request(&self.model);
         let request = request.map_err(|problems| Fault::new(problems.to_string()))?;
-        let (state, _) = close(&self.model, &request).map_err(|failure| {
-            Fault::new(failure.message.clone()).hint(failure.hint.clone())
-        })?;
+        let (state, _) = close(&self.model, &request)
+            .map_err(|failure| Fault::new(failure.message.clone()).hint(failure.hint.clone()))?;
         Ok(state)
     }
 
