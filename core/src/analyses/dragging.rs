@@ -27,7 +27,7 @@ const CORRECTION: f64 = 0.3;
 const TURN: f64 = 0.9;
 /// Values of μ, relative to the larger eigenvalue of G, the later ones where the first make no progress: at the
 /// end of its reach, the point of an arm can move across the arm only.
-const SOFT: [f64; 4] = [1e-9, 1e-4, 1e-2, 1.0];
+const SOFT: [f64; 4] = [1e-7, 1e-4, 1e-2, 1.0];
 /// Relative difference of distances that count as equal.
 const SAME: f64 = 1e-10;
 /// Least part of the predicted progress.
@@ -72,17 +72,15 @@ pub struct DeadPoint {
 pub fn drag(model: &Model, t: f64, q: &[f64], grip: Grip, target: Vec2) -> Option<Dragged> {
     let mut hand = Hand { model, grip, closing: Closing::new(model, t, &|| false), target };
     let mut place = hand.place(q.to_vec())?;
-    let mut dead_point = None;
+    let (single, mut level, mut dead_point) = (grip.degrees_of_freedom == 1, 0, None);
     for _ in 0..MOST_STEPS {
-        if hand.length(&place.step(SOFT[0])) <= NO_STEP {
+        if hand.length(&place.step((!single).then_some(SOFT[0]))) <= NO_STEP {
             break;
         }
-        // a single path needs no choice of direction, but short steps at its end
-        let outcome = match grip.degrees_of_freedom {
-            1 => hand.advance(&place, SOFT[0], HALVINGS),
-            _ => SOFT.iter().fold(Err(false), |outcome, soft| {
-                outcome.or_else(|_| hand.advance(&place, *soft, FEW))
-            }),
+        // a path needs no choice of direction, but short steps at its end
+        let outcome = match single {
+            true => hand.advance(&place, None, HALVINGS),
+            false => hand.advance_softly(&place, &mut level),
         };
         match outcome {
             Ok(next) => place = next,
@@ -129,9 +127,25 @@ impl Hand<'_> {
         Some(Place { way: self.target - pose.point(self.grip.point), q, jacobian, motions, g })
     }
 
+    /// The next place of a point that has a choice of directions, from the level of μ that worked last.
+    fn advance_softly(&mut self, place: &Place, level: &mut usize) -> Result<Place, bool> {
+        for (k, soft) in SOFT.iter().enumerate().skip(*level) {
+            if let Ok(next) = self.advance(place, Some(*soft), FEW) {
+                *level = k.saturating_sub(1);
+                return Ok(next);
+            }
+        }
+        Err(false)
+    }
+
     /// The place after the largest part of a step that leads nearer to the target, on the same branch; or whether a dead
     /// point is in the way.
-    fn advance(&mut self, place: &Place, soft: f64, halvings: usize) -> Result<Place, bool> {
+    fn advance(
+        &mut self,
+        place: &Place,
+        soft: Option<f64>,
+        halvings: usize,
+    ) -> Result<Place, bool> {
         let (step, path) = (place.step(soft), place.path(self));
         let whole = self.length(&step);
         let (mut part, mut blocked) = (1.0_f64.min(LONGEST / whole), false);
@@ -206,8 +220,13 @@ impl Place {
         nearer || ((now - then).abs() <= SAME * then && self.drive() < before.drive())
     }
 
-    /// Y (G + μ 1)⁻¹ r, with μ relative to the larger eigenvalue of G.
-    fn step(&self, soft: f64) -> Vec<f64> {
+    /// Y (G + μ 1)⁻¹ r, with μ relative to the larger eigenvalue of G; without μ, only the direction of this eigenvalue
+    /// counts, because G has rank one.
+    fn step(&self, soft: Option<f64>) -> Vec<f64> {
+        let Some(soft) = soft else {
+            let (larger, direction) = self.principal();
+            return self.along(direction.scale(direction.dot(self.way) / larger));
+        };
         let soft = soft * self.principal().0.max(f64::MIN_POSITIVE);
         let ([xx, xy, yy], r) = ([self.g[0] + soft, self.g[1], self.g[2] + soft], self.way);
         let det = xx * yy - xy * xy;
