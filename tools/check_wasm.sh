@@ -3,7 +3,7 @@
 #
 #     tools/check_wasm.sh            all of the following
 #     tools/check_wasm.sh install    gets a toolchain, if there is none
-#     tools/check_wasm.sh check      the core compiles for wasm32-unknown-unknown
+#     tools/check_wasm.sh check      the core and the drawing compile for wasm32-unknown-unknown
 #     tools/check_wasm.sh run        the four-bar linkage runs in Node and agrees with the reference
 #
 # The toolchain is that of rustup if it has the target (`rustup target add wasm32-unknown-unknown`).
@@ -86,7 +86,7 @@ wasm_cargo() {
 
 check() {
     wasm_cargo check --quiet --locked -p kempe-web || exit 1
-    say "the core compiles for $TARGET"
+    say "the core and the drawing compile for $TARGET"
 }
 
 run() {

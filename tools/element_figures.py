@@ -18,9 +18,8 @@ from typing import Any
 import kempe as kp
 import numpy as np
 from kempe.draw.display import display
-from kempe.draw.geometry import limits
 from kempe.draw.painter import Painting
-from kempe.draw.placing import view_of
+from kempe.draw.placing import view_around
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 from PIL import Image
@@ -128,13 +127,15 @@ def figure(name: str) -> Figure:
     first = {key: rows[:1] for key, rows in scene["frames"].items()}
     low, high = np.array(scene["bounds"]).reshape(2, 2)
     room = ROOM * float((high - low).max())
-    area = limits([*(low - room), *(high + room)], SIZE[0] / SIZE[1])
-    items = display({**scene, "frames": first}, view_of(area, 72 * SIZE[0]))
+    view = view_around([*(low - room), *(high + room)], (72 * SIZE[0], 72 * SIZE[1]))
+    items = display({**scene, "frames": first}, view)
+    left, bottom = view.low
+    right, top = view.plane(view.size)
     made = Figure(figsize=SIZE, dpi=DOTS_PER_INCH)
     FigureCanvasAgg(made)
     axes = made.add_axes((0, 0, 1, 1))
     axes.set_axis_off()
-    axes.set(xlim=area[[0, 2]], ylim=area[[1, 3]])
+    axes.set(xlim=(left, right), ylim=(bottom, top))
     Painting(axes, items, np.array([[0.0] * 3, *scene["frames"]["poses"][0]]))
     return made
 

@@ -85,8 +85,8 @@ sources_sum() {
     (
         cd "$ROOT" && choose_instructions && {
             printf '%s\n' "${RUSTFLAGS:-}"
-            find .cargo Cargo.toml Cargo.lock pyproject.toml core bindings \
-                \( -path core/tests -o -path core/benches -o -name target \) -prune -o \
+            find .cargo Cargo.toml Cargo.lock pyproject.toml core drawing bindings \
+                \( -path core/tests -o -path drawing/tests -o -path core/benches -o -name target \) -prune -o \
                 -type f -exec cksum {} + | LC_ALL=C sort
         } | cksum
     )

@@ -396,5 +396,48 @@ def formulas(model: Model, name: str, written: dict[str, str], form: str) -> str
         form: "expression", "unicode" or "latex".
     """
 
+def scene(model: Model, poses: _F, efforts: list[tuple[str, _F, _F]]) -> str:
+    """The parts of a scene that do not depend on time, as JSON.
+
+    Args:
+        model: the mechanism.
+        poses: x, y and angle of the moving bodies, (n_t, n_bodies, 3).
+        efforts: elements with their force, (n_t, 2), and torque, (n_t,), on body j.
+    """
+
+def display(
+    scene: str,
+    poses: _F,
+    view: tuple[tuple[float, float], float, tuple[float, float]],
+    request: str,
+) -> str:
+    """The display list of a scene, as JSON.
+
+    Args:
+        scene: the parts that do not depend on time, as JSON.
+        poses: x, y and angle of the moving bodies, (n_t, n_bodies, 3).
+        view: lower left corner, m, points of print for each metre, width and height in points.
+        request: what the list contains, as JSON: the fields of ``Request`` in the crate ``drawing``.
+    """
+
+def view_around(
+    bounds: tuple[float, float, float, float], size: tuple[float, float]
+) -> tuple[tuple[float, float], float, tuple[float, float]]:
+    """The view of bounds with room around them on an area of a size in points of print."""
+
+def place_texts(anchors: _F, sizes: _F, lines: _F, boxes: _F, area: tuple[float, float]) -> _F:
+    """Offsets from anchors to the centres of texts that cover neither lines nor each other, (n, 2).
+
+    Args:
+        anchors: (n, 2), points of print.
+        sizes: widths and heights, (n, 2).
+        lines: x and y of both ends, (m, 4).
+        boxes: least x and y, largest x and y, (k, 4).
+        area: width and height.
+    """
+
+def text_width(words: str, size: float, bold: bool) -> float:
+    """Width of a text, in the unit of its size."""
+
 def _inject_panic(entry: str | None) -> None: ...
 def _raise(kind: str, message: str) -> None: ...

@@ -11,7 +11,7 @@ import pytest
 from draw.mechanisms import moving, pendulum, point_pendulum, slider_crank, sprung
 from house.places import PACKAGE, ROOT
 from kempe import _core
-from kempe.draw import items, symbols
+from kempe.draw import items
 from kempe.draw.display import display
 from kempe.draw.frame import Frame, frame_items, frame_view
 from kempe.draw.geometry import placed
@@ -19,6 +19,10 @@ from kempe.draw.painter import Painting
 from kempe.draw.placing import View, hatching, place
 
 Item = dict[str, Any]
+SCHEMA = json.loads((PACKAGE / "draw" / "assets" / "scene.schema.json").read_text("utf-8"))
+MARKS = SCHEMA["$defs"]["symbol"]["properties"]["mark"]["enum"]
+#: Symbols that turn on a pin where an end of theirs is on ground.
+PINNED = ("pin", "rod", "spring", "dashpot", "cylinder", "drive_cylinder")
 EXAMPLES = ("four_bar", "slider_crank", "six_bar", "squeezer", "pendulum")
 
 
@@ -81,7 +85,8 @@ def test_the_ends_of_a_spring_and_of_a_dashpot_are_its_points() -> None:
     view, poses = frame_view(scene), poses_of(scene)
     for mark in ("spring", "dashpot"):
         symbol = next(one for one in scene["symbols"] if one["mark"] == mark)
-        lines = [one for one in symbols.draw(symbol, symbols.Rings()) if one["kind"] == "line"]
+        alone = display({**scene, "symbols": [symbol]}, view, labels=False)
+        lines = [one for one in of(alone, "s") if one["kind"] == "line"]
         points = np.vstack([place(one, poses, view) for one in lines])
         for k in (0, 1):
             gap = np.hypot(*(points - at(scene, view, symbol, k)).T).min()
@@ -157,7 +162,7 @@ def test_ground_is_hatched_once_under_each_pin_on_it(example: kp.State) -> None:
         tuple(np.round(at(scene, view, symbol, k) - [0.0, 12.0], 5))
         for symbol in scene["symbols"]
         for k in (0, 1)
-        if symbol["bodies"][k] == 0 and symbol["mark"] in symbols.PINNED
+        if symbol["bodies"][k] == 0 and symbol["mark"] in PINNED
     }
     assert bases == pivots
     assert len(bases) == len(supports)
@@ -190,7 +195,7 @@ def test_drives_and_torques_have_arrows() -> None:
     np.testing.assert_allclose((end - begin) / np.hypot(*(end - begin)), [0, 1], atol=1e-12)
 
 
-@pytest.mark.parametrize("mark", symbols.MARKS)
+@pytest.mark.parametrize("mark", MARKS)
 def test_every_word_of_the_vocabulary_can_be_drawn(mark: str) -> None:
     symbol = {
         "element": "e",
@@ -204,8 +209,16 @@ def test_every_word_of_the_vocabulary_can_be_drawn(mark: str) -> None:
         "turning": [0.0, 1.0],
         "sense": 1,
     }
-    found = list(symbols.draw(symbol, symbols.Rings()))
+    ground, body = (
+        {"name": str(k), "number": k, "kind": "body", "center": [0, 0], "points": []}
+        | {"outline": [[0, 0]] * k, "drawn": [], "curves": []}
+        for k in (0, 1)
+    )
+    scene = {"title": "", "gravity": [0, 0], "bounds": [0, 0, 1, 1], "bodies": [ground, body]}
+    scene |= {"length": {"unit": "m", "metres": 1}, "joints": [], "symbols": [symbol]}
+    scene |= {"frames": {"poses": [[[0.0, 0.0, 0.0]]]}}
     view, poses = View(np.zeros(2), 100.0, np.array([500.0, 300.0])), np.zeros((2, 3))
+    found = of(display(scene, view, labels=False), "e")
     assert found
     assert json.loads(json.dumps(found)) == found
     for item in found:

@@ -9,7 +9,7 @@ PACKAGE = ROOT / "python" / "kempe"
 #: Folders with sources, for tests that read all of them.
 CODE = [
     ROOT / name
-    for name in ("core", "bindings", "python", "tests", "tools", "benchmarks", "examples")
+    for name in ("core", "drawing", "bindings", "python", "tests", "tools", "benchmarks", "examples")
 ]
 
 

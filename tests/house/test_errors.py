@@ -27,7 +27,7 @@ CASE = _core.Case((ROOT / "examples/four_bar.toml").read_text("utf-8"), "toml", 
 MODEL = CASE.model("{}")
 T, Q, V, Z, _ = _core.assemble(MODEL, '{"crank.angle": "70*deg"}', "{}", 0.0, None, None, None)
 TIMES, ROW, STATES, LAM = np.array([T]), Q[None, :], Z[None, :], np.zeros((1, 8))
-WORKS = np.zeros((1, 3))
+WORKS, FOURS, POSES = np.zeros((1, 3)), np.zeros((0, 4)), np.zeros((1, 3, 3))
 OPTIONS = '{"type": "dynamics", "t_end": 0.01}'
 RUN = _core.dynamics(MODEL, T, Q, V, Z, OPTIONS, None)
 
@@ -86,6 +86,11 @@ CALLS: dict[str, Callable[[], object]] = {
     ),
     "matrices": lambda: _core.matrices(MODEL, T, Q, V, Z, "{}"),
     "formulas": lambda: _core.formulas(MODEL, "C", {}, "latex"),
+    "scene": lambda: _core.scene(MODEL, POSES, []),
+    "display": lambda: _core.display("{}", POSES, ((0.0, 0.0), 1.0, (1.0, 1.0)), "{}"),
+    "view_around": lambda: _core.view_around((0.0, 0.0, 1.0, 1.0), (4.0, 3.0)),
+    "place_texts": lambda: _core.place_texts(ROW[:, :2], ROW[:, :2], FOURS, FOURS, (1.0, 1.0)),
+    "text_width": lambda: _core.text_width("A", 9.0, False),
     "_raise": lambda: _core._raise("ModelError", "wrong"),
 }
 

@@ -1,7 +1,6 @@
 """Dimension lines and gravity: where they are drawn, by hand from the places of the bars."""
 
 import math
-from types import SimpleNamespace
 from typing import Any
 
 import kempe as kp
@@ -9,9 +8,8 @@ import numpy as np
 import pytest
 from kempe.draw.display import Display
 from kempe.draw.items import line, print_points, upright
-from kempe.draw.labels import Taken, measured
 from kempe.draw.placing import View, place
-from kempe.plot import dimensions
+from kempe.drawing import measured
 
 #: The view of most tests: 400 × 300 points of print, the origin in the lower left corner.
 SIZE = np.array([400.0, 300.0])
@@ -44,9 +42,9 @@ def bars(
 def drawn(made: Display, of: str) -> dict[str, list[np.ndarray]]:
     """The lines, heads and texts of a dimension, points of print."""
     found: dict[str, list[np.ndarray]] = {"line": [], "fill": [], "text": []}
-    for item in made._items:
+    for item in made.finish():
         if item["of"] == of:
-            found[item["kind"]].append(place(item, made.poses[0], made.view))
+            found[item["kind"]].append(place(item, made.first, made.view))
     return found
 
 
@@ -74,17 +72,17 @@ def check(made: Display, of: str, begin: Any, end: Any, aside: float) -> None:
 def test_a_length_is_beside_its_bar_away_from_the_middle() -> None:
     """100 points long and 50 below the middle of the view, which is at (200, 150)."""
     made = bars((1.0, 1.0, 1.0, 0.0))
-    dimensions.add_dimensions(made)
+    made.add_dimensions()
     check(made, "length 1 m", (100, 100), (200, 100), -20.0)
     above = bars((1.0, 2.0, 1.0, 0.0))
-    dimensions.add_dimensions(above)
+    above.add_dimensions()
     check(above, "length 1 m", (100, 200), (200, 200), 20.0)
     # Upright and left of the middle: left of the bar, which is left of its direction.
     upright_ = bars((1.0, 1.0, 0.8, math.pi / 2.0))
-    dimensions.add_dimensions(upright_)
+    upright_.add_dimensions()
     check(upright_, "length 0.8 m", (100, 100), (100, 180), 20.0)
     slanted = bars((2.5, 1.0, 1.0, math.pi / 4.0))
-    dimensions.add_dimensions(slanted)
+    slanted.add_dimensions()
     far = 100.0 * math.sqrt(0.5)
     check(slanted, "length 1 m", (250, 100), (250 + far, 100 + far), -20.0)
 
@@ -109,16 +107,16 @@ def test_a_length_goes_where_the_lines_leave_room(
     for height in taken:
         there = 100.0 * y + outwards * (height - 100.0)
         obstacle(made, (110.0, there), (120.0, there))
-    dimensions.add_dimensions(made)
+    made.add_dimensions()
     check(made, "length 1 m", (100, 100 * y), (200, 100 * y), outwards * aside)
-    assert {i["width"] for i in made._items if i["of"] == "length 1 m" and "width" in i} == {0.6}
+    assert {i["width"] for i in made.finish() if i["of"] == "length 1 m" and "width" in i} == {0.6}
 
 
 @pytest.mark.parametrize("angle", [0.0, 2.0, -0.7])
 def test_arrows_of_a_short_length_point_inwards_and_its_text_is_beside(angle: float) -> None:
     """10 points are too few for "100 mm" and two heads of 6 points."""
     made = bars((2.0, 1.0, 0.1, angle))
-    dimensions.add_dimensions(made)
+    made.add_dimensions()
     along = np.array([math.cos(angle), math.sin(angle)])
     left = np.array([-along[1], along[0]])
     found = drawn(made, "length 100 mm")
@@ -130,16 +128,16 @@ def test_arrows_of_a_short_length_point_inwards_and_its_text_is_beside(angle: fl
     for tip, inward, head in zip((here, there), (along, -along), found["fill"], strict=True):
         np.testing.assert_allclose(head[0], tip)
         np.testing.assert_allclose(head[1:].mean(axis=0), tip - HEAD * inward)
-    width = measured("100 mm", 8.0, bold=False, slanted=False)[0]
+    width = measured("100 mm", 8.0)[0]
     expected = there + (10.8 + width / 2.0 + 2.0) * along
     np.testing.assert_allclose(found["text"], [[expected]])
 
 
 @pytest.mark.parametrize(("more", "inside"), [(0.01, True), (-0.01, False)])
 def test_a_text_is_between_arrows_that_leave_room_for_it(more: float, inside: bool) -> None:
-    width = measured("0.5 m", 8.0, bold=False, slanted=False)[0]
+    width = measured("0.5 m", 8.0)[0]
     made = bars((0.5, 0.5, 0.5, 0.0), scale=(width + 2.0 * HEAD + more) / 0.5)
-    dimensions.add_dimensions(made)
+    made.add_dimensions()
     found = drawn(made, "length 0.5 m")
     begin, end = found["line"][2]
     assert (begin[0] < found["text"][0][0, 0] < end[0]) == inside
@@ -148,62 +146,23 @@ def test_a_text_is_between_arrows_that_leave_room_for_it(more: float, inside: bo
 
 def test_the_distance_of_two_pins_on_ground_is_measured() -> None:
     two = bars((1.0, 1.0, 0.5, 1.5), (3.0, 1.0, 0.7, 1.6), ground=True)
-    dimensions.add_dimensions(two)
-    words = [item["text"] for item in two._items if item["kind"] == "text"]
+    two.add_dimensions()
+    words = [item["text"] for item in two.finish() if item["kind"] == "text"]
     assert words == ["0.5 m", "0.7 m", "2 m"]
     check(two, "length 2 m", (100, 100), (300, 100), -20.0)
     one_pin = bars((1.0, 1.0, 0.5, 1.5), (1.0, 1.0, 0.7, 0.6), ground=True)
-    dimensions.add_dimensions(one_pin)
-    assert [i["text"] for i in one_pin._items if i["kind"] == "text"] == ["0.5 m", "0.7 m"]
+    one_pin.add_dimensions()
+    assert [i["text"] for i in one_pin.finish() if i["kind"] == "text"] == ["0.5 m", "0.7 m"]
     three = bars(*((float(k), 1.0, 0.5, 1.5) for k in range(3)), ground=True)
-    dimensions.add_dimensions(three)
-    assert [i["text"] for i in three._items if i["kind"] == "text"] == ["0.5 m"] * 3
+    three.add_dimensions()
+    assert [i["text"] for i in three.finish() if i["kind"] == "text"] == ["0.5 m"] * 3
 
 
 @pytest.mark.parametrize(("count", "shown"), [(7, 7), (8, 0)])
 def test_more_than_seven_lengths_are_left_out(count: int, shown: int) -> None:
     made = bars(*((0.4 * k, 1.0, 0.5, 1.5) for k in range(count)))
-    dimensions.add_dimensions(made)
-    assert len([item for item in made._items if item["kind"] == "text"]) == shown
-
-
-def taken(lines: list[Any] = [], boxes: list[Any] = [], reach: float = 0.0) -> Taken:  # noqa: B006
-    return Taken(
-        np.array(lines, float).reshape(1, -1, 2, 2),
-        np.full(len(lines), reach),
-        np.array(boxes, float).reshape(1, -1, 4),
-        np.array([[0.0, 0.0], SIZE]),
-    )
-
-
-@pytest.mark.parametrize(
-    ("found", "cost"),
-    [
-        (taken(), 0),
-        # At 50 points the text has a box of ±10 and ±5, at 42.5 and 57.5 points too.
-        (taken([[[50, 4], [50, 4.5]]]), 3),
-        (taken([[[50, 5.5], [50, 6]]]), 0),
-        (taken([[[50, 5.5], [50, 6]]], reach=1.0), 3),
-        (taken(boxes=[[48, 4, 52, 8]]), 3),
-        (taken(boxes=[[48, 4, 52, 8], [48, -8, 52, -4]]), 6),
-        (taken(boxes=[[48, 5, 52, 8]]), 0),
-        (taken(boxes=[[48, -8, 52, -5]]), 0),
-        # Elsewhere the line keeps 3 points free.
-        (taken([[[12.5, 2], [12.5, 2.5]]]), 1),
-        (taken([[[12.5, 4], [12.5, 4.5]]]), 0),
-        (taken([[[12.5, 4], [12.5, 4.5]]], reach=2.0), 1),
-        (taken(boxes=[[15, -1, 15.4, 1]]), 1),
-        (taken(boxes=[[9, -1, 10, 1]]), 1),
-        (taken(boxes=[[8, -1, 9.5, 1]]), 0),
-        # All along the line there are 13 places, of which two lines at once count once.
-        (taken([[[-10, 0], [110, 0]]]), 13),
-        (taken([[[-10, 0], [110, 0]], [[-10, 1], [110, 1]]]), 13),
-        (taken(boxes=[[-10, -1, 110, 1]]), 13),
-    ],
-)
-def test_what_a_dimension_line_covers_is_counted(found: Taken, cost: int) -> None:
-    dots, half = np.array([[0.0, 0.0], [100.0, 0.0]]), np.array([10.0, 5.0])
-    assert dimensions._touched(found, dots, half) == cost
+    made.add_dimensions()
+    assert len([item for item in made.finish() if item["kind"] == "text"]) == shown
 
 
 #: The centres of the corners, 1.6 and 1.05 lengths of 30 points from the edges.
@@ -216,33 +175,20 @@ CORNERS = {
 
 
 @pytest.mark.parametrize("free", CORNERS)
-@pytest.mark.parametrize("kind", ["lines", "boxes"])
-def test_gravity_is_in_the_first_free_corner(free: str, kind: str) -> None:
-    before = list(CORNERS.values())[: list(CORNERS).index(free)]
-    if kind == "lines":
-        found = taken([[[x - 5, y], [x + 5, y]] for x, y in before])
-    else:
-        found = taken(boxes=[[x - 5, y - 5, x + 5, y + 5] for x, y in before])
-    made: Any = SimpleNamespace(view=View(np.zeros(2), 1.0, SIZE), taken=lambda: found)
-    assert tuple(dimensions._free_corner(made)) == CORNERS[free]
-
-
-def test_if_no_corner_is_free_it_is_the_one_with_the_shortest_lines() -> None:
-    places = zip(CORNERS.values(), (20.0, 30.0, 10.0, 15.0), strict=True)
-    found = taken([[[x - wide, y], [x + wide, y]] for (x, y), wide in places])
-    made: Any = SimpleNamespace(view=View(np.zeros(2), 1.0, SIZE), taken=lambda: found)
-    assert tuple(dimensions._free_corner(made)) == CORNERS["lower right"]
-    # What only touches the room of 48 × 31.5 points from outside is not in the corner.
-    beside = taken([[[303, 268], [303, 200]]], boxes=[[300, 200, 304, 290], [310, 200, 390, 237]])
-    made = SimpleNamespace(view=View(np.zeros(2), 1.0, SIZE), taken=lambda: beside)
-    assert tuple(dimensions._free_corner(made)) == CORNERS["upper right"]
+def test_gravity_is_in_the_first_free_corner(free: str) -> None:
+    made = bars((0.0, 0.0, 0.01, 0.0))
+    for x, y in list(CORNERS.values())[: list(CORNERS).index(free)]:
+        obstacle(made, (x - 5, y), (x + 5, y))
+    made.add_gravity()
+    (shaft,) = drawn(made, "gravity")["line"]
+    np.testing.assert_allclose(shaft.mean(axis=0), np.add(CORNERS[free], [0.0, 2.25]))
 
 
 @pytest.mark.parametrize("gravity", [(0.0, -9.81), (3.0, 4.0)])
 def test_the_arrow_of_gravity_points_along_it(gravity: tuple[float, float]) -> None:
     made = bars((1.0, 1.0, 1.0, 0.0))
     made.scene["gravity"] = gravity
-    dimensions.add_gravity(made)
+    made.add_gravity()
     size = math.hypot(*gravity)
     along = np.array(gravity) / size
     centre = np.array(CORNERS["upper right"])
@@ -258,5 +204,5 @@ def test_the_arrow_of_gravity_points_along_it(gravity: tuple[float, float]) -> N
 def test_without_gravity_there_is_no_arrow() -> None:
     made = bars((1.0, 1.0, 1.0, 0.0))
     made.scene["gravity"] = (0.0, 0.0)
-    dimensions.add_gravity(made)
-    assert made._items == []
+    made.add_gravity()
+    assert made.finish() == []

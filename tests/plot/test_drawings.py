@@ -10,10 +10,10 @@ import pytest
 from draw.mechanisms import slider_crank, sprung
 from kempe import plot
 from kempe.draw.frame import Frame
-from kempe.draw.labels import clipped_lengths
 from kempe.draw.painter import Painting
 from kempe.draw.placing import hatching, place
 from matplotlib.axes import Axes
+from plot.clipping import clipped_lengths
 from plot.paintings import lines_of, links, painting
 
 GROUND = {

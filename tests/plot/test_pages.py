@@ -8,10 +8,10 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe import plot
-from kempe.draw.labels import clipped_lengths
 from kempe.plot.page import file_names
 from kempe.report.summary import summary
 from matplotlib.text import Text
+from plot.clipping import clipped_lengths
 from plot.conftest import NAMES, chain, driven, pendulum
 from plot.overlaps import boxes, cut_off, overlaps
 from plot.paintings import links

@@ -8,8 +8,8 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe import plot
-from kempe.draw.labels import measured
 from kempe.draw.units import Scale
+from kempe.drawing import measured
 from kempe.plot import drawing_pages, style
 from kempe.plot.envelope import BINS, draw_envelope, envelope, logarithmic
 from kempe.plot.panel import Curve, Panel
@@ -213,7 +213,7 @@ def test_as_many_ticks_as_have_room(more: float, count: int) -> None:
 
     Where six do not fit, there are the three numbers 0, 2 and 4.
     """
-    wide = measured("0", 8.0, bold=False, slanted=False)[0]
+    wide = measured("0", 8.0)[0]
     size = [(6.0 * room + more) * 25.4 / 72.0 for room in (wide + 10.0, 13.0)]
     with style.applied():
         found = style.axes_at(style.figure(60.0, layout=None), (20.0, 15.0, *size), 60.0)

@@ -6,8 +6,11 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe import plot
-from kempe.draw.labels import Taken, clipped_lengths, place_labels
 from kempe.draw.units import axis_label, scale
+from kempe.drawing import measured, place_texts
+from matplotlib.font_manager import FontProperties
+from matplotlib.textpath import text_to_path
+from plot.clipping import clipped_lengths
 from plot.conftest import ROOT
 
 
@@ -34,13 +37,12 @@ def test_a_unit_keeps_the_numbers_short(unit: str, peak: float, label: str) -> N
     assert peak < 1e-9 or 0.2 <= peak / found.divisor <= 2000.0
 
 
-def test_a_name_lies_on_no_line_and_no_other_name() -> None:
-    anchors = np.array([[0.0, 0.0], [50.0, 0.0], [50.0, 50.0], [50.0, 52.0]])
+def test_a_text_lies_on_no_line_and_no_other_text() -> None:
+    anchors = np.array([[100.0, 100.0], [150.0, 100.0], [150.0, 150.0], [150.0, 152.0]])
     segments = np.array([anchors[:2], anchors[1:3]])
     sizes = np.tile([20.0, 8.0], (4, 1))
-    inside = np.array([[-100.0, -100.0], [100.0, 100.0]])
-    taken = Taken(segments[None], np.zeros(2), np.empty((1, 0, 4)), inside)
-    centres = anchors + place_labels(anchors[None], sizes, taken)
+    lines = segments.reshape(-1, 4)
+    centres = anchors + place_texts(anchors, sizes, lines, np.empty((0, 4)), (300.0, 300.0))
     for centre, size in zip(centres, sizes, strict=True):
         assert clipped_lengths(centre - size / 2, centre + size / 2, segments).sum() == 0.0
     for k, one in enumerate(centres):
@@ -48,17 +50,13 @@ def test_a_name_lies_on_no_line_and_no_other_name() -> None:
             assert np.any(np.abs(one - other) >= sizes[0])
 
 
-def test_lengths_inside_a_box() -> None:
-    low, high = np.array([0.0, 0.0]), np.array([2.0, 1.0])
-    segments = np.array(
-        [
-            [[-1.0, 0.5], [3.0, 0.5]],
-            [[0.5, 0.25], [0.5, 0.75]],
-            [[-1.0, 2.0], [3.0, 2.0]],
-            [[1.0, -1.0], [1.0, 0.5]],
-        ]
-    )
-    np.testing.assert_allclose(clipped_lengths(low, high, segments), [2.0, 0.5, 0.0, 0.5])
+@pytest.mark.parametrize("bold", [False, True])
+def test_widths_of_texts_are_those_of_the_font(bold: bool) -> None:
+    """The font's own program adds the white edges of letters only between them, and kerning."""
+    font = FontProperties(family="DejaVu Sans", size=9, weight="bold" if bold else "normal")
+    for words in ("g = 9.81 m/s²", "crank · rocker", "0.25 mm", "Watt", "ABCDEFGHIJKLMNOPQRSTUVWXYZ"):
+        exact = text_to_path.get_text_width_height_descent(words, font, ismath=False)[0]
+        assert measured(words, 9.0, bold=bold)[0] == pytest.approx(exact, abs=2.5)
 
 
 @pytest.mark.parametrize("size", [(160.0, 26.0), (60.0, 26.0), (40.0, 15.0)])

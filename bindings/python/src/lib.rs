@@ -11,6 +11,7 @@ mod attended;
 mod case;
 mod configurations;
 mod convert;
+mod drawing;
 mod dynamics;
 mod equilibrium;
 mod errors;
@@ -120,6 +121,11 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(measures::measure, module)?)?;
     module.add_function(wrap_pyfunction!(measures::measure_values, module)?)?;
     module.add_function(wrap_pyfunction!(formulas::formulas, module)?)?;
+    module.add_function(wrap_pyfunction!(drawing::scene, module)?)?;
+    module.add_function(wrap_pyfunction!(drawing::display, module)?)?;
+    module.add_function(wrap_pyfunction!(drawing::view_around, module)?)?;
+    module.add_function(wrap_pyfunction!(drawing::place_texts, module)?)?;
+    module.add_function(wrap_pyfunction!(drawing::text_width, module)?)?;
     module.add_function(wrap_pyfunction!(_inject_panic, module)?)?;
     module.add_function(wrap_pyfunction!(_raise, module)?)?;
     Ok(())

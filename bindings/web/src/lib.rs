@@ -7,6 +7,7 @@
 mod catalogue;
 mod convert;
 mod dragged;
+mod drawn;
 mod editing;
 mod fault;
 mod live;

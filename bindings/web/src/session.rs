@@ -3,6 +3,7 @@
 use crate::catalogue::catalogue;
 use crate::convert::Fields;
 use crate::dragged::drag;
+use crate::drawn::{display, scene};
 use crate::editing::edit;
 use crate::fault::Fault;
 use crate::live::Live;
@@ -63,6 +64,8 @@ impl Session {
             "mobility" => self.mobility(),
             "quantities" => self.quantities(),
             "quantity" => self.quantity(fields.text("name")?),
+            "scene" => scene(self.loaded()?),
+            "display" => display(self.loaded()?, fields),
             "live" => self.begin(),
             "advance" => self.advance(fields.number("by")?),
             "pull" => self.pull(fields),

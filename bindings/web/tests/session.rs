@@ -315,3 +315,28 @@ fn every_example_loads_and_its_first_pose_is_closed() {
     }
     assert!(count >= 40, "{count} examples");
 }
+
+#[test]
+fn every_example_is_drawn() {
+    let mut page = Page::of(&example("four_bar"));
+    let scene = page.ask(json!({ "do": "scene" }))["scene"].clone();
+    let names: Vec<&Value> =
+        scene["bodies"].as_array().expect("bodies").iter().map(|b| &b["name"]).collect();
+    assert_eq!(names, ["ground", "crank", "coupler", "rocker"]);
+    let size = json!({ "do": "display", "width": 600, "height": 400 });
+    let items = page.ask(size)["items"].clone();
+    let texts: Vec<&Value> = items
+        .as_array()
+        .expect("items")
+        .iter()
+        .filter(|item| item["kind"] == "text")
+        .map(|item| &item["text"])
+        .collect();
+    for name in ["A", "B", "C", "D", "spring", "1", "2", "3"] {
+        assert!(texts.iter().any(|text| *text == name), "{name} in {texts:?}");
+    }
+    let bare =
+        json!({ "do": "display", "width": 600, "height": 400, "names": false, "numbers": false });
+    let items = page.ask(bare)["items"].clone();
+    assert!(items.as_array().expect("items").iter().all(|item| item["kind"] != "text"));
+}

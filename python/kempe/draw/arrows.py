@@ -1,4 +1,4 @@
-"""The largest vectors of a motion, from which arrows take their scale.
+"""The vectors of a motion from which arrows take their directions and their scale.
 
 As in figures, values beside a singular position do not count if they have no bound there. Only a
 run that passes such a position is searched between its frames.
@@ -23,6 +23,23 @@ from kempe.state import State
 
 #: Number of a body and a point in its frame.
 Tracked = tuple[int, Sequence[float]]
+
+
+def efforts(motion: Motion) -> dict[str, tuple[Floats, Floats]]:
+    """Force, (n_t, 2), N, and torque, (n_t,), N·m, on body j of elements that arrows show."""
+    names, count = list(motion.compiled.all_bodies), len(np.atleast_1d(motion.t))
+    found = {}
+    for symbol in motion.compiled.symbols:
+        element, on = symbol["element"], names[symbol["j"]["body"]]
+        force, torque = np.zeros((count, 2)), np.zeros(count)
+        if symbol["mark"] == "force_arrow":
+            force = np.atleast_2d(motion.force(element).force(on=on))
+        elif symbol["mark"] == "torque_arrow":
+            torque = np.atleast_1d(motion.force(element).torque(on=on))
+        else:
+            continue
+        found[element] = (force, torque)
+    return found
 
 
 def tracked(bodies: list[dict[str, Any]], traces: list[dict[str, Any]]) -> list[Tracked]:

@@ -14,13 +14,13 @@ from kempe import files
 from kempe.arrays import Floats
 from kempe.draw import palette
 from kempe.draw.display import display
-from kempe.draw.geometry import limits, placed, smooth
+from kempe.draw.geometry import placed, smooth
 from kempe.draw.items import Item
-from kempe.draw.labels import measured
 from kempe.draw.numbers import round_below
 from kempe.draw.palette import one_line, verbatim
-from kempe.draw.placing import View, view_of
+from kempe.draw.placing import View, view_around
 from kempe.draw.scene import Scene
+from kempe.drawing import measured
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -43,7 +43,7 @@ _INSET, _CAPTION, _CLOCK = 0.015, 22.0, 78.0
 
 def frame_view(scene: Scene, size: Size = SIZE) -> View:
     """The visible area of a frame: everything, with a margin."""
-    return view_of(limits(scene["bounds"], size[0] / size[1]), 72.0 * size[0])
+    return view_around(scene["bounds"], (72.0 * size[0], 72.0 * size[1]))
 
 
 def frame_items(scene: Scene, size: Size = SIZE, *, labels: bool = True) -> list[Item]:
@@ -62,7 +62,7 @@ def _captions(scene: Scene, view: View) -> Floats:
     """The boxes of title, time and scale, (3, 4), points of print."""
     (wide, high), title = view.size, one_line(scene["title"], round(view.size[0] / 6.5))
     below = high - _CAPTION
-    end = _INSET * wide + measured(title, 9.0, bold=False, slanted=False)[0]
+    end = _INSET * wide + measured(title, 9.0)[0]
     return np.array(
         [
             [0.0, below, end, high],
@@ -109,7 +109,8 @@ class Frame:
         self._canvas: Any = FigureCanvasAgg(self.figure)  # matplotlib leaves it untyped
         self.axes = self.figure.add_axes((0.0, 0.0, 1.0, 1.0))
         self.axes.set_axis_off()
-        left, bottom, right, top = limits(scene["bounds"], size[0] / size[1])
+        view = frame_view(scene, size)
+        (left, right), (bottom, top) = zip(view.low, view.plane(view.size), strict=True)
         self.axes.set_xlim(left, right)
         self.axes.set_ylim(bottom, top)
         self._draw_still()

@@ -8,9 +8,6 @@ import numpy as np
 
 from kempe.arrays import Floats
 
-#: Room around a mechanism, as a share of its size.
-_ROOM = 0.14
-
 
 def placed(poses: Floats, points: Floats | Sequence[float]) -> Floats:
     """Global places r + A(φ) s; poses (…, 3) and points (…, 2) of which one may be many, m."""
@@ -38,18 +35,3 @@ def smooth(poses: Floats, rates: Floats, t: Floats, pieces: int) -> Floats:
     between = r * r * (1.0 + 2.0 * s) * before + s * s * (1.0 + 2.0 * r) * after
     between = between + np.diff(t)[:, None, None] * r * s * slopes
     return np.concatenate([between.reshape(-1, 3), poses[-1:]])
-
-
-def limits(bounds: Sequence[float], aspect: float) -> Floats:
-    """The part of the plane that is seen: bounds with room around, width/height as given.
-
-    Args:
-        bounds: least x and y, largest x and y, m.
-        aspect: width by height of the picture.
-    """
-    low, high = np.array(bounds[:2]), np.array(bounds[2:])
-    middle, span = (low + high) / 2.0, high - low
-    room = _ROOM * (float(span.max()) or 1.0)
-    height = max(span[1] + 2.0 * room, (span[0] + 2.0 * room) / aspect)
-    half = np.array([aspect * height, height]) / 2.0
-    return np.concatenate([middle - half, middle + half])

@@ -36,17 +36,6 @@ GROUND, BODY, SYMBOL, PIN, NUMBER, NAME = range(6)
 
 ORIGIN = (0.0, 0.0)
 
-#: Of each kind of text: size in points, weight, whether slanted, colour.
-LOOKS = {
-    "joint": (9.0, "bold", False, "ink"),
-    "point": (9.0, "normal", False, "ink"),
-    "element": (8.0, "normal", True, "force"),
-    "driver": (8.0, "normal", True, "drive"),
-    "body": (8.0, "normal", False, "ink"),
-    "number": (8.0, "normal", False, "ink"),
-    "measure": (8.0, "normal", False, "quiet"),
-}
-
 
 def on_body(
     body: int, at: At = ORIGIN, *, turns_with: int | None = None, turn: float = 0.0
@@ -59,26 +48,6 @@ def on_body(
 def upright(body: int, at: At = ORIGIN) -> Frame:
     """A frame at a point of a body that does not turn."""
     return on_body(body, at, turns_with=0)
-
-
-def between(bodies: Sequence[int], ends: Sequence[At], room: float = 0.0) -> Frame:
-    """A frame along the line between a point of one body and a point of another."""
-    return {"type": "line", "bodies": [*bodies], "ends": [[*end] for end in ends], "room": room}
-
-
-def towards(bodies: Sequence[int], ends: Sequence[At]) -> Frame:
-    """A frame from a point of one body in the direction of a point of another."""
-    return {"type": "ray", "bodies": [*bodies], "ends": [[*end] for end in ends]}
-
-
-def twisted(bodies: Sequence[int], at: At, turn: float) -> Frame:
-    """A polar frame around a point of body j that winds as j turns against i."""
-    return {"type": "twist", "bodies": [*bodies], "at": [*at], "turn": turn}
-
-
-def metres(points: Floats | Sequence[At]) -> Rows:
-    """Rows of points in lengths of the mechanism."""
-    return [[float(x), float(y), 0.0, 0.0] for x, y in points]
 
 
 def print_points(points: Floats | Sequence[At]) -> Rows:
@@ -132,43 +101,6 @@ def fill(
         "colour": colour,
         "tint": tint,
     }
-
-
-def text(
-    of: str, frame: Frame, point: Sequence[float], words: str, role: str, *, turned: bool = False
-) -> Item:
-    """A text centred at a row; ``turned`` along the x axis of its frame, never upside down.
-
-    Args:
-        of: the body or element that it names.
-        frame: the frame that it follows.
-        point: its row.
-        words: the text.
-        role: a key of ``LOOKS``.
-        turned: whether it turns with the frame.
-    """
-    size, weight, slanted, colour = LOOKS[role]
-    return {
-        "kind": "text",
-        "of": of,
-        "layer": NUMBER if role == "number" else NAME,
-        "frame": frame,
-        "points": [[*point]],
-        "text": words,
-        "role": role,
-        "size": size,
-        "weight": weight,
-        "slanted": slanted,
-        "colour": colour,
-        "tint": 0.0,
-        "turned": turned,
-        "offset": [0.0, 0.0],
-    }
-
-
-def circle(radius: float, count: int = 32) -> Floats:
-    """Corners of a circle around the origin, (n, 2)."""
-    return arc(radius, 0.0, 2.0 * np.pi * (1.0 - 1.0 / count), count)
 
 
 def arc(radius: float, begin: float, end: float, count: int = 24) -> Floats:

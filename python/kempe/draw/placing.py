@@ -1,6 +1,6 @@
 """Places of the items of a display list at one instant; only here metres become points.
 
-``assets/place.js`` has the same rules for the page.
+``assets/place.js`` has the same rules for the page, ``drawing/src/display/placing.rs`` for names.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from itertools import pairwise
 
 import numpy as np
 
+from kempe import drawing
 from kempe.arrays import Floats
 from kempe.draw.geometry import placed
 from kempe.draw.items import Frame, Item
@@ -38,16 +39,21 @@ class View:
         found: Floats = (places - self.low) * self.scale
         return found
 
+    def plain(self) -> tuple[tuple[float, float], float, tuple[float, float]]:
+        """The same as numbers: lower left corner, scale, width and height."""
+        (left, bottom), (width, height) = map(float, self.low), map(float, self.size)
+        return (left, bottom), float(self.scale), (width, height)
+
     def plane(self, points: Floats) -> Floats:
         """The place in the plane, m, of points of print."""
         found: Floats = points / self.scale + self.low
         return found
 
 
-def view_of(limits: Floats, width: float) -> View:
-    """The view of [least x, least y, largest x, largest y], m, so many points wide."""
-    scale = width / float(limits[2] - limits[0])
-    return View(limits[:2], scale, (limits[2:] - limits[:2]) * scale)
+def view_around(bounds: Sequence[float], size: tuple[float, float]) -> View:
+    """The view of bounds, m, with room around them, of a width and height in points of print."""
+    low, scale, found = drawing.view_around(bounds, size)
+    return View(np.array(low), scale, np.array(found))
 
 
 def place(item: Item, poses: Floats, view: View) -> Floats:

@@ -13,10 +13,10 @@ import numpy as np
 
 from kempe.arrays import Floats
 from kempe.compiled import ACCELERATIONS, COORDINATES, RATES, CompiledModel
-from kempe.display_units import display
-from kempe.draw import arrows, channels, sampling, shapes
+from kempe.display_units import chosen_for, display
+from kempe.draw import arrows, channels, sampling
 from kempe.draw.numbers import plain, round_below, rounded
-from kempe.draw.units import scale
+from kempe.drawing import static_scene
 from kempe.errors import ModelError
 from kempe.motion import Motion
 from kempe.names import unknown
@@ -69,27 +69,22 @@ def scene(
     instance(solution_or_state, (Solution, State), "a solution or a state")
     model = solution_or_state.compiled
     motion = sampling.sampled(solution_or_state, frames, channels.numbers_per_frame(model), span)
-    bodies = [shapes.body(model, name) for name in model.all_bodies]
-    joints, symbols = [shapes.joint(model, name) for name in model.joints], shapes.symbols(motion)
-    bounds = shapes.bounds(motion, bodies, joints, symbols)
-    size = float(max(bounds[2:] - bounds[:2])) or 1.0
+    poses = _of_bodies(motion, COORDINATES)
+    static = static_scene(model, poses, arrows.efforts(motion))
+    low, high = np.array(static["bounds"]).reshape(2, 2)
+    size = float(max(high - low)) or 1.0
     paths = _traces(motion, size, traces)
-    peaks = arrows.peaks(solution_or_state, motion, arrows.tracked(bodies, paths))
+    peaks = arrows.peaks(solution_or_state, motion, arrows.tracked(static["bodies"], paths))
     return {
         "scene": FORMAT,
-        "title": model.title,
         "units": dict(UNITS),
-        "gravity": plain(np.array(model.gravity)),
-        "bounds": plain(bounds),
-        "length": _length(shapes.own_size(bodies, joints) or size),
-        "bodies": bodies,
-        "joints": joints,
-        "symbols": symbols,
+        **static,
+        "length": _chosen_length() or static["length"],
         "traces": paths,
         "variable": _variable(solution_or_state.variable),
         "frames": {
             "t": plain(motion.t),
-            "poses": plain(_of_bodies(motion, COORDINATES), _DIGITS_OF_POSES),
+            "poses": plain(poses, _DIGITS_OF_POSES),
             "rates": plain(_of_bodies(motion, RATES)),
             "accelerations": plain(_of_bodies(motion, ACCELERATIONS)),
             "reactions": plain(_reactions(motion)),
@@ -128,10 +123,10 @@ def _short(share: float | None) -> float | None:
     return None if share is None or not math.isfinite(share) else float(f"{share:.2g}")
 
 
-def _length(size: float) -> dict[str, Any]:
-    """The unit of lengths in the drawing, and its value in m."""
-    chosen = scale("m", size)
-    return {"unit": chosen.unit, "metres": chosen.divisor}
+def _chosen_length() -> dict[str, Any] | None:
+    """The unit that the user chose for lengths, and its value in m."""
+    chosen = chosen_for("m")
+    return None if chosen is None else {"unit": chosen.symbol, "metres": chosen.divisor}
 
 
 def _of_bodies(motion: Motion, quantities: Sequence[str]) -> Floats:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from kempe.arrays import Floats
-from kempe.draw.labels import Taken, measured, place_labels
+from kempe.drawing import measured, place_texts
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -42,18 +42,17 @@ def add_labels(
         found: Floats = (axes.transData.transform(np.reshape(points, (-1, 2))) - origin) * dots
         return found
 
-    segments = [np.empty((0, 2, 2))]
+    segments = [np.empty((0, 4))]
     for path in paths:
         at = printed(_thinned(path))
-        segments.append(np.stack([at[:-1], at[1:]], axis=1))
-    lines = np.concatenate(segments)
+        segments.append(np.column_stack([at[:-1], at[1:]]))
     plain = [word.replace("$", "").replace("_", "").replace("^", "") for word in words]
-    sizes = np.array([measured(word, _SIZE, bold=False, slanted=False) for word in plain])
-    edges = np.array([[0.0, 0.0], np.array(box.size) * dots])
+    sizes = np.array([measured(word, _SIZE) for word in plain])
+    width, height = (float(x) * dots for x in box.size)
     marks = printed(np.array(anchors))
     boxes = np.column_stack([marks - 2.5, marks + 2.5])
-    taken = Taken(lines[None], np.zeros(len(lines)), boxes[None], edges)
-    offsets = place_labels(marks[None], sizes, taken)
+    lines = np.concatenate(segments)
+    offsets = place_texts(marks, sizes, lines, boxes, (width, height))
     for anchor, offset, text in zip(anchors, offsets, words, strict=True):
         axes.annotate(
             text,

@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from kempe.draw.scene import scene
 from kempe.plot import style
 from kempe.plot.configuration import state_at
-from kempe.plot.dimensions import add_dimensions, add_gravity
 from kempe.plot.picture import drawn, paint
 
 if TYPE_CHECKING:
@@ -27,8 +26,8 @@ def mechanism(solution_or_state: Solution | State, *, ax: Axes | None = None) ->
     with style.on(ax) as axes:
         state = state_at(solution_or_state, None)
         made = drawn(axes, scene(state), style.short(state.compiled.title, 80))
-        add_dimensions(made)
-        add_gravity(made)
+        made.add_dimensions()
+        made.add_gravity()
         made.name_joints()
         made.name_elements()
         paint(axes, made)

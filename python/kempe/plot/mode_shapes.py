@@ -63,7 +63,7 @@ def _paint(axes: Axes, shown: Scene, title: str, *, resting: bool) -> None:
         white = [_RESTING + (1.0 - _RESTING) * item["tint"] for item in found]
         pairs = zip(found, white, strict=True)
         found = [{**item, "colour": "quiet", "tint": tint} for item, tint in pairs]
-    Painting(axes, found, made.poses[0], shown["length"]["metres"])
+    Painting(axes, found, made.first, shown["length"]["metres"])
 
 
 def _title(shape: ModeShape) -> str:

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe.draw.labels import measured
 from kempe.draw.units import Scale
+from kempe.drawing import measured
 from kempe.extrema import Extreme
 from kempe.plot import style
 from kempe.plot.panel import Curve
@@ -77,7 +77,7 @@ def add_peaks(axes: Axes, marks: Sequence[Mark], unit: Scale, time: Scale) -> No
         x, y = extreme.t / time.divisor, extreme.value / unit.divisor
         axes.scatter([x], [y], s=11.0, facecolor="white", edgecolor=colour, linewidth=1.0, zorder=4)
         words = peak_text(extreme, unit, time)
-        half = (measured(words, _SIZE, bold=False, slanted=False)[0] / 2.0 + _INSET) / width
+        half = (measured(words, _SIZE)[0] / 2.0 + _INSET) / width
         share = float(axes.transAxes.inverted().transform(axes.transData.transform((x, y)))[0])
         axes.text(
             float(np.clip(share, half, max(half, 1.0 - half))),

@@ -71,4 +71,4 @@ def paint(axes: Axes, made: Display) -> None:
     """Paint a display list as it is at its first instant."""
     from kempe.draw.painter import Painting
 
-    Painting(axes, made.finish(), made.poses[0], made.scene["length"]["metres"])
+    Painting(axes, made.finish(), made.first, made.scene["length"]["metres"])

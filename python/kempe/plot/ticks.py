@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from kempe.draw.labels import measured
+from kempe.drawing import measured
 
 if TYPE_CHECKING:
     from matplotlib.axis import Axis
@@ -64,5 +64,5 @@ def _needed(axis: Axis, words: Sequence[str]) -> float:
     """Length that the numbers need, points."""
     if not _is_horizontal(axis):
         return len(words) * (_SIZE + _ABOVE)
-    widths = [measured(word, _SIZE, bold=False, slanted=False)[0] for word in words]
+    widths = [measured(word, _SIZE)[0] for word in words]
     return max(widths, default=0.0) * len(words) + _BESIDE * len(words)

@@ -1,0 +1,156 @@
+//! Places of names that cover nothing else, at rest and while the mechanism moves.
+
+use super::taken::{clipped_length, Taken};
+use crate::plane::{ahead, direction, minus, size as length, At};
+
+/// Directions from an anchor to its name.
+const DIRECTIONS: usize = 16;
+const GAPS: [f64; 7] = [3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0];
+/// The same while the anchors move; a name must not be far from its anchor.
+const GAPS_IN_MOTION: usize = 4;
+/// Room to keep between a name and everything else.
+const CLEARANCE: f64 = 2.0;
+/// Names side by side need so much more room not to be read as one.
+const BESIDE: f64 = 4.0;
+/// To touch a line costs this much more than to be farther away by the same length; to touch a text still more.
+const TOUCH: f64 = 10.0;
+const COVER: f64 = 60.0;
+/// A name that is nearer to another anchor costs so much more.
+const MISLEADING: f64 = 40.0;
+/// Shorter contacts are rounding errors, points.
+const CONTACT: f64 = 1e-3;
+/// Of places whose costs differ by less, the first is taken, so that rounding errors decide nothing.
+const EQUAL: f64 = 0.05;
+
+/// Offsets from moving anchors to the centres of their names, clear of lines and of each other.
+///
+/// Greedy: the names are placed one by one, the longest first, each at the candidate that touches least on average and
+/// is nearest. `anchors` are those of each instant, points of print, `sizes` widths and heights.
+pub fn place_labels(anchors: &[Vec<At>], sizes: &[At], mut taken: Taken) -> Vec<At> {
+    let mut chosen = vec![[0.0; 2]; sizes.len()];
+    let mut order: Vec<usize> = (0..sizes.len()).collect();
+    order.sort_by(|a, b| sizes[*b][0].total_cmp(&sizes[*a][0]));
+    let gaps = if anchors.len() == 1 { &GAPS[..] } else { &GAPS[..GAPS_IN_MOTION] };
+    for k in order {
+        let candidates = candidates(sizes[k], gaps);
+        let mut costs: Vec<f64> = candidates.iter().map(|(gap, _)| *gap).collect();
+        let offsets: Vec<At> = candidates.into_iter().map(|(_, offset)| offset).collect();
+        for (t, at) in anchors.iter().enumerate() {
+            let near = taken.near(t, at[k], &offsets, half(sizes[k]));
+            for (cost, offset) in costs.iter_mut().zip(&offsets) {
+                let covered = near.cost(ahead(at[k], 1.0, *offset), sizes[k]);
+                let misleading = if is_nearer(at, k, *offset) { MISLEADING } else { 0.0 };
+                *cost += (covered + misleading) / anchors.len() as f64;
+            }
+        }
+        let least = costs.iter().copied().fold(f64::INFINITY, f64::min);
+        let first = costs.iter().position(|cost| *cost <= least + EQUAL);
+        chosen[k] = offsets[first.unwrap_or(0)];
+        taken.add(anchors.iter().map(|at| ahead(at[k], 1.0, chosen[k])), sizes[k]);
+    }
+    chosen
+}
+
+/// Half of the box of a name with the room that it needs.
+fn half(size: At) -> At {
+    size.map(|x| x / 2.0 + CLEARANCE)
+}
+
+/// Whether a name of the k-th anchor with this offset is nearer to another anchor.
+fn is_nearer(anchors: &[At], k: usize, offset: At) -> bool {
+    let (own, centre) = (length(offset), ahead(anchors[k], 1.0, offset));
+    let others = anchors.iter().enumerate().filter(|(other, _)| *other != k);
+    others.into_iter().any(|(_, at)| length(minus(centre, *at)) < own - CONTACT)
+}
+
+/// Offsets such that the box of a name is one of the gaps away from its anchor, each with its gap.
+fn candidates(size: At, gaps: &[f64]) -> Vec<(f64, At)> {
+    let ways = (1..=DIRECTIONS).map(|k| direction((k as f64 * 22.5).to_radians()));
+    // with the distance from the centre to the edge of the box
+    let edge = |u: At| (size[0] / 2.0 / u[0]).abs().min((size[1] / 2.0 / u[1]).abs());
+    let ways: Vec<(At, f64)> = ways.map(|u| (u, edge(u).min(length(size) / 2.0))).collect();
+    let at = |gap: f64| ways.iter().map(move |(u, edge)| (gap, u.map(|x| (edge + gap) * x)));
+    gaps.iter().flat_map(|gap| at(*gap)).collect()
+}
+
+/// What is taken near the candidates of one name at one instant.
+struct Near {
+    segments: Vec<([At; 2], f64)>,
+    boxes: Vec<[f64; 4]>,
+    inside: [At; 2],
+}
+
+impl Taken {
+    fn near(&self, t: usize, anchor: At, offsets: &[At], half: At) -> Near {
+        let mut around = crate::plane::Extent::NOTHING;
+        offsets.iter().for_each(|by| around.include(ahead(anchor, 1.0, *by), 0.0));
+        let first = minus(around.low, half);
+        let last = ahead(around.high, 1.0, half);
+        let meets = |low: At, high: At, wide: f64| {
+            (0..2).all(|k| low[k] - wide < last[k] && high[k] + wide > first[k])
+        };
+        let segments = self.segments[t].iter().zip(&self.reach);
+        let segments = segments.filter(|([a, b], wide)| {
+            let (low, high) = ([a[0].min(b[0]), a[1].min(b[1])], [a[0].max(b[0]), a[1].max(b[1])]);
+            meets(low, high, **wide)
+        });
+        let boxes = self.boxes[t].iter();
+        let boxes = boxes.filter(|b| meets([b[0], b[1]], [b[2], b[3]], BESIDE));
+        Near {
+            segments: segments.map(|(ends, wide)| (*ends, *wide)).collect(),
+            boxes: boxes.copied().collect(),
+            inside: self.inside,
+        }
+    }
+}
+
+impl Near {
+    /// Overlap of the box of a name, points.
+    fn cost(&self, centre: At, size: At) -> f64 {
+        let (low, high) = (minus(centre, half(size)), ahead(centre, 1.0, half(size)));
+        let mut cost = 0.0;
+        for (ends, wide) in &self.segments {
+            let touched = clipped_length(low.map(|x| x - wide), high.map(|x| x + wide), ends);
+            if touched > 0.0 {
+                cost += TOUCH * (touched + if touched > CONTACT { 2.0 } else { 0.0 });
+            }
+        }
+        for [left, bottom, right, top] in &self.boxes {
+            let across = (high[0] + BESIDE).min(*right) - (low[0] - BESIDE).max(*left);
+            let up = high[1].min(*top) - low[1].max(*bottom);
+            if across > CONTACT && up > CONTACT {
+                cost += COVER * (across + up);
+            }
+        }
+        let [least, largest] = self.inside;
+        let outside = |k: usize| (least[k] - low[k]).max(0.0) + (high[k] - largest[k]).max(0.0);
+        cost + TOUCH * (outside(0) + outside(1))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{place_labels, Taken};
+    use crate::display::taken::clipped_length;
+
+    #[test]
+    fn a_name_lies_on_no_line_and_no_other_name() {
+        let anchors = vec![[0.0, 0.0], [50.0, 0.0], [50.0, 50.0], [50.0, 52.0]];
+        let segments = vec![[anchors[0], anchors[1]], [anchors[1], anchors[2]]];
+        let taken = Taken {
+            segments: vec![segments.clone()],
+            reach: vec![0.0; 2],
+            boxes: vec![vec![]],
+            inside: [[-100.0; 2], [100.0; 2]],
+        };
+        let offsets = place_labels(&[anchors.clone()], &[[20.0, 8.0]; 4], taken);
+        let centres: Vec<_> =
+            anchors.iter().zip(offsets).map(|(a, by)| [a[0] + by[0], a[1] + by[1]]).collect();
+        for (k, [x, y]) in centres.iter().enumerate() {
+            let (low, high) = ([x - 10.0, y - 4.0], [x + 10.0, y + 4.0]);
+            assert!(segments.iter().all(|ends| clipped_length(low, high, ends) == 0.0));
+            let apart = |at: &[f64; 2]| (at[0] - x).abs() >= 20.0 || (at[1] - y).abs() >= 8.0;
+            assert!(centres[..k].iter().all(apart));
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! Numbers of bodies in circles, and their names beside them.
+
+use super::bodies::middles;
+use super::items::{colour_of, layer, printed, Frame, Item};
+use super::list::{List, Name, Numbers};
+use super::shapes::circle;
+use super::text::{one_line, Role};
+use crate::plane::{ahead, minus, size, At};
+use crate::scene::Body;
+
+/// Radius of the circle around a number, and of symbols around a pin, points of print.
+pub const RADIUS: f64 = 7.0;
+const RINGED: f64 = 20.0;
+/// More numbers than these do not fit on a drawing.
+const MOST: usize = 40;
+
+/// Places at the instants, points of print, with the radius around them that is taken.
+type Pin = (Vec<At>, f64);
+
+/// Writes a number in a circle on each moving body, and its name beside it.
+pub fn add(made: &mut List<'_>, numbers: Numbers) {
+    let scene = made.scene;
+    let bodies = scene.bodies.get(1..).unwrap_or_default();
+    if bodies.len() > MOST {
+        return;
+    }
+    let mut pins: Vec<Pin> = Vec::new();
+    for symbol in &scene.symbols {
+        let wide = if symbol.mark.is_around() { RINGED } else { RADIUS };
+        pins.extend(symbol.ends().map(|(body, at)| (printed_path(made, body, at), wide)));
+    }
+    for body in bodies {
+        let number = (body.number as i64 - 1 + numbers.first).to_string();
+        match free_place(made, body, &pins) {
+            Some(at) => {
+                let frame = Frame::upright(body.number, at);
+                made.items.extend(circled(&body.name, &frame, [0.0; 2]));
+                made.items.push(Item::text(&body.name, &frame, [0.0; 4], &number, Role::Number));
+                pins.push((printed_path(made, body.number, at), RADIUS));
+                if numbers.names {
+                    made.name(Role::Body, &body.name, frame);
+                }
+            }
+            None => {
+                let (role, words) = match numbers.names {
+                    true => (Role::Body, format!("{number} {}", one_line(&body.name))),
+                    false => (Role::Number, number),
+                };
+                let frame = Frame::upright(body.number, body.center);
+                made.names.push(Name { of: body.name.clone(), words, role, frame });
+            }
+        }
+    }
+}
+
+/// The circle around the number of a body.
+pub fn circled(of: &str, frame: &Frame, offset: At) -> [Item; 2] {
+    let rim = printed(circle(RADIUS, 32).into_iter().map(|at| ahead(at, 1.0, offset)));
+    let colour = match frame {
+        Frame::Body { body, .. } => colour_of(*body),
+        _ => "ink".to_string(),
+    };
+    let items = [
+        Item::fill(of, frame, rim.clone(), "paper"),
+        Item::line(of, frame, rim, &colour, 1.0).closed(),
+    ];
+    items.map(|item| Item { numbered: true, ..item.on(layer::NUMBER) })
+}
+
+fn printed_path(made: &List<'_>, body: usize, at: At) -> Vec<At> {
+    made.path(body, at).into_iter().map(|place| made.view.points(place)).collect()
+}
+
+/// Where a number covers no pin and no other number; none if there is no room.
+fn free_place(made: &List<'_>, body: &Body, pins: &[Pin]) -> Option<At> {
+    middles(body).into_iter().find(|at| {
+        let path = printed_path(made, body.number, *at);
+        pins.iter().all(|(pin, wide)| {
+            let mut apart = path.iter().zip(pin).map(|(a, b)| size(minus(*a, *b)));
+            apart.all(|apart| apart - wide > RADIUS)
+        })
+    })
+}

@@ -1,0 +1,136 @@
+//! The vocabulary of symbols.
+
+use kempe::elements;
+use serde::{Deserialize, Serialize};
+
+/// What is drawn; the words are described at [`elements::Mark`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+#[allow(missing_docs)]
+pub enum Mark {
+    Pin,
+    Clamp,
+    Slide,
+    Rod,
+    Cylinder,
+    DriveCylinder,
+    Sleeve,
+    Spring,
+    Dashpot,
+    SpiralSpring,
+    RotaryDashpot,
+    RubbingPin,
+    RubbingSlide,
+    TorqueArrow,
+    ForceArrow,
+    DriveTurn,
+    DriveShift,
+    TurnStop,
+    ShiftStop,
+    Slot,
+    ToothedLine,
+    Track,
+    OpenStrands,
+    CrossedStrands,
+    Circle,
+    ToothedWheel,
+    ToothedRing,
+    Roller,
+    Round,
+    Touch,
+    Face,
+}
+
+impl From<elements::Mark> for Mark {
+    fn from(mark: elements::Mark) -> Self {
+        use elements::Mark as From;
+        match mark {
+            From::Pin => Self::Pin,
+            From::Clamp => Self::Clamp,
+            From::Slide => Self::Slide,
+            From::Rod => Self::Rod,
+            From::Cylinder => Self::Cylinder,
+            From::DriveCylinder => Self::DriveCylinder,
+            From::Sleeve => Self::Sleeve,
+            From::Spring => Self::Spring,
+            From::Dashpot => Self::Dashpot,
+            From::SpiralSpring => Self::SpiralSpring,
+            From::RotaryDashpot => Self::RotaryDashpot,
+            From::RubbingPin => Self::RubbingPin,
+            From::RubbingSlide => Self::RubbingSlide,
+            From::TorqueArrow => Self::TorqueArrow,
+            From::ForceArrow => Self::ForceArrow,
+            From::DriveTurn => Self::DriveTurn,
+            From::DriveShift => Self::DriveShift,
+            From::TurnStop => Self::TurnStop,
+            From::ShiftStop => Self::ShiftStop,
+            From::Slot => Self::Slot,
+            From::ToothedLine(_) => Self::ToothedLine,
+            From::Track(_) => Self::Track,
+            From::Strands { crossed: false, .. } => Self::OpenStrands,
+            From::Strands { crossed: true, .. } => Self::CrossedStrands,
+            From::Circle(_) => Self::Circle,
+            From::Toothed { ring: false, .. } => Self::ToothedWheel,
+            From::Toothed { ring: true, .. } => Self::ToothedRing,
+            From::Roller(_) => Self::Roller,
+            From::Round(_) => Self::Round,
+            From::Contact => Self::Touch,
+            From::Face => Self::Face,
+        }
+    }
+}
+
+impl Mark {
+    /// Along the line between two points.
+    pub fn is_along(self) -> bool {
+        let of_line = [Self::Rod, Self::Spring, Self::Dashpot, Self::Cylinder, Self::DriveCylinder];
+        of_line.contains(&self)
+    }
+
+    /// Around a point, in rings.
+    pub fn is_around(self) -> bool {
+        matches!(
+            self,
+            Self::SpiralSpring
+                | Self::RotaryDashpot
+                | Self::RubbingPin
+                | Self::TorqueArrow
+                | Self::TurnStop
+                | Self::DriveTurn
+        )
+    }
+
+    /// It turns on a pin where an end of it is on ground.
+    pub fn is_pinned(self) -> bool {
+        self == Self::Pin || self.is_along()
+    }
+
+    /// In the size of the mechanism, around the point of body j.
+    pub fn is_wheel(self) -> bool {
+        self == Self::Circle || self.is_toothed_wheel()
+    }
+
+    /// A wheel or ring with teeth.
+    pub fn is_toothed_wheel(self) -> bool {
+        matches!(self, Self::ToothedWheel | Self::ToothedRing)
+    }
+
+    /// Along a line of body i, as long as what moves on it goes.
+    pub fn is_guide(self) -> bool {
+        matches!(self, Self::Slide | Self::Slot | Self::ToothedLine | Self::Track)
+    }
+
+    /// The colour of drivers.
+    pub fn is_drive(self) -> bool {
+        matches!(self, Self::DriveTurn | Self::DriveShift | Self::DriveCylinder)
+    }
+
+    /// How many of its two points it does not show, that of body i first.
+    pub fn unmarked(self) -> usize {
+        match self {
+            Self::ShiftStop | Self::Round => 2,
+            Self::RubbingSlide | Self::Face | Self::ForceArrow | Self::DriveShift => 1,
+            _ => usize::from(self.is_wheel() || self.is_guide()),
+        }
+    }
+}

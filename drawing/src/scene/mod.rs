@@ -1,0 +1,22 @@
+//! The static part of a scene: what is drawn of a model, as plain data.
+//!
+//! `docs/scene.md` describes its text in JSON.
+
+mod bodies;
+mod bounds;
+mod data;
+mod effort;
+mod hull;
+mod length;
+mod make;
+mod mark;
+mod paths;
+mod symbols;
+mod teeth;
+
+pub use data::{Body, Curve, Joint, Part, PartForm, Point, Scene, Symbol, Teeth};
+pub use effort::{efforts, Effort};
+pub use length::Length;
+pub use make::scene;
+pub use mark::Mark;
+pub(crate) use teeth::outer_radius;
