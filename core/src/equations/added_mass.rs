@@ -23,6 +23,8 @@ const TURNING: f64 = 0.1;
 const LIGHT_IMPLICIT: f64 = 1e-12;
 /// The mass that it has then.
 const FLOOR_IMPLICIT: f64 = 1e-9;
+/// The part of these additions below which a body with loans is still light.
+pub(super) const ENOUGH: f64 = LIGHT / FLOOR;
 /// Mass of the internal coordinates of elements, relative to the heaviest body.
 const OWN: f64 = 1e-4;
 /// The same in the matrix of implicit methods.
@@ -229,6 +231,6 @@ fn second(mut branches: Vec<(f64, f64)>) -> f64 {
 }
 
 /// The value of a number that is the same in every lane.
-fn number<S: Real>(x: S) -> f64 {
+pub(super) fn number<S: Real>(x: S) -> f64 {
     x.largest_magnitude()
 }

@@ -4,7 +4,7 @@
 //! gives the smallest step of Newton's method, with μ > 0 a damped one.
 
 use super::plan::Plan;
-use super::{mass, Compiled};
+use super::{loans, mass, Compiled};
 use crate::math::{Motion, Real};
 use crate::model::Model;
 use crate::solve::{Breakdown, InverseMass, Saddle};
@@ -67,23 +67,25 @@ impl<S: Real> Augmented<S> {
         (&self.plan, &mut self.saddle)
     }
 
-    /// W = M at the given motions, with what is added to light bodies.
+    /// W = M at the given motions, with what is added to light bodies, or lent to them.
     pub fn set_mass(&mut self, compiled: &Compiled<S>, motions: &[Motion<S>]) {
         self.set_inertia(compiled);
         let Self { plan, saddle, .. } = self;
+        let inertias = compiled.inertias_in(plan);
         for &k in plan.pattern.coupled() {
             let k = k as usize;
-            mass::turn(&compiled.inertias[k], &motions[k + 1], &mut saddle.masses[k]);
+            mass::turn(&inertias[k], &motions[k + 1], &mut saddle.masses[k]);
         }
         for (grounded, group) in compiled.grounded.iter().zip(&mut saddle.condensed) {
-            grounded.turn(&compiled.inertias, motions, group);
+            grounded.turn(inertias, motions, group);
         }
     }
 
     /// The part of W = M that does not depend on the state.
     pub(super) fn set_inertia(&mut self, compiled: &Compiled<S>) {
-        let (bodies, own) = self.saddle.masses.split_at_mut(compiled.inertias.len());
-        for (mass, inertia) in bodies.iter_mut().zip(&compiled.inertias) {
+        let inertias = compiled.inertias_in(&self.plan);
+        let (bodies, own) = self.saddle.masses.split_at_mut(inertias.len());
+        for (mass, inertia) in bodies.iter_mut().zip(inertias) {
             let [m, j] = inertia.inverse;
             *mass = InverseMass::diagonal([m, m, j]);
         }
@@ -189,8 +191,23 @@ impl<S: Real> Augmented<S> {
         }
     }
 
+    /// Whether mass is added to light bodies, so that the matrix is not that of the equations.
+    pub(super) fn adds_mass(&self, compiled: &Compiled<S>) -> bool {
+        compiled.adds_mass && self.plan.loans.is_none()
+    }
+
     /// Solves in place; (q part, multiplier part), shape (n_q + n_rows).
     pub fn solve(&self, x: &mut [S]) {
+        let n = x.len() - self.plan.pattern.n_rows();
+        let (entries, (f, gamma)) = (&self.saddle.entries, x.split_at_mut(n));
+        loans::take(self.plan.loans(), entries, gamma, f);
+        self.solve_lent(x);
+        let (a, lam) = x.split_at_mut(n);
+        loans::give_back(self.plan.loans(), entries, a, lam);
+    }
+
+    /// The same with the loans.
+    fn solve_lent(&self, x: &mut [S]) {
         let Plan { pattern, .. } = &*self.plan;
         let padding = pattern.n_unknowns() + pattern.n_rows() - x.len();
         if padding == 0 {

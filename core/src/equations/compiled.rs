@@ -4,17 +4,29 @@
 //! model over the same scalar.
 
 use super::added_mass::{self, Added};
-use super::grounded::{grounded, Grounded};
-use super::inertia::{inertias, Inertia};
+use super::grounded::{grounded, holds, Grounded};
+use super::inertia::{self, inertias, Inertia};
+use super::lending::lend;
+use super::loans::Loan;
+use super::Plan;
 use crate::elements::{ForcePools, JointPools, Place};
 use crate::math::{Real, Vec2};
-use crate::model::Model;
+use crate::model::{Body, Model, Weighed};
+
+/// Loans between bodies, and the inertia of the moving bodies with them.
+#[derive(Clone, Debug)]
+pub(super) struct Lent<S> {
+    pub loans: Vec<Loan>,
+    pub inertias: Vec<Inertia<S>>,
+}
 
 /// Data derived from a [`Model`]; immutable.
 #[derive(Clone, Debug)]
 pub struct Compiled<S = f64> {
     /// Inertia of the moving bodies, without ground.
     pub inertias: Vec<Inertia<S>>,
+    /// What light bodies borrow for condensed elimination; None if no body is light, or if loans are not enough.
+    pub(super) lent: Option<Lent<S>>,
     /// The moving bodies whose mass centre is off the frame's origin, as places in `inertias`.
     pub off_center: Vec<usize>,
     /// Weight of the bodies as generalized force, shape (n_q).
@@ -24,7 +36,7 @@ pub struct Compiled<S = f64> {
     pub added: Vec<Added>,
     /// Mass that is added to the internal coordinates of elements in the same way, kg.
     pub own_mass: f64,
-    /// Whether anything is added.
+    /// Whether anything is added where nothing is lent.
     pub adds_mass: bool,
     /// Moving bodies that a joint of two rows holds to ground.
     pub grounded: Vec<Grounded<S>>,
@@ -58,6 +70,21 @@ impl<S: Real> Compiled<S> {
             }
         }
         let inertias = inertias(&model.blueprint.bodies, &model.bodies, &added);
+        let own_coordinates = model.layout.owners.len() >= model.bodies.len();
+        let adds_mass = own_coordinates || added.iter().any(Added::any);
+        let mut holds = holds(model);
+        let lent = if adds_mass && !own_coordinates { lend((model, weighed(&model.bodies)), &added, &holds) } else { None };
+        if lent.is_none() {
+            let light = holds.iter_mut().zip(&added).filter(|(_, added)| added.any());
+            light.for_each(|(hold, _)| *hold = None);
+        }
+        let grounded = match &lent {
+            Some((_, bodies)) => grounded(model, &holds, bodies),
+            None => grounded(model, &holds, &weighed(&model.bodies)),
+        };
+        let of_bodies = |(loans, bodies): (Vec<Loan>, Vec<Weighed<S>>)| {
+            Lent { loans, inertias: inertia::lent(&model.bodies, &bodies) }
+        };
         let off_center = (0..inertias.len()).filter(|k| inertias[*k].coupled).collect();
         Self {
             off_center,
@@ -67,11 +94,20 @@ impl<S: Real> Compiled<S> {
             forces,
             forces_with_laws,
             inertias,
-            grounded: grounded(model, &added),
+            grounded,
+            lent: lent.map(of_bodies),
             own_mass: added_mass::own_mass(&model.bodies),
-            adds_mass: model.layout.owners.len() >= model.bodies.len()
-                || added.iter().any(Added::any),
+            adds_mass,
             added: added[1..].to_vec(),
+        }
+    }
+
+    /// Inertia of the moving bodies in the matrix of a plan, without ground.
+    #[inline(always)]
+    pub(super) fn inertias_in(&self, plan: &Plan) -> &[Inertia<S>] {
+        match &self.lent {
+            Some(lent) if plan.condenses => &lent.inertias,
+            _ => &self.inertias,
         }
     }
 
@@ -79,6 +115,15 @@ impl<S: Real> Compiled<S> {
     pub fn compliance(&self) -> S {
         self.inertias.iter().map(|inertia| inertia.inverse[0]).fold(S::zero(), S::max)
     }
+}
+
+/// Inertia of all bodies, ground first.
+fn weighed<S: Real>(bodies: &[Body<S>]) -> Vec<Weighed<S>> {
+    let of = |body: &Body<S>| {
+        let Body { mass, center, inertia, .. } = *body;
+        Weighed { mass, center, inertia }
+    };
+    bodies.iter().map(of).collect()
 }
 
 /// Weight of the bodies as generalized force, shape (n_q).

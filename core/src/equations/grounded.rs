@@ -1,13 +1,12 @@
 //! Bodies that a joint of two rows holds to ground. Such a body has one degree of freedom. It is condensed to this
 //! degree of freedom before everything else is eliminated (`solve/condensed.rs`).
 
-use super::added_mass::Added;
 use super::inertia::Inertia;
 use super::kinematics::Motions;
-use super::{constraints, mass};
+use super::constraints;
 use crate::elements::BodyId;
 use crate::math::{Motion, Real};
-use crate::model::{ConstraintItem, Model, Slots};
+use crate::model::{ConstraintItem, Model, Slots, Weighed};
 use crate::solve::{CondensedGroup, Saddle};
 
 /// A moving body that a joint of two rows holds to ground.
@@ -23,25 +22,42 @@ pub struct Grounded<S = f64> {
     about_pin: Option<S>,
 }
 
-/// The bodies that joints hold to ground. If several joints hold one body, the first joint with constant columns is
-/// chosen, otherwise the first joint. Light bodies and point masses are left out.
-pub(super) fn grounded<S: Real>(model: &Model<S>, added: &[Added]) -> Vec<Grounded<S>> {
-    let mut holds: Vec<Option<(usize, bool)>> = vec![None; model.bodies.len()];
+/// A joint of two rows that holds a body to ground.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hold {
+    /// Its place among the constraints.
+    pub constraint: usize,
+    /// Whether it is a pin.
+    pub pin: bool,
+}
+
+/// The joints that hold bodies to ground, one for each body, ground first. If several joints hold one body, the first
+/// joint with constant columns is chosen, otherwise the first joint. Point masses are left out.
+pub(super) fn holds<S: Real>(model: &Model<S>) -> Vec<Option<Hold>> {
+    let mut holds: Vec<Option<Hold>> = vec![None; model.bodies.len()];
     for (k, (item, slots)) in model.constraints.iter().zip(&model.layout.constraints).enumerate() {
         let Some(body) = held(item, slots) else { continue };
         let pin = slots.blocks[0].sign != 0.0;
-        let better = holds[body.0].is_none_or(|(_, held_by_pin)| pin && !held_by_pin);
-        let own_inertia = !added[body.0].any() && model.bodies[body.0].turns;
-        if better && own_inertia {
-            holds[body.0] = Some((k, pin));
+        let better = holds[body.0].is_none_or(|hold| pin && !hold.pin);
+        if better && model.bodies[body.0].turns {
+            holds[body.0] = Some(Hold { constraint: k, pin });
         }
     }
+    holds
+}
+
+/// The bodies that joints hold to ground, for the inertia of each body.
+pub(super) fn grounded<S: Real>(
+    model: &Model<S>,
+    holds: &[Option<Hold>],
+    bodies: &[Weighed<S>],
+) -> Vec<Grounded<S>> {
     let motions = Motions::at_rest(&model.layout, &vec![S::zero(); model.layout.n_q]);
-    let bodies = holds.into_iter().enumerate();
-    let grounded = |(body, hold): (usize, Option<_>)| {
-        Some(Grounded::new(model, &motions, BodyId(body), hold?))
+    let held = holds.iter().zip(bodies).enumerate();
+    let grounded = |(body, (hold, own)): (usize, (&Option<Hold>, &Weighed<S>))| {
+        Some(Grounded::new((model, &motions), BodyId(body), hold.as_ref()?, own))
     };
-    bodies.filter_map(grounded).collect()
+    held.filter_map(grounded).collect()
 }
 
 /// The body that a joint of two rows with constant fields holds to ground.
@@ -56,14 +72,14 @@ fn held<S>(item: &ConstraintItem<S>, slots: &Slots) -> Option<BodyId> {
 impl<S: Real> Grounded<S> {
     /// With the bodies at rest in the origin.
     fn new(
-        model: &Model<S>,
-        motions: &Motions<S>,
+        (model, motions): (&Model<S>, &Motions<S>),
         body: BodyId,
-        (constraint, pin): (usize, bool),
+        &Hold { constraint, pin }: &Hold,
+        own: &Weighed<S>,
     ) -> Self {
-        let block = mass::block(&model.bodies[body.0], &motions[body.0]);
-        let moment = [block.coupling.x, block.coupling.y];
-        let mass = CondensedGroup::new(block.mass, moment, block.inertia);
+        let coupling = motions[body.0].pose.global(own.center).perp().scale(own.mass);
+        let inertia = own.inertia + own.mass * own.center.dot(own.center);
+        let mass = CondensedGroup::new(own.mass, [coupling.x, coupling.y], inertia);
         let about_pin = pin.then(|| {
             let mut rows = [[S::zero(); 3]; 2];
             constraints::columns_by_body(model, constraint, motions, S::zero(), body, &mut rows);

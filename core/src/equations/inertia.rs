@@ -3,7 +3,7 @@
 use super::added_mass::Added;
 use crate::expression::Tape;
 use crate::math::{Local, Real};
-use crate::model::Body;
+use crate::model::{Body, Weighed};
 
 /// Inertia of a moving body.
 #[derive(Clone, Copy, Debug)]
@@ -17,6 +17,20 @@ pub struct Inertia<S = f64> {
     /// Whether the mass centre can be off the origin of the frame; only then rotation and translation are
     /// coupled. This follows from the formulas and does not depend on the values of parameters.
     pub coupled: bool,
+}
+
+/// Inertias of all moving bodies that have loans, which may move their mass centres.
+pub(super) fn lent<S: Real>(bodies: &[Body<S>], lent: &[Weighed<S>]) -> Vec<Inertia<S>> {
+    let inertia = |(body, own): (&Body<S>, &Weighed<S>)| {
+        let turning = if body.turns { own.inertia } else { S::one() };
+        Inertia {
+            inverse: [S::one() / own.mass, S::one() / turning],
+            mass: own.mass,
+            center: own.center,
+            coupled: body.turns,
+        }
+    };
+    bodies.iter().zip(lent).skip(1).map(inertia).collect()
 }
 
 /// Inertias of all moving bodies, given as formulas and as numbers, ground first.

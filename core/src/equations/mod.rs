@@ -20,6 +20,8 @@ mod inertia;
 pub mod iteration;
 pub mod kinematics;
 mod laws;
+mod lending;
+mod loans;
 pub mod mass;
 pub mod measured;
 pub mod motion;

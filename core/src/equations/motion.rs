@@ -16,7 +16,7 @@ use super::plan::Plan;
 use super::powers::Powers;
 use super::reaction_slopes::by_multiplier;
 use super::roles::{self, Roles};
-use super::{mass, reactions, reactive, refine, Compiled};
+use super::{loans, mass, reactions, reactive, refine, Compiled};
 use crate::math::Real;
 use crate::model::Model;
 use crate::solve::Breakdown;
@@ -93,6 +93,7 @@ impl<S: Real> Workspace<S> {
         let depends = reactive::depends(model);
         let redundant = plan.accepts_redundancy(model);
         let mut matrix = Augmented::on(plan);
+        let adds_mass = matrix.adds_mass(&compiled);
         matrix.set_inertia(&compiled);
         if redundant {
             matrix.set_damping(redundant_rows(model, &compiled));
@@ -102,7 +103,7 @@ impl<S: Real> Workspace<S> {
             z: vec![S::zero(); model.layout.n_z],
             roles,
             matrix,
-            modified: compiled.adds_mass || redundant || depends,
+            modified: adds_mass || redundant || depends,
             depends,
             reactive,
             compiled,
@@ -117,7 +118,7 @@ impl<S: Real> Workspace<S> {
 
     /// Whether one elimination solves the equations without damped rows.
     pub(super) fn set_direct(&mut self) {
-        self.modified = self.compiled.adds_mass || self.depends;
+        self.modified = self.matrix.adds_mass(&self.compiled) || self.depends;
     }
 
     /// Sets a constant `term`, shape (n_rows), that is subtracted from γ at every state.
@@ -189,19 +190,24 @@ impl<S: Real> Workspace<S> {
         let Self { motions, z, compiled, roles, matrix, solution, powers, offset, .. } = self;
         let (plan, saddle) = matrix.parts_mut();
         let stabilized = Stabilized::new(gains);
-        let at = roles::At { model, compiled, plan, motions, t, stabilized, offset };
+        let inertias = compiled.inertias_in(plan);
+        let at = roles::At { model, compiled, plan, inertias, motions, t, stabilized, offset };
         for &k in plan.pattern.coupled() {
             let k = k as usize;
-            mass::turn(&compiled.inertias[k], &motions[k + 1], &mut saddle.masses[k]);
+            mass::turn(&inertias[k], &motions[k + 1], &mut saddle.masses[k]);
         }
         let (x, right) = solution.split_at_mut(self.n_unknowns);
         let acting = Acting { z, lam: None, t };
         forces::generalized(model, compiled, motions, acting, x, powers);
         roles::put_others(roles, at, saddle, right);
+        loans::take(plan.loans(), &saddle.entries, right, x);
         roles::condense(roles, at, saddle, (x, right));
         saddle.divide_by_masses(&plan.pattern, x);
         roles::put(roles, at, saddle, (x, right));
-        saddle.finish(&plan.pattern, solution)
+        saddle.finish(&plan.pattern, solution)?;
+        let (a, lam) = solution.split_at_mut(self.n_unknowns);
+        loans::give_back(plan.loans(), &saddle.entries, a, lam);
+        Ok(())
     }
 
     /// The same by the whole matrix; the factor may be that of a modified matrix. Forces that depend on reactions are

@@ -1,6 +1,8 @@
 //! The structure of the augmented matrix of a model, without its numbers: pattern and program of elimination.
 
-use super::Compiled;
+use super::compiled::Compiled;
+use super::inertia::Inertia;
+use super::loans::Loan;
 use crate::math::Real;
 use crate::model::{Block, Columns, Model, Slots, StateLayout};
 use crate::solve::{Group, Pattern, RowBlock};
@@ -21,6 +23,8 @@ pub struct Plan {
     pub(super) owners: Vec<Columns>,
     /// Whether grounded bodies are condensed.
     pub(super) condenses: bool,
+    /// What light bodies borrow then; None if nothing is lent.
+    pub(super) loans: Option<Vec<Loan>>,
 }
 
 impl Plan {
@@ -52,9 +56,18 @@ impl Plan {
         let grounded = compiled.grounded.iter().filter(|_| condenses);
         let condensed: Vec<usize> = grounded.map(|grounded| grounded.constraint).collect();
         let condensed_blocks: Vec<usize> = condensed.iter().map(|k| first(*k)).collect();
-        let pattern = Pattern::new(&groups(model, &compiled), &blocks, &condensed_blocks);
+        let lent = compiled.lent.as_ref().filter(|_| condenses);
+        let inertias = lent.map_or(&compiled.inertias, |lent| &lent.inertias);
+        let pattern = Pattern::new(&groups(model, inertias), &blocks, &condensed_blocks);
+        let loans = lent.map(|lent| lent.loans.clone());
         let pins = pattern.pin_rows().iter().map(|rows| owners[rows.block as usize]).collect();
-        Self { pattern, condensed, pins, owners: model.layout.owners.clone(), condenses }
+        Self { pattern, condensed, pins, owners: model.layout.owners.clone(), condenses, loans }
+    }
+
+    /// The loans, none where nothing is lent.
+    #[inline(always)]
+    pub(super) fn loans(&self) -> &[Loan] {
+        self.loans.as_deref().unwrap_or_default()
     }
 
     /// Number of unknowns of the solver: the coordinates, and those that pad a short last group.
@@ -69,8 +82,8 @@ impl Plan {
 }
 
 /// The owners of coordinates as groups of unknowns.
-pub(super) fn groups<S: Real>(model: &Model<S>, compiled: &Compiled<S>) -> Vec<Group> {
-    let bodies = compiled.inertias.iter().map(|inertia| inertia.coupled);
+pub(super) fn groups<S: Real>(model: &Model<S>, inertias: &[Inertia<S>]) -> Vec<Group> {
+    let bodies = inertias.iter().map(|inertia| inertia.coupled);
     let coupled = bodies.chain(std::iter::repeat(false));
     let owners = model.layout.owners.iter().zip(coupled);
     owners.map(|(columns, coupled)| Group { size: columns.count, coupled }).collect()

@@ -67,7 +67,7 @@ pub fn solve<S: Real>(
     let damped = matrix.regularised() || matrix.damps();
     matrix.solve(x);
     mass::put_blocks(model, motions, masses);
-    if !compiled.adds_mass {
+    if !matrix.adds_mass(compiled) {
         for _ in 0..FOR_REDUNDANCY {
             put_remainder(model, masses, matrix.jacobian(), (b, x), correction);
             matrix.solve(correction);

@@ -7,6 +7,7 @@
 
 use super::constraints::{self, ByBlock, Stabilized, Terms};
 use super::kinematics::Motions;
+use super::inertia::Inertia;
 use super::plan::Plan;
 use super::Compiled;
 use crate::elements::{BodyId, Joint, JointPools, Linearized, Moving, Place, Pooled, VisitJoints};
@@ -25,6 +26,9 @@ pub(super) struct Roles<S> {
     others: JointPools<S>,
     /// The places of those with laws.
     laws: Vec<usize>,
+    /// The places among [`Pattern::pin_rows`](crate::solve::Pattern::pin_rows) of pins at which inertia is lent. They
+    /// are evaluated with the others, since γ is needed first.
+    lent: Vec<usize>,
 }
 
 impl<S: Real> Roles<S> {
@@ -35,6 +39,7 @@ impl<S: Real> Roles<S> {
             pins: JointPools::default(),
             others: JointPools::default(),
             laws: compiled.joints_with_laws.clone(),
+            lent: Vec::new(),
         };
         let place = |k: usize, slot: usize| {
             let item = &model.constraints[k];
@@ -47,6 +52,10 @@ impl<S: Real> Roles<S> {
             others[*k] = false;
         }
         for (slot, k) in plan.pins.iter().enumerate() {
+            if plan.loans().iter().any(|loan| loan.constraint == *k) {
+                roles.lent.push(slot);
+                continue;
+            }
             roles.pins.push(&model.constraints[*k].element, place(*k, slot));
             others[*k] = false;
         }
@@ -63,6 +72,8 @@ pub(super) struct At<'a, S> {
     pub model: &'a Model<S>,
     pub compiled: &'a Compiled<S>,
     pub plan: &'a Plan,
+    /// Those of the plan.
+    pub inertias: &'a [Inertia<S>],
     pub motions: &'a Motions<S>,
     pub t: S,
     pub stabilized: Stabilized<S>,
@@ -188,7 +199,7 @@ impl<S: Real> VisitJoints<S> for Condense<'_, S> {
         for Pooled { element, place } in pool {
             let (k, row) = (place.slot as usize, place.row as usize);
             let grounded = &at.compiled.grounded[k];
-            grounded.turn(&at.compiled.inertias, at.motions, &mut saddle.condensed[k]);
+            grounded.turn(at.inertias, at.motions, &mut saddle.condensed[k]);
             let (terms, [i_first, i_second, j_first, j_second]) =
                 at.two_rows::<E>(element, place.bodies);
             let own = match BodyId(place.bodies[0] as usize).is_ground() {
@@ -211,6 +222,9 @@ pub(super) fn put<S: Real>(
     (x, right): (&[S], &mut [S]),
 ) {
     roles.pins.visit(&mut PutPins { at, saddle, x, right });
+    for slot in &roles.lent {
+        saddle.put_known_pin(&at.plan.pattern.pin_rows()[*slot], x, right);
+    }
 }
 
 struct PutPins<'a, S> {

@@ -87,6 +87,17 @@ impl<S: Real> Saddle<S> {
         part::<[S; 3], 2>(&self.entries, end.entry).map(|row| row[2])
     }
 
+    /// Rows of [`Pattern::pin_rows`] whose entries, and right sides in `g`, are known; with x = W⁻¹ f of all groups.
+    pub fn put_known_pin(&mut self, rows: &PinRows, x: &[S], g: &mut [S]) {
+        let g = part_mut::<S, 2>(g, rows.row);
+        let mut sum = PinSum::new(*g);
+        for end in rows.ends() {
+            self.add_pin(end, self.third_column(end), x, &mut sum);
+        }
+        self.put_pin_rows(rows, &sum);
+        *g = sum.right;
+    }
+
     /// The right sides y of [`Pattern::pin_rows`], into g, from the entries.
     pub(super) fn put_right_sides_of_pins(&self, pattern: &Pattern, x: &[S], g: &mut [S]) {
         for rows in &pattern.pin_rows {

@@ -1,0 +1,265 @@
+//! Which bodies lend inertia to light ones, chosen once for a model; `equations/loans.rs` has the equations.
+//!
+//! A body lends at most half of its inertia, in equal shares to its light neighbours. A light body that has borrowed
+//! enough lends in turn. A condensed body needs inertia for its one freedom only: a piston one point mass, a link on
+//! ground one that is not at its pin. Ground lends mass at a pin, so that no link is without.
+//!
+//! The loan of a pin is a point mass. So of two light links in a row none gets a moment of inertia. Where a body is left
+//! without enough, nothing is lent, and `equations/added_mass.rs` applies.
+
+use super::added_mass::{number, Added, ENOUGH};
+use super::grounded::Hold;
+use super::loans::{End, Loan};
+use crate::elements::Fixes;
+use crate::math::{Local, Real};
+use crate::model::{Model, Weighed};
+use std::ops::Range;
+
+/// The part of its inertia that a body lends.
+const LENT: f64 = 0.5;
+
+/// The loans of a model, and the inertia of each body with them, ground first; None if they are not enough.
+pub(super) fn lend<S: Real>(
+    (model, bodies): (&Model<S>, Vec<Weighed<S>>),
+    added: &[Added],
+    holds: &[Option<Hold>],
+) -> Option<(Vec<Loan>, Vec<Weighed<S>>)> {
+    let mut market = Market::new((model, bodies), added, holds);
+    while market.round() {}
+    market.sound.iter().all(|sound| *sound).then_some((market.loans, market.bodies))
+}
+
+/// What a joint can lend between two moving bodies.
+struct Link<S> {
+    constraint: usize,
+    rows: Range<usize>,
+    ends: [End; 2],
+    /// The point in the frame of each body; None for an angle.
+    points: Option<[Local<S>; 2]>,
+}
+
+/// The freedom that a condensed joint leaves.
+enum Held<S> {
+    /// No joint is condensed, or its freedom may be any.
+    Free,
+    /// It turns about this point, in its frame, of ground.
+    Pin(Local<S>, Loan),
+    /// It does not turn.
+    Slide,
+}
+
+struct Market<'a, S> {
+    model: &'a Model<S>,
+    added: &'a [Added],
+    links: Vec<Link<S>>,
+    held: Vec<Held<S>>,
+    /// With what they have borrowed and lent.
+    bodies: Vec<Weighed<S>>,
+    /// Whether a body has enough, and may lend.
+    sound: Vec<bool>,
+    /// What the bodies at the ends of each link may lend there.
+    shares: Vec<[f64; 2]>,
+    loans: Vec<Loan>,
+}
+
+impl<'a, S: Real> Market<'a, S> {
+    fn new(
+        (model, bodies): (&'a Model<S>, Vec<Weighed<S>>),
+        added: &'a [Added],
+        holds: &[Option<Hold>],
+    ) -> Self {
+        let (n, links) = (model.bodies.len(), links(model));
+        let held = holds.iter().enumerate();
+        let mut market = Self {
+            model,
+            added,
+            held: held.map(|(body, hold)| held_by(model, body, hold.as_ref())).collect(),
+            bodies,
+            sound: vec![false; n],
+            shares: vec![[0.0; 2]; links.len()],
+            links,
+            loans: Vec::new(),
+        };
+        for body in 0..n {
+            if body == 0 || !added[body].any() || market.is_enough(body, &market.bodies[body]) {
+                market.accept(body);
+            }
+        }
+        market
+    }
+
+    /// Lends to the bodies that have enough then; whether there were any.
+    fn round(&mut self) -> bool {
+        let waiting = (0..self.sound.len()).filter(|body| !self.sound[*body]);
+        let offers = waiting.map(|body| (body, self.offers(body)));
+        let accepted: Vec<_> =
+            offers.filter(|(body, loans)| self.is_enough(*body, &self.with(*body, loans))).collect();
+        for (body, loans) in &accepted {
+            self.bodies[*body] = self.with(*body, loans);
+            for (k, loan) in loans {
+                if let Some(lender) = &loan.lender {
+                    let less = self.changed(self.bodies[lender.body], *k, lender.body, -loan.weight);
+                    self.bodies[lender.body] = less;
+                }
+                self.loans.push(loan.clone());
+            }
+        }
+        accepted.iter().for_each(|(body, _)| self.accept(*body));
+        !accepted.is_empty()
+    }
+
+    /// The loans that a body can have now, with their links.
+    fn offers(&self, body: usize) -> Vec<(usize, Loan)> {
+        let of_link = |(k, link): (usize, &Link<S>)| {
+            let place = link.ends.iter().position(|end| end.body == body)?;
+            let (borrower, lender) = (link.ends[place], link.ends[1 - place]);
+            let weight = self.shares[k][1 - place];
+            let (constraint, rows) = (link.constraint, link.rows.clone());
+            (self.sound[lender.body] && weight > 0.0)
+                .then_some((k, Loan { constraint, rows, weight, borrower, lender: Some(lender) }))
+        };
+        self.links.iter().enumerate().filter_map(of_link).collect()
+    }
+
+    fn with(&self, body: usize, loans: &[(usize, Loan)]) -> Weighed<S> {
+        let own = self.bodies[body];
+        loans.iter().fold(own, |own, (k, loan)| self.changed(own, *k, body, loan.weight))
+    }
+
+    /// A body with more inertia at a link.
+    fn changed(&self, own: Weighed<S>, link: usize, body: usize, weight: f64) -> Weighed<S> {
+        let Link { ends, points, .. } = &self.links[link];
+        match points {
+            Some(points) => with_point(own, weight, points[usize::from(ends[1].body == body)]),
+            None => Weighed { inertia: own.inertia + S::constant(weight), ..own },
+        }
+    }
+
+    /// Whether a body has enough inertia.
+    fn is_enough(&self, body: usize, own: &Weighed<S>) -> bool {
+        let Added { mass, inertia } = self.added[body];
+        let moves = number(own.mass) > 0.0 && number(own.mass) >= ENOUGH * mass;
+        let turns = |own: S| number(own) > 0.0 && number(own) >= ENOUGH * inertia;
+        match &self.held[body] {
+            Held::Slide => moves,
+            Held::Pin(pin, _) => turns(about(own, *pin)),
+            Held::Free => moves && (!self.model.bodies[body].turns || turns(own.inertia)),
+        }
+    }
+
+    /// From now on the body may lend.
+    fn accept(&mut self, body: usize) {
+        self.sound[body] = true;
+        self.borrow_at_pin(body);
+        let place = |link: &Link<S>| link.ends.iter().position(|end| end.body == body);
+        let claims = self.links.iter().enumerate().filter_map(|(k, link)| {
+            let place = place(link)?;
+            self.added[link.ends[1 - place].body].any().then_some((k, place))
+        });
+        let claims: Vec<(usize, usize)> = claims.collect();
+        for (k, place) in &claims {
+            let point = self.links[*k].points.map(|points| points[*place]);
+            self.shares[*k][*place] = LENT * self.capacity(body, point) / claims.len() as f64;
+        }
+    }
+
+    /// The largest point mass that may be taken from a body at a point, or moment of inertia at an angle.
+    fn capacity(&self, body: usize, point: Option<Local<S>>) -> f64 {
+        let own = &self.bodies[body];
+        let (mass, inertia) = (number(own.mass), number(own.inertia));
+        let Some(point) = point else {
+            return match &self.held[body] {
+                Held::Pin(pin, _) => number(about(own, *pin)),
+                _ => inertia,
+            };
+        };
+        let arm = |from: Local<S>| number((point - from).dot(point - from));
+        match &self.held[body] {
+            Held::Pin(pin, _) if arm(*pin) > 0.0 => mass.min(number(about(own, *pin)) / arm(*pin)),
+            Held::Free if self.model.bodies[body].turns && arm(own.center) > 0.0 && mass > 0.0 => {
+                mass * inertia / (inertia + mass * arm(own.center))
+            }
+            _ => mass,
+        }
+    }
+
+    /// Lets ground lend mass to a light body at its pin, as much as its inertia about the pin has at its farthest point.
+    fn borrow_at_pin(&mut self, body: usize) {
+        let (Held::Pin(pin, loan), true) = (&self.held[body], self.added[body].any()) else { return };
+        let own = self.bodies[body];
+        let arms = self.links.iter().filter_map(|link| {
+            let place = link.ends.iter().position(|end| end.body == body)?;
+            let arm = link.points.as_ref()?[place] - *pin;
+            Some(number(arm.dot(arm)))
+        });
+        let farthest = arms.fold(0.0, f64::max);
+        let unit = if farthest > 0.0 { farthest } else { 1.0 };
+        let weight = number(about(&own, *pin)) / unit - number(own.mass);
+        if weight > 0.0 {
+            self.bodies[body] = with_point(own, weight, *pin);
+            self.loans.push(Loan { weight, ..loan.clone() });
+        }
+    }
+}
+
+/// The moment of inertia about a point.
+fn about<S: Real>(own: &Weighed<S>, point: Local<S>) -> S {
+    let arm = own.center - point;
+    own.inertia + own.mass * arm.dot(arm)
+}
+
+/// With a point mass.
+fn with_point<S: Real>(own: Weighed<S>, weight: f64, point: Local<S>) -> Weighed<S> {
+    let (weight, arm) = (S::constant(weight), point - own.center);
+    let mass = own.mass + weight;
+    let part = weight / mass;
+    let inertia = own.inertia + own.mass * part * arm.dot(arm);
+    Weighed { mass, center: own.center + arm.scale(part), inertia }
+}
+
+/// What the joints with constant fields can lend between two moving bodies.
+fn links<S: Real>(model: &Model<S>) -> Vec<Link<S>> {
+    let mut links = Vec::new();
+    for (constraint, item) in model.constraints.iter().enumerate() {
+        let slots = &model.layout.constraints[constraint];
+        let [i, j] = slots.blocks.as_slice() else { continue };
+        let (Some(first), Some(second), None) = (i.body, j.body, &item.law) else { continue };
+        let (start, count) = (slots.rows.start, slots.rows.len());
+        let link = |own: Range<usize>, points| {
+            let end = |block: &crate::model::Block, body| {
+                End { body, columns: block.columns, entry: block.first / 3 + own.start }
+            };
+            let ends = [end(i, first.0), end(j, second.0)];
+            Link { constraint, rows: start + own.start..start + own.end, ends, points }
+        };
+        let turn = [first, second].iter().all(|body| model.bodies[body.0].turns);
+        for fixes in item.element.fixes() {
+            match fixes {
+                Fixes::Points => {
+                    let points = [0, 1].map(|place| item.element.attachment(place).s);
+                    links.push(link(0..2, Some(points)));
+                }
+                // the last equation, as in `Fixes::Turn`
+                Fixes::Direction if turn => links.push(link(count - 1..count, None)),
+                _ => {}
+            }
+        }
+    }
+    links
+}
+
+/// The freedom that a hold leaves to a body.
+fn held_by<S: Real>(model: &Model<S>, body: usize, hold: Option<&Hold>) -> Held<S> {
+    let Some(Hold { constraint, pin }) = hold else { return Held::Free };
+    let (item, slots) = (&model.constraints[*constraint], &model.layout.constraints[*constraint]);
+    if *pin {
+        let place = usize::from(item.bodies[1].0 == body);
+        let block = &slots.blocks[0];
+        let borrower = End { body, columns: block.columns, entry: block.first / 3 };
+        let (constraint, rows) = (*constraint, slots.rows.clone());
+        let loan = Loan { constraint, rows, weight: 0.0, borrower, lender: None };
+        return Held::Pin(item.element.attachment(place).s, loan);
+    }
+    let slides = item.element.fixes().iter().any(|fixes| matches!(fixes, Fixes::Direction));
+    if slides { Held::Slide } else { Held::Free }
+}
