@@ -50,6 +50,18 @@ fn beside_a_thin_ellipse() {
     }
 }
 
+/// The centre of a circle is as far from all its points, up to rounding errors.
+#[test]
+fn at_a_centre_of_curvature() {
+    let xy = ["a + 0.7*cos(u)", "b + 0.7*sin(u)"];
+    let mut numbers = Random::new(7);
+    for _ in 0..200 {
+        let [a, b] = [numbers.next(), numbers.next()];
+        let circle = formula(xy, [0.0, std::f64::consts::TAU], true, &[a, b]);
+        close("gap", gap(&circle, a, b), -0.7, 1e-12);
+    }
+}
+
 /// Designs of another size have their own curves.
 #[test]
 fn designs_in_lanes_are_designs_by_themselves() {
