@@ -97,6 +97,18 @@ fn faulty_curves_are_refused() {
     assert!(wrong.contains("no curve 'rin'") && wrong.contains("did you mean 'rim'"), "{wrong}");
 }
 
+/// A cusp is judged by the size of the curve.
+#[test]
+fn small_curves_without_a_cusp_are_accepted() {
+    for size in ["1e-4", "1e4"] {
+        let oval = |least: &str| {
+            format!("{{ x = \"{size}*cos(u)\", y = \"{size}*{least}*sin(u)\", range = [0, \"2*pi\"], periodic = true }}")
+        };
+        refuses(&oval("0.01"), POINT, &[]);
+        refuses(&oval("1e-8"), POINT, &["a cusp"]);
+    }
+}
+
 /// Parts of a formula must meet with one derivative, at conditions inside the range too.
 #[test]
 fn corners_and_gaps_of_formulas_are_refused_with_their_place() {

@@ -31,11 +31,22 @@ fn light(masses: &[&str]) -> Vec<usize> {
 #[test]
 fn bodies_between_heavier_ones_are_light() {
     assert_eq!(light(&["1", "1e-4", "1"]), [1]);
+    assert_eq!(light(&["1", "1e-4", "1e-4", "1"]), [1, 2], "two in a row");
     assert_eq!(light(&["1e-4", "1"]), [0], "between ground and a heavy body");
     assert_eq!(light(&["1", "1e-4"]), [] as [usize; 0], "it hangs on a heavy body");
     assert_eq!(light(&["1", "1e-4", "1e-8"]), [] as [usize; 0], "each hangs on a heavier one");
     assert_eq!(light(&["1", "1e-2", "1"]), [] as [usize; 0], "hardly light");
     assert_eq!(light(&["1", "0"]), [1], "without mass");
+}
+
+/// In proportion to the heaviest body: a mechanism of grams is solved like one of tons.
+#[test]
+fn the_mass_of_internal_coordinates() {
+    let own = |masses: &[&str]| Compiled::new(&chain(masses)).own_mass;
+    let one = own(&["1", "3"]);
+    assert_eq!(own(&["1024", "3072"]), 1024.0 * one);
+    assert_eq!(own(&["0.0009765625", "0.0029296875"]), one / 1024.0);
+    assert!(own(&["0"]) > 0.0, "without mass");
 }
 
 #[test]

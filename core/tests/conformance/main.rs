@@ -11,6 +11,7 @@ mod energy;
 mod equilibrium;
 mod forces;
 mod formulas;
+mod gaps;
 mod laws;
 mod mass;
 mod pins;

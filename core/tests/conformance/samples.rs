@@ -35,19 +35,20 @@ pub fn curve(form: &str) -> CurveOn {
             Curve::Points(CurvePoints::new(points, Interpolation::Quintic, true))
         }
         _ => {
-            let tape = |text: &str| {
-                let names = ["a", "b"].as_slice();
-                Expression::parse(text).unwrap().compile(&WithU(names)).unwrap()
-            };
-            let x = tape("a*cos(u) + 0.1*u^3");
-            let y = tape("b*sin(u) - a*exp(0.3*u)");
-            let range = [-2.0, 2.0].map(Tape::from);
-            let curve = Curve::Formula(CurveFormula::new(x, y, range, false));
-            let values = Scope { parameters: &[1.3, 0.7], time: f64::NAN, variables: &[] };
-            curve.map(&mut |tape: &Tape| tape.evaluate(&values))
+            let [x, y] = ["a*cos(u) + 0.1*u^3", "b*sin(u) - a*exp(0.3*u)"];
+            formula([x, y], [-2.0, 2.0], false, &[1.3, 0.7])
         }
     };
     CurveOn { body: BodyId(2), curve }
+}
+
+/// A curve by formulas of u and of the parameters a and b.
+pub fn formula(xy: [&str; 2], range: [f64; 2], periodic: bool, values: &[f64]) -> Curve {
+    let names = WithU(&["a", "b"]);
+    let [x, y] = xy.map(|text| Expression::parse(text).unwrap().compile(&names).unwrap());
+    let curve = Curve::Formula(CurveFormula::new(x, y, range.map(Tape::from), periodic));
+    let values = Scope { parameters: values, time: f64::NAN, variables: &[] };
+    curve.map(&mut |tape: &Tape| tape.evaluate(&values))
 }
 
 /// Parameters, and the variable u.
