@@ -332,8 +332,11 @@ def newton_euler(model: Model, t: _F, q: _F, v: _F, z: _F, a: _F, lam: _F) -> _F
     """
 
 def measure(model: Model, text: str) -> tuple[list[str], str, bool, bool]:
-    """The quantities that an expression uses, its SI unit, whether it uses quantities of a whole run,
-    and whether it needs accelerations or multipliers."""
+    """Quantities of an expression, and its SI unit.
+
+    Then whether it uses quantities of a whole run, and whether it needs accelerations or
+    multipliers.
+    """
 
 def measure_at(
     model: Model,
@@ -345,7 +348,7 @@ def measure_at(
     a: _F | None = None,
     lam: _F | None = None,
 ) -> _F:
-    """Values of an expression at states, (n_t,), with accelerations and multipliers if it needs them."""
+    """Values of an expression at states, (n_t,), with what it needs of the solution there."""
 
 def instants(bounds: _F, outputs: _F, numbers: int) -> _F:
     """Instants of an interpolant with these boundaries of steps, close enough for smooth curves.
@@ -367,8 +370,8 @@ def maxima(
 ) -> tuple[_F, _F, list[int], _F]:
     """The largest local maxima of a quantity with the values ``sampled`` at instants ``t``.
 
-    ``near`` and ``near_t`` are places and times of known singular positions; ``read`` gives values at
-    times. An error of kempe in it means that there is no value; other exceptions are raised.
+    ``near`` and ``near_t`` are places and times of known singular positions; ``read`` gives values
+    at times. An error of kempe in it means that there is no value; other exceptions are raised.
 
     Returns:
         Values and times of the maxima, places and times of singular positions.

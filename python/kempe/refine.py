@@ -2,8 +2,8 @@
 
 A run passes positions in which constraints lose their rank. Beside such a position a multiplier is
 the quotient of two small numbers: it may have a pole there, and the errors of the state, divided by
-little, exceed it. A maximum that a search finds there depends on how close to it the search comes. The core searches; here a quantity
-without a pole is continued across such positions.
+little, exceed it. A maximum that a search finds there depends on how close to it the search comes.
+The core searches; here a quantity without a pole is continued across such positions.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from numpy.typing import NDArray
 from kempe import _core
 from kempe.arrays import Floats
 
-#: Instants on either side of a singular position at which errors of states may hide the value, as in
-#: the search of the core, and instants up to which its neighbourhood is examined.
+#: Instants on either side of a singular position at which errors of states may hide the value, as
+#: in the search of the core, and instants up to which its neighbourhood is examined.
 _NEAR, _FAR = 8, 40
 #: Degree of polynomials for the smooth part of a quantity beside a singular position.
 _DEGREE = 6

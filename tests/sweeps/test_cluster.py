@@ -82,7 +82,9 @@ def test_blocks_grow_until_they_take_some_time(client: Any) -> None:
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(cluster._Blocks, "_size", size)
-        kp.sweep(flagship(0.02), {"k": np.linspace(5e5, 2e6, 400)}, ["lean.final"], scheduler=client)
+        kp.sweep(
+            flagship(0.02), {"k": np.linspace(5e5, 2e6, 400)}, ["lean.final"], scheduler=client
+        )
     assert sizes[0] == 4 and max(sizes) >= 16
 
 

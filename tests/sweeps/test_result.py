@@ -38,7 +38,7 @@ def test_without_pandas_it_is_a_structured_array(
 
 
 def test_csv_preserves_every_number(result: kp.SweepResult, folder: Path) -> None:
-    result.to_csv("sweep.csv")
+    result.to_csv(folder / "sweep.csv")
     with Path("sweep.csv").open(encoding="utf-8") as file:
         read = [row["pin.max"] for row in csv.DictReader(file)]
     np.testing.assert_array_equal([float(x or "nan") for x in read], result["pin.max"])
@@ -74,7 +74,7 @@ def test_a_row_is_replayed(result: kp.SweepResult, folder: Path) -> None:
 
 
 def test_an_unknown_column_is_named(result: kp.SweepResult) -> None:
-    with pytest.raises(kp.ModelError, match="did you mean 'pin.max'"):
+    with pytest.raises(kp.ModelError, match=r"did you mean 'pin\.max'"):
         result["pin.mx"]
 
 
@@ -110,7 +110,9 @@ def test_contributions_are_correlation_ratios() -> None:
     result = kp.sweep(pendulum(), given, ["pin.force.final"], design="sobol", n=4096)
     shares = contributions(result, "pin.force.final")
     exact = 0.02 * 9.81, 0.03 * 2.0
-    assert shares["mass"] == pytest.approx(exact[0] ** 2 / (exact[0] ** 2 + exact[1] ** 2), abs=0.02)
+    assert shares["mass"] == pytest.approx(
+        exact[0] ** 2 / (exact[0] ** 2 + exact[1] ** 2), abs=0.02
+    )
     assert shares["g"] == pytest.approx(exact[1] ** 2 / (exact[0] ** 2 + exact[1] ** 2), abs=0.02)
 
 

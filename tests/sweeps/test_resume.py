@@ -45,7 +45,7 @@ def same(one: kp.SweepResult, two: kp.SweepResult) -> None:
 def test_a_killed_sweep_resumes(folder: Path) -> None:
     path = folder / "sweep.db"
     with subprocess.Popen([sys.executable, "-c", SCRIPT, str(path)]) as child:
-        while child.poll() is None and not 2 <= finished(path):
+        while child.poll() is None and finished(path) < 2:
             time.sleep(0.01)
         child.send_signal(signal.SIGKILL)
     kept = finished(path)
@@ -82,10 +82,12 @@ def test_the_file_of_another_sweep_is_refused(
     given: dict, texts: list[str], case: kp.Case, folder: Path
 ) -> None:
     kp.sweep(case, {"k": [1e6, 2e6]}, ["pin.max"], out=folder / "s.db")
-    with pytest.raises(kp.FileError, match="another sweep.*name another file"):
+    with pytest.raises(kp.FileError, match=r"another sweep.*name another file"):
         kp.sweep(case, given, texts, out=folder / "s.db")
     with pytest.raises(kp.FileError, match="another sweep"):
-        kp.sweep(case.with_parameters({"c": 2e4}), {"k": [1e6, 2e6]}, ["pin.max"], out=folder / "s.db")
+        kp.sweep(
+            case.with_parameters({"c": 2e4}), {"k": [1e6, 2e6]}, ["pin.max"], out=folder / "s.db"
+        )
 
 
 def test_a_file_that_is_no_sweep_is_refused(case: kp.Case, folder: Path) -> None:

@@ -1,4 +1,4 @@
-"""The rows of a sweep are the numbers of single runs, to the last bit; failures have their reason."""
+"""The rows of a sweep are the numbers of single runs, to the last bit; failures have reasons."""
 
 import re
 
@@ -150,7 +150,9 @@ def test_other_analyses_give_numbers_of_their_results(
     kind: str, fields: dict[str, str], text: str
 ) -> None:
     case = kp.load(ROOT / "examples" / "four_bar.toml")
-    case = kp.Case(case.model, case._start, {"a": {"type": "equilibrium"}, "b": {"type": kind, **fields}})
+    case = kp.Case(
+        case.model, case._start, {"a": {"type": "equilibrium"}, "b": {"type": kind, **fields}}
+    )
     result = kp.sweep(case, {"L2": [29.0, 30.0]}, [text])
     found = result.run(1)
     expected = found.frequency[0] if "[" in text else getattr(found, text)

@@ -21,7 +21,6 @@ if TYPE_CHECKING:
 
     from rich.console import Console
 
-    from kempe.case import Case
     from kempe.sweeps import SweepResult
 
 EXAMPLES = """Examples:
@@ -122,7 +121,9 @@ def _range(text: str) -> tuple[str, Mapping[str, Any]]:
         return name, {"from": float(first), "to": last, "n": count, "scale": scale}
     except (ValueError, IndexError):
         hint = "such as --over k=1e3:1e5:50:log; numbers are in SI units and rad"
-        raise ModelError(f"--over {text}: must be NAME=FROM:TO:N or NAME=FROM:TO:N:log", hint=hint) from None
+        raise ModelError(
+            f"--over {text}: must be NAME=FROM:TO:N or NAME=FROM:TO:N:log", hint=hint
+        ) from None
 
 
 @contextmanager
@@ -169,7 +170,11 @@ def _show(console: Console, found: SweepResult) -> None:
     for text in found.measures:
         good = found[text][found.succeeded]
         good = good[good == good]  # noqa: PLR0124 - without what does not settle
-        cells = [figure(float(x)) for x in (good.min(), good.mean(), good.max())] if len(good) else ["–"] * 3
+        cells = (
+            [figure(float(x)) for x in (good.min(), good.mean(), good.max())]
+            if len(good)
+            else ["–"] * 3
+        )
         rows.append([text, *cells, found.units[text]])
     heading(console, "Measures")
     table(console, ["measure", "least", "mean", "largest", "unit"], rows)
@@ -193,5 +198,3 @@ def _summary(found: SweepResult) -> dict[str, Any]:
         "variables": [variable.name for variable in found.variables],
         "measures": list(found.measures),
     }
-
-

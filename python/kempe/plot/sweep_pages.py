@@ -49,9 +49,7 @@ def sweep_pages(result: SweepResult) -> list[Page]:
     return pages
 
 
-def _figure(
-    draw: Callable[..., Axes], result: SweepResult, measure: str, height: float
-) -> Figure:
+def _figure(draw: Callable[..., Axes], result: SweepResult, measure: str, height: float) -> Figure:
     made = style.figure(height)
     draw(result, measure, ax=made.add_subplot())
     return made

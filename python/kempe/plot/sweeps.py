@@ -9,7 +9,7 @@ import numpy as np
 
 from kempe.arrays import Floats
 from kempe.display_units import display
-from kempe.draw.units import Scale, scale
+from kempe.draw.units import Scale, axis_label, scale
 from kempe.errors import ModelError
 from kempe.names import entry
 from kempe.plot import style
@@ -25,6 +25,8 @@ if TYPE_CHECKING:
 _LINES = 10
 #: The colours of a map from low to high: even in lightness, for any colour vision and in print.
 MAP = "cividis"
+#: A range from one positive value to this multiple of it has colours of a logarithmic scale.
+_WIDE = 100.0
 
 
 def sweep_lines(result: SweepResult, measure: str, *, ax: Axes | None = None) -> Axes:
@@ -48,10 +50,11 @@ def sweep_lines(result: SweepResult, measure: str, *, ax: Axes | None = None) ->
         )
     with style.on(ax) as axes:
         if not others:
-            _line(axes, result, values, np.ones(len(result), dtype=bool), 0)
+            _line(axes, result[first.name], values, 0)
         for k, x in enumerate(lines.tolist()):
-            _line(axes, result, values, result[others[0].name] == x, k, f"{x:.4g}")
-        _axis(axes, "x", first)
+            chosen = result[others[0].name] == x
+            _line(axes, result[first.name][chosen], values[chosen], k, f"{x:.4g}")
+        _axis(axes, "x", result, first)
         axes.set_ylabel(shown.axis(style.verbatim(measure)))
         if others:
             beside(axes)
@@ -59,11 +62,8 @@ def sweep_lines(result: SweepResult, measure: str, *, ax: Axes | None = None) ->
         return axes
 
 
-def _line(
-    axes: Axes, result: SweepResult, values: Floats, chosen: Any, k: int, label: str = ""
-) -> None:
+def _line(axes: Axes, x: Floats, y: Floats, k: int, label: str = "") -> None:
     """One line; a variant that failed is a gap."""
-    x, y = result[result.variables[0].name][chosen], values[chosen]
     order = np.argsort(x, kind="stable")
     few = {"marker": style.MARKERS[k % len(style.MARKERS)]} if len(x) <= 30 else {}
     axes.plot(x[order], y[order], label=label, **{**style.line(k), **few})
@@ -84,7 +84,8 @@ def sweep_map(
     Args:
         result: the result of ``kp.sweep``.
         measure: a measure of it.
-        x, y: the variables; the first two by default.
+        x: the variable to the right; the first one by default.
+        y: the other variable; the second one by default.
         ax: where to; a figure of its own when None.
 
     Raises:
@@ -101,7 +102,7 @@ def sweep_map(
         if drawn is None:
             good = result.succeeded
             px, py = result[across.name][good], result[up.name][good]
-            drawn = axes.scatter(px, py, c=values[good], cmap=MAP, s=9.0)
+            drawn = axes.scatter(px, py, c=values[good], s=9.0, **_colours(values))
         failed = ~result.succeeded
         if failed.any():
             axes.plot(
@@ -114,17 +115,15 @@ def sweep_map(
                 label=f"failed: {int(failed.sum())}",
             )
             axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), borderaxespad=0.2)
-        _axis(axes, "x", across)
-        _axis(axes, "y", up)
+        _axis(axes, "x", result, across)
+        _axis(axes, "y", result, up)
         axes.grid(visible=False)
         bar = axes.figure.colorbar(drawn, ax=axes, pad=0.02)
         bar.set_label(shown.axis(style.verbatim(measure)))
         return axes
 
 
-def _cells(
-    axes: Axes, result: SweepResult, values: Floats, across: Variable, up: Variable
-) -> Any:
+def _cells(axes: Axes, result: SweepResult, values: Floats, across: Variable, up: Variable) -> Any:
     """The cells of a full grid; None for another design."""
     xs, at_x = np.unique(result[across.name], return_inverse=True)
     ys, at_y = np.unique(result[up.name], return_inverse=True)
@@ -133,7 +132,16 @@ def _cells(
     table = np.full((len(ys), len(xs)), np.nan)
     table[at_y, at_x] = values
     edges = _edges(xs, across), _edges(ys, up)
-    return axes.pcolormesh(*edges, np.ma.masked_invalid(table), cmap=MAP, rasterized=True)
+    return axes.pcolormesh(*edges, np.ma.masked_invalid(table), rasterized=True, **_colours(values))
+
+
+def _colours(values: Floats) -> dict[str, Any]:
+    """The colours of a map: of a logarithmic scale for positive values over two decades."""
+    from matplotlib.colors import LogNorm
+
+    good = values[np.isfinite(values)]
+    wide = len(good) > 0 and good.min() > 0.0 and good.max() > _WIDE * good.min()
+    return {"cmap": MAP, "norm": LogNorm(good.min(), good.max()) if wide else None}
 
 
 def _edges(levels: Floats, variable: Variable) -> Floats:
@@ -203,8 +211,14 @@ def sweep_contributions(
         axes.barh(places, [100.0 * x for _, x in ordered], color=style.COLOURS[0], height=0.6)
         axes.set_yticks(places, [style.short(label) for label, _ in ordered])
         for place, (_, x) in zip(places, ordered, strict=True):
-            axes.annotate(f"{100.0 * x:.3g} %", (100.0 * x, place), (3, 0), va="center",
-                          textcoords="offset points", fontsize=8.0)
+            axes.annotate(
+                f"{100.0 * x:.3g} %",
+                (100.0 * x, place),
+                (3, 0),
+                va="center",
+                textcoords="offset points",
+                fontsize=8.0,
+            )
         axes.set_xlim(0.0, 100.0)
         axes.set_xlabel(f"contribution to {style.verbatim(name)} ({told}) / %")
         axes.grid(visible=False, axis="y")
@@ -227,8 +241,9 @@ def _scaled(result: SweepResult, measure: str) -> tuple[Floats, Scale]:
     return values / shown_as.divisor, shown_as
 
 
-def _axis(axes: Axes, which: str, variable: Variable) -> None:
-    """Label and scale of the axis of a variable; its unit is that of the file."""
-    getattr(axes, f"set_{which}label")(f"{style.short(variable.name)} / SI")
+def _axis(axes: Axes, which: str, result: SweepResult, variable: Variable) -> None:
+    """Label and scale of the axis of a variable, in SI units as in its column."""
+    name, unit = style.short(variable.name), result.units[variable.name]
+    getattr(axes, f"set_{which}label")(axis_label(name, [unit]) if unit else name)
     if variable.is_log:
         getattr(axes, f"set_{which}scale")("log")

@@ -20,6 +20,7 @@ from kempe import _core
 from kempe._version import __version__
 from kempe.arrays import Floats
 from kempe.errors import InternalError, KempeError, ModelError
+from kempe.measures import measure_info, parameter_unit
 from kempe.names import one_of
 from kempe.option import core_options
 from kempe.request_cache import encode
@@ -28,6 +29,7 @@ from kempe.values import numbers
 
 if TYPE_CHECKING:
     from kempe.case import Case
+    from kempe.compiled import CompiledModel
     from kempe.result import Result
     from kempe.solution import Solution
 
@@ -115,6 +117,13 @@ class Plan:
             return False
         return _core.sweeps(self.case.model.compile().core, [one.statistic for one in self.wanted])
 
+    def unit_of(self, name: str) -> str:
+        """The SI unit of a variable; empty for a parameter that is written without one."""
+        model = self.case.model.compile()
+        of = parameter_unit if name in model.parameters else _unit_of_coordinate
+        found = of(model, name)
+        return "" if found == "SI" else found
+
     def check(self) -> None:
         """Refuse a variable of the start that no coordinate or rate has.
 
@@ -189,6 +198,10 @@ class Plan:
         self.__dict__.update(state)
 
 
+def _unit_of_coordinate(model: CompiledModel, name: str) -> str:
+    return measure_info(model, name).unit
+
+
 def chosen(case: Case, analysis: str | None) -> str:
     """The analysis that is swept: the last one by default.
 
@@ -208,5 +221,3 @@ def without_later(case: Case, analysis: str) -> Case:
     names = list(case.analyses)
     kept: Sequence[str] = names[: names.index(analysis) + 1]
     return Case(case.model, case._start, {name: case.analyses[name] for name in kept})
-
-

@@ -33,7 +33,7 @@ class SweepResult:
     Attributes:
         variables: the variables, in the order of columns.
         measures: the texts of the measures, in the order of columns.
-        units: SI units of the measures by their text; empty for an unknown one.
+        units: SI units of all columns; empty for an unknown one.
         reasons: why a row failed, by its number.
     """
 
@@ -43,7 +43,10 @@ class SweepResult:
         self._plan = plan
         self.variables = tuple(variables)
         self.measures = tuple(one.text for one in plan.wanted)
-        self.units: Mapping[str, str] = MappingProxyType({w.text: w.unit for w in plan.wanted})
+        known = {variable.name: plan.unit_of(variable.name) for variable in variables}
+        self.units: Mapping[str, str] = MappingProxyType(
+            known | {one.text: one.unit for one in plan.wanted}
+        )
         self.reasons: Mapping[int, str] = MappingProxyType(table.reasons)
         self._design, self._values = fixed(design), fixed(table.values)
 

@@ -59,7 +59,7 @@ def sweep(
         analysis: name of the analysis; the last one of the case by default.
         workers: number of threads, or of processes with ``scheduler="dask"``; one for each
             processor by default.
-        scheduler: a client of Dask, or "dask" for a cluster on this machine; see ``docs/sweeps.md``.
+        scheduler: a client of Dask, or "dask" for a cluster on this machine.
         out: file to which results are written as they come. A sweep resumes from its file.
         progress: function that is called with the variants done, the failures, all variants and
             the seconds left.
