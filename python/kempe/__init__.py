@@ -142,6 +142,10 @@ if TYPE_CHECKING:
     from kempe.statics import stiffness_at as stiffness_at
     from kempe.studies import Study as Study
     from kempe.studies import study as study
+    from kempe.sweeps import SweepResult as SweepResult
+    from kempe.sweeps import Tolerances as Tolerances
+    from kempe.sweeps import sweep as sweep
+    from kempe.sweeps import tolerances as tolerances
     from kempe.symbolic import equations as equations
 
 # ``import kempe`` is fast, because each public name is imported on first use. A new public name
@@ -196,6 +200,8 @@ _HOME = {
     "Start": "start",
     "State": "state",
     "Study": "studies",
+    "SweepResult": "sweeps",
+    "Tolerances": "sweeps",
     "Units": "display_units",
     "animate": "draw.animate",
     "assemble": "analyses",
@@ -221,6 +227,8 @@ _HOME = {
     "stiffness_at": "statics",
     "still": "draw.still",
     "study": "studies",
+    "sweep": "sweeps",
+    "tolerances": "sweeps",
     "units": "display_units",
     "write_report": "lab_report",
 }

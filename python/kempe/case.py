@@ -86,6 +86,7 @@ class Case:
         start: a ``Start``, or a mapping with ``set`` and ``guess``.
         analyses: ``Dynamics`` and the like, in order; or a mapping of names to entries as in a
             file.
+        sweep: the default sweep of the case, as in a file: ``{"variables": …, "measures": …}``.
 
     Attributes:
         model: the mechanism.
@@ -99,12 +100,14 @@ class Case:
         model: Model,
         start: Start | Mapping[str, Coordinates] | None = None,
         analyses: Sequence[Analysis] | Mapping[str, Mapping[str, Any]] = (),
+        sweep: Mapping[str, Any] | None = None,
     ) -> None:
         if not isinstance(model, Model):
             raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) makes one")
         self.model = model
         self._start = read_start(start)
         self._entries = _entries(analyses)
+        self._sweep = plain(mapping(sweep or {}, "sweep", "{'variables': {…}}"), "sweep")
         self._core().check(model.compile().core)
 
     @classmethod
@@ -114,6 +117,7 @@ class Case:
         case.model = Model.from_tree(tree, core, folder)
         case._start = read_start(tree.get("start"))
         case._entries = dict(tree.get("analyses", {}))
+        case._sweep = dict(tree.get("sweep", {}))
         return case
 
     def __copy__(self) -> Case:
@@ -124,6 +128,11 @@ class Case:
     def analyses(self) -> Mapping[str, Mapping[str, Any]]:
         """The analyses by name, as in a file; a copy."""
         return {name: dict(entry) for name, entry in self._entries.items()}
+
+    @property
+    def sweep(self) -> Mapping[str, Any]:
+        """The sweep of the case, as in a file, which ``kp.sweep(case)`` runs; a copy."""
+        return copy.deepcopy(self._sweep)
 
     def tree(self) -> dict[str, Any]:
         """The case as nested mappings, structured as a file; a copy.
@@ -138,6 +147,7 @@ class Case:
         start = self._start.tree()
         tree |= {"start": start} if start else {}
         tree |= {"analyses": data(self._entries)} if self._entries else {}
+        tree |= {"sweep": data(self._sweep)} if self._sweep else {}
         return tree
 
     def start(self) -> State:
@@ -230,7 +240,17 @@ class Case:
         Raises:
             ModelError: a value is invalid, or there is no parameter of that name.
         """
-        return Case(self.model.with_parameters(parameters), self._start, self._entries)
+        return self._with(model=self.model.with_parameters(parameters))
+
+    def _with(
+        self,
+        model: Model | None = None,
+        start: Start | None = None,
+        entries: Mapping[str, Mapping[str, Any]] | None = None,
+    ) -> Case:
+        """The same case with other parts."""
+        kept = self._entries if entries is None else entries
+        return Case(model or self.model, start or self._start, kept, self._sweep)
 
     def with_analysis(self, name: str, **changes: Any) -> Case:
         """The same case with some fields of one analysis changed, as ``t_end=30``.
@@ -243,8 +263,7 @@ class Case:
         for key, value in changes.items():
             path = f"analyses.{name}.{key}"
             given[key] = value.tree(path) if isinstance(value, Option) else plain(value, path)
-        entries = {**self._entries, name: {**self._entries[name], **given}}
-        return Case(self.model, self._start, entries)
+        return self._with(entries={**self._entries, name: {**self._entries[name], **given}})
 
     def of_type(self, kind: str, absent: Mapping[str, Number] | None = None) -> Case:
         """The same case with the analyses of one type and those that they start from.
@@ -277,7 +296,7 @@ class Case:
             ModelError: there is no such coordinate, or a value is not a number or a formula.
         """
         guess = {key: value for key, value in self._start.guess.items() if key not in coordinates}
-        return Case(self.model, Start({**self._start.set, **coordinates}, guess), self._entries)
+        return self._with(start=Start({**self._start.set, **coordinates}, guess))
 
     def save(self, path: Path | str) -> None:
         """Write the case as TOML or JSON, by the suffix of the name; nothing is lost.

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from kempe import _core
 from kempe.arrays import Floats
 from kempe.errors import ModelError
 
@@ -43,24 +44,14 @@ class DenseOutput:
             ModelError: a time is outside the simulated interval, or is NaN.
         """
         self._refuse_outside(t)
-        sign = self._direction
-        after = np.searchsorted(sign * self.t, sign * np.asarray(t), side="right")
-        step = np.clip(after - 1, 0, len(self.y) - 1)
-        h = self.t[step + 1] - self.t[step]
-        theta = ((t - self.t[step]) / np.where(h == 0.0, 1.0, h))[..., None]
-        total = np.zeros((*np.shape(t), self.y.shape[1]))
-        for k in reversed(range(self.c.shape[2])):  # Horner
-            total = (total + self.c[step, :, k]) * theta
-        return np.asarray(self.y[step] + h[..., None] * total, dtype=np.float64)
+        times = np.ascontiguousarray(np.ravel(t), dtype=np.float64)
+        rows = _core.interpolate(self.t, self.y, self.c, times)
+        return rows.reshape((*np.shape(t), self.y.shape[1]))
 
     def parts(self, t: Floats, n_q: int, n_z: int) -> tuple[Floats, Floats, Floats]:
         """q, v and z at times of any shape, (…, n_q), (…, n_q) and (…, n_z)."""
         y = self(t)
         return y[..., :n_q], y[..., n_q : 2 * n_q], y[..., 2 * n_q : 2 * n_q + n_z]
-
-    @property
-    def _direction(self) -> float:
-        return -1.0 if self.t[-1] < self.t[0] else 1.0
 
     def _refuse_outside(self, t: Floats) -> None:
         slack = 1e-12 * max(abs(self.t[0]), abs(self.t[-1]))

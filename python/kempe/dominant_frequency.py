@@ -11,6 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from kempe import _core
 from kempe.arrays import Floats
 
 #: A series that crosses its mean less often has no whole oscillation.
@@ -38,7 +39,7 @@ def dominant_frequency(t: Floats, values: Floats) -> float:
         The frequency. NaN if the values cross their mean less than three times: there is no whole
         oscillation.
     """
-    mean = _mean(t, values)
+    mean = _core.mean(t, values)
     side = np.sign(values - mean)[np.abs(values - mean) > NOISE * np.abs(values).max(initial=0.0)]
     if np.count_nonzero(np.diff(side)) < CROSSINGS:
         return float("nan")
@@ -47,12 +48,6 @@ def dominant_frequency(t: Floats, values: Floats) -> float:
     y = (values - mean) / np.abs(values - mean).max()
     fits = [_fitted(s, y, _spectral_peak(s, y, power)) for power in (2, 0)]
     return min(fits)[1] / (2.0 * np.pi * span)
-
-
-def _mean(t: Floats, values: Floats) -> float:
-    span = float(t[-1] - t[0]) if len(t) else 0.0
-    area = float(np.sum(np.diff(t) * (values[1:] + values[:-1]) / 2.0))
-    return area / span if span else 0.0
 
 
 def _spectral_peak(s: Floats, y: Floats, power: int) -> float:

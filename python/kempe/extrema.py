@@ -9,6 +9,7 @@ from weakref import WeakKeyDictionary
 
 import numpy as np
 
+from kempe import _core
 from kempe.arrays import Floats
 from kempe.fine import fine
 from kempe.motion import Motion
@@ -17,12 +18,6 @@ from kempe.solution import Solution
 
 #: A quantity of a motion, (n_t,), such as ``lambda motion: motion.body("crank").omega``.
 Quantity = Callable[[Motion], Floats]
-
-#: Values that differ by less than this share of the largest are the same value.
-_SAME = 1e-12
-#: Maxima that differ by less than this share are equal within the error of the interpolant.
-_EQUAL = 1e-7
-
 
 #: For each solution, the maxima of its multipliers.
 _passed: WeakKeyDictionary[Solution, Maxima | None] = WeakKeyDictionary()
@@ -97,23 +92,14 @@ def singular_times(solution: Solution) -> Floats:
 
 def _extreme(motion: Motion, quantity: Quantity, sign: float) -> Extreme:
     """The largest value of sign times the quantity."""
-    output = _first(motion, sign * np.atleast_1d(quantity(motion)), sign)
-    maxima = _maxima(motion, quantity, sign)
-    if maxima is None:
-        return output
-    dense = fine(motion)
-    values = sign * np.atleast_1d(quantity(dense))
-    if not len(maxima.values):
-        return output
-    equal = maxima.values >= maxima.values.max() - _EQUAL * abs(float(maxima.values.max()))
-    at = maxima.t[equal]
-    first = int(np.abs(at - float(dense.t[0])).argmin())
-    found = Extreme(float(sign * maxima.values[equal][first]), float(at[first]))
-    if values[0] >= sign * found.value - _EQUAL * abs(found.value):
-        found = Extreme(found.value, float(dense.t[0]))  # it begins at its extreme value
-    room = _SAME * abs(output.value)
-    is_higher = sign * output.value > sign * found.value + room
-    return output if is_higher and not len(maxima.near) else found
+    t = np.ascontiguousarray(np.atleast_1d(motion.t))
+    outputs = sign * np.atleast_1d(quantity(motion))
+    between = None
+    if (maxima := _maxima(motion, quantity, sign)) is not None:
+        dense = fine(motion)
+        samples = sign * np.atleast_1d(quantity(dense))
+        between = dense.t, samples, maxima.values, maxima.t, len(maxima.near) > 0
+    return Extreme(*_core.extreme(sign, t, outputs, between))
 
 
 def _maxima(motion: Motion, quantity: Quantity, sign: float) -> Maxima | None:
@@ -123,7 +109,7 @@ def _maxima(motion: Motion, quantity: Quantity, sign: float) -> Maxima | None:
         return None
     assert isinstance(motion, Solution)
     values = sign * np.atleast_1d(quantity(dense))
-    if np.ptp(values) <= _SAME * float(np.abs(values).max()):
+    if not _core.changes(values):
         return None
     read = partial(_read, motion, quantity, sign)
     return Maxima(read, dense.t, values, _singular(motion), resolved=_resolved(motion))
@@ -139,7 +125,7 @@ def _singular(solution: Solution) -> Maxima | None:
     if solution not in _passed:
         dense = fine(solution)
         size = _multipliers(dense)
-        changes = np.ptp(size) > _SAME * float(size.max())
+        changes = _core.changes(size)
         read = partial(_read, solution, _multipliers, 1.0)
         found = Maxima(read, dense.t, size, resolved=_resolved(solution)) if changes else None
         _passed[solution] = found
@@ -153,11 +139,4 @@ def _resolved(solution: Solution) -> bool:
 
 
 def _multipliers(motion: Motion) -> Floats:
-    found: Floats = np.linalg.norm(motion.lam, axis=-1)
-    return found
-
-
-def _first(motion: Motion, values: Floats, sign: float) -> Extreme:
-    """The largest of the values at the times of a motion, and the first time at which it occurs."""
-    k = int(np.argmax(values >= values.max() - _SAME * float(np.abs(values).max())))
-    return Extreme(float(sign * values[k]), float(np.atleast_1d(motion.t)[k]))
+    return _core.row_norms(np.atleast_2d(motion.lam))

@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from weakref import WeakKeyDictionary
 
 import numpy as np
 from numpy.typing import NDArray
 
+from kempe import _core
 from kempe.arrays import Floats
 from kempe.energy import Energy
 from kempe.errors import KempeError
 from kempe.motion import Motion
 from kempe.solution import Solution
-
-#: Instants in a step of the integrator: at least, at most, and for all steps together.
-_LEAST, _MOST, _WISHED = 4, 32, 3000
-#: Numbers in the arrays of a fine motion, and instants, at most.
-_MOST_NUMBERS, _MOST_INSTANTS = 6_000_000, 50_000
 
 _known: WeakKeyDictionary[Solution, Motion] = WeakKeyDictionary()
 
@@ -43,7 +38,7 @@ def fine(motion: Motion) -> Motion:
 
 
 def _evaluated(solution: Solution) -> Motion:
-    found = solution(_with_jumps(solution, _instants(solution)))
+    found = solution(_instants(solution))
     try:
         _ = found.lam
     except KempeError:
@@ -52,29 +47,10 @@ def _evaluated(solution: Solution) -> Motion:
 
 
 def _instants(solution: Solution) -> Floats:
-    """Times, in the direction of the run, s."""
+    """Times, in the direction of the run, s; with the number before each jump."""
     assert solution.dense is not None
-    bounds = solution.dense.t
-    steps = len(bounds) - 1
     numbers = 4 * solution.compiled.n_q + solution.compiled.n_rows + 1
-    most = max(2, min(_MOST_INSTANTS, _MOST_NUMBERS // numbers))
-    pieces = min(max(_LEAST, math.ceil(_WISHED / steps)), _MOST)
-    if pieces * steps > most:
-        pieces = max(1, most // steps)
-    shares = np.arange(pieces) / pieces
-    inside = bounds[:-1, None] + shares * np.diff(bounds)[:, None]
-    found = np.append(inside.ravel(), bounds[-1])
-    return found[:: math.ceil(len(found) / most)] if len(found) > 2 * most else found
-
-
-def _with_jumps(solution: Solution, instants: Floats) -> Floats:
-    """The instants and, where a solution has two states at one time, the number before it."""
-    jumps = solution.t[1:][np.diff(solution.t) == 0.0]
-    if not len(jumps):
-        return instants
-    forward = 1.0 if solution.t[-1] >= solution.t[0] else -1.0
-    before = np.nextafter(jumps, -forward * np.inf)
-    return forward * np.unique(forward * np.concatenate([instants, before, jumps]))
+    return _core.instants(solution.dense.t, solution.t, numbers)
 
 
 def jumps(t: Floats) -> NDArray[np.intp]:

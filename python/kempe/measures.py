@@ -37,28 +37,33 @@ class MeasureInfo:
         expression: the expression, as written.
         quantities: names of the quantities that it uses, each once.
         unit: its SI unit; "1" for a number, "SI" if it does not follow from the expression.
+        is_of_run: whether it uses energies of a run or checks of it, which exist at the outputs
+            only.
+        solves: whether it needs accelerations or multipliers.
     """
 
     name: str
     expression: str
     quantities: tuple[str, ...]
     unit: str
-
-    @property
-    def is_of_run(self) -> bool:
-        """Whether it uses energies of a run or checks of it, which exist at the outputs only."""
-        owners = [name.rpartition(".") for name in self.quantities]
-        return any(
-            owner == "energy" or last == "dissipated" or (owner, last) == ("drift", "balance")
-            for owner, _, last in owners
-        )
+    is_of_run: bool
+    solves: bool
 
 
 def measure_infos(model: CompiledModel) -> Iterator[MeasureInfo]:
     """The measures of a compiled model, in the order of the file."""
     for name, expression in model.tree.get("measures", {}).items():
-        used, unit = _core.measure(model.core, expression)
-        yield MeasureInfo(name, expression, tuple(used), unit)
+        yield measure_info(model, expression, name)
+
+
+def measure_info(model: CompiledModel, expression: str, name: str = "") -> MeasureInfo:
+    """An expression of quantities as a measure; its name is the expression by default.
+
+    Raises:
+        ModelError: a fault of the expression, or an unknown name.
+    """
+    used, *about = _core.measure(model.core, expression)
+    return MeasureInfo(name or expression, expression, tuple(used), *about)
 
 
 def parameter_unit(model: CompiledModel, name: str) -> str:
@@ -74,8 +79,17 @@ def values(motion: Motion, name: str) -> Floats:
             expression has no value at one of the times.
         SingularityError: a reaction or acceleration is not unique at one of the times.
     """
-    info = entry("measure", name, motion.compiled.measures)
+    return values_of(motion, entry("measure", name, motion.compiled.measures))
+
+
+def values_of(motion: Motion, info: MeasureInfo) -> Floats:
+    """Values of an expression, as ``values``."""
     t = np.atleast_1d(motion.t)
+    compiled = motion.compiled
+    if not info.is_of_run and motion._phases is None and compiled.is_plain:
+        states = (np.atleast_2d(rows) for rows in (motion.q, motion.v, motion.z))
+        solved = (np.atleast_2d(motion.a), np.atleast_2d(motion.lam)) if info.solves else ()
+        return fixed(_core.measure_at(compiled.core, info.expression, t, *states, *solved))
     columns = [np.atleast_1d(quantities.named(motion, one).read()) for one in info.quantities]
     given = np.column_stack(columns) if columns else np.empty((len(t), 0))
     (found,) = motion._by_phase(
@@ -99,11 +113,12 @@ class Measure:
         values: (n_t,), in the unit of the measure.
     """
 
-    def __init__(self, solution: Solution, name: str) -> None:
+    def __init__(self, solution: Solution, of: str | MeasureInfo) -> None:
         self._solution = solution
-        self.info = entry("measure", name, solution.compiled.measures)
+        known = isinstance(of, MeasureInfo)
+        self.info = of if known else entry("measure", of, solution.compiled.measures)
         self.t = solution.t
-        self.values = values(solution, name)
+        self.values = values_of(solution, self.info)
 
     @property
     def name(self) -> str:
@@ -121,7 +136,7 @@ class Measure:
 
         if self.info.is_of_run:
             return self._at(int(self.values.argmax()))
-        return largest(self._solution, partial(values, name=self.name))
+        return largest(self._solution, partial(values_of, info=self.info))
 
     @cached_property
     def _lowest(self) -> Extreme:
@@ -129,7 +144,7 @@ class Measure:
 
         if self.info.is_of_run:
             return self._at(int(self.values.argmin()))
-        return least(self._solution, partial(values, name=self.name))
+        return least(self._solution, partial(values_of, info=self.info))
 
     def _at(self, row: int) -> Extreme:
         from kempe.extrema import Extreme
@@ -164,17 +179,12 @@ class Measure:
     @property
     def mean(self) -> float:
         """Mean over time."""
-        return self._mean_of(self.values)
+        return _core.mean(self.t, self.values)
 
     @property
     def rms(self) -> float:
         """Root of the mean square over time."""
-        return float(np.sqrt(self._mean_of(self.values**2)))
-
-    def _mean_of(self, of: Floats) -> float:
-        span = float(self.t[-1] - self.t[0])
-        area = float(np.sum(np.diff(self.t) * (of[1:] + of[:-1]) / 2.0))
-        return area / span if span else float(of[-1])
+        return _core.root_mean_square(self.t, self.values)
 
     @property
     def final(self) -> float:
@@ -196,7 +206,7 @@ class Measure:
         found = settling(
             self.t,
             self.values,
-            between=(lambda t: values(solution(t), self.name)) if continuous else None,
+            between=(lambda t: values_of(solution(t), self.info)) if continuous else None,
         )
         if not found.moves:
             return float(self.t[0])

@@ -172,7 +172,12 @@ def test_every_quantity_can_be_measured(name: str) -> None:
     analyses = {k: v for k, v in tree["analyses"].items() if k == next(iter(tree["analyses"]))}
     sol = kp.Case(model, tree.get("start"), analyses).run()[0]
     for k, one in enumerate(known):
-        np.testing.assert_array_equal(sol[f"m{k}"], sol[one], err_msg=one)
+        # the core evaluates measures, and NumPy the views of bodies: the last bits may differ, by
+        # what the terms of a sum are rounded to
+        alike = [other for other in known if other.rpartition(".")[2] == one.rpartition(".")[2]]
+        largest = max(float(np.abs(sol[other]).max()) for other in alike)
+        rounding = 8 * np.finfo(float).eps * largest
+        np.testing.assert_allclose(sol[f"m{k}"], sol[one], rtol=0, atol=rounding, err_msg=one)
         assert sol.compiled.measures[f"m{k}"].unit in (quantities.named(sol, one).unit, "SI"), one
 
 

@@ -20,7 +20,7 @@ const STACK: usize = 8 << 20;
 /// The exception of a signal handler, such as `KeyboardInterrupt`.
 pub fn attended<T: Send + 'static>(
     py: Python<'_>,
-    work: impl FnOnce(&dyn Fn() -> bool) -> T + Send + 'static,
+    work: impl FnOnce(&(dyn Fn() -> bool + Sync)) -> T + Send + 'static,
 ) -> PyResult<T> {
     let stop = Arc::new(AtomicBool::new(false));
     let (send, receive) = channel();

@@ -30,6 +30,8 @@ mod processor;
 mod reactions;
 mod recent_options;
 mod respond;
+mod statistics;
+mod sweep;
 mod tables;
 mod watch;
 
@@ -120,6 +122,18 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(evaluate::matrices, module)?)?;
     module.add_function(wrap_pyfunction!(measures::measure, module)?)?;
     module.add_function(wrap_pyfunction!(measures::measure_values, module)?)?;
+    module.add_function(wrap_pyfunction!(measures::measure_at, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::instants, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::interpolate, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::maxima, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::extreme, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::changes, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::mean, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::root_mean_square, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::row_norms, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::settling, module)?)?;
+    module.add_function(wrap_pyfunction!(sweep::sweeps, module)?)?;
+    module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
     module.add_function(wrap_pyfunction!(formulas::formulas, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::scene, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::display, module)?)?;

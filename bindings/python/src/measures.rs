@@ -4,6 +4,7 @@ use crate::convert::{refuse, rows, Row, Rows};
 use crate::errors::{raise_plain, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
+use kempe::analyses::dynamics::States;
 use kempe::analyses::measures::Measure;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
@@ -12,11 +13,20 @@ fn read(py: Python<'_>, model: &PyModel, text: &str) -> PyResult<Measure> {
     Measure::read(&model.model, text).map_err(|found| raise_plain(py, Kind::Model, &[found]))
 }
 
-/// The quantities that a measure uses, and its SI unit.
+/// The quantities that a measure uses, its SI unit, whether it uses quantities of a whole run, and whether it needs
+/// accelerations or multipliers.
 #[pyfunction]
 #[pyo3(signature = (model, text))]
-pub fn measure(py: Python<'_>, model: &PyModel, text: &str) -> PyResult<(Vec<String>, String)> {
-    guard("measure", || read(py, model, text).map(|found| (found.quantities, found.unit)))
+pub fn measure(
+    py: Python<'_>,
+    model: &PyModel,
+    text: &str,
+) -> PyResult<(Vec<String>, String, bool, bool)> {
+    guard("measure", || {
+        let found = read(py, model, text)?;
+        let (of_run, solves) = (found.is_of_run(), found.needs_solution(&model.model));
+        Ok((found.quantities, found.unit, of_run, solves))
+    })
 }
 
 /// Values of a measure for the values of its quantities, (n_t, n).
@@ -36,14 +46,54 @@ pub fn measure_values<'py>(
         let row = |(k, t): (usize, &f64)| {
             found.value(&model.model, *t, &given[k * width..(k + 1) * width])
         };
-        let values: Vec<f64> = t.iter().enumerate().map(row).collect();
-        match values.iter().position(|x| !x.is_finite()) {
-            None => Ok(values.into_pyarray(py)),
-            Some(k) => {
-                let message =
-                    format!("{} at {} s; the measure has no value there", values[k], t[k]);
-                Err(refuse(py, text, message))
-            }
-        }
+        finite(py, text, &t, t.iter().enumerate().map(row).collect())
     })
+}
+
+/// Values of a measure at states, with accelerations and multipliers if it needs them.
+#[pyfunction]
+#[pyo3(signature = (model, text, t, q, v, z, a=None, lam=None))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
+pub fn measure_at<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    text: &str,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+    z: Rows<'py>,
+    a: Option<Rows<'py>>,
+    lam: Option<Rows<'py>>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    guard("measure_at", || {
+        let (found, layout) = (read(py, model, text)?, &model.model.layout);
+        let t = t.as_array().to_vec();
+        let table = |name, given: &Rows<'py>, width| rows(py, name, given, (t.len(), width));
+        let (q, v) = (table("q", &q, layout.n_q)?, table("v", &v, layout.n_q)?);
+        let z = table("z", &z, layout.n_z)?;
+        let a = a.map(|a| table("a", &a, layout.n_q)).transpose()?;
+        let lam = lam.map(|lam| table("lam", &lam, model.model.n_multipliers())).transpose()?;
+        let solved = a.as_deref().zip(lam.as_deref()).map(|(a, lam)| [a, lam]);
+        if found.needs_solution(&model.model) && solved.is_none() {
+            return Err(refuse(py, text, "needs accelerations and multipliers".to_string()));
+        }
+        let states = States { t: &t, q: &q, v: &v, z: &z };
+        finite(py, text, &t, found.values(&model.model, states, solved))
+    })
+}
+
+/// Values of a measure at times, all finite.
+fn finite<'py>(
+    py: Python<'py>,
+    text: &str,
+    t: &[f64],
+    values: Vec<f64>,
+) -> PyResult<Bound<'py, PyArray1<f64>>> {
+    match values.iter().position(|x| !x.is_finite()) {
+        None => Ok(values.into_pyarray(py)),
+        Some(k) => {
+            let message = format!("{} at {} s; the measure has no value there", values[k], t[k]);
+            Err(refuse(py, text, message))
+        }
+    }
 }

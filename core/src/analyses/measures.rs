@@ -1,10 +1,14 @@
 //! Measures: named expressions of quantities, evaluated after an analysis.
 //!
-//! A measure may use every quantity by name, parameters, tables and t. It uses no other measure. The values of its
-//! quantities come from the caller, which has them at all outputs; so a measure may also use quantities of a whole run.
+//! A measure may use every quantity by name, parameters, tables and t. It uses no other measure. Its values follow from
+//! states with their accelerations and multipliers. If it uses energies of a run or checks of it, the values of its
+//! quantities come from the caller, which has them at all outputs.
 
+use super::dynamics::States;
 use super::quantities::Quantities;
 use super::signal_units::unit_of;
+use super::signals::{Seen, Signal};
+use crate::equations::kinematics::Motions;
 use crate::expression::{unit::Unit, Expression, ExpressionError, Inferred, Symbol, Tape, Values};
 use crate::model::{Model, Problem, Value};
 
@@ -17,6 +21,7 @@ pub struct Measure {
     tape: Tape,
     /// The quantities that it uses, each once.
     pub quantities: Vec<String>,
+    signals: Vec<Signal>,
     /// Its SI unit, such as `N`; `1` for a number, [`UNKNOWN_UNIT`] if it cannot be known.
     pub unit: String,
 }
@@ -44,8 +49,57 @@ impl Measure {
             Symbol::Variable(k) => units.get(k).map_or(Inferred::Open, |unit| dimension(unit)),
             Symbol::Time => dimension("s"),
         })?;
-        let quantities = found.into_iter().map(|(name, _)| name).collect();
-        Ok(Self { tape, quantities, unit: written(inferred, &units) })
+        let (quantities, signals) = found.into_iter().unzip();
+        Ok(Self { tape, quantities, signals, unit: written(inferred, &units) })
+    }
+
+    /// Whether it uses quantities of a whole run, which do not follow from one state.
+    pub fn is_of_run(&self) -> bool {
+        let of_run = |signal: &Signal| {
+            matches!(signal, Signal::Energy(_) | Signal::ForceDissipated(_) | Signal::Balance)
+        };
+        self.signals.iter().any(of_run)
+    }
+
+    /// Whether one of its quantities needs accelerations or multipliers.
+    pub fn needs_solution(&self, model: &Model) -> bool {
+        self.signals.iter().any(|signal| signal.needs_solution(model))
+    }
+
+    /// Its values at states, with rows of accelerations and multipliers where it [needs](Self::needs_solution) them.
+    ///
+    /// # Panics
+    /// If the rows do not fit the model or each other.
+    pub fn values<'a>(
+        &self,
+        model: &Model,
+        states: States<'a>,
+        solved: Option<[&'a [f64]; 2]>,
+    ) -> Vec<f64> {
+        let layout = &model.layout;
+        let count = states.t.len();
+        let absent = [layout.n_q, model.n_multipliers()].map(|n| vec![f64::NAN; n]);
+        let mut motions = Motions::new(layout);
+        let mut quantities = vec![0.0; self.signals.len()];
+        let mut value = |k: usize| {
+            let at = |table: &'a [f64]| {
+                let width = table.len() / count;
+                &table[k * width..(k + 1) * width]
+            };
+            let state = [states.q, states.v, states.z].map(at);
+            motions.place(layout, state[0], state[1]);
+            let solved = match solved {
+                Some(tables) => tables.map(at),
+                None => absent.each_ref().map(Vec::as_slice),
+            };
+            let t = states.t[k];
+            let seen = Seen { t, state, works: &[], motions: &motions, solved, so_far: None };
+            for (to, signal) in quantities.iter_mut().zip(&self.signals) {
+                *to = signal.value(model, &seen);
+            }
+            self.value(model, t, &quantities)
+        };
+        (0..count).map(&mut value).collect()
     }
 
     /// Its value for the values of its quantities, in their order.

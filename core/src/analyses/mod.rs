@@ -31,6 +31,8 @@ mod signal_units;
 mod signals;
 mod so_far;
 mod state;
+pub mod statistics;
+pub mod sweep;
 mod uniqueness;
 
 pub use dependence::Dependent;

@@ -5,7 +5,7 @@ use super::names::{self, Namespace};
 use super::report::Report;
 use super::tree::{Data, Node, Table};
 use super::values::{number, pair, word, wrong};
-use super::{fields, start, tables, Case, Format, FORMAT_VERSION};
+use super::{fields, start, sweep, tables, Case, Format, FORMAT_VERSION};
 use crate::analyses;
 use crate::elements::{catalogue, Group, Table as Declaration};
 use crate::expression::suggest::{closest, did_you_mean};
@@ -14,7 +14,7 @@ use crate::model::{table_fields, Entry, Problem, Value};
 /// Words for the key `redundancy`.
 pub(super) const REDUNDANCY: [&str; 2] = ["refuse", "allow"];
 
-const SECTIONS: [&str; 13] = [
+const SECTIONS: [&str; 14] = [
     "kempe",
     "title",
     "gravity",
@@ -28,6 +28,7 @@ const SECTIONS: [&str; 13] = [
     "measures",
     "start",
     "analyses",
+    "sweep",
 ];
 
 /// The case that a tree holds, which is complete if there are no problems of its structure. The problems come with the
@@ -93,6 +94,7 @@ fn section(
         "measures" => model.measures = measures(report, node, namespace),
         "start" => case.start = start::read(report, node, root),
         "analyses" => case.analyses = analyses(report, node),
+        "sweep" => case.sweep = sweep::read(report, node, root),
         _ => {
             let message = format!("unknown key '{}'", super::shown(key));
             // the singular of a section, or a part of its name

@@ -26,6 +26,8 @@ pub struct Case {
     pub start: Start,
     /// Analyses, in order.
     pub analyses: Vec<Entry>,
+    /// The sweep: variables, measures and the design; empty without one.
+    pub sweep: Vec<(String, Value)>,
 }
 
 /// Coordinates and rates for the assembly; keys are `body.coordinate`.

@@ -1,11 +1,11 @@
 //! The faults of a case that only its model shows.
 
-use super::Case;
+use super::{sweep, Case};
 use crate::analyses::{self, assemble, measures};
-use crate::model::{Model, Problem};
+use crate::model::{Model, Problem, Value};
 
 impl Case {
-    /// Everything that is wrong with the measures, the start and the analyses and is known without an assembly or a run.
+    /// Everything that is wrong with the measures, the start, the analyses and the sweep, and is known without an assembly or a run.
     pub fn faults(&self, model: &Model) -> Vec<Problem> {
         let start = [("set", &self.start.set), ("guess", &self.start.guess)];
         let start = start.into_iter().flat_map(|(section, targets)| {
@@ -13,6 +13,16 @@ impl Case {
         });
         let measures = measures::check(model, &self.definition.measures);
         let found = measures.into_iter().chain(start);
-        found.chain(analyses::check(model, &self.analyses)).collect()
+        let found = found.chain(analyses::check(model, &self.analyses));
+        let kinds: Vec<(String, String)> = self
+            .analyses
+            .iter()
+            .filter_map(|entry| match entry.get("type") {
+                Some(Value::Text(kind)) => Some((entry.name.clone(), kind.clone())),
+                _ => None,
+            })
+            .collect();
+        let known = (&self.definition.measures[..], &kinds[..]);
+        found.chain(sweep::faults(model, &self.sweep, known)).collect()
     }
 }

@@ -33,6 +33,7 @@ mod report;
 mod schema;
 mod start;
 mod start_builder;
+mod sweep;
 mod tables;
 mod toml;
 mod toml_tables;

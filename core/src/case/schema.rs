@@ -4,6 +4,7 @@ use serde_json::{json, Map, Value};
 
 use super::check::REDUNDANCY;
 use super::names::{HIDDEN, MOST_CHARACTERS, RESERVED};
+use super::sweep::{DESIGNS, SCALES};
 use super::FORMAT_VERSION;
 use crate::analyses::options::Declaration;
 use crate::analyses::{declarations, option_families, DIRECTIONS};
@@ -87,7 +88,43 @@ fn sections() -> Map<String, Value> {
     let mut analyses = by_name(options(declarations()), &[]);
     analyses["propertyNames"] = folders();
     sections["analyses"] = analyses;
+    sections["sweep"] = sweep();
     object(sections)
+}
+
+/// Variables with their values, measures, and the design of a sweep.
+fn sweep() -> Value {
+    let list =
+        |count: u32| json!({ "type": "array", "items": { "type": "number" }, "minItems": count });
+    let mut two = list(2);
+    two["maxItems"] = json!(2);
+    let number = || json!({ "type": "number" });
+    let whole = |least: u32| json!({ "type": "integer", "minimum": least });
+    let range =
+        json!({ "from": number(), "to": number(), "n": whole(2), "scale": { "enum": SCALES } });
+    let forms = [
+        closed(object(range), json!({ "required": ["from", "to"] })),
+        closed(object(json!({ "normal": two })), json!({ "required": ["normal"] })),
+        closed(object(json!({ "uniform": two })), json!({ "required": ["uniform"] })),
+    ];
+    let values = json!({ "anyOf": [list(1), forms[0], forms[1], forms[2]] });
+    let text = json!({ "type": "string" });
+    let fields = json!({
+        "variables": described(
+            json!({ "type": "object", "additionalProperties": values }),
+            "Parameters, or coordinates and rates at the start, with lists, ranges or distributions."
+        ),
+        "measures": described(
+            json!({ "type": "array", "items": text, "minItems": 1 }),
+            "Statistics such as pin.max."
+        ),
+        "design": { "enum": DESIGNS },
+        "n": described(whole(1), "Number of variants of a random, latin or sobol design."),
+        "seed": whole(0),
+        "analysis": described(text, "Name of the analysis; the last one if absent."),
+    });
+    let needed = json!({ "required": ["variables", "measures"] });
+    described(closed(object(fields), needed), "A sweep: many variants of the case.")
 }
 
 /// Tables by name; formulas call them, so their names are identifiers.

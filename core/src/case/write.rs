@@ -43,6 +43,7 @@ fn tree(case: &Case) -> Vec<(String, Value)> {
         ("measures", table(&model.measures)),
         ("start", Some(Value::Table(start.collect()))),
         ("analyses", entries(&case.analyses)),
+        ("sweep", table(&case.sweep)),
     ];
     let empty = |value: &Value| matches!(value, Value::Table(fields) if fields.is_empty());
     let sections = sections.into_iter().filter_map(|(key, value)| Some((key.to_string(), value?)));

@@ -32,6 +32,8 @@ from kempe.cli.show import EXAMPLES as SHOW_EXAMPLES
 from kempe.cli.show import show as show_command
 from kempe.cli.study import EXAMPLES as STUDY_EXAMPLES
 from kempe.cli.study import study as study_command
+from kempe.cli.sweep import EXAMPLES as SWEEP_EXAMPLES
+from kempe.cli.sweep import sweep as sweep_command
 
 #: Commands that run the analyses of one type in a case, with those that they start from.
 ANALYSES = {
@@ -61,6 +63,7 @@ app.command("plot", epilog=PLOT_EXAMPLES)(plot_command)
 app.command("animate", epilog=ANIMATE_EXAMPLES)(animate_command)
 app.command("report", epilog=REPORT_EXAMPLES)(report_command)
 app.command("study", epilog=STUDY_EXAMPLES)(study_command)
+app.command("sweep", epilog=SWEEP_EXAMPLES)(sweep_command)
 app.command("new", epilog=NEW_EXAMPLES)(new_command)
 app.command("schema", epilog=SCHEMA_EXAMPLES)(schema_command)
 

@@ -22,6 +22,9 @@ from kempe.plot.reactions import all_reactions, reactions
 from kempe.plot.residual import residual
 from kempe.plot.rest import path, rest_position
 from kempe.plot.shaking import shaking_force
+from kempe.plot.sweep_pages import sweep_pages
+from kempe.plot.sweep_scatter import sweep_scatter
+from kempe.plot.sweeps import sweep_contributions, sweep_histogram, sweep_lines, sweep_map
 from kempe.plot.time_axis import transient
 from kempe.plot.torques import torques
 from kempe.plot.transmission import transmission_angle
@@ -52,6 +55,12 @@ __all__ = [
     "save",
     "select",
     "shaking_force",
+    "sweep_contributions",
+    "sweep_histogram",
+    "sweep_lines",
+    "sweep_map",
+    "sweep_pages",
+    "sweep_scatter",
     "torque_speed",
     "torques",
     "transient",

@@ -92,7 +92,7 @@ pub use setting::Setting;
 pub use stabilizations::Stabilization;
 pub use stepper::Stepper;
 pub use stiffness_detection::MethodChoice;
-pub use trajectory::{PiecewiseInterpolant, States, Trajectory};
+pub use trajectory::{PiecewiseInterpolant, States, Steps, Trajectory};
 
 use super::State;
 use crate::integrate::{Flow, Step};

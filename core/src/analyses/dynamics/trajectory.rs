@@ -73,6 +73,13 @@ pub struct PiecewiseInterpolant {
 }
 
 impl PiecewiseInterpolant {
+    /// The rows y at times within the run.
+    pub fn at(&self, times: &[f64]) -> Vec<f64> {
+        let steps = self.t.len().saturating_sub(1);
+        let n_y = self.y.len() / steps.max(1);
+        let parts = Steps { t: &self.t, y: &self.y, c: &self.c, n_y, degree: self.degree };
+        parts.at(times)
+    }
     /// Empty, from `t0` on, with memory for so many steps. Later steps may have a degree above `degree`.
     pub(super) fn with_room(
         n_y: usize,
@@ -124,5 +131,46 @@ impl PiecewiseInterpolant {
             self.c = c;
         }
         self.degree = degree;
+    }
+}
+
+/// The parts of an interpolant of some steps: y(t_old + θ h) = y_old + h Σ_k c_k θ^(k+1) in every step.
+#[derive(Clone, Copy, Debug)]
+pub struct Steps<'a> {
+    /// Step boundaries, one more than steps; descending for a motion over a quantity that falls.
+    pub t: &'a [f64],
+    /// y at the start of each step, rows of n_y.
+    pub y: &'a [f64],
+    /// Coefficients of θ … θᵈ, for each step n_y rows of d.
+    pub c: &'a [f64],
+    /// Numbers in y.
+    pub n_y: usize,
+    /// d.
+    pub degree: usize,
+}
+
+impl Steps<'_> {
+    /// The rows y at times. At the boundary of two steps the later one counts.
+    ///
+    /// # Panics
+    /// If there is no step.
+    pub fn at(&self, times: &[f64]) -> Vec<f64> {
+        let Self { t: bounds, n_y, degree, .. } = *self;
+        let steps = bounds.len() - 1;
+        let falls = bounds[steps] < bounds[0];
+        let mut found = Vec::with_capacity(times.len() * n_y);
+        for &t in times {
+            let after =
+                bounds.partition_point(|bound| if falls { *bound >= t } else { *bound <= t });
+            let step = after.clamp(1, steps) - 1;
+            let h = bounds[step + 1] - bounds[step];
+            let theta = (t - bounds[step]) / if h == 0.0 { 1.0 } else { h };
+            let c = &self.c[step * n_y * degree..(step + 1) * n_y * degree];
+            let horner =
+                |row: &[f64]| row.iter().rev().fold(0.0, |total: f64, c| (total + c) * theta);
+            let y = &self.y[step * n_y..(step + 1) * n_y];
+            found.extend((0..n_y).map(|k| y[k] + h * horner(&c[k * degree..(k + 1) * degree])));
+        }
+        found
     }
 }

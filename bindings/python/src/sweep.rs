@@ -1,0 +1,124 @@
+//! Variants of a case on threads, without the interpreter's lock.
+
+use crate::attended::attended;
+use crate::convert::{refuse, table, tree, Rows};
+use crate::guard::{caught, guard, Caught};
+use crate::model::PyModel;
+use crate::options;
+use crate::respond::Table;
+use kempe::analyses::sweep::{Outcome, Statistic, Sweep};
+use numpy::{IntoPyArray, PyArray1};
+use pyo3::prelude::*;
+use rayon::prelude::*;
+use rayon::ThreadPoolBuilder;
+use std::sync::Arc;
+
+/// Size of the stack of a thread, as that of a main thread.
+const STACK: usize = 8 << 20;
+
+/// Rows of numbers, the reason of each row that failed, and the rows that a single run decides.
+type Swept<'py> = (Table<'py>, Vec<(usize, String)>, Bound<'py, PyArray1<u64>>);
+
+/// Whether `sweep` serves a model, measures and statistics.
+#[pyfunction]
+#[pyo3(signature = (model, wanted))]
+pub fn sweeps(model: &PyModel, wanted: Vec<String>) -> PyResult<bool> {
+    guard("sweeps", || {
+        let known = wanted.iter().all(|name| Statistic::named(name).is_some());
+        Ok(known && Sweep::serves(&model.model))
+    })
+}
+
+/// Runs variants of a case, one for each row, and gives statistics of measures. `start`, `guess` and `analysis` are JSON
+/// as in a file; `parameters` and `coordinates` are the names of the columns.
+#[pyfunction]
+#[pyo3(signature = (model, start, guess, analysis, measures, wanted, parameters, coordinates, rows, workers))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
+pub fn sweep<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    start: &str,
+    guess: &str,
+    analysis: &str,
+    measures: Vec<String>,
+    wanted: Vec<(usize, String)>,
+    parameters: Vec<String>,
+    coordinates: Vec<String>,
+    rows: Rows<'py>,
+    workers: usize,
+) -> PyResult<Swept<'py>> {
+    guard("sweep", || {
+        let wanted = wanted.iter().map(|(of, name)| match Statistic::named(name) {
+            Some(statistic) if *of < measures.len() => Ok((*of, statistic)),
+            _ => Err(refuse(py, "wanted", format!("there is no '{name}' of measure {of}"))),
+        });
+        let wanted = wanted.collect::<PyResult<Vec<_>>>()?;
+        let (count, width) = rows.as_array().dim();
+        if width != parameters.len() + coordinates.len() {
+            return Err(refuse(py, "rows", format!("{width} columns do not fit the names")));
+        }
+        let numbers = wanted.len();
+        let sweep = Sweep {
+            model: Arc::clone(&model.model),
+            set: tree(py, start)?,
+            guess: tree(py, guess)?,
+            analysis: options::fields(py, analysis)?,
+            measures,
+            wanted,
+        };
+        let given: Vec<f64> = rows.as_array().iter().copied().collect();
+        let names = (parameters, coordinates);
+        let outcomes = attended(py, move |stop| on_threads(&sweep, &names, &given, workers, stop))?;
+        sorted(py, outcomes, (count, numbers))
+    })
+}
+
+/// The outcome of each row; a panic ends all.
+fn on_threads(
+    sweep: &Sweep,
+    (parameters, coordinates): &(Vec<String>, Vec<String>),
+    rows: &[f64],
+    workers: usize,
+    stop: &(dyn Fn() -> bool + Sync),
+) -> Result<Vec<Outcome>, Caught> {
+    let width = (parameters.len() + coordinates.len()).max(1);
+    let named = |names: &[String], values: &[f64]| -> Vec<(String, f64)> {
+        names.iter().cloned().zip(values.iter().copied()).collect()
+    };
+    let one = |row: &[f64]| {
+        if stop() {
+            return Ok(Outcome::Stopped);
+        }
+        let (of_parameters, of_start) = row.split_at(parameters.len());
+        caught(|| {
+            let (parameters, start) =
+                (named(parameters, of_parameters), named(coordinates, of_start));
+            sweep.variant(&parameters, &start, &stop)
+        })
+    };
+    let pool = ThreadPoolBuilder::new().num_threads(workers).stack_size(STACK).build();
+    match pool {
+        Ok(pool) => pool.install(|| rows.par_chunks_exact(width).map(one).collect()),
+        // no threads can be started
+        Err(_) => rows.chunks_exact(width).map(one).collect(),
+    }
+}
+
+fn sorted<'py>(
+    py: Python<'py>,
+    outcomes: Result<Vec<Outcome>, Caught>,
+    (count, width): (usize, usize),
+) -> PyResult<Swept<'py>> {
+    let outcomes = outcomes.unwrap_or_else(|panic| panic.resume());
+    let (mut values, mut reasons, mut single) =
+        (Vec::with_capacity(count * width), Vec::new(), Vec::new());
+    for (k, outcome) in outcomes.into_iter().enumerate() {
+        match outcome {
+            Outcome::Values(row) => values.extend(row),
+            Outcome::Failed(reason) => reasons.push((k, reason)),
+            Outcome::Single | Outcome::Stopped => single.push(k as u64),
+        }
+        values.resize((k + 1) * width, f64::NAN);
+    }
+    Ok((table(py, values, (count, width))?, reasons, single.into_pyarray(py)))
+}

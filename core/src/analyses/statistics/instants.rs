@@ -1,0 +1,83 @@
+//! Instants close enough for smooth curves on the interpolant of a run.
+
+/// Instants in a step of the integrator: at least, at most, and for all steps together.
+const LEAST: usize = 4;
+const MOST: usize = 32;
+const WISHED: usize = 3000;
+/// Numbers in the arrays of a motion at these instants, and instants, at most.
+const MOST_NUMBERS: usize = 6_000_000;
+const MOST_INSTANTS: usize = 50_000;
+
+/// The boundaries of the integrator's steps and 3 to 31 instants in each step, at most 50 000 in total.
+///
+/// They do not depend on the output times, except that a time with two outputs, before and after a jump, is an instant,
+/// as is the number before it. `numbers` is the count of numbers in the state at an instant.
+///
+/// # Panics
+/// If there are fewer than two boundaries.
+pub fn instants(bounds: &[f64], outputs: &[f64], numbers: usize) -> Vec<f64> {
+    let steps = bounds.len() - 1;
+    let most = (MOST_NUMBERS / numbers.max(1)).clamp(2, MOST_INSTANTS);
+    let mut pieces = WISHED.div_ceil(steps).clamp(LEAST, MOST);
+    if pieces * steps > most {
+        pieces = (most / steps).max(1);
+    }
+    let mut found = Vec::with_capacity(pieces * steps + 1);
+    for ends in bounds.windows(2) {
+        let share = |k: usize| k as f64 / pieces as f64;
+        found.extend((0..pieces).map(|k| ends[0] + share(k) * (ends[1] - ends[0])));
+    }
+    found.push(bounds[steps]);
+    if found.len() > 2 * most {
+        let every = found.len().div_ceil(most);
+        found = found.into_iter().step_by(every).collect();
+    }
+    with_jumps(found, outputs)
+}
+
+/// Adds the times with two outputs and the numbers before them.
+fn with_jumps(mut instants: Vec<f64>, outputs: &[f64]) -> Vec<f64> {
+    let jumps: Vec<f64> =
+        outputs.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[1]).collect();
+    let (Some(first), Some(last)) = (outputs.first(), outputs.last()) else { return instants };
+    if jumps.is_empty() {
+        return instants;
+    }
+    let forward = if last >= first { 1.0 } else { -1.0 };
+    instants.extend(jumps.iter().map(|t| forward * below(forward * t)));
+    instants.extend(jumps);
+    instants.sort_by(|a, b| (forward * a).total_cmp(&(forward * b)));
+    instants.dedup();
+    instants
+}
+
+/// The largest number below a finite one.
+fn below(x: f64) -> f64 {
+    if x == 0.0 {
+        return -f64::from_bits(1);
+    }
+    f64::from_bits(if x > 0.0 { x.to_bits() - 1 } else { x.to_bits() + 1 })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_step_has_its_instants() {
+        assert_eq!(instants(&[0.0, 1.0, 3.0], &[0.0, 3.0], 10).len(), 2 * MOST + 1);
+        let many: Vec<f64> = (0..=2000).map(f64::from).collect();
+        let found = instants(&many, &[0.0, 2000.0], 10);
+        assert_eq!((found.len(), found[1], found[4]), (LEAST * 2000 + 1, 0.25, 1.0));
+    }
+
+    #[test]
+    fn a_jump_has_an_instant_before_it() {
+        let found = instants(&[0.0, 1.0, 2.0], &[0.0, 0.3, 0.3, 2.0], 10);
+        let at = found.iter().position(|t| *t == 0.3).expect("the jump");
+        assert!(found[at - 1] < 0.3 && found[at - 1] + 2.0 * f64::EPSILON > 0.3);
+        let back = instants(&[2.0, 1.0, 0.0], &[2.0, 0.3, 0.3, 0.0], 10);
+        let at = back.iter().position(|t| *t == 0.3).expect("the jump");
+        assert!(back[at - 1] > 0.3 && back.windows(2).all(|pair| pair[0] > pair[1]));
+    }
+}

@@ -1,0 +1,46 @@
+//! Faults of the variables and measures of a sweep that a model shows.
+
+use super::Statistic;
+use crate::analyses::assemble;
+use crate::analyses::measures::Measure;
+use crate::expression::suggest::did_you_mean;
+use crate::model::{Model, Problem, Value};
+
+/// Types of analyses whose results are motions, of which measures have statistics.
+pub const MOTIONS: [&str; 3] = ["dynamics", "kinematics", "inverse_dynamics"];
+
+/// A statistic that the front computes from the values of a measure.
+const OF_FRONT: &str = "frequency";
+
+/// The fault of the name of a variable: it must be a parameter, or a coordinate or rate that can be set.
+pub fn variable_fault(model: &Model, name: &str) -> Option<Problem> {
+    let parameters = &model.blueprint.parameters;
+    if parameters.iter().any(|known| known == name) {
+        return None;
+    }
+    if !name.contains('.') {
+        let hint = did_you_mean(name, parameters);
+        let problem = Problem::at(&[name], format!("there is no parameter '{name}'")).at_key();
+        return Some(problem.maybe_hint(hint));
+    }
+    let target = [(name.to_string(), Value::Number(0.0))];
+    assemble::targets(model, "set", &target).err()?.into_iter().next()
+}
+
+/// The fault of a measure with its statistic, such as `pin.max` with the declared measure `pin`, or `C.force.max`.
+pub fn measure_fault(model: &Model, declared: &[(String, Value)], text: &str) -> Option<Problem> {
+    let nowhere: [&str; 0] = [];
+    let (name, statistic) = text.rsplit_once('.').unwrap_or(("", text));
+    let known: Vec<&str> =
+        Statistic::ALL.iter().map(|(known, _)| *known).chain([OF_FRONT]).collect();
+    if !known.contains(&statistic) {
+        let message = format!("'{statistic}' is no statistic of a measure");
+        let hint = did_you_mean(statistic, &known);
+        let hint = hint.unwrap_or_else(|| format!("end the text with one of {}", known.join(", ")));
+        return Some(Problem::at(&nowhere, message).hint(hint));
+    }
+    if declared.iter().any(|(known, _)| known == name) {
+        return None;
+    }
+    Measure::read(model, name).err()
+}

@@ -1,0 +1,133 @@
+//! Sweeps: one mechanism with many values of its parameters and start, and the statistics of measures of each run.
+//!
+//! A variant is what a single run of the changed case is: its model from the linked blueprint, assembly from the start of
+//! the case, the run, and the measures. Nothing passes from one variant to another, so that its numbers do not depend on
+//! the order, and the caller may compute variants on as many threads as it likes.
+
+mod faults;
+mod readings;
+mod series;
+mod statistic;
+
+pub use faults::{measure_fault, variable_fault, MOTIONS};
+pub use statistic::Statistic;
+
+use super::assemble::{self, assemble_until, Request};
+use super::dynamics::{self, Prepared, Reason};
+use super::measures::Measure;
+use crate::integrate::Flow;
+use crate::model::{Model, Value};
+use readings::{Missing, Readings};
+use series::Series;
+use std::sync::Arc;
+
+/// A case of which variants are run.
+#[derive(Clone, Debug)]
+pub struct Sweep {
+    /// The model.
+    pub model: Arc<Model>,
+    /// Coordinates and rates that hold at the start, as written.
+    pub set: Vec<(String, Value)>,
+    /// Their guesses.
+    pub guess: Vec<(String, Value)>,
+    /// The fields of the analysis `dynamics`, as written.
+    pub analysis: Vec<(String, Value)>,
+    /// Expressions of quantities, such as `C.force`. None uses energies of a run or checks of it.
+    pub measures: Vec<String>,
+    /// The numbers of a row: statistics of measures by their place.
+    pub wanted: Vec<(usize, Statistic)>,
+}
+
+/// The result of a variant.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Outcome {
+    /// The wanted numbers; NaN for a settling time of a motion that does not settle.
+    Values(Vec<f64>),
+    /// It has no numbers, for a reason in terms of the mechanism.
+    Failed(String),
+    /// A case that this module leaves to a single run: phases, redundant joints, positions beside which multipliers
+    /// mean nothing, or faulty numbers.
+    Single,
+    /// It was stopped.
+    Stopped,
+}
+
+impl Sweep {
+    /// Whether variants of a model can be computed here: no redundant joints, laws of the caller, or forces with modes.
+    pub fn serves(model: &Model) -> bool {
+        let plain = !model.allow_redundancy && model.blueprint.functions.is_none();
+        plain && model.n_multipliers() == model.layout.n_rows
+    }
+
+    /// Runs the variant with other values of some parameters, and with other numbers for some entries of `set`.
+    ///
+    /// `stop` is looked at now and then.
+    pub fn variant(
+        &self,
+        parameters: &[(String, f64)],
+        start: &[(String, f64)],
+        stop: &dyn Fn() -> bool,
+    ) -> Outcome {
+        if !Self::serves(&self.model) {
+            return Outcome::Single;
+        }
+        let Ok(model) = self.model.with_values(parameters) else { return Outcome::Single };
+        let Some(request) = self.request(&model, start) else { return Outcome::Single };
+        let state = match assemble_until(&model, &request, stop) {
+            Ok((state, _)) => state,
+            Err(_) if stop() => return Outcome::Stopped,
+            Err(failure) => return Outcome::Failed(failure.message),
+        };
+        let Ok(options) = dynamics::read(&model, &self.analysis, &[]) else {
+            return Outcome::Single;
+        };
+        if options.backward(state.t, &["t_end"]).is_some() {
+            return Outcome::Single;
+        }
+        let prepared = Prepared::new(&model);
+        let watch = |_| if stop() { Flow::Stop } else { Flow::Continue };
+        let run = match prepared.dynamics(&state, &options, watch) {
+            _ if stop() => return Outcome::Stopped,
+            Ok(run) => run,
+            Err(failure) => return failed(&failure.reason),
+        };
+        if run.settings.iter().any(|setting| !setting.is_plain()) {
+            return Outcome::Single;
+        }
+        match self.numbers(&Readings::new(&prepared, &run)) {
+            Ok(values) => Outcome::Values(values),
+            Err(Missing::Failed(reason)) => failed(&reason),
+            Err(Missing::Single) => Outcome::Single,
+        }
+    }
+
+    fn numbers(&self, readings: &Readings<'_>) -> Result<Vec<f64>, Missing> {
+        let series = self.measures.iter().map(|text| {
+            // names are those of the variant: the place of a point may depend on a parameter
+            let measure = Measure::read(readings.model(), text).map_err(|_| Missing::Single)?;
+            Series::new(readings, measure)
+        });
+        let series = series.collect::<Result<Vec<_>, _>>()?;
+        self.wanted.iter().map(|(of, statistic)| series[*of].statistic(*statistic)).collect()
+    }
+
+    /// The request for the assembly; None if an entry is faulty.
+    fn request(&self, model: &Model, start: &[(String, f64)]) -> Option<Request> {
+        let mut set = self.set.clone();
+        for (name, x) in start {
+            let (_, value) = set.iter_mut().find(|(known, _)| known == name)?;
+            *value = Value::Number(*x);
+        }
+        let set = assemble::targets(model, "set", &set).ok()?;
+        let guess = assemble::targets(model, "guess", &self.guess).ok()?;
+        Some(Request { set, guess, ..Request::default() })
+    }
+}
+
+fn failed(reason: &Reason) -> Outcome {
+    match reason {
+        // a fault of the options, which a single run words
+        Reason::Option { .. } => Outcome::Single,
+        _ => Outcome::Failed(reason.to_string()),
+    }
+}

@@ -1,0 +1,103 @@
+//! The values of a measure over a run, and their statistics.
+
+use super::readings::{Fine, Missing, Readings};
+use super::Statistic;
+use crate::analyses::measures::Measure;
+use crate::analyses::statistics::{
+    changes, extreme, mean, root_mean_square, settling, Extreme, Maxima, Samples, Settling,
+};
+use std::cell::OnceCell;
+
+/// A measure over a run.
+pub struct Series<'a> {
+    readings: &'a Readings<'a>,
+    measure: Measure,
+    /// Whether it needs accelerations or multipliers.
+    solves: bool,
+    /// The values at the outputs.
+    outputs: Vec<f64>,
+    /// The largest and the least value.
+    extremes: [OnceCell<Extreme>; 2],
+}
+
+impl<'a> Series<'a> {
+    pub fn new(readings: &'a Readings<'a>, measure: Measure) -> Result<Self, Missing> {
+        let outputs = readings.outputs(&measure)?;
+        let solves = measure.needs_solution(readings.model());
+        Ok(Self { readings, measure, solves, outputs, extremes: Default::default() })
+    }
+
+    /// A statistic of the measure.
+    pub fn statistic(&self, statistic: Statistic) -> Result<f64, Missing> {
+        let (t, outputs) = (&self.readings.run.trajectory.t, &self.outputs);
+        Ok(match statistic {
+            Statistic::Max => self.most()?.value,
+            Statistic::Min => self.least()?.value,
+            Statistic::Peak => self.most()?.value.abs().max(self.least()?.value.abs()),
+            Statistic::TimeOfMax => self.most()?.t,
+            Statistic::TimeOfMin => self.least()?.t,
+            Statistic::Mean => mean(t, outputs),
+            Statistic::Rms => root_mean_square(t, outputs),
+            Statistic::Final => outputs[outputs.len() - 1],
+            Statistic::Settling => self.settling()?,
+        })
+    }
+
+    fn most(&self) -> Result<Extreme, Missing> {
+        self.known(0, 1.0)
+    }
+
+    fn least(&self) -> Result<Extreme, Missing> {
+        self.known(1, -1.0)
+    }
+
+    fn known(&self, place: usize, sign: f64) -> Result<Extreme, Missing> {
+        if let Some(known) = self.extremes[place].get() {
+            return Ok(*known);
+        }
+        let found = self.extreme(sign)?;
+        Ok(*self.extremes[place].get_or_init(|| found))
+    }
+
+    fn extreme(&self, sign: f64) -> Result<Extreme, Missing> {
+        let signed = |values: &[f64]| -> Vec<f64> { values.iter().map(|x| sign * x).collect() };
+        let signed_outputs = signed(&self.outputs);
+        let outputs = Samples { t: &self.readings.run.trajectory.t, values: &signed_outputs };
+        let Some(Fine { rows, near }) = self.readings.fine()? else {
+            return Ok(extreme(sign, outputs, None));
+        };
+        let values = signed(&self.readings.values(&self.measure, rows).ok_or(Missing::Single)?);
+        if !changes(&values) {
+            return Ok(extreme(sign, outputs, None));
+        }
+        let mut read = |t: &[f64]| {
+            Some(signed(&self.readings.values(&self.measure, &self.readings.at(t, self.solves)?)?))
+        };
+        let samples = Samples { t: &rows.t, values: &values };
+        let known = (&near.near[..], &near.near_t[..]);
+        let found =
+            Maxima::search((&rows.t, &values), known, self.readings.resolved(rows), &mut read);
+        match found.near.is_empty() {
+            true => Ok(extreme(sign, outputs, Some((samples, &found)))),
+            // a single run continues the quantity across these positions
+            false => Err(Missing::Single),
+        }
+    }
+
+    fn settling(&self) -> Result<f64, Missing> {
+        let t = &self.readings.run.trajectory.t;
+        let mut read =
+            |t: &[f64]| self.readings.values(&self.measure, &self.readings.at(t, self.solves)?);
+        let continuous = self.readings.run.dense.as_ref().is_some_and(|dense| dense.t.len() > 1);
+        let found = match continuous {
+            true => settling(t, &self.outputs, None, Some(&mut read)),
+            false => settling(t, &self.outputs, None, None),
+        };
+        match found {
+            Settling::At(t) => Ok(t),
+            Settling::Constant => Ok(t[0]),
+            Settling::Never => Ok(f64::NAN),
+            Settling::Unknown => Err(Missing::Single),
+        }
+    }
+}

@@ -1,0 +1,132 @@
+"""A sweep on the machines of a Dask cluster.
+
+A worker gets blocks of rows and runs them on its threads. A block whose worker is killed runs
+again on another one. Blocks are sized by the measured time of a row.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kempe.arrays import Floats
+from kempe.errors import ModelError
+from kempe.sweeps.plan import Block, Plan
+from kempe.sweeps.table import Table
+
+#: Wanted time of a block, s, and most rows in it: one message costs some milliseconds.
+_PACE, _MOST = 2.0, 20_000
+#: Blocks that wait for each thread, so that none is idle between two blocks.
+_AHEAD = 2
+
+
+def fill(table: Table, plan: Plan, design: Floats, scheduler: Any, workers: int | None) -> None:
+    """Run the variants that are left on a cluster.
+
+    Raises:
+        ModelError: Dask is not installed, or the scheduler is not one of Dask.
+    """
+    with _client_of(scheduler, workers) as client:
+        print(f"Dask dashboard: {client.dashboard_link}", flush=True)
+        _Blocks(table, plan, design, client).run()
+
+
+class _Blocks:
+    """The blocks of a sweep on a cluster."""
+
+    def __init__(self, table: Table, plan: Plan, design: Floats, client: Any) -> None:
+        self._table, self._plan, self._design, self._client = table, plan, design, client
+        self._left = table.left
+        self._next, self._count = 0, 1
+        self._rows: dict[str, NDArray[np.intp]] = {}
+
+    def run(self) -> None:
+        from distributed import as_completed
+
+        threads = max(1, sum(self._client.nthreads().values()))
+        pending = as_completed([self._submitted() for _ in range(_AHEAD * threads) if self._more])
+        try:
+            for future in pending:
+                block, seconds = future.result()
+                rows = self._rows.pop(future.key)
+                self._table.add(rows, block)
+                self._size(len(rows), seconds)
+                if self._more:
+                    pending.add(self._submitted())
+        finally:
+            self._client.cancel(list(pending.futures), force=True)
+
+    @property
+    def _more(self) -> bool:
+        return self._next < len(self._left)
+
+    def _submitted(self) -> Any:
+        rows = self._left[self._next : self._next + self._count]
+        self._next += len(rows)
+        # impure: a block has no equal, and its result need not be kept
+        future = self._client.submit(_computed, self._plan, self._design[rows], pure=False)
+        self._rows[future.key] = rows
+        return future
+
+    def _size(self, count: int, seconds: float) -> None:
+        """Choose the rows of the next block; at most four times as many."""
+        wanted = int(count * _PACE / max(seconds, 1e-6))
+        self._count = max(1, min(wanted, 4 * self._count, _MOST))
+
+
+def _computed(plan: Plan, given: Floats) -> tuple[Block, float]:
+    """A block and the time that it took, on a worker; Dask uses the other threads."""
+    began = perf_counter()
+    block = plan.rows(np.array(given), 1)
+    return block, perf_counter() - began
+
+
+def connected(address: str) -> Any:
+    """A client of the scheduler at an address.
+
+    Raises:
+        ModelError: Dask is not installed, or there is no scheduler.
+    """
+    distributed = _distributed()
+    try:
+        return distributed.Client(address)
+    except (OSError, ValueError) as error:
+        raise ModelError(
+            f"no Dask scheduler at {address}: {error}", hint="check the address and the network"
+        ) from error
+
+
+@contextmanager
+def _client_of(scheduler: Any, workers: int | None) -> Iterator[Any]:
+    """The client; that of a cluster on this machine ends with the block."""
+    distributed = _distributed()
+    if isinstance(scheduler, distributed.Client):
+        yield scheduler
+        return
+    if scheduler != "dask":
+        raise ModelError(
+            f"scheduler: {scheduler!r}; must be a client of Dask or 'dask'",
+            hint="distributed.Client(address) makes a client",
+        )
+    # a process for each worker, with one thread: Python's lock then stops nobody
+    with (
+        distributed.LocalCluster(n_workers=workers, threads_per_worker=1) as cluster,
+        distributed.Client(cluster) as client,
+    ):
+        yield client
+
+
+def _distributed() -> Any:
+    try:
+        import distributed
+    except ImportError as error:
+        raise ModelError(
+            "a sweep on a cluster needs Dask, which is not installed",
+            hint="pip install 'kempe[dask]'",
+        ) from error
+    return distributed

@@ -1,0 +1,223 @@
+"""The plan of a sweep: all that a worker needs for any of its rows.
+
+A plan can be pickled. Its rows do not depend on each other, so that their numbers are the same in
+any order, on any thread and in any process of one kind of machine.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import warnings
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from kempe import _core
+from kempe._version import __version__
+from kempe.arrays import Floats
+from kempe.errors import InternalError, KempeError, ModelError
+from kempe.measures import measure_info, parameter_unit
+from kempe.names import one_of
+from kempe.option import core_options
+from kempe.request_cache import encode
+from kempe.sweeps.wanted import Wanted
+from kempe.values import numbers
+
+if TYPE_CHECKING:
+    from kempe.case import Case
+    from kempe.compiled import CompiledModel
+    from kempe.result import Result
+    from kempe.solution import Solution
+
+
+@dataclass(frozen=True)
+class Block:
+    """Rows of results.
+
+    Attributes:
+        values: the wanted numbers, (n, n_wanted); NaN in rows that failed.
+        reasons: why a row failed; empty for the others.
+    """
+
+    values: Floats
+    reasons: list[str] = field(default_factory=list)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A case, the names of its variables, and the wanted numbers.
+
+    Attributes:
+        case: the case.
+        analysis: name of the analysis.
+        names: the variables, in the order of columns.
+        wanted: the numbers of each row.
+    """
+
+    case: Case
+    analysis: str
+    names: tuple[str, ...]
+    wanted: tuple[Wanted, ...]
+
+    def rows(self, given: Floats, workers: int) -> Block:
+        """Run variants.
+
+        Args:
+            given: values of the variables, (n, n_variables).
+            workers: number of threads.
+        """
+        if not self.is_native:
+            return self._singly(given)
+        values, reasons, left = self._native(given, workers)
+        block = Block(values, [""] * len(given))
+        for row, reason in reasons:
+            block.reasons[row] = reason
+        for row in left.tolist():
+            one = self._singly(given[row : row + 1])
+            block.values[row], block.reasons[row] = one.values[0], one.reasons[0]
+        return block
+
+    def variant(self, row: Floats) -> Case:
+        """The case with the values of a row.
+
+        Raises:
+            ModelError: the model is impossible with these values.
+        """
+        values = [float(x) for x in row]
+        parameters = {n: x for n, x in zip(self.names, values, strict=True) if "." not in n}
+        start = {n: x for n, x in zip(self.names, values, strict=True) if "." in n}
+        case = self.case.with_parameters(parameters) if parameters else self.case
+        return case.with_start(start) if start else case
+
+    def run(self, row: Floats) -> Solution | Result:
+        """The result of the analysis with the values of a row.
+
+        Raises:
+            KempeError: it fails.
+        """
+        for name, found in self.variant(row).each():
+            if name == self.analysis:
+                return found
+        raise ModelError(f"the case has no analysis {self.analysis}")  # pragma: no cover
+
+    @cached_property
+    def is_native(self) -> bool:
+        """Whether the core runs the variants on its threads.
+
+        It runs a simulation from the start of the case. Any other analysis, a frequency, and a
+        measure of a whole run are computed by single runs, one after the other.
+        """
+        entry = self.case.analyses[self.analysis]
+        first = next(iter(self.case.analyses)) == self.analysis or entry.get("from") == "start"
+        if entry["type"] != "dynamics" or not first or any(one.of_run for one in self.wanted):
+            return False
+        return _core.sweeps(self.case.model.compile().core, [one.statistic for one in self.wanted])
+
+    def unit_of(self, name: str) -> str:
+        """The SI unit of a variable; empty for a parameter that is written without one."""
+        model = self.case.model.compile()
+        of = parameter_unit if name in model.parameters else _unit_of_coordinate
+        found = of(model, name)
+        return "" if found == "SI" else found
+
+    def check(self) -> None:
+        """Refuse a variable of the start that no coordinate or rate has.
+
+        Raises:
+            ModelError: there is no such coordinate or rate, or it cannot be set.
+        """
+        start = {name: 0.0 for name in self.names if "." in name}
+        if start:
+            self.case.with_start(start)
+
+    def key_of(self, given: Floats) -> str:
+        """A fingerprint of the sweep of these rows: equal ones have equal results."""
+        try:
+            tree = self.case.model.with_points(self.case.tree())
+        except KempeError as error:
+            raise ModelError(
+                f"results of this sweep cannot be kept in a file: {error.args[0]}",
+                hint="leave out= out, or write the law as a formula",
+            ) from error
+        asked = [self.analysis, self.names, [one.text for one in self.wanted], __version__]
+        text = json.dumps([tree, asked], sort_keys=True)
+        digest = hashlib.sha256(text.encode())
+        digest.update(np.ascontiguousarray(given, dtype="<f8").tobytes())
+        return digest.hexdigest()
+
+    @cached_property
+    def _request(self) -> tuple[Any, ...]:
+        """The arguments of the core that all rows share."""
+        start = self.case.with_start({name: 0.0 for name in self.names if "." in name})
+        tree = start.tree().get("start", {})
+        measures = list(dict.fromkeys(one.expression for one in self.wanted))
+        wanted = [(measures.index(one.expression), one.statistic) for one in self.wanted]
+        return (
+            self.case.model.compile().core,
+            encode(numbers(tree.get("set"), "set")),
+            encode(numbers(tree.get("guess"), "guess")),
+            encode(core_options(self.case.analyses[self.analysis])),
+            measures,
+            wanted,
+        )
+
+    @cached_property
+    def _order(self) -> list[int]:
+        """The columns of parameters, then those of start values."""
+        return sorted(range(len(self.names)), key=lambda k: "." in self.names[k])
+
+    def _native(self, given: Floats, workers: int) -> tuple[Floats, list[tuple[int, str]], Any]:
+        names = [self.names[k] for k in self._order]
+        parameters = [name for name in names if "." not in name]
+        coordinates = [name for name in names if "." in name]
+        ordered = np.ascontiguousarray(given[:, self._order])
+        return _core.sweep(*self._request, parameters, coordinates, ordered, workers)
+
+    def _singly(self, given: Floats) -> Block:
+        block = Block(np.full((len(given), len(self.wanted)), np.nan), [""] * len(given))
+        for row, values in enumerate(given):
+            try:
+                with warnings.catch_warnings():
+                    warnings.simplefilter("ignore")
+                    found = self.run(values)
+                    block.values[row] = [one.value(found) for one in self.wanted]
+            except InternalError:
+                raise
+            except KempeError as error:
+                block.reasons[row] = str(error.args[0])
+        return block
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {name: getattr(self, name) for name in ("case", "analysis", "names", "wanted")}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+
+
+def _unit_of_coordinate(model: CompiledModel, name: str) -> str:
+    return measure_info(model, name).unit
+
+
+def chosen(case: Case, analysis: str | None) -> str:
+    """The analysis that is swept: the last one by default.
+
+    Raises:
+        ModelError: there is none of this name, or the case has none.
+    """
+    names = list(case.analyses)
+    if not names:
+        raise ModelError("the case has no analysis to sweep", hint="add one, such as kp.Dynamics")
+    return names[-1] if analysis is None else one_of("analysis", analysis, names)
+
+
+def without_later(case: Case, analysis: str) -> Case:
+    """The case without the analyses after one, which do not concern it."""
+    from kempe.case import Case
+
+    names = list(case.analyses)
+    kept: Sequence[str] = names[: names.index(analysis) + 1]
+    return Case(case.model, case._start, {name: case.analyses[name] for name in kept})

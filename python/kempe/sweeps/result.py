@@ -1,0 +1,160 @@
+"""The result of a sweep: its table, and the replay of each row."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from kempe import files
+from kempe.arrays import Floats, fixed
+from kempe.errors import ModelError
+from kempe.names import entry
+from kempe.sweeps.plan import Plan
+from kempe.sweeps.variables import Variable
+
+if TYPE_CHECKING:
+    from kempe.case import Case
+    from kempe.result import Result
+    from kempe.solution import Solution
+    from kempe.sweeps.table import Table
+
+
+class SweepResult:
+    """The variants of a case: a row for each, in the order of the design.
+
+    Attributes:
+        variables: the variables, in the order of columns.
+        measures: the texts of the measures, in the order of columns.
+        units: SI units of all columns; empty for an unknown one.
+        reasons: why a row failed, by its number.
+    """
+
+    def __init__(
+        self, plan: Plan, variables: Sequence[Variable], design: Floats, table: Table
+    ) -> None:
+        self._plan = plan
+        self.variables = tuple(variables)
+        self.measures = tuple(one.text for one in plan.wanted)
+        known = {variable.name: plan.unit_of(variable.name) for variable in variables}
+        self.units: Mapping[str, str] = MappingProxyType(
+            known | {one.text: one.unit for one in plan.wanted}
+        )
+        self.reasons: Mapping[int, str] = MappingProxyType(table.reasons)
+        self._design, self._values = fixed(design), fixed(table.values)
+
+    def __len__(self) -> int:
+        return len(self._design)
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The names of the columns of numbers: variables, then measures."""
+        return (*(variable.name for variable in self.variables), *self.measures)
+
+    def __getitem__(self, column: str) -> Floats:
+        """A column, (n,): NaN in the measures of rows that failed.
+
+        Raises:
+            ModelError: there is no such column.
+        """
+        return entry("column", column, self._by_name)
+
+    @cached_property
+    def _by_name(self) -> Mapping[str, Floats]:
+        all_columns = (*self._design.T, *self._values.T)
+        return dict(zip(self.columns, map(fixed, all_columns), strict=True))
+
+    @cached_property
+    def succeeded(self) -> NDArray[np.bool_]:
+        """Whether each variant succeeded, (n,)."""
+        found = np.ones(len(self), dtype=bool)
+        found[list(self.reasons)] = False
+        return found
+
+    @cached_property
+    def table(self) -> Any:
+        """Variables by name, measures by text, and ``reason``, which is empty in most rows.
+
+        A pandas data frame, or a structured array if pandas is not installed.
+        """
+        reasons = np.full(len(self), "", dtype=object)
+        for k, reason in self.reasons.items():
+            reasons[k] = reason
+        try:
+            import pandas
+        except ImportError:
+            kinds = [(name, np.float64) for name in self.columns]
+            found = np.empty(len(self), dtype=[*kinds, ("reason", object)])
+            for name, values in self._by_name.items():
+                found[name] = values
+            found["reason"] = reasons
+            return found
+        return pandas.DataFrame({**self._by_name, "reason": reasons})
+
+    def to_csv(self, path: Path | str) -> None:
+        """Write the table as CSV with 17 digits, which preserves every number.
+
+        Raises:
+            FileError: the file cannot be written; an existing file is not changed.
+        """
+        text = io.StringIO()
+        write = csv.writer(text, lineterminator="\n").writerow
+        write([*self.columns, "reason"])
+        for k, row in enumerate(np.column_stack([self._design, self._values]).tolist()):
+            cells = ["" if np.isnan(x) else f"{x:.17g}" for x in row]
+            write([*cells, self.reasons.get(k, "")])
+        files.write_text(path, text.getvalue())
+
+    def to_parquet(self, path: Path | str) -> None:
+        """Write the table as a Parquet file.
+
+        Raises:
+            ModelError: pandas or pyarrow is not installed.
+            FileError: the file cannot be written.
+        """
+        try:
+            import pandas
+            import pyarrow  # noqa: F401 - pandas writes with it
+        except ImportError as error:
+            raise ModelError(
+                f"to_parquet needs pandas and pyarrow; {error.name} is not installed",
+                hint="pip install pandas pyarrow, or use to_csv",
+            ) from error
+        assert isinstance(self.table, pandas.DataFrame)
+        with files.writing(files.checked_path(path, "write")) as file:
+            self.table.to_parquet(file)
+
+    def case(self, k: int) -> Case:
+        """The case of a row, which can be run, drawn, saved and opened in the player.
+
+        Raises:
+            IndexError: there is no such row.
+            ModelError: the model is impossible with these values.
+        """
+        return self._plan.variant(self._design[self._place(k)])
+
+    def run(self, k: int) -> Solution | Result:
+        """The result of the analysis of a row, computed anew.
+
+        Raises:
+            IndexError: there is no such row.
+            KempeError: it fails, with the reason of the row.
+        """
+        return self._plan.run(self._design[self._place(k)])
+
+    def _place(self, k: int) -> int:
+        if not -len(self) <= k < len(self):
+            raise IndexError(f"row {k}; the sweep has {len(self)}")
+        return int(k)
+
+    def __repr__(self) -> str:
+        names = ", ".join(variable.name for variable in self.variables)
+        told = f"{len(self)} variants over {names}; {len(self.reasons)} failed"
+        return f"<SweepResult: {told}; {', '.join(self.measures)}>"

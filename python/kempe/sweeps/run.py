@@ -1,0 +1,133 @@
+"""``kp.sweep``: many variants of a case."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from kempe.errors import ModelError
+from kempe.sweeps import design as designs
+from kempe.sweeps.local import fill
+from kempe.sweeps.plan import Plan, chosen, without_later
+from kempe.sweeps.result import SweepResult
+from kempe.sweeps.storage import Storage
+from kempe.sweeps.table import Progress, Table
+from kempe.sweeps.variables import Values, read_variables
+from kempe.sweeps.wanted import read_wanted
+from kempe.values import instance, refuse
+
+if TYPE_CHECKING:
+    from kempe.case import Case
+
+
+def sweep(
+    case: Case,
+    variables: Mapping[str, Values] | None = None,
+    measures: Sequence[str] = (),
+    *,
+    design: str | None = None,
+    n: int | None = None,
+    seed: int | None = None,
+    analysis: str | None = None,
+    workers: int | None = None,
+    scheduler: Any = None,
+    out: Path | str | None = None,
+    progress: Progress | None = None,
+) -> SweepResult:
+    """Run many variants of a case.
+
+    A variant is the case with other values of parameters or of its start. Its numbers are those of
+    ``case.with_parameters(…).run()``, to the last bit. A variant that fails is a row with its
+    reason. Without ``variables``, ``measures`` and the design, those of ``[sweep]`` in the file of
+    the case are used.
+
+    Args:
+        case: the case.
+        variables: values by the name of a parameter (``L2``) or of a coordinate or rate at the
+            start (``crank.omega``): a list, ``{"from": 1e3, "to": 1e5, "n": 50}`` with
+            ``"scale": "log"`` if wanted, ``{"normal": [mean, deviation]}`` or
+            ``{"uniform": [least, most]}``, in SI units and rad.
+        measures: statistics of measures and quantities, such as ``"pin.max"`` and
+            ``"rocker.angle.final"``. For an analysis without motion they are numbers of its result,
+            such as ``"lower"`` or ``"frequency[0]"``.
+        design: "grid" (the default), "paired" lists, "random", "latin" (Latin hypercube) or
+            "sobol". The last two need SciPy.
+        n: number of variants of the last three.
+        seed: number from which random values are drawn; 0 by default.
+        analysis: name of the analysis; the last one of the case by default.
+        workers: number of threads, or of processes with ``scheduler="dask"``; one for each
+            processor by default.
+        scheduler: a client of Dask, or "dask" for a cluster on this machine.
+        out: file to which results are written as they come. A sweep resumes from its file.
+        progress: function that is called with the variants done, the failures, all variants and
+            the seconds left.
+
+    Returns:
+        The table, with figures and replay of every row.
+
+    Raises:
+        ModelError: a variable, a measure or the design is invalid.
+        FileError: ``out`` cannot be written, or holds another sweep.
+        KeyboardInterrupt: of Ctrl-C; ``result`` has the finished rows.
+    """
+    from kempe.case import Case
+
+    instance(case, Case, "a case, as kp.load(path) returns")
+    asked = _asked(case, variables, measures, design, n, seed, analysis)
+    name = chosen(case, asked["analysis"])
+    case = without_later(case, name)
+    known = read_variables(case, asked["variables"])
+    kind = case.analyses[name]["type"]
+    wanted = read_wanted(case.model.compile(), kind, asked["measures"])
+    given = designs.rows(known, asked["design"] or "grid", asked["n"], asked["seed"])
+    plan = Plan(case, name, tuple(v.name for v in known), tuple(wanted))
+    plan.check()
+    threads = _workers(workers)
+    storage = None if out is None else Storage(out, plan.key_of(given))
+    try:
+        table = Table(len(given), len(wanted), storage, progress)
+        table.tell()
+        try:
+            if scheduler is None:
+                fill(table, plan, given, threads)
+            else:
+                from kempe.sweeps import cluster
+
+                cluster.fill(table, plan, given, scheduler, workers)
+        except KeyboardInterrupt as error:
+            table.interrupted()
+            error.result = SweepResult(plan, known, given, table)  # type: ignore[attr-defined]
+            raise
+    finally:
+        if storage is not None:
+            storage.close()
+    return SweepResult(plan, known, given, table)
+
+
+def _asked(case: Case, *given: Any) -> dict[str, Any]:
+    """The arguments, or the table ``[sweep]`` of the case in their place."""
+    names = ("variables", "measures", "design", "n", "seed", "analysis")
+    asked = dict(zip(names, given, strict=True))
+    if not case.sweep:
+        for key in ("variables", "measures"):
+            if not asked[key]:
+                raise ModelError(f"sweep: no {key}", hint=f"pass {key}=, or declare [sweep]")
+        return asked
+    if asked["variables"]:  # a design belongs to its variables
+        kept = {"measures": case.sweep.get("measures"), "analysis": case.sweep.get("analysis")}
+    else:
+        kept = dict(case.sweep)
+    return {key: asked[key] or kept.get(key) for key in names} | {
+        key: asked[key] if asked[key] is not None else kept.get(key) for key in ("n", "seed")
+    }
+
+
+def _workers(workers: int | None) -> int:
+    if workers is None:
+        affinity = getattr(os, "sched_getaffinity", None)
+        return len(affinity(0)) if affinity else (os.cpu_count() or 1)
+    if not isinstance(workers, int) or isinstance(workers, bool) or workers < 1:
+        refuse("workers", f"{workers!r}; must be a whole number, at least 1")
+    return workers

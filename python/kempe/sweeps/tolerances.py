@@ -1,0 +1,136 @@
+"""Tolerances: the scatter of a measure that follows from the scatter of parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from kempe.errors import ModelError
+from kempe.sweeps.result import SweepResult
+from kempe.sweeps.run import sweep
+from kempe.values import mapping, numbers
+
+if TYPE_CHECKING:
+    from kempe.case import Case
+
+#: Deviations to both sides of the nominal value at which the slope is taken.
+_STEP = 0.5
+
+
+@dataclass(frozen=True, repr=False)
+class Tolerances:
+    """The scatter of a measure.
+
+    Attributes:
+        measure: its text, such as ``pin.max``.
+        unit: its SI unit.
+        nominal: its value in the case itself.
+        mean: mean of the variants.
+        deviation: standard deviation of the variants.
+        first_order: the standard deviation that slopes give: √Σ (slope × deviation)².
+        slopes: change of the measure with each variable, in SI units.
+        contributions: share of each variable in ``first_order`` squared; they sum to 1.
+        sample: the variants.
+    """
+
+    measure: str
+    unit: str
+    nominal: float
+    mean: float
+    deviation: float
+    first_order: float
+    slopes: Mapping[str, float]
+    contributions: Mapping[str, float]
+    sample: SweepResult
+
+    def __repr__(self) -> str:
+        shares = ", ".join(f"{name} {100.0 * x:.3g} %" for name, x in self.contributions.items())
+        return (
+            f"<Tolerances of {self.measure}: {self.mean:.6g} ± {self.deviation:.3g} {self.unit}, "
+            f"first order ± {self.first_order:.3g}; {shares}>"
+        )
+
+
+def tolerances(
+    case: Case,
+    deviations: Mapping[str, float],
+    measure: str,
+    *,
+    n: int = 1000,
+    seed: int | None = None,
+    analysis: str | None = None,
+    **options: Any,
+) -> Tolerances:
+    """The scatter of a measure: by random variants, and to first order.
+
+    Every variable has a normal distribution about its value in the case. The first-order estimate
+    takes slopes from central differences over one standard deviation; where the two estimates
+    differ, the measure is not linear within its tolerances.
+
+    Args:
+        case: the case.
+        deviations: standard deviations by the name of a parameter or start value, SI units:
+            ``{"L2": 0.05}``.
+        measure: a statistic of a measure or quantity, such as ``"pin.max"``.
+        n: number of random variants.
+        seed: as for ``kp.sweep``.
+        analysis: as for ``kp.sweep``.
+        **options: ``workers``, ``scheduler``, ``out`` and ``progress`` of ``kp.sweep``, for the
+            random variants.
+
+    Raises:
+        ModelError: a name or number is invalid, a value at the start is no number, or the case
+            itself or a variant for a slope fails; the message has its reason.
+    """
+    given = numbers(mapping(deviations, "deviations", "{'L2': 0.05}"), "deviations")
+    middle = {name: _nominal(case, name) for name in given}
+    spread = {name: {"normal": [middle[name], x]} for name, x in given.items()}
+    sample = sweep(
+        case, spread, [measure], design="random", n=n, seed=seed, analysis=analysis, **options
+    )
+    widths = np.array([float(x) for x in given.values()])
+    count = len(widths)
+    levels = np.tile(np.array(list(middle.values())), (2 * count + 1, 1))
+    for k, width in enumerate(widths):
+        levels[2 * k + 1, k] -= _STEP * width
+        levels[2 * k + 2, k] += _STEP * width
+    lists = {name: levels[:, k].tolist() for k, name in enumerate(given)}
+    near = sweep(case, lists, [measure], design="paired", analysis=analysis)
+    if near.reasons:
+        k, reason = next(iter(near.reasons.items()))
+        raise ModelError(
+            f"a variant within the tolerances fails: {reason}",
+            hint="take smaller deviations, or sweep to see which variants fail",
+        )
+    values = near[measure]
+    slopes = (values[2::2] - values[1::2]) / (2.0 * _STEP * widths)
+    variances = (slopes * widths) ** 2
+    total = float(variances.sum())
+    shares = variances / total if total > 0.0 else np.zeros(count)
+    found = sample[measure][sample.succeeded]
+    if len(found) < 2:
+        raise ModelError("fewer than two random variants succeed", hint="take smaller deviations")
+    return Tolerances(
+        measure,
+        sample.units[measure],
+        float(values[0]),
+        float(found.mean()),
+        float(found.std(ddof=1)),
+        float(np.sqrt(total)),
+        dict(zip(given, slopes.tolist(), strict=True)),
+        dict(zip(given, shares.tolist(), strict=True)),
+        sample,
+    )
+
+
+def _nominal(case: Case, name: str) -> float:
+    """The value of a parameter or start value in the case."""
+    parameters = case.model.parameters
+    if name in parameters:
+        return float(parameters[name])
+    if "." not in name:
+        return float("nan")  # the sweep refuses the name
+    return float(case.start()[name])
