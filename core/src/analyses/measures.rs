@@ -6,9 +6,9 @@
 
 use super::dynamics::States;
 use super::quantities::Quantities;
+use super::signal_rows::{each, Rows};
 use super::signal_units::unit_of;
-use super::signals::{Seen, Signal};
-use crate::equations::kinematics::Motions;
+use super::signals::Signal;
 use crate::expression::{unit::Unit, Expression, ExpressionError, Inferred, Symbol, Tape, Values};
 use crate::model::{Model, Problem, Value};
 
@@ -70,36 +70,16 @@ impl Measure {
     ///
     /// # Panics
     /// If the rows do not fit the model or each other.
-    pub fn values<'a>(
+    pub fn values(
         &self,
         model: &Model,
-        states: States<'a>,
-        solved: Option<[&'a [f64]; 2]>,
+        states: States<'_>,
+        solved: Option<[&[f64]; 2]>,
     ) -> Vec<f64> {
-        let layout = &model.layout;
-        let count = states.t.len();
-        let absent = [layout.n_q, model.n_multipliers()].map(|n| vec![f64::NAN; n]);
-        let mut motions = Motions::new(layout);
-        let mut quantities = vec![0.0; self.signals.len()];
-        let mut value = |k: usize| {
-            let at = |table: &'a [f64]| {
-                let width = table.len() / count;
-                &table[k * width..(k + 1) * width]
-            };
-            let state = [states.q, states.v, states.z].map(at);
-            motions.place(layout, state[0], state[1]);
-            let solved = match solved {
-                Some(tables) => tables.map(at),
-                None => absent.each_ref().map(Vec::as_slice),
-            };
-            let t = states.t[k];
-            let seen = Seen { t, state, works: &[], motions: &motions, solved, so_far: None };
-            for (to, signal) in quantities.iter_mut().zip(&self.signals) {
-                *to = signal.value(model, &seen);
-            }
-            self.value(model, t, &quantities)
-        };
-        (0..count).map(&mut value).collect()
+        let mut found = Vec::with_capacity(states.t.len());
+        let rows = Rows { states, works: &[], solved };
+        each(model, rows, &self.signals, |t, values| found.push(self.value(model, t, values)));
+        found
     }
 
     /// Its value for the values of its quantities, in their order.

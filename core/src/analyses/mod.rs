@@ -27,6 +27,7 @@ mod required;
 mod results;
 mod sequence;
 mod signal_names;
+mod signal_rows;
 mod signal_units;
 mod signals;
 mod so_far;

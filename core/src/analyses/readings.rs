@@ -5,10 +5,10 @@
 
 use super::dynamics::{Prepared, Run, Setting, States};
 use super::signal_names::{names, signal};
+use super::signal_rows::{each, Rows};
 use super::signal_units::unit_of;
-use super::signals::{Energy, Seen, Signal};
+use super::signals::{Energy, Signal};
 use super::State;
-use crate::equations::kinematics::Motions;
 use crate::integrate::Flow;
 use crate::model::{did_you_mean, Model, Problem, WORKS};
 
@@ -86,31 +86,15 @@ fn of_states(
     // a driver that was released acts no more
     let signals: Vec<Signal> =
         names.iter().map(|name| signal(model, name).unwrap_or(Signal::Constant(0.0))).collect();
-    let (n, n_z, m) = (model.layout.n_q, model.layout.n_z, model.layout.n_rows);
     let solves = signals.iter().any(|signal| signal.needs_solution(model));
     let solved = solves
         .then(|| Prepared::new(model).accelerations(states, passing, |_| Flow::Continue).ok())
         .flatten();
-    let unsolved = [vec![f64::NAN; n], vec![f64::NAN; m]];
-    let mut motions = Motions::new(&model.layout);
+    let solved = solved.as_ref().map(|solved| [&solved.a[..], &solved.lam]);
     let mut found: Vec<Vec<f64>> = names.iter().map(|_| Vec::new()).collect();
-    for (k, &t) in states.t.iter().enumerate() {
-        let own = [&states.q[n * k..n * (k + 1)], &states.v[n * k..n * (k + 1)]];
-        motions.place(&model.layout, own[0], own[1]);
-        let at = solved.as_ref().map_or([&unsolved[0][..], &unsolved[1]], |solved| {
-            [&solved.a[n * k..n * (k + 1)], &solved.lam[m * k..m * (k + 1)]]
-        });
-        let seen = Seen {
-            t,
-            state: [own[0], own[1], &states.z[n_z * k..n_z * (k + 1)]],
-            works: &works[WORKS * k..WORKS * (k + 1)],
-            motions: &motions,
-            solved: at,
-            so_far: None,
-        };
-        let values = signals.iter().map(|signal| signal.value(model, &seen));
-        found.iter_mut().zip(values).for_each(|(row, value)| row.push(value));
-    }
+    each(model, Rows { states, works, solved }, &signals, |_, values| {
+        found.iter_mut().zip(values).for_each(|(row, value)| row.push(*value));
+    });
     found
 }
 
