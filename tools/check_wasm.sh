@@ -4,6 +4,7 @@
 #     tools/check_wasm.sh            all of the following
 #     tools/check_wasm.sh install    gets a toolchain, if there is none
 #     tools/check_wasm.sh check      the core and the drawing compile for wasm32-unknown-unknown
+#     tools/check_wasm.sh build      builds the module of pages, and prints its path
 #     tools/check_wasm.sh run        the four-bar linkage runs in Node and agrees with the reference
 #
 # The toolchain is that of rustup if it has the target (`rustup target add wasm32-unknown-unknown`).
@@ -89,9 +90,13 @@ check() {
     say "the core and the drawing compile for $TARGET"
 }
 
+build() {
+    wasm_cargo build --quiet --locked --profile wasm -p kempe-web || exit 1
+}
+
 run() {
     command -v node >/dev/null 2>&1 || no_toolchain "no node found: install Node 18 or later"
-    wasm_cargo build --quiet --locked --profile wasm -p kempe-web || exit 1
+    build
     node "$ROOT/tools/wasm_four_bar.mjs" "$MODULE" || exit 1
 }
 
@@ -100,6 +105,10 @@ unset RUSTFLAGS # those of this machine are not for WebAssembly
 case ${1:-all} in
 install) install ;;
 check) check ;;
+build)
+    build
+    printf '%s\n' "$MODULE"
+    ;;
 run) run ;;
 all)
     install
@@ -107,7 +116,7 @@ all)
     run
     ;;
 *)
-    say "unknown command '$1'; it may be install, check or run"
+    say "unknown command '$1'; it may be install, check, build or run"
     exit 2
     ;;
 esac

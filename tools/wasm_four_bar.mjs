@@ -13,45 +13,46 @@ const reference = JSON.parse(readFileSync(new URL("tests/reference/four_bar.json
 
 const bytes = readFileSync(process.argv[2]);
 const { instance } = await WebAssembly.instantiate(bytes, {});
-const kempe = instance.exports;
+const core = instance.exports;
 
-// Memory may move when it grows, so views are made anew for each access.
-const give = (text) => {
-  const encoded = new TextEncoder().encode(text);
-  const address = kempe.text(encoded.length);
-  new Uint8Array(kempe.memory.buffer, address, encoded.length).set(encoded);
-};
-const numbers = (address, count) =>
-  new Float64Array(kempe.memory.buffer, address, count).slice();
-const check = (failed) => {
-  if (failed) {
-    const message = new Uint8Array(kempe.memory.buffer, kempe.message(), kempe.message_length());
-    throw new Error(new TextDecoder().decode(message));
-  }
-};
-const coordinate = (name) => {
-  give(name);
-  check(kempe.select());
-  return numbers(kempe.coordinate(), kempe.states());
-};
+/** Sends a request, see bindings/web/README.md. Memory may move when it grows, so views are made anew. */
+function reply(request) {
+  const encoded = new TextEncoder().encode(JSON.stringify(request));
+  const address = core.request(encoded.length);
+  new Uint8Array(core.memory.buffer, address, encoded.length).set(encoded);
+  core.call();
+  const text = new Uint8Array(core.memory.buffer, core.reply(), core.reply_length());
+  return JSON.parse(new TextDecoder().decode(text));
+}
+
+function ask(request) {
+  const { ok, error } = reply(request);
+  if (error) throw new Error(error.message);
+  return ok;
+}
 
 // A faulty case must be explained, not trap.
-give("kempe = 1\n[bodies.crank]\nmass = -1\n");
-if (kempe.run() !== 1 || kempe.message_length() === 0) throw new Error("a faulty case was accepted");
+const faulty = ask({ do: "load", text: "kempe = 1\n[bodies.crank]\nmass = -1\n" });
+if (faulty.mechanism || !faulty.problems.length) throw new Error("a faulty case was accepted");
 
-give(example.replace("rtol = 1e-6, atol = 1e-9", "rtol = 1e-9, atol = 1e-12"));
+ask({ do: "load", text: example.replace("rtol = 1e-6, atol = 1e-9", "rtol = 1e-9, atol = 1e-12") });
 const begun = performance.now();
-check(kempe.run());
+const { count, error } = ask({ do: "run", analysis: "release" });
 const seconds = (performance.now() - begun) / 1e3;
+if (error) throw new Error(error.message);
 
-const times = numbers(kempe.times(), kempe.states());
+ask({ do: "frames" });
+const frames = new Float64Array(core.memory.buffer, core.numbers(), core.numbers_length()).slice();
+const bodies = ["crank", "coupler", "rocker"];
+const width = 1 + 3 * bodies.length;
+const column = (k) => Array.from({ length: count }, (_, row) => frames[width * row + k]);
+const times = column(0);
 const at = (t) => {
   const k = times.findIndex((time) => Math.abs(time - t) < 1e-12);
   if (k < 0) throw new Error(`no state is reported at t = ${t} s`);
   return k;
 };
-const bodies = ["crank", "coupler", "rocker"];
-const found = Object.fromEntries(bodies.map((body) => [body, coordinate(`${body}.angle`)]));
+const found = Object.fromEntries(bodies.map((body, k) => [body, column(3 * k + 3)]));
 
 let compared = 0;
 let worst = 0;

@@ -30,6 +30,8 @@ from kempe.cli.schema import EXAMPLES as SCHEMA_EXAMPLES
 from kempe.cli.schema import schema as schema_command
 from kempe.cli.show import EXAMPLES as SHOW_EXAMPLES
 from kempe.cli.show import show as show_command
+from kempe.cli.studio import EXAMPLES as STUDIO_EXAMPLES
+from kempe.cli.studio import studio as studio_command
 from kempe.cli.study import EXAMPLES as STUDY_EXAMPLES
 from kempe.cli.study import study as study_command
 from kempe.cli.sweep import EXAMPLES as SWEEP_EXAMPLES
@@ -64,6 +66,7 @@ app.command("animate", epilog=ANIMATE_EXAMPLES)(animate_command)
 app.command("report", epilog=REPORT_EXAMPLES)(report_command)
 app.command("study", epilog=STUDY_EXAMPLES)(study_command)
 app.command("sweep", epilog=SWEEP_EXAMPLES)(sweep_command)
+app.command("studio", epilog=STUDIO_EXAMPLES)(studio_command)
 app.command("new", epilog=NEW_EXAMPLES)(new_command)
 app.command("schema", epilog=SCHEMA_EXAMPLES)(schema_command)
 

@@ -1,0 +1,1 @@
+"""The studio: a page that draws, moves and simulates mechanisms in a browser."""
