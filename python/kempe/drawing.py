@@ -1,4 +1,4 @@
-"""Scenes and display lists, which the core makes for figures, films and pages alike."""
+"""Scenes and display lists, the same for figures, films and pages."""
 
 from __future__ import annotations
 
