@@ -67,7 +67,7 @@ class Case:
         """File, line and column of the entry at a path; None without a file or an entry."""
 
     def supply(self, table: str, x: _F, y: _F) -> Case:
-        """The same case with the points that the file of a table contains; ModelError without it."""
+        """The same case with the points that the file of a table contains, if there is one."""
 
     def model(
         self,
