@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 _F = NDArray[np.float64]
+_View = tuple[tuple[float, float], float, tuple[float, float]]
 
 def version() -> str:
     """Version of the compiled core."""
@@ -66,11 +67,7 @@ class Case:
         """File, line and column of the entry at a path; None without a file or an entry."""
 
     def supply(self, table: str, x: _F, y: _F) -> Case:
-        """The same case with the points that the file of a table contains.
-
-        Raises:
-            ModelError: there is no such table.
-        """
+        """The same case with the points that the file of a table contains, if there is one."""
 
     def model(
         self,
@@ -479,13 +476,7 @@ def force_energy(model: Model, name: str, t: _F, q: _F, v: _F, z: _F, lam: _F | 
 def matrices(model: Model, t: float, q: _F, v: _F, z: _F, set: str) -> dict[str, _F]:  # noqa: A002
     """``M``, ``Phi``, ``Phi_q``, ``nu``, ``gamma``, ``Q`` and ``kkt`` at a state.
 
-    Args:
-        model: the mechanism.
-        t: time, s.
-        q: (n_q,).
-        v: (n_q,).
-        z: (n_z,).
-        set: further driver rows, as in ``assemble``.
+    ``set`` has further driver rows, as in ``assemble``.
     """
 
 def formulas(model: Model, name: str, written: dict[str, str], form: str) -> str:
@@ -494,55 +485,18 @@ def formulas(model: Model, name: str, written: dict[str, str], form: str) -> str
     ``{"columns": [text], "definitions": [[name, text]], "rows": [{"residual", "jacobian": [text],
     "gamma"}], "names": [text]}`` with one entry of ``jacobian`` for each column.
 
-    Args:
-        model: the mechanism.
-        name: of the joint or driver.
-        written: the fields of its entry that are texts; points are named as written there.
-        form: "expression", "unicode" or "latex".
+    ``written`` has the fields of its entry that are texts, by which points are named; ``form`` is
+    "expression", "unicode" or "latex".
     """
 
 def scene(model: Model, poses: _F, efforts: list[tuple[str, _F, _F]]) -> str:
-    """The parts of a scene that do not depend on time, as JSON.
+    """The static parts of a scene as JSON; see ``kempe.drawing`` for this and the following."""
 
-    Args:
-        model: the mechanism.
-        poses: x, y and angle of the moving bodies, (n_t, n_bodies, 3).
-        efforts: elements with their force, (n_t, 2), and torque, (n_t,), on body j.
-    """
+def display(scene: str, poses: _F, view: _View, request: str) -> str:
+    """The display list of a scene; ``request`` has the fields of ``Request`` in Rust."""
 
-def display(
-    scene: str,
-    poses: _F,
-    view: tuple[tuple[float, float], float, tuple[float, float]],
-    request: str,
-) -> str:
-    """The display list of a scene, as JSON.
-
-    Args:
-        scene: the parts that do not depend on time, as JSON.
-        poses: x, y and angle of the moving bodies, (n_t, n_bodies, 3).
-        view: lower left corner, m, points of print for each metre, width and height in points.
-        request: what the list contains, as JSON: the fields of ``Request`` in the crate ``drawing``.
-    """
-
-def view_around(
-    bounds: tuple[float, float, float, float], size: tuple[float, float]
-) -> tuple[tuple[float, float], float, tuple[float, float]]:
-    """The view of bounds with room around them on an area of a size in points of print."""
-
-def place_texts(anchors: _F, sizes: _F, lines: _F, boxes: _F, area: tuple[float, float]) -> _F:
-    """Offsets from anchors to the centres of texts that cover neither lines nor each other, (n, 2).
-
-    Args:
-        anchors: (n, 2), points of print.
-        sizes: widths and heights, (n, 2).
-        lines: x and y of both ends, (m, 4).
-        boxes: least x and y, largest x and y, (k, 4).
-        area: width and height.
-    """
-
-def text_width(words: str, size: float, bold: bool) -> float:
-    """Width of a text, in the unit of its size."""
-
+def view_around(bounds: tuple[float, float, float, float], size: tuple[float, float]) -> _View: ...
+def place_texts(anchors: _F, sizes: _F, lines: _F, boxes: _F, area: tuple[float, float]) -> _F: ...
+def text_width(words: str, size: float, bold: bool) -> float: ...
 def _inject_panic(entry: str | None) -> None: ...
 def _raise(kind: str, message: str) -> None: ...

@@ -1,9 +1,10 @@
-"""Scenes and display lists, which the core makes for figures, films and pages alike."""
+"""Scenes and display lists, the same for figures, films and pages."""
 
 from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -29,7 +30,10 @@ def static_scene(
         poses: x, y and angle of the moving bodies, (n_t, n_bodies, 3), m and rad.
         efforts: force, (n_t, 2), N, and torque, (n_t,), N·m, on body j of elements with arrows.
     """
-    rows = [(name, *map(np.ascontiguousarray, pair)) for name, pair in efforts.items()]
+    rows = [
+        (name, np.ascontiguousarray(force), np.ascontiguousarray(torque))
+        for name, (force, torque) in efforts.items()
+    ]
     found: dict[str, Any] = json.loads(_core.scene(model.core, np.ascontiguousarray(poses), rows))
     return found
 
@@ -74,8 +78,8 @@ def place_texts(
     Returns:
         The offsets, (n, 2).
     """
-    arrays = (np.ascontiguousarray(one, dtype=np.float64) for one in (anchors, sizes, lines, boxes))
-    return _core.place_texts(*arrays, area)
+    whole = partial(np.ascontiguousarray, dtype=np.float64)
+    return _core.place_texts(whole(anchors), whole(sizes), whole(lines), whole(boxes), area)
 
 
 def measured(words: str, size: float, *, bold: bool = False) -> tuple[float, float]:

@@ -4,12 +4,22 @@ from pathlib import Path
 
 ROOT = Path(__file__).parents[2]
 CORE = ROOT / "core" / "src"
+DRAWING = ROOT / "drawing" / "src"
 PACKAGE = ROOT / "python" / "kempe"
 
 #: Folders with sources, for tests that read all of them.
 CODE = [
     ROOT / name
-    for name in ("core", "drawing", "bindings", "python", "tests", "tools", "benchmarks", "examples")
+    for name in (
+        "core",
+        "drawing",
+        "bindings",
+        "python",
+        "tests",
+        "tools",
+        "benchmarks",
+        "examples",
+    )
 ]
 
 

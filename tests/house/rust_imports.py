@@ -1,4 +1,4 @@
-"""Imports among the files of the core, with re-exports followed to the file that defines a name."""
+"""Imports among the files of a crate, with re-exports followed to the file that defines a name."""
 
 import re
 from collections.abc import Iterator
@@ -15,9 +15,9 @@ _USE = re.compile(r"(?m)(?:^|(?<=[;{}]))\s*(?:pub(?:\([^)]*\))?\s+)?use\s+([^;]+
 _CHILD = re.compile(r"(?m)(?:^|(?<=[;{}]))\s*(?:pub(?:\([^)]*\))?\s+)?mod\s+(\w+)\s*;")
 
 
-def module_of(path: Path) -> Name:
+def module_of(path: Path, crate: Path) -> Name:
     """The module of a file, such as ("math", "dual")."""
-    parts = path.relative_to(CORE).with_suffix("").parts
+    parts = path.relative_to(crate).with_suffix("").parts
     return parts[:-1] if parts[-1] in ("mod", "lib") else parts
 
 
@@ -93,10 +93,10 @@ class Source:
         return found
 
 
-def sources() -> dict[Name, Source]:
-    """All files of the core by module, without lib.rs."""
-    paths = [path for path in sorted(CORE.rglob("*.rs")) if path.name != "lib.rs"]
-    texts = {module_of(path): path.read_text(encoding="utf-8") for path in paths}
+def sources(crate: Path = CORE) -> dict[Name, Source]:
+    """All files of a crate by module, without lib.rs."""
+    paths = [path for path in sorted(crate.rglob("*.rs")) if path.name != "lib.rs"]
+    texts = {module_of(path, crate): path.read_text(encoding="utf-8") for path in paths}
     return {module: Source(text, module) for module, text in texts.items()}
 
 

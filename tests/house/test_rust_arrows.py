@@ -3,7 +3,7 @@
 from pathlib import Path
 
 import pytest
-from house.places import CORE
+from house.places import CORE, DRAWING, ROOT
 from house.rust_source import modules_named
 
 LAYERS = [
@@ -45,6 +45,19 @@ def test_the_files_of_the_core_use_only_lower_modules() -> None:
         for path in files
         if (wrong := wrong_arrows(module_of(path), path.read_text(encoding="utf-8")))
     }
+
+
+def test_a_scene_does_not_depend_on_its_display_list_nor_the_core_on_drawings() -> None:
+    scene = {"plane", "numbers", "scene"}
+    may_use = {"plane": {"plane"}, "numbers": {"numbers"}, "scene": scene}
+    may_use["display"] = {*scene, "display"}
+    for path in sorted(DRAWING.rglob("*.rs")):
+        parts = path.relative_to(DRAWING).with_suffix("").parts
+        if parts != ("lib",):
+            module = parts[:-1] if parts[-1] == "mod" else parts
+            named = modules_named(path.read_text(encoding="utf-8"), module)
+            assert named <= may_use[module[0]], path
+    assert "drawing" not in (ROOT / "core" / "Cargo.toml").read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize(

@@ -1,6 +1,6 @@
 """Files of one folder of the core import each other in one direction, except for listed loops."""
 
-from house.places import ROOT
+from house.places import DRAWING, ROOT
 from house.rust_imports import Source, graph, loops, sources
 
 FILES = sources()
@@ -27,6 +27,13 @@ def test_the_folders_have_the_known_loops_only() -> None:
     found = {"/".join(folder): loops(graph(folder, FILES)) for folder in FOLDERS}
     known = {folder: [loop for loop, _ in own] for folder, own in KNOWN.items()}
     assert {folder: own for folder, own in found.items() if own} == known
+
+
+def test_the_folders_of_the_drawing_have_no_loops() -> None:
+    files = sources(DRAWING)
+    folders = {module[:end] for module in files for end in range(len(module))}
+    assert ("display",) in folders
+    assert not [found for folder in folders if (found := loops(graph(folder, files)))]
 
 
 def test_every_loop_has_a_folder_and_is_described() -> None:

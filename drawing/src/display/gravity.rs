@@ -13,6 +13,8 @@ use crate::plane::{ahead, minus, size, At};
 const LENGTH: f64 = 30.0;
 const ROOM: At = [1.6, 1.05];
 const HEAD: f64 = 7.0;
+/// Corners whose lengths of lines differ by less are equal, so that rounding errors decide nothing.
+const EQUAL: f64 = 1e-3;
 
 /// Adds an arrow in the corner with the most room.
 pub fn add(made: &mut List<'_>) {
@@ -43,7 +45,7 @@ fn free_corner(taken: &Taken, view: At) -> At {
         let over = |b: &&[f64; 4]| (0..2).all(|k| b[k + 2] > low[k] && b[k] < high[k]);
         let touched = lines.map(|ends| clipped_length(low, high, ends)).sum::<f64>()
             + taken.boxes[0].iter().filter(over).count() as f64;
-        if touched < best.0 {
+        if touched < best.0 - EQUAL {
             best = (touched, centre);
         }
     }
