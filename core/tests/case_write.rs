@@ -270,7 +270,8 @@ impl Dice {
         let mut analyses = self.entries(&analyses, used);
         analyses.iter_mut().for_each(|entry| entry.name = self.folder(used));
         let start = Start { set: self.coordinates(used), guess: self.coordinates(used) };
-        Case { definition, start, analyses: analyses.into_iter().map(consistent).collect() }
+        let analyses = analyses.into_iter().map(consistent).collect();
+        Case { definition, start, analyses, sweep: Vec::new() }
     }
 
     fn measure(&mut self, used: &mut usize) -> (String, Value) {

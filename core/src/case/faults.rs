@@ -11,8 +11,7 @@ impl Case {
         let start = start.into_iter().flat_map(|(section, targets)| {
             assemble::targets(model, section, targets).err().unwrap_or_default()
         });
-        let measures = measures::check(model, &self.definition.measures);
-        let found = measures.into_iter().chain(start);
+        let found = measures::check(model, &self.definition.measures).into_iter().chain(start);
         let found = found.chain(analyses::check(model, &self.analyses));
         let kinds: Vec<(String, String)> = self
             .analyses
@@ -22,7 +21,7 @@ impl Case {
                 _ => None,
             })
             .collect();
-        let known = (&self.definition.measures[..], &kinds[..]);
-        found.chain(sweep::faults(model, &self.sweep, known)).collect()
+        let measures = &self.definition.measures;
+        found.chain(sweep::faults(model, &self.sweep, measures, &kinds)).collect()
     }
 }

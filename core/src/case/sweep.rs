@@ -146,7 +146,8 @@ fn analysis(report: &mut Report, node: &Node, root: &Table) {
 pub(super) fn faults(
     model: &Model,
     section: &[(String, Value)],
-    (measures, kinds): (&[(String, Value)], &[(String, String)]),
+    measures: &[(String, Value)],
+    kinds: &[(String, String)],
 ) -> Vec<Problem> {
     let get = |key: &str| section.iter().find(|(known, _)| known == key).map(|(_, value)| value);
     let names: Vec<&str> = match get("variables") {

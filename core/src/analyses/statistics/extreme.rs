@@ -29,7 +29,7 @@ pub struct Samples<'a> {
 pub fn changes(values: &[f64]) -> bool {
     let span = largest(values.iter().copied()) + largest(values.iter().map(|x| -x));
     // a span that is not a number is a change
-    !(span <= SAME * largest(values.iter().map(|x| x.abs())))
+    span.is_nan() || span > SAME * largest(values.iter().map(|x| x.abs()))
 }
 
 /// The largest of the values with their sign: of the outputs, and of the maxima on the interpolant with its samples.

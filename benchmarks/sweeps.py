@@ -1,0 +1,124 @@
+"""Sweeps: runs per second beside the floor program, and memory over many small variants.
+
+    .venv/bin/python benchmarks/sweeps.py              # 2000 flagships, 100 000 small variants
+    .venv/bin/python benchmarks/sweeps.py --runs 100000 --small 1000000
+    .venv/bin/python benchmarks/sweeps.py --dask       # what a block on a cluster costs
+
+The floor (``benchmarks/floor``) simulates the flagship by hand, with RK45 and Baumgarte's
+stabilization. Its times are CPU times of one thread; those of sweeps are CPU times of all threads,
+so that other work on the machine counts little. The wall time is printed too.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import resource
+import statistics
+import time
+from pathlib import Path
+from typing import Any
+
+import kempe as kp
+import numpy as np
+from floor_program import build, told
+
+ROOT = Path(__file__).parents[1]
+METHODS: dict[str, dict[str, Any]] = {
+    "rk45 1e-6, baumgarte": {},
+    "default": {"method": kp.Auto(), "stabilization": kp.Projection()},
+}
+_TURNS = 4
+MEASURES = {"no peak": ["rocker.angle.final"], "peak": ["C.force.max"]}
+
+
+def flagship(changes: dict[str, Any]) -> kp.Case:
+    """The flagship, 15 s, with the damping of the floor."""
+    case = kp.load(ROOT / "examples" / "four_bar.toml")
+    return case.with_analysis("release", **changes)
+
+
+def rod() -> kp.Case:
+    """A rod that swings for ten milliseconds."""
+    m = kp.Model("rod", gravity=(0, -9.81), parameters={"mass": 2.0})
+    m.ground.points(O=(0, 0))
+    m.bar("rod", mass="mass", length=1, ends=("O", "E"))
+    m.revolute("O", "ground.O", "rod.O")
+    run = kp.Dynamics(t_end=0.01, output_step=0.01, dense_output=False)
+    return kp.Case(m, {"set": {"rod.angle": 0.0}}, [run])
+
+
+def spent(case: kp.Case, n: int, measures: list[str], **options: Any) -> tuple[float, float]:
+    """CPU and wall time of a variant of the flagship, s."""
+    given = {"k": {"uniform": [5e5, 2e6]}}
+    cpu, wall = time.process_time(), time.perf_counter()
+    found = kp.sweep(case, given, measures, design="random", n=n, **options)
+    assert found.succeeded.all()
+    return (time.process_time() - cpu) / n, (time.perf_counter() - wall) / n
+
+
+def runs(n: int, floor: Path | None) -> None:
+    """Times of a run by kempe's sweep and by the floor, in alternation."""
+    program = floor or build()
+    for method, changes in METHODS.items():
+        for name, measures in MEASURES.items():
+            dense = {} if name == "peak" else {"dense_output": False}
+            case = flagship({**changes, **dense})
+            turns = [
+                (told(program, 5, "runs")["runs"], spent(case, n // 4, measures)) for _ in range(4)
+            ]
+            by_hand = statistics.median(at[1]["chain"]["seconds"] for at, _ in turns)
+            cpu = statistics.median(times[0] for _, times in turns)
+            wall = statistics.median(times[1] for _, times in turns)
+            print(
+                f"{method:22} {name:8} {1e3 * cpu:7.3f} ms CPU  {1e3 * wall:7.3f} ms wall  "
+                f"floor {1e3 * by_hand:6.3f} ms CPU  runs per second: {by_hand / cpu:5.2f} × floor",
+                flush=True,
+            )
+
+
+def memory(n: int) -> None:
+    """The largest memory over many small variants, above that of the table."""
+    kp.sweep(rod(), {"mass": {"uniform": [1, 3]}}, ["rod.angle.final"], design="random", n=100)
+    before = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    began = time.perf_counter()
+    found = kp.sweep(
+        rod(), {"mass": {"uniform": [1, 3]}}, ["rod.angle.final"], design="random", n=n
+    )
+    wall = time.perf_counter() - began
+    after = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    table = sum(found[name].nbytes for name in found.columns) / 1e6
+    print(
+        f"{n} small variants: {1e6 * wall / n:.0f} µs each, "
+        f"{(after - before) / 1e3 - table:.0f} MB above the table of {table:.0f} MB"
+    )
+
+
+def cluster(n: int) -> None:
+    """Times of a sweep on threads and on processes of a cluster on this machine."""
+    workers = len(os.sched_getaffinity(0))
+    case = flagship({**METHODS["default"], "t_end": 2.0})
+    given = {"k": np.linspace(5e5, 2e6, n)}
+    for name, options in {"threads": {}, "Dask, processes": {"scheduler": "dask"}}.items():
+        began = time.perf_counter()
+        kp.sweep(case, given, ["C.force.max"], workers=workers, **options)
+        print(f"{n} variants on {workers} {name}: {time.perf_counter() - began:.1f} s wall")
+
+
+def main() -> None:
+    """Measure what the command line names."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--runs", type=int, default=2000, help="flagships")
+    parser.add_argument("--small", type=int, default=100_000, help="small variants")
+    parser.add_argument("--floor", type=Path, help="the floor program, if it is built")
+    parser.add_argument("--dask", action="store_true", help="compare threads and a cluster")
+    words = parser.parse_args()
+    if words.dask:
+        cluster(words.runs)
+        return
+    memory(words.small)
+    runs(words.runs, words.floor)
+
+
+if __name__ == "__main__":
+    main()
