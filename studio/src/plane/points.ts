@@ -34,7 +34,7 @@ export function distanceFromSegment(p: Point, a: Point, b: Point): number {
 export function rounded(value: number, step: number): number {
   if (!(step > 0)) return value;
   const decimals = Math.max(0, Math.min(12, 1 - Math.floor(Math.log10(step))));
-  return Number(value.toFixed(decimals));
+  return Number(value.toFixed(decimals)) + 0; // without a negative zero
 }
 
 /** The convex hull of points, counter-clockwise (Andrew's monotone chain). */
