@@ -157,7 +157,7 @@ export const texts = {
     run: "Run",
     running: "Running …",
     analysis: "Analysis",
-    defaults: "dynamics with defaults",
+    defaults: "from this pose",
     end: "End / s",
     done: (count: number, t: number) => `${count} states up to t = ${Number(t.toPrecision(6))} s`,
     none: "Run an analysis to read its results.",

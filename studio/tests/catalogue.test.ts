@@ -4,7 +4,14 @@ import { toolsOf } from "../src/catalogue/tools";
 import { freeName, freePointNames, mentions } from "../src/catalogue/tree";
 
 function type(name: string, fields: [string, string, boolean][], jacobian: string[][] = []): Type {
-  const made = fields.map(([field, shape, required]) => ({ name: field, shape, required, unit: "", default: null, doc: "" }));
+  const made = fields.map(([field, shape, required]) => ({
+    name: field,
+    shape,
+    required,
+    unit: "",
+    default: null,
+    doc: "",
+  }));
   return { name, doc: "", fields: made, formulas: { rows: jacobian.map((row) => ({ jacobian: row })) } };
 }
 
@@ -14,21 +21,49 @@ const PIN = [
 ];
 
 test("a pin is known by its equations, not by its name", () => {
-  const points: [string, string, boolean][] = [["i", "point", true], ["j", "point", true]];
+  const points: [string, string, boolean][] = [
+    ["i", "point", true],
+    ["j", "point", true],
+  ];
   expect(isPin(type("hinge", points, PIN))).toBe(true);
   expect(isPin(type("clamp", points, [...PIN, ["0", "0", "−1", "0", "0", "1"]]))).toBe(false);
-  expect(isPin(type("slide", points, [["u.y", "−u.x", "a", "−u.y", "u.x", "b"], ["0", "0", "−1", "0", "0", "1"]]))).toBe(false);
+  expect(
+    isPin(
+      type("slide", points, [
+        ["u.y", "−u.x", "a", "−u.y", "u.x", "b"],
+        ["0", "0", "−1", "0", "0", "1"],
+      ]),
+    ),
+  ).toBe(false);
 });
 
 test("what a tool needs follows from the fields", () => {
   const catalogue = readCatalogue({
     bodies: [
-      type("link", [["ends", "names", false], ["through", "points", false]]),
-      type("plate", [["points", "points", false], ["through", "points", false], ["mass", "number", false]]),
-      type("spot", [["mass", "number", true], ["at", "pair", false]]),
+      type("link", [
+        ["ends", "names", false],
+        ["through", "points", false],
+      ]),
+      type("plate", [
+        ["points", "points", false],
+        ["through", "points", false],
+        ["mass", "number", false],
+      ]),
+      type("spot", [
+        ["mass", "number", true],
+        ["at", "pair", false],
+      ]),
       type("ground", [["points", "points", false]]),
     ],
-    elements: { forces: [type("push", [["j", "body", true], ["torque", "law", true], ["i", "body", false]])] },
+    elements: {
+      forces: [
+        type("push", [
+          ["j", "body", true],
+          ["torque", "law", true],
+          ["i", "body", false],
+        ]),
+      ],
+    },
   });
   const tools = toolsOf(catalogue);
   expect(tools.map(({ placing }) => placing)).toEqual(["two", "many", "one", "fixed", null]);

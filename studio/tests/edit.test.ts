@@ -9,23 +9,62 @@ import { typed, typedList, written, writtenList } from "../src/edit/values";
 import { allPoints } from "../src/plane/hits";
 import { inFrame, placed } from "../src/plane/points";
 
-const field = (name: string, shape: string, unit = "", required = false) => ({ name, shape, unit, required, default: null, doc: "" });
+const field = (name: string, shape: string, unit = "", required = false) => ({
+  name,
+  shape,
+  unit,
+  required,
+  default: null,
+  doc: "",
+});
 const catalogue: Catalogue = readCatalogue({
   bodies: [
-    { name: "rod", doc: "", fields: [field("mass", "number", "kg", true), field("ends", "names"), field("through", "points", "m")] },
+    {
+      name: "rod",
+      doc: "",
+      fields: [field("mass", "number", "kg", true), field("ends", "names"), field("through", "points", "m")],
+    },
     { name: "ground", doc: "", fields: [field("points", "points", "m")] },
   ],
   joints: [
-    { name: "hinge", doc: "", fields: [field("i", "point", "", true), field("j", "point", "", true)],
-      formulas: { rows: [{ jacobian: ["−1", "0", "a", "1", "0", "b"] }, { jacobian: ["0", "−1", "c", "0", "1", "d"] }] } },
+    {
+      name: "hinge",
+      doc: "",
+      fields: [field("i", "point", "", true), field("j", "point", "", true)],
+      formulas: {
+        rows: [{ jacobian: ["−1", "0", "a", "1", "0", "b"] }, { jacobian: ["0", "−1", "c", "0", "1", "d"] }],
+      },
+    },
   ],
-  drivers: [{ name: "drive", doc: "", fields: [field("coordinate", "coordinate", "", true), field("value", "law", "m|rad", true)] }],
+  drivers: [
+    {
+      name: "drive",
+      doc: "",
+      fields: [field("coordinate", "coordinate", "", true), field("value", "law", "m|rad", true)],
+    },
+  ],
 });
-const [rod, ground, hinge, drive] = toolsOf(catalogue) as [ReturnType<typeof toolsOf>[0], ReturnType<typeof toolsOf>[0], ReturnType<typeof toolsOf>[0], ReturnType<typeof toolsOf>[0]];
+const [rod, ground, hinge, drive] = toolsOf(catalogue) as [
+  ReturnType<typeof toolsOf>[0],
+  ReturnType<typeof toolsOf>[0],
+  ReturnType<typeof toolsOf>[0],
+  ReturnType<typeof toolsOf>[0],
+];
 
-const body = (name: string, points: Body["points"], isGround = false): Body => ({ name, kind: "", ground: isGround, points, center: [0, 0], mass: 1, inertia: 1 });
+const body = (name: string, points: Body["points"], isGround = false): Body => ({
+  name,
+  kind: "",
+  ground: isGround,
+  points,
+  center: [0, 0],
+  mass: 1,
+  inertia: 1,
+});
 const bodies = [body("ground", { A: [0, 0], D: [4, 0] }, true), body("crank", { A: [-1, 0], B: [1, 0] })];
-const poses: [number, number, number][] = [[0, 0, 0], [0, 1, Math.PI / 2]];
+const poses: [number, number, number][] = [
+  [0, 0, 0],
+  [0, 1, Math.PI / 2],
+];
 const tree: Tree = {
   bodies: { ground: { points: { A: [0, 0], D: ["G", 0] } }, crank: { type: "rod", through: { A: [0, 0], B: [0, 2] } } },
   joints: { A: { type: "hinge", i: "ground.A", j: "crank.A" } },
@@ -35,7 +74,15 @@ const tree: Tree = {
 
 test("a rod from a free point to a pin takes the name of the pin and gets a joint there", () => {
   const hits = allPoints(bodies, poses).filter(({ point }) => point === "B");
-  const { changes, name } = addBody(rod, [{ at: [0, 2], hits }, { at: [3, 3], hits: [] }], catalogue, { tree, bodies, poses });
+  const { changes, name } = addBody(
+    rod,
+    [
+      { at: [0, 2], hits },
+      { at: [3, 3], hits: [] },
+    ],
+    catalogue,
+    { tree, bodies, poses },
+  );
   expect(name).toBe("rod1");
   expect(changes).toEqual([
     { path: ["bodies", "rod1"], value: { type: "rod", mass: 1, through: { B: [0, 2], C: [3, 3] } } },
@@ -45,14 +92,26 @@ test("a rod from a free point to a pin takes the name of the pin and gets a join
 
 test("a second joint at a pin gets a name of its own", () => {
   const hits = allPoints(bodies, poses).filter(({ point }) => point === "A");
-  const { changes } = addBody(rod, [{ at: [0, 0], hits }, { at: [3, 3], hits: [] }], catalogue, { tree, bodies, poses });
+  const { changes } = addBody(
+    rod,
+    [
+      { at: [0, 0], hits },
+      { at: [3, 3], hits: [] },
+    ],
+    catalogue,
+    { tree, bodies, poses },
+  );
   expect(changes[1]).toEqual({ path: ["joints", "A1"], value: { type: "hinge", i: "ground.A", j: "rod1.A" } });
 });
 
 test("a fixed point is added to ground, also where there is none yet", () => {
   const place = [{ at: [5, 1] as [number, number], hits: [] }];
-  expect(addBody(ground, place, catalogue, { tree, bodies, poses }).changes).toEqual([{ path: ["bodies", "ground", "points", "C"], value: [5, 1] }]);
-  expect(addBody(ground, place, catalogue, { tree: {}, bodies: [], poses: [] }).changes).toEqual([{ path: ["bodies", "ground"], value: { points: { A: [5, 1] } } }]);
+  expect(addBody(ground, place, catalogue, { tree, bodies, poses }).changes).toEqual([
+    { path: ["bodies", "ground", "points", "C"], value: [5, 1] },
+  ]);
+  expect(addBody(ground, place, catalogue, { tree: {}, bodies: [], poses: [] }).changes).toEqual([
+    { path: ["bodies", "ground"], value: { points: { A: [5, 1] } } },
+  ]);
 });
 
 test("a reference to a place on a body makes a point in its frame", () => {
@@ -65,7 +124,9 @@ test("a reference to a place on a body makes a point in its frame", () => {
 
 test("a driver begins at the present value of its quantity", () => {
   const { changes } = addElement(drive, { coordinate: "crank.angle" }, { length: 1, now: 0.5 }, tree);
-  expect(changes).toEqual([{ path: ["drivers", "drive1"], value: { type: "drive", coordinate: "crank.angle", value: "0.5 + t" } }]);
+  expect(changes).toEqual([
+    { path: ["drivers", "drive1"], value: { type: "drive", coordinate: "crank.angle", value: "0.5 + t" } },
+  ]);
   expect(hinge.references.length).toBe(2);
 });
 
@@ -88,7 +149,10 @@ test("a point that a formula gives is not moved", () => {
 test("a bar of a given length can be placed by its points instead", () => {
   const other = { bodies: { crank: { type: "rod", length: "L", ends: ["A", "B"] } } };
   const changes = drawnThrough(other, allPoints(bodies, poses), "crank");
-  expect(changes.slice(0, 2)).toEqual([{ path: ["bodies", "crank", "length"], remove: true }, { path: ["bodies", "crank", "ends"], remove: true }]);
+  expect(changes.slice(0, 2)).toEqual([
+    { path: ["bodies", "crank", "length"], remove: true },
+    { path: ["bodies", "crank", "ends"], remove: true },
+  ]);
   expect(changes[2]).toEqual({ path: ["bodies", "crank", "through"], value: { A: [0, 0], B: [0, 2] } });
 });
 
@@ -117,7 +181,7 @@ test("typed values are numbers, formulas or lists", () => {
   expect(typed("30 deg")).toBe("30 deg");
   expect(typed("L1/2")).toBe("L1/2");
   expect(typed("")).toBeUndefined();
-  expect(typedList("[0, \"L/2\"]")).toEqual([0, "L/2"]);
+  expect(typedList('[0, "L/2"]')).toEqual([0, "L/2"]);
   expect(typedList("max(1, 2), 3")).toEqual(["max(1, 2)", 3]);
   expect(writtenList([0, "L/2"])).toBe("0, L/2");
   expect(written({ a: [1, "x"] })).toBe('{ a = [1, "x"] }');

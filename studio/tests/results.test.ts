@@ -14,6 +14,16 @@ test("an array of NumPy has its head, its shape and its numbers", () => {
 });
 
 test("a table has all digits, and no cell is a formula", () => {
-  const text = csv(new Float64Array([0, 0.1]), ["=evil", 'say "x", y'], ["m", "rad"], [new Float64Array([1, Number.NaN]), new Float64Array([1 / 3, 2])]);
-  expect(text.split("\n")).toEqual(["t [s],'=evil [m],\"say \"\"x\"\", y [rad]\"", "0,1,0.3333333333333333", "0.1,nan,2", ""]);
+  const text = csv(
+    new Float64Array([0, 0.1]),
+    ["=evil", 'say "x", y'],
+    ["m", "rad"],
+    [new Float64Array([1, Number.NaN]), new Float64Array([1 / 3, 2])],
+  );
+  expect(text.split("\n")).toEqual([
+    't [s],\'=evil [m],"say ""x"", y [rad]"',
+    "0,1,0.3333333333333333",
+    "0.1,nan,2",
+    "",
+  ]);
 });

@@ -14,7 +14,11 @@ test("places on the grid have no noise of rounding", () => {
 
 test("a line near a multiple of 15 degrees gets that angle and a round length", () => {
   const angle = (30 * Math.PI) / 180;
-  const { at, kind } = snapped([2.03 * Math.cos(angle), 2.03 * Math.sin(angle)], { ...sheet, points: [], from: [0, 0] });
+  const { at, kind } = snapped([2.03 * Math.cos(angle), 2.03 * Math.sin(angle)], {
+    ...sheet,
+    points: [],
+    from: [0, 0],
+  });
   expect(kind).toBe("angle");
   expect(Math.hypot(...at)).toBeCloseTo(2, 6);
   expect(Math.atan2(at[1], at[0])).toBeCloseTo(angle, 6);

@@ -37,7 +37,7 @@ export interface Named {
 export interface Parameter {
   name: string;
   value: number;
-  unit: string;
+  unit: string | null;
 }
 
 export interface Mechanism {
@@ -49,7 +49,7 @@ export interface Mechanism {
   forces: Named[];
   parameters: Parameter[];
   analyses: Named[];
-  degrees_of_freedom: number;
+  degrees_of_freedom: number | null;
   warnings: string[];
   coordinates: string[];
 }
@@ -92,7 +92,7 @@ export interface Live extends Pose {
 export interface Ran {
   count: number;
   t_end: number;
-  message: string;
+  message?: string;
   status: string;
   statistics: Record<string, Value>;
   events: { name: string; t: number }[];

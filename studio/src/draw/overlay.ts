@@ -98,10 +98,12 @@ export function paintLine(
   context.restore();
   if (!label) return;
   const [a, b] = points.slice(-2) as [Point, Point];
+  const slope = Math.abs(Math.atan2(b[1] - a[1], Math.abs(b[0] - a[0])));
+  const beside = 20 + 0.5 * context.measureText(label).width * Math.sin(slope);
   context.font = font(13, 600);
   context.textAlign = "center";
   context.textBaseline = "middle";
-  rimmed(context, label, [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2 - 18], colours.named.text!, colours.named.panel!);
+  rimmed(context, label, [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2 - beside], colours.named.text!, colours.named.panel!);
 }
 
 /** The place that a click chooses; its form gives the reason. */

@@ -8,7 +8,7 @@ import { distance, type Point } from "../plane/points";
 import { snapped } from "../plane/snap";
 import { change, Draft } from "../store/document";
 import { preview, view } from "../store/sheet";
-import { announce, home, mechanism, pose, poses, selection, snapping, tree } from "../store/state";
+import { announce, mechanism, poses, selection, snapping, tree } from "../store/state";
 import { texts } from "../texts";
 import type { Handler, Spot } from "./handler";
 import { bodyUnder, elementUnder, points, pointsUnder } from "./seen";
@@ -27,7 +27,6 @@ let fixed: Fixed | null = null;
 
 export const edit: Handler = {
   down(spot) {
-    pose.value = home.value;
     const hits = pointsUnder(spot);
     const body = hits.length ? null : bodyUnder(spot);
     if (!hits.length && !body) return false;

@@ -1,6 +1,7 @@
 // Changing between the modes.
 import { effect } from "@preact/signals";
-import { home, type Mode, mode, panel, pose, text, tool } from "../store/state";
+import { goHome } from "../store/session";
+import { type Mode, mode, panel, text, tool } from "../store/state";
 import { edit } from "./edit";
 import type { Handler } from "./handler";
 import * as living from "./live";
@@ -17,7 +18,7 @@ export function enter(next: Mode): void {
   if (mode.value === next) return;
   leave(mode.value);
   mode.value = next;
-  if (next === "edit") pose.value = home.value;
+  if (next === "edit") void goHome();
   panel.value = next === "read" ? "results" : "properties";
   if (next === "live") void living.play();
   if (next === "read") {

@@ -2,7 +2,7 @@
 import { batch, computed, signal } from "@preact/signals";
 import type { Pose, Quantity, Ran } from "../core/protocol";
 import { report, send } from "../store/session";
-import { announce, mechanism, mode, pose, selection } from "../store/state";
+import { announce, catalogue, mechanism, mode, pose, selection } from "../store/state";
 import { texts } from "../texts";
 import { gripAt } from "./grip";
 import type { Handler } from "./handler";
@@ -21,8 +21,23 @@ export const time = signal(0);
 export const playing = signal(false);
 export const rate = signal(1);
 export const running = signal(false);
-/** The analysis that is chosen; empty for one with defaults. */
-export const analysis = signal("");
+/** The analysis of the case that is chosen; empty for dynamics from the pose that is shown. */
+export const chosen = signal<string | null>(null);
+/** The analyses of the case that end at a time, and so give a motion. */
+export const analyses = computed(() => {
+  const motions = catalogue.value.analyses.filter(({ fields }) => fields.some(({ name }) => name === "t_end"));
+  return (mechanism.value?.analyses ?? []).filter(({ type }) => motions.some(({ name }) => name === type));
+});
+
+/** The analysis that runs: the chosen one if the case still has it, otherwise the first. */
+export const analysis = computed(() => {
+  if (chosen.value === "" || analyses.value.some(({ name }) => name === chosen.value)) return chosen.value!;
+  return analyses.value[0]?.name ?? "";
+});
+
+/** The end of a run without an analysis, s, and its number of outputs. */
+const T_END = 5;
+const OUTPUTS = 500;
 
 export const span = computed<[number, number]>(() => {
   const t = course.value?.t;
@@ -38,11 +53,12 @@ export const read: Handler = {
 };
 
 /** Run an analysis and fetch its frames. */
-export async function run(fields: { t_end?: number; output_step?: number } = {}): Promise<Ran | null> {
+export async function run(t_end?: number): Promise<Ran | null> {
   running.value = true;
   try {
-    const name = analysis.value;
-    const { ok } = await send("run", { ...fields, ...(name ? { analysis: name } : {}) });
+    const end = t_end ?? T_END;
+    const named = t_end === undefined && analysis.value;
+    const { ok } = await send("run", named ? { analysis: named } : { t_end: end, output_step: end / OUTPUTS });
     const { numbers } = await send("frames", {});
     const width = 1 + 3 * ((mechanism.value?.bodies.length ?? 1) - 1);
     const t = Float64Array.from({ length: Math.floor(numbers.length / width) }, (_, k) => numbers[k * width]!);

@@ -28,7 +28,7 @@ export const kempe: Interface = {
   },
   quantity: async (name) => (await send("quantity", { name })).ok,
   async run(t_end) {
-    const found = await run(t_end === undefined ? {} : { t_end });
+    const found = await run(t_end);
     if (found && mode.value !== "read") enter("read");
     return found;
   },

@@ -2,7 +2,8 @@
 import { useState } from "preact/hooks";
 import { significant } from "../draw/numbers";
 import * as living from "../modes/live";
-import { home, mechanism, pose, live as state } from "../store/state";
+import { goHome } from "../store/session";
+import { mechanism, live as state } from "../store/state";
 import { texts } from "../texts";
 import { Button, Facts, Section } from "./parts";
 import { shown } from "./Readings";
@@ -14,7 +15,7 @@ export function LivePanel() {
   const playing = living.playing.value;
   const reset = () => {
     living.stop();
-    pose.value = home.value;
+    void goHome();
   };
   return (
     <div class="properties">
@@ -81,7 +82,7 @@ function Parameters() {
   return (
     <Section title={texts.live.parameters}>
       {all.map(({ name, value, unit }) => (
-        <Slider key={name} name={name} value={value} unit={unit} />
+        <Slider key={name} name={name} value={value} unit={unit ?? ""} />
       ))}
     </Section>
   );

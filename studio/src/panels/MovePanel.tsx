@@ -2,7 +2,8 @@
 
 import * as drivers from "../modes/drivers";
 import { choose, configurations, findConfigurations, locked } from "../modes/move";
-import { home, mechanism, mobility, pose } from "../store/state";
+import { goHome } from "../store/session";
+import { mechanism, mobility, pose } from "../store/state";
 import { texts } from "../texts";
 import { Button, Check, Facts, Section } from "./parts";
 
@@ -13,7 +14,7 @@ export function MovePanel() {
     <div class="properties">
       <p class="doc">{words.hint}</p>
       <div class="buttons">
-        <Button label={words.reset} onClick={() => (pose.value = home.value)} />
+        <Button label={words.reset} onClick={() => void goHome()} />
         {mechanism.value?.drivers.length ? (
           <Button label={drivers.playing.value ? words.pause : words.play} onClick={() => void drivers.toggle()} />
         ) : null}

@@ -27,10 +27,10 @@ function Entry({ group, name, value }: { group: Group; name: string; value: Tree
         <button type="button" class="link" onClick={() => (selection.value = null)}>
           {words.back}
         </button>
-        <span>{texts.groups[group]}</span>
+        <span>{type ? spoken(type.name) : texts.groups[group]}</span>
       </div>
       <Name group={group} name={name} />
-      <p class="doc">{type ? `${spoken(type.name)}: ${firstSentence(type.doc)}` : null}</p>
+      <p class="doc">{type ? firstSentence(type.doc) : null}</p>
       {type?.fields.map((field) =>
         field.shape === "points" ? (
           <PointRows
@@ -82,7 +82,7 @@ function Name({ group, name }: { group: Group; name: string }) {
 }
 
 function firstSentence(doc: string): string {
-  const plain = doc.replaceAll("\n", " ").replace(/^[^.]{2,60}?: (?=\S)/, "");
+  const plain = doc.replaceAll("\n", " ");
   const end = plain.search(/[.;](\s|$)/);
   const sentence = (end > 0 ? plain.slice(0, end) : plain).replace(/ \((?:Haug|Eich)[^)]*\)/, "");
   return `${sentence}.`;

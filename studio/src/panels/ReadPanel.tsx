@@ -1,10 +1,10 @@
 // Reading: run an analysis, plots, arrows, files.
 import { useState } from "preact/hooks";
 import { saveCsv, saveNpz } from "../give/results";
-import { analysis, course, quantities, run, running } from "../modes/read";
+import { analyses, analysis, chosen, course, quantities, run, running } from "../modes/read";
 import { arrows, KINDS, type Kind } from "../page/motionOverlay";
 import { plots } from "../store/plots";
-import { degrees, mechanism } from "../store/state";
+import { degrees } from "../store/state";
 import { texts } from "../texts";
 import { Plot } from "./Plot";
 import { Button, Check, Section } from "./parts";
@@ -56,35 +56,38 @@ export function ReadPanel() {
 function RunBar() {
   const words = texts.read;
   const [end, setEnd] = useState("");
-  const t = Number(end);
+  const free = analysis.value === "";
   return (
     <form
       class="buttons runbar"
       onSubmit={(event) => {
         event.preventDefault();
-        void run(end && t > 0 ? { t_end: t } : {});
+        void run(free && Number(end) > 0 ? Number(end) : undefined);
       }}
     >
       <label class="choice">
         <span>{words.analysis}</span>
-        <select id="analysis" value={analysis.value} onChange={(event) => (analysis.value = event.currentTarget.value)}>
-          {mechanism.value?.analyses.length ? null : <option value="">{words.defaults}</option>}
-          {mechanism.value?.analyses.map(({ name, type }, k) => (
-            <option key={name} value={k ? name : ""}>{`${name} (${type})`}</option>
+        <select id="analysis" value={analysis.value} onChange={(event) => (chosen.value = event.currentTarget.value)}>
+          {analyses.value.map(({ name, type }) => (
+            <option key={name} value={name}>{`${name} (${type.replaceAll("_", " ")})`}</option>
           ))}
+          <option value="">{words.defaults}</option>
         </select>
       </label>
-      <label class="choice">
-        <span>{words.end}</span>
-        <input
-          type="text"
-          inputMode="decimal"
-          size={5}
-          value={end}
-          autocomplete="off"
-          onInput={(event) => setEnd(event.currentTarget.value)}
-        />
-      </label>
+      {free ? (
+        <label class="choice">
+          <span>{words.end}</span>
+          <input
+            type="text"
+            inputMode="decimal"
+            size={5}
+            placeholder="5"
+            value={end}
+            autocomplete="off"
+            onInput={(event) => setEnd(event.currentTarget.value)}
+          />
+        </label>
+      ) : null}
       <button type="submit" class="main" id="run" disabled={running.value}>
         {running.value ? words.running : words.run}
       </button>

@@ -54,6 +54,7 @@ function Facts() {
   if (!found) return null;
   const words = texts.status;
   const count = redundantCount();
+  const freedom = mobility.value?.degrees_of_freedom ?? found.degrees_of_freedom;
   return (
     <div class="standing">
       {unassembled.value ? <span class="problem">{words.open}</span> : null}
@@ -63,7 +64,7 @@ function Facts() {
         <span title={found.warnings.join("\n")}>{words.warnings(found.warnings.length)}</span>
       ) : null}
       <span>{words.bodies(found.bodies.length - 1)}</span>
-      <span id="freedom">{words.freedom(mobility.value?.degrees_of_freedom ?? found.degrees_of_freedom)}</span>
+      <span id="freedom">{freedom === null ? "" : words.freedom(freedom)}</span>
     </div>
   );
 }

@@ -99,6 +99,11 @@ export async function redraw(): Promise<void> {
   });
 }
 
+/** Bring the core and the drawing back to the start of the text. */
+export async function goHome(): Promise<void> {
+  if (accepted) await load(accepted).catch(report);
+}
+
 /** The drawing has another size. */
 export function resized(width: number, height: number): void {
   size = [Math.round(width), Math.round(height)];
