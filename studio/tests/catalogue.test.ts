@@ -1,9 +1,9 @@
 import { expect, test } from "vitest";
-import { isPin, readCatalogue, type Type, typeOf } from "../src/catalogue/catalogue";
+import { readCatalogue, type Type, typeOf } from "../src/catalogue/catalogue";
 import { toolsOf } from "../src/catalogue/tools";
 import { freeName, freePointNames, mentions } from "../src/catalogue/tree";
 
-function type(name: string, fields: [string, string, boolean][], jacobian: string[][] = []): Type {
+function type(name: string, fields: [string, string, boolean][]): Type {
   const made = fields.map(([field, shape, required]) => ({
     name: field,
     shape,
@@ -12,30 +12,8 @@ function type(name: string, fields: [string, string, boolean][], jacobian: strin
     default: null,
     doc: "",
   }));
-  return { name, doc: "", fields: made, formulas: { rows: jacobian.map((row) => ({ jacobian: row })) } };
+  return { name, doc: "", fields: made };
 }
-
-const PIN = [
-  ["−1", "0", "aᵢ.y", "1", "0", "−aⱼ.y"],
-  ["0", "−1", "−aᵢ.x", "0", "1", "aⱼ.x"],
-];
-
-test("a pin is known by its equations, not by its name", () => {
-  const points: [string, string, boolean][] = [
-    ["i", "point", true],
-    ["j", "point", true],
-  ];
-  expect(isPin(type("hinge", points, PIN))).toBe(true);
-  expect(isPin(type("clamp", points, [...PIN, ["0", "0", "−1", "0", "0", "1"]]))).toBe(false);
-  expect(
-    isPin(
-      type("slide", points, [
-        ["u.y", "−u.x", "a", "−u.y", "u.x", "b"],
-        ["0", "0", "−1", "0", "0", "1"],
-      ]),
-    ),
-  ).toBe(false);
-});
 
 test("what a tool needs follows from the fields", () => {
   const catalogue = readCatalogue({

@@ -31,9 +31,7 @@ const catalogue: Catalogue = readCatalogue({
       name: "hinge",
       doc: "",
       fields: [field("i", "point", "", true), field("j", "point", "", true)],
-      formulas: {
-        rows: [{ jacobian: ["−1", "0", "a", "1", "0", "b"] }, { jacobian: ["0", "−1", "c", "0", "1", "d"] }],
-      },
+      joins_points: true,
     },
   ],
   drivers: [
@@ -174,6 +172,11 @@ test("a renamed body is renamed wherever it is mentioned", () => {
     { path: ["start", "set", "crank.angle"], rename: "arm.angle" },
     { path: ["bodies", "crank"], rename: "arm" },
   ]);
+  const list = { measures: { m: ["crank.x", ["2*crank.y"]] } };
+  expect(renamed(list, "bodies", "crank", "arm")[0]).toEqual({
+    path: ["measures", "m"],
+    value: ["arm.x", ["2*arm.y"]],
+  });
 });
 
 test("typed values are numbers, formulas or lists", () => {

@@ -15,7 +15,7 @@ export interface Type {
   name: string;
   doc: string;
   fields: Field[];
-  formulas?: { rows: { jacobian: string[] }[] };
+  joins_points?: boolean;
 }
 
 export const GROUPS = ["bodies", "joints", "drivers", "forces"] as const;
@@ -57,15 +57,9 @@ export function defaultText(field: Field): string {
   return typeof value === "string" ? value : JSON.stringify(value);
 }
 
-/** Whether a type makes two points coincide and leaves their bodies free to turn: a pin. */
+/** Whether a joint makes two points coincide and leaves their bodies free to turn: a pin. */
 export function isPin(type: Type): boolean {
-  const rows = type.formulas?.rows ?? [];
-  const identity = [
-    ["−1", "0", "1", "0"],
-    ["0", "−1", "0", "1"],
-  ];
-  const translations = rows.map(({ jacobian: [a, b, , c, d] }) => [a, b, c, d]);
-  return rows.length === 2 && JSON.stringify(translations) === JSON.stringify(identity);
+  return type.joins_points === true;
 }
 
 /** A name of the file as people write it: "torsion_spring" is "Torsion spring". */

@@ -14,7 +14,7 @@ export interface Problem {
 
 export type Value = string | number | boolean | null | Value[] | { [key: string]: Value };
 export type Tree = { [key: string]: Value };
-export type Path = (string | number)[];
+export type Path = string[];
 
 /** A change of the text: a value, a new name for a key, or its removal. */
 export type Change = { path: Path; value: Value } | { path: Path; rename: string } | { path: Path; remove: true };
@@ -102,7 +102,6 @@ export interface Ran {
 export interface Quantity {
   name: string;
   unit: string;
-  group: string;
 }
 
 export interface Mobility {

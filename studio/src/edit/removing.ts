@@ -57,10 +57,14 @@ function distinct(changes: Change[]): Change[] {
 export function renamed(tree: Tree | null, group: string, name: string, next: string): Change[] {
   const changes: Change[] = [];
   const word = new RegExp(`(?<![\\w.])${literal(name)}(?!\\w)`, "g");
+  const replaced = (value: Value): Value => {
+    if (Array.isArray(value)) return value.map(replaced);
+    return typeof value === "string" ? value.replace(word, next) : value;
+  };
   visit(tree ?? {}, [], (path, value) => {
     if (path[0] === "title" || path[0] === "parameters") return;
-    if (typeof value === "string" && value.match(word) && path.at(-1) !== "type")
-      changes.push({ path, value: value.replace(word, next) });
+    const after = replaced(value);
+    if (path.at(-1) !== "type" && JSON.stringify(after) !== JSON.stringify(value)) changes.push({ path, value: after });
   });
   for (const part of ["set", "guess"]) {
     const table = isTable(tree?.start) ? tree.start[part] : undefined;
@@ -76,8 +80,8 @@ function literal(text: string): string {
   return text.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
 }
 
+/** Every value that is not a table; a list is one value. */
 function visit(value: Value, path: Path, call: (path: Path, value: Value) => void): void {
-  if (Array.isArray(value)) value.forEach((one, k) => visit(one, [...path, k], call));
-  else if (isTable(value)) for (const [key, one] of Object.entries(value)) visit(one, [...path, key], call);
+  if (isTable(value)) for (const [key, one] of Object.entries(value)) visit(one, [...path, key], call);
   else call(path, value);
 }

@@ -3,8 +3,10 @@
 import type { Loaded, Ran } from "../core/protocol";
 import { enter } from "../modes/modes";
 import { run } from "../modes/read";
+import type { Point } from "../plane/points";
 import { open } from "../store/document";
 import { send } from "../store/session";
+import { view } from "../store/sheet";
 import { mode, pose, problems, text, unassembled } from "../store/state";
 
 export interface Interface {
@@ -13,6 +15,7 @@ export interface Interface {
   state(): Promise<{ t: number; q: number[]; v: number[] } | null>;
   quantity(name: string): Promise<{ value: number; unit: string }>;
   run(t_end?: number): Promise<Ran | null>;
+  screen(point: Point): Promise<Point>;
 }
 
 export const kempe: Interface = {
@@ -25,6 +28,11 @@ export const kempe: Interface = {
   async state() {
     const now = pose.value;
     return now && { t: now.t, q: [...now.q], v: [...now.v] };
+  },
+  async screen(point) {
+    const { left, top } = document.getElementById("sheet")!.getBoundingClientRect();
+    const [x, y] = view.toScreen(point);
+    return [left + x, top + y];
   },
   quantity: async (name) => (await send("quantity", { name })).ok,
   async run(t_end) {

@@ -96,7 +96,7 @@ function RunBar() {
 }
 
 function Add() {
-  const groups = [...new Set(quantities.value.map(({ group }) => group))];
+  const groups = [...new Set(quantities.value.map(({ name }) => ownerOf(name)))];
   return (
     <select
       class="wide"
@@ -112,7 +112,7 @@ function Add() {
       {groups.map((group) => (
         <optgroup key={group} label={group}>
           {quantities.value
-            .filter((one) => one.group === group)
+            .filter(({ name }) => ownerOf(name) === group)
             .map(({ name }) => (
               <option key={name} value={name}>
                 {name}
@@ -122,4 +122,9 @@ function Add() {
       ))}
     </select>
   );
+}
+
+/** The body or element of a quantity: the first part of its name. */
+function ownerOf(name: string): string {
+  return name.split(".")[0]!;
 }

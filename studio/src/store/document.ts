@@ -2,6 +2,7 @@
 import { signal } from "@preact/signals";
 import type { Change } from "../core/protocol";
 import { edited, load, report, Superseded } from "./session";
+import { fitNext } from "./sheet";
 import { message, selection, text } from "./state";
 
 /** Texts kept for undoing; a text is at most 2 MB. */
@@ -20,6 +21,7 @@ export async function open(given: string, name = "mechanism.toml"): Promise<void
   future.value = [];
   fileName.value = name;
   selection.value = null;
+  fitNext();
   text.value = given;
   await load(given).catch(report);
 }

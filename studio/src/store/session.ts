@@ -63,7 +63,7 @@ export async function load(given: string): Promise<Loaded> {
   const { ok } = await send("load", { text: given }, "load");
   accepted = given;
   show(ok);
-  await redraw();
+  if (ok.mechanism) await redraw();
   return ok;
 }
 

@@ -1,7 +1,7 @@
 // The sheet: which part of the plane is seen, and what is drawn over the mechanism.
 import { effect, signal } from "@preact/signals";
 import type { Point } from "../plane/points";
-import { View } from "../plane/view";
+import { type Bounds, View } from "../plane/view";
 import { scene } from "./state";
 
 export const view = new View([-1, -0.75, 1, 0.75]);
@@ -38,13 +38,25 @@ export function zoom(factor: number): void {
   viewChanged();
 }
 
-/** The bounds of a new scene; the view follows unless it was moved by hand. */
+/** Room around the first pose, in which the mechanism will move: a share of its size. */
+const ROOM = 0.2;
+/** What an empty sheet shows, m. */
+const EMPTY: Bounds = [-1, -0.75, 1, 0.75];
+let fitting = true;
+
+/** Fit the next scene into the view: another case is opened. Later scenes leave the view where it is. */
+export function fitNext(): void {
+  fitting = true;
+  view.bounds = EMPTY;
+}
+
 effect(() => {
   const bounds = scene.value?.bounds;
   if (!bounds?.every(Number.isFinite)) return;
   const [x0, y0, x1, y1] = bounds;
-  if (x1 - x0 <= 0 && y1 - y0 <= 0) return;
-  view.bounds = bounds;
-  if (!view.moved) view.fit();
+  const room = ROOM * Math.max(x1 - x0, y1 - y0);
+  if (room > 0) view.bounds = [x0 - room, y0 - room, x1 + room, y1 + room];
+  if (fitting) view.fit();
+  fitting = false;
   viewed.value = viewed.peek() + 1;
 });
