@@ -52,6 +52,8 @@ export const texts = {
     snapHint: "Snap to the grid and to multiples of 15°; hold alt to place freely",
     png: "PNG",
     pngHint: "Save the drawing as PNG",
+    svg: "SVG",
+    svgHint: "Save the drawing as SVG",
     length: "Length / m",
     finish: "Finish",
     stop: "Cancel",

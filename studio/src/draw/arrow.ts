@@ -1,5 +1,6 @@
 // One arrow.
 import type { Point } from "../plane/points";
+import { Line } from "./line";
 
 /** A straight arrow with a solid head, with a rim of another colour if one is given. */
 export function paintArrow(
@@ -16,8 +17,8 @@ export function paintArrow(
   const [ux, uy] = [(x1 - x0) / length, (y1 - y0) / length];
   const [bx, by] = [x1 - head * ux, y1 - head * uy];
   const wing = 0.42 * head;
-  const shaft = new Path2D(`M${x0} ${y0}L${bx} ${by}`);
-  const tip = new Path2D(`M${x1} ${y1}L${bx - wing * uy} ${by + wing * ux}L${bx + wing * uy} ${by - wing * ux}z`);
+  const shaft = new Line(`M${x0} ${y0}L${bx} ${by}`);
+  const tip = new Line(`M${x1} ${y1}L${bx - wing * uy} ${by + wing * ux}L${bx + wing * uy} ${by - wing * ux}z`);
   if (rim) {
     context.strokeStyle = rim;
     context.lineWidth = width + 3;

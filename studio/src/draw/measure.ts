@@ -2,6 +2,7 @@
 import type { Point } from "../plane/points";
 import type { View } from "../plane/view";
 import { paintArrow } from "./arrow";
+import { Line } from "./line";
 import { roundBelow } from "./numbers";
 import { type Colours, font, rimmed } from "./surface";
 
@@ -29,22 +30,20 @@ export function snapStep(view: View): number {
 function paintLines(context: CanvasRenderingContext2D, view: View, step: number, colour: string, alpha = 1): void {
   const [x0, y1] = view.toPlane([0, 0]);
   const [x1, y0] = view.toPlane([view.width, view.height]);
-  const lines = new Path2D();
+  let lines = "";
   for (let k = Math.ceil(x0 / step); k * step <= x1; k += 1) {
     const x = Math.round(view.toScreen([k * step, 0])[0]) + 0.5;
-    lines.moveTo(x, 0);
-    lines.lineTo(x, view.height);
+    lines += `M${x} 0V${view.height}`;
   }
   for (let k = Math.ceil(y0 / step); k * step <= y1; k += 1) {
     const y = Math.round(view.toScreen([0, k * step])[1]) + 0.5;
-    lines.moveTo(0, y);
-    lines.lineTo(view.width, y);
+    lines += `M0 ${y}H${view.width}`;
   }
   context.save();
   context.globalAlpha *= alpha;
   context.strokeStyle = colour;
   context.lineWidth = 1;
-  context.stroke(lines);
+  context.stroke(new Line(lines));
   context.restore();
 }
 
@@ -60,7 +59,7 @@ export function paintLengthScale(
   const [x, y] = [16, view.height - 16];
   context.strokeStyle = colours.named.soft!;
   context.lineWidth = 1.5;
-  context.stroke(new Path2D(`M${x} ${y - 5}v5h${length}v-5`));
+  context.stroke(new Line(`M${x} ${y - 5}v5h${length}v-5`));
   context.font = font(12);
   context.textAlign = "center";
   context.textBaseline = "alphabetic";

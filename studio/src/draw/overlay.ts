@@ -3,7 +3,7 @@ import type { Body } from "../core/protocol";
 import { hull, type Placement, type Point, placed } from "../plane/points";
 import type { View } from "../plane/view";
 import { paintArrow } from "./arrow";
-import { outline } from "./paint";
+import { circle, Line, through } from "./line";
 import { type Colours, font, rimmed } from "./surface";
 
 const HANDLE = 4;
@@ -22,7 +22,7 @@ export function paintLinks(
     const points = hull(Object.values(body.points).map((at) => view.toScreen(placed(pose, at))));
     context.strokeStyle = colours.body(k);
     context.lineWidth = 6;
-    context.stroke(outline(points, points.length > 2));
+    context.stroke(through(points, points.length > 2));
   });
 }
 
@@ -35,13 +35,11 @@ export function paintHandles(
 ): void {
   context.lineWidth = 1.5;
   for (const at of points) {
-    const [x, y] = view.toScreen(at);
-    context.beginPath();
-    context.arc(x, y, HANDLE, 0, 2 * Math.PI);
+    const ring = circle(view.toScreen(at), HANDLE);
     context.fillStyle = colours.named.panel!;
-    context.fill();
+    context.fill(ring);
     context.strokeStyle = colours.named.ink!;
-    context.stroke();
+    context.stroke(ring);
   }
 }
 
@@ -59,7 +57,7 @@ export function paintSelectedBody(
   context.globalAlpha = 0.28;
   context.strokeStyle = colours.named.accent!;
   context.lineWidth = 26;
-  context.stroke(outline(points.length > 1 ? points : [points[0]!, points[0]!], points.length > 2));
+  context.stroke(through(points.length > 1 ? points : [points[0]!, points[0]!], points.length > 2));
   context.restore();
 }
 
@@ -71,12 +69,9 @@ export function paintRing(
   colours: Colours,
   radius = 12,
 ): void {
-  const [x, y] = view.toScreen(at);
   context.strokeStyle = colours.named.accent!;
   context.lineWidth = 2.5;
-  context.beginPath();
-  context.arc(x, y, radius, 0, 2 * Math.PI);
-  context.stroke();
+  context.stroke(circle(view.toScreen(at), radius));
 }
 
 /** The line that is being drawn, with its length and direction. */
@@ -94,7 +89,7 @@ export function paintLine(
   context.strokeStyle = colours.named.accent!;
   context.globalAlpha = 0.75;
   context.lineWidth = 8;
-  context.stroke(outline(points, closed && points.length > 2));
+  context.stroke(through(points, closed && points.length > 2));
   context.restore();
   if (!label) return;
   const [a, b] = points.slice(-2) as [Point, Point];
@@ -118,7 +113,7 @@ export function paintMark(
   context.strokeStyle = colours.named.accent!;
   context.lineWidth = 1.8;
   if (kind === "point") paintRing(context, view, at, colours, 9);
-  else context.stroke(new Path2D(`M${x - 7} ${y}h14M${x} ${y - 7}v14`));
+  else context.stroke(new Line(`M${x - 7} ${y}h14M${x} ${y - 7}v14`));
 }
 
 /** A pull of the mouse. */
@@ -148,7 +143,7 @@ export function paintTraces(
   for (const { line, body } of traces) {
     context.strokeStyle = colours.body(body);
     context.stroke(
-      outline(
+      through(
         line.map((at) => view.toScreen(at)),
         false,
       ),

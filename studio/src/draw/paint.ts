@@ -2,6 +2,7 @@
 import type { Placement, Point } from "../plane/points";
 import type { View } from "../plane/view";
 import type { Item } from "./items";
+import { Line, through } from "./line";
 import { shortened } from "./numbers";
 import { hatching, isPlaceable, placeItem } from "./place";
 import { type Colours, font, rimmed } from "./surface";
@@ -49,17 +50,9 @@ function tinted(colours: Colours, { colour, tint }: Item): string {
   return tint ? `color-mix(in srgb, ${colours.named.panel} ${100 * tint}%, ${full})` : (full ?? "");
 }
 
-/** A path through points. */
-export function outline(points: readonly Point[], closed: boolean): Path2D {
-  const shape = new Path2D();
-  for (const [x, y] of points) shape.lineTo(x, y);
-  if (closed) shape.closePath();
-  return shape;
-}
-
 function paintFill(context: CanvasRenderingContext2D, points: Point[], colour: string): void {
   context.fillStyle = colour;
-  context.fill(outline(points, true));
+  context.fill(through(points, true));
 }
 
 function paintLine(
@@ -70,10 +63,10 @@ function paintLine(
 ): void {
   context.strokeStyle = colour;
   context.lineWidth = item.width * UNIT;
-  context.stroke(outline(points, item.closed));
+  context.stroke(through(points, item.closed));
   if (!item.hatch) return;
   context.lineWidth = HATCH_WIDTH * UNIT;
-  context.stroke(new Path2D(hatching(points, item.hatch, UNIT)));
+  context.stroke(new Line(hatching(points, item.hatch, UNIT)));
 }
 
 function paintText(

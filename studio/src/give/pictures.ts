@@ -1,5 +1,6 @@
 // Pictures of the drawing.
 import { paperPalette } from "../draw/surface";
+import { SvgContext } from "../draw/svg";
 import { paintSheet } from "../page/painting";
 import { view } from "../store/sheet";
 import { title } from "../store/state";
@@ -7,6 +8,15 @@ import { download, nameOf } from "./download";
 
 /** Pixels of a picture for each pixel of the page. */
 const SHARPNESS = 2;
+
+/** Save the drawing as SVG, on white paper. */
+export function saveSvg(): void {
+  const svg = new SvgContext(document.createElement("canvas").getContext("2d")!);
+  const colours = paperPalette();
+  paintSheet(svg.context, colours, true);
+  const picture = svg.written(Math.round(view.width), Math.round(view.height), colours.named.panel!);
+  download(nameOf(title.value, ".svg"), picture, "image/svg+xml");
+}
 
 /** Save the drawing as PNG, on white paper. */
 export function saveDrawing(): void {

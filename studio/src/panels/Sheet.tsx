@@ -2,7 +2,7 @@
 import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { cleared, palette, sharpen } from "../draw/surface";
-import { saveDrawing } from "../give/pictures";
+import { saveDrawing, saveSvg } from "../give/pictures";
 import { handler } from "../modes/modes";
 import { drawing, finish, restart } from "../modes/place";
 import { listenToPointer } from "../modes/pointer";
@@ -46,6 +46,9 @@ export function Sheet() {
           </Button>
           <Button label={words.pngHint} onClick={saveDrawing}>
             {words.png}
+          </Button>
+          <Button label={words.svgHint} onClick={saveSvg}>
+            {words.svg}
           </Button>
         </div>
       </div>
