@@ -51,6 +51,15 @@ export function quantity(value: number, unit: string, digits = 3): string {
   return `${minus(value === 0 ? "0" : text)} ${written}`;
 }
 
+/** A value with its unit and four digits, such as "24.93 kN" and "12.5°". */
+export function withUnit(value: number, unit: string): string {
+  if (unit === "°") return `${significant(value)}°`;
+  const written = readable(unit);
+  return WITH_PREFIX[written] && written !== "rad"
+    ? quantity(value, unit, 4)
+    : `${significant(value)} ${written}`.trim();
+}
+
 /** A round quantity, such as "10 kN". */
 export function roundQuantity(value: number, unit: string): string {
   const { factor, unit: written } = scaled(value * 1.0000001, unit);
@@ -62,7 +71,8 @@ export function significant(value: number, digits = 4): string {
   if (!Number.isFinite(value)) return "–";
   const size = Math.abs(value);
   if (value === 0) return "0";
-  if (size >= 1e-3 && size < 1e5) return minus(value.toPrecision(digits));
+  if (size >= 10 ** digits && size < 1e6) return minus(value.toFixed(0));
+  if (size >= 1e-3 && size < 1e6) return minus(value.toPrecision(digits));
   const [mantissa, power] = value.toExponential(digits - 1).split("e");
   return `${minus(mantissa ?? "")}·${powerOfTen(Number(power))}`;
 }

@@ -4,11 +4,9 @@ import type { View } from "../plane/view";
 import type { Item } from "./items";
 import { Line, through } from "./line";
 import { shortened } from "./numbers";
-import { hatching, isPlaceable, placeItem } from "./place";
+import { hatching, isPlaceable, placeItem, UNIT } from "./place";
 import { type Colours, font, rimmed } from "./surface";
 
-/** Pixels for each point of print. */
-export const UNIT = 1.5;
 const HATCH_WIDTH = 0.7;
 
 export interface Shown {

@@ -3,6 +3,8 @@ import { type Placement, type Point, placed } from "../plane/points";
 import type { View } from "../plane/view";
 import type { Frame, Item } from "./items";
 
+/** Pixels for each point of print. */
+export const UNIT = 1.5;
 const SPACING = 4;
 const STROKE = 5;
 

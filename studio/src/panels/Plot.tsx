@@ -1,7 +1,7 @@
 // One plot over time, with its curves, their peaks, and the time that is shown.
 import { useEffect, useRef, useState } from "preact/hooks";
 import uPlot from "uplot";
-import { readable, significant } from "../draw/numbers";
+import { minus, readable, withUnit } from "../draw/numbers";
 import { font, palette } from "../draw/surface";
 import { course, quantities, show, time, valuesOf } from "../modes/read";
 import { type PlotOf, plots } from "../store/plots";
@@ -87,7 +87,7 @@ function Entry({
     <li>
       <i class={`mark mark-${(number % 7) + 1}`} />
       <bdi class="name">{name}</bdi>
-      <span class="value">{`${texts.read.peak} ${significant(peak)} ${readable(unit)}`}</span>
+      <span class="value">{`${texts.read.peak} ${withUnit(peak, unit)}`}</span>
       <Button label={`${texts.properties.remove} ${name}`} icon="close" kind="small" onClick={remove} />
     </li>
   );
@@ -136,6 +136,7 @@ function draw(host: HTMLElement, t: Float64Array, { names, units, rows }: Curves
     grid: { stroke: colours.named.grid! },
     ticks: { stroke: colours.named.edge! },
     font: font(11),
+    values: (_: uPlot, values: number[]) => values.map((value) => minus(String(Number(value.toPrecision(6))))),
   };
   const unit = readable(units[0] ?? "");
   return new uPlot(

@@ -1,7 +1,7 @@
 // Quantities of the selection at the pose that is shown.
 import { useEffect, useState } from "preact/hooks";
 import type { Group } from "../catalogue/catalogue";
-import { readable, significant } from "../draw/numbers";
+import { significant, withUnit } from "../draw/numbers";
 import { placed } from "../plane/points";
 import { send } from "../store/session";
 import { degrees, mechanism, pose, poses } from "../store/state";
@@ -51,7 +51,7 @@ export function shown(value: number | null, unit: string): string {
   if (value === null || !Number.isFinite(value)) return texts.properties.absent;
   const tidy = Math.abs(value) < 1e-12 ? 0 : value;
   if (degrees.value && unit === "rad") return `${significant((tidy * 180) / Math.PI)}°`;
-  return `${significant(tidy)} ${readable(unit)}`.trim();
+  return withUnit(tidy, unit);
 }
 
 /** The distance of the two points of a body. */

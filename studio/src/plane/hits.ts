@@ -1,8 +1,7 @@
 // What is under a place of the drawing: points, bodies, symbols.
 import type { Body } from "../core/protocol";
 import type { Item } from "../draw/items";
-import { UNIT } from "../draw/paint";
-import { isPlaceable, placeItem } from "../draw/place";
+import { isPlaceable, placeItem, UNIT } from "../draw/place";
 import { distance, distanceFromSegment, hull, type Placement, type Point, placed, within } from "./points";
 import type { View } from "./view";
 

@@ -31,7 +31,7 @@ export interface Snapped {
 export function snapped(p: Point, { points, step, scale, from, length, free }: Snapping): Snapped {
   if (from && length !== undefined) return { at: atLength(p, from, length), kind: "length" };
   const near = nearest(p, points);
-  if (near && distance(p, near) * scale < REACH) return { at: near, kind: "point" };
+  if (near && distance(p, near) * scale < REACH) return { at: clean(near, step), kind: "point" };
   if (free) return { at: [rounded(p[0], step / 100), rounded(p[1], step / 100)], kind: "free" };
   const grid: Point = [round(p[0], step), round(p[1], step)];
   const angled = from && atAngle(p, from, step);
@@ -39,6 +39,11 @@ export function snapped(p: Point, { points, step, scale, from, length, free }: S
     return { at: angled, kind: "angle" };
   }
   return { at: grid, kind: "grid" };
+}
+
+/** A place without the rounding errors of the pose from which it was computed. */
+function clean([x, y]: Point, step: number): Point {
+  return [rounded(x, step * 1e-6), rounded(y, step * 1e-6)];
 }
 
 function nearest(p: Point, points: readonly Point[]): Point | null {

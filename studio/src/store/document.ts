@@ -22,6 +22,7 @@ export async function open(given: string, name = "mechanism.toml"): Promise<void
   fileName.value = name;
   selection.value = null;
   fitNext();
+  message.value = null;
   text.value = given;
   await load(given).catch(report);
 }
