@@ -25,12 +25,14 @@ const FIRST = "four_bar";
 /** The text to begin with: that of the link, or the first example. */
 async function begin(): Promise<void> {
   let given: string | null = null;
+  let damaged = false;
   try {
     given = textOf(location.hash);
   } catch {
-    announce("problem", texts.share.damaged);
+    damaged = true;
   }
   await open(given ?? examples.find(({ name }) => name === FIRST)?.text ?? EMPTY);
+  if (damaged) announce("problem", texts.share.damaged);
 }
 
 async function start(): Promise<void> {

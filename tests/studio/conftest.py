@@ -1,82 +1,18 @@
-"""The built page of the studio in a headless Chromium, watched for messages, errors and requests."""
+"""The built page of the studio in Chromium, watched for messages, errors and requests."""
 
 import os
 import shutil
-import time
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import pytest
+from studio.window import Studio
 
 sync_api = pytest.importorskip("playwright.sync_api", reason="the package playwright is missing")
 
 PAGE = Path(__file__).parents[2] / "studio" / "dist" / "index.html"
 FLAGS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]
-
-
-@dataclass
-class Studio:
-    """A window with the studio, driven as a person would."""
-
-    page: "sync_api.Page"
-    messages: list[str] = field(default_factory=list)
-    requests: list[str] = field(default_factory=list)
-
-    def call(self, expression: str) -> Any:
-        return self.page.evaluate(expression)
-
-    def load(self, text: str) -> dict[str, Any]:
-        found: dict[str, Any] = self.page.evaluate("text => kempe.load(text)", text)
-        return found
-
-    def toml(self) -> str:
-        found: str = self.page.evaluate("kempe.toml()")
-        return found
-
-    def state(self) -> dict[str, Any]:
-        found: dict[str, Any] = self.page.evaluate("kempe.state()")
-        return found
-
-    def quantity(self, name: str) -> float:
-        found: float = self.page.evaluate("name => kempe.quantity(name).then(x => x.value)", name)
-        return found
-
-    def screen(self, x: float, y: float) -> tuple[float, float]:
-        px, py = self.page.evaluate("at => kempe.screen(at)", [x, y])
-        return px, py
-
-    def click(self, x: float, y: float) -> None:
-        self.page.mouse.click(*self.screen(x, y))
-        self.settle()
-
-    def tool(self, name: str) -> None:
-        self.page.locator(f".left [data-type={name}]").click()
-
-    def mode(self, name: str) -> None:
-        self.page.locator(f"#mode-{name}").click()
-        self.settle()
-
-    def message(self) -> str:
-        found: str = self.page.locator("#message").inner_text()
-        return found
-
-    def settle(self) -> None:
-        """Wait until the core has answered what was sent before, and the answer is drawn."""
-        for _ in range(3):
-            self.page.evaluate("kempe.state().then(() => new Promise(requestAnimationFrame))")
-            self.page.wait_for_timeout(40)
-
-    def wait(self, condition: str, seconds: float = 10.0) -> None:
-        """Wait for a condition; playwright's own waiting is forbidden by the policy of the page."""
-        end = time.monotonic() + seconds
-        while not self.page.evaluate(condition):
-            assert time.monotonic() < end, condition
-            self.page.wait_for_timeout(20)
-
-
-Opener = Callable[..., Studio]
 
 
 @pytest.fixture(scope="session")
@@ -95,7 +31,7 @@ def chromium() -> Iterator["sync_api.Browser"]:
 
 
 @pytest.fixture
-def studio(chromium: "sync_api.Browser") -> Iterator[Opener]:
+def studio(chromium: "sync_api.Browser") -> Iterator[Callable[..., Studio]]:
     """Open the studio in a window of a size; what it complains of, or requests, fails the test."""
     opened: list[Studio] = []
 
