@@ -43,8 +43,8 @@ const LOOK = EditorView.theme({
 
 const COLOURS = HighlightStyle.define([
   { tag: tags.comment, color: "var(--soft)", fontStyle: "italic" },
-  { tag: [tags.string, tags.special(tags.string)], color: "var(--body-3)" },
-  { tag: tags.number, color: "var(--body-2)" },
+  { tag: [tags.string, tags.special(tags.string)], color: "var(--velocities)" },
+  { tag: tags.number, color: "var(--accelerations)" },
   { tag: [tags.propertyName, tags.variableName], color: "var(--accent)" },
   { tag: tags.atom, color: "var(--force)" },
 ]);
@@ -83,7 +83,7 @@ function connect(host: HTMLElement): () => void {
         LOOK,
         keymap.of([indentWithTab, ...defaultKeymap, ...historyKeymap]),
         listener,
-        EditorView.contentAttributes.of({ "aria-label": texts.editor.label }),
+        EditorView.contentAttributes.of({ "aria-label": texts.editor.label, tabindex: "0" }),
       ],
     }),
   });

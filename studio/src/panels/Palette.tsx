@@ -15,7 +15,7 @@ export function Palette() {
       </button>
       {GROUPS.map((group) => (
         <section key={group} aria-label={texts.groups[group]}>
-          <h3>{texts.groups[group]}</h3>
+          <h2 class="head">{texts.groups[group]}</h2>
           {tools.value
             .filter((one) => one.group === group)
             .map((one) => (

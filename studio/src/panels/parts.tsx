@@ -46,7 +46,7 @@ export function Button({ label, hint, icon, onClick, disabled, pressed, kind, ch
       id={id}
       class={kind ?? ""}
       title={hint ?? label}
-      aria-label={icon || children ? label : undefined}
+      aria-label={icon ? label : undefined}
       aria-pressed={pressed}
       disabled={disabled}
       onClick={onClick}
@@ -86,10 +86,10 @@ export function Section({
 }) {
   return (
     <section class="section">
-      <h3>
+      <h2 class="head">
         <span>{title}</span>
         {action}
-      </h3>
+      </h2>
       {children}
     </section>
   );
