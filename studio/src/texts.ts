@@ -149,7 +149,7 @@ export const texts = {
     potential: "potential",
     dissipated: "dissipated",
     work: "work of drivers",
-    balance: "error of the balance",
+    balance: "relative error of the balance",
     residual: "residual of the joints",
     time: "Time",
     parameters: "Parameters",

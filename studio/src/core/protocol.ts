@@ -74,6 +74,7 @@ export interface Loaded {
   unassembled: Problem | null;
 }
 
+/** Energies in J; the balance is relative to the largest energy of the motion. */
 export interface Energy {
   kinetic: number;
   potential: number;

@@ -68,7 +68,7 @@ function State() {
             [words.potential, shown(energy.potential, "J")],
             [words.dissipated, shown(energy.dissipated, "J")],
             [words.work, shown(energy.work, "J")],
-            [words.balance, shown(energy.balance, "J")],
+            [words.balance, significant(energy.balance, 2)],
           ]}
         />
       </Section>
