@@ -1,0 +1,90 @@
+// Builds dist/index.html: one file with the style, the script, the worker and the core.
+import { createHash } from "node:crypto";
+import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { dirname, join } from "node:path";
+import { fileURLToPath } from "node:url";
+import { gzipSync } from "node:zlib";
+import { build } from "esbuild";
+
+const HERE = dirname(dirname(fileURLToPath(import.meta.url)));
+const ROOT = dirname(HERE);
+/** The compiled core; bindings/web/README.md says how it is built. */
+const CORE = process.env.KEMPE_WEB ?? join(ROOT, "target", "web", "kempe_web.wasm");
+const MOST = 1024 * 1024;
+
+/** The examples of the repository, with the titles of their cases. */
+function examples() {
+  const folder = join(ROOT, "examples");
+  const names = readdirSync(folder).filter((name) => name.endsWith(".toml"));
+  return names.sort().map((file) => {
+    const text = readFileSync(join(folder, file), "utf8");
+    const title = /^title = "(.*)"/m.exec(text)?.[1] ?? file;
+    return { name: file.replace(/\.toml$/, ""), title, text };
+  });
+}
+
+/** Modules that are made here: the examples, and the worker as a text. */
+const made = {
+  name: "made",
+  setup({ onResolve, onLoad }) {
+    onResolve({ filter: /^virtual:/ }, ({ path }) => ({ path, namespace: "made" }));
+    onLoad({ filter: /^virtual:examples$/, namespace: "made" }, () => ({
+      contents: `export const examples = ${JSON.stringify(examples())}`,
+    }));
+    onLoad({ filter: /^virtual:worker$/, namespace: "made" }, async () => ({
+      contents: `export default ${JSON.stringify((await bundle(workerEntry(), {})).script)}`,
+    }));
+  },
+};
+
+/** A worker with recorded replies takes the place of the core for work on the page alone. */
+function workerEntry() {
+  return process.env.KEMPE_RECORDED ? "tests/recorded.ts" : "src/core/worker.ts";
+}
+
+async function bundle(entry, more) {
+  const { outputFiles } = await build({
+    entryPoints: [join(HERE, entry)],
+    bundle: true,
+    write: false,
+    outdir: "out",
+    minify: !process.env.KEMPE_PLAIN,
+    target: "es2022",
+    format: "iife",
+    legalComments: "none",
+    jsx: "automatic",
+    jsxImportSource: "preact",
+    loader: { ".json": "json" },
+    ...more,
+  });
+  const text = (suffix) => outputFiles.find(({ path }) => path.endsWith(suffix))?.text.trim() ?? "";
+  return { script: text(".js"), style: text(".css") };
+}
+
+function hash(text) {
+  return `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
+}
+
+function version() {
+  return /^version = "(.*)"/m.exec(readFileSync(join(ROOT, "Cargo.toml"), "utf8"))?.[1] ?? "";
+}
+
+const { script, style } = await bundle("src/main.tsx", { format: "esm", plugins: [made] });
+const policy = [
+  "default-src 'none'",
+  `script-src ${hash(script)} 'wasm-unsafe-eval'`,
+  `style-src ${hash(style)}`,
+  "worker-src blob:",
+  "img-src data: blob:",
+  "base-uri 'none'",
+  "form-action 'none'",
+].join("; ");
+const bytes = process.env.KEMPE_RECORDED ? "" : readFileSync(CORE);
+const core = gzipSync(bytes, { level: 9 }).toString("base64");
+const parts = { policy, version: version(), style, script, core };
+const page = readFileSync(join(HERE, "index.html"), "utf8").replace(/\{\{(\w+)\}\}/g, (_, name) => parts[name]);
+mkdirSync(join(HERE, "dist"), { recursive: true });
+writeFileSync(join(HERE, "dist", "index.html"), page);
+const size = gzipSync(page, { level: 9 }).length;
+console.log(`dist/index.html: ${(page.length / 1024).toFixed(0)} kB, ${(size / 1024).toFixed(0)} kB compressed`);
+if (size > MOST) throw new Error(`the page has ${size} bytes compressed; the limit is ${MOST}`);

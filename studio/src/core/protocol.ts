@@ -1,0 +1,165 @@
+// Requests to the core and its replies; bindings/web/README.md describes them.
+
+import type { Item } from "../draw/items";
+import type { Point } from "../plane/points";
+
+export interface Problem {
+  message: string;
+  hint?: string | null;
+  path?: string | null;
+  line?: number | null;
+  column?: number | null;
+  length?: number | null;
+}
+
+export type Value = string | number | boolean | null | Value[] | { [key: string]: Value };
+export type Tree = { [key: string]: Value };
+export type Path = string[];
+
+/** A change of the text: a value, a new name for a key, or its removal. */
+export type Change = { path: Path; value: Value } | { path: Path; rename: string } | { path: Path; remove: true };
+
+export interface Body {
+  name: string;
+  kind: string;
+  ground: boolean;
+  points: Record<string, Point>;
+  center: Point;
+  mass: number | null;
+  inertia: number | null;
+}
+
+export interface Named {
+  name: string;
+  type: string;
+}
+
+export interface Parameter {
+  name: string;
+  value: number;
+  unit: string | null;
+}
+
+export interface Mechanism {
+  title: string;
+  gravity: Point;
+  bodies: Body[];
+  joints: Named[];
+  drivers: Named[];
+  forces: Named[];
+  parameters: Parameter[];
+  analyses: Named[];
+  degrees_of_freedom: number | null;
+  warnings: string[];
+  coordinates: string[];
+}
+
+export type Triple = [number, number, number];
+
+export interface Pose {
+  t: number;
+  q: number[];
+  v: number[];
+  z: number[];
+  poses: Triple[];
+  rates: Triple[];
+  residual: number;
+}
+
+export interface Loaded {
+  problems: Problem[];
+  case: Tree | null;
+  mechanism: Mechanism | null;
+  pose: Pose | null;
+  unassembled: Problem | null;
+}
+
+/** Energies in J; the balance is relative to the largest energy of the motion. */
+export interface Energy {
+  kinetic: number;
+  potential: number;
+  dissipated: number;
+  work: number;
+  balance: number;
+}
+
+export interface Live extends Pose {
+  energy: Energy;
+  drift: number;
+  events: { name: string; t: number }[];
+  ended: string | null;
+}
+
+export interface Ran {
+  count: number;
+  t_end: number;
+  message?: string;
+  status: string;
+  statistics: Record<string, Value>;
+  events: { name: string; t: number }[];
+  error: Problem | null;
+}
+
+export interface Quantity {
+  name: string;
+  unit: string;
+}
+
+export interface Mobility {
+  gruebler: number;
+  degrees_of_freedom: number;
+  rank: number;
+  redundant: Value;
+  singular: boolean;
+  locked?: Value;
+  loose?: Value;
+  four_bars?: Value;
+}
+
+/** The static part of a scene; docs/scene.md describes all of it. */
+export interface Scene {
+  bounds: [number, number, number, number];
+  length: { unit: string; metres: number };
+  gravity: Point;
+}
+
+/** What each request carries and gives. */
+export interface Requests {
+  catalogue: { send: object; reply: unknown };
+  load: { send: { text: string }; reply: Loaded };
+  edit: { send: { changes: Change[] }; reply: { text: string } };
+  pose: { send: { q?: number[] }; reply: Pose };
+  assemble: { send: { set?: Record<string, Value>; guess?: Record<string, Value> }; reply: Pose };
+  drag: {
+    send: { body: string; point: Point; to: Point; locked?: string[] };
+    reply: { pose: Pose; stopped: string | null };
+  };
+  configurations: { send: { limit?: number }; reply: { complete: boolean; poses: Pose[] } };
+  mobility: { send: object; reply: Mobility };
+  quantities: { send: object; reply: Quantity[] };
+  quantity: { send: { name: string }; reply: { value: number; unit: string } };
+  scene: { send: object; reply: { scene: Scene } };
+  display: {
+    send: { width: number; height: number; names?: boolean; numbers?: boolean };
+    reply: { items: Item[] };
+  };
+  live: { send: { method?: Value; stabilization?: Value }; reply: Pose };
+  advance: { send: { by: number; most_ms?: number }; reply: Live };
+  pull: {
+    send: { body: string | null; point?: Point; to?: Point; stiffness?: number; damping?: number };
+    reply: object;
+  };
+  parameters: { send: { values: Record<string, number> }; reply: Pose };
+  run: { send: { analysis?: string; t_end?: number; output_step?: number }; reply: Ran };
+  frames: { send: object; reply: object };
+  values: { send: { names: string[] }; reply: { units: string[] } };
+  save: { send: { format: "toml" | "json" }; reply: { text: string } };
+}
+
+export type Do = keyof Requests;
+
+/** A reply with the numbers that it left in memory. */
+export interface Answer<T> {
+  ok: T;
+  numbers: Float64Array;
+}

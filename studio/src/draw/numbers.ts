@@ -1,0 +1,89 @@
+// Numbers for people: round steps, units with prefixes, as many digits as can be distinguished.
+
+const PREFIXES: Record<number, string> = { 9: "G", 6: "M", 3: "k", 0: "", [-3]: "m", [-6]: "µ", [-9]: "n" };
+/** The powers that a prefix expresses; the rules are those of kempe/draw/units.py. */
+const WITH_PREFIX: Record<string, number[]> = {
+  m: [0, -3, -6, -9],
+  rad: [0, -3],
+  "m/s": [0, -3, -6],
+  "m/s²": [0, -3, -6],
+  N: [9, 6, 3, 0, -3, -6],
+  N·m: [9, 6, 3, 0, -3, -6],
+  J: [9, 6, 3, 0, -3, -6],
+};
+const SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹";
+
+/** The largest of 1, 2, 5, 10, 20 … that is not above a positive value. */
+export function roundBelow(value: number): number {
+  const power = 10 ** Math.floor(Math.log10(value) + 1e-12);
+  return ([5, 2, 1].find((step) => step * power <= value * (1 + 1e-12)) ?? 1) * power;
+}
+
+/** A unit of the core as people write it. */
+export function readable(unit: string): string {
+  return unit.replaceAll("*", "·").replaceAll("^2", "²").replaceAll("^3", "³");
+}
+
+/** By what to divide values up to `peak`, and the unit that they have then. */
+function scaled(peak: number, unit: string): { factor: number; unit: string } {
+  const power = powerOf(peak);
+  if (!power || (unit.startsWith("°") && Math.abs(power) <= 3)) return { factor: 1, unit };
+  const prefix = WITH_PREFIX[unit]?.includes(power);
+  return { factor: 10 ** power, unit: prefix ? PREFIXES[power] + unit : `${powerOfTen(power)} ${unit}` };
+}
+
+function powerOf(peak: number): number {
+  if (!(peak > 0) || !Number.isFinite(peak) || (peak >= 0.2 && peak < 2)) return 0;
+  return 3 * Math.floor(Math.log10(peak >= 2 ? peak / 2 : peak) / 3);
+}
+
+function powerOfTen(power: number): string {
+  const digits = [...String(Math.abs(power))].map((digit) => SUPERSCRIPTS[Number(digit)]);
+  return `10${power < 0 ? "⁻" : ""}${digits.join("")}`;
+}
+
+/** A value with its unit, such as "25.0 kN". */
+export function quantity(value: number, unit: string, digits = 3): string {
+  if (!Number.isFinite(value)) return "–";
+  const { factor, unit: written } = scaled(Math.abs(value), readable(unit));
+  const number = value / factor;
+  const text = Math.abs(number) < 10 ** digits ? number.toPrecision(digits) : number.toFixed(0);
+  return `${minus(value === 0 ? "0" : text)} ${written}`;
+}
+
+/** A value with its unit and four digits, such as "24.93 kN" and "12.5°". */
+export function withUnit(value: number, unit: string): string {
+  if (unit === "°") return `${significant(value)}°`;
+  const written = readable(unit);
+  return WITH_PREFIX[written] && written !== "rad"
+    ? quantity(value, unit, 4)
+    : `${significant(value)} ${written}`.trim();
+}
+
+/** A round quantity, such as "10 kN". */
+export function roundQuantity(value: number, unit: string): string {
+  const { factor, unit: written } = scaled(value * 1.0000001, unit);
+  return `${Number((value / factor).toPrecision(3))} ${written}`;
+}
+
+/** A value with `digits` significant digits, such as 12.34 and 1.234·10⁻⁷. */
+export function significant(value: number, digits = 4): string {
+  if (!Number.isFinite(value)) return "–";
+  const size = Math.abs(value);
+  if (value === 0) return "0";
+  if (size >= 10 ** digits && size < 1e6) return minus(value.toFixed(0));
+  if (size >= 1e-3 && size < 1e6) return minus(value.toPrecision(digits));
+  const [mantissa, power] = value.toExponential(digits - 1).split("e");
+  return `${minus(mantissa ?? "")}·${powerOfTen(Number(power))}`;
+}
+
+/** With a proper minus sign. */
+export function minus(text: string): string {
+  return text.replace("-", "−");
+}
+
+/** A name that fits into a drawing; whole characters are kept, not halves of a pair. */
+export function shortened(name: string, most = 24): string {
+  const characters = [...name];
+  return characters.length > most ? `${characters.slice(0, most - 1).join("")}…` : name;
+}

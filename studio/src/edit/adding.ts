@@ -1,0 +1,172 @@
+// Changes of the text that add bodies, points and elements.
+import { type Catalogue, type Field, isPin } from "../catalogue/catalogue";
+import type { Placing, Tool } from "../catalogue/tools";
+import { entries, entry, freeName, freePointNames, isTable } from "../catalogue/tree";
+import type { Body, Change, Tree, Value } from "../core/protocol";
+import type { PointHit } from "../plane/hits";
+import { distance, inFrame, type Placement, type Point, rounded } from "../plane/points";
+
+/** A place that was clicked, with the points that are there. */
+export interface Place {
+  at: Point;
+  hits: PointHit[];
+}
+
+export interface Added {
+  changes: Change[];
+  name: string;
+}
+
+/** What a change of the drawing needs of the case. */
+export interface Case {
+  tree: Tree | null;
+  bodies: readonly Body[];
+  poses: readonly Placement[];
+}
+
+export const GROUND = "ground";
+
+/** A body with points at these places; it is pinned to what is there already. */
+export function addBody({ type, placing }: Tool, places: Place[], catalogue: Catalogue, { tree, bodies }: Case): Added {
+  if (placing === "fixed") return addGroundPoint(places[0]!.at, { tree, bodies });
+  const name = freeName(tree, type.name.replaceAll("_", ""));
+  const names = namesFor(places, tree, bodies);
+  const value: Tree = { type: type.name };
+  for (const field of type.fields) {
+    const found = ownValue(
+      field,
+      places.map(({ at }) => at),
+    );
+    if (found !== null) value[field.name] = found;
+  }
+  if (placing === "one") value.at = places[0]!.at;
+  else Object.assign(value, placedBody(placing, names, places));
+  const point = placing === "one" ? onlyPoint(type.doc) : null;
+  const changes: Change[] = [{ path: ["bodies", name], value }];
+  const taken = new Set<string>();
+  places.forEach((place, k) => changes.push(...pinTo(place, name, point ?? names[k]!, catalogue, tree, taken)));
+  return { changes, name };
+}
+
+/** The name of the one point of a point mass, from its description. */
+function onlyPoint(doc: string): string {
+  return /point, (\w+)/.exec(doc)?.[1] ?? "P";
+}
+
+function placedBody(placing: Placing | null, names: string[], places: Place[]): Tree {
+  const table = Object.fromEntries(places.map(({ at }, k) => [names[k]!, at as Value]));
+  if (placing === "two") return { through: table };
+  return { points: table, through: Object.fromEntries(Object.entries(table).slice(0, 2)) };
+}
+
+/** Mass and moment of inertia of a new body: 1 kg, spread over its points. */
+function ownValue({ unit }: Field, at: Point[]): Value | null {
+  if (unit === "kg") return 1;
+  if (unit !== "kg*m^2") return null;
+  const middle: Point = [mean(at.map(([x]) => x)), mean(at.map(([, y]) => y))];
+  return Number(Math.max(1e-6, mean(at.map((one) => distance(one, middle) ** 2)) / 2).toPrecision(3));
+}
+
+function mean(values: number[]): number {
+  return values.reduce((sum, one) => sum + one, 0) / values.length;
+}
+
+/** Names of the points of a new body: those of the places where it is pinned, otherwise new letters. */
+function namesFor(places: Place[], tree: Tree | null, bodies: readonly Body[]): string[] {
+  const taken = bodies.flatMap(({ points }) => Object.keys(points));
+  const fresh = freePointNames(tree, taken, places.length);
+  const used = new Set<string>();
+  return places.map(({ hits }) => {
+    const old = hits[0]?.point;
+    const name = old !== undefined && !used.has(old) ? old : fresh.shift()!;
+    used.add(name);
+    return name;
+  });
+}
+
+/** A pin between the first point of a place and a point of a new body. */
+function pinTo(
+  { hits }: Place,
+  body: string,
+  point: string,
+  catalogue: Catalogue,
+  tree: Tree | null,
+  taken: Set<string>,
+): Change[] {
+  const other = hits.find((hit) => hit.body.name !== body);
+  const type = catalogue.joints.find(isPin);
+  if (!other || !type) return [];
+  const plain = ![...entryNames(tree), ...taken].includes(point) && point !== body;
+  const name = plain ? point : freeName(tree, point, [...taken, body]);
+  taken.add(name);
+  const value = { type: type.name, i: `${other.body.name}.${other.point}`, j: `${body}.${point}` };
+  return [{ path: ["joints", name], value }];
+}
+
+function entryNames(tree: Tree | null): string[] {
+  return ["bodies", "joints", "drivers", "forces", "measures", "parameters"].flatMap((group) =>
+    Object.keys(entries(tree, group)),
+  );
+}
+
+function addGroundPoint(at: Point, { tree, bodies }: Pick<Case, "tree" | "bodies">): Added {
+  const taken = bodies.flatMap(({ points }) => Object.keys(points));
+  const [name] = freePointNames(tree, taken, 1);
+  return { changes: [pointChange(tree, GROUND, name!, at)], name: GROUND };
+}
+
+/** The change that adds a point to a body. */
+function pointChange(tree: Tree | null, body: string, point: string, at: Point): Change {
+  const found = entry(tree, "bodies", body);
+  if (!found) return { path: ["bodies", body], value: { points: { [point]: at } } };
+  if (!isTable(found.points)) return { path: ["bodies", body, "points"], value: { [point]: at } };
+  return { path: ["bodies", body, "points", point], value: at };
+}
+
+/** A reference to a point at a place: an existing one, or a new one of the body there. */
+export function pointReference(
+  place: Place,
+  body: Body | null,
+  { tree, bodies, poses }: Case,
+  taken: string[],
+): { reference: string; changes: Change[] } {
+  const hit = place.hits[0];
+  if (hit) return { reference: `${hit.body.name}.${hit.point}`, changes: [] };
+  const name = body?.name ?? GROUND;
+  const used = [...bodies.flatMap(({ points }) => Object.keys(points)), ...taken];
+  const [point] = freePointNames(tree, used, 1);
+  const pose = body ? poses[bodies.indexOf(body)] : null;
+  const [x, y] = pose ? inFrame(pose, place.at) : place.at;
+  const at: Point = [rounded(x, 1e-9), rounded(y, 1e-9)];
+  return { reference: `${name}.${point}`, changes: [pointChange(tree, name, point!, at)] };
+}
+
+/** An element whose references have been chosen. */
+export function addElement(
+  { group, type }: Tool,
+  chosen: Record<string, Value>,
+  scale: { length: number; now: number | null },
+  tree: Tree | null,
+): Added {
+  const name = freeName(tree, type.name.replaceAll("_", ""));
+  const value: Tree = { type: type.name, ...chosen };
+  for (const field of type.fields) {
+    if (!field.required || field.name in chosen) continue;
+    value[field.name] = startingValue(field, scale);
+  }
+  return { changes: [{ path: [group, name], value }], name };
+}
+
+/** A value to begin with for a required field. A law of a coordinate begins where it is and goes on evenly. */
+function startingValue({ shape, unit }: Field, { length, now }: { length: number; now: number | null }): Value {
+  const one = unit === "m" ? Number(length.toPrecision(4)) : 1;
+  if (shape === "law" && unit.includes("|") && now !== null && unit.includes("rad"))
+    return `${Number(now.toPrecision(6))} + t`;
+  if (shape === "pair" || shape === "law_pair") return [one, one];
+  if (shape === "triple") return [1, 1, 1];
+  if (shape === "terms") return {};
+  if (shape === "laws") return ["0"];
+  if (shape === "units") return ["m"];
+  if (typeof shape === "object" && "words" in shape) return shape.words[0]!;
+  return one;
+}

@@ -1,0 +1,107 @@
+// Commands on the selection: rename, remove, copy, mirror, move by keys.
+import { entry, freeName, groupOf, isTable } from "../catalogue/tree";
+import type { Change, Tree, Value } from "../core/protocol";
+import { snapStep } from "../draw/measure";
+import { allPoints } from "../plane/hits";
+import { distance, type Point } from "../plane/points";
+import { change } from "../store/document";
+import { view } from "../store/sheet";
+import { announce, mechanism, poses, selection, tree } from "../store/state";
+import { texts } from "../texts";
+import { moved } from "./moving";
+import { removed, removedPoint, renamed } from "./removing";
+
+const RESERVED = ["t", "pi", "deg", "ground", "energy", "drift"];
+
+/** Whether an entry may have this name. */
+export function isName(name: string): boolean {
+  const taken = groupOf(tree.value, name) ?? entry(tree.value, "parameters", name);
+  return /^[A-Za-z_]\w{0,40}$/.test(name) && !RESERVED.includes(name) && !taken;
+}
+
+/** Rename an entry and all that mentions it; false if the name cannot be used. */
+export async function rename(group: string, name: string, next: string): Promise<boolean> {
+  if (name === next) return true;
+  if (!isName(next)) {
+    announce("problem", texts.edit.invalidName(next));
+    return false;
+  }
+  const done = await change(renamed(tree.value, group, name, next));
+  if (done && selection.value?.name === name) selection.value = { ...selection.value, name: next };
+  return done;
+}
+
+/** Remove the selection with what refers to it. */
+export async function remove(): Promise<void> {
+  const chosen = selection.value;
+  if (!chosen) return;
+  const { group, name, point } = chosen;
+  selection.value = null;
+  await change(point ? removedPoint(tree.value, name, point) : removed(tree.value, group, name));
+}
+
+/** A copy of a body beside it, without its joints. */
+export async function copy(name: string): Promise<void> {
+  const found = entry(tree.value, "bodies", name);
+  if (found) await paste(name, found);
+}
+
+export async function paste(name: string, body: Tree): Promise<void> {
+  const step = 10 * snapStep(view);
+  const shifted = mapped(body, ([x, y]) => [tidy(x + step), tidy(y - step)]);
+  const fresh = freeName(tree.value, name.replace(/\d+$/, ""));
+  if (await change([{ path: ["bodies", fresh], value: shifted }])) selection.value = { group: "bodies", name: fresh };
+}
+
+/** Mirror a body at the vertical line through the middle of its points; what is pinned to it stays. */
+export async function mirror(name: string): Promise<void> {
+  const found = entry(tree.value, "bodies", name);
+  const own = allPoints(mechanism.value?.bodies ?? [], poses.value).filter(({ body }) => body.name === name);
+  if (!found || !own.length) return;
+  const across = own.map(({ at }) => at[0]);
+  const sum = Math.min(...across) + Math.max(...across);
+  const after = mapped(found, ([x, y]) => [tidy(sum - x), y]);
+  const changes = ["through", "at", "points"].filter(
+    (key) => key in after && JSON.stringify(after[key]) !== JSON.stringify(found[key]),
+  );
+  await change(changes.map((key): Change => ({ path: ["bodies", name, key], value: after[key]! })));
+}
+
+/** A body with its global places changed; points in its frame change where it is placed through points. */
+function mapped(body: Tree, map: (at: Point) => Point): Tree {
+  const result: Tree = { ...body };
+  const pair = (value: Value): Value =>
+    Array.isArray(value) && value.every((one) => typeof one === "number") ? map(value as Point) : value;
+  if (isTable(body.through))
+    result.through = Object.fromEntries(Object.entries(body.through).map(([key, at]) => [key, pair(at)]));
+  if (isTable(body.through) && isTable(body.points))
+    result.points = Object.fromEntries(Object.entries(body.points).map(([key, at]) => [key, pair(at)]));
+  if (body.at) result.at = pair(body.at);
+  return result;
+}
+
+function tidy(value: number): number {
+  return Number(value.toPrecision(12));
+}
+
+/** Move the selected point, or all points of the selected body, by steps of the grid. */
+export async function nudge(dx: number, dy: number): Promise<void> {
+  const chosen = selection.value;
+  const step = snapStep(view);
+  const bodies = mechanism.value?.bodies ?? [];
+  const all = allPoints(bodies, poses.value);
+  const own = all.filter(({ body, point }) => isChosen(body.name, point));
+  if (!chosen || !own.length) return;
+  const changes = own.flatMap(({ at }) => {
+    const there = all.filter((other) => distance(other.at, at) * view.scale < 0.5);
+    return moved(tree.value, there, poses.value, bodies, [tidy(at[0] + dx * step), tidy(at[1] + dy * step)]).changes;
+  });
+  await change([...new Map(changes.map((one) => [one.path.join("\0"), one])).values()]);
+}
+
+/** Whether a point belongs to the selection; a joint has the points to which it refers. */
+function isChosen(body: string, point: string): boolean {
+  const chosen = selection.value!;
+  if (chosen.group === "bodies") return chosen.name === body && (!chosen.point || chosen.point === point);
+  return Object.values(entry(tree.value, chosen.group, chosen.name) ?? {}).includes(`${body}.${point}`);
+}

@@ -1,0 +1,72 @@
+// Values of fields as people type them.
+
+import type { Field } from "../catalogue/catalogue";
+import type { Value } from "../core/protocol";
+
+/** A value as text: numbers and formulas plain, lists and tables in the notation of the file. */
+export function written(value: Value | undefined): string {
+  if (value === undefined || value === null) return "";
+  if (typeof value === "string") return value;
+  return notation(value);
+}
+
+function notation(value: Value): string {
+  if (Array.isArray(value)) return `[${value.map(notation).join(", ")}]`;
+  if (typeof value === "object" && value !== null) {
+    const inner = Object.entries(value).map(
+      ([key, one]) => `${/^[\w-]+$/.test(key) ? key : JSON.stringify(key)} = ${notation(one)}`,
+    );
+    return inner.length ? `{ ${inner.join(", ")} }` : "{}";
+  }
+  return typeof value === "string" ? JSON.stringify(value) : String(value);
+}
+
+const LISTS = ["pair", "triple", "law_pair", "laws", "names", "units", "numbers", "columns", "name_list", "quantities"];
+
+/** Whether a field holds a list of short values, which is typed as "a, b". */
+export function isList({ shape }: Field): boolean {
+  return typeof shape === "string" && LISTS.includes(shape);
+}
+
+/** Whether a field holds a single value. */
+export function isSingle({ shape }: Field): boolean {
+  return (
+    typeof shape !== "string" ||
+    ["number", "law", "name", "count", "condition", "flag", "body", "point", "joint", "curve", "coordinate"].includes(
+      shape,
+    )
+  );
+}
+
+/** The value of a typed text: a number if it is one, otherwise a formula; undefined if it is empty. */
+export function typed(text: string): Value | undefined {
+  const trimmed = text.trim().replace("−", "-");
+  if (!trimmed) return undefined;
+  const number = Number(trimmed);
+  return Number.isFinite(number) && /^[-+.\d]/.test(trimmed) && !/^[-+]?0x/i.test(trimmed) ? number : trimmed;
+}
+
+/** The values of a typed list, "a, b" or "[a, b]"; commas within brackets do not separate. */
+export function typedList(text: string): Value[] | undefined {
+  const inner = text.trim().replace(/^\[(.*)\]$/s, "$1");
+  if (!inner.trim()) return undefined;
+  const parts: string[] = [];
+  let depth = 0;
+  let part = "";
+  for (const letter of inner) {
+    if (letter === "," && depth === 0) {
+      parts.push(part);
+      part = "";
+      continue;
+    }
+    if ("([".includes(letter)) depth += 1;
+    if (")]".includes(letter)) depth -= 1;
+    part += letter;
+  }
+  return [...parts, part].map((one) => typed(one.replace(/^\s*"(.*)"\s*$/, "$1")) ?? 0);
+}
+
+/** A list as it is typed. */
+export function writtenList(value: Value | undefined): string {
+  return Array.isArray(value) ? value.map((one) => written(one)).join(", ") : written(value);
+}

@@ -1,0 +1,48 @@
+// Opening and saving case files.
+
+import { restart } from "../modes/place";
+import { fileName, open } from "../store/document";
+import { report } from "../store/session";
+import { announce, text } from "../store/state";
+import { texts } from "../texts";
+import { download } from "./download";
+import { MOST_OF_TEXT } from "./link";
+
+/** The text of a new case. */
+export const EMPTY = `kempe = 1
+title = "Mechanism"
+gravity = [0, -9.81]
+
+[bodies.ground]
+points = {}
+`;
+
+export async function begin(): Promise<void> {
+  restart(null);
+  await open(EMPTY);
+}
+
+export function openFile(): void {
+  const input = document.createElement("input");
+  input.type = "file";
+  input.accept = ".toml,text/plain";
+  input.addEventListener("change", () => {
+    const file = input.files?.[0];
+    if (file) void take(file);
+  });
+  input.click();
+}
+
+/** Take up a file that was chosen or dropped. */
+export async function take(file: File): Promise<void> {
+  if (file.size > MOST_OF_TEXT) {
+    announce("problem", texts.share.damaged);
+    return;
+  }
+  await file.text().then((given) => open(given, file.name), report);
+}
+
+export function saveFile(): void {
+  const name = fileName.value.endsWith(".toml") ? fileName.value : `${fileName.value}.toml`;
+  download(name, text.value, "application/toml");
+}

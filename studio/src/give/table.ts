@@ -1,0 +1,15 @@
+// Curves as CSV.
+
+/** One line for each time, in SI units and rad, with all digits. */
+export function csv(t: Float64Array, names: string[], units: string[], rows: Float64Array[]): string {
+  const head = ["t [s]", ...names.map((name, k) => `${name} [${units[k]}]`)].map(cell);
+  const number = (value: number) => (Number.isFinite(value) ? String(value) : "nan");
+  const lines = Array.from(t, (one, k) => [one, ...rows.map((row) => row[k]!)].map(number).join(","));
+  return [head.join(","), ...lines, ""].join("\n");
+}
+
+/** A cell of text that no spreadsheet takes for a formula (RFC 4180, with an apostrophe before it). */
+function cell(text: string): string {
+  const safe = /^[=+\-@\t\r]/.test(text) ? `'${text}` : text;
+  return /[",\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
+}

@@ -1,0 +1,132 @@
+// Living: the mechanism moves under its forces, in real time.
+import { signal } from "@preact/signals";
+import { type Point, placed } from "../plane/points";
+import { report, send } from "../store/session";
+import { preview, view } from "../store/sheet";
+import { announce, mechanism, mode, pose, poses, selection, live as state } from "../store/state";
+import { texts } from "../texts";
+import { type Grip, gripAt } from "./grip";
+import type { Handler } from "./handler";
+
+export const playing = signal(false);
+export const speed = signal(1);
+/** Simulated seconds that were left out because the computer is too slow. */
+const LONGEST_FRAME = 0.1;
+const MOST_MS = 12;
+const SINGLE_STEP = 1 / 60;
+/** The pull of the mouse moves the lightest reasonable mass within this time, s. */
+const PULL_TIME = 0.15;
+
+let grip: Grip | null = null;
+let begun = false;
+
+export const live: Handler = {
+  down(spot) {
+    grip = gripAt(spot);
+    if (grip) {
+      selection.value = { group: "bodies", name: grip.body.name };
+      void pull(spot.at);
+    }
+    return grip !== null;
+  },
+  drag: (spot) => void pull(spot.at),
+  up: letGo,
+  cancel: letGo,
+  click: letGo,
+  cursor: () => "grab",
+};
+
+function letGo(): void {
+  if (grip) void send("pull", { body: null }, "pull").catch(report);
+  grip = null;
+  preview.value = null;
+}
+
+/** Pull at the body with a spring whose strength fits the masses. */
+async function pull(to: Point): Promise<void> {
+  if (!grip) return;
+  const mass = mechanism.value!.bodies.reduce((sum, body) => sum + (body.mass ?? 0), 0) || 1;
+  const stiffness = mass / PULL_TIME ** 2;
+  const damping = 2 * 0.5 * Math.sqrt(stiffness * mass);
+  await send("pull", { body: grip.body.name, point: grip.point, to, stiffness, damping }, "pull").catch(report);
+  showPull(to);
+}
+
+function showPull(to: Point): void {
+  if (!grip) return;
+  const place = poses.value[mechanism.value!.bodies.findIndex(({ name }) => name === grip!.body.name)];
+  if (place) preview.value = { line: [], pull: [placed(place, grip.point), to] };
+}
+
+/** Begin at the pose that is shown. */
+async function begin(): Promise<void> {
+  if (begun) return;
+  pose.value = (await send("live", {})).ok;
+  begun = true;
+}
+
+export async function play(): Promise<void> {
+  if (playing.value) return;
+  playing.value = true;
+  try {
+    await begin();
+    await run();
+  } catch (error) {
+    report(error);
+  }
+  playing.value = false;
+}
+
+async function run(): Promise<void> {
+  let last = performance.now();
+  while (playing.value && mode.value === "live") {
+    const now = await new Promise<number>((done) => requestAnimationFrame(done));
+    const by = Math.min(LONGEST_FRAME, Math.max(0, (now - last) / 1000)) * speed.value;
+    last = now;
+    if (by > 0 && !(await advance(by))) return;
+  }
+}
+
+/** Go on by some simulated seconds; false if the motion ended. */
+async function advance(by: number): Promise<boolean> {
+  const { ok } = await send("advance", { by, most_ms: MOST_MS });
+  state.value = ok;
+  pose.value = ok;
+  const pulled = preview.value?.pull;
+  if (pulled && view) showPull(pulled[1]);
+  if (ok.ended) announce("problem", ok.ended);
+  else if (ok.events.length) announce("info", texts.live.event(ok.events.map(({ name }) => name).join(", ")));
+  return !ok.ended;
+}
+
+export function pause(): void {
+  playing.value = false;
+}
+
+export async function step(): Promise<void> {
+  pause();
+  try {
+    await begin();
+    await advance(SINGLE_STEP * speed.value);
+  } catch (error) {
+    report(error);
+  }
+}
+
+/** Forget the motion: the next one begins where the mechanism then is. */
+export function stop(): void {
+  pause();
+  letGo();
+  begun = false;
+  state.value = null;
+}
+
+/** Change parameters while the motion goes on. */
+export async function setParameters(values: Record<string, number>): Promise<void> {
+  try {
+    const { ok } = await send("parameters", { values }, "parameters");
+    if (!playing.value) pose.value = ok;
+  } catch (error) {
+    report(error);
+  }
+}

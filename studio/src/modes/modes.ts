@@ -1,0 +1,43 @@
+// Changing between the modes.
+import { effect } from "@preact/signals";
+import { goHome } from "../store/session";
+import { type Mode, mode, panel, text, tool } from "../store/state";
+import { edit } from "./edit";
+import type { Handler } from "./handler";
+import * as living from "./live";
+import { configurations, move } from "./move";
+import { place, restart } from "./place";
+import * as reading from "./read";
+
+export function handler(): Handler {
+  if (mode.value === "edit") return tool.value ? place : edit;
+  return { move, live: living.live, read: reading.read }[mode.value];
+}
+
+export function enter(next: Mode): void {
+  if (mode.value === next) return;
+  leave(mode.value);
+  mode.value = next;
+  if (next === "edit") void goHome();
+  panel.value = next === "read" ? "results" : "properties";
+  if (next === "live") void living.play();
+  if (next === "read") {
+    if (reading.course.value) reading.show(reading.time.value);
+    else void reading.run();
+  }
+}
+
+function leave(before: Mode): void {
+  restart(null);
+  configurations.value = null;
+  if (before === "live") living.stop();
+  if (before === "read") reading.playing.value = false;
+}
+
+/** A change of the text makes runs and motions of the old one void. */
+effect(() => {
+  text.value;
+  reading.course.value = null;
+  reading.playing.value = false;
+  living.stop();
+});

@@ -1,0 +1,91 @@
+// Moving: every length is kept, and the mechanism follows the pointer on its branch.
+import { signal } from "@preact/signals";
+import type { Pose } from "../core/protocol";
+import { distance, type Point, placed } from "../plane/points";
+import { report, send } from "../store/session";
+import { preview, view } from "../store/sheet";
+import { announce, mechanism, message, pose, poses, selection } from "../store/state";
+import { texts } from "../texts";
+import { type Grip, gripAt } from "./grip";
+import type { Handler } from "./handler";
+
+/** Coordinates that a drag does not change. */
+export const locked = signal<string[]>([]);
+/** All configurations with the free coordinates of the present pose. */
+export const configurations = signal<{ complete: boolean; poses: Pose[] } | null>(null);
+
+let grip: Grip | null = null;
+let target: Point | null = null;
+let working = false;
+
+export const move: Handler = {
+  down(spot) {
+    grip = gripAt(spot);
+    if (grip) selection.value = { group: "bodies", name: grip.body.name };
+    return grip !== null;
+  },
+  drag(spot) {
+    if (!grip) return;
+    target = spot.at;
+    if (!working) void follow(grip);
+  },
+  up: letGo,
+  cancel: letGo,
+  click(spot) {
+    const found = gripAt(spot);
+    selection.value = found ? { group: "bodies", name: found.body.name } : null;
+  },
+  cursor: () => "grab",
+};
+
+function letGo(): void {
+  grip = null;
+  preview.value = null;
+  configurations.value = null;
+}
+
+/** Send the newest place of the pointer, one request at a time and one for each frame. */
+async function follow({ body, point }: Grip): Promise<void> {
+  working = true;
+  try {
+    while (target) {
+      const to = target;
+      target = null;
+      const { ok } = await send("drag", { body: body.name, point, to, locked: locked.value });
+      pose.value = ok.pose;
+      showPull(body.name, point, to);
+      if (ok.stopped) announce("info", ok.stopped);
+      else if (message.value?.kind === "info") message.value = null;
+      await new Promise((done) => requestAnimationFrame(done));
+    }
+  } catch (error) {
+    report(error);
+  }
+  working = false;
+}
+
+/** A line from the body to the pointer where it cannot follow. */
+function showPull(name: string, point: Point, to: Point): void {
+  const at = poses.value[mechanism.value!.bodies.findIndex((body) => body.name === name)];
+  const from = at && placed(at, point);
+  preview.value = from && grip && distance(from, to) * view.scale > 6 ? { line: [], pull: [from, to] } : null;
+}
+
+/** Find all assembly modes. */
+export async function findConfigurations(): Promise<void> {
+  try {
+    configurations.value = (await send("configurations", { limit: 24 })).ok;
+    if (configurations.value.poses.length === 1) announce("info", texts.move.only);
+  } catch (error) {
+    report(error);
+  }
+}
+
+/** Go on from another pose. */
+export async function choose(other: Pose): Promise<void> {
+  try {
+    pose.value = (await send("pose", { q: other.q })).ok;
+  } catch (error) {
+    report(error);
+  }
+}

@@ -1,0 +1,139 @@
+// Reading: a run of an analysis, its poses over time, its quantities.
+import { batch, computed, signal } from "@preact/signals";
+import type { Pose, Quantity, Ran } from "../core/protocol";
+import { report, send } from "../store/session";
+import { announce, catalogue, mechanism, mode, pose, selection } from "../store/state";
+import { texts } from "../texts";
+import { gripAt } from "./grip";
+import type { Handler } from "./handler";
+
+/** A run with its frames: t and the poses of all moving bodies, row by row. */
+export interface Course {
+  ran: Ran;
+  t: Float64Array;
+  rows: Float64Array;
+  width: number;
+}
+
+export const course = signal<Course | null>(null);
+export const quantities = signal<Quantity[]>([]);
+export const time = signal(0);
+export const playing = signal(false);
+export const rate = signal(1);
+export const running = signal(false);
+/** The analysis of the case that is chosen; empty for dynamics from the pose that is shown. */
+export const chosen = signal<string | null>(null);
+/** The analyses of the case that end at a time, and so give a motion. */
+export const analyses = computed(() => {
+  const motions = catalogue.value.analyses.filter(({ fields }) => fields.some(({ name }) => name === "t_end"));
+  return (mechanism.value?.analyses ?? []).filter(({ type }) => motions.some(({ name }) => name === type));
+});
+
+/** The analysis that runs: the chosen one if the case still has it, otherwise the first. */
+export const analysis = computed(() => {
+  if (chosen.value === "" || analyses.value.some(({ name }) => name === chosen.value)) return chosen.value!;
+  return analyses.value[0]?.name ?? "";
+});
+
+/** The end of a run without an analysis, s, and its number of outputs. */
+const T_END = 5;
+const OUTPUTS = 500;
+
+export const span = computed<[number, number]>(() => {
+  const t = course.value?.t;
+  return t?.length ? [t[0]!, t[t.length - 1]!] : [0, 0];
+});
+
+export const read: Handler = {
+  click(spot) {
+    const grip = gripAt(spot);
+    selection.value = grip ? { group: "bodies", name: grip.body.name } : null;
+  },
+  cursor: () => "grab",
+};
+
+/** Run an analysis and fetch its frames. */
+export async function run(t_end?: number): Promise<Ran | null> {
+  running.value = true;
+  try {
+    const end = t_end ?? T_END;
+    const named = t_end === undefined && analysis.value;
+    const { ok } = await send("run", named ? { analysis: named } : { t_end: end, output_step: end / OUTPUTS });
+    const { numbers } = await send("frames", {});
+    const width = 1 + 3 * ((mechanism.value?.bodies.length ?? 1) - 1);
+    const t = Float64Array.from({ length: Math.floor(numbers.length / width) }, (_, k) => numbers[k * width]!);
+    batch(() => {
+      course.value = { ran: ok, t, rows: numbers, width };
+      time.value = t[0] ?? 0;
+    });
+    quantities.value = (await send("quantities", {})).ok;
+    if (ok.error) announce("problem", ok.error.message, ok.error.hint ? { hint: ok.error.hint } : {});
+    else announce("done", texts.read.done(ok.count, ok.t_end));
+    show(time.value);
+    return ok;
+  } catch (error) {
+    report(error);
+    return null;
+  } finally {
+    running.value = false;
+  }
+}
+
+/** The frame that begins before t, and the share of the way to the next one. */
+export function placeIn(t: Float64Array, at: number): { low: number; high: number; share: number } {
+  let [low, high] = [0, t.length - 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (t[middle]! <= at) low = middle;
+    else high = middle;
+  }
+  const h = t[high]! - t[low]!;
+  return { low, high, share: h > 0 ? Math.min(1, Math.max(0, (at - t[low]!) / h)) : 0 };
+}
+
+/** The poses at one time: between frames as their mean, weighted by the distance in time. */
+export function posesAt({ t, rows, width }: Course, at: number): Pose["poses"] {
+  const { low, high, share } = placeIn(t, at);
+  return Array.from({ length: (width - 1) / 3 }, (_, body) => {
+    const value = (k: number) => {
+      const [a, b] = [rows[low * width + 1 + 3 * body + k]!, rows[high * width + 1 + 3 * body + k]!];
+      return a + share * (b - a);
+    };
+    return [value(0), value(1), value(2)];
+  });
+}
+
+/** Show the mechanism at a time of the run. */
+export function show(at: number): void {
+  const found = course.value;
+  if (!found?.t.length) return;
+  time.value = Math.min(span.value[1], Math.max(span.value[0], at));
+  const base = pose.value;
+  if (base && mode.value === "read") pose.value = { ...base, t: time.value, poses: posesAt(found, time.value) };
+}
+
+export async function play(): Promise<void> {
+  if (playing.value || !course.value) return;
+  playing.value = true;
+  if (time.value >= span.value[1]) show(span.value[0]);
+  let last = performance.now();
+  while (playing.value && mode.value === "read") {
+    const now = await new Promise<number>((done) => requestAnimationFrame(done));
+    const next = time.value + Math.min(0.5, Math.max(0, now - last) / 1000) * rate.value;
+    last = now;
+    show(next >= span.value[1] ? span.value[0] : next);
+  }
+  playing.value = false;
+}
+
+export function toggle(): void {
+  if (playing.value) playing.value = false;
+  else void play();
+}
+
+/** Values of quantities at all outputs, one row for each name. */
+export async function valuesOf(names: string[]): Promise<{ units: string[]; rows: Float64Array[] }> {
+  const { ok, numbers } = await send("values", { names });
+  const n = numbers.length / Math.max(1, names.length);
+  return { units: ok.units, rows: names.map((_, k) => numbers.slice(k * n, (k + 1) * n)) };
+}

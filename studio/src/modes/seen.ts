@@ -1,0 +1,33 @@
+// What is under the pointer now.
+
+import type { Group } from "../catalogue/catalogue";
+import type { Body } from "../core/protocol";
+import { allPoints, bodyAt, elementAt, type PointHit, pointsAt, reachOf } from "../plane/hits";
+import { view } from "../store/sheet";
+import { items, mechanism, poses } from "../store/state";
+import type { Spot } from "./handler";
+
+export function points(): PointHit[] {
+  return allPoints(mechanism.value?.bodies ?? [], poses.value);
+}
+
+export function pointsUnder(spot: Spot): PointHit[] {
+  return pointsAt(spot.px, points(), view, reachOf(spot.touch));
+}
+
+export function bodyUnder(spot: Spot): Body | null {
+  return bodyAt(spot.px, mechanism.value?.bodies ?? [], poses.value, items.value, view, reachOf(spot.touch));
+}
+
+/** The element whose symbol is under the pointer. */
+export function elementUnder(spot: Spot): { group: Group; name: string } | null {
+  const found = mechanism.value;
+  if (!found) return null;
+  const groups: Group[] = ["forces", "drivers", "joints"];
+  for (const group of groups) {
+    const names = found[group as "forces"].map(({ name }) => name);
+    const name = elementAt(spot.px, names, items.value, poses.value, view, reachOf(spot.touch) - 3);
+    if (name) return { group, name };
+  }
+  return null;
+}

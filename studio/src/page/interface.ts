@@ -1,0 +1,43 @@
+// window.kempe: the page for programs, as studio/README.md describes it.
+
+import type { Loaded, Ran } from "../core/protocol";
+import { enter } from "../modes/modes";
+import { run } from "../modes/read";
+import type { Point } from "../plane/points";
+import { open } from "../store/document";
+import { send } from "../store/session";
+import { view } from "../store/sheet";
+import { mode, pose, problems, text, unassembled } from "../store/state";
+
+export interface Interface {
+  load(given: string): Promise<{ problems: Loaded["problems"]; unassembled: Loaded["unassembled"] }>;
+  toml(): Promise<string>;
+  state(): Promise<{ t: number; q: number[]; v: number[] } | null>;
+  quantity(name: string): Promise<{ value: number; unit: string }>;
+  run(t_end?: number): Promise<Ran | null>;
+  screen(point: Point): Promise<Point>;
+}
+
+export const kempe: Interface = {
+  async load(given) {
+    enter("edit");
+    await open(given);
+    return { problems: problems.value, unassembled: unassembled.value };
+  },
+  toml: async () => text.value,
+  async state() {
+    const now = pose.value;
+    return now && { t: now.t, q: [...now.q], v: [...now.v] };
+  },
+  async screen(point) {
+    const { left, top } = document.getElementById("sheet")!.getBoundingClientRect();
+    const [x, y] = view.toScreen(point);
+    return [left + x, top + y];
+  },
+  quantity: async (name) => (await send("quantity", { name })).ok,
+  async run(t_end) {
+    const found = await run(t_end);
+    if (found && mode.value !== "read") enter("read");
+    return found;
+  },
+};

@@ -1,0 +1,115 @@
+// What keys do. A control that has the focus keeps the keys that it needs itself.
+
+import { entry } from "../catalogue/tree";
+import type { Tree } from "../core/protocol";
+import { nudge, paste, remove } from "../edit/commands";
+import { openFile, saveFile } from "../give/files";
+import * as living from "../modes/live";
+import { enter } from "../modes/modes";
+import { drawing, finish, restart } from "../modes/place";
+import * as reading from "../modes/read";
+import { redo, undo } from "../store/document";
+import { fit, typedLength, zoom } from "../store/sheet";
+import { dialog, MODES, message, mode, selection, tool, tree } from "../store/state";
+
+let copied: { name: string; body: Tree } | null = null;
+
+export function listenToKeys(): void {
+  document.addEventListener("keydown", (event) => {
+    const target = event.composedPath()[0] as HTMLElement;
+    if (dialog.value || keepsKeys(target, event.key)) return;
+    const action = event.ctrlKey || event.metaKey ? withControl(event) : event.altKey ? null : plain(event);
+    if (!action) return;
+    event.preventDefault();
+    action();
+  });
+}
+
+function keepsKeys(target: HTMLElement, key: string): boolean {
+  if (target.isContentEditable || target.tagName === "TEXTAREA" || target.tagName === "SELECT") return true;
+  if (target.tagName === "BUTTON" || target.tagName === "SUMMARY") return key === " " || key === "Enter";
+  if (target.tagName !== "INPUT") return false;
+  const kind = (target as HTMLInputElement).type;
+  if (kind === "checkbox") return key === " ";
+  if (target.id === "typed-length") return !["Enter", "Escape"].includes(key);
+  return key !== "Escape" && !(kind === "range" && key === " ");
+}
+
+function withControl(event: KeyboardEvent): (() => void) | null {
+  const actions: Record<string, () => void> = {
+    z: () => void (event.shiftKey ? redo() : undo()),
+    y: () => void redo(),
+    s: saveFile,
+    o: openFile,
+    c: copySelection,
+    v: () => {
+      if (copied) void paste(copied.name, copied.body);
+    },
+  };
+  const key = event.key.toLowerCase();
+  if (key === "c" && selection.value?.group !== "bodies") return null;
+  if (key === "v" && !copied) return null;
+  return actions[key] ?? null;
+}
+
+function copySelection(): void {
+  const chosen = selection.value;
+  const body = chosen && entry(tree.value, "bodies", chosen.name);
+  if (body) copied = { name: chosen.name, body };
+}
+
+function plain(event: KeyboardEvent): (() => void) | null {
+  const { key } = event;
+  if (tool.value && drawing() && /^[\d.]$/.test(key)) return () => typeLength(key);
+  const number = ["1", "2", "3", "4"].indexOf(key);
+  if (number >= 0) return () => enter(MODES[number]!);
+  const actions: Record<string, () => void> = {
+    Escape: stopAll,
+    Enter: () => void finish(),
+    Delete: () => mode.value === "edit" && void remove(),
+    Backspace: () => mode.value === "edit" && void remove(),
+    "+": () => zoom(1.25),
+    "=": () => zoom(1.25),
+    "-": () => zoom(0.8),
+    "0": fit,
+    "?": () => (dialog.value = "help"),
+    " ": toggle,
+  };
+  const steps: Record<string, [number, number]> = {
+    ArrowLeft: [-1, 0],
+    ArrowRight: [1, 0],
+    ArrowUp: [0, 1],
+    ArrowDown: [0, -1],
+  };
+  const step = steps[key];
+  if (step && mode.value === "edit" && selection.value) return () => void nudge(...step);
+  if (step && mode.value === "read" && step[0]) return () => reading.show(reading.time.value + step[0] * frame());
+  return actions[key] ?? null;
+}
+
+/** The time between two states of a run. */
+function frame(): number {
+  const t = reading.course.value?.t;
+  return t && t.length > 1 ? (t.at(-1)! - t[0]!) / (t.length - 1) : 0;
+}
+
+function typeLength(key: string): void {
+  typedLength.value += key;
+  const input = document.getElementById("typed-length") as HTMLInputElement | null;
+  input?.focus();
+}
+
+function stopAll(): void {
+  if (tool.value) restart(drawing() ? tool.value : null);
+  else selection.value = null;
+  message.value = null;
+  (document.activeElement as HTMLElement | null)?.blur();
+}
+
+function toggle(): void {
+  if (mode.value === "live") {
+    if (living.playing.value) living.pause();
+    else void living.play();
+  }
+  if (mode.value === "read") reading.toggle();
+}

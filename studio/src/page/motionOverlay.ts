@@ -1,0 +1,133 @@
+// What a run adds to the drawing: traces of points, arrows of forces and velocities.
+import { computed, effect, signal } from "@preact/signals";
+import type { VectorKind } from "../draw/vectors";
+import { course, placeIn, quantities, time, valuesOf } from "../modes/read";
+import { points } from "../modes/seen";
+import { type Point, placed } from "../plane/points";
+import { report } from "../store/session";
+import { mechanism, mode, scene } from "../store/state";
+
+/** Kinds of arrows: the endings of the names of their two components. */
+export const KINDS = {
+  reactions: ["fx", "fy"],
+  velocities: ["vx", "vy"],
+  accelerations: ["ax", "ay"],
+} as const;
+export type Kind = keyof typeof KINDS;
+export const arrows = signal<Record<Kind, boolean>>({ reactions: false, velocities: false, accelerations: false });
+
+interface Fetched {
+  kind: Kind;
+  unit: string;
+  largest: number;
+  names: string[];
+  rows: Float64Array[];
+}
+
+const fetched = signal<Fetched[]>([]);
+
+/** Traced points: those of all moving bodies that more than one body or none shares. */
+export const traced = computed(() => {
+  const bodies = mechanism.value?.bodies ?? [];
+  const listed = (scene.value as { traces?: { body: number; point: Point }[] } | null)?.traces;
+  if (listed?.length) return listed;
+  return bodies.flatMap((body, k) =>
+    body.ground ? [] : Object.values(body.points).map((point) => ({ body: k, point })),
+  );
+});
+
+export const traces = computed(() => {
+  const found = course.value;
+  if (!found || mode.value !== "read") return [];
+  const { t, rows, width } = found;
+  return traced.value.map(({ body, point }) => {
+    const line = Array.from(t, (_, k): Point => {
+      const at = k * width + 1 + 3 * (body - 1);
+      return placed([rows[at]!, rows[at + 1]!, rows[at + 2]!], point);
+    });
+    return { body, line };
+  });
+});
+
+/** Fetch the components of the arrows that are shown, once for each run. */
+effect(() => {
+  const run = course.value;
+  const wanted = (Object.keys(KINDS) as Kind[]).filter((kind) => arrows.value[kind]);
+  if (!run || !wanted.length) {
+    fetched.value = [];
+    return;
+  }
+  void Promise.all(
+    wanted.map((kind) =>
+      fetchKind(
+        kind,
+        quantities.value.map(({ name }) => name),
+      ),
+    ),
+  )
+    .then((all) => {
+      fetched.value = all.filter((one) => one !== null);
+    })
+    .catch(report);
+});
+
+async function fetchKind(kind: Kind, all: string[]): Promise<Fetched | null> {
+  const [x, y] = KINDS[kind];
+  const stems = all
+    .filter((name) => name.endsWith(`.${x}`) && all.includes(`${name.slice(0, -2)}${y}`))
+    .map((name) => name.slice(0, -3));
+  const places = new Set(where().map(([name]) => name));
+  const names = stems.filter((stem) => places.has(stem));
+  if (!names.length) return null;
+  const { units, rows } = await valuesOf(names.flatMap((name) => [`${name}.${x}`, `${name}.${y}`]));
+  let largest = 0;
+  names.forEach((_, k) => {
+    const [u, v] = [rows[2 * k]!, rows[2 * k + 1]!];
+    u.forEach((one, n) => {
+      const size = Math.hypot(one, v[n]!);
+      if (size > largest) largest = size;
+    });
+  });
+  return { kind, unit: units[0] ?? "", largest, names, rows };
+}
+
+/** Where the things with arrows are: points, and joints at a point of their body j. */
+function where(): [string, Point][] {
+  const named = points().map(({ body, point, at }): [string, Point] => [`${body.name}.${point}`, at]);
+  const joints =
+    (scene.value as { joints?: { name: string; bodies: [number, number]; points: [Point, Point] }[] } | null)?.joints ??
+    [];
+  const bodies = mechanism.value?.bodies ?? [];
+  const places = joints.map(({ name, bodies: [, j], points: [, at] }): [string, Point] => {
+    const k = course.value ? poseNow(j) : null;
+    return [name, k ? placed(k, at) : at];
+  });
+  return bodies.length ? [...named, ...places] : [];
+}
+
+function poseNow(body: number): [number, number, number] {
+  const { t, rows, width } = course.value!;
+  if (body === 0) return [0, 0, 0];
+  const { low, high, share } = placeIn(t, time.value);
+  const value = (k: number) => {
+    const [a, b] = [rows[low * width + 3 * body - 2 + k]!, rows[high * width + 3 * body - 2 + k]!];
+    return a + share * (b - a);
+  };
+  return [value(0), value(1), value(2)];
+}
+
+export const vectors = computed<VectorKind[]>(() => {
+  const run = course.value;
+  if (!run || mode.value !== "read") return [];
+  const { low, high, share } = placeIn(run.t, time.value);
+  const places = new Map(where());
+  return fetched.value.map(({ kind, unit, largest, names, rows }) => {
+    const at = (row: Float64Array) => row[low]! + share * (row[high]! - row[low]!);
+    const found = names.map((name, k) => ({
+      name,
+      at: places.get(name) ?? [0, 0],
+      value: [at(rows[2 * k]!), at(rows[2 * k + 1]!)] as Point,
+    }));
+    return { colour: kind, unit, largest, vectors: found as VectorKind["vectors"] };
+  });
+});

@@ -1,0 +1,91 @@
+// The whole drawing, from what the page shows now.
+import { isPin } from "../catalogue/catalogue";
+import { entry } from "../catalogue/tree";
+import { paintGravity, paintGrid, paintLengthScale } from "../draw/measure";
+import {
+  paintHandles,
+  paintLine,
+  paintLinks,
+  paintMark,
+  paintPull,
+  paintRing,
+  paintSelectedBody,
+  paintTraces,
+} from "../draw/overlay";
+import { paintItems } from "../draw/paint";
+import { type Colours, palette } from "../draw/surface";
+import { paintVectors } from "../draw/vectors";
+import { points } from "../modes/seen";
+import { type Point, placed } from "../plane/points";
+import { preview, view, viewed } from "../store/sheet";
+import { catalogue, items, mechanism, mode, poses, scene, selection, shown, tree } from "../store/state";
+import { traces, vectors } from "./motionOverlay";
+
+/** Everything that the drawing depends on. */
+export function follow(): void {
+  for (const one of [viewed, preview, items, mechanism, mode, poses, scene, selection, shown, tree, traces, vectors])
+    one.value;
+}
+
+/** Paint everything on a context in CSS pixels. */
+export function paintSheet(context: CanvasRenderingContext2D, colours: Colours = palette(), bare = false): void {
+  const found = mechanism.value;
+  const editing = mode.value === "edit" && !bare;
+  if (shown.value.grid) paintGrid(context, view, colours, editing);
+  if (found) {
+    if (shown.value.traces) paintTraces(context, view, traces.value, colours);
+    if (!bare) paintSelection(context, colours);
+    if (items.value.length) paintItems(context, view, items.value, poses.value, shown.value, colours);
+    else paintLinks(context, view, found.bodies, poses.value, colours);
+    if (editing) paintHandles(context, view, loosePoints(), colours);
+    for (const kind of vectors.value) paintVectors(context, view, kind, colours);
+    paintGravity(context, view, found.gravity, colours);
+  }
+  paintLengthScale(context, view, scene.value?.length ?? { unit: "m", metres: 1 }, colours);
+  if (!bare) paintPreview(context, colours);
+}
+
+/** Points without a pin: a pin is drawn by its own symbol. */
+function loosePoints(): Point[] {
+  const pins = new Set(catalogue.value.joints.filter(isPin).map(({ name }) => name));
+  const pinned = new Set<unknown>();
+  for (const { name, type } of mechanism.value?.joints ?? []) {
+    const joint = pins.has(type) ? entry(tree.value, "joints", name) : undefined;
+    if (joint) for (const one of Object.values(joint)) pinned.add(one);
+  }
+  const all = points();
+  return (items.value.length ? all.filter(({ body, point }) => !pinned.has(`${body.name}.${point}`)) : all).map(
+    ({ at }) => at,
+  );
+}
+
+function paintSelection(context: CanvasRenderingContext2D, colours: Colours): void {
+  const chosen = selection.value;
+  const bodies = mechanism.value?.bodies ?? [];
+  if (!chosen) return;
+  if (chosen.group === "bodies") {
+    const k = bodies.findIndex(({ name }) => name === chosen.name);
+    const [body, pose] = [bodies[k], poses.value[k]];
+    if (!body || !pose) return;
+    if (chosen.point && body.points[chosen.point])
+      paintRing(context, view, placed(pose, body.points[chosen.point]!), colours);
+    else if (!body.ground) paintSelectedBody(context, view, body, pose, colours);
+    return;
+  }
+  for (const at of placesOf(Object.values(entry(tree.value, chosen.group, chosen.name) ?? {})))
+    paintRing(context, view, at, colours, 15);
+}
+
+/** Where the points are to which an element refers. */
+function placesOf(references: unknown[]): Point[] {
+  const found = points().filter(({ body, point }) => references.includes(`${body.name}.${point}`));
+  return found.map(({ at }) => at);
+}
+
+function paintPreview(context: CanvasRenderingContext2D, colours: Colours): void {
+  const shownNow = preview.value;
+  if (!shownNow) return;
+  paintLine(context, view, shownNow.line, shownNow.closed ?? false, shownNow.label ?? "", colours);
+  if (shownNow.mark) paintMark(context, view, shownNow.mark.at, shownNow.mark.kind, colours);
+  if (shownNow.pull) paintPull(context, view, ...shownNow.pull, colours);
+}

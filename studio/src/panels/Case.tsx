@@ -1,0 +1,167 @@
+// What concerns the whole case: title, gravity, parameters, analyses, and its contents.
+import { useState } from "preact/hooks";
+import { GROUPS } from "../catalogue/catalogue";
+import { entries, isTable } from "../catalogue/tree";
+import type { Tree } from "../core/protocol";
+import { isName, rename } from "../edit/commands";
+import { typed, typedList, written, writtenList } from "../edit/values";
+import { announce, catalogue, mechanism, tree } from "../store/state";
+import { texts } from "../texts";
+import { Field, put } from "./Field";
+import { Contents } from "./Properties";
+import { Button, Section } from "./parts";
+
+export function Case() {
+  const words = texts.properties;
+  const found = tree.value ?? {};
+  const empty = (mechanism.value?.bodies.length ?? 0) < 2;
+  return (
+    <div class="properties">
+      {empty ? <p class="doc">{words.nothing}</p> : null}
+      <TextField label={words.title} value={written(found.title)} keep={(text) => put(["title"], text || undefined)} />
+      <TextField
+        label={words.gravity}
+        unit="m/s²"
+        value={writtenList(found.gravity)}
+        placeholder="0, 0"
+        keep={(text) => put(["gravity"], typedList(text))}
+      />
+      <Parameters />
+      {GROUPS.map((group) => (
+        <Contents key={group} group={group} />
+      ))}
+      <Start value={isTable(found.start) ? found.start : {}} />
+      <Analyses />
+    </div>
+  );
+}
+
+interface TextFieldProps {
+  label: string;
+  value: string;
+  keep(text: string): void;
+  unit?: string;
+  placeholder?: string;
+  onRemove?: () => void;
+}
+
+export function TextField({ label, value, keep, unit, placeholder, onRemove }: TextFieldProps) {
+  const id = `case-${label}`;
+  return (
+    <div class="field">
+      <label for={id}>
+        <bdi>{label}</bdi>
+      </label>
+      <input
+        id={id}
+        type="text"
+        autocomplete="off"
+        spellcheck={false}
+        value={value}
+        placeholder={placeholder ?? ""}
+        onChange={(event) => event.currentTarget.value !== value && keep(event.currentTarget.value)}
+      />
+      {onRemove ? (
+        <Button label={`${texts.properties.remove} ${label}`} icon="close" kind="small" onClick={onRemove} />
+      ) : (
+        <span class="unit">{unit ?? ""}</span>
+      )}
+    </div>
+  );
+}
+
+function Parameters() {
+  const words = texts.properties;
+  const [adding, setAdding] = useState("");
+  const rows = Object.entries(entries(tree.value, "parameters") as unknown as Tree);
+  const add = () => {
+    const name = adding.trim();
+    if (!isName(name)) return announce("problem", texts.edit.invalidName(name));
+    setAdding("");
+    put(["parameters", name], 1);
+  };
+  return (
+    <Section title={words.parameters}>
+      {rows.map(([name, value]) => (
+        <TextField
+          key={name}
+          label={name}
+          value={written(value)}
+          keep={(text) => put(["parameters", name], typed(text))}
+          onRemove={() => put(["parameters", name], undefined)}
+        />
+      ))}
+      <form
+        class="adding"
+        onSubmit={(event) => {
+          event.preventDefault();
+          add();
+        }}
+      >
+        <input
+          type="text"
+          aria-label={words.parameterName}
+          placeholder={words.parameterName}
+          value={adding}
+          autocomplete="off"
+          onInput={(event) => setAdding(event.currentTarget.value)}
+        />
+        <Button label={words.addParameter} icon="plus" onClick={add} disabled={!adding.trim()} />
+      </form>
+    </Section>
+  );
+}
+
+function Start({ value }: { value: Tree }) {
+  const set = isTable(value.set) ? Object.entries(value.set) : [];
+  if (!set.length) return null;
+  return (
+    <Section title={texts.properties.startSet}>
+      {set.map(([name, one]) => (
+        <TextField
+          key={name}
+          label={name}
+          value={written(one)}
+          keep={(text) => put(["start", "set", name], typed(text))}
+          onRemove={() => put(["start", "set", name], undefined)}
+        />
+      ))}
+    </Section>
+  );
+}
+
+function Analyses() {
+  const words = texts.properties;
+  const all = Object.entries(entries(tree.value, "analyses"));
+  const types = catalogue.value.analyses;
+  const first = types[0];
+  return (
+    <Section
+      title={words.analyses}
+      action={
+        first ? (
+          <Button
+            label={words.addAnalysis}
+            icon="plus"
+            kind="small"
+            onClick={() => put(["analyses", `run${all.length + 1}`], { type: first.name, t_end: 5, output_step: 0.01 })}
+          />
+        ) : null
+      }
+    >
+      {all.map(([name, value]) => (
+        <details key={name}>
+          <summary>
+            <bdi>{name}</bdi> <span class="unit">{written(value.type)}</span>
+          </summary>
+          <TextField label={words.name} value={name} keep={(text) => void rename("analyses", name, text.trim())} />
+          {types
+            .find((type) => type.name === value.type)
+            ?.fields.map((field) => (
+              <Field key={field.name} field={field} path={["analyses", name, field.name]} value={value[field.name]} />
+            ))}
+        </details>
+      ))}
+    </Section>
+  );
+}

@@ -1,0 +1,114 @@
+// Living: play, speed, energy, parameters.
+import { useState } from "preact/hooks";
+import { significant } from "../draw/numbers";
+import * as living from "../modes/live";
+import { goHome } from "../store/session";
+import { mechanism, live as state } from "../store/state";
+import { texts } from "../texts";
+import { Button, Facts, Section } from "./parts";
+import { shown } from "./Readings";
+
+const SPEEDS = [0.01, 0.05, 0.1, 0.25, 0.5, 1, 2];
+
+export function LivePanel() {
+  const words = texts.live;
+  const playing = living.playing.value;
+  const reset = () => {
+    living.stop();
+    void goHome();
+  };
+  return (
+    <div class="properties">
+      <div class="buttons">
+        <Button
+          label={playing ? words.pause : words.play}
+          icon={playing ? "pause" : "play"}
+          kind="main"
+          onClick={() => (playing ? living.pause() : void living.play())}
+          id="live-play"
+        />
+        <Button label={words.step} icon="step" onClick={() => void living.step()} />
+        <Button label={words.restart} icon="first" onClick={reset} />
+        <label class="choice">
+          <span>{words.speed}</span>
+          <select
+            value={String(living.speed.value)}
+            onChange={(event) => (living.speed.value = Number(event.currentTarget.value))}
+          >
+            {SPEEDS.map((one) => (
+              <option key={one} value={String(one)}>{`${one}×`}</option>
+            ))}
+          </select>
+        </label>
+      </div>
+      <p class="doc">{words.hint}</p>
+      <State />
+      <Parameters />
+    </div>
+  );
+}
+
+function State() {
+  const words = texts.live;
+  const now = state.value;
+  if (!now) return null;
+  const { energy } = now;
+  return (
+    <>
+      <Facts
+        rows={[
+          [words.time, `${now.t.toFixed(3)} s`],
+          [words.residual, `${significant(now.residual, 2)}`],
+        ]}
+      />
+      <Section title={words.energy}>
+        <Facts
+          rows={[
+            [words.kinetic, shown(energy.kinetic, "J")],
+            [words.potential, shown(energy.potential, "J")],
+            [words.dissipated, shown(energy.dissipated, "J")],
+            [words.work, shown(energy.work, "J")],
+            [words.balance, significant(energy.balance, 2)],
+          ]}
+        />
+      </Section>
+    </>
+  );
+}
+
+function Parameters() {
+  const all = mechanism.value?.parameters ?? [];
+  if (!all.length) return null;
+  return (
+    <Section title={texts.live.parameters}>
+      {all.map(({ name, value, unit }) => (
+        <Slider key={name} name={name} value={value} unit={unit ?? ""} />
+      ))}
+    </Section>
+  );
+}
+
+/** A slider from a fifth to the double of the value of the text, or around zero. */
+function Slider({ name, value, unit }: { name: string; value: number; unit: string }) {
+  const [now, setNow] = useState(value);
+  const [low, high] = value === 0 ? [-1, 1] : [Math.min(0.2 * value, 2 * value), Math.max(0.2 * value, 2 * value)];
+  return (
+    <label class="slider">
+      <span>
+        <bdi>{name}</bdi>
+        <output>{`${significant(now)} ${unit}`}</output>
+      </span>
+      <input
+        type="range"
+        min={low}
+        max={high}
+        step="any"
+        value={now}
+        onInput={(event) => {
+          setNow(Number(event.currentTarget.value));
+          void living.setParameters({ [name]: Number(event.currentTarget.value) });
+        }}
+      />
+    </label>
+  );
+}

@@ -1,0 +1,98 @@
+// Moving: assembly modes, held coordinates, playing the drivers, mobility.
+
+import * as drivers from "../modes/drivers";
+import { choose, configurations, findConfigurations, locked } from "../modes/move";
+import { goHome } from "../store/session";
+import { mechanism, mobility, pose } from "../store/state";
+import { texts } from "../texts";
+import { Button, Check, Facts, Section } from "./parts";
+
+export function MovePanel() {
+  const words = texts.move;
+  const found = configurations.value;
+  return (
+    <div class="properties">
+      <p class="doc">{words.hint}</p>
+      <div class="buttons">
+        <Button label={words.reset} onClick={() => void goHome()} />
+        {mechanism.value?.drivers.length ? (
+          <Button label={drivers.playing.value ? words.pause : words.play} onClick={() => void drivers.toggle()} />
+        ) : null}
+      </div>
+      <Section title={words.configurations}>
+        <Button label={words.find} onClick={() => void findConfigurations()} id="find-configurations" />
+        {found ? (
+          <>
+            <div class="choices" role="group" aria-label={words.configurations}>
+              {found.poses.map((one, k) => (
+                <Button
+                  key={k}
+                  label={words.mode(k + 1)}
+                  onClick={() => void choose(one)}
+                  pressed={same(one.q, pose.value?.q)}
+                />
+              ))}
+            </div>
+            <p class="doc">{found.complete ? words.complete : words.partial}</p>
+          </>
+        ) : null}
+      </Section>
+      <Mobility />
+      <Locks />
+    </div>
+  );
+}
+
+function same(a: number[], b: number[] | undefined): boolean {
+  return b !== undefined && a.every((one, k) => Math.abs(one - b[k]!) < 1e-6);
+}
+
+function Mobility() {
+  const found = mobility.value;
+  const words = texts.move;
+  if (!found) return null;
+  const rows: [string, string][] = [
+    [texts.status.freedom(2).slice(2), String(found.degrees_of_freedom)],
+    [words.gruebler, String(found.gruebler)],
+    [words.rank, String(found.rank)],
+  ];
+  return (
+    <Section title={words.mobility}>
+      <Facts rows={rows} />
+      {fourBars(found.four_bars).map((text) => (
+        <p class="doc" key={text}>
+          {text}
+        </p>
+      ))}
+    </Section>
+  );
+}
+
+/** The four-bar loops, with Grashof's condition, as the core describes them. */
+function fourBars(found: unknown): string[] {
+  if (!Array.isArray(found)) return [];
+  return found.map((one) => {
+    if (typeof one === "string") return one;
+    const { loop, joints, kind, type, grashof } = one as Record<string, unknown>;
+    const which = [loop, joints].find((names) => Array.isArray(names)) as unknown[] | undefined;
+    return [which?.join("-"), kind ?? type, grashof === undefined ? "" : `Grashof: ${String(grashof)}`]
+      .filter(Boolean)
+      .join(", ");
+  });
+}
+
+function Locks() {
+  const names = mechanism.value?.coordinates ?? [];
+  if (!names.length || names.length > 60) return null;
+  const hold = (name: string, held: boolean) =>
+    (locked.value = held ? [...locked.value, name] : locked.value.filter((one) => one !== name));
+  return (
+    <Section title={texts.move.locked}>
+      <div class="locks">
+        {names.map((name) => (
+          <Check key={name} label={name} checked={locked.value.includes(name)} onChange={(held) => hold(name, held)} />
+        ))}
+      </div>
+    </Section>
+  );
+}

@@ -1,0 +1,43 @@
+// The slider of time under the drawing.
+import { course, playing, rate, show, span, time, toggle } from "../modes/read";
+import { mode } from "../store/state";
+import { texts } from "../texts";
+import { Button } from "./parts";
+
+const SPEEDS = [0.01, 0.1, 0.2, 0.5, 1, 2, 5];
+
+export function Playback() {
+  if (mode.value !== "read" || !course.value) return null;
+  const [begin, end] = span.value;
+  const words = texts.read;
+  return (
+    <div class="panel playback" role="group" aria-label={words.time}>
+      <Button
+        label={playing.value ? words.pause : words.play}
+        icon={playing.value ? "pause" : "play"}
+        kind="main"
+        id="play"
+        onClick={toggle}
+      />
+      <input
+        type="range"
+        id="scrub"
+        aria-label={words.time}
+        min={begin}
+        max={end}
+        step="any"
+        value={time.value}
+        onInput={(event) => show(Number(event.currentTarget.value))}
+      />
+      <output class="clock">{`${time.value.toFixed(3)} s`}</output>
+      <label class="choice">
+        <span class="word">{words.speed}</span>
+        <select value={String(rate.value)} onChange={(event) => (rate.value = Number(event.currentTarget.value))}>
+          {SPEEDS.map((one) => (
+            <option key={one} value={String(one)}>{`${one}×`}</option>
+          ))}
+        </select>
+      </label>
+    </div>
+  );
+}

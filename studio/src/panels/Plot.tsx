@@ -1,0 +1,176 @@
+// One plot over time, with its curves, their peaks, and the time that is shown.
+import { useEffect, useRef, useState } from "preact/hooks";
+import uPlot from "uplot";
+import { minus, readable, withUnit } from "../draw/numbers";
+import { font, palette } from "../draw/surface";
+import { course, quantities, show, time, valuesOf } from "../modes/read";
+import { type PlotOf, plots } from "../store/plots";
+import { report } from "../store/session";
+import { degrees } from "../store/state";
+import { texts } from "../texts";
+import { Button } from "./parts";
+
+const HEIGHT = 190;
+
+interface Curves {
+  names: string[];
+  units: string[];
+  rows: Float64Array[];
+}
+
+export function Plot({ plot }: { plot: PlotOf }) {
+  const [curves, setCurves] = useState<Curves | null>(null);
+  const host = useRef<HTMLDivElement>(null);
+  const drawn = useRef<uPlot | null>(null);
+  const run = course.value;
+  const turn = degrees.value;
+  useEffect(() => {
+    let current = true;
+    void valuesOf(plot.names)
+      .then(({ units, rows }) => current && setCurves({ names: plot.names, ...inUnits(units, rows, turn) }))
+      .catch(report);
+    return () => {
+      current = false;
+    };
+  }, [plot.names.join(), run, turn]);
+  useEffect(() => {
+    if (!curves || !run || !host.current) return;
+    const made = draw(host.current, run.t, curves);
+    drawn.current = made;
+    const observer = new ResizeObserver(() =>
+      made.setSize({ width: host.current?.clientWidth ?? 300, height: HEIGHT }),
+    );
+    observer.observe(host.current);
+    return () => {
+      observer.disconnect();
+      made.destroy();
+      drawn.current = null;
+    };
+  }, [curves, run]);
+  const now = time.value;
+  useEffect(() => drawn.current?.redraw(false), [now]);
+  return (
+    <article class="plot">
+      <div ref={host} class="curves" role="img" aria-label={plot.names.join(", ")} />
+      <ul class="legend">
+        {curves?.names.map((name, k) => (
+          <Entry key={name} name={name} unit={curves.units[k] ?? ""} row={curves.rows[k]!} number={k} plot={plot} />
+        ))}
+      </ul>
+      <AddCurve plot={plot} unit={curves?.units[0] ?? ""} />
+    </article>
+  );
+}
+
+function Entry({
+  name,
+  unit,
+  row,
+  number,
+  plot,
+}: {
+  name: string;
+  unit: string;
+  row: Float64Array;
+  number: number;
+  plot: PlotOf;
+}) {
+  let peak = 0;
+  for (const value of row) if (Math.abs(value) > Math.abs(peak)) peak = value;
+  const remove = () => {
+    const names = plot.names.filter((one) => one !== name);
+    plots.value = plots.value.flatMap((one) =>
+      one.key !== plot.key ? [one] : names.length ? [{ ...one, names }] : [],
+    );
+  };
+  return (
+    <li>
+      <i class={`mark mark-${(number % 7) + 1}`} />
+      <bdi class="name">{name}</bdi>
+      <span class="value">{`${texts.read.peak} ${withUnit(peak, unit)}`}</span>
+      <Button label={`${texts.properties.remove} ${name}`} icon="close" kind="small" onClick={remove} />
+    </li>
+  );
+}
+
+function AddCurve({ plot, unit }: { plot: PlotOf; unit: string }) {
+  const base = unit === "°" ? "rad" : unit;
+  const all = quantities.value.filter((one) => one.unit === base && !plot.names.includes(one.name));
+  if (!all.length) return null;
+  const add = (name: string) => {
+    if (name)
+      plots.value = plots.value.map((one) => (one.key === plot.key ? { ...one, names: [...one.names, name] } : one));
+  };
+  return (
+    <select
+      class="wide"
+      aria-label={texts.read.addQuantity}
+      value=""
+      onChange={(event) => add(event.currentTarget.value)}
+    >
+      <option value="">{texts.read.addQuantity}</option>
+      {all.map(({ name }) => (
+        <option key={name} value={name}>
+          {name}
+        </option>
+      ))}
+    </select>
+  );
+}
+
+/** Angles in degrees where these are shown. */
+function inUnits(units: string[], rows: Float64Array[], turn: boolean): Pick<Curves, "units" | "rows"> {
+  const factor = (unit: string) => (turn && unit.startsWith("rad") ? 180 / Math.PI : 1);
+  return {
+    units: units.map((unit) => (factor(unit) === 1 ? unit : unit.replace("rad", "°"))),
+    rows: rows.map((row, k) =>
+      factor(units[k] ?? "") === 1 ? row : row.map((value) => value * factor(units[k] ?? "")),
+    ),
+  };
+}
+
+function draw(host: HTMLElement, t: Float64Array, { names, units, rows }: Curves): uPlot {
+  const colours = palette();
+  const axis = {
+    stroke: colours.named.soft!,
+    grid: { stroke: colours.named.grid! },
+    ticks: { stroke: colours.named.edge! },
+    font: font(11),
+    values: (_: uPlot, values: number[]) => values.map((value) => minus(String(Number(value.toPrecision(6))))),
+  };
+  const unit = readable(units[0] ?? "");
+  return new uPlot(
+    {
+      width: host.clientWidth || 300,
+      height: HEIGHT,
+      legend: { show: false },
+      cursor: { drag: { x: true, y: false } },
+      scales: { x: { time: false } },
+      series: [{}, ...names.map((name, k) => ({ label: name, stroke: colours.body(k + 1), width: 1.6 }))],
+      axes: [
+        { ...axis, label: "t / s", labelSize: 16, labelFont: font(11), size: 34 },
+        { ...axis, label: /[/ ]/.test(unit) ? `(${unit})` : unit, labelSize: 16, labelFont: font(11), size: 56 },
+      ],
+      hooks: {
+        draw: [(plot) => cursorLine(plot, colours.named.accent!)],
+        ready: [(plot) => plot.over.addEventListener("click", (event) => show(plot.posToVal(event.offsetX, "x")))],
+      },
+    },
+    [t, ...rows] as unknown as uPlot.AlignedData,
+    host,
+  );
+}
+
+/** A line at the time that the drawing shows. */
+function cursorLine({ ctx, bbox, valToPos }: uPlot, colour: string): void {
+  const x = Math.round(valToPos(time.peek(), "x", true));
+  if (x < bbox.left || x > bbox.left + bbox.width) return;
+  ctx.save();
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = devicePixelRatio;
+  ctx.beginPath();
+  ctx.moveTo(x, bbox.top);
+  ctx.lineTo(x, bbox.top + bbox.height);
+  ctx.stroke();
+  ctx.restore();
+}

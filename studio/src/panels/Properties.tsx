@@ -1,0 +1,111 @@
+// The properties of the selection; without one, those of the case and its contents.
+import { type Group, spoken, typeOf } from "../catalogue/catalogue";
+import { entries, entry, isTable } from "../catalogue/tree";
+import type { Tree } from "../core/protocol";
+import { copy, mirror, remove, rename } from "../edit/commands";
+import { catalogue, selection, tree } from "../store/state";
+import { texts } from "../texts";
+import { Case } from "./Case";
+import { Field } from "./Field";
+import { PointRows } from "./PointRows";
+import { Button, Section } from "./parts";
+import { Readings } from "./Readings";
+
+export function Properties() {
+  const chosen = selection.value;
+  const found = chosen && entry(tree.value, chosen.group, chosen.name);
+  if (!chosen || !found) return <Case />;
+  return <Entry key={`${chosen.group}.${chosen.name}`} group={chosen.group} name={chosen.name} value={found} />;
+}
+
+function Entry({ group, name, value }: { group: Group; name: string; value: Tree }) {
+  const type = typeOf(catalogue.value, group, name, value);
+  const words = texts.properties;
+  return (
+    <div class="properties">
+      <div class="crumb">
+        <button type="button" class="link" onClick={() => (selection.value = null)}>
+          {words.back}
+        </button>
+        <span>{type ? spoken(type.name) : texts.groups[group]}</span>
+      </div>
+      <Name group={group} name={name} />
+      <p class="doc">{type ? firstSentence(type.doc) : null}</p>
+      {type?.fields.map((field) =>
+        field.shape === "points" ? (
+          <PointRows
+            key={field.name}
+            field={field}
+            body={name}
+            value={isTable(value[field.name]) ? (value[field.name] as Tree) : {}}
+          />
+        ) : (
+          <Field key={field.name} field={field} path={[group, name, field.name]} value={value[field.name]} />
+        ),
+      )}
+      <Readings group={group} name={name} />
+      <div class="buttons end">
+        {group === "bodies" && name !== "ground" ? (
+          <>
+            <Button label={words.copy} onClick={() => void copy(name)} />
+            <Button label={words.mirror} hint={words.mirrorHint} onClick={() => void mirror(name)} />
+          </>
+        ) : null}
+        <Button label={words.remove} hint={words.removeHint} kind="danger" onClick={() => void remove()} />
+      </div>
+    </div>
+  );
+}
+
+function Name({ group, name }: { group: Group; name: string }) {
+  return (
+    <div class="field">
+      <label for="entry-name">{texts.properties.name}</label>
+      <input
+        id="entry-name"
+        class="name"
+        type="text"
+        autocomplete="off"
+        spellcheck={false}
+        value={name}
+        readOnly={group === "bodies" && name === "ground"}
+        onChange={(event) => {
+          const input = event.currentTarget;
+          void rename(group, name, input.value.trim()).then((done) => {
+            if (!done) input.value = name;
+          });
+        }}
+      />
+      <span class="unit" />
+    </div>
+  );
+}
+
+function firstSentence(doc: string): string {
+  const plain = doc.replaceAll("\n", " ");
+  const end = plain.search(/[.;](\s|$)/);
+  const sentence = (end > 0 ? plain.slice(0, end) : plain).replace(/ \((?:Haug|Eich)[^)]*\)/, "");
+  return `${sentence}.`;
+}
+
+/** All entries of a group, to choose from without a mouse. */
+export function Contents({ group }: { group: Group }) {
+  const names = Object.keys(entries(tree.value, group));
+  if (!names.length) return null;
+  return (
+    <Section title={texts.groups[group]}>
+      <ul class="contents">
+        {names.map((name) => (
+          <li key={name}>
+            <button type="button" onClick={() => (selection.value = { group, name })}>
+              <bdi>{name}</bdi>
+              <span>
+                {typeOf(catalogue.value, group, name, entry(tree.value, group, name))?.name.replaceAll("_", " ")}
+              </span>
+            </button>
+          </li>
+        ))}
+      </ul>
+    </Section>
+  );
+}

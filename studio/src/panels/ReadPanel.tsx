@@ -1,0 +1,130 @@
+// Reading: run an analysis, plots, arrows, files.
+import { useState } from "preact/hooks";
+import { saveCsv, saveNpz } from "../give/results";
+import { analyses, analysis, chosen, course, quantities, run, running } from "../modes/read";
+import { arrows, KINDS, type Kind } from "../page/motionOverlay";
+import { plots } from "../store/plots";
+import { degrees } from "../store/state";
+import { texts } from "../texts";
+import { Plot } from "./Plot";
+import { Button, Check, Section } from "./parts";
+
+export function ReadPanel() {
+  const words = texts.read;
+  return (
+    <div class="results">
+      <RunBar />
+      {course.value ? (
+        <>
+          <div class="chips">
+            {(Object.keys(KINDS) as Kind[]).map((kind) => (
+              <Check
+                key={kind}
+                label={words[kind]}
+                checked={arrows.value[kind]}
+                onChange={(on) => (arrows.value = { ...arrows.value, [kind]: on })}
+              />
+            ))}
+            <Check label={words.degrees} checked={degrees.value} onChange={(on) => (degrees.value = on)} />
+          </div>
+          <Section
+            title={words.plots}
+            action={
+              <span class="buttons">
+                <Button label={words.csvHint} kind="small" onClick={() => void saveCsv()}>
+                  {words.csv}
+                </Button>
+                <Button label={words.npzHint} kind="small" onClick={() => void saveNpz()}>
+                  {words.npz}
+                </Button>
+              </span>
+            }
+          >
+            {plots.value.map((one) => (
+              <Plot key={one.key} plot={one} />
+            ))}
+            <Add />
+          </Section>
+        </>
+      ) : (
+        <p class="doc">{running.value ? words.running : words.none}</p>
+      )}
+    </div>
+  );
+}
+
+function RunBar() {
+  const words = texts.read;
+  const [end, setEnd] = useState("");
+  const free = analysis.value === "";
+  return (
+    <form
+      class="buttons runbar"
+      onSubmit={(event) => {
+        event.preventDefault();
+        void run(free && Number(end) > 0 ? Number(end) : undefined);
+      }}
+    >
+      <label class="choice">
+        <span>{words.analysis}</span>
+        <select id="analysis" value={analysis.value} onChange={(event) => (chosen.value = event.currentTarget.value)}>
+          {analyses.value.map(({ name, type }) => (
+            <option key={name} value={name}>{`${name} (${type.replaceAll("_", " ")})`}</option>
+          ))}
+          <option value="">{words.defaults}</option>
+        </select>
+      </label>
+      {free ? (
+        <label class="choice">
+          <span>{words.end}</span>
+          <input
+            type="text"
+            inputMode="decimal"
+            size={5}
+            placeholder="5"
+            value={end}
+            autocomplete="off"
+            onInput={(event) => setEnd(event.currentTarget.value)}
+          />
+        </label>
+      ) : null}
+      <button type="submit" class="main" id="run" disabled={running.value}>
+        {running.value ? words.running : words.run}
+      </button>
+    </form>
+  );
+}
+
+function Add() {
+  const groups = [...new Set(quantities.value.map(({ name }) => ownerOf(name)))];
+  return (
+    <select
+      class="wide"
+      aria-label={texts.read.addPlot}
+      value=""
+      onChange={(event) => {
+        const name = event.currentTarget.value;
+        if (name) plots.value = [...plots.value, { key: Date.now(), names: [name] }];
+        event.currentTarget.value = "";
+      }}
+    >
+      <option value="">{texts.read.addPlot}</option>
+      {groups.map((group) => (
+        <optgroup key={group} label={group}>
+          {quantities.value
+            .filter(({ name }) => ownerOf(name) === group)
+            .map(({ name }) => (
+              <option key={name} value={name}>
+                {name}
+              </option>
+            ))}
+        </optgroup>
+      ))}
+    </select>
+  );
+}
+
+/** The body or element of a quantity: the first part of its name. */
+function ownerOf(name: string): string {
+  return name.split(".")[0]!;
+}

@@ -1,0 +1,134 @@
+// The canvas with its tools.
+import { effect } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
+import { cleared, palette, sharpen } from "../draw/surface";
+import { saveDrawing, saveSvg } from "../give/pictures";
+import { handler } from "../modes/modes";
+import { drawing, finish, restart } from "../modes/place";
+import { listenToPointer } from "../modes/pointer";
+import { follow, paintSheet } from "../page/painting";
+import { resized } from "../store/session";
+import { fit, preview, typedLength, view, viewChanged, zoom } from "../store/sheet";
+import { mode, shown, snapping, title, tool } from "../store/state";
+import { texts } from "../texts";
+import { Button, Check } from "./parts";
+
+export function Sheet() {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  useEffect(() => connect(canvas.current!), []);
+  const words = texts.sheet;
+  return (
+    <section class="panel sheet-panel" aria-label={words.label(title.value || texts.menu.untitled)}>
+      <div class="bar">
+        <div class="chips">
+          {(["names", "numbers", "grid", "traces"] as const).map((what) => (
+            <Check
+              key={what}
+              label={words[what]}
+              checked={shown.value[what]}
+              onChange={(value) => (shown.value = { ...shown.value, [what]: value })}
+            />
+          ))}
+          {mode.value === "edit" ? (
+            <Check
+              label={words.snap}
+              hint={words.snapHint}
+              checked={snapping.value}
+              onChange={(value) => (snapping.value = value)}
+            />
+          ) : null}
+        </div>
+        <div class="buttons">
+          <Button label={words.zoomIn} icon="plus" onClick={() => zoom(1.25)} />
+          <Button label={words.zoomOut} icon="minus" onClick={() => zoom(0.8)} />
+          <Button label={words.fitHint} onClick={fit}>
+            {words.fit}
+          </Button>
+          <Button label={words.pngHint} onClick={saveDrawing}>
+            {words.png}
+          </Button>
+          <Button label={words.svgHint} onClick={saveSvg}>
+            {words.svg}
+          </Button>
+        </div>
+      </div>
+      <div class="space">
+        <canvas
+          id="sheet"
+          ref={canvas}
+          tabIndex={0}
+          role="img"
+          aria-label={words.label(title.value || texts.menu.untitled)}
+        />
+        <ToolBox />
+      </div>
+    </section>
+  );
+}
+
+/** What belongs to the tool in use: a typed length, the end of the tool. */
+function ToolBox() {
+  const active = tool.value;
+  preview.value;
+  if (!active || mode.value !== "edit") return null;
+  const words = texts.sheet;
+  return (
+    <div class="toolbox" role="group" aria-label={active.label}>
+      <strong>{active.label}</strong>
+      {active.placing === "two" || active.placing === "many" ? (
+        <label>
+          {words.length}
+          <input
+            id="typed-length"
+            inputMode="decimal"
+            size={6}
+            autocomplete="off"
+            value={typedLength.value}
+            onInput={(event) => (typedLength.value = event.currentTarget.value)}
+          />
+        </label>
+      ) : null}
+      {active.placing === "many" && drawing() ? <Button label={words.finish} onClick={() => void finish()} /> : null}
+      <Button label={words.stop} onClick={() => restart(null)} />
+    </div>
+  );
+}
+
+/** Paint whenever something that is shown changes, once for each frame of the screen. */
+function connect(canvas: HTMLCanvasElement): () => void {
+  let waiting = false;
+  let colours = palette();
+  const paint = () => {
+    waiting = false;
+    sharpen(canvas);
+    paintSheet(cleared(canvas), colours);
+  };
+  const soon = () => {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(paint);
+  };
+  const stop = effect(() => {
+    follow();
+    soon();
+  });
+  listenToPointer(canvas, view, handler, viewChanged);
+  const observer = new ResizeObserver(() => {
+    const { width, height } = canvas.getBoundingClientRect();
+    view.resize(width, height);
+    resized(width, height);
+    viewChanged();
+  });
+  observer.observe(canvas);
+  const dark = matchMedia("(prefers-color-scheme: dark)");
+  const recolour = () => {
+    colours = palette();
+    viewChanged();
+  };
+  dark.addEventListener("change", recolour);
+  return () => {
+    stop();
+    observer.disconnect();
+    dark.removeEventListener("change", recolour);
+  };
+}

@@ -1,0 +1,54 @@
+// The panel at the side: what belongs to the mode, the text, and on phones the palette.
+import { mode, panel, problems } from "../store/state";
+import { texts } from "../texts";
+import { Editor } from "./Editor";
+import { LivePanel } from "./LivePanel";
+import { MovePanel } from "./MovePanel";
+import { Palette } from "./Palette";
+import { Properties } from "./Properties";
+import { ReadPanel } from "./ReadPanel";
+
+export function Side() {
+  const main = mode.value === "edit" ? "properties" : "results";
+  const label = mode.value === "edit" ? texts.tabs.properties : texts.modes[mode.value];
+  const shown = panel.value === "text" || (panel.value === "insert" && mode.value === "edit") ? panel.value : "main";
+  const count = problems.value.length;
+  return (
+    <aside class="panel side">
+      <div class="tabs" role="tablist">
+        {mode.value === "edit" ? (
+          <Tab
+            id="insert"
+            label={texts.tabs.insert}
+            chosen={shown === "insert"}
+            onClick={() => (panel.value = "insert")}
+          />
+        ) : null}
+        <Tab id="main" label={label} chosen={shown === "main"} onClick={() => (panel.value = main)} />
+        <Tab
+          id="text"
+          label={count ? `${texts.tabs.text} (${texts.editor.problems(count)})` : texts.tabs.text}
+          chosen={shown === "text"}
+          onClick={() => (panel.value = "text")}
+        />
+      </div>
+      <div class="tab-body" role="tabpanel" aria-label={shown === "text" ? texts.tabs.text : label} tabIndex={-1}>
+        {shown === "text" ? <Editor /> : shown === "insert" ? <Palette /> : <Main />}
+      </div>
+    </aside>
+  );
+}
+
+function Tab({ id, label, chosen, onClick }: { id: string; label: string; chosen: boolean; onClick(): void }) {
+  return (
+    <button type="button" role="tab" id={`tab-${id}`} class={`tab-${id}`} aria-selected={chosen} onClick={onClick}>
+      {label}
+    </button>
+  );
+}
+
+function Main() {
+  if (mode.value === "move") return <MovePanel />;
+  if (mode.value === "live") return <LivePanel />;
+  return mode.value === "read" ? <ReadPanel /> : <Properties />;
+}

@@ -1,0 +1,75 @@
+// The line at the bottom: the last message, and what the mechanism is.
+import { mechanism, message, mobility, panel, problems, ready, unassembled } from "../store/state";
+import { texts } from "../texts";
+import { Button } from "./parts";
+
+export function Status() {
+  return (
+    <footer>
+      <div class="message" role="status" aria-live="polite" id="message">
+        <Message />
+      </div>
+      <Facts />
+    </footer>
+  );
+}
+
+function Message() {
+  const given = message.value;
+  if (!given) return ready.value ? <Standing /> : <span>{texts.starting}</span>;
+  return (
+    <span class={given.kind}>
+      {given.text}
+      {given.hint ? <span class="hint"> {given.hint}</span> : null}
+      {given.action ? (
+        <button type="button" class="link" onClick={() => given.action!.run()}>
+          {given.action.label}
+        </button>
+      ) : null}
+      <Button label={texts.status.dismiss} icon="close" kind="small" onClick={() => (message.value = null)} />
+    </span>
+  );
+}
+
+/** Without a message: the first problem of the text. */
+function Standing() {
+  const problem = problems.value[0] ?? unassembled.value;
+  if (!problem) return null;
+  const show = () => (panel.value = "text");
+  return (
+    <span class="problem">
+      {problem.message}
+      {problem.hint ? <span class="hint"> {problem.hint}</span> : null}
+      {problem.line ? (
+        <button type="button" class="link" onClick={show}>
+          {`line ${problem.line}`}
+        </button>
+      ) : null}
+    </span>
+  );
+}
+
+function Facts() {
+  const found = mechanism.value;
+  if (!found) return null;
+  const words = texts.status;
+  const count = redundantCount();
+  const freedom = mobility.value?.degrees_of_freedom ?? found.degrees_of_freedom;
+  return (
+    <div class="standing">
+      {unassembled.value ? <span class="problem">{words.open}</span> : null}
+      {mobility.value?.singular ? <span class="problem">{words.singular}</span> : null}
+      {count ? <span>{words.redundant(count)}</span> : null}
+      {found.warnings.length ? (
+        <span title={found.warnings.join("\n")}>{words.warnings(found.warnings.length)}</span>
+      ) : null}
+      <span>{words.bodies(found.bodies.length - 1)}</span>
+      <span id="freedom">{freedom === null ? "" : words.freedom(freedom)}</span>
+    </div>
+  );
+}
+
+function redundantCount(): number {
+  const found = mobility.value?.redundant;
+  return Array.isArray(found) ? found.length : typeof found === "number" ? found : 0;
+}

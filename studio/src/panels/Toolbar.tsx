@@ -1,0 +1,63 @@
+// The bar at the top: title, files, history, modes.
+
+import { begin, openFile, saveFile } from "../give/files";
+import { enter } from "../modes/modes";
+import { future, past, redo, undo } from "../store/document";
+import { dialog, MODES, mode, title } from "../store/state";
+import { texts } from "../texts";
+import { Button } from "./parts";
+
+export function Toolbar() {
+  const { menu } = texts;
+  return (
+    <header>
+      <h1 dir="auto" title={title.value}>
+        {title.value || menu.untitled}
+      </h1>
+      <nav class="buttons" aria-label={texts.name}>
+        <Button label={menu.new} onClick={() => void begin()} id="new" />
+        <Button label={menu.open} hint={menu.openHint} onClick={openFile} id="open" />
+        <Button label={menu.gallery} hint={menu.galleryHint} onClick={() => open("gallery")} id="gallery" />
+        <Button label={menu.save} hint={menu.saveHint} onClick={saveFile} id="save" />
+        <Button label={menu.share} hint={menu.shareHint} onClick={() => open("share")} id="share" />
+        <span class="rule" />
+        <Button
+          label={menu.undo}
+          hint={menu.undoHint}
+          icon="undo"
+          onClick={() => void undo()}
+          disabled={!past.value.length}
+          id="undo"
+        />
+        <Button
+          label={menu.redo}
+          hint={menu.redoHint}
+          icon="redo"
+          onClick={() => void redo()}
+          disabled={!future.value.length}
+          id="redo"
+        />
+        <Button label={menu.help} hint={`${menu.help} (?)`} icon="help" onClick={() => open("help")} id="help" />
+      </nav>
+      <div class="modes" role="radiogroup" aria-label="Mode">
+        {MODES.map((one) => (
+          <button
+            key={one}
+            type="button"
+            role="radio"
+            id={`mode-${one}`}
+            aria-checked={mode.value === one}
+            title={texts.modeHints[one]}
+            onClick={() => enter(one)}
+          >
+            {texts.modes[one]}
+          </button>
+        ))}
+      </div>
+    </header>
+  );
+}
+
+function open(which: "gallery" | "share" | "help"): void {
+  dialog.value = which;
+}

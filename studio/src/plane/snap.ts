@@ -1,0 +1,76 @@
+// Where a point is placed: at an existing point, on the grid, or on a line at a round angle.
+import { distance, type Point, rounded } from "./points";
+
+/** Angles to which lines turn, rad. */
+const TURN = Math.PI / 12;
+/** Reach of a pull to an existing point and to a round angle, px. */
+const REACH = 12;
+const REACH_OF_ANGLE = 7;
+
+export interface Snapping {
+  /** Existing points of the plane. */
+  points: readonly Point[];
+  /** The step of the grid, m. */
+  step: number;
+  /** Pixels per metre. */
+  scale: number;
+  /** The other end of the line that is drawn. */
+  from?: Point | undefined;
+  /** A length that was typed in, m. */
+  length?: number | undefined;
+  /** Without the grid and the angles; existing points still attract. */
+  free?: boolean;
+}
+
+export interface Snapped {
+  at: Point;
+  kind: "point" | "angle" | "grid" | "free" | "length";
+}
+
+/** The place for a point near `p`. */
+export function snapped(p: Point, { points, step, scale, from, length, free }: Snapping): Snapped {
+  if (from && length !== undefined) return { at: atLength(p, from, length), kind: "length" };
+  const near = nearest(p, points);
+  if (near && distance(p, near) * scale < REACH) return { at: clean(near, step), kind: "point" };
+  if (free) return { at: [rounded(p[0], step / 100), rounded(p[1], step / 100)], kind: "free" };
+  const grid: Point = [round(p[0], step), round(p[1], step)];
+  const angled = from && atAngle(p, from, step);
+  if (angled && distance(p, angled) * scale < REACH_OF_ANGLE && distance(p, angled) < distance(p, grid)) {
+    return { at: angled, kind: "angle" };
+  }
+  return { at: grid, kind: "grid" };
+}
+
+/** A place without the rounding errors of the pose from which it was computed. */
+function clean([x, y]: Point, step: number): Point {
+  return [rounded(x, step * 1e-6), rounded(y, step * 1e-6)];
+}
+
+function nearest(p: Point, points: readonly Point[]): Point | null {
+  let best: Point | null = null;
+  for (const other of points) if (!best || distance(p, other) < distance(p, best)) best = other;
+  return best;
+}
+
+/** A multiple of a step, without the rounding errors of the product. */
+function round(value: number, step: number): number {
+  return rounded(Math.round(value / step) * step, step);
+}
+
+/** The point in the same direction at a typed length; the direction turns to the nearest multiple of 15°. */
+function atLength(p: Point, from: Point, length: number): Point {
+  const angle = Math.atan2(p[1] - from[1], p[0] - from[0]);
+  const near = Math.round(angle / TURN) * TURN;
+  return turned(from, length, Math.abs(angle - near) < 0.07 ? near : angle);
+}
+
+/** The point on the nearest line at a multiple of 15° whose length is a multiple of the step. */
+function atAngle(p: Point, from: Point, step: number): Point {
+  const angle = Math.round(Math.atan2(p[1] - from[1], p[0] - from[0]) / TURN) * TURN;
+  return turned(from, round(distance(p, from), step), angle);
+}
+
+function turned([x, y]: Point, length: number, angle: number): Point {
+  const step = length * 1e-6;
+  return [rounded(x + length * Math.cos(angle), step), rounded(y + length * Math.sin(angle), step)];
+}

@@ -1,0 +1,32 @@
+// Which quantities are plotted.
+import { effect, signal } from "@preact/signals";
+import { course, quantities } from "../modes/read";
+
+export interface PlotOf {
+  key: number;
+  names: string[];
+}
+
+export const plots = signal<PlotOf[]>([]);
+
+/** The first run shows the angles of the bodies; later ones keep those quantities that still exist. */
+effect(() => {
+  if (!course.value || !quantities.value.length) return;
+  const all = new Set(quantities.value.map(({ name }) => name));
+  const kept = plots
+    .peek()
+    .map((one) => ({ ...one, names: one.names.filter((name) => all.has(name)) }))
+    .filter(({ names }) => names.length);
+  if (kept.length) plots.value = kept;
+  else plots.value = [{ key: 1, names: firstOf(quantities.value.map(({ name, unit }) => ({ name, unit }))) }];
+});
+
+const MOST = 3;
+
+function firstOf(all: { name: string; unit: string }[]): string[] {
+  const unit = all.some((one) => one.unit === "rad") ? "rad" : all[0]!.unit;
+  return all
+    .filter((one) => one.unit === unit)
+    .slice(0, MOST)
+    .map(({ name }) => name);
+}

@@ -1,0 +1,120 @@
+// The session with the core: the text goes there, and what it means comes back.
+import { batch } from "@preact/signals";
+import { readCatalogue } from "../catalogue/catalogue";
+import type { Answer, Change, Do, Loaded, Requests } from "../core/protocol";
+import { CoreError, type Line, Restarted, Superseded, Transport } from "../core/transport";
+import { texts } from "../texts";
+import {
+  announce,
+  catalogue,
+  home,
+  items,
+  mechanism,
+  mobility,
+  pose,
+  problems,
+  ready,
+  scene,
+  text,
+  tree,
+  unassembled,
+} from "./state";
+
+let transport: Transport | null = null;
+/** The text that the core was given last and answered without a trap. */
+let accepted = "";
+let size: [number, number] = [800, 600];
+
+/** Begin with a worker for the core. */
+export function connect(begin: () => Line, limit?: number): void {
+  transport = new Transport(begin, restarted, limit);
+  void send("catalogue", {}).then(({ ok }) => {
+    catalogue.value = readCatalogue(ok);
+    ready.value = true;
+  }, report);
+}
+
+function restarted(reason: "trap" | "timeout"): void {
+  announce("problem", reason === "trap" ? texts.core.trapped : texts.core.tooLong);
+  if (accepted) void load(accepted).catch(() => {});
+}
+
+/** Send a request to the core. */
+export function send<D extends Do>(
+  what: D,
+  fields: Requests[D]["send"],
+  channel?: string,
+): Promise<Answer<Requests[D]["reply"]>> {
+  if (!transport) return Promise.reject(new Error("the core is not connected"));
+  return transport.send(what, fields, channel ?? null);
+}
+
+/** Show an error in the status line; those of replaced requests are none. */
+export function report(error: unknown): void {
+  if (error instanceof Superseded || error instanceof Restarted) return;
+  if (error instanceof CoreError) {
+    const { message, hint } = error.problem;
+    announce("problem", message, hint ? { hint } : {});
+  } else announce("problem", String((error as Error)?.message ?? error));
+}
+
+/** Give the core a text and show what it means. */
+export async function load(given: string): Promise<Loaded> {
+  const { ok } = await send("load", { text: given }, "load");
+  accepted = given;
+  show(ok);
+  if (ok.mechanism) await redraw();
+  return ok;
+}
+
+function show(found: Loaded): void {
+  batch(() => {
+    problems.value = found.problems ?? [];
+    unassembled.value = found.unassembled ?? null;
+    if (found.case) tree.value = found.case;
+    if (found.mechanism) {
+      mechanism.value = found.mechanism;
+      home.value = found.pose;
+      pose.value = found.pose;
+    }
+  });
+}
+
+/** Fetch the static part of the drawing again: the model or the size of the canvas is another one. */
+export async function redraw(): Promise<void> {
+  if (!mechanism.value) return;
+  const [width, height] = size;
+  const answers = await Promise.allSettled([
+    send("scene", {}, "scene"),
+    send("display", { width, height, names: true, numbers: true }, "display"),
+    send("mobility", {}, "mobility"),
+  ]);
+  const [found, list, freedom] = answers;
+  batch(() => {
+    if (found.status === "fulfilled") scene.value = found.value.ok.scene;
+    if (list.status === "fulfilled") items.value = list.value.ok.items;
+    else if (!(list.reason instanceof Superseded)) items.value = [];
+    if (freedom.status === "fulfilled") mobility.value = freedom.value.ok;
+    else if (!(freedom.reason instanceof Superseded)) mobility.value = null;
+  });
+}
+
+/** Bring the core and the drawing back to the start of the text. */
+export async function goHome(): Promise<void> {
+  if (accepted) await load(accepted).catch(report);
+}
+
+/** The drawing has another size. */
+export function resized(width: number, height: number): void {
+  size = [Math.round(width), Math.round(height)];
+  void redraw().catch(report);
+}
+
+/** The text with some changes, as the core writes it. */
+export async function edited(changes: Change[]): Promise<string> {
+  if (accepted !== text.value) await load(text.value);
+  const { ok } = await send("edit", { changes });
+  return ok.text;
+}
+
+export { Superseded };

@@ -1,0 +1,62 @@
+// The sheet: which part of the plane is seen, and what is drawn over the mechanism.
+import { effect, signal } from "@preact/signals";
+import type { Point } from "../plane/points";
+import { type Bounds, View } from "../plane/view";
+import { scene } from "./state";
+
+export const view = new View([-1, -0.75, 1, 0.75]);
+/** Counts changes of the view, so that the drawing follows. */
+export const viewed = signal(0);
+
+/** A line that is being drawn, or a place under the pointer. */
+export interface Preview {
+  /** Points of the plane, joined by lines. */
+  line: Point[];
+  closed?: boolean;
+  /** The marked place, and why it is there. */
+  mark?: { at: Point; kind: string };
+  label?: string;
+  /** A pull from one point to another. */
+  pull?: [Point, Point];
+}
+
+export const preview = signal<Preview | null>(null);
+/** A length that was typed for the line that is being drawn, m. */
+export const typedLength = signal<string>("");
+
+export function viewChanged(): void {
+  viewed.value += 1;
+}
+
+export function fit(): void {
+  view.fit();
+  viewChanged();
+}
+
+export function zoom(factor: number): void {
+  view.zoom(factor);
+  viewChanged();
+}
+
+/** Room around the first pose, in which the mechanism will move: a share of its size. */
+const ROOM = 0.2;
+/** What an empty sheet shows, m. */
+const EMPTY: Bounds = [-1, -0.75, 1, 0.75];
+let fitting = true;
+
+/** Fit the next scene into the view: another case is opened. Later scenes leave the view where it is. */
+export function fitNext(): void {
+  fitting = true;
+  view.bounds = EMPTY;
+}
+
+effect(() => {
+  const bounds = scene.value?.bounds;
+  if (!bounds?.every(Number.isFinite)) return;
+  const [x0, y0, x1, y1] = bounds;
+  const room = ROOM * Math.max(x1 - x0, y1 - y0);
+  if (room > 0) view.bounds = [x0 - room, y0 - room, x1 + room, y1 + room];
+  if (fitting) view.fit();
+  fitting = false;
+  viewed.value = viewed.peek() + 1;
+});

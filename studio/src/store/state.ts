@@ -1,0 +1,60 @@
+// What the page shows: signals that panels and drawing follow.
+import { computed, signal } from "@preact/signals";
+import { type Catalogue, type Group, readCatalogue } from "../catalogue/catalogue";
+import { type Tool, toolsOf } from "../catalogue/tools";
+import type { Live, Mechanism, Mobility, Pose, Problem, Scene, Tree } from "../core/protocol";
+import type { Item } from "../draw/items";
+import type { Placement } from "../plane/points";
+
+export const MODES = ["edit", "move", "live", "read"] as const;
+export type Mode = (typeof MODES)[number];
+
+export interface Message {
+  kind: "info" | "problem" | "done";
+  text: string;
+  hint?: string;
+  action?: { label: string; run(): void };
+}
+
+/** What is selected: an entry of the case, or a point of a body. */
+export type Selection = { group: Group; name: string; point?: string } | null;
+
+export const ready = signal(false);
+export const catalogue = signal<Catalogue>(readCatalogue({}));
+export const tools = computed<Tool[]>(() => toolsOf(catalogue.value));
+
+export const text = signal("");
+export const title = computed(() => mechanism.value?.title ?? "");
+export const problems = signal<Problem[]>([]);
+export const unassembled = signal<Problem | null>(null);
+/** The case as it was last read without a fault of syntax. */
+export const tree = signal<Tree | null>(null);
+export const mechanism = signal<Mechanism | null>(null);
+export const mobility = signal<Mobility | null>(null);
+export const scene = signal<Scene | null>(null);
+export const items = signal<Item[]>([]);
+
+/** The pose of the text, and the one that is shown. */
+export const home = signal<Pose | null>(null);
+export const pose = signal<Pose | null>(null);
+/** Where all bodies are, ground first. */
+export const poses = computed<Placement[]>(() => [[0, 0, 0], ...(pose.value?.poses ?? [])]);
+
+export const mode = signal<Mode>("edit");
+export const tool = signal<Tool | null>(null);
+export const selection = signal<Selection>(null);
+export const message = signal<Message | null>(null);
+export const live = signal<Live | null>(null);
+
+export const shown = signal({ names: true, numbers: true, grid: true, traces: true });
+/** Display units: angles in degrees and speeds in rpm, or in rad and rad/s. */
+export const degrees = signal(true);
+export const snapping = signal(true);
+
+export const panel = signal<"properties" | "text" | "results" | "insert">("properties");
+export const dialog = signal<"gallery" | "share" | "help" | null>(null);
+
+/** Say something in the status line. */
+export function announce(kind: Message["kind"], words: string, more: Omit<Message, "kind" | "text"> = {}): void {
+  message.value = { kind, text: words, ...more };
+}

@@ -1,0 +1,11 @@
+// Modules that the build makes.
+declare module "virtual:examples" {
+  export const examples: { name: string; title: string; text: string }[];
+}
+
+declare module "virtual:worker" {
+  const source: string;
+  export default source;
+}
+
+declare module "*.css";

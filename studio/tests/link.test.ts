@@ -1,0 +1,40 @@
+import { deflateSync } from "fflate";
+import { expect, test } from "vitest";
+import { linkOf, MOST_OF_LINK, MOST_OF_TEXT, textOf } from "../src/give/link";
+
+function hashOf(bytes: Uint8Array): string {
+  const letters = Array.from(bytes, (byte) => String.fromCharCode(byte)).join("");
+  return `#m=${btoa(letters).replaceAll("+", "-").replaceAll("/", "_").replace(/=+$/, "")}`;
+}
+
+test("the text of a link is that of which it was made", () => {
+  const text = 'kempe = 1\ntitle = "Pendel — 30°, 振り子"\n'.repeat(50);
+  const link = linkOf(text, "file:///studio/index.html#old");
+  expect(link.startsWith("file:///studio/index.html#m=")).toBe(true);
+  expect(textOf(new URL(link).hash)).toBe(text);
+});
+
+test("a page without a model in its address has none", () => {
+  expect(textOf("")).toBeNull();
+  expect(textOf("#top")).toBeNull();
+});
+
+test("a text at the limit is read, a longer one is refused before it is inflated", () => {
+  expect(textOf(hashOf(deflateSync(new Uint8Array(MOST_OF_TEXT).fill(97))))).toHaveLength(MOST_OF_TEXT);
+  expect(() => textOf(hashOf(deflateSync(new Uint8Array(MOST_OF_TEXT + 1).fill(97))))).toThrow("too long");
+});
+
+test("a bomb is refused within a second", () => {
+  const bomb = deflateSync(new Uint8Array(60 * 1024 * 1024));
+  expect(hashOf(bomb).length).toBeGreaterThan(MOST_OF_LINK / 2);
+  const began = performance.now();
+  expect(() => textOf(hashOf(bomb))).toThrow("too long");
+  expect(performance.now() - began).toBeLessThan(1000);
+});
+
+test("a damaged, cut or overlong link is refused", () => {
+  const whole = hashOf(deflateSync(new TextEncoder().encode("kempe = 1\n".repeat(3))));
+  expect(() => textOf(whole.slice(0, -4))).toThrow();
+  expect(() => textOf("#m=%%%")).toThrow();
+  expect(() => textOf(`#m=${"A".repeat(MOST_OF_LINK)}`)).toThrow("too long");
+});

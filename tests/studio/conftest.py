@@ -1,0 +1,56 @@
+"""The built page of the studio in Chromium, watched for messages, errors and requests."""
+
+import os
+import shutil
+from collections.abc import Callable, Iterator
+from pathlib import Path
+from typing import Any
+
+import pytest
+from studio.window import Studio
+
+sync_api = pytest.importorskip("playwright.sync_api", reason="the package playwright is missing")
+
+PAGE = Path(__file__).parents[2] / "studio" / "dist" / "index.html"
+FLAGS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator["sync_api.Browser"]:
+    if not PAGE.exists():
+        pytest.skip("studio/dist/index.html is missing; build it with npm run build in studio/")
+    path = os.environ.get("CHROMIUM") or next(
+        filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None
+    )
+    if path is None:
+        pytest.skip("there is no Chromium; set $CHROMIUM to its path")
+    with sync_api.sync_playwright() as playwright:
+        launched = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        yield launched
+        launched.close()
+
+
+@pytest.fixture
+def studio(chromium: "sync_api.Browser") -> Iterator[Callable[..., Studio]]:
+    """Open the studio in a window of a size; what it complains of, or requests, fails the test."""
+    opened: list[Studio] = []
+
+    def open_studio(width: int = 1280, height: int = 800, link: str = "", **more: Any) -> Studio:
+        context = chromium.new_context(viewport={"width": width, "height": height}, **more)
+        one = Studio(context.new_page())
+        one.page.on("console", lambda message: one.messages.append(message.text))
+        one.page.on("pageerror", lambda error: one.messages.append(str(error)))
+        one.page.on("dialog", lambda dialog: one.messages.append(dialog.message))
+        context.on("request", lambda request: one.requests.append(request.url))
+        one.page.goto(PAGE.as_uri() + link)
+        one.wait("typeof kempe === 'object' && kempe.state().then(state => state !== null)", 20.0)
+        one.settle()
+        opened.append(one)
+        return one
+
+    yield open_studio
+    for one in opened:
+        one.page.context.close()
+        assert one.messages == []
+        outside = [url for url in one.requests if not url.startswith(("blob:", "data:"))]
+        assert len(outside) == 1, outside  # the page itself

@@ -1,0 +1,149 @@
+"""Drawing with the mouse: the text says what was drawn, and kempe reads it."""
+
+from pathlib import Path
+
+import kempe as kp
+import pytest
+from studio.window import Opener, Studio
+
+
+def draw_four_bar(studio: Studio) -> None:
+    """A crank-rocker from nothing: two fixed points and three bars."""
+    studio.page.locator("#new").click()
+    studio.settle()
+    studio.tool("ground")
+    studio.click(-0.4, -0.2)
+    studio.click(0.2, -0.2)
+    studio.tool("bar")
+    for begin, end in [
+        ((-0.4, -0.2), (-0.3, -0.1)),
+        ((-0.3, -0.1), (0.3, 0.3)),
+        ((0.3, 0.3), (0.2, -0.2)),
+    ]:
+        studio.click(*begin)
+        studio.click(*end)
+    studio.page.keyboard.press("Escape")
+    studio.settle()
+
+
+def test_a_four_bar_is_drawn_with_ten_clicks(studio: Opener, tmp_path: Path) -> None:
+    one = studio()
+    draw_four_bar(one)
+    tree = one.tree()
+    ends = [list(body["through"].values()) for body in list(tree["bodies"].values())[1:]]
+    assert ends == [
+        [[-0.4, -0.2], [-0.3, -0.1]],
+        [[-0.3, -0.1], [0.3, 0.3]],
+        [[0.3, 0.3], [0.2, -0.2]],
+    ]
+    assert [joint["type"] for joint in tree["joints"].values()] == 4 * ["revolute"]
+    path = tmp_path / "drawn.toml"
+    path.write_text(one.toml(), encoding="utf-8")
+    case = kp.load(path)
+    assert kp.mobility(case.model, case.start()).degrees_of_freedom == 1
+    assert one.page.locator("#freedom").inner_text() == "1 degree of freedom"
+
+
+def test_a_dragged_pin_moves_both_bars_in_one_step_of_the_history(studio: Opener) -> None:
+    one = studio()
+    draw_four_bar(one)
+    before = one.toml()
+    one.page.mouse.move(*one.screen(0.3, 0.3))
+    one.page.mouse.down()
+    for share in (0.2, 0.5, 0.8, 1.0):
+        one.page.mouse.move(*one.screen(0.3 + 0.1 * share, 0.3 - 0.1 * share))
+        one.page.wait_for_timeout(30)
+    one.page.mouse.up()
+    one.settle()
+    bodies = list(one.tree()["bodies"].values())
+    assert list(bodies[2]["through"].values())[1] == [0.4, 0.2]
+    assert next(iter(bodies[3]["through"].values())) == [0.4, 0.2]
+    one.page.keyboard.press("Control+z")
+    one.settle()
+    assert one.toml() == before
+    one.page.keyboard.press("Control+Shift+z")
+    one.settle()
+    assert list(one.tree()["bodies"].values()) == bodies
+
+
+def test_a_typed_length_is_that_of_the_bar(studio: Opener) -> None:
+    one = studio()
+    one.page.locator("#new").click()
+    one.settle()
+    one.tool("bar")
+    one.click(-0.5, 0.0)
+    one.page.keyboard.type("0.37")
+    one.click(0.4, 0.0)
+    ends = one.tree()["bodies"]["bar1"]["through"].values()
+    assert list(ends) == [[-0.5, 0.0], [-0.13, 0.0]]
+
+
+def test_a_spring_is_placed_by_clicking_what_it_refers_to(studio: Opener) -> None:
+    one = studio()
+    draw_four_bar(one)
+    one.tool("spring_damper")
+    one.click(-0.4, -0.2)
+    one.click(0.3, 0.3)
+    (spring,) = one.tree()["forces"].values()
+    assert spring["i"].split(".")[0] == "ground"
+    assert spring["j"].split(".")[0] in ("bar2", "bar3")
+    field = one.page.get_by_label("stiffness", exact=True)
+    field.fill("250 N/m")
+    field.press("Enter")
+    one.settle()
+    (spring,) = one.tree()["forces"].values()
+    assert spring["stiffness"] == "250 N/m"
+
+
+def test_a_driver_begins_where_the_body_is(studio: Opener) -> None:
+    one = studio()
+    draw_four_bar(one)
+    one.tool("coordinate_driver")
+    one.click(-0.35, -0.15)
+    (driver,) = one.tree()["drivers"].values()
+    assert driver["coordinate"] == "bar1.angle"
+    assert driver["value"].endswith("+ t")
+    assert float(driver["value"].split()[0]) == pytest.approx(0.785398, abs=1e-6)
+
+
+def test_a_removed_body_takes_its_joints_along(studio: Opener) -> None:
+    one = studio()
+    draw_four_bar(one)
+    one.click(0.0, 0.1)
+    one.page.locator("#sheet").focus()
+    one.page.keyboard.press("Delete")
+    one.settle()
+    tree = one.tree()
+    assert list(tree["bodies"]) == ["ground", "bar1", "bar3"]
+    assert len(tree["joints"]) == 2
+
+
+def test_a_new_name_is_written_wherever_the_body_is_mentioned(studio: Opener) -> None:
+    one = studio()
+    draw_four_bar(one)
+    one.click(0.0, 0.1)
+    name = one.page.get_by_label("Name", exact=True)
+    name.fill("coupler")
+    name.press("Enter")
+    one.settle()
+    assert "bar2" not in one.toml()
+    assert one.toml().count("coupler") == 3
+
+
+def test_text_and_drawing_follow_each_other(studio: Opener) -> None:
+    one = studio()
+    draw_four_bar(one)
+    one.page.locator("#tab-text").click()
+    text = one.toml().replace("[-0.3, -0.1]", "[-0.3, -0.05]")
+    one.page.locator(".cm-content").click()
+    one.page.keyboard.press("Control+a")
+    one.page.keyboard.insert_text(text)
+    one.page.wait_for_timeout(400)
+    one.settle()
+    assert one.quantity("bar1.y") == pytest.approx(-0.125, abs=1e-12)
+    one.page.keyboard.press("Control+a")
+    one.page.keyboard.insert_text(text.replace('"bar"', '"bra"', 1))
+    one.page.wait_for_timeout(400)
+    one.settle()
+    assert "bra" in one.message()
+    assert one.page.locator(".cm-lintRange-error").count() > 0
