@@ -4,11 +4,9 @@ use crate::convert::Fields;
 use crate::dragged::moving;
 use crate::fault::Fault;
 use crate::loaded::Loaded;
-use crate::pose::pose;
+use crate::pose::{pose, residual};
 use kempe::analyses::dynamics::{Prepared, Run, ENERGIES};
 use kempe::case::Case;
-use kempe::equations::constraints;
-use kempe::equations::kinematics::Motions;
 use kempe::model::{Entry, Value as Written, WORKS};
 use kempe::{build, Flow, Model, Options, State};
 use serde_json::{json, Value};
@@ -181,7 +179,7 @@ impl Live {
             "kinetic": kinetic, "potential": potential, "dissipated": dissipated, "work": work,
             "balance": balance,
         });
-        reply["drift"] = json!(drift(&model, &self.state));
+        reply["drift"] = json!(residual(&model, self.state.t, &self.state.q));
         let (now, later): (Vec<Value>, Vec<Value>) = std::mem::take(&mut self.events)
             .into_iter()
             .partition(|event| event["t"].as_f64() <= Some(self.state.t));
@@ -278,13 +276,4 @@ fn row_of(run: &Run, row: usize, model: &Model) -> State {
         v: part(&track.v, layout.n_q),
         z: part(&track.z, layout.n_z),
     }
-}
-
-/// The largest violation of the constraints and of their rates, in m, rad, m/s and rad/s.
-fn drift(model: &Model, state: &State) -> [f64; 2] {
-    let motions = Motions::at(&model.layout, &state.q, &state.v);
-    let m = model.layout.n_rows;
-    let [mut phi, mut rate, mut gamma] = [0, 1, 2].map(|_| vec![0.0; m]);
-    constraints::velocity_terms(model, &motions, state.t, &mut phi, &mut rate, &mut gamma);
-    [phi, rate].map(|rows| rows.iter().fold(0.0, |most: f64, x| most.max(x.abs())))
 }

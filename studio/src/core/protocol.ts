@@ -110,7 +110,7 @@ export interface Mobility {
   degrees_of_freedom: number;
   rank: number;
   redundant: Value;
-  singular: boolean;
+  singular: Value[];
   locked?: Value;
   loose?: Value;
   four_bars?: Value;

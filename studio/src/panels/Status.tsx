@@ -58,7 +58,7 @@ function Facts() {
   return (
     <div class="standing">
       {unassembled.value ? <span class="problem">{words.open}</span> : null}
-      {mobility.value?.singular ? <span class="problem">{words.singular}</span> : null}
+      {mobility.value?.singular.length ? <span class="problem">{words.singular}</span> : null}
       {count ? <span>{words.redundant(count)}</span> : null}
       {found.warnings.length ? (
         <span title={found.warnings.join("\n")}>{words.warnings(found.warnings.length)}</span>
