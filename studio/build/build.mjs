@@ -10,7 +10,8 @@ const HERE = dirname(dirname(fileURLToPath(import.meta.url)));
 const ROOT = dirname(HERE);
 /** The compiled core; bindings/web/README.md says how it is built. */
 const CORE = process.env.KEMPE_WEB ?? join(ROOT, "target", "web", "kempe_web.wasm");
-const MOST = 1024 * 1024;
+/** Largest page, bytes compressed. */
+const MOST = 2 * 1024 * 1024;
 
 /** The examples of the repository, with the titles of their cases. */
 function examples() {

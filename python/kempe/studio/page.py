@@ -11,7 +11,7 @@ from pathlib import Path
 from kempe.errors import FileError
 from kempe.files import write_text
 
-#: The built page. Wheels contain it.
+#: The built page.
 PAGE = Path(__file__).with_name("page.html")
 #: The place in the page for the text of a case.
 _SLOT = '<script type="application/json" id="case">null</script>'
@@ -31,7 +31,7 @@ def page(text: str | None = None) -> str:
     except FileNotFoundError:
         raise FileError(
             "the studio is not built",
-            hint="run tools/build_studio.sh, or install kempe from a wheel",
+            hint="run tools/build_studio.sh in the repository",
         ) from None
     except OSError as error:
         raise FileError(f"{PAGE}: {error.strerror or error}") from error
