@@ -281,9 +281,41 @@ def chain(*masses: float) -> tuple[kp.Model, dict[str, float]]:
     return m, given
 
 
+def quick_return(mass: float) -> tuple[kp.Model, dict[str, float]]:
+    """A light block that slides on a heavy lever."""
+    m = kp.Model("crank and lever", gravity=(0, -G))
+    m.ground.points(O=(0, 0), D=(-2, 0))
+    m.bar("crank", mass=1, length=1, ends=("O", "P"))
+    m.bar("lever", mass=2, length=4, ends=("D", "E"))
+    m.body("block", mass=mass, inertia=0.1 * mass, points={"P": (0, 0)})
+    m.revolute("O", "ground.O", "crank.O")
+    m.revolute("D", "ground.D", "lever.D")
+    m.revolute("P", "crank.P", "block.P")
+    m.translational("S", "lever.D", "block.P")
+    return m, {"crank.angle": 0.7, "crank.omega": 3.0}
+
+
+def flywheel(mass: float) -> tuple[kp.Model, dict[str, float]]:
+    """A wheel with inertia and hardly any mass, a light tip that is welded to it, and a light rod."""
+    m = kp.Model("flywheel", gravity=(0, -G))
+    m.ground.points(O=(0, 0))
+    m.body("wheel", mass=mass, inertia=0.4, points={"O": (0, 0), "A": (0.1, 0)})
+    m.bar("rod", mass=mass, length=0.3, ends=("A", "B"))
+    m.bar("tip", mass=0.5 * mass, length=0.1, ends=("P", "Q"))
+    m.body("piston", mass=2, inertia=0, points={"B": (0, 0)})
+    m.revolute("O", "ground.O", "wheel.O")
+    m.revolute("A", "wheel.A", "rod.A")
+    m.revolute("B", "rod.B", "piston.B")
+    m.weld("W", "wheel.A", "tip.P", angle=0.5)
+    m.translational("S", "ground.O", "piston.B")
+    return m, {"wheel.angle": 0.6, "wheel.omega": 4.0}
+
+
 LIGHT: dict[str, Callable[[float], tuple[kp.Model, dict[str, float]]]] = {
     "hung": hung,
     "slack": slack,
+    "quick return": quick_return,
+    "flywheel": flywheel,
     "between": lambda r: chain(1, r, 1),
     "ever lighter": lambda r: chain(1, r**0.25, r**0.5, r**0.75, r),
     "ever heavier": lambda r: chain(r, r**0.5, 1),

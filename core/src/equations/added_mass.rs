@@ -1,7 +1,8 @@
 //! Mass and moments of inertia added to light bodies, so that M can be inverted block by block without loss of digits.
 //!
-//! The equations of motion remain those of the bodies without the additions E: `equations/refine.rs` takes them back, to
-//! rounding.
+//! They are for models in which light bodies cannot borrow enough from their neighbours (`equations/lending.rs`), and for
+//! redundant rows. The equations of motion remain those of the bodies without the additions E: `equations/refine.rs`
+//! takes them back, to rounding.
 //!
 //! A body is light if it carries loads between heavier ones. Its branches are what each of its joints leads to; ground is
 //! a branch of infinite mass. Only the load of the second heaviest branch passes through the body. So a light pendulum on

@@ -72,10 +72,7 @@ impl<S: Real> Augmented<S> {
         self.set_inertia(compiled);
         let Self { plan, saddle, .. } = self;
         let inertias = compiled.inertias_in(plan);
-        for &k in plan.pattern.coupled() {
-            let k = k as usize;
-            mass::turn(&inertias[k], &motions[k + 1], &mut saddle.masses[k]);
-        }
+        mass::turn_all(plan.pattern.coupled(), inertias, motions, &mut saddle.masses);
         for (grounded, group) in compiled.grounded.iter().zip(&mut saddle.condensed) {
             grounded.turn(inertias, motions, group);
         }

@@ -73,7 +73,11 @@ impl<S: Real> Compiled<S> {
         let own_coordinates = model.layout.owners.len() >= model.bodies.len();
         let adds_mass = own_coordinates || added.iter().any(Added::any);
         let mut holds = holds(model);
-        let lent = if adds_mass && !own_coordinates { lend((model, weighed(&model.bodies)), &added, &holds) } else { None };
+        let lent = if adds_mass && !own_coordinates {
+            lend((model, weighed(&model.bodies)), &added, &holds)
+        } else {
+            None
+        };
         if lent.is_none() {
             let light = holds.iter_mut().zip(&added).filter(|(_, added)| added.any());
             light.for_each(|(hold, _)| *hold = None);
@@ -82,8 +86,9 @@ impl<S: Real> Compiled<S> {
             Some((_, bodies)) => grounded(model, &holds, bodies),
             None => grounded(model, &holds, &weighed(&model.bodies)),
         };
-        let of_bodies = |(loans, bodies): (Vec<Loan>, Vec<Weighed<S>>)| {
-            Lent { loans, inertias: inertia::lent(&model.bodies, &bodies) }
+        let of_bodies = |(loans, bodies): (Vec<Loan>, Vec<Weighed<S>>)| Lent {
+            loans,
+            inertias: inertia::lent(&model.bodies, &bodies),
         };
         let off_center = (0..inertias.len()).filter(|k| inertias[*k].coupled).collect();
         Self {

@@ -1,9 +1,9 @@
 //! Bodies that a joint of two rows holds to ground. Such a body has one degree of freedom. It is condensed to this
 //! degree of freedom before everything else is eliminated (`solve/condensed.rs`).
 
+use super::constraints;
 use super::inertia::Inertia;
 use super::kinematics::Motions;
-use super::constraints;
 use crate::elements::BodyId;
 use crate::math::{Motion, Real};
 use crate::model::{ConstraintItem, Model, Slots, Weighed};

@@ -61,7 +61,8 @@ impl Places {
     /// For a model and the pattern of its tangent.
     pub fn new(model: &Model, tangent: &Tangent) -> Self {
         let compiled = Compiled::new(model);
-        let groups: Vec<usize> = groups(model, &compiled.inertias).iter().map(|group| group.size).collect();
+        let groups: Vec<usize> =
+            groups(model, &compiled.inertias).iter().map(|group| group.size).collect();
         let (blocks, _) = row_blocks(&model.layout);
         let state_sizes = state_blocks(&model.layout);
         let n = groups.len() + state_sizes.len();

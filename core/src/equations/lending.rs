@@ -92,13 +92,15 @@ impl<'a, S: Real> Market<'a, S> {
     fn round(&mut self) -> bool {
         let waiting = (0..self.sound.len()).filter(|body| !self.sound[*body]);
         let offers = waiting.map(|body| (body, self.offers(body)));
-        let accepted: Vec<_> =
-            offers.filter(|(body, loans)| self.is_enough(*body, &self.with(*body, loans))).collect();
+        let accepted: Vec<_> = offers
+            .filter(|(body, loans)| self.is_enough(*body, &self.with(*body, loans)))
+            .collect();
         for (body, loans) in &accepted {
             self.bodies[*body] = self.with(*body, loans);
             for (k, loan) in loans {
                 if let Some(lender) = &loan.lender {
-                    let less = self.changed(self.bodies[lender.body], *k, lender.body, -loan.weight);
+                    let less =
+                        self.changed(self.bodies[lender.body], *k, lender.body, -loan.weight);
                     self.bodies[lender.body] = less;
                 }
                 self.loans.push(loan.clone());
@@ -185,7 +187,9 @@ impl<'a, S: Real> Market<'a, S> {
 
     /// Lets ground lend mass to a light body at its pin, as much as its inertia about the pin has at its farthest point.
     fn borrow_at_pin(&mut self, body: usize) {
-        let (Held::Pin(pin, loan), true) = (&self.held[body], self.added[body].any()) else { return };
+        let (Held::Pin(pin, loan), true) = (&self.held[body], self.added[body].any()) else {
+            return;
+        };
         let own = self.bodies[body];
         let arms = self.links.iter().filter_map(|link| {
             let place = link.ends.iter().position(|end| end.body == body)?;
@@ -226,8 +230,10 @@ fn links<S: Real>(model: &Model<S>) -> Vec<Link<S>> {
         let (Some(first), Some(second), None) = (i.body, j.body, &item.law) else { continue };
         let (start, count) = (slots.rows.start, slots.rows.len());
         let link = |own: Range<usize>, points| {
-            let end = |block: &crate::model::Block, body| {
-                End { body, columns: block.columns, entry: block.first / 3 + own.start }
+            let end = |block: &crate::model::Block, body| End {
+                body,
+                columns: block.columns,
+                entry: block.first / 3 + own.start,
             };
             let ends = [end(i, first.0), end(j, second.0)];
             Link { constraint, rows: start + own.start..start + own.end, ends, points }
@@ -261,5 +267,9 @@ fn held_by<S: Real>(model: &Model<S>, body: usize, hold: Option<&Hold>) -> Held<
         return Held::Pin(item.element.attachment(place).s, loan);
     }
     let slides = item.element.fixes().iter().any(|fixes| matches!(fixes, Fixes::Direction));
-    if slides { Held::Slide } else { Held::Free }
+    if slides {
+        Held::Slide
+    } else {
+        Held::Free
+    }
 }

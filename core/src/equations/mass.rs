@@ -39,6 +39,20 @@ pub fn turn<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>, mass: &mut Invers
     }
 }
 
+/// The same for the bodies at these places.
+#[inline(always)]
+pub(super) fn turn_all<S: Real>(
+    coupled: &[u32],
+    inertias: &[Inertia<S>],
+    motions: &[Motion<S>],
+    masses: &mut [InverseMass<S>],
+) {
+    for &k in coupled {
+        let k = k as usize;
+        turn(&inertias[k], &motions[k + 1], &mut masses[k]);
+    }
+}
+
 impl<S: Real> MassBlock<S> {
     /// M x for x = (x, y, φ) of the body.
     pub fn times(&self, x: [S; 3]) -> [S; 3] {

@@ -192,14 +192,12 @@ impl<S: Real> Workspace<S> {
         let stabilized = Stabilized::new(gains);
         let inertias = compiled.inertias_in(plan);
         let at = roles::At { model, compiled, plan, inertias, motions, t, stabilized, offset };
-        for &k in plan.pattern.coupled() {
-            let k = k as usize;
-            mass::turn(&inertias[k], &motions[k + 1], &mut saddle.masses[k]);
-        }
+        mass::turn_all(plan.pattern.coupled(), inertias, motions, &mut saddle.masses);
         let (x, right) = solution.split_at_mut(self.n_unknowns);
         let acting = Acting { z, lam: None, t };
         forces::generalized(model, compiled, motions, acting, x, powers);
         roles::put_others(roles, at, saddle, right);
+        roles::put_lending(roles, at, saddle, right);
         loans::take(plan.loans(), &saddle.entries, right, x);
         roles::condense(roles, at, saddle, (x, right));
         saddle.divide_by_masses(&plan.pattern, x);

@@ -75,6 +75,11 @@ impl Plan {
         self.pattern.n_unknowns()
     }
 
+    /// Number of loans of inertia to light bodies; None where nothing is lent.
+    pub fn n_loans(&self) -> Option<usize> {
+        self.loans.as_ref().map(Vec::len)
+    }
+
     /// Number of products of blocks in one elimination.
     pub fn n_products(&self) -> usize {
         self.pattern.n_products()

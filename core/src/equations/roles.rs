@@ -6,14 +6,14 @@
 //! `linearize`.
 
 use super::constraints::{self, ByBlock, Stabilized, Terms};
-use super::kinematics::Motions;
 use super::inertia::Inertia;
+use super::kinematics::Motions;
 use super::plan::Plan;
 use super::Compiled;
 use crate::elements::{BodyId, Joint, JointPools, Linearized, Moving, Place, Pooled, VisitJoints};
 use crate::math::Real;
 use crate::model::Model;
-use crate::solve::{PinRows, PinSum, Saddle};
+use crate::solve::{PinEnd, PinRows, PinSum, Saddle};
 
 /// Joints and drivers by role.
 #[derive(Clone, Debug)]
@@ -26,9 +26,10 @@ pub(super) struct Roles<S> {
     others: JointPools<S>,
     /// The places of those with laws.
     laws: Vec<usize>,
-    /// The places among [`Pattern::pin_rows`](crate::solve::Pattern::pin_rows) of pins at which inertia is lent. They
-    /// are evaluated with the others, since γ is needed first.
-    lent: Vec<usize>,
+    /// Pins at which inertia is lent, and their places among
+    /// [`Pattern::pin_rows`](crate::solve::Pattern::pin_rows). Their γ is needed before bodies are eliminated.
+    lending: JointPools<S>,
+    slots: Vec<usize>,
 }
 
 impl<S: Real> Roles<S> {
@@ -39,7 +40,8 @@ impl<S: Real> Roles<S> {
             pins: JointPools::default(),
             others: JointPools::default(),
             laws: compiled.joints_with_laws.clone(),
-            lent: Vec::new(),
+            lending: JointPools::default(),
+            slots: Vec::new(),
         };
         let place = |k: usize, slot: usize| {
             let item = &model.constraints[k];
@@ -52,11 +54,10 @@ impl<S: Real> Roles<S> {
             others[*k] = false;
         }
         for (slot, k) in plan.pins.iter().enumerate() {
-            if plan.loans().iter().any(|loan| loan.constraint == *k) {
-                roles.lent.push(slot);
-                continue;
-            }
-            roles.pins.push(&model.constraints[*k].element, place(*k, slot));
+            let lends = plan.loans().iter().any(|loan| loan.constraint == *k);
+            let pool = if lends { &mut roles.lending } else { &mut roles.pins };
+            pool.push(&model.constraints[*k].element, place(*k, slot));
+            roles.slots.extend(lends.then_some(slot));
             others[*k] = false;
         }
         for k in (0..others.len()).filter(|k| others[*k]) {
@@ -173,6 +174,50 @@ impl<S: Real> PutOthers<'_, S> {
     }
 }
 
+/// Puts the rows of pins that lend inertia into the entries of Φ_q and into `right`.
+#[inline(always)] // most models have none
+pub(super) fn put_lending<S: Real>(
+    roles: &Roles<S>,
+    at: At<'_, S>,
+    saddle: &mut Saddle<S>,
+    right: &mut [S],
+) {
+    if !roles.slots.is_empty() {
+        roles.lending.visit(&mut PutLending { at, saddle, right });
+    }
+}
+
+struct PutLending<'a, S> {
+    at: At<'a, S>,
+    saddle: &'a mut Saddle<S>,
+    right: &'a mut [S],
+}
+
+impl<S: Real> VisitJoints<S> for PutLending<'_, S> {
+    #[inline(never)] // one loop for each type
+    fn visit<E: Joint>(&mut self, pool: &[Pooled<E::Over<S>>]) {
+        let Self { at, saddle, right } = self;
+        let all: &[PinRows] = at.plan.pattern.pin_rows();
+        for Pooled { element, place } in pool {
+            let (terms, columns) = at.two_rows::<E>(element, place.bodies);
+            for end in all[place.slot as usize].ends() {
+                saddle.put_pin_entries(end, turning(&columns, end));
+            }
+            right[place.row as usize..][..2].copy_from_slice(&at.gamma(&terms, place.row));
+        }
+    }
+}
+
+/// The columns of rotation of two rows for the body at an end.
+#[inline(always)]
+fn turning<S: Real>(columns: &[[S; 3]; 4], end: &PinEnd) -> [S; 2] {
+    let [first, second] = match end.sign > 0.0 {
+        true => [&columns[2], &columns[3]],
+        false => [&columns[0], &columns[1]],
+    };
+    [first[2], second[2]]
+}
+
 /// Condenses the grounded bodies. `forces` has the length of the unknowns and `right` that of the rows;
 /// [`Saddle::condense`] changes both.
 #[inline(always)] // once in an evaluation: a call would spill registers
@@ -222,7 +267,7 @@ pub(super) fn put<S: Real>(
     (x, right): (&[S], &mut [S]),
 ) {
     roles.pins.visit(&mut PutPins { at, saddle, x, right });
-    for slot in &roles.lent {
+    for slot in &roles.slots {
         saddle.put_known_pin(&at.plan.pattern.pin_rows()[*slot], x, right);
     }
 }
@@ -244,11 +289,7 @@ impl<S: Real> VisitJoints<S> for PutPins<'_, S> {
             let (terms, columns) = at.two_rows::<E>(element, place.bodies);
             let mut sum = PinSum::new(at.gamma(&terms, place.row));
             for end in rows.ends() {
-                let [first, second] = match end.sign > 0.0 {
-                    true => [&columns[2], &columns[3]],
-                    false => [&columns[0], &columns[1]],
-                };
-                saddle.add_pin(end, [first[2], second[2]], x, &mut sum);
+                saddle.add_pin(end, turning(&columns, end), x, &mut sum);
             }
             right[place.row as usize..][..2].copy_from_slice(&sum.right);
             saddle.put_pin_rows(rows, &sum);

@@ -34,11 +34,17 @@ impl<S: Real> PinSum<S> {
 }
 
 impl<S: Real> Saddle<S> {
+    /// Puts b of rows [±I b] into the entries.
+    #[inline(always)]
+    pub fn put_pin_entries(&mut self, end: &PinEnd, b: [S; 2]) {
+        let entry = end.entry as usize;
+        (self.entries[entry][2], self.entries[entry + 1][2]) = (b[0], b[1]);
+    }
+
     /// Adds rows [±I b] at one group to a sum, with x = W⁻¹ f of all groups, and keeps them.
     #[inline(always)]
     pub fn add_pin(&mut self, end: &PinEnd, b: [S; 2], x: &[S], sum: &mut PinSum<S>) {
-        let entry = end.entry as usize;
-        (self.entries[entry][2], self.entries[entry + 1][2]) = (b[0], b[1]);
+        self.put_pin_entries(end, b);
         self.add_pin_block(end, b, sum);
         add_pin_times(end.sign, &b, part(x, end.at), &mut sum.right);
     }
