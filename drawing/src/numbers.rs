@@ -39,7 +39,7 @@ mod tests {
 
     #[test]
     fn nine_digits_are_kept() {
-        assert_eq!(rounded(std::f64::consts::PI), 3.14159265);
+        assert_eq!(rounded(2.0 / 3.0), 0.666666667);
         assert_eq!(rounded(-1.234567894999e-7), -1.23456789e-7);
         assert_eq!(rounded(-0.0).to_bits(), 0.0_f64.to_bits());
         assert!(rounded(f64::NAN).is_nan());

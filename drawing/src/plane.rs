@@ -65,9 +65,9 @@ impl Extent {
 
     /// Grows to contain a circle.
     pub fn include(&mut self, at: At, radius: f64) {
-        for k in 0..2 {
-            self.low[k] = self.low[k].min(at[k] - radius);
-            self.high[k] = self.high[k].max(at[k] + radius);
+        for (k, x) in at.into_iter().enumerate() {
+            self.low[k] = self.low[k].min(x - radius);
+            self.high[k] = self.high[k].max(x + radius);
         }
     }
 

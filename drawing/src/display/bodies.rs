@@ -28,7 +28,7 @@ pub fn draw(body: &Body) -> Vec<Item> {
 /// Whether a body has a closed curve around its points: the curve is all of it.
 fn is_plate(body: &Body) -> bool {
     let around = |ring: &&[At]| body.outline.iter().all(|at| winding(&[ring], *at) != 0);
-    rings(body).iter().any(|ring| around(ring))
+    rings(body).iter().any(around)
 }
 
 /// The closed curves of a body, m.

@@ -1,7 +1,7 @@
 //! Places of names that cover nothing else, at rest and while the mechanism moves.
 
 use super::taken::{clipped_length, Taken};
-use crate::plane::{ahead, direction, minus, size as length, At};
+use crate::plane::{ahead, direction, minus, size as length, At, Extent};
 
 /// Directions from an anchor to its name.
 const DIRECTIONS: usize = 16;
@@ -33,19 +33,29 @@ pub fn place_labels(anchors: &[Vec<At>], sizes: &[At], mut taken: Taken) -> Vec<
     let gaps = if anchors.len() == 1 { &GAPS[..] } else { &GAPS[..GAPS_IN_MOTION] };
     for k in order {
         let candidates = candidates(sizes[k], gaps);
-        let mut costs: Vec<f64> = candidates.iter().map(|(gap, _)| *gap).collect();
-        let offsets: Vec<At> = candidates.into_iter().map(|(_, offset)| offset).collect();
-        for (t, at) in anchors.iter().enumerate() {
-            let near = taken.near(t, at[k], &offsets, half(sizes[k]));
-            for (cost, offset) in costs.iter_mut().zip(&offsets) {
-                let covered = near.cost(ahead(at[k], 1.0, *offset), sizes[k]);
-                let misleading = if is_nearer(at, k, *offset) { MISLEADING } else { 0.0 };
-                *cost += (covered + misleading) / anchors.len() as f64;
+        let near = |(t, at): (usize, &Vec<At>)| taken.near(t, at[k], &candidates, half(sizes[k]));
+        let near: Vec<Near> = anchors.iter().enumerate().map(near).collect();
+        let share = 1.0 / anchors.len() as f64;
+        let mut costs = Vec::with_capacity(candidates.len());
+        let mut least = f64::INFINITY;
+        for (gap, offset) in &candidates {
+            // all costs are positive, so that a sum above the least one need not be completed
+            let mut cost = *gap;
+            for (at, near) in anchors.iter().zip(&near) {
+                if cost > least + EQUAL {
+                    break;
+                }
+                if is_nearer(at, k, *offset) {
+                    cost += MISLEADING * share;
+                }
+                let room = (least + EQUAL - cost) / share;
+                cost += share * near.cost(ahead(at[k], 1.0, *offset), sizes[k], room);
             }
+            least = least.min(cost);
+            costs.push(cost);
         }
-        let least = costs.iter().copied().fold(f64::INFINITY, f64::min);
         let first = costs.iter().position(|cost| *cost <= least + EQUAL);
-        chosen[k] = offsets[first.unwrap_or(0)];
+        chosen[k] = candidates[first.unwrap_or(0)].1;
         taken.add(anchors.iter().map(|at| ahead(at[k], 1.0, chosen[k])), sizes[k]);
     }
     chosen
@@ -81,9 +91,8 @@ struct Near {
 }
 
 impl Taken {
-    fn near(&self, t: usize, anchor: At, offsets: &[At], half: At) -> Near {
-        let mut around = crate::plane::Extent::NOTHING;
-        offsets.iter().for_each(|by| around.include(ahead(anchor, 1.0, *by), 0.0));
+    fn near(&self, t: usize, anchor: At, candidates: &[(f64, At)], half: At) -> Near {
+        let around = Extent::of(candidates.iter().map(|(_, by)| ahead(anchor, 1.0, *by)));
         let first = minus(around.low, half);
         let last = ahead(around.high, 1.0, half);
         let meets = |low: At, high: At, wide: f64| {
@@ -105,16 +114,12 @@ impl Taken {
 }
 
 impl Near {
-    /// Overlap of the box of a name, points.
-    fn cost(&self, centre: At, size: At) -> f64 {
+    /// Overlap of the box of a name, points; some number above a limit where it is above this.
+    fn cost(&self, centre: At, size: At, limit: f64) -> f64 {
         let (low, high) = (minus(centre, half(size)), ahead(centre, 1.0, half(size)));
-        let mut cost = 0.0;
-        for (ends, wide) in &self.segments {
-            let touched = clipped_length(low.map(|x| x - wide), high.map(|x| x + wide), ends);
-            if touched > 0.0 {
-                cost += TOUCH * (touched + if touched > CONTACT { 2.0 } else { 0.0 });
-            }
-        }
+        let [least, largest] = self.inside;
+        let outside = |k: usize| (least[k] - low[k]).max(0.0) + (high[k] - largest[k]).max(0.0);
+        let mut cost = TOUCH * (outside(0) + outside(1));
         for [left, bottom, right, top] in &self.boxes {
             let across = (high[0] + BESIDE).min(*right) - (low[0] - BESIDE).max(*left);
             let up = high[1].min(*top) - low[1].max(*bottom);
@@ -122,9 +127,23 @@ impl Near {
                 cost += COVER * (across + up);
             }
         }
-        let [least, largest] = self.inside;
-        let outside = |k: usize| (least[k] - low[k]).max(0.0) + (high[k] - largest[k]).max(0.0);
-        cost + TOUCH * (outside(0) + outside(1))
+        for (ends, wide) in &self.segments {
+            if cost > limit {
+                break;
+            }
+            let (low, high) = (low.map(|x| x - wide), high.map(|x| x + wide));
+            let [a, b] = ends;
+            if (0..2)
+                .any(|k| (a[k] < low[k] && b[k] < low[k]) || (a[k] > high[k] && b[k] > high[k]))
+            {
+                continue; // far away, which is cheaper to see than a length of 0
+            }
+            let touched = clipped_length(low, high, ends);
+            if touched > 0.0 {
+                cost += TOUCH * (touched + if touched > CONTACT { 2.0 } else { 0.0 });
+            }
+        }
+        cost
     }
 }
 
@@ -143,7 +162,7 @@ mod tests {
             boxes: vec![vec![]],
             inside: [[-100.0; 2], [100.0; 2]],
         };
-        let offsets = place_labels(&[anchors.clone()], &[[20.0, 8.0]; 4], taken);
+        let offsets = place_labels(std::slice::from_ref(&anchors), &[[20.0, 8.0]; 4], taken);
         let centres: Vec<_> =
             anchors.iter().zip(offsets).map(|(a, by)| [a[0] + by[0], a[1] + by[1]]).collect();
         for (k, [x, y]) in centres.iter().enumerate() {

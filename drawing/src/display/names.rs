@@ -60,8 +60,8 @@ pub fn add_joints(made: &mut List<'_>) {
     }
     let mut found = Groups { places: Places::new(made.near), groups: Vec::new() };
     for joint in &scene.joints {
-        let own = scene.symbols.iter().filter(|symbol| symbol.element == joint.name);
-        match own.filter(|symbol| symbol.mark.is_along()).last() {
+        let mut own = scene.symbols.iter().filter(|symbol| symbol.element == joint.name);
+        match own.rfind(|symbol| symbol.mark.is_along()) {
             Some(rod) => made.name(Role::Joint, &joint.name, line_of(rod)),
             None => {
                 let end = (joint.bodies[1], joint.points[1]);

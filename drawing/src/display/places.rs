@@ -1,33 +1,39 @@
 //! Which points of a motion are one place in a drawing.
 
 use crate::plane::At;
+use std::collections::HashMap;
 
 /// Paths of points, those of one place once.
 pub struct Places {
     /// Paths that are always so near are one place, m.
     near: f64,
     paths: Vec<Vec<At>>,
+    /// The paths by the square of this side in which they begin, so that few are compared.
+    squares: HashMap<[i64; 2], Vec<usize>>,
 }
 
 impl Places {
     /// No place yet.
     pub fn new(near: f64) -> Self {
-        Self { near, paths: Vec::new() }
+        Self { near, paths: Vec::new(), squares: HashMap::new() }
     }
 
     /// The number of the place of a path; a new one if there is none yet.
     pub fn index(&mut self, path: Vec<At>) -> usize {
-        let mut best = (self.near, None);
-        for (k, other) in self.paths.iter().enumerate() {
-            let apart = apart(&path, other, best.0);
-            if apart < best.0 {
-                best = (apart, Some(k));
-            }
+        let begin = path.first().copied().unwrap_or_default();
+        let [x, y] = begin.map(|x| (x / self.near).floor() as i64);
+        let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [dx, dy]));
+        let beside =
+            |[dx, dy]: [i64; 2]| self.squares.get(&[x.saturating_add(dx), y.saturating_add(dy)]);
+        let apart = |k: &usize| (apart(&path, &self.paths[*k]), *k);
+        let found = around.filter_map(beside).flatten().map(apart);
+        let nearest = found.min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        if let Some((_, k)) = nearest.filter(|(apart, _)| *apart < self.near) {
+            return k;
         }
-        best.1.unwrap_or_else(|| {
-            self.paths.push(path);
-            self.paths.len() - 1
-        })
+        self.squares.entry([x, y]).or_default().push(self.paths.len());
+        self.paths.push(path);
+        self.paths.len() - 1
     }
 
     /// Whether a path has a place of its own; it is then taken.
@@ -37,14 +43,23 @@ impl Places {
     }
 }
 
-/// The largest distance of two paths along x or y; the search ends where it reaches a limit.
-fn apart(one: &[At], other: &[At], limit: f64) -> f64 {
-    let mut found = 0.0_f64;
-    for (a, b) in one.iter().zip(other) {
-        found = found.max((a[0] - b[0]).abs()).max((a[1] - b[1]).abs());
-        if found >= limit {
-            break;
-        }
+/// The largest distance of two paths along x or y.
+fn apart(one: &[At], other: &[At]) -> f64 {
+    let pairs = one.iter().zip(other);
+    pairs.map(|(a, b)| (a[0] - b[0]).abs().max((a[1] - b[1]).abs())).fold(0.0, f64::max)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Places;
+
+    #[test]
+    fn paths_that_are_always_near_are_one_place() {
+        let mut places = Places::new(0.1);
+        let paths =
+            [[[0.99, 0.0], [2.0, 0.0]], [[1.05, 0.0], [2.05, 0.0]], [[1.0, 0.0], [2.2, 0.0]]];
+        assert_eq!(paths.map(|path| places.index(path.to_vec())), [0, 0, 1]);
+        assert!(!places.is_new(vec![[1.0, 0.05], [2.19, -0.05]]));
+        assert!(places.is_new(vec![[-1.0, 0.0], [2.0, 0.0]]));
     }
-    found
 }
