@@ -60,7 +60,8 @@ class Studio:
 
     def mode(self, name: str) -> None:
         self.page.locator(f"#mode-{name}").click()
-        self.settle()
+        if name != "live":
+            self.settle()
 
     def message(self) -> str:
         found: str = self.page.locator("#message").inner_text()
@@ -68,9 +69,7 @@ class Studio:
 
     def settle(self) -> None:
         """Wait until the core has answered what was sent before, and the answer is drawn."""
-        for _ in range(3):
-            self.page.evaluate("kempe.state().then(() => new Promise(requestAnimationFrame))")
-            self.page.wait_for_timeout(40)
+        self.page.evaluate("kempe.settled().then(() => new Promise(requestAnimationFrame))")
 
     def wait(self, condition: str, seconds: float = 10.0) -> None:
         """Wait for a condition; playwright's own waiting is forbidden by the policy of the page."""

@@ -5,7 +5,7 @@ import { enter } from "../modes/modes";
 import { run } from "../modes/read";
 import type { Point } from "../plane/points";
 import { open } from "../store/document";
-import { send } from "../store/session";
+import { send, settled } from "../store/session";
 import { view } from "../store/sheet";
 import { mode, pose, problems, text, unassembled } from "../store/state";
 
@@ -16,6 +16,7 @@ export interface Interface {
   quantity(name: string): Promise<{ value: number; unit: string }>;
   run(t_end?: number): Promise<Ran | null>;
   screen(point: Point): Promise<Point>;
+  settled(): Promise<void>;
 }
 
 export const kempe: Interface = {
@@ -34,6 +35,7 @@ export const kempe: Interface = {
     const [x, y] = view.toScreen(point);
     return [left + x, top + y];
   },
+  settled,
   quantity: async (name) => (await send("quantity", { name })).ok,
   async run(t_end) {
     const found = await run(t_end);

@@ -3,7 +3,7 @@
 import { begin, openFile, saveFile } from "../give/files";
 import { enter } from "../modes/modes";
 import { future, past, redo, undo } from "../store/document";
-import { dialog, MODES, mode, title } from "../store/state";
+import { dialog, MODES, type Mode, mode, title } from "../store/state";
 import { texts } from "../texts";
 import { Button } from "./parts";
 
@@ -48,7 +48,7 @@ export function Toolbar() {
             id={`mode-${one}`}
             aria-checked={mode.value === one}
             title={texts.modeHints[one]}
-            onClick={() => enter(one)}
+            onClick={(event) => choose(one, event)}
           >
             {texts.modes[one]}
           </button>
@@ -56,6 +56,12 @@ export function Toolbar() {
       </div>
     </header>
   );
+}
+
+/** After a click with the mouse, keys belong to the drawing: space plays and pauses. */
+function choose(one: Mode, { detail }: MouseEvent): void {
+  enter(one);
+  if (detail > 0) document.getElementById("sheet")?.focus();
 }
 
 function open(which: "gallery" | "share" | "help"): void {

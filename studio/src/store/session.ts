@@ -20,6 +20,8 @@ import {
   unassembled,
 } from "./state";
 
+/** So many looks without a request mean that all is answered. */
+const QUIET = 5;
 let transport: Transport | null = null;
 /** The text that the core was given last and answered without a trap. */
 let accepted = "";
@@ -47,6 +49,14 @@ export function send<D extends Do>(
 ): Promise<Answer<Requests[D]["reply"]>> {
   if (!transport) return Promise.reject(new Error("the core is not connected"));
   return transport.send(what, fields, channel ?? null);
+}
+
+/** Resolves when the core has answered everything that followed from what was sent. */
+export async function settled(): Promise<void> {
+  for (let quiet = 0; quiet < QUIET; quiet += 1) {
+    await new Promise((done) => setTimeout(done, 10));
+    if (transport?.busy) quiet = 0;
+  }
 }
 
 /** Show an error in the status line; those of replaced requests are none. */
