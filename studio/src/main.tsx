@@ -22,7 +22,12 @@ import "./style/phone.css";
 
 const FIRST = "four_bar";
 
-/** The text to begin with: that of the link, or the first example. */
+/** The text that `kempe studio FILE` put into the page, or null. */
+function ownText(): string | null {
+  return JSON.parse(document.getElementById("case")?.textContent ?? "null") as string | null;
+}
+
+/** The text to begin with: that of the link, that of the page, or the first example. */
 async function begin(): Promise<void> {
   let given: string | null = null;
   let damaged = false;
@@ -31,7 +36,7 @@ async function begin(): Promise<void> {
   } catch {
     damaged = true;
   }
-  await open(given ?? examples.find(({ name }) => name === FIRST)?.text ?? EMPTY);
+  await open(given ?? ownText() ?? examples.find(({ name }) => name === FIRST)?.text ?? EMPTY);
   if (damaged) announce("problem", texts.share.damaged);
 }
 

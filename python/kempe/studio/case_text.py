@@ -12,7 +12,8 @@ from kempe.case import load
 def case_text(path: Path) -> str:
     """The text of a case as TOML.
 
-    A TOML file stays as it is, with its comments. A case in JSON, or with tables in other files, is written anew.
+    A TOML file stays as it is, with its comments. A case in JSON, or with tables in other files, is
+    written anew.
 
     Raises:
         FileError: the file cannot be read, or is no case.

@@ -1,6 +1,7 @@
 """The page of the studio with a case in it.
 
-``tools/build_studio.sh`` builds the page from ``studio/`` and ``bindings/web/``. It is one file without requests.
+``tools/build_studio.sh`` builds the page from ``studio/`` and ``bindings/web/``. It is one file
+without requests.
 """
 
 from __future__ import annotations
