@@ -17,7 +17,7 @@ ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs" / "sweeps.md"
 TARGET = ROOT / "docs" / "images" / "sweeps" / "map.png"
 #: Width of the figure, pixels, and its colours.
-WIDTH, COLOURS = 900, 64
+WIDTH, COLOURS = 900, 256
 
 
 def main() -> None:

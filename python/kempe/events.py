@@ -145,7 +145,7 @@ def _holds(state: State, condition: str) -> bool:
     """Whether a comparison is true at a state; False for an expression."""
     expression, core = f"if({condition}, 1, 0)", state.compiled.core
     try:
-        names, _ = _core.measure(core, expression)
+        names, *_ = _core.measure(core, expression)
         values = np.array([[state[name] for name in names]], dtype=np.float64)
         found = _core.measure_values(core, expression, np.atleast_1d(state.t), values)
     except KempeError:

@@ -62,8 +62,8 @@ def measure_info(model: CompiledModel, expression: str, name: str = "") -> Measu
     Raises:
         ModelError: a fault of the expression, or an unknown name.
     """
-    used, *about = _core.measure(model.core, expression)
-    return MeasureInfo(name or expression, expression, tuple(used), *about)
+    used, unit, is_of_run, solves = _core.measure(model.core, expression)
+    return MeasureInfo(name or expression, expression, tuple(used), unit, is_of_run, solves)
 
 
 def parameter_unit(model: CompiledModel, name: str) -> str:
@@ -115,8 +115,8 @@ class Measure:
 
     def __init__(self, solution: Solution, of: str | MeasureInfo) -> None:
         self._solution = solution
-        known = isinstance(of, MeasureInfo)
-        self.info = of if known else entry("measure", of, solution.compiled.measures)
+        known = solution.compiled.measures
+        self.info = of if isinstance(of, MeasureInfo) else entry("measure", of, known)
         self.t = solution.t
         self.values = values_of(solution, self.info)
 

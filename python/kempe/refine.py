@@ -50,9 +50,10 @@ class Maxima:
     ) -> None:
         self._t, self._sampled = t, values
         near = [] if known is None else known.near.tolist()
-        near_t = np.empty(0) if known is None else known.near_t
+        near_t: Floats = np.empty(0) if known is None else known.near_t
         self.values: Floats
         self.t: Floats
+        self.near_t: Floats
         self.values, self.t, found, self.near_t = _core.maxima(
             t, values, near, near_t, resolved, read
         )

@@ -72,6 +72,22 @@ CALLS: dict[str, Callable[[], object]] = {
     "reaction": lambda: _core.reaction(MODEL, "C", "rocker", "global", TIMES, ROW, LAM),
     "measure": lambda: _core.measure(MODEL, "C.force"),
     "measure_values": lambda: _core.measure_values(MODEL, "C.force", TIMES, ROW[:, :1]),
+    "measure_at": lambda: _core.measure_at(MODEL, "crank.x", TIMES, ROW, ROW, STATES),
+    "instants": lambda: _core.instants(np.arange(2.0), TIMES, 9),
+    "interpolate": lambda: _core.interpolate(
+        np.arange(2.0), np.zeros((1, 2)), np.zeros((1, 2, 4)), TIMES
+    ),
+    "maxima": lambda: _core.maxima(TIMES, TIMES, [], TIMES, True, lambda t: t),
+    "extreme": lambda: _core.extreme(1.0, TIMES, TIMES),
+    "changes": lambda: _core.changes(TIMES),
+    "mean": lambda: _core.mean(TIMES, TIMES),
+    "root_mean_square": lambda: _core.root_mean_square(TIMES, TIMES),
+    "row_norms": lambda: _core.row_norms(ROW),
+    "settling": lambda: _core.settling(TIMES, TIMES),
+    "sweeps": lambda: _core.sweeps(MODEL, ["max"]),
+    "sweep": lambda: _core.sweep(
+        MODEL, "{}", "{}", '{"type": "dynamics", "t_end": 1}', [], [], [], [], np.zeros((0, 0)), 1
+    ),
     "not_unique": lambda: _core.not_unique(MODEL, TIMES, ROW),
     "place": lambda: _core.place(MODEL, "C", "rocker", TIMES, ROW),
     "newton_euler": lambda: _core.newton_euler(MODEL, TIMES, ROW, ROW, STATES, ROW, LAM),

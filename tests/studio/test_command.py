@@ -81,9 +81,12 @@ def test_points_of_a_table_in_another_file_are_in_the_text(tmp_path: Path) -> No
     (tmp_path / "lift.csv").write_text("x,y\n0,0\n1,2\n2,3\n", encoding="utf-8")
     path = tmp_path / "case.toml"
     path.write_text('kempe = 1\n[tables.lift]\nfile = "lift.csv"\n', encoding="utf-8")
-    text = case_text(path)
-    assert "lift.csv" not in text
-    assert "y = [0, 2, 3]" in text
+    import kempe as kp
+
+    alone = tmp_path / "alone" / "case.toml"
+    alone.parent.mkdir()
+    alone.write_text(case_text(path), encoding="utf-8")
+    assert kp.load(alone).tree()["tables"]["lift"]["y"] == [0, 2, 3]
 
 
 @pytest.mark.alone
@@ -94,19 +97,18 @@ def test_the_server_serves_the_page_on_loopback_only(built: Path) -> None:
         "from kempe.cli.app import app\n"
         f"app(['studio', {str(EXAMPLE)!r}, '--no-browser'])\n"
     )
-    server = subprocess.Popen(
-        [sys.executable, "-c", code], stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-    )
-    try:
-        assert server.stderr is not None
-        line = server.stderr.readline()
-        found = re.search(r"http://127\.0\.0\.1:\d+/", line)
-        assert found, line
-        with urllib.request.urlopen(found[0], timeout=10) as reply:
-            served = reply.read().decode("utf-8")
-        assert inside(served) == EXAMPLE.read_text(encoding="utf-8")
-        with pytest.raises(urllib.error.HTTPError, match="404"):
-            urllib.request.urlopen(found[0] + "etc/passwd", timeout=10)
-    finally:
-        server.terminate()
-        server.wait(10)
+    pipe = subprocess.PIPE
+    with subprocess.Popen([sys.executable, "-c", code], stderr=pipe, text=True) as server:
+        try:
+            assert server.stderr is not None
+            line = server.stderr.readline()
+            found = re.search(r"http://127\.0\.0\.1:\d+/", line)
+            assert found, line
+            with urllib.request.urlopen(found[0], timeout=10) as reply:
+                served = reply.read().decode("utf-8")
+            assert inside(served) == EXAMPLE.read_text(encoding="utf-8")
+            with pytest.raises(urllib.error.HTTPError, match="404") as missing:
+                urllib.request.urlopen(found[0] + "etc/passwd", timeout=10)
+            missing.value.close()
+        finally:
+            server.terminate()

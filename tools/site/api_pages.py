@@ -64,6 +64,10 @@ PAGES = {
             "kempe.configurations",
             "kempe.study",
             "kempe.Study",
+            "kempe.sweep",
+            "kempe.SweepResult",
+            "kempe.tolerances",
+            "kempe.Tolerances",
         ),
     ),
     "options": ApiPage(

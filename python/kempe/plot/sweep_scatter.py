@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from kempe.arrays import Floats
 from kempe.errors import ModelError
 from kempe.plot import style
 from kempe.values import texts
@@ -67,7 +68,7 @@ def sweep_scatter(result: SweepResult, columns: Sequence[str] | None = None) -> 
     return made
 
 
-def _edges(values: np.ndarray, *, is_log: bool) -> np.ndarray:  # type: ignore[type-arg]
+def _edges(values: Floats, *, is_log: bool) -> Floats:
     if not len(values):
         return np.array([0.0, 1.0])
     count = int(np.clip(np.sqrt(len(values)), 5, 40)) + 1

@@ -4,24 +4,31 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 from kempe import _core, files
 from kempe.case import load
+from kempe.lookup_tables import TableFile
 
 
 def case_text(path: Path) -> str:
     """The text of a case as TOML.
 
     A TOML file stays as it is, with its comments. A case in JSON, or with tables in other files, is
-    written anew.
+    written anew; it then contains the points of these tables.
 
     Raises:
-        FileError: the file cannot be read, or is no case.
+        FileError: a file cannot be read, or is no case.
         ModelError: the case is faulty.
     """
-    case = load(path)
-    if path.suffix.lower() != ".toml":
-        return case.text()
-    text = files.read_text(path)
-    tables = json.loads(_core.Case(text, "toml", str(path)).tree()).get("tables", {})
-    return case.text() if any("file" in table for table in tables.values()) else text
+    load(path)  # a faulty case is refused with its lines
+    text, form = files.read_text(path), path.suffix.lower().lstrip(".")
+    tree: dict[str, Any] = json.loads(_core.Case(text, form, str(path)).tree())
+    outside = {n: table for n, table in tree.get("tables", {}).items() if "file" in table}
+    if form == "toml" and not outside:
+        return text
+    for name, table in outside.items():
+        read = TableFile.read(name, table, path.parent)
+        own = {key: value for key, value in table.items() if key not in {"file", "columns"}}
+        tree["tables"][name] = {"x": read.x, "y": read.y, **own}
+    return _core.Case(json.dumps(tree, allow_nan=False), "json", None).write("toml")

@@ -5,6 +5,6 @@
 
 from kempe.sweeps.result import SweepResult
 from kempe.sweeps.run import sweep
-from kempe.sweeps.tolerances import Tolerances, tolerances
+from kempe.sweeps.scatter import Tolerances, tolerances
 
 __all__ = ["SweepResult", "Tolerances", "sweep", "tolerances"]

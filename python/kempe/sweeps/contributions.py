@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kempe.arrays import Floats
 from kempe.sweeps.variables import Variable
@@ -36,7 +37,7 @@ def contributions(result: SweepResult, measure: str) -> dict[str, float]:
     return found
 
 
-def _groups(variable: Variable, given: Floats) -> Floats:
+def _groups(variable: Variable, given: Floats) -> NDArray[np.intp]:
     """The group of each variant."""
     distinct, groups = np.unique(given, return_inverse=True)
     if variable.levels is not None and len(distinct) <= max(_GROUPS, len(given) // _LEAST):
@@ -45,7 +46,7 @@ def _groups(variable: Variable, given: Floats) -> Floats:
     return np.argsort(np.argsort(given, kind="stable")) * count // max(len(given), 1)
 
 
-def _between(values: Floats, groups: Floats) -> float:
+def _between(values: Floats, groups: NDArray[np.intp]) -> float:
     """The variance of the means of groups, weighted by their sizes."""
     _, places, sizes = np.unique(groups, return_inverse=True, return_counts=True)
     means = np.bincount(places, values) / sizes

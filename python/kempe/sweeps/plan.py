@@ -150,7 +150,9 @@ class Plan:
         return digest.hexdigest()
 
     @cached_property
-    def _request(self) -> tuple[Any, ...]:
+    def _request(
+        self,
+    ) -> tuple[_core.Model, str, str, str, list[str], list[tuple[int, str]]]:
         """The arguments of the core that all rows share."""
         start = self.case.with_start({name: 0.0 for name in self.names if "." in name})
         tree = start.tree().get("start", {})

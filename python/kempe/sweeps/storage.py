@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import NoReturn
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kempe import files
 from kempe.arrays import Floats
@@ -72,7 +73,7 @@ class Storage:
             for k, numbers, reason in found:
                 yield k, np.frombuffer(numbers, dtype="<f8"), reason
 
-    def add(self, rows: Floats, block: Block) -> None:
+    def add(self, rows: NDArray[np.intp], block: Block) -> None:
         """Write finished rows with these numbers, all or none."""
         values = np.ascontiguousarray(block.values, dtype="<f8")
         entries = (

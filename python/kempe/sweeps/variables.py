@@ -66,7 +66,7 @@ class Variable:
             assert self.levels is not None
             count = len(self.levels)
             place = np.minimum((share * count).astype(int), count - 1)
-            return np.asarray(self.levels)[place]
+            return np.take(np.array(self.levels), place)
         assert self.ends is not None
         first, second = self.ends
         if self.kind == "normal":
@@ -74,8 +74,8 @@ class Variable:
             inside = np.clip(share, _EDGE, 1.0 - _EDGE)
             return np.array([normal.inv_cdf(u) for u in inside.tolist()])
         if self.kind == "log":
-            return np.asarray(first * (second / first) ** share)
-        return np.asarray(first + share * (second - first))
+            return np.asarray(first * (second / first) ** share, dtype=np.float64)
+        return np.asarray(first + share * (second - first), dtype=np.float64)
 
 
 def read_variables(case: Case, variables: Mapping[str, Values]) -> list[Variable]:
