@@ -44,8 +44,8 @@ _PYTHON = (
 )
 #: The optimised extension, in less time than `pip install` takes.
 _QUICK = {"lto": "false", "codegen-units": "16", "opt-level": "2"}
-#: A program is stopped if it computes this many times as long as without a mutant, and some seconds.
-#: Waiting for the processor does not count, except that it takes this many times as long at most.
+#: A program is stopped if it computes this many times as long as without a mutant, and some
+#: seconds. Waiting for the processor counts only beyond the last factor.
 _PATIENCE, _GRACE, _WAITING = 4.0, 20.0, 20.0
 #: Memory that a process may use, in KiB: a changed loop may collect without end.
 _MEMORY = 6 << 20
