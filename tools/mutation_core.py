@@ -332,9 +332,9 @@ def _outcome(mutant: Mutant, programs: list[Program], passes: str) -> str:
 
 def _failure(program: Program, number: int) -> str:
     """The first test that fails, or an empty text."""
-    limits = f"-v {_MEMORY} -t {math.ceil(program.patience)}"
+    limits = f"ulimit -v {_MEMORY} && ulimit -t {math.ceil(program.patience)}"
     with subprocess.Popen(
-        ["sh", "-c", f'ulimit {limits} && exec "$@"', "sh", *program.command],
+        ["sh", "-c", f'{limits} && exec "$@"', "sh", *program.command],
         cwd=program.folder,
         env=os.environ | {"KEMPE_MUTANT": str(number)},
         stdout=subprocess.PIPE,
