@@ -11,12 +11,12 @@ there.
 
 import argparse
 import json
+import math
 import os
 import re
 import signal
 import subprocess
 import sys
-import time
 from collections import defaultdict
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor, as_completed
@@ -44,8 +44,9 @@ _PYTHON = (
 )
 #: The optimised extension, in less time than `pip install` takes.
 _QUICK = {"lto": "false", "codegen-units": "16", "opt-level": "2"}
-#: A program is stopped if it takes this many times as long as without a mutant, and some seconds.
-_PATIENCE, _GRACE = 4.0, 20.0
+#: A program is stopped if it computes this many times as long as without a mutant, and some
+#: seconds. Waiting for the processor counts only beyond the last factor.
+_PATIENCE, _GRACE, _WAITING = 4.0, 20.0, 20.0
 #: Memory that a process may use, in KiB: a changed loop may collect without end.
 _MEMORY = 6 << 20
 #: What became of a mutant that was not found.
@@ -92,7 +93,7 @@ class Place:
         known = json.loads(self.stored.read_text("utf-8")) if self.stored.exists() else {}
         #: What became of each mutant, by its name.
         self.outcomes: dict[str, str] = known.get("outcomes", {})
-        #: The time in s that each program takes without a mutant.
+        #: The time in s that each program computes without a mutant.
         self.times: dict[str, float] = known.get("times", {})
 
     def store(self) -> None:
@@ -108,7 +109,7 @@ class Place:
 
 @dataclass(frozen=True)
 class Program:
-    """Tests that run together, and the longest time that they may take in s."""
+    """Tests that run together, and the longest time that they may compute in s."""
 
     name: str
     command: tuple[str, ...]
@@ -308,10 +309,11 @@ def _timed(place: Place, programs: list[Program]) -> list[Program]:
     for one in programs:
         if one.name in place.times:
             continue
-        begin = time.monotonic()
+        begin = os.times()
         if failed := _failure(one, 0):
             raise SystemExit(f"{one.name} fails without a mutant: {failed}")
-        place.times[one.name] = time.monotonic() - begin
+        end = os.times()
+        place.times[one.name] = end.children_user - begin.children_user
         place.store()
         print(f"{one.name}: {place.times[one.name]:.1f} s", flush=True)
     early = place.times | {_EARLY: 1.0}
@@ -330,8 +332,9 @@ def _outcome(mutant: Mutant, programs: list[Program], passes: str) -> str:
 
 def _failure(program: Program, number: int) -> str:
     """The first test that fails, or an empty text."""
+    limits = f"ulimit -v {_MEMORY} && ulimit -t {math.ceil(program.patience)}"
     with subprocess.Popen(
-        ["sh", "-c", f'ulimit -v {_MEMORY} && exec "$@"', "sh", *program.command],
+        ["sh", "-c", f'{limits} && exec "$@"', "sh", *program.command],
         cwd=program.folder,
         env=os.environ | {"KEMPE_MUTANT": str(number)},
         stdout=subprocess.PIPE,
@@ -341,13 +344,13 @@ def _failure(program: Program, number: int) -> str:
         start_new_session=True,
     ) as process:
         try:
-            output = process.communicate(timeout=program.patience)[0]
+            output = process.communicate(timeout=_WAITING * program.patience)[0]
         except subprocess.TimeoutExpired:
             os.killpg(process.pid, signal.SIGKILL)
             process.communicate()
             return "takes too long"
-    if process.returncode == 0:
-        return ""
+    if process.returncode in (0, -signal.SIGXCPU, -signal.SIGKILL):
+        return "takes too long" if process.returncode else ""
     found = re.search(r"^test (\S+) .*FAILED|^(?:FAILED|ERROR) (\S+)", output, re.MULTILINE)
     return (found[1] or found[2]) if found else f"ends with {process.returncode}"
 

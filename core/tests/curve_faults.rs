@@ -134,6 +134,11 @@ fn corners_and_gaps_of_formulas_are_refused_with_their_place() {
     {
         refuses(&format!("{{ polar = \"0.05 + 0.001*{smooth}\" }}"), POINT, &[]);
     }
+    // the corner is an end of the curve, up to rounding errors
+    for range in ["0.2499999999999, 1", "-1, 0.2500000000001"] {
+        let law = "x = \"u\", y = \"if(u < 0.25, 0, u - 0.25)\"";
+        refuses(&format!("{{ {law}, range = [{range}] }}"), POINT, &[]);
+    }
     // a sharp bend is not a corner
     refuses("{ x = \"u\", y = \"if(u < 0, 0, 5e4*u^2)\", range = [-1, 1] }", POINT, &[]);
 }

@@ -2,8 +2,10 @@
 
 mod mechanisms;
 
+use kempe::elements::Curve;
 use kempe::equations::kinematics::Motions;
 use kempe::equations::reactions::{self, Frame};
+use kempe::math::Local;
 use kempe::model::Model;
 use mechanisms::{column, every, model, refused, run, start, tolerances, with, worst};
 
@@ -374,4 +376,13 @@ fn no_step_loses_the_contact_after_a_dwell() {
             assert!(turned.abs() < 0.5, "{speed} rad/s, t = {t}: {turned}");
         }
     }
+}
+
+/// The distance of the farthest point from the origin, by which assembly chooses where it looks for a contact.
+#[test]
+fn the_reach_of_a_curve() {
+    let line = Curve::Line { from: Local::new(-0.6, 0.8), to: Local::new(0.9, 1.2) };
+    assert_eq!(line.reach(), 1.5);
+    let back = Curve::Line { from: Local::new(0.9, 1.2), to: Local::new(-0.6, 0.8) };
+    assert_eq!(back.reach(), 1.5);
 }

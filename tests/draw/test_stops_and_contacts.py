@@ -41,6 +41,18 @@ def test_a_stop_is_beside_the_place_where_its_point_comes_nearest(angle: float) 
     assert dots  # the stop does not stand for its point
 
 
+@pytest.mark.parametrize(("limit", "sense"), [("upper", 1), ("lower", -1)])
+def test_a_stop_of_a_slide_stands_at_its_limit(limit: str, sense: int) -> None:
+    m = kp.Model("slide")
+    m.ground.points(O=(0.3, 0.2))
+    m.body("block", mass=1, inertia=1, points={"P": (0, 0)})
+    m.translational("slide", "ground.O", "block.P", axes=(0.6, 0.6))
+    m.stop("stop", "slide.displacement", stiffness=100, **{limit: sense * 0.7})
+    stop = symbol_of(kp.scene(kp.assemble(m, set={"slide.displacement": 0.1})), "stop")
+    expected = np.array([0.3, 0.2]) + sense * 0.7 * np.array([np.cos(0.6), np.sin(0.6)])
+    np.testing.assert_allclose(stop["points"][0], expected, rtol=0, atol=1e-6)
+
+
 def enclosed(point: tuple[float, float]) -> dict[str, Any]:
     m = kp.Model("wheel")
     m.ground.points(O=(0, 0))

@@ -4,15 +4,26 @@ use crate::mechanisms::{close, Random};
 use crate::samples::{formula, on, phi, Participants};
 use crate::touching::resting;
 use kempe::elements::forces::Resting;
-use kempe::elements::{BodyId, Constraint, Curve, CurveOn, Rim, Side};
-use kempe::math::{Lanes, Local, Real};
+use kempe::elements::{At, BodyId, Constraint, Curve, CurveOn, Rim, Side};
+use kempe::math::{Lanes, Local, Pose, Real};
+
+/// A contact of (x, y) with the right side of a curve.
+fn contact(curve: &Curve, x: f64, y: f64) -> Constraint {
+    let curve = Rim::new(CurveOn { body: BodyId(2), curve: curve.clone() });
+    Constraint::Resting(Resting { i: on(1, x, y), curve, radius: 0.0, side: Side::Right })
+}
 
 /// The distance of (x, y) from a curve, positive on its right side.
 fn gap(curve: &Curve, x: f64, y: f64) -> f64 {
-    let curve = Rim::new(CurveOn { body: BodyId(2), curve: curve.clone() });
-    let i = on(1, x, y);
-    let contact = Constraint::Resting(Resting { i, curve, radius: 0.0, side: Side::Right });
-    phi(&contact, &Participants { bodies: vec![[0.0; 6]; 2], own: Vec::new() }, 0.0)[0]
+    let rest = Participants { bodies: vec![[0.0; 6]; 2], own: Vec::new() };
+    phi(&contact(curve, x, y), &rest, 0.0)[0]
+}
+
+/// The place of the curve, or of the normal at its end, that is nearest to (x, y).
+fn place(curve: &Curve, x: f64, y: f64) -> [f64; 2] {
+    let at = At { bodies: &[Pose::identity(); 2], own: &[], t: 0.0 };
+    let found = contact(curve, x, y).contact(&at).unwrap();
+    [found.x, found.y]
 }
 
 /// Behind a line, its own distance is larger than those of the normals at its ends, unless an end is nearer.
@@ -29,6 +40,26 @@ fn behind_a_line() {
         (3.3, 0.4, 0.5),
     ] {
         close("gap", gap(&line, x, y), expected, 1e-15);
+    }
+}
+
+/// Behind the ends of an open curve, the normals there bound the body; before them, the corners do.
+#[test]
+fn beyond_the_ends_of_an_open_curve() {
+    let line = Curve::Line { from: Local::new(0.0, 0.0), to: Local::new(1.0, 0.0) };
+    for curve in [line, formula(["u", "0*u"], [0.0, 1.0], false, &[])] {
+        for (x, y, expected) in [
+            (1.3, 0.1, [1.0, 0.1]),
+            (-0.3, 0.1, [0.0, 0.1]),
+            (1.3, -0.4, [1.0, 0.0]),
+            (-0.3, -0.4, [0.0, 0.0]),
+            (0.3, -0.4, [0.3, 0.0]),
+        ] {
+            let found = place(&curve, x, y);
+            close("gap", gap(&curve, x, y), (x - expected[0]).hypot(y - expected[1]), 1e-15);
+            close("x", found[0], expected[0], 1e-15);
+            close("y", found[1], expected[1], 1e-15);
+        }
     }
 }
 
