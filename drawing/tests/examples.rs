@@ -8,6 +8,7 @@ use kempe_drawing::scene::{efforts, Mark, Scene};
 use kempe_drawing::{display, scene, Pose};
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::slice::from_ref;
 
 const SIZE: [f64; 2] = [518.4, 291.6];
 
@@ -32,9 +33,9 @@ fn poses(model: &Model, state: &State) -> Vec<Pose> {
 fn drawn(path: &Path) -> Option<(Scene, Vec<Pose>, View, Vec<Item>)> {
     let (model, state) = start(path)?;
     let poses = poses(&model, &state);
-    let made = scene(&model, &[poses.clone()], &efforts(&model, &[state]));
+    let made = scene(&model, from_ref(&poses), &efforts(&model, &[state]));
     let view = View::around(made.bounds, SIZE);
-    let list = display(&made, &[poses.clone()], &view, &Request::labelled());
+    let list = display(&made, from_ref(&poses), &view, &Request::labelled());
     Some((made, poses, view, list))
 }
 
