@@ -68,7 +68,9 @@ def test_a_crank_is_dragged_through_a_turn_on_one_branch(studio: Opener) -> None
 
 def test_a_crank_that_cannot_turn_stops_at_its_dead_point(studio: Opener) -> None:
     one = studio()
-    one.load(CRANK_ROCKER.replace("length = 3.5,", "length = 2.5,").replace("length = 3,", "length = 2,"))
+    one.load(
+        CRANK_ROCKER.replace("length = 3.5,", "length = 2.5,").replace("length = 3,", "length = 2,")
+    )
     one.mode("move")
     begin = one.state()["q"][2]
     states = drag_around(one, [begin + math.radians(10 * k) for k in range(13)])
