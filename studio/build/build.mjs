@@ -33,15 +33,10 @@ const made = {
       contents: `export const examples = ${JSON.stringify(examples())}`,
     }));
     onLoad({ filter: /^virtual:worker$/, namespace: "made" }, async () => ({
-      contents: `export default ${JSON.stringify((await bundle(workerEntry(), {})).script)}`,
+      contents: `export default ${JSON.stringify((await bundle("src/core/worker.ts", {})).script)}`,
     }));
   },
 };
-
-/** A worker with recorded replies takes the place of the core for work on the page alone. */
-function workerEntry() {
-  return process.env.KEMPE_RECORDED ? "tests/recorded.ts" : "src/core/worker.ts";
-}
 
 async function bundle(entry, more) {
   const { outputFiles } = await build({
@@ -55,7 +50,6 @@ async function bundle(entry, more) {
     legalComments: "none",
     jsx: "automatic",
     jsxImportSource: "preact",
-    loader: { ".json": "json" },
     ...more,
   });
   const text = (suffix) => outputFiles.find(({ path }) => path.endsWith(suffix))?.text.trim() ?? "";
@@ -80,8 +74,7 @@ const policy = [
   "base-uri 'none'",
   "form-action 'none'",
 ].join("; ");
-const bytes = process.env.KEMPE_RECORDED ? "" : readFileSync(CORE);
-const core = gzipSync(bytes, { level: 9 }).toString("base64");
+const core = gzipSync(readFileSync(CORE), { level: 9 }).toString("base64");
 const parts = { policy, version: version(), style, script, core };
 const page = readFileSync(join(HERE, "index.html"), "utf8").replace(/\{\{(\w+)\}\}/g, (_, name) => parts[name]);
 mkdirSync(join(HERE, "dist"), { recursive: true });

@@ -136,6 +136,8 @@ export const texts = {
     mobility: "Mobility",
     gruebler: "Grübler count",
     rank: "Rank of the constraints",
+    fourBar: (pins: string, kind: string, turning: string) =>
+      `${pins}: ${kind}${turning ? `; turns fully: ${turning}` : ""}`,
   },
   live: {
     play: "Play",

@@ -130,20 +130,31 @@ def test_a_new_name_is_written_wherever_the_body_is_mentioned(studio: Opener) ->
     assert one.toml().count("coupler") == 3
 
 
+def paste(studio: Studio, text: str) -> None:
+    """Paste a text in place of all that is in the editor."""
+    studio.page.locator(".cm-content").click()
+    studio.page.keyboard.press("Control+a")
+    studio.call(
+        """([text]) => {
+          const data = new DataTransfer();
+          data.setData("text/plain", text);
+          const editor = document.querySelector(".editor").shadowRoot;
+          const event = new ClipboardEvent("paste", { clipboardData: data, bubbles: true });
+          editor.querySelector(".cm-content").dispatchEvent(event);
+        }""",
+        [text],
+    )
+    studio.page.wait_for_timeout(400)
+    studio.settle()
+
+
 def test_text_and_drawing_follow_each_other(studio: Opener) -> None:
     one = studio()
     draw_four_bar(one)
     one.page.locator("#tab-text").click()
     text = one.toml().replace("[-0.3, -0.1]", "[-0.3, -0.05]")
-    one.page.locator(".cm-content").click()
-    one.page.keyboard.press("Control+a")
-    one.page.keyboard.insert_text(text)
-    one.page.wait_for_timeout(400)
-    one.settle()
+    paste(one, text)
     assert one.quantity("bar1.y") == pytest.approx(-0.125, abs=1e-12)
-    one.page.keyboard.press("Control+a")
-    one.page.keyboard.insert_text(text.replace('"bar"', '"bra"', 1))
-    one.page.wait_for_timeout(400)
-    one.settle()
+    paste(one, text.replace('"bar"', '"bra"', 1))
     assert "bra" in one.message()
     assert one.page.locator(".cm-lintRange-error").count() > 0

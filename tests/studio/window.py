@@ -21,8 +21,8 @@ class Studio:
     messages: list[str] = field(default_factory=list)
     requests: list[str] = field(default_factory=list)
 
-    def call(self, expression: str) -> Any:
-        return self.page.evaluate(expression)
+    def call(self, expression: str, argument: Any = None) -> Any:
+        return self.page.evaluate(expression, argument)
 
     def load(self, text: str) -> dict[str, Any]:
         found: dict[str, Any] = self.page.evaluate("text => kempe.load(text)", text)

@@ -109,11 +109,9 @@ export interface Mobility {
   gruebler: number;
   degrees_of_freedom: number;
   rank: number;
-  redundant: Value;
+  redundant: Value[];
   singular: Value[];
-  locked?: Value;
-  loose?: Value;
-  four_bars?: Value;
+  four_bars: { pins: string[]; kind: string; turning: string[] }[];
 }
 
 /** The static part of a scene; docs/scene.md describes all of it. */

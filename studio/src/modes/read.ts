@@ -66,7 +66,8 @@ export async function run(t_end?: number): Promise<Ran | null> {
       course.value = { ran: ok, t, rows: numbers, width };
       time.value = t[0] ?? 0;
     });
-    quantities.value = (await send("quantities", {})).ok;
+    const ground = mechanism.value?.bodies[0]?.name ?? "";
+    quantities.value = (await send("quantities", {})).ok.filter(({ name }) => !name.startsWith(`${ground}.`));
     if (ok.error) announce("problem", ok.error.message, ok.error.hint ? { hint: ok.error.hint } : {});
     else announce("done", texts.read.done(ok.count, ok.t_end));
     show(time.value);

@@ -59,26 +59,13 @@ function Mobility() {
   return (
     <Section title={words.mobility}>
       <Facts rows={rows} />
-      {fourBars(found.four_bars).map((text) => (
-        <p class="doc" key={text}>
-          {text}
+      {found.four_bars.map(({ pins, kind, turning }) => (
+        <p class="doc" key={pins.join()}>
+          {words.fourBar(pins.join("-"), kind, turning.join(", "))}
         </p>
       ))}
     </Section>
   );
-}
-
-/** The four-bar loops, with Grashof's condition, as the core describes them. */
-function fourBars(found: unknown): string[] {
-  if (!Array.isArray(found)) return [];
-  return found.map((one) => {
-    if (typeof one === "string") return one;
-    const { loop, joints, kind, type, grashof } = one as Record<string, unknown>;
-    const which = [loop, joints].find((names) => Array.isArray(names)) as unknown[] | undefined;
-    return [which?.join("-"), kind ?? type, grashof === undefined ? "" : `Grashof: ${String(grashof)}`]
-      .filter(Boolean)
-      .join(", ");
-  });
 }
 
 function Locks() {

@@ -53,7 +53,7 @@ function Facts() {
   const found = mechanism.value;
   if (!found) return null;
   const words = texts.status;
-  const count = redundantCount();
+  const count = mobility.value?.redundant.length ?? 0;
   const freedom = mobility.value?.degrees_of_freedom ?? found.degrees_of_freedom;
   return (
     <div class="standing">
@@ -67,9 +67,4 @@ function Facts() {
       <span id="freedom">{freedom === null ? "" : words.freedom(freedom)}</span>
     </div>
   );
-}
-
-function redundantCount(): number {
-  const found = mobility.value?.redundant;
-  return Array.isArray(found) ? found.length : typeof found === "number" ? found : 0;
 }
