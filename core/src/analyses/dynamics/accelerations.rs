@@ -28,7 +28,14 @@ pub struct Accelerations {
 }
 
 /// Number of states from which a model over lanes, which solves several at once, is faster.
-pub(super) const MANY: usize = 4 * Lanes::WIDTH;
+const MANY: usize = 4 * Lanes::WIDTH;
+
+/// Whether so many states are solved over lanes. In WebAssembly they are not: it is used without vector registers, and
+/// pages would load a quarter more code.
+#[inline(always)]
+pub(super) fn over_lanes(count: usize) -> bool {
+    !cfg!(target_arch = "wasm32") && count >= MANY
+}
 
 impl Run {
     /// Accelerations and multipliers at the reported states, without stabilization.
@@ -63,7 +70,7 @@ pub(super) fn accelerations(
     if passing {
         one.matrix.set_near_singular(NearSingular::Regularise);
     }
-    let mut many = (count >= MANY).then(|| Many::new(cache.wide(model), &one));
+    let mut many = over_lanes(count).then(|| Many::new(cache.wide(model), &one));
     let mut found = Accelerations::with_room(model, count);
     for first in (0..count).step_by(Lanes::WIDTH) {
         let end = (first + Lanes::WIDTH).min(count);

@@ -1,6 +1,6 @@
 //! Energies at the states of a run, computed on request; several states at once over lanes.
 
-use super::accelerations::MANY;
+use super::accelerations::over_lanes;
 use super::failure::Failure;
 use super::model_cache::ModelCache;
 use super::run_results::Run;
@@ -57,7 +57,7 @@ fn mechanical(
     let (n, n_z) = (model.layout.n_q, model.layout.n_z);
     let mut found = Vec::with_capacity(t.len());
     let mut done = 0;
-    if t.len() >= MANY {
+    if over_lanes(t.len()) {
         let wide = cache.wide(model);
         let mut motions = Motions::new(&wide.layout);
         let [mut places, mut rates, mut states] =

@@ -1,5 +1,6 @@
 //! Reported states of a grid, projected and kept four at once.
 
+use super::accelerations::over_lanes;
 use super::branch_averaging;
 use super::options::Options;
 use super::report_projection::ReportProjection;
@@ -64,6 +65,9 @@ impl<'a> LaneBatch<'a> {
 
     /// Projects all states; returns whether every one is regular. If not, the lanes are invalid.
     pub fn place(&mut self) -> bool {
+        if !over_lanes(usize::MAX) {
+            return false; // so that the code below is left out
+        }
         self.fill_up();
         Lanes::from_rows(&self.given, &mut self.y);
         let layout = &self.placer.model.layout;

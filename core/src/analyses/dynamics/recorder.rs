@@ -1,6 +1,6 @@
 //! Recording of the states of a run at chosen times.
 
-use super::accelerations::MANY;
+use super::accelerations::over_lanes;
 use super::lane_batch::LaneBatch;
 use super::methods::Scheme;
 use super::motion_ode::MotionOde;
@@ -16,7 +16,7 @@ use crate::solve::Breakdown;
 
 /// Whether a grid has so many states that a model over lanes, which solves several at once, is faster.
 pub(super) fn many(output_step: Option<f64>, span: f64) -> bool {
-    output_step.is_some_and(|h| (span / h).abs() >= MANY as f64)
+    output_step.is_some_and(|h| over_lanes((span / h).abs() as usize))
 }
 
 /// Reported states for which memory is reserved in each step; tables grow beyond it.
