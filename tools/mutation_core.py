@@ -28,7 +28,7 @@ ROOT = Path(__file__).resolve().parents[1]
 FILES = ("core/src/elements/**", "core/src/equations/**")
 #: Quick programs run first, and this one, which finds many changes, after those that take 1 s.
 _EARLY = "conformance"
-#: Tests in Python that use the core, by subject. Those of drawings and pages are left out.
+#: Tests in Python that use the core, by subject. Those of pages in a browser are left out.
 _PYTHON = (
     "tests/truth",
     "tests/python",
@@ -40,7 +40,9 @@ _PYTHON = (
     "tests/stress",
     "tests/study",
     "tests/cli",
-    "tests/reference",
+    "tests/schema",
+    "tests/lab_report",
+    "tests/draw",
 )
 #: The optimised extension, in less time than `pip install` takes.
 _QUICK = {"lto": "false", "codegen-units": "16", "opt-level": "2"}
