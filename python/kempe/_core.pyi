@@ -10,6 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kempe._core_sweeps import *  # noqa: F403
+
 _F = NDArray[np.float64]
 _View = tuple[tuple[float, float], float, tuple[float, float]]
 
@@ -327,117 +329,6 @@ def newton_euler(model: Model, t: _F, q: _F, v: _F, z: _F, a: _F, lam: _F) -> _F
 
     |Σ F - m a| and |Σ M - J α|, the largest single force and moment, and the largest lever.
     """
-
-def measure(model: Model, text: str) -> tuple[list[str], str, bool, bool]:
-    """Quantities of an expression, and its SI unit.
-
-    Then whether it uses quantities of a whole run, and whether it needs accelerations or
-    multipliers.
-    """
-
-def measure_at(
-    model: Model,
-    text: str,
-    t: _F,
-    q: _F,
-    v: _F,
-    z: _F,
-    a: _F | None = None,
-    lam: _F | None = None,
-) -> _F:
-    """Values of an expression at states, (n_t,), with what it needs of the solution there."""
-
-def instants(bounds: _F, outputs: _F, numbers: int) -> _F:
-    """Instants of an interpolant with these boundaries of steps, close enough for smooth curves.
-
-    ``numbers`` is the count of numbers in the state at an instant. Times with two outputs are among
-    them, with the numbers before.
-    """
-
-def interpolate(t: _F, y: _F, c: _F, times: _F) -> _F:
-    """The rows y of an interpolant, as in ``Run``, at times: (n, n_y)."""
-
-def maxima(
-    t: _F,
-    sampled: _F,
-    near: list[int],
-    near_t: _F,
-    resolved: bool,
-    read: Callable[[_F], _F],
-) -> tuple[_F, _F, list[int], _F]:
-    """The largest local maxima of a quantity with the values ``sampled`` at instants ``t``.
-
-    ``near`` and ``near_t`` are places and times of known singular positions; ``read`` gives values
-    at times. An error of kempe in it means that there is no value; other exceptions are raised.
-
-    Returns:
-        Values and times of the maxima, places and times of singular positions.
-    """
-
-def extreme(
-    sign: float, t: _F, values: _F, between: tuple[_F, _F, _F, _F, bool] | None = None
-) -> tuple[float, float]:
-    """The extreme value and its time, for values with the sign that makes it a maximum.
-
-    ``between`` are times and values on the interpolant, values and times of the maxima there, and
-    whether singular positions were met.
-    """
-
-def changes(values: _F) -> bool:
-    """Whether values differ by more than rounding errors."""
-
-def mean(t: _F, values: _F) -> float:
-    """The mean over time by the trapezoidal rule."""
-
-def root_mean_square(t: _F, values: _F) -> float:
-    """The root of the mean square over time."""
-
-def row_norms(rows: _F) -> _F:
-    """The lengths of rows, (n,)."""
-
-def settling(
-    t: _F,
-    values: _F,
-    noise: float | None = None,
-    between: Callable[[_F], _F] | None = None,
-) -> tuple[bool, float | None]:
-    """Whether a quantity changes, and its settling time, s; None if it does not settle."""
-
-def sweeps(model: Model, wanted: list[str]) -> bool:
-    """Whether ``sweep`` serves a model and statistics."""
-
-def sweep(
-    model: Model,
-    start: str,
-    guess: str,
-    analysis: str,
-    measures: list[str],
-    wanted: list[tuple[int, str]],
-    parameters: list[str],
-    coordinates: list[str],
-    rows: _F,
-    workers: int,
-) -> tuple[_F, list[tuple[int, str]], NDArray[np.uint64]]:
-    """Run variants of a case on threads.
-
-    Args:
-        model: the model of the case.
-        start, guess: coordinates and rates at the start, JSON as in a file.
-        analysis: the entry of the analysis ``dynamics``, as JSON.
-        measures: expressions of quantities, none of a whole run.
-        wanted: statistics, each of a measure by its place.
-        parameters, coordinates: names of the columns of ``rows``; coordinates are entries of
-            ``start``.
-        rows: values, (n, columns).
-        workers: number of threads.
-
-    Returns:
-        The statistics, (n, n_wanted); the reasons of rows that failed; the rows that a single run
-        decides.
-    """
-
-def measure_values(model: Model, text: str, t: _F, quantities: _F) -> _F:
-    """Values of an expression, (n_t,), for the values of its quantities, (n_t, n)."""
 
 def not_unique(model: Model, t: _F, q: _F) -> list[str]:
     """The joints and drivers without a unique reaction at one of the states."""

@@ -25,12 +25,12 @@ from kempe.option import Analysis, Option
 from kempe.options import Configurations
 from kempe.reach import find_limits
 from kempe.result import Result
-from kempe.sequence import of_type
+from kempe.sequence import of_type, read_entries
 from kempe.solution import Solution
 from kempe.start import Start, read_start
 from kempe.state import State
 from kempe.statics import rest
-from kempe.values import Number, data, listed, mapping, numbers, plain, reference
+from kempe.values import Number, data, mapping, numbers, plain
 
 FORMATS = {".toml": "toml", ".json": "json"}
 
@@ -106,7 +106,7 @@ class Case:
             raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) makes one")
         self.model = model
         self._start = read_start(start)
-        self._entries = _entries(analyses)
+        self._entries = read_entries(analyses)
         self._sweep = plain(mapping(sweep or {}, "sweep", "{'variables': {…}}"), "sweep")
         self._core().check(model.compile().core)
 
@@ -131,7 +131,7 @@ class Case:
 
     @property
     def sweep(self) -> Mapping[str, Any]:
-        """The sweep of the case, as in a file, which ``kp.sweep(case)`` runs; a copy."""
+        """The sweep of the file, which ``kp.sweep(case)`` runs; a copy."""
         return copy.deepcopy(self._sweep)
 
     def tree(self) -> dict[str, Any]:
@@ -242,15 +242,10 @@ class Case:
         """
         return self._with(model=self.model.with_parameters(parameters))
 
-    def _with(
-        self,
-        model: Model | None = None,
-        start: Start | None = None,
-        entries: Mapping[str, Mapping[str, Any]] | None = None,
-    ) -> Case:
-        """The same case with other parts."""
-        kept = self._entries if entries is None else entries
-        return Case(model or self.model, start or self._start, kept, self._sweep)
+    def _with(self, **parts: Any) -> Case:
+        """The same case with another ``model``, ``start`` or ``analyses``."""
+        kept = {"model": self.model, "start": self._start, "analyses": self._entries}
+        return Case(**{**kept, **parts}, sweep=self._sweep)
 
     def with_analysis(self, name: str, **changes: Any) -> Case:
         """The same case with some fields of one analysis changed, as ``t_end=30``.
@@ -263,7 +258,7 @@ class Case:
         for key, value in changes.items():
             path = f"analyses.{name}.{key}"
             given[key] = value.tree(path) if isinstance(value, Option) else plain(value, path)
-        return self._with(entries={**self._entries, name: {**self._entries[name], **given}})
+        return self._with(analyses={**self._entries, name: {**self._entries[name], **given}})
 
     def of_type(self, kind: str, absent: Mapping[str, Number] | None = None) -> Case:
         """The same case with the analyses of one type and those that they start from.
@@ -388,25 +383,3 @@ def _format(path: Path | str, doing: str) -> str:
     if where.is_dir():
         raise files.trouble(path, doing, IsADirectoryError())
     raise FileError(f"cannot {doing} {path}: the name must end in .toml or .json", name=str(path))
-
-
-def _entries(
-    analyses: Sequence[Analysis] | Mapping[str, Mapping[str, Any]],
-) -> dict[str, dict[str, Any]]:
-    form = "{'type': 'dynamics', 't_end': 1}"
-    if isinstance(analyses, Mapping):
-        found = {}
-        for name, entry in analyses.items():
-            path = f"analyses.{reference(name, 'name of an analysis')}"
-            found[name] = plain(mapping(entry, path, form), path)
-        return found
-    entries: dict[str, dict[str, Any]] = {}
-    for analysis in listed(analyses, "analyses"):
-        if not isinstance(analysis, Analysis):
-            raise ModelError(f"{analysis!r} is not an analysis", hint="kp.Dynamics(…) makes one")
-        if analysis.name in entries:
-            raise ModelError(
-                f"analyses.{analysis.name}: the name is taken", hint="give name= to each"
-            )
-        entries[analysis.name] = analysis.tree()
-    return entries

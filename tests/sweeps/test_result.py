@@ -24,7 +24,8 @@ def test_the_table_has_a_row_for_each_variant(result: kp.SweepResult) -> None:
     assert table["reason"].tolist()[:4] == [""] * 4
     assert "too long" in table["reason"][4]
     assert table["pin.max"].isna().tolist() == [False] * 4 + [True] * 2
-    assert result.units == {"pin.max": "N", "rocker.angle.final": "rad"}
+    units = {"L2": "", "k": "", "pin.max": "N", "rocker.angle.final": "rad"}
+    assert result.units == units
 
 
 def test_without_pandas_it_is_a_structured_array(

@@ -67,7 +67,6 @@ def sweep(  # noqa: PLR0917 - typer uses the annotations of options and argument
 ) -> None:
     """Run many variants of a case; write a table and figures. Resumes where it was stopped."""
     from kempe import files
-    from kempe.plot import save, sweep_pages
     from kempe.sweeps import sweep as compute
 
     with document(as_json) as content, shown_in(units):
@@ -90,14 +89,20 @@ def sweep(  # noqa: PLR0917 - typer uses the annotations of options and argument
             except KeyboardInterrupt as error:
                 _keep(getattr(error, "result", None), folder)
                 raise
-        console = answers(silent=as_json)
-        _show(console, found)
-        found.to_csv(folder / "sweep.csv")
-        written = [folder / "sweep.csv", *save(sweep_pages(found), folder / "figures")]
-        content.update({**_summary(found), "files": [str(path) for path in written]})
-        heading(console, "Files")
-        for path in written:
-            console.print(Text(f"  {path}"))
+        _finish(found, folder, content, answers(silent=as_json))
+
+
+def _finish(found: SweepResult, folder: Path, content: dict[str, Any], console: Console) -> None:
+    """Print the ranges, and write table and figures."""
+    from kempe.plot import save, sweep_pages
+
+    _show(console, found)
+    found.to_csv(folder / "sweep.csv")
+    written = [folder / "sweep.csv", *save(sweep_pages(found), folder / "figures")]
+    content.update({**_summary(found), "files": [str(path) for path in written]})
+    heading(console, "Files")
+    for path in written:
+        console.print(Text(f"  {path}"))
 
 
 def _client(scheduler: str | None) -> Any:

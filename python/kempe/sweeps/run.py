@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from kempe.arrays import Floats
 from kempe.errors import ModelError
 from kempe.sweeps import design as designs
 from kempe.sweeps.local import fill
@@ -14,7 +15,7 @@ from kempe.sweeps.plan import Plan, chosen, without_later
 from kempe.sweeps.result import SweepResult
 from kempe.sweeps.storage import Storage
 from kempe.sweeps.table import Progress, Table
-from kempe.sweeps.variables import Values, read_variables
+from kempe.sweeps.variables import Values, Variable, read_variables
 from kempe.sweeps.wanted import read_wanted
 from kempe.values import instance, refuse
 
@@ -36,46 +37,50 @@ def sweep(
     out: Path | str | None = None,
     progress: Progress | None = None,
 ) -> SweepResult:
-    """Run many variants of a case.
+    """Run many variants of a case, with the numbers of single runs to the last bit.
 
-    A variant is the case with other values of parameters or of its start. Its numbers are those of
-    ``case.with_parameters(…).run()``, to the last bit. A variant that fails is a row with its
-    reason. Without ``variables``, ``measures`` and the design, those of ``[sweep]`` in the file of
-    the case are used.
+    A variant that fails is a row with its reason. Without arguments, ``[sweep]`` of the case runs.
 
     Args:
         case: the case.
         variables: values by the name of a parameter (``L2``) or of a coordinate or rate at the
-            start (``crank.omega``): a list, ``{"from": 1e3, "to": 1e5, "n": 50}`` with
-            ``"scale": "log"`` if wanted, ``{"normal": [mean, deviation]}`` or
-            ``{"uniform": [least, most]}``, in SI units and rad.
-        measures: statistics of measures and quantities, such as ``"pin.max"`` and
-            ``"rocker.angle.final"``. For an analysis without motion they are numbers of its result,
-            such as ``"lower"`` or ``"frequency[0]"``.
-        design: "grid" (the default), "paired" lists, "random", "latin" (Latin hypercube) or
-            "sobol". The last two need SciPy.
+            start (``crank.omega``): a list, ``{"from": 1e3, "to": 1e5, "n": 50, "scale": "log"}``,
+            ``{"normal": [mean, deviation]}`` or ``{"uniform": [least, most]}``, SI units and rad.
+        measures: statistics of measures and quantities, such as ``"pin.max"``; for an analysis
+            without motion numbers of its result, such as ``"frequency[0]"``.
+        design: "grid" (default), "paired", "random", "latin" or "sobol"; SciPy for the last two.
         n: number of variants of the last three.
-        seed: number from which random values are drawn; 0 by default.
+        seed: number from which values are drawn.
         analysis: name of the analysis; the last one of the case by default.
-        workers: number of threads, or of processes with ``scheduler="dask"``; one for each
-            processor by default.
+        workers: number of threads, or of processes with ``scheduler="dask"``.
         scheduler: a client of Dask, or "dask" for a cluster on this machine.
         out: file to which results are written as they come. A sweep resumes from its file.
-        progress: function that is called with the variants done, the failures, all variants and
-            the seconds left.
-
-    Returns:
-        The table, with figures and replay of every row.
+        progress: called with the variants done, the failures, all variants, and the seconds left.
 
     Raises:
         ModelError: a variable, a measure or the design is invalid.
         FileError: ``out`` cannot be written, or holds another sweep.
         KeyboardInterrupt: of Ctrl-C; ``result`` has the finished rows.
     """
-    from kempe.case import Case
-
-    instance(case, Case, "a case, as kp.load(path) returns")
     asked = _asked(case, variables, measures, design, n, seed, analysis)
+    plan, known, given = _planned(case, asked)
+    threads = _workers(workers)
+    storage = None if out is None else Storage(out, plan.key_of(given))
+    try:
+        table = Table(len(given), len(plan.wanted), storage, progress)
+        _fill(table, plan, given, (scheduler, workers, threads))
+    except KeyboardInterrupt as error:
+        table.interrupted()
+        error.result = SweepResult(plan, known, given, table)  # type: ignore[attr-defined]
+        raise
+    finally:
+        if storage is not None:
+            storage.close()
+    return SweepResult(plan, known, given, table)
+
+
+def _planned(case: Case, asked: Mapping[str, Any]) -> tuple[Plan, list[Variable], Floats]:
+    """The plan, the variables and the design."""
     name = chosen(case, asked["analysis"])
     case = without_later(case, name)
     known = read_variables(case, asked["variables"])
@@ -84,30 +89,26 @@ def sweep(
     given = designs.rows(known, asked["design"] or "grid", asked["n"], asked["seed"])
     plan = Plan(case, name, tuple(v.name for v in known), tuple(wanted))
     plan.check()
-    threads = _workers(workers)
-    storage = None if out is None else Storage(out, plan.key_of(given))
-    try:
-        table = Table(len(given), len(wanted), storage, progress)
-        table.tell()
-        try:
-            if scheduler is None:
-                fill(table, plan, given, threads)
-            else:
-                from kempe.sweeps import cluster
+    return plan, known, given
 
-                cluster.fill(table, plan, given, scheduler, workers)
-        except KeyboardInterrupt as error:
-            table.interrupted()
-            error.result = SweepResult(plan, known, given, table)  # type: ignore[attr-defined]
-            raise
-    finally:
-        if storage is not None:
-            storage.close()
-    return SweepResult(plan, known, given, table)
+
+def _fill(table: Table, plan: Plan, given: Floats, where: tuple[Any, int | None, int]) -> None:
+    """Run the variants that are left on threads, or on a cluster."""
+    scheduler, workers, threads = where
+    table.tell()
+    if scheduler is None:
+        fill(table, plan, given, threads)
+    else:
+        from kempe.sweeps import cluster
+
+        cluster.fill(table, plan, given, scheduler, workers)
 
 
 def _asked(case: Case, *given: Any) -> dict[str, Any]:
     """The arguments, or the table ``[sweep]`` of the case in their place."""
+    from kempe.case import Case
+
+    instance(case, Case, "a case, as kp.load(path) returns")
     names = ("variables", "measures", "design", "n", "seed", "analysis")
     asked = dict(zip(names, given, strict=True))
     if not case.sweep:

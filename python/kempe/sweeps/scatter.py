@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from kempe.arrays import Floats
 from kempe.errors import ModelError
 from kempe.sweeps.result import SweepResult
 from kempe.sweeps.run import sweep
@@ -82,7 +83,7 @@ def tolerances(
             random variants.
 
     Raises:
-        ModelError: a name or number is invalid, a value at the start is no number, or the case
+        ModelError: a name or number is invalid, a value at the start is not a number, or the case
             itself or a variant for a slope fails; the message has its reason.
     """
     given = numbers(mapping(deviations, "deviations", "{'L2': 0.05}"), "deviations")
@@ -92,31 +93,17 @@ def tolerances(
         case, spread, [measure], design="random", n=n, seed=seed, analysis=analysis, **options
     )
     widths = np.array([float(x) for x in given.values()])
-    count = len(widths)
-    levels = np.tile(np.array(list(middle.values())), (2 * count + 1, 1))
-    for k, width in enumerate(widths):
-        levels[2 * k + 1, k] -= _STEP * width
-        levels[2 * k + 2, k] += _STEP * width
-    lists = {name: levels[:, k].tolist() for k, name in enumerate(given)}
-    near = sweep(case, lists, [measure], design="paired", analysis=analysis)
-    if near.reasons:
-        k, reason = next(iter(near.reasons.items()))
-        raise ModelError(
-            f"a variant within the tolerances fails: {reason}",
-            hint="take smaller deviations, or sweep to see which variants fail",
-        )
-    values = near[measure]
-    slopes = (values[2::2] - values[1::2]) / (2.0 * _STEP * widths)
+    nominal, slopes = _slopes(case, middle, widths, (measure, analysis))
     variances = (slopes * widths) ** 2
     total = float(variances.sum())
-    shares = variances / total if total > 0.0 else np.zeros(count)
+    shares = variances / total if total > 0.0 else np.zeros(len(widths))
     found = sample[measure][sample.succeeded]
     if len(found) < 2:
         raise ModelError("fewer than two random variants succeed", hint="take smaller deviations")
     return Tolerances(
         measure,
         sample.units[measure],
-        float(values[0]),
+        nominal,
         float(found.mean()),
         float(found.std(ddof=1)),
         float(np.sqrt(total)),
@@ -124,6 +111,27 @@ def tolerances(
         dict(zip(given, shares.tolist(), strict=True)),
         sample,
     )
+
+
+def _slopes(
+    case: Case, middle: Mapping[str, float], widths: Floats, asked: tuple[str, str | None]
+) -> tuple[float, Floats]:
+    """The measure in the case itself, and its slopes over the variables."""
+    measure, analysis = asked
+    levels = np.tile(np.array(list(middle.values())), (2 * len(widths) + 1, 1))
+    for k, width in enumerate(widths):
+        levels[2 * k + 1, k] -= _STEP * width
+        levels[2 * k + 2, k] += _STEP * width
+    lists = {name: levels[:, k].tolist() for k, name in enumerate(middle)}
+    near = sweep(case, lists, [measure], design="paired", analysis=analysis)
+    if near.reasons:
+        raise ModelError(
+            f"a variant within the tolerances fails: {next(iter(near.reasons.values()))}",
+            hint="take smaller deviations, or sweep to see which variants fail",
+        )
+    values = near[measure]
+    slopes: Floats = (values[2::2] - values[1::2]) / (2.0 * _STEP * widths)
+    return float(values[0]), slopes
 
 
 def _nominal(case: Case, name: str) -> float:

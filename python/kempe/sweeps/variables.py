@@ -66,7 +66,8 @@ class Variable:
             assert self.levels is not None
             count = len(self.levels)
             place = np.minimum((share * count).astype(int), count - 1)
-            return np.take(np.array(self.levels), place)
+            chosen: Floats = np.array(self.levels)[place]
+            return chosen
         assert self.ends is not None
         first, second = self.ends
         if self.kind == "normal":

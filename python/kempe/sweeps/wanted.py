@@ -63,7 +63,7 @@ def read_wanted(model: CompiledModel, kind: str, measures: Sequence[str]) -> lis
     """The wanted numbers of an analysis, checked.
 
     Raises:
-        ModelError: a text is no statistic of a measure or quantity.
+        ModelError: a text does not end with a statistic of a measure or quantity.
     """
     found = [_wanted(model, kind, text) for text in texts(measures, "measures")]
     if not found:
@@ -76,7 +76,10 @@ def read_wanted(model: CompiledModel, kind: str, measures: Sequence[str]) -> lis
 def _wanted(model: CompiledModel, kind: str, text: str) -> Wanted:
     if kind not in MOTIONS:
         if not _ATTRIBUTE.fullmatch(text):
-            refuse("measures", f"{text!r} is no number of the result of {kind}, as 'lower' is")
+            refuse(
+                "measures",
+                f"{text!r} does not name a number of the result of {kind}, as 'lower' does",
+            )
         return Wanted(text, text, "")
     name, _, statistic = text.rpartition(".")
     if statistic not in ALL:

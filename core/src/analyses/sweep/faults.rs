@@ -34,7 +34,7 @@ pub fn measure_fault(model: &Model, declared: &[(String, Value)], text: &str) ->
     let known: Vec<&str> =
         Statistic::ALL.iter().map(|(known, _)| *known).chain([OF_FRONT]).collect();
     if !known.contains(&statistic) {
-        let message = format!("'{statistic}' is no statistic of a measure");
+        let message = format!("a measure has no statistic '{statistic}'");
         let hint = did_you_mean(statistic, &known);
         let hint = hint.unwrap_or_else(|| format!("end the text with one of {}", known.join(", ")));
         return Some(Problem::at(&nowhere, message).hint(hint));

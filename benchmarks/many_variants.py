@@ -1,8 +1,8 @@
 """Sweeps: runs per second beside the floor program, and memory over many small variants.
 
-    .venv/bin/python benchmarks/sweeps.py              # 2000 flagships, 100 000 small variants
-    .venv/bin/python benchmarks/sweeps.py --runs 100000 --small 1000000
-    .venv/bin/python benchmarks/sweeps.py --dask       # what a block on a cluster costs
+    .venv/bin/python benchmarks/many_variants.py           # 2000 flagships, 100 000 small variants
+    .venv/bin/python benchmarks/many_variants.py --runs 100000 --small 1000000
+    .venv/bin/python benchmarks/many_variants.py --dask       # what a block on a cluster costs
 
 The floor (``benchmarks/floor``) simulates the flagship by hand, with RK45 and Baumgarte's
 stabilization. Its times are CPU times of one thread; those of sweeps are CPU times of all threads,
