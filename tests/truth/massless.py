@@ -296,7 +296,7 @@ def quick_return(mass: float) -> tuple[kp.Model, dict[str, float]]:
 
 
 def flywheel(mass: float) -> tuple[kp.Model, dict[str, float]]:
-    """A wheel with inertia and hardly any mass, a light tip welded to it, and a light rod."""
+    """A wheel with hardly any mass, a light tip that is welded to it, and a light rod."""
     m = kp.Model("flywheel", gravity=(0, -G))
     m.ground.points(O=(0, 0))
     m.body("wheel", mass=mass, inertia=0.4, points={"O": (0, 0), "A": (0.1, 0)})
