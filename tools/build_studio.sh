@@ -1,5 +1,5 @@
 #!/bin/sh
-# Builds the page of the studio: python/kempe/studio/page.html, one file with the core as WebAssembly.
+# Builds the page of the studio: python/kempe/studio/built/page.html, one file with the core as WebAssembly.
 #
 #     tools/build_studio.sh
 #
@@ -8,7 +8,7 @@
 set -eu
 
 ROOT=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd -P) || exit 5
-PAGE=$ROOT/python/kempe/studio/page.html
+PAGE=$ROOT/python/kempe/studio/built/page.html
 
 say() { printf 'studio: %s\n' "$*" >&2; }
 
@@ -23,6 +23,7 @@ export KEMPE_WEB
 cd "$ROOT/studio"
 npm ci --silent --no-audit --no-fund
 npm run --silent build >&2
+mkdir -p "$(dirname "$PAGE")"
 cp dist/index.html "$PAGE.new"
 mv -f "$PAGE.new" "$PAGE"
 say "built: $PAGE"

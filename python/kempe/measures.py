@@ -199,7 +199,7 @@ class Measure:
         NaN if the values do not stay in this band during the last tenth of the time; the first
         time if they do not change.
         """
-        from kempe.report.settling import settling
+        from kempe.settling import settling
 
         solution = self._solution
         continuous = solution.dense is not None and not self.info.is_of_run

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from kempe.errors import ModelError
-from kempe.option import Analysis
-from kempe.values import listed, mapping, plain, reference
+
+if TYPE_CHECKING:
+    from kempe.option import Analysis
 
 
 def of_type(entries: Mapping[str, Mapping[str, Any]], kind: str) -> dict[str, dict[str, Any]]:
@@ -28,6 +29,9 @@ def read_entries(
     analyses: Sequence[Analysis] | Mapping[str, Mapping[str, Any]],
 ) -> dict[str, dict[str, Any]]:
     """The entries of a file by name, from analyses or from such entries."""
+    from kempe.option import Analysis
+    from kempe.values import listed, mapping, plain, reference
+
     form = "{'type': 'dynamics', 't_end': 1}"
     if isinstance(analyses, Mapping):
         found = {}

@@ -10,6 +10,9 @@ from house.places import CORE, PACKAGE, ROOT
 LIST = CORE / "elements" / "mod.rs"
 GENERATED = "@generated"
 
+#: Sources that write entries of a case, as users do: the spring by which a page pulls at a body.
+WRITERS = {ROOT / "bindings" / "web" / "src" / "live.rs"}
+
 #: Types whose names, or whose `type`, are also words of mechanics, allowed where they name no type.
 WORDS = {
     "Contact",
@@ -84,7 +87,8 @@ def others(element: Element) -> list[Path]:
     folders = (CORE, ROOT / "bindings", PACKAGE)
     suffixes = (".rs", ".py", ".pyi", ".js", ".html")
     found = [path for folder in folders for path in folder.rglob("*") if path.suffix in suffixes]
-    beside = {element.source, LIST}
+    found = [path for path in found if not {"built", "tests"} & set(path.parts)]
+    beside = {element.source, LIST, *WRITERS}
     return [path for path in sorted(found) if path not in beside]
 
 

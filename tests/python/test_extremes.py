@@ -10,7 +10,7 @@ from house.places import ROOT
 from kempe.motion import Motion
 from kempe.report import summary
 from kempe.report.extremes import Sampled
-from kempe.report.settling import settling
+from kempe.settling import settling
 
 
 def run(name: str, output_step: float | None) -> kp.Solution:

@@ -8,7 +8,7 @@ import pytest
 from house.places import ROOT
 from kempe.report import summary
 from kempe.report.extremes import Sampled
-from kempe.report.settling import settling
+from kempe.settling import settling
 from kempe.report.summary import _turning_by_violation, residual
 
 #: Times at which a motion is sampled.

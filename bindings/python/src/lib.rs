@@ -82,9 +82,31 @@ fn _raise(py: Python<'_>, kind: &str, message: &str) -> PyResult<()> {
     guard("_raise", || Err(errors::sample(kind, message)?.raise(py)))
 }
 
+/// The functions for drawings, sweeps and statistics.
+fn add_drawing_and_sweeps(module: &Bound<'_, PyModule>) -> PyResult<()> {
+    module.add_function(wrap_pyfunction!(statistics::instants, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::interpolate, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::maxima, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::extreme, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::changes, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::mean, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::root_mean_square, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::row_norms, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::settling, module)?)?;
+    module.add_function(wrap_pyfunction!(sweep::sweeps, module)?)?;
+    module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
+    module.add_function(wrap_pyfunction!(drawing::scene, module)?)?;
+    module.add_function(wrap_pyfunction!(drawing::display, module)?)?;
+    module.add_function(wrap_pyfunction!(drawing::view_around, module)?)?;
+    module.add_function(wrap_pyfunction!(drawing::place_texts, module)?)?;
+    module.add_function(wrap_pyfunction!(drawing::text_width, module)?)?;
+    Ok(())
+}
+
 #[pymodule]
 fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     guard::quiet_inside();
+    add_drawing_and_sweeps(module)?;
     module.add_class::<case::PyCase>()?;
     module.add_class::<model::PyModel>()?;
     module.add_class::<dynamics::PyRun>()?;
@@ -123,23 +145,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(measures::measure, module)?)?;
     module.add_function(wrap_pyfunction!(measures::measure_values, module)?)?;
     module.add_function(wrap_pyfunction!(measures::measure_at, module)?)?;
-    module.add_function(wrap_pyfunction!(statistics::instants, module)?)?;
-    module.add_function(wrap_pyfunction!(statistics::interpolate, module)?)?;
-    module.add_function(wrap_pyfunction!(statistics::maxima, module)?)?;
-    module.add_function(wrap_pyfunction!(statistics::extreme, module)?)?;
-    module.add_function(wrap_pyfunction!(statistics::changes, module)?)?;
-    module.add_function(wrap_pyfunction!(statistics::mean, module)?)?;
-    module.add_function(wrap_pyfunction!(statistics::root_mean_square, module)?)?;
-    module.add_function(wrap_pyfunction!(statistics::row_norms, module)?)?;
-    module.add_function(wrap_pyfunction!(statistics::settling, module)?)?;
-    module.add_function(wrap_pyfunction!(sweep::sweeps, module)?)?;
-    module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
     module.add_function(wrap_pyfunction!(formulas::formulas, module)?)?;
-    module.add_function(wrap_pyfunction!(drawing::scene, module)?)?;
-    module.add_function(wrap_pyfunction!(drawing::display, module)?)?;
-    module.add_function(wrap_pyfunction!(drawing::view_around, module)?)?;
-    module.add_function(wrap_pyfunction!(drawing::place_texts, module)?)?;
-    module.add_function(wrap_pyfunction!(drawing::text_width, module)?)?;
     module.add_function(wrap_pyfunction!(_inject_panic, module)?)?;
     module.add_function(wrap_pyfunction!(_raise, module)?)?;
     Ok(())

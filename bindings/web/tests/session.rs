@@ -41,7 +41,7 @@ impl Page {
 }
 
 fn number(value: &Value) -> f64 {
-    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
+    value.as_f64().unwrap_or_else(|| panic!("{value} must be a number"))
 }
 
 /// A pendulum of a point mass on a bar of 1 m, released from the horizontal.

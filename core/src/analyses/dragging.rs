@@ -213,7 +213,7 @@ impl Place {
         self.way.dot(moved) / self.way.dot(self.way)
     }
 
-    /// Whether it is nearer to the target by a fair part of what was predicted, or as near but closer to an extreme.
+    /// Whether it is nearer to the target by a fair part of the predicted way, or as near but closer to an extreme.
     fn is_better(&self, before: &Self, predicted: f64) -> bool {
         let [now, then] = [self.way.norm(), before.way.norm()];
         let nearer = now < (1.0 - SAME.max(PROGRESS * predicted)) * then;

@@ -71,7 +71,7 @@ impl<S: Real> Augmented<S> {
     pub fn set_mass(&mut self, compiled: &Compiled<S>, motions: &[Motion<S>]) {
         self.set_inertia(compiled);
         let Self { plan, saddle, .. } = self;
-        let inertias = compiled.inertias_in(plan);
+        let inertias = compiled.inertias_in(plan.condenses);
         mass::turn_all(plan.pattern.coupled(), inertias, motions, &mut saddle.masses);
         for (grounded, group) in compiled.grounded.iter().zip(&mut saddle.condensed) {
             grounded.turn(inertias, motions, group);
@@ -80,7 +80,7 @@ impl<S: Real> Augmented<S> {
 
     /// The part of W = M that does not depend on the state.
     pub(super) fn set_inertia(&mut self, compiled: &Compiled<S>) {
-        let inertias = compiled.inertias_in(&self.plan);
+        let inertias = compiled.inertias_in(self.plan.condenses);
         let (bodies, own) = self.saddle.masses.split_at_mut(inertias.len());
         for (mass, inertia) in bodies.iter_mut().zip(inertias) {
             let [m, j] = inertia.inverse;

@@ -8,7 +8,6 @@ use super::grounded::{grounded, holds, Grounded};
 use super::inertia::{self, inertias, Inertia};
 use super::lending::lend;
 use super::loans::Loan;
-use super::Plan;
 use crate::elements::{ForcePools, JointPools, Place};
 use crate::math::{Real, Vec2};
 use crate::model::{Body, Model, Weighed};
@@ -107,11 +106,11 @@ impl<S: Real> Compiled<S> {
         }
     }
 
-    /// Inertia of the moving bodies in the matrix of a plan, without ground.
+    /// Inertia of the moving bodies in the matrix of a plan that condenses bodies or not, without ground.
     #[inline(always)]
-    pub(super) fn inertias_in(&self, plan: &Plan) -> &[Inertia<S>] {
+    pub(super) fn inertias_in(&self, condenses: bool) -> &[Inertia<S>] {
         match &self.lent {
-            Some(lent) if plan.condenses => &lent.inertias,
+            Some(lent) if condenses => &lent.inertias,
             _ => &self.inertias,
         }
     }

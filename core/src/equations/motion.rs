@@ -190,7 +190,7 @@ impl<S: Real> Workspace<S> {
         let Self { motions, z, compiled, roles, matrix, solution, powers, offset, .. } = self;
         let (plan, saddle) = matrix.parts_mut();
         let stabilized = Stabilized::new(gains);
-        let inertias = compiled.inertias_in(plan);
+        let inertias = compiled.inertias_in(plan.condenses);
         let at = roles::At { model, compiled, plan, inertias, motions, t, stabilized, offset };
         mass::turn_all(plan.pattern.coupled(), inertias, motions, &mut saddle.masses);
         let (x, right) = solution.split_at_mut(self.n_unknowns);

@@ -15,7 +15,7 @@ from kempe.arrays import Floats
 from kempe.display_units import display
 from kempe.draw.units import Scale, scale
 from kempe.plot.ticks import DEGREES, STEPS, labels, set_ticks
-from kempe.report.settling import settling
+from kempe.settling import settling
 from kempe.variable import TIME, Variable
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ from kempe._version import __version__
 from kempe.arrays import Floats
 from kempe.extrema import unbounded
 from kempe.report.extremes import Sampled
-from kempe.report.settling import settling
+from kempe.settling import settling
 from kempe.report.singular import singular_positions
 from kempe.solution import Solution
 from kempe.values import instance

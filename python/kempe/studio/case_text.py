@@ -18,7 +18,7 @@ def case_text(path: Path) -> str:
     written anew; it then contains the points of these tables.
 
     Raises:
-        FileError: a file cannot be read, or is no case.
+        FileError: a file cannot be read, or is not a case.
         ModelError: the case is faulty.
     """
     load(path)  # a faulty case is refused with its lines

@@ -13,7 +13,7 @@ from kempe.errors import FileError
 from kempe.files import write_text
 
 #: The built page.
-PAGE = Path(__file__).with_name("page.html")
+PAGE = Path(__file__).with_name("built") / "page.html"
 #: The place in the page for the text of a case.
 _SLOT = '<script type="application/json" id="case">null</script>'
 

@@ -5,7 +5,7 @@
 //! singular position, or with a number that is not finite), each is solved separately.
 
 use super::failure::Failure;
-use super::lane_batch::are_finite;
+use super::lane_batch::{are_finite, over_lanes};
 use super::model_cache::ModelCache;
 use super::redundant_rows::{exchange, workspace_at};
 use super::run_results::Run;
@@ -25,16 +25,6 @@ pub struct Accelerations {
     pub a: Vec<f64>,
     /// Multipliers, rows of n_rows.
     pub lam: Vec<f64>,
-}
-
-/// Number of states from which a model over lanes, which solves several at once, is faster.
-const MANY: usize = 4 * Lanes::WIDTH;
-
-/// Whether so many states are solved over lanes. In WebAssembly they are not: it is used without vector registers, and
-/// pages would load a quarter more code.
-#[inline(always)]
-pub(super) fn over_lanes(count: usize) -> bool {
-    !cfg!(target_arch = "wasm32") && count >= MANY
 }
 
 impl Run {

@@ -1,7 +1,7 @@
 //! Energies at the states of a run, computed on request; several states at once over lanes.
 
-use super::accelerations::over_lanes;
 use super::failure::Failure;
+use super::lane_batch::over_lanes;
 use super::model_cache::ModelCache;
 use super::run_results::Run;
 use super::trajectory::States;

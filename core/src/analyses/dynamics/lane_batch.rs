@@ -1,6 +1,5 @@
 //! Reported states of a grid, projected and kept four at once.
 
-use super::accelerations::over_lanes;
 use super::branch_averaging;
 use super::options::Options;
 use super::report_projection::ReportProjection;
@@ -10,6 +9,16 @@ use crate::equations::Workspace;
 use crate::integrate::Step;
 use crate::math::{Lanes, Real};
 use crate::model::Model;
+
+/// Number of states from which a model over lanes, which solves several at once, is faster.
+const MANY: usize = 4 * Lanes::WIDTH;
+
+/// Whether so many states are solved over lanes. In WebAssembly they are not: it is used without vector registers, and
+/// pages would load a quarter more code.
+#[inline(always)]
+pub(super) fn over_lanes(count: usize) -> bool {
+    !cfg!(target_arch = "wasm32") && count >= MANY
+}
 
 /// States of a grid, collected until there is one for each lane.
 pub(super) struct LaneBatch<'a> {

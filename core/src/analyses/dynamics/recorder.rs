@@ -1,7 +1,6 @@
 //! Recording of the states of a run at chosen times.
 
-use super::accelerations::over_lanes;
-use super::lane_batch::LaneBatch;
+use super::lane_batch::{over_lanes, LaneBatch};
 use super::methods::Scheme;
 use super::motion_ode::MotionOde;
 use super::options::Options;
