@@ -26,4 +26,6 @@ CODE = [
 def sources(*suffixes: str) -> list[Path]:
     """All source files of the repository with one of the suffixes, without build products."""
     found = [path for folder in CODE for suffix in suffixes for path in folder.rglob(f"*{suffix}")]
-    return sorted(path for path in found if not {"target", "built", "__pycache__"} & set(path.parts))
+    return sorted(
+        path for path in found if not {"target", "built", "__pycache__"} & set(path.parts)
+    )

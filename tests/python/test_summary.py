@@ -8,8 +8,8 @@ import pytest
 from house.places import ROOT
 from kempe.report import summary
 from kempe.report.extremes import Sampled
-from kempe.settling import settling
 from kempe.report.summary import _turning_by_violation, residual
+from kempe.settling import settling
 
 #: Times at which a motion is sampled.
 STEPS = 4001

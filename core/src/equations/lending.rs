@@ -80,8 +80,8 @@ impl<'a, S: Real> Market<'a, S> {
             links,
             loans: Vec::new(),
         };
-        for body in 0..n {
-            if body == 0 || !added[body].any() || market.is_enough(body, &market.bodies[body]) {
+        for (body, added) in added.iter().enumerate().take(n) {
+            if body == 0 || !added.any() || market.is_enough(body, &market.bodies[body]) {
                 market.accept(body);
             }
         }

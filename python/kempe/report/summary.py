@@ -11,8 +11,8 @@ from kempe._version import __version__
 from kempe.arrays import Floats
 from kempe.extrema import unbounded
 from kempe.report.extremes import Sampled
-from kempe.settling import settling
 from kempe.report.singular import singular_positions
+from kempe.settling import settling
 from kempe.solution import Solution
 from kempe.values import instance
 
