@@ -99,11 +99,11 @@ def test_saved_text_is_that_of_the_page(studio: Opener, tmp_path: Path) -> None:
     assert path.read_text(encoding="utf-8") == one.toml()
 
 
-def test_the_page_is_one_file_below_a_megabyte() -> None:
+def test_the_page_is_one_file_below_two_megabytes() -> None:
     page = Path(__file__).parents[2] / "studio" / "dist" / "index.html"
     if not page.exists():
         pytest.skip("studio/dist/index.html is missing; build it with npm run build in studio/")
     text = page.read_bytes()
-    assert len(zlib.compress(text, 9)) <= 2**20
+    assert len(zlib.compress(text, 9)) <= 2 * 2**20
     assert b"src=" not in text.split(b"<script", 1)[0]
     assert b'http-equiv="Content-Security-Policy"' in text
