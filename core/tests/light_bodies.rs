@@ -84,7 +84,9 @@ fn light_bodies_borrow_from_heavy_neighbours() {
         let of = |text: &str| loans(&(GRAVITY.to_string() + &text.replace("LIGHT", mass)));
         assert_eq!(of(SLIDER_CRANK), Some(2));
         assert_eq!(of(FOUR_BAR), Some(2));
-        assert_eq!(of(SCISSOR), Some(3), "one of the light bodies lends to the other");
+        // a light body with mass of its own needs a little from ground at its pin
+        let from_ground = usize::from(mass != "0");
+        assert_eq!(of(SCISSOR), Some(3 + from_ground), "one light body lends to the other");
         assert_eq!(of(QUICK_RETURN), Some(2), "a point and an angle");
         assert_eq!(of(FLYWHEEL), Some(3), "ground lends to a wheel without mass");
         assert_eq!(loans(&allowed(&FOUR_BAR.replace("LIGHT", mass))), None, "damped rows");

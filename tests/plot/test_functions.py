@@ -74,7 +74,15 @@ FUNCTIONS: dict[str, tuple[Draw, str]] = {
     ),
 }
 #: Functions that draw results which are not motions; their own tests draw them.
-OF_RESULTS = ("mode_shape", "path", "rest_position")
+OF_RESULTS = (
+    "mode_shape",
+    "path",
+    "rest_position",
+    "sweep_contributions",
+    "sweep_histogram",
+    "sweep_lines",
+    "sweep_map",
+)
 #: Labels of the horizontal axes.
 ACROSS = (
     "time t / s",
@@ -102,6 +110,7 @@ def test_options_of_the_functions_are_named() -> None:
         for name, parameter in inspect.signature(function).parameters.items():
             is_option = name in {
                 "ax",
+                "bins",
                 "cut",
                 "on",
                 "over",

@@ -1,7 +1,5 @@
 """The built page of the studio in Chromium, watched for messages, errors and requests."""
 
-import os
-import shutil
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -12,31 +10,25 @@ from studio.window import Studio
 sync_api = pytest.importorskip("playwright.sync_api", reason="the package playwright is missing")
 
 PAGE = Path(__file__).parents[2] / "studio" / "dist" / "index.html"
-FLAGS = ["--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run"]
 
 
 @pytest.fixture(scope="session")
-def chromium() -> Iterator["sync_api.Browser"]:
+def built() -> None:
+    """The page of the studio was built."""
     if not PAGE.exists():
-        pytest.skip("studio/dist/index.html is missing; build it with npm run build in studio/")
-    path = os.environ.get("CHROMIUM") or next(
-        filter(None, map(shutil.which, ("chromium", "chromium-browser"))), None
-    )
-    if path is None:
-        pytest.skip("there is no Chromium; set $CHROMIUM to its path")
-    with sync_api.sync_playwright() as playwright:
-        launched = playwright.chromium.launch(executable_path=path, args=FLAGS)
-        yield launched
-        launched.close()
+        pytest.skip("studio/dist/index.html is missing; tools/build_studio.sh builds it")
 
 
 @pytest.fixture
-def studio(chromium: "sync_api.Browser") -> Iterator[Callable[..., Studio]]:
+def studio(
+    built: None,  # noqa: ARG001 - without the page no browser is started
+    browser: "sync_api.Browser",
+) -> Iterator[Callable[..., Studio]]:
     """Open the studio in a window of a size; what it complains of, or requests, fails the test."""
     opened: list[Studio] = []
 
     def open_studio(width: int = 1280, height: int = 800, link: str = "", **more: Any) -> Studio:
-        context = chromium.new_context(viewport={"width": width, "height": height}, **more)
+        context = browser.new_context(viewport={"width": width, "height": height}, **more)
         one = Studio(context.new_page())
         one.page.on("console", lambda message: one.messages.append(message.text))
         one.page.on("pageerror", lambda error: one.messages.append(str(error)))

@@ -96,7 +96,7 @@ def test_a_case_built_in_python_has_one_too(folder: Path) -> None:
         (
             '"pin.max"',
             '"pin.mx"',
-            r"sweep.measures.0: no statistic 'mx'.*did you mean.*line \d+",
+            r"sweep.measures.0: a measure has no statistic 'mx'.*did you mean.*line \d+",
         ),
         ('"pin.max"', '"pn.fx.max"', r"sweep.measures.0: .*line \d+"),
         (
