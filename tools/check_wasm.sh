@@ -16,6 +16,7 @@ set -u
 ROOT=$(CDPATH='' cd -- "$(dirname -- "$0")/.." && pwd -P) || exit 5
 HOME_OF_WASM=$ROOT/target/wasm
 DEBIAN=$HOME_OF_WASM/debian
+CRATE=$ROOT/bindings/web/Cargo.toml
 TARGET=wasm32-unknown-unknown
 PACKAGES="rustc-web cargo-web rust-web-src lld-19"
 MODULE=$HOME_OF_WASM/build/$TARGET/wasm/kempe_web.wasm
@@ -73,7 +74,7 @@ wasm_cargo() {
     command=$1
     shift
     if has_rustup_target; then
-        cargo "$command" --target "$TARGET" --target-dir "$HOME_OF_WASM/build" "$@"
+        cargo "$command" --manifest-path "$CRATE" --target "$TARGET" --target-dir "$HOME_OF_WASM/build" "$@"
         return
     fi
     has_debian || no_toolchain "no Rust for $TARGET: run 'tools/check_wasm.sh install'"
@@ -81,17 +82,17 @@ wasm_cargo() {
     LD_LIBRARY_PATH=$libraries \
         RUSTC=$DEBIAN/usr/bin/rustc RUSTC_BOOTSTRAP=1 \
         CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$DEBIAN/usr/bin/wasm-ld-19 \
-        "$DEBIAN/usr/bin/cargo" "$command" -Zbuild-std=std,panic_abort \
+        "$DEBIAN/usr/bin/cargo" "$command" --manifest-path "$CRATE" -Zbuild-std=std,panic_abort \
         --target "$TARGET" --target-dir "$HOME_OF_WASM/build" "$@"
 }
 
 check() {
-    wasm_cargo check --quiet --locked -p kempe-web || exit 1
+    wasm_cargo check --quiet --locked || exit 1
     say "the core and the drawing compile for $TARGET"
 }
 
 build() {
-    wasm_cargo build --quiet --locked --profile wasm -p kempe-web || exit 1
+    wasm_cargo build --quiet --locked --profile wasm || exit 1
 }
 
 run() {
