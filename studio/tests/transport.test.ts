@@ -1,7 +1,7 @@
 import { expect, test, vi } from "vitest";
 import { CoreError, type Line, Restarted, Superseded, Transport } from "../src/core/transport";
 
-/** A worker that answers when it is told to. */
+/** A worker whose answers the test sends. */
 class Scripted implements Line {
   onmessage: ((event: MessageEvent) => void) | null = null;
   onerror: ((event: ErrorEvent) => void) | null = null;
