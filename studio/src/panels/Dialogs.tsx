@@ -2,7 +2,7 @@
 
 import { examples } from "virtual:examples";
 import type { ComponentChildren } from "preact";
-import { useEffect, useRef, useState } from "preact/hooks";
+import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { linkOf, MOST_OF_LINK } from "../give/link";
 import { open } from "../store/document";
 import { dialog, text } from "../store/state";
@@ -56,9 +56,8 @@ function Gallery() {
 
 function Share() {
   const words = texts.share;
-  const [link, setLink] = useState("");
+  const link = useMemo(() => linkOf(text.value), [text.value]);
   const [copied, setCopied] = useState(false);
-  useEffect(() => setLink(linkOf(text.value)), []);
   const fits = link.length <= MOST_OF_LINK;
   const copy = () => void navigator.clipboard.writeText(link).then(() => setCopied(true));
   return (
