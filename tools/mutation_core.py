@@ -171,7 +171,8 @@ def _build(place: Place, mutants: list[Mutant]) -> None:
     checked = False
     while True:
         left = [one for one in mutants if place.outcomes.get(one.name) not in (_REFUSED, _LEFT)]
-        place.outcomes |= dict.fromkeys(_write_switches(place, left), _LEFT)
+        files = {one.file for one in mutants}
+        place.outcomes |= dict.fromkeys(_write_switches(place, files, left), _LEFT)
         command = "test --no-run" if checked else "check --features test-elements"
         errors = list(_errors(place.copy, ["cargo", *command.split(), "-p", "kempe"]))
         for one in errors:
@@ -183,12 +184,15 @@ def _build(place: Place, mutants: list[Mutant]) -> None:
         checked = not errors
 
 
-def _write_switches(place: Place, mutants: list[Mutant]) -> list[str]:
-    """Change the files. The mutants are named that a switch cannot contain."""
+def _write_switches(place: Place, files: set[str], mutants: list[Mutant]) -> list[str]:
+    """Change the files. The mutants are named that a switch cannot contain.
+
+    A file of which no mutant compiles becomes as it was.
+    """
     refused = []
     lib = "core/src/lib.rs"
     place.write(lib, (place.plain / lib).read_text("utf-8") + _SWITCH)
-    for file in sorted({one.file for one in mutants}):
+    for file in sorted(files):
         source = (place.plain / file).read_text("utf-8")
         at = _positions(source)
         functions: dict[tuple[int, int], list[Mutant]] = defaultdict(list)

@@ -11,8 +11,6 @@ from draw.mechanisms import moving, slider_crank
 
 from examples import n_four_bar
 
-pytestmark = pytest.mark.alone
-
 MADE: dict[str, Callable[[], kp.Solution]] = {
     "four_bar": moving,
     "slider_crank": slider_crank,

@@ -3,10 +3,7 @@
 from typing import Any
 
 import numpy as np
-import pytest
 from draw.mechanisms import moving
-
-pytestmark = pytest.mark.alone
 
 TEXTS = ("text", "soft", "accent", "reactions", "velocities", "accelerations")
 

@@ -14,8 +14,6 @@ from browser.test_values import example
 from house.places import ROOT
 from PIL import Image
 
-pytestmark = pytest.mark.alone
-
 SIZES = [(1280, 800), (390, 844), (844, 390)]
 SCHEMES = ["light", "dark"]
 

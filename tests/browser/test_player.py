@@ -21,8 +21,6 @@ from kempe.draw.frame import frame_items
 from kempe.draw.placing import View, place
 from PIL import Image
 
-pytestmark = pytest.mark.alone
-
 SIZES = [(1600, 900), (600, 800)]
 #: The colour of forces.
 VIOLET = np.array([0x7A, 0x3D, 0xB8])

@@ -35,7 +35,6 @@ def test_a_report_fits_a_screen_and_a_phone_and_loads_nothing(
         assert requests == [path.as_uri()]
 
 
-@pytest.mark.alone
 def test_a_report_is_printed_on_numbered_pages(
     case: kp.Case, tmp_path: Path, browser: "sync_api.Browser"
 ) -> None:

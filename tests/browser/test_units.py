@@ -6,8 +6,6 @@ import pytest
 from browser.test_player import plain_script
 from kempe.draw.units import scale
 
-pytestmark = pytest.mark.alone
-
 UNITS = ("m", "rad", "m/s", "m/s²", "N", "N·m", "J", "A", "rad/s")
 PEAKS = (3e-8, 0.004, 0.1, 0.19, 0.2, 1.0, 1.99, 2.0, 50.0, 999.0, 1999.0, 2000.0, 4.5e6, 3e11)
 

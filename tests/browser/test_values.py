@@ -13,8 +13,6 @@ import pytest
 from draw.mechanisms import moving, slider_crank, sprung
 from house.places import ROOT
 
-pytestmark = pytest.mark.alone
-
 PREFIXES = {"G": 1e9, "M": 1e6, "k": 1e3, "": 1.0, "m": 1e-3, "µ": 1e-6}
 SUPERSCRIPTS = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
 UNITS = ("m", "rad", "m/s", "rad/s", "m/s²", "rad/s²", "N", "N·m", "J")

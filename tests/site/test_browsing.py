@@ -9,7 +9,8 @@ from typing import Any
 
 import pytest
 
-pytestmark = pytest.mark.alone
+#: One process builds the site.
+pytestmark = pytest.mark.xdist_group("site")
 
 WINDOWS = {"desktop": (1360, 900), "phone": (390, 844)}
 

@@ -11,7 +11,8 @@ from docs.pages import PAGES
 from house.places import ROOT
 from kempe import _core
 
-pytestmark = pytest.mark.alone
+#: One process builds the site.
+pytestmark = pytest.mark.xdist_group("site")
 
 #: Largest size of the site without videos, bytes.
 LARGEST = 20_000_000
