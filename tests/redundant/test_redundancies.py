@@ -61,6 +61,16 @@ def test_reactions_that_are_not_unique_are_marked(name: str) -> None:
 
 
 @pytest.mark.parametrize("name", CLASSICS)
+def test_the_multipliers_are_the_smallest_that_balance(name: str) -> None:
+    _, start, mobility = found(name)
+    sol = motion(name)
+    for state in (start, sol(0.0), sol(0.2), sol(0.4)):
+        # any left null vector could be added
+        null = np.linalg.svd(state.matrices().Phi_q.T)[2][mobility.rank :]
+        assert np.abs(null @ state.lam).max() <= 1e-11 * np.abs(state.lam).max()
+
+
+@pytest.mark.parametrize("name", CLASSICS)
 def test_each_remedy_alone_leaves_the_motion_unchanged(name: str) -> None:
     one, start, mobility = found(name)
     for each in mobility.redundant:

@@ -33,17 +33,13 @@ impl<S: Real> Workspace<S> {
 
     /// Changes the multipliers of the last evaluation to the smallest that balance the same loads, if rows are left out.
     pub fn least_multipliers(&mut self, model: &Model<S>) {
-        let mut basis: Vec<Vec<S>> = Vec::new();
-        for mut y in self.dependences(model) {
-            for one in &basis {
-                subtract_part(&mut y, one);
-            }
-            let length = product(&y, &y).sqrt();
-            y.iter_mut().for_each(|y| *y = *y / length);
-            basis.push(y);
-        }
         let at = self.n_unknowns;
-        basis.iter().for_each(|y| subtract_part(&mut self.solution[at..], y));
+        subtract_parts(self.dependences(model), &mut self.solution[at..]);
+    }
+
+    /// Changes multipliers of all rows, found elsewhere for the state of the last evaluation, in the same way.
+    pub fn least_of(&self, model: &Model<S>, lam: &mut [S]) {
+        subtract_parts(self.dependences(model), lam);
     }
 
     /// For each omitted row the y with Σ y_k Φ_q,k = 0, with the factors of the last evaluation.
@@ -105,6 +101,18 @@ fn largest(parts: &[Vec<f64>]) -> Option<(usize, usize)> {
 
 fn product<S: Real>(a: &[S], b: &[S]) -> S {
     a.iter().zip(b).fold(S::zero(), |sum, (a, b)| sum + *a * *b)
+}
+
+/// Subtracts the part of x in the span of some vectors, which are orthogonalised one after the other.
+fn subtract_parts<S: Real>(vectors: Vec<Vec<S>>, x: &mut [S]) {
+    let mut basis: Vec<Vec<S>> = Vec::with_capacity(vectors.len());
+    for mut y in vectors {
+        basis.iter().for_each(|unit| subtract_part(&mut y, unit));
+        let length = product(&y, &y).sqrt();
+        y.iter_mut().for_each(|y| *y = *y / length);
+        basis.push(y);
+    }
+    basis.iter().for_each(|unit| subtract_part(x, unit));
 }
 
 /// Subtracts the part of x along a unit vector.

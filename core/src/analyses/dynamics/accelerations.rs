@@ -53,14 +53,18 @@ pub(super) fn accelerations(
     let start = [&q[..n], &v[..n], &z[..n_z]];
     shared_reaction::check(model, from, start[0])?;
     let mut one = workspace_at((model, cache), from, start);
+    let mut independent = None;
     if !passing && !one.matrix.omitted().is_empty() {
         // damped rows have a solution at singular positions too
-        one = Workspace::on(model, cache.plan(model, true));
+        let damped = Workspace::on(model, cache.plan(model, true));
+        one.matrix.set_near_singular(NearSingular::Refuse);
+        independent = Some(std::mem::replace(&mut one, damped));
     }
     if passing {
         one.matrix.set_near_singular(NearSingular::Regularise);
     }
-    let mut many = over_lanes(count).then(|| Many::new(cache.wide(model), &one));
+    let lanes = independent.is_none() && over_lanes(count);
+    let mut many = lanes.then(|| Many::new(cache.wide(model), &one));
     let mut found = Accelerations::with_room(model, count);
     for first in (0..count).step_by(Lanes::WIDTH) {
         let end = (first + Lanes::WIDTH).min(count);
@@ -70,7 +74,7 @@ pub(super) fn accelerations(
         let (rows, states) = (first * n..end * n, first * n_z..end * n_z);
         let four = States { t: &t[first..end], q: &q[rows.clone()], v: &v[rows], z: &z[states] };
         if !many.as_mut().is_some_and(|many| many.solve(four, &mut found)) {
-            one_by_one(model, &mut one, four, &mut found)?;
+            one_by_one(model, (&mut one, independent.as_mut()), four, &mut found)?;
             if let Some(many) = &mut many {
                 many.follow(&one);
             }
@@ -88,7 +92,7 @@ impl Accelerations {
 
 fn one_by_one(
     model: &Model,
-    workspace: &mut Workspace,
+    (workspace, mut independent): (&mut Workspace, Option<&mut Workspace>),
     States { t, q, v, z }: States<'_>,
     found: &mut Accelerations,
 ) -> Result<(), Box<Failure>> {
@@ -107,8 +111,29 @@ fn one_by_one(
         workspace.least_multipliers(model);
         found.a.extend_from_slice(workspace.a());
         found.lam.extend_from_slice(workspace.lam());
+        if let Some(independent) = &mut independent {
+            let lam = found.lam.len() - model.layout.n_rows;
+            take_smallest(model, independent, (t, [q, v, z]), &mut found.lam[lam..]);
+        }
     }
     Ok(())
+}
+
+/// Changes multipliers that damped rows made nearly the smallest to the smallest, where the others are independent.
+fn take_smallest(
+    model: &Model,
+    independent: &mut Workspace,
+    (t, state): (f64, [&[f64]; 3]),
+    lam: &mut [f64],
+) {
+    exchange(model, independent, t, state);
+    if independent.react(model, t, state).is_ok() {
+        let found = lam.to_vec();
+        independent.least_of(model, lam);
+        if !all_finite(lam) {
+            lam.copy_from_slice(&found);
+        }
+    }
 }
 
 /// Four states at once.
