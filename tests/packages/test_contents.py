@@ -14,6 +14,8 @@ from house.places import ROOT
 
 LICENCES = ("LICENSE-MIT", "LICENSE-APACHE", "THIRD_PARTY_NOTICES.txt")
 INFORMATION = f"kempe-{kempe.__version__}.dist-info"
+#: The built page of the studio.
+STUDIO = "kempe/studio/built/page.html"
 CORES = {"kempe/_core.abi3.so", "kempe/_x86_64_v3/_core.abi3.so"}
 
 
@@ -33,7 +35,8 @@ def test_the_wheel_is_for_every_python_and_old_systems(wheel_path: Path) -> None
 
 def test_the_wheel_has_all_of_the_package_and_both_cores(wheel: zipfile.ZipFile) -> None:
     inside = {name for name in wheel.namelist() if not name.startswith(INFORMATION)}
-    assert inside == tracked("python") | CORES
+    studio = {STUDIO} if (ROOT / "python" / STUDIO).is_file() else set()
+    assert inside == tracked("python") | CORES | studio
     assert "kempe/py.typed" in inside
 
 

@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 from house.places import PACKAGE, ROOT
 from kempe import _core
+from kempe.studio import page
 
 pytestmark = pytest.mark.alone
 
@@ -103,6 +104,14 @@ def test_the_command_line_is_installed(installed: Environment) -> None:
     assert installed.run(program, "--version") == f"kempe {kempe.__version__}\n"
     installed.run(program, "new", "four_bar", "mine.toml")
     assert "Largest reactions" in installed.run(program, "run", "mine.toml", NO_COLOR="1")
+
+
+def test_the_studio_is_installed(installed: Environment, tmp_path: Path) -> None:
+    if not page.PAGE.is_file():
+        pytest.skip("the studio is not built; tools/build_studio.sh builds it")
+    program = installed.python.with_name("kempe")
+    installed.run(program, "studio", "--export", str(tmp_path))
+    assert (tmp_path / "index.html").read_bytes() == page.PAGE.read_bytes()
 
 
 def test_the_results_are_those_of_the_repository(installed: Environment) -> None:
