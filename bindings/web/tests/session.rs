@@ -163,6 +163,38 @@ fn a_pull_moves_the_equilibrium_and_ends() {
     assert!(number(&found["q"][2]) < angle, "it falls back");
 }
 
+/// A pull of 100 N upwards at the end of the pendulum, which is horizontal.
+fn pull_up(page: &mut Page) {
+    page.ask(json!({ "do": "live" }));
+    page.ask(json!({ "do": "pull", "body": "bar", "point": [0.5, 0], "to": [1, 1], "stiffness": 100 }));
+}
+
+#[test]
+fn accelerations_and_reactions_contain_the_pull() {
+    let mut page = Page::of(PENDULUM);
+    pull_up(&mut page);
+    // moments about the pin: m L²/3 α = F L - m g L/2; then forces along y
+    let alpha = (100.0 - 9.81) / (2.0 / 3.0);
+    assert!((page.quantity("bar.alpha") / alpha - 1.0).abs() < 1e-12);
+    let reaction = 2.0 * 0.5 * alpha + 2.0 * 9.81 - 100.0;
+    assert!((page.quantity("A.force") / reaction - 1.0).abs() < 1e-12);
+    page.ask(json!({ "do": "pull", "body": null }));
+    assert!((page.quantity("bar.alpha") / (-1.5 * 9.81) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_pull_goes_on_when_a_parameter_changes() {
+    let mut page = Page::of(PENDULUM);
+    pull_up(&mut page);
+    page.ask(json!({ "do": "parameters", "values": { "m": 4 } }));
+    let alpha = (100.0 - 4.0 * 9.81 / 2.0) / (4.0 / 3.0);
+    assert!((page.quantity("bar.alpha") / alpha - 1.0).abs() < 1e-12);
+    let found = page.ask(json!({ "do": "advance", "by": 0.02 }));
+    let (t, angle) = (number(&found["t"]), number(&found["q"][2]));
+    // the force turns by less than a hundredth meanwhile
+    assert!((angle / (0.5 * alpha * t * t) - 1.0).abs() < 0.01, "{angle} after {t}");
+}
+
 #[test]
 fn parameters_change_the_motion_but_not_the_text() {
     let mut page = Page::of(PENDULUM);
