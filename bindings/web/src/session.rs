@@ -10,6 +10,7 @@ use crate::live::Live;
 use crate::loaded::{load, without_drivers, Loaded};
 use crate::modes::configurations;
 use crate::pose::pose;
+use crate::readiness::readiness;
 use crate::run::Ran;
 use kempe::analyses::assemble::{self, Request};
 use kempe::analyses::readings;
@@ -62,6 +63,7 @@ impl Session {
             }
             "configurations" => configurations(self.loaded()?, fields),
             "mobility" => self.mobility(),
+            "readiness" => Ok(readiness(self.loaded()?)),
             "quantities" => self.quantities(),
             "quantity" => self.quantity(fields.text("name")?),
             "scene" => scene(self.loaded()?),
@@ -185,7 +187,8 @@ impl Session {
         let near =
             Request { state: Some(loaded.state.clone()), t: loaded.state.t, ..Request::default() };
         let live = self.live.as_mut();
-        let done = loaded.assemble(near).and_then(|()| live.map_or(Ok(()), |l| l.go_on_from(loaded)));
+        let done =
+            loaded.assemble(near).and_then(|()| live.map_or(Ok(()), |l| l.go_on_from(loaded)));
         if let Err(fault) = done {
             (loaded.model, loaded.state) = before;
             return Err(fault);
