@@ -4,7 +4,7 @@ import { examples } from "virtual:examples";
 import { render } from "preact";
 import { EMPTY, take } from "./give/files";
 import { textOf } from "./give/link";
-import { coreBytes, worker } from "./page/core";
+import { packedCore, worker } from "./page/core";
 import { kempe } from "./page/interface";
 import { listenToKeys } from "./page/keyboard";
 import { Page } from "./page/Page";
@@ -41,8 +41,8 @@ async function begin(): Promise<void> {
 }
 
 async function start(): Promise<void> {
-  const bytes = await coreBytes();
-  connect(() => worker(bytes));
+  const packed = packedCore();
+  connect(() => worker(packed));
   await begin();
 }
 

@@ -57,7 +57,8 @@ pub fn placed(document: &Document, found: &[Problem]) -> Vec<Value> {
     found.iter().map(diagnostic).collect()
 }
 
-fn problem(found: &Problem) -> Value {
+/// A fault of a model, without a place in a text.
+pub fn problem(found: &Problem) -> Value {
     json!({
         "message": found.message, "hint": found.hint, "path": found.path.join("."),
         "line": null, "column": null, "length": 1,

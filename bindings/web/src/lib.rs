@@ -14,7 +14,9 @@ mod live;
 mod loaded;
 mod mechanism;
 mod modes;
+mod over;
 mod pose;
+mod readiness;
 mod run;
 mod session;
 

@@ -76,6 +76,11 @@ impl Live {
         &self.state
     }
 
+    /// The model that moves: that of the case, and the pull.
+    pub fn model(&self) -> &Arc<Model> {
+        self.prepared.model()
+    }
+
     /// Goes on by a time; the reply has the state that was reached.
     pub fn advance(&mut self, by: f64) -> Value {
         let (mut steps, mut ended) = (0, None);
@@ -204,27 +209,37 @@ impl Live {
         if pull == self.pull {
             return Ok(json!({}));
         }
-        let model = match &pull {
-            None => Arc::clone(&loaded.model),
-            Some(pull) => Arc::new(pulled(loaded, pull)?),
-        };
+        let model = with_pull(loaded, pull.as_ref())?;
         self.pull = pull;
+        self.settle_works();
         self.go_on_with(model);
         Ok(json!({}))
     }
 
-    /// Continues with another model of the same coordinates.
-    pub fn go_on_with(&mut self, model: Arc<Model>) {
+    /// Continues from the state of a case with other parameters; a pull goes on.
+    ///
+    /// # Errors
+    /// The pull cannot act on the new model.
+    pub fn go_on_from(&mut self, loaded: &Loaded) -> Result<(), Fault> {
+        let model = with_pull(loaded, self.pull.as_ref())?;
         self.settle_works();
+        (self.goal, self.state) = (loaded.state.t, loaded.state.clone());
+        self.go_on_with(model);
+        Ok(())
+    }
+
+    /// Continues with another model of the same coordinates.
+    fn go_on_with(&mut self, model: Arc<Model>) {
         self.prepared = Prepared::new(model);
         self.mark_energy();
     }
+}
 
-    /// Continues from another state.
-    pub fn go_on_from(&mut self, state: State) {
-        self.settle_works();
-        (self.goal, self.state) = (state.t, state);
-        self.mark_energy();
+/// The model of a case with what pulls at it.
+fn with_pull(loaded: &Loaded, pull: Option<&Pull>) -> Result<Arc<Model>, Fault> {
+    match pull {
+        None => Ok(Arc::clone(&loaded.model)),
+        Some(pull) => Ok(Arc::new(pulled(loaded, pull)?)),
     }
 }
 

@@ -3,6 +3,7 @@
 use crate::convert::Fields;
 use crate::fault::Fault;
 use crate::loaded::Loaded;
+use crate::over::{driven_by, Variable};
 use kempe::analyses::dynamics::{read, Prepared, Run};
 use kempe::analyses::kinematics::{kinematics, recorded, Motion};
 use kempe::analyses::{kinematics as driven, readings};
@@ -24,6 +25,8 @@ pub struct Ran {
     model: Arc<Model>,
     run: Run,
     error: Option<String>,
+    /// What its times are, if they are not the time.
+    over: Option<Variable>,
 }
 
 impl Ran {
@@ -59,10 +62,11 @@ impl Ran {
             None => loaded.start()?,
             Some(before) => Self::named(loaded, &before)?.end(),
         };
-        Self::entry(&loaded.model, &all[place], &start)
+        Self::entry(loaded, &all[place], &start)
     }
 
-    fn entry(model: &Arc<Model>, entry: &Entry, start: &State) -> Result<Self, Fault> {
+    fn entry(loaded: &Loaded, entry: &Entry, start: &State) -> Result<Self, Fault> {
+        let model = &loaded.model;
         let path = ["analyses".to_string(), entry.name.clone()];
         let problems = |found: Vec<kempe::Problem>| Fault::of_problems(&found);
         match entry.get("type") {
@@ -72,7 +76,7 @@ impl Ran {
             }
             Some(Written::Text(kind)) if kind == "kinematics" || kind == "inverse_dynamics" => {
                 let options = driven::Options::checked(model, &entry.fields, &path);
-                Self::kinematics(model, start, &options.map_err(problems)?)
+                Self::kinematics(loaded, start, &options.map_err(problems)?)
             }
             _ => Err(Fault::new(format!("the analysis '{}' has no motion", entry.name)).hint(
                 "its result is in kempe.run; here dynamics, kinematics and inverse_dynamics run",
@@ -88,24 +92,36 @@ impl Ran {
             Ok(run) => (run, None),
             Err(failure) => (failure.run, Some(failure.reason.to_string())),
         };
-        Self { model: Arc::clone(model), run, error }
+        Self { model: Arc::clone(model), run, error, over: None }
     }
 
     fn kinematics(
-        model: &Arc<Model>,
+        loaded: &Loaded,
         start: &State,
         options: &driven::Options,
     ) -> Result<Self, Fault> {
-        if options.over.is_some() {
-            return Err(Fault::new("kinematics over a quantity does not run here yet")
-                .hint("use t_end and output_step, or kempe.run"));
+        let Some((over, [first, last])) = options.over.as_ref().zip(options.range) else {
+            let times = times(start.t, options);
+            return Ok(Self::through(&loaded.model, start, &times, None));
+        };
+        let (model, start, variable) = driven_by(loaded, over, start)?;
+        let mut begin = Self::through(&model, &start, &[first], Some(variable));
+        if begin.error.is_some() {
+            return Ok(begin);
         }
-        let times = times(start.t, options);
-        let (motion, error) = match kinematics(model, start, &times, |_| Flow::Continue) {
+        let step = (last - first) / (options.n - 1) as f64;
+        let at = |k: usize| if k + 1 == options.n { last } else { first + step * k as f64 };
+        let values: Vec<f64> = (0..options.n).map(at).collect();
+        Ok(Self::through(&model, &begin.end(), &values, begin.over.take()))
+    }
+
+    /// The motion through times, or values of what takes the place of the time.
+    fn through(model: &Arc<Model>, start: &State, times: &[f64], over: Option<Variable>) -> Self {
+        let (motion, error) = match kinematics(model, start, times, |_| Flow::Continue) {
             Ok(motion) => (motion, None),
             Err(failure) => (failure.motion, Some(failure.reason.to_string())),
         };
-        Ok(Self { run: run_of(model, start, &motion), model: Arc::clone(model), error })
+        Self { run: run_of(model, start, &motion), model: Arc::clone(model), error, over }
     }
 
     /// The reply.
@@ -130,6 +146,7 @@ impl Ran {
                 "steps": statistics.steps, "rejected": statistics.rejected,
                 "evaluations": statistics.evaluations,
             },
+            "over": self.over.as_ref().map(|one| json!({ "name": one.name, "unit": one.unit })),
             "error": self.error.as_ref().map(|message| json!({ "message": message })),
         })
     }

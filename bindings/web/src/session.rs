@@ -10,6 +10,7 @@ use crate::live::Live;
 use crate::loaded::{load, without_drivers, Loaded};
 use crate::modes::configurations;
 use crate::pose::pose;
+use crate::readiness::readiness;
 use crate::run::Ran;
 use kempe::analyses::assemble::{self, Request};
 use kempe::analyses::readings;
@@ -62,6 +63,7 @@ impl Session {
             }
             "configurations" => configurations(self.loaded()?, fields),
             "mobility" => self.mobility(),
+            "readiness" => Ok(readiness(self.loaded()?)),
             "quantities" => self.quantities(),
             "quantity" => self.quantity(fields.text("name")?),
             "scene" => scene(self.loaded()?),
@@ -145,14 +147,14 @@ impl Session {
     }
 
     fn quantity(&mut self, name: &str) -> Result<Value, Fault> {
-        let state = self.live.as_ref().map(|live| live.state().clone());
-        let loaded = self.loaded()?;
+        let loaded = self.loaded.as_ref().ok_or_else(no_mechanism)?;
         let found = readings::find(&loaded.model, name).map_err(|problem| {
             let hint = problem.hint.clone().unwrap_or_default();
             Fault::new(problem.message).hint(hint)
         })?;
-        let state = state.as_ref().unwrap_or(&loaded.state);
-        let value = readings::of_state(&loaded.model, state, &[name])[0];
+        let still = (&loaded.model, &loaded.state);
+        let (model, state) = self.live.as_ref().map_or(still, |live| (live.model(), live.state()));
+        let value = readings::of_state(model, state, &[name])[0];
         Ok(json!({ "value": value, "unit": found.unit }))
     }
 
@@ -184,15 +186,14 @@ impl Session {
         loaded.model = Arc::new(model);
         let near =
             Request { state: Some(loaded.state.clone()), t: loaded.state.t, ..Request::default() };
-        if let Err(fault) = loaded.assemble(near) {
+        let live = self.live.as_mut();
+        let done =
+            loaded.assemble(near).and_then(|()| live.map_or(Ok(()), |l| l.go_on_from(loaded)));
+        if let Err(fault) = done {
             (loaded.model, loaded.state) = before;
             return Err(fault);
         }
         loaded.free = without_drivers(&loaded.model, &loaded.state, true);
-        if let Some(live) = &mut self.live {
-            live.go_on_from(loaded.state.clone());
-            live.go_on_with(Arc::clone(&loaded.model));
-        }
         Ok(pose(&loaded.model, &loaded.state))
     }
 

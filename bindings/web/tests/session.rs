@@ -117,6 +117,181 @@ fn a_run_gives_frames_and_values() {
     assert!(message.contains("bar.angel"), "{message}");
 }
 
+/// The slider-crank with kinematics over a value, and perhaps a driver of the crank.
+fn slider_crank_over(over: &str, range: &str, driver: &str) -> Page {
+    let more = format!(
+        "{driver}\n[analyses.cycle]\ntype = \"kinematics\"\nfrom = \"start\"\nover = \"{over}\"\nrange = {range}\nn = 91\n"
+    );
+    let text = example("slider_crank").replace(", \"crank.omega\" = 30", "");
+    Page::of(&(text + &more))
+}
+
+/// Values of a run, a list for each quantity.
+fn values(page: &mut Page, names: &[&str]) -> Vec<Vec<f64>> {
+    page.ask(json!({ "do": "values", "names": names }));
+    let numbers = page.0.numbers();
+    numbers.chunks(numbers.len() / names.len()).map(<[f64]>::to_vec).collect()
+}
+
+#[test]
+fn kinematics_over_the_crank_angle_is_that_of_the_closed_form() {
+    let law = "[drivers.turn]\ntype = \"coordinate_driver\"\ncoordinate = \"crank.angle\"\nvalue = \"60*deg + 5*t\"";
+    for (over, driver) in [("crank.angle", ""), ("crank.angle", law), ("turn", law)] {
+        let mut page = slider_crank_over(over, "[0, \"360*deg\"]", driver);
+        let ran = page.ask(json!({ "do": "run", "analysis": "cycle" }));
+        assert_eq!((number(&ran["count"]), &ran["status"]), (91.0, &json!("reached")), "{ran}");
+        assert_eq!(ran["over"], json!({ "name": "crank.angle", "unit": "rad" }));
+        let found = values(&mut page, &["crank.angle", "slider.x", "slider.vx", "slider.ax"]);
+        page.ask(json!({ "do": "frames" }));
+        let frames = page.0.numbers().to_vec();
+        for k in 0..91 {
+            let angle = (4.0 * k as f64).to_radians();
+            let ((s, c), r) = (angle.sin_cos(), 0.1);
+            let root = (0.09 - r * r * s * s).sqrt();
+            // x, and its first and second derivative by the angle
+            let rate = -r * s - r * r * s * c / root;
+            let second =
+                -r * c - r * r * ((c * c - s * s) / root + (r * s * c).powi(2) / root.powi(3));
+            let expected = [angle, r * c + root, rate, second];
+            assert!((frames[k * frames.len() / 91] - angle).abs() < 1e-12);
+            for (row, expected) in found.iter().zip(expected) {
+                assert!((row[k] - expected).abs() < 1e-9, "{over}: {} {expected} at {k}", row[k]);
+            }
+        }
+    }
+}
+
+#[test]
+fn another_quantity_replaces_the_only_driver() {
+    let law = "[drivers.turn]\ntype = \"coordinate_driver\"\ncoordinate = \"crank.angle\"\nvalue = \"60*deg + 5*t\"";
+    let mut page = slider_crank_over("slider.x", "[0.3, 0.25]", law);
+    page.ask(json!({ "do": "run", "analysis": "cycle" }));
+    let found = values(&mut page, &["slider.x", "crank.angle"]);
+    for (x, angle) in found[0].iter().zip(&found[1]) {
+        // law of cosines
+        let expected = ((x * x + 0.01 - 0.09) / (2.0 * x * 0.1)).acos();
+        assert!((angle - expected).abs() < 1e-9, "{angle} {expected}");
+    }
+    assert!((found[0][90] - 0.25).abs() < 1e-12);
+    let beyond = page.ask(json!({ "do": "load", "text": example("slider_crank") + "\n[analyses.far]\ntype = \"kinematics\"\nfrom = \"start\"\nover = \"slider.x\"\nrange = [0.3, 0.5]\n" }));
+    assert_eq!(beyond["problems"], json!([]));
+    let ran = page.ask(json!({ "do": "run", "analysis": "far" }));
+    assert_eq!(ran["status"], "failed");
+    let message = ran["error"]["message"].as_str().expect("a text");
+    assert!(message.contains("0.4 m: dead point, crank and rod in line"), "{message}");
+}
+
+#[test]
+fn other_drivers_stay_where_they_are() {
+    let second = PENDULUM
+        .replace("[start]\nset = { \"bar.angle\" = 0 }\n", "")
+        .replace("[analyses.swing]\ntype = \"dynamics\"\nt_end = 1\noutput_step = 0.01\n", "")
+        .replace("[joints.A]", "[bodies.other]\ntype = \"bar\"\nmass = 1\nlength = 1\nends = [\"A\", \"B\"]\n[joints.O]\ntype = \"revolute\"\ni = \"ground.A\"\nj = \"other.A\"\n[joints.A]");
+    let more = r#"
+[drivers.first]
+type = "coordinate_driver"
+coordinate = "bar.angle"
+value = "t"
+[drivers.second]
+type = "coordinate_driver"
+coordinate = "other.angle"
+value = "0.2 + 3*t + cos(2*t)"
+[analyses.before]
+type = "kinematics"
+t_end = 4
+[analyses.cycle]
+type = "kinematics"
+over = "first"
+range = [1, 2]
+n = 3
+"#;
+    let mut page = Page::of(&(second + more));
+    page.ask(json!({ "do": "run", "analysis": "cycle" }));
+    let found = values(&mut page, &["bar.angle", "other.angle", "other.omega"]);
+    for (k, angle) in [1.0, 1.5, 2.0].into_iter().enumerate() {
+        assert!((found[0][k] - angle).abs() < 1e-12);
+        assert!(
+            (found[1][k] - 12.2 - 8_f64.cos()).abs() < 1e-12 && found[2][k] == 0.0,
+            "{found:?}"
+        );
+    }
+    let both = "over = \"bar.B.x\"";
+    let text = page.ask(json!({ "do": "save", "format": "toml" }))["text"].clone();
+    let text = text.as_str().expect("a text").replace("over = \"first\"", both);
+    let mut page = Page::of(&text);
+    let message = page.fault(json!({ "do": "run", "analysis": "cycle" }));
+    assert!(
+        message.contains("the drivers first, second determine the motion already"),
+        "{message}"
+    );
+}
+
+/// What stands in the way of an analysis, with its place.
+fn obstacle(page: &mut Page, analysis: &str) -> Option<[String; 2]> {
+    let all = page.ask(json!({ "do": "readiness" }));
+    let found = all.as_array().expect("a list").iter().find(|one| one["analysis"] == analysis);
+    let problem = &found.unwrap_or_else(|| panic!("{analysis} in {all}"))["problem"];
+    let text = |key: &str| problem[key].as_str().expect("a text").to_string();
+    (!problem.is_null()).then(|| [text("message"), text("path")])
+}
+
+#[test]
+fn a_mechanism_is_ready_for_what_it_has() {
+    let mut page = Page::of(PENDULUM);
+    for analysis in ["assembly", "dynamics", "equilibrium", "modes"] {
+        assert_eq!(obstacle(&mut page, analysis), None);
+    }
+    let [message, path] = obstacle(&mut page, "kinematics").expect("a freedom");
+    assert!(message.contains("freedom") && path == "drivers", "{message} {path}");
+    let driver = "\n[drivers.turn]\ntype = \"coordinate_driver\"\ncoordinate = \"bar.angle\"\nvalue = \"2*t\"\n";
+    let mut page = Page::of(&(PENDULUM.to_string() + driver));
+    for analysis in ["dynamics", "kinematics", "inverse_dynamics"] {
+        assert_eq!(obstacle(&mut page, analysis), None);
+    }
+}
+
+#[test]
+fn what_is_missing_has_its_place() {
+    let mut page = Page(Session::default());
+    let open = example("four_bar").replace("L2 = 26", "L2 = 1");
+    page.ask(json!({ "do": "load", "text": open }));
+    let [message, path] = obstacle(&mut page, "assembly").expect("too short");
+    assert!(message.contains("short") && path.starts_with("joints."), "{message} {path}");
+    // a bar without mass at the end of another: nothing determines how it turns
+    let text = r#"kempe = 1
+[bodies.ground]
+points = { A = [0, 0] }
+[bodies.bar]
+type = "bar"
+mass = 1
+length = 1
+ends = ["A", "B"]
+[bodies.light]
+type = "bar"
+mass = 0
+length = 1
+ends = ["B", "C"]
+[joints.A]
+type = "revolute"
+i = "ground.A"
+j = "bar.A"
+[joints.B]
+type = "revolute"
+i = "bar.B"
+j = "light.B"
+"#;
+    let mut page = Page::of(text);
+    for analysis in ["dynamics", "modes"] {
+        let [message, path] = obstacle(&mut page, analysis).expect("no mass");
+        assert!(message.contains("mass") && path == "bodies.light", "{message} {path}");
+    }
+    // a constant force on a free body, which no position of rest balances
+    let text = "kempe = 1\ngravity = [0, -9.81]\n[bodies.block]\nmass = 1\ninertia = 1\n";
+    let mut page = Page::of(text);
+    let [message, path] = obstacle(&mut page, "equilibrium").expect("it falls");
+    assert_eq!(path, "bodies.block", "{message}");
+}
+
 #[test]
 fn live_dynamics_is_that_of_a_run() {
     let mut page = Page::of(PENDULUM);
@@ -161,6 +336,40 @@ fn a_pull_moves_the_equilibrium_and_ends() {
     page.ask(json!({ "do": "pull", "body": null }));
     let found = page.ask(json!({ "do": "advance", "by": 0.1 }));
     assert!(number(&found["q"][2]) < angle, "it falls back");
+}
+
+/// A pull of 100 N upwards at the end of the pendulum, which is horizontal.
+fn pull_up(page: &mut Page) {
+    page.ask(json!({ "do": "live" }));
+    page.ask(
+        json!({ "do": "pull", "body": "bar", "point": [0.5, 0], "to": [1, 1], "stiffness": 100 }),
+    );
+}
+
+#[test]
+fn accelerations_and_reactions_contain_the_pull() {
+    let mut page = Page::of(PENDULUM);
+    pull_up(&mut page);
+    // moments about the pin: m L²/3 α = F L - m g L/2; then forces along y
+    let alpha = (100.0 - 9.81) / (2.0 / 3.0);
+    assert!((page.quantity("bar.alpha") / alpha - 1.0).abs() < 1e-12);
+    let reaction = 2.0 * 0.5 * alpha + 2.0 * 9.81 - 100.0;
+    assert!((page.quantity("A.force") / reaction - 1.0).abs() < 1e-12);
+    page.ask(json!({ "do": "pull", "body": null }));
+    assert!((page.quantity("bar.alpha") / (-1.5 * 9.81) - 1.0).abs() < 1e-12);
+}
+
+#[test]
+fn a_pull_goes_on_when_a_parameter_changes() {
+    let mut page = Page::of(PENDULUM);
+    pull_up(&mut page);
+    page.ask(json!({ "do": "parameters", "values": { "m": 4 } }));
+    let alpha = (100.0 - 4.0 * 9.81 / 2.0) / (4.0 / 3.0);
+    assert!((page.quantity("bar.alpha") / alpha - 1.0).abs() < 1e-12);
+    let found = page.ask(json!({ "do": "advance", "by": 0.02 }));
+    let (t, angle) = (number(&found["t"]), number(&found["q"][2]));
+    // the force turns by less than a hundredth meanwhile
+    assert!((angle / (0.5 * alpha * t * t) - 1.0).abs() < 0.01, "{angle} after {t}");
 }
 
 #[test]

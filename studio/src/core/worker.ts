@@ -1,12 +1,15 @@
 // The worker: it holds the core and answers one request after the other.
+import { XzReadableStream } from "xz-decompress";
 import { type Core, instantiate } from "./memory";
 
 let core: Core | null = null;
 
-type Incoming = { bytes: ArrayBuffer } | { number: number; request: string };
+type Incoming = { packed: Uint8Array<ArrayBuffer> } | { number: number; request: string };
 
-async function start(bytes: ArrayBuffer): Promise<void> {
-  core = await instantiate(bytes);
+/** Start the core from its module, which is compressed as xz. */
+async function start(packed: Uint8Array<ArrayBuffer>): Promise<void> {
+  const module = new XzReadableStream(new Blob([packed]).stream());
+  core = await instantiate(await new Response(module).arrayBuffer());
   postMessage({ ready: true });
 }
 
@@ -17,8 +20,8 @@ function answer(number: number, request: string): void {
 }
 
 addEventListener("message", ({ data }: MessageEvent<Incoming>) => {
-  if ("bytes" in data) {
-    start(data.bytes).catch((fault: unknown) => postMessage({ failed: String(fault) }));
+  if ("packed" in data) {
+    start(data.packed).catch((fault: unknown) => postMessage({ failed: String(fault) }));
     return;
   }
   try {

@@ -2,19 +2,17 @@
 import source from "virtual:worker";
 import type { Line } from "../core/transport";
 
-/** The bytes of the core. */
-export async function coreBytes(): Promise<ArrayBuffer> {
+/** The core, compressed as it lies in the page. */
+export function packedCore(): Uint8Array {
   const text = document.getElementById("core")!.textContent ?? "";
-  const packed = Uint8Array.from(atob(text.trim()), (letter) => letter.charCodeAt(0));
-  const stream = new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"));
-  return new Response(stream).arrayBuffer();
+  return Uint8Array.from(atob(text.trim()), (letter) => letter.charCodeAt(0));
 }
 
 /** A worker that has got the core. */
-export function worker(bytes: ArrayBuffer): Line {
+export function worker(packed: Uint8Array): Line {
   const address = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
   const made = new Worker(address);
   URL.revokeObjectURL(address);
-  made.postMessage({ bytes });
+  made.postMessage({ packed });
   return made as Line;
 }

@@ -1,0 +1,150 @@
+//! What stands in the way of each analysis: the checks with which the core begins it, at the start of the case.
+
+use crate::fault::problem;
+use crate::loaded::Loaded;
+use kempe::analyses::dynamics::{Prepared, Reason as NoMotion};
+use kempe::analyses::equilibrium::{equilibrium, Options as Resting, Reason as NoRest};
+use kempe::analyses::kinematics::{kinematics, recorded, Reason as NotDriven};
+use kempe::analyses::linearization::{linearize, Failure as NotLinear};
+use kempe::model::{Definition, Entry};
+use kempe::{assemble, Flow, Model, Options, Problem, State};
+use serde_json::{json, Value};
+use std::sync::Arc;
+
+/// Steps after which a search for a position of rest counts as possible.
+const BEGUN: usize = 2000;
+
+/// What stands in the way of each analysis; null where nothing does. Where the mechanism does not close, no other analysis
+/// can begin.
+pub fn readiness(loaded: &Loaded) -> Value {
+    let (model, definition) = (&loaded.model, &loaded.case.definition);
+    let state = match start(loaded) {
+        Ok(state) => state,
+        Err(found) => return json!([stated("assembly", Some(found))]),
+    };
+    let found = Obstacles { definition, model, state: &state };
+    let driven = found.of_kinematics();
+    json!([
+        stated("assembly", None),
+        stated("dynamics", found.of_dynamics()),
+        stated("kinematics", driven.clone()),
+        stated("inverse_dynamics", driven.or_else(|| found.of_reactions())),
+        stated("equilibrium", found.of_rest()),
+        stated("modes", found.of_modes()),
+    ])
+}
+
+fn stated(analysis: &str, found: Option<Problem>) -> Value {
+    json!({ "analysis": analysis, "problem": found.as_ref().map(problem) })
+}
+
+/// The start of the case.
+fn start(loaded: &Loaded) -> Result<State, Problem> {
+    let first = |found: Vec<Problem>| found.into_iter().next();
+    let request = match loaded.case.start.request(&loaded.model) {
+        Ok(request) => request,
+        Err(found) => return Err(first(found.0).expect("a fault")),
+    };
+    let found = assemble(&loaded.model, &request);
+    found.map(|(state, _)| state).map_err(|failure| {
+        let own = failure.places.first().cloned();
+        let path = own.unwrap_or_else(|| place(&loaded.case.definition, &failure.name));
+        problem_at(&path, &failure.message, &failure.hint)
+    })
+}
+
+fn problem_at(path: &[String], message: &str, hint: &str) -> Problem {
+    let hint = Some(hint.to_string()).filter(|hint| !hint.is_empty());
+    Problem::at(path, message).maybe_hint(hint)
+}
+
+/// The place of an element in a file; of a coordinate such as `crank.angle`, that of its body.
+fn place(definition: &Definition, name: &str) -> Vec<String> {
+    let name = name.split('.').next().unwrap_or_default();
+    let Definition { bodies, joints, drivers, forces, .. } = definition;
+    let sections =
+        [("bodies", bodies), ("joints", joints), ("drivers", drivers), ("forces", forces)];
+    let has = |(_, entries): &(&str, &Vec<Entry>)| entries.iter().any(|entry| entry.name == name);
+    let section = sections.into_iter().find(has);
+    section.map_or(Vec::new(), |(section, _)| vec![section.to_string(), name.to_string()])
+}
+
+struct Obstacles<'a> {
+    definition: &'a Definition,
+    model: &'a Arc<Model>,
+    state: &'a State,
+}
+
+impl Obstacles<'_> {
+    fn at(&self, name: &str, message: String, hint: &str) -> Option<Problem> {
+        Some(problem_at(&place(self.definition, name), &message, hint))
+    }
+
+    fn of_dynamics(&self) -> Option<Problem> {
+        let options = Options::new(self.state.t + 1.0);
+        let run =
+            Prepared::new(Arc::clone(self.model)).dynamics(self.state, &options, |_| Flow::Stop);
+        match run.err()?.reason {
+            NoMotion::Singular { name, message, .. } => self.at(&name, message, ""),
+            NoMotion::Start { name, message, hint, .. }
+            | NoMotion::Redundant { name, message, hint, .. }
+            | NoMotion::Law { name, message, hint, .. } => self.at(&name, message, hint),
+            NoMotion::Integration { message, hint, .. } => self.at("", message, hint),
+            NoMotion::Option { message, .. } => self.at("", message, ""),
+        }
+    }
+
+    fn of_kinematics(&self) -> Option<Problem> {
+        let motion = kinematics(self.model, self.state, &[self.state.t], |_| Flow::Continue);
+        let reason = motion.err()?.reason;
+        let message = reason.to_string();
+        match &reason {
+            NotDriven::Free { .. } => Some(Problem::at(&["drivers"], message)),
+            NotDriven::Open { name, .. } | NotDriven::Singular { name, .. } => {
+                self.at(name, message, "")
+            }
+            NotDriven::Limit(limit) => self.at(&limit.driver, message, ""),
+        }
+    }
+
+    /// Reactions that the motion at the start does not determine.
+    fn of_reactions(&self) -> Option<Problem> {
+        let motion =
+            kinematics(self.model, self.state, &[self.state.t], |_| Flow::Continue).ok()?;
+        let trajectory = recorded(self.model, self.state, &motion).trajectory;
+        let found = Prepared::new(Arc::clone(self.model));
+        let found = found.accelerations(trajectory.states(), false, |_| Flow::Continue);
+        match found.err()?.reason {
+            NoMotion::Redundant { name, message, hint, .. } => self.at(&name, message, hint),
+            NoMotion::Singular { name, message, .. } => self.at(&name, message, ""),
+            other => self.at("", other.to_string(), ""),
+        }
+    }
+
+    /// A search that has begun without an obstacle may still end without a result.
+    fn of_rest(&self) -> Option<Problem> {
+        let watch = |steps| if steps < BEGUN { Flow::Continue } else { Flow::Stop };
+        let reason = equilibrium(self.model, self.state, &Resting::new(), watch).err()?;
+        let message = reason.to_string();
+        match &reason {
+            NoRest::Stopped => None,
+            NoRest::Singular { name, .. } | NoRest::State { name } => self.at(name, message, ""),
+            NoRest::Endless { coordinate, .. }
+            | NoRest::Lost { coordinate, .. }
+            | NoRest::Loose { coordinate } => self.at(coordinate, message, ""),
+            _ => self.at("", message, ""),
+        }
+    }
+
+    fn of_modes(&self) -> Option<Problem> {
+        let failure = linearize(self.model, self.state, &[], &[]).err()?;
+        let message = failure.to_string();
+        match &failure {
+            NotLinear::Singular { name, .. } | NotLinear::Open { name, .. } => {
+                self.at(name, message, "")
+            }
+            NotLinear::NoInertia { coordinate, .. } => self.at(coordinate, message, ""),
+            _ => self.at("", message, ""),
+        }
+    }
+}
