@@ -62,6 +62,8 @@ export const texts = {
     fixed: (body: string, point: string) =>
       `${body}.${point} does not follow: a length or a formula of the text determines it.`,
     place: (body: string) => `Place ${body} by its points`,
+    noMirror: (body: string) =>
+      `${body} cannot be mirrored: it must be placed by points, without shapes, outlines and curves.`,
     invalidName: (name: string) => `“${name}” cannot be a name: a name has letters, digits and _ and is used once.`,
   },
   place: {

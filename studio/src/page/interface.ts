@@ -2,7 +2,7 @@
 
 import type { Loaded, Ran } from "../core/protocol";
 import { enter } from "../modes/modes";
-import { run } from "../modes/read";
+import { course, run, valuesOf } from "../modes/read";
 import type { Point } from "../plane/points";
 import { open } from "../store/document";
 import { send, settled } from "../store/session";
@@ -15,6 +15,7 @@ export interface Interface {
   state(): Promise<{ t: number; q: number[]; v: number[] } | null>;
   quantity(name: string): Promise<{ value: number; unit: string }>;
   run(t_end?: number): Promise<Ran | null>;
+  values(names: string[]): Promise<{ t: number[]; units: string[]; rows: number[][] }>;
   screen(point: Point): Promise<Point>;
   settled(): Promise<void>;
 }
@@ -37,6 +38,10 @@ export const kempe: Interface = {
   },
   settled,
   quantity: async (name) => (await send("quantity", { name })).ok,
+  async values(names) {
+    const { units, rows } = await valuesOf(names);
+    return { t: [...(course.value?.t ?? [])], units, rows: rows.map((row) => [...row]) };
+  },
   async run(t_end) {
     const found = await run(t_end);
     if (found && mode.value !== "read") enter("read");
