@@ -1,4 +1,4 @@
-"""Living and moving: a pull, other parameters, played drivers, and a core that has to start again."""
+"""Living and moving: pulls, sliders, played drivers, and a core that has to start again."""
 
 import math
 from pathlib import Path
