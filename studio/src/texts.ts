@@ -9,6 +9,7 @@ export const texts = {
   failed: "The core could not start. This page needs a browser with WebAssembly and DecompressionStream.",
   core: {
     trapped: "The core stopped and was started again. The text is unchanged.",
+    tooLarge: "The text has more than 2 MB. It was not opened; use kempe run.",
     tooLong: "The computation took too long and was ended. The text is unchanged.",
   },
   modes: { edit: "Edit", move: "Move", live: "Live", read: "Read" },

@@ -8,6 +8,7 @@ import { open } from "../store/document";
 import { send, settled } from "../store/session";
 import { view } from "../store/sheet";
 import { mode, pose, problems, text, unassembled } from "../store/state";
+import { texts } from "../texts";
 
 export interface Interface {
   load(given: string): Promise<{ problems: Loaded["problems"]; unassembled: Loaded["unassembled"] }>;
@@ -23,7 +24,7 @@ export interface Interface {
 export const kempe: Interface = {
   async load(given) {
     enter("edit");
-    await open(given);
+    if (!(await open(given))) return { problems: [{ message: texts.core.tooLarge }], unassembled: null };
     return { problems: problems.value, unassembled: unassembled.value };
   },
   toml: async () => text.value,
