@@ -83,6 +83,7 @@ def linkage(windows: int) -> str:
 
 
 def opened(browser: Browser, **more: Any) -> Page:
+    """The page in a context of its own, with its first case drawn."""
     page = browser.new_context(viewport={"width": 1280, "height": 800}, **more).new_page()
     page.add_init_script(WATCH)
     page.goto(PAGE.as_uri())
@@ -103,6 +104,7 @@ def first_picture(browser: Browser) -> float:
 
 
 def p95(times: list[float]) -> float:
+    """The time that 95 % of the times do not exceed."""
     return sorted(times)[math.ceil(0.95 * len(times)) - 1]
 
 
@@ -170,6 +172,7 @@ def violations(browser: Browser) -> dict[str, list[str]]:
 
 
 def main() -> None:
+    """Print all measurements."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--minutes", type=float, default=10, help="minutes of play")
     minutes = parser.parse_args().minutes
