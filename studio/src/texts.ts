@@ -9,7 +9,8 @@ export const texts = {
   failed: "The core could not start. This page needs a browser with WebAssembly and DecompressionStream.",
   core: {
     trapped: "The core stopped and was started again. The text is unchanged.",
-    tooLong: "The computation took more than 10 s and was ended. The text is unchanged.",
+    tooLarge: "The text has more than 2 MB. It was not opened; use kempe run.",
+    tooLong: "The computation took too long and was ended. The text is unchanged.",
   },
   modes: { edit: "Edit", move: "Move", live: "Live", read: "Read" },
   modeHints: {
@@ -62,6 +63,8 @@ export const texts = {
     fixed: (body: string, point: string) =>
       `${body}.${point} does not follow: a length or a formula of the text determines it.`,
     place: (body: string) => `Place ${body} by its points`,
+    noMirror: (body: string) =>
+      `${body} cannot be mirrored: it must be placed by points, without shapes, outlines and curves.`,
     invalidName: (name: string) => `“${name}” cannot be a name: a name has letters, digits and _ and is used once.`,
   },
   place: {

@@ -1,6 +1,7 @@
 import { deflateSync } from "fflate";
 import { expect, test } from "vitest";
-import { linkOf, MOST_OF_LINK, MOST_OF_TEXT, textOf } from "../src/give/link";
+import { linkOf, MOST_OF_LINK, textOf } from "../src/give/link";
+import { MOST_OF_TEXT } from "../src/store/limits";
 
 function hashOf(bytes: Uint8Array): string {
   const letters = Array.from(bytes, (byte) => String.fromCharCode(byte)).join("");

@@ -93,11 +93,14 @@ test("a trap makes a new worker, and later requests are answered", async () => {
   expect((await next).ok).toBe(5);
 });
 
-test("a request over the limit of time ends its worker", async () => {
+test.each([
+  ["pose", 10_000],
+  ["run", 60_000],
+] as const)("%s over the limit of %d ms ends its worker", async (what, limit) => {
   vi.useFakeTimers();
   const { lines, restarts, transport } = made(10_000);
-  const lost = transport.send("run", {}).catch((error: unknown) => error);
-  vi.advanceTimersByTime(9_999);
+  const lost = transport.send(what, {}).catch((error: unknown) => error);
+  vi.advanceTimersByTime(limit - 1);
   expect(lines.length).toBe(1);
   vi.advanceTimersByTime(2);
   expect(await lost).toBeInstanceOf(Restarted);

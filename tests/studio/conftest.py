@@ -19,30 +19,61 @@ def built() -> None:
         pytest.skip("studio/dist/index.html is missing; tools/build_studio.sh builds it")
 
 
+def opened(browser: "sync_api.Browser", link: str = "", **more: Any) -> Studio:
+    """The studio in a window of its own, which notes messages, errors and requests."""
+    context = browser.new_context(**more)
+    one = Studio(context.new_page())
+    one.page.on("console", lambda message: one.messages.append(message.text))
+    one.page.on("pageerror", lambda error: one.messages.append(str(error)))
+    one.page.on("dialog", lambda dialog: one.messages.append(dialog.message))
+    context.on("request", lambda request: one.requests.append(request.url))
+    one.page.goto(PAGE.as_uri() + link)
+    one.wait("typeof kempe === 'object' && kempe.state().then(state => state !== null)", 20.0)
+    one.settle()
+    return one
+
+
+def check_silence(one: Studio, pages: int) -> None:
+    """Nothing was complained of, and nothing was requested but the page itself, `pages` times."""
+    assert one.messages == []
+    outside = [url for url in one.requests if not url.startswith(("blob:", "data:"))]
+    assert len(outside) == pages, outside
+
+
 @pytest.fixture
 def studio(
     built: None,  # noqa: ARG001 - without the page no browser is started
     browser: "sync_api.Browser",
 ) -> Iterator[Callable[..., Studio]]:
     """Open the studio in a window of a size; what it complains of, or requests, fails the test."""
-    opened: list[Studio] = []
+    windows: list[Studio] = []
 
     def open_studio(width: int = 1280, height: int = 800, link: str = "", **more: Any) -> Studio:
-        context = browser.new_context(viewport={"width": width, "height": height}, **more)
-        one = Studio(context.new_page())
-        one.page.on("console", lambda message: one.messages.append(message.text))
-        one.page.on("pageerror", lambda error: one.messages.append(str(error)))
-        one.page.on("dialog", lambda dialog: one.messages.append(dialog.message))
-        context.on("request", lambda request: one.requests.append(request.url))
-        one.page.goto(PAGE.as_uri() + link)
-        one.wait("typeof kempe === 'object' && kempe.state().then(state => state !== null)", 20.0)
-        one.settle()
-        opened.append(one)
-        return one
+        size = {"width": width, "height": height}
+        windows.append(opened(browser, link, viewport=size, **more))
+        return windows[-1]
 
     yield open_studio
-    for one in opened:
+    for one in windows:
         one.page.context.close()
-        assert one.messages == []
-        outside = [url for url in one.requests if not url.startswith(("blob:", "data:"))]
-        assert len(outside) == 1, outside  # the page itself
+        check_silence(one, 1)
+
+
+@pytest.fixture(scope="session")
+def lasting(
+    built: None,  # noqa: ARG001
+    browser: "sync_api.Browser",
+) -> Iterator[Studio]:
+    """One window for all tests that load a case of their own."""
+    one = opened(browser, viewport={"width": 1280, "height": 800}, accept_downloads=True)
+    yield one
+    one.page.context.close()
+
+
+@pytest.fixture
+def one(lasting: Studio) -> Iterator[Studio]:
+    """The lasting window; what it complains of, or requests, fails the test."""
+    lasting.messages.clear()
+    lasting.requests.clear()
+    yield lasting
+    check_silence(lasting, 0)

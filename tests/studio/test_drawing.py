@@ -1,5 +1,6 @@
 """Drawing with the mouse: the text says what was drawn, and kempe reads it."""
 
+import math
 from pathlib import Path
 
 import kempe as kp
@@ -76,6 +77,25 @@ def test_a_typed_length_is_that_of_the_bar(studio: Opener) -> None:
     one.click(0.4, 0.0)
     ends = one.tree()["bodies"]["bar1"]["through"].values()
     assert list(ends) == [[-0.5, 0.0], [-0.13, 0.0]]
+
+
+def test_a_plate_has_its_points_where_they_were_clicked(studio: Opener) -> None:
+    one = studio()
+    one.page.locator("#new").click()
+    one.settle()
+    one.tool("body")
+    corners = [(-0.5, -0.3), (0.4, -0.1), (0.0, 0.5)]
+    for corner in corners:
+        one.click(*corner)
+    one.page.keyboard.press("Enter")
+    one.settle()
+    tree = one.tree()["bodies"]["body1"]
+    for point, (x, y) in zip(tree["through"], corners, strict=True):
+        assert one.quantity(f"body1.{point}.x") == pytest.approx(x, abs=1e-12)
+        assert one.quantity(f"body1.{point}.y") == pytest.approx(y, abs=1e-12)
+    (x, y), turn = tree["center"], math.atan2(0.2, 0.9)
+    assert -0.05 + x * math.cos(turn) - y * math.sin(turn) == pytest.approx(-0.1 / 3, abs=1e-3)
+    assert -0.2 + x * math.sin(turn) + y * math.cos(turn) == pytest.approx(0.1 / 3, abs=1e-3)
 
 
 def test_a_spring_is_placed_by_clicking_what_it_refers_to(studio: Opener) -> None:

@@ -19,12 +19,16 @@ export class CoreError extends Error {
 /** The worker was started anew: it trapped or took too long. */
 export class Restarted extends Error {}
 
+/** Runs may take so many times as long as other requests. */
+const LONGER: Partial<Record<Do, number>> = { run: 6, configurations: 3 };
+
 /** The request was replaced by a newer one before it was sent. */
 export class Superseded extends Error {}
 
 interface Waiting {
   number: number;
   request: string;
+  limit: number;
   channel: string | null;
   resolve(answer: Answer<unknown>): void;
   reject(error: Error): void;
@@ -70,6 +74,7 @@ export class Transport {
       const one: Waiting = {
         number: ++this.count,
         request: JSON.stringify({ do: what, ...fields }),
+        limit: this.limit * (LONGER[what] ?? 1),
         channel,
         resolve: resolve as (answer: Answer<unknown>) => void,
         reject,
@@ -89,7 +94,7 @@ export class Transport {
   private next(): void {
     if (!this.ready || this.running || !this.queue.length) return;
     this.running = this.queue.shift()!;
-    this.timer = setTimeout(() => this.restart("timeout"), this.limit);
+    this.timer = setTimeout(() => this.restart("timeout"), this.running.limit);
     this.line?.postMessage({ number: this.running.number, request: this.running.request });
   }
 

@@ -55,15 +55,27 @@ function onlyPoint(doc: string): string {
 
 function placedBody(placing: Placing | null, names: string[], places: Place[]): Tree {
   const table = Object.fromEntries(places.map(({ at }, k) => [names[k]!, at as Value]));
-  if (placing === "two") return { through: table };
-  return { points: table, through: Object.fromEntries(Object.entries(table).slice(0, 2)) };
+  return placing === "two" ? { through: table } : { through: table, center: middleIn(places.map(({ at }) => at)) };
+}
+
+/** The middle of some places in the frame that they give a body: between the first two, with its x axis along them. */
+function middleIn(at: Point[]): Point {
+  const [[ax, ay], [bx, by]] = at as [Point, Point];
+  const frame: Placement = [(ax + bx) / 2, (ay + by) / 2, Math.atan2(by - ay, bx - ax)];
+  const [x, y] = inFrame(frame, middleOf(at));
+  const step = distance([ax, ay], [bx, by]) * 1e-4;
+  return [rounded(x, step), rounded(y, step)];
+}
+
+function middleOf(at: Point[]): Point {
+  return [mean(at.map(([x]) => x)), mean(at.map(([, y]) => y))];
 }
 
 /** Mass and moment of inertia of a new body: 1 kg, spread over its points. */
 function ownValue({ unit }: Field, at: Point[]): Value | null {
   if (unit === "kg") return 1;
   if (unit !== "kg*m^2") return null;
-  const middle: Point = [mean(at.map(([x]) => x)), mean(at.map(([, y]) => y))];
+  const middle = middleOf(at);
   return Number(Math.max(1e-6, mean(at.map((one) => distance(one, middle) ** 2)) / 2).toPrecision(3));
 }
 

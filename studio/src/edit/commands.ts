@@ -8,7 +8,7 @@ import { change } from "../store/document";
 import { view } from "../store/sheet";
 import { announce, mechanism, poses, selection, tree } from "../store/state";
 import { texts } from "../texts";
-import { moved } from "./moving";
+import { isPlain, moved } from "./moving";
 import { removed, removedPoint, renamed } from "./removing";
 
 const RESERVED = ["t", "pi", "deg", "ground", "energy", "drift"];
@@ -48,7 +48,7 @@ export async function copy(name: string): Promise<void> {
 
 export async function paste(name: string, body: Tree): Promise<void> {
   const step = 10 * snapStep(view);
-  const shifted = mapped(body, ([x, y]) => [tidy(x + step), tidy(y - step)]);
+  const shifted = mapped(body, ["through", "at"], ([x, y]) => [tidy(x + step), tidy(y - step)]);
   const fresh = freeName(tree.value, name.replace(/\d+$/, ""));
   if (await change([{ path: ["bodies", fresh], value: shifted }])) selection.value = { group: "bodies", name: fresh };
 }
@@ -60,24 +60,26 @@ export async function mirror(name: string): Promise<void> {
   if (!found || !own.length) return;
   const across = own.map(({ at }) => at[0]);
   const sum = Math.min(...across) + Math.max(...across);
-  const after = mapped(found, ([x, y]) => [tidy(sum - x), y]);
-  const changes = ["through", "at", "points"].filter(
-    (key) => key in after && JSON.stringify(after[key]) !== JSON.stringify(found[key]),
-  );
+  if (ONE_SIDED.some((key) => key in found) || !("through" in found || "at" in found)) {
+    announce("problem", texts.edit.noMirror(name));
+    return;
+  }
+  // The x axis of the frame goes from the first to the second place, so that local places change sides.
+  const placed = mapped(found, ["through", "at"], ([x, y]) => [tidy(sum - x), y]);
+  const after = mapped(placed, ["points", "center"], ([x, y]) => [x, y && -y]);
+  const changes = Object.keys(after).filter((key) => JSON.stringify(after[key]) !== JSON.stringify(found[key]));
   await change(changes.map((key): Change => ({ path: ["bodies", name, key], value: after[key]! })));
 }
 
-/** A body with its global places changed; points in its frame change where it is placed through points. */
-function mapped(body: Tree, map: (at: Point) => Point): Tree {
-  const result: Tree = { ...body };
-  const pair = (value: Value): Value =>
-    Array.isArray(value) && value.every((one) => typeof one === "number") ? map(value as Point) : value;
-  if (isTable(body.through))
-    result.through = Object.fromEntries(Object.entries(body.through).map(([key, at]) => [key, pair(at)]));
-  if (isTable(body.through) && isTable(body.points))
-    result.points = Object.fromEntries(Object.entries(body.points).map(([key, at]) => [key, pair(at)]));
-  if (body.at) result.at = pair(body.at);
-  return result;
+/** Parts of a body that have no mirror image made of points. */
+const ONE_SIDED = ["shapes", "outline", "curves"];
+
+/** A body with some of its places changed; formulas stay. */
+function mapped(body: Tree, keys: string[], map: (at: Point) => Point): Tree {
+  const pair = (value: Value): Value => (isPlain(value) ? map(value as Point) : value);
+  const value = (one: Value): Value =>
+    isTable(one) ? Object.fromEntries(Object.entries(one).map(([key, at]) => [key, pair(at)])) : pair(one);
+  return Object.fromEntries(Object.entries(body).map(([key, one]) => [key, keys.includes(key) ? value(one) : one]));
 }
 
 function tidy(value: number): number {

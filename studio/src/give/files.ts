@@ -2,11 +2,11 @@
 
 import { restart } from "../modes/place";
 import { fileName, open } from "../store/document";
+import { MOST_OF_TEXT } from "../store/limits";
 import { report } from "../store/session";
 import { announce, text } from "../store/state";
 import { texts } from "../texts";
 import { download } from "./download";
-import { MOST_OF_TEXT } from "./link";
 
 /** The text of a new case. */
 export const EMPTY = `kempe = 1
@@ -36,7 +36,7 @@ export function openFile(): void {
 /** Take up a file that was chosen or dropped. */
 export async function take(file: File): Promise<void> {
   if (file.size > MOST_OF_TEXT) {
-    announce("problem", texts.share.damaged);
+    announce("problem", texts.core.tooLarge);
     return;
   }
   await file.text().then((given) => open(given, file.name), report);

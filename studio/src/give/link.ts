@@ -1,10 +1,9 @@
 // Links that hold the whole model: the text, compressed, in the part after the #.
 import { deflateSync, Inflate, strFromU8, strToU8 } from "fflate";
+import { MOST_OF_TEXT } from "../store/limits";
 
 /** The longest link, characters. */
 export const MOST_OF_LINK = 64 * 1024;
-/** The longest text that is taken from a link, bytes. */
-export const MOST_OF_TEXT = 2 * 1024 * 1024;
 /** Compressed bytes that are read at once; each can become some thousand times longer. */
 const PIECE = 512;
 const MARK = "#m=";

@@ -1,4 +1,4 @@
-// Living: the mechanism moves under its forces, in real time.
+// Living: the mechanism moves under its forces and drivers, in real time.
 import { signal } from "@preact/signals";
 import { type Point, placed } from "../plane/points";
 import { report, send } from "../store/session";
@@ -10,6 +10,8 @@ import type { Handler } from "./handler";
 
 export const playing = signal(false);
 export const speed = signal(1);
+/** Parameters whose values are not those of the text. */
+export const changed = signal<Record<string, number>>({});
 /** Simulated seconds that were left out because the computer is too slow. */
 const LONGEST_FRAME = 0.1;
 const MOST_MS = 12;
@@ -48,8 +50,14 @@ async function pull(to: Point): Promise<void> {
   const mass = mechanism.value!.bodies.reduce((sum, body) => sum + (body.mass ?? 0), 0) || 1;
   const stiffness = mass / PULL_TIME ** 2;
   const damping = 2 * 0.5 * Math.sqrt(stiffness * mass);
-  await send("pull", { body: grip.body.name, point: grip.point, to, stiffness, damping }, "pull").catch(report);
-  showPull(to);
+  const { body, point } = grip;
+  try {
+    await begin();
+    await send("pull", { body: body.name, point, to, stiffness, damping }, "pull");
+    showPull(to);
+  } catch (error) {
+    report(error);
+  }
 }
 
 function showPull(to: Point): void {
@@ -61,8 +69,13 @@ function showPull(to: Point): void {
 /** Begin at the pose that is shown. */
 async function begin(): Promise<void> {
   if (begun) return;
-  pose.value = (await send("live", {})).ok;
   begun = true;
+  try {
+    pose.value = (await send("live", {})).ok;
+  } catch (error) {
+    begun = false;
+    throw error;
+  }
 }
 
 export async function play(): Promise<void> {
@@ -79,8 +92,11 @@ export async function play(): Promise<void> {
 
 async function run(): Promise<void> {
   let last = performance.now();
-  while (playing.value && mode.value === "live") {
+  const started = mode.value;
+  const goesOn = () => playing.value && mode.value === started;
+  while (goesOn()) {
     const now = await new Promise<number>((done) => requestAnimationFrame(done));
+    if (!goesOn()) return;
     const by = Math.min(LONGEST_FRAME, Math.max(0, (now - last) / 1000)) * speed.value;
     last = now;
     if (by > 0 && !(await advance(by))) return;
@@ -101,6 +117,11 @@ async function advance(by: number): Promise<boolean> {
 
 export function pause(): void {
   playing.value = false;
+}
+
+export function toggle(): void {
+  if (playing.value) pause();
+  else void play();
 }
 
 export async function step(): Promise<void> {
@@ -125,6 +146,7 @@ export function stop(): void {
 export async function setParameters(values: Record<string, number>): Promise<void> {
   try {
     const { ok } = await send("parameters", { values }, "parameters");
+    changed.value = { ...changed.value, ...values };
     if (!playing.value) pose.value = ok;
   } catch (error) {
     report(error);

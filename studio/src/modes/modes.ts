@@ -1,7 +1,7 @@
 // Changing between the modes.
 import { effect } from "@preact/signals";
-import { goHome } from "../store/session";
-import { type Mode, mode, panel, text, tool } from "../store/state";
+import { goHome, showPresent } from "../store/session";
+import { loads, type Mode, mode, panel, tool } from "../store/state";
 import { edit } from "./edit";
 import type { Handler } from "./handler";
 import * as living from "./live";
@@ -30,14 +30,17 @@ export function enter(next: Mode): void {
 function leave(before: Mode): void {
   restart(null);
   configurations.value = null;
-  if (before === "live") living.stop();
-  if (before === "read") reading.playing.value = false;
+  const others = Object.keys(living.changed.value).length > 0;
+  living.stop();
+  if (others) void goHome();
+  reading.playing.value = false;
+  if (before === "read") void showPresent();
 }
 
-/** A change of the text makes runs and motions of the old one void. */
 effect(() => {
-  text.value;
+  loads.value;
   reading.course.value = null;
   reading.playing.value = false;
   living.stop();
+  living.changed.value = {};
 });

@@ -8,6 +8,7 @@ import { announce, mechanism, message, pose, poses, selection } from "../store/s
 import { texts } from "../texts";
 import { type Grip, gripAt } from "./grip";
 import type { Handler } from "./handler";
+import * as living from "./live";
 
 /** Coordinates that a drag does not change. */
 export const locked = signal<string[]>([]);
@@ -21,6 +22,7 @@ let working = false;
 export const move: Handler = {
   down(spot) {
     grip = gripAt(spot);
+    living.stop();
     if (grip) selection.value = { group: "bodies", name: grip.body.name };
     return grip !== null;
   },
@@ -83,6 +85,7 @@ export async function findConfigurations(): Promise<void> {
 
 /** Go on from another pose. */
 export async function choose(other: Pose): Promise<void> {
+  living.stop();
   try {
     pose.value = (await send("pose", { q: other.q })).ok;
   } catch (error) {

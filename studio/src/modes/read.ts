@@ -56,9 +56,8 @@ export const read: Handler = {
 export async function run(t_end?: number): Promise<Ran | null> {
   running.value = true;
   try {
-    const end = t_end ?? T_END;
     const named = t_end === undefined && analysis.value;
-    const { ok } = await send("run", named ? { analysis: named } : { t_end: end, output_step: end / OUTPUTS });
+    const { ok } = await send("run", named ? { analysis: named } : await untilTime(t_end));
     const { numbers } = await send("frames", {});
     const width = 1 + 3 * ((mechanism.value?.bodies.length ?? 1) - 1);
     const t = Float64Array.from({ length: Math.floor(numbers.length / width) }, (_, k) => numbers[k * width]!);
@@ -78,6 +77,13 @@ export async function run(t_end?: number): Promise<Ran | null> {
   } finally {
     running.value = false;
   }
+}
+
+/** A run from the pose that the core has, until a time or for some seconds. */
+async function untilTime(t_end?: number): Promise<{ t_end: number; output_step: number }> {
+  const { t } = (await send("pose", {})).ok;
+  const end = t_end ?? t + T_END;
+  return { t_end: end, output_step: (end - t) / OUTPUTS };
 }
 
 /** The frame that begins before t, and the share of the way to the next one. */

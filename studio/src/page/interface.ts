@@ -2,12 +2,13 @@
 
 import type { Loaded, Ran } from "../core/protocol";
 import { enter } from "../modes/modes";
-import { run } from "../modes/read";
+import { course, run, valuesOf } from "../modes/read";
 import type { Point } from "../plane/points";
 import { open } from "../store/document";
 import { send, settled } from "../store/session";
 import { view } from "../store/sheet";
 import { mode, pose, problems, text, unassembled } from "../store/state";
+import { texts } from "../texts";
 
 export interface Interface {
   load(given: string): Promise<{ problems: Loaded["problems"]; unassembled: Loaded["unassembled"] }>;
@@ -15,6 +16,7 @@ export interface Interface {
   state(): Promise<{ t: number; q: number[]; v: number[] } | null>;
   quantity(name: string): Promise<{ value: number; unit: string }>;
   run(t_end?: number): Promise<Ran | null>;
+  values(names: string[]): Promise<{ t: number[]; units: string[]; rows: number[][] }>;
   screen(point: Point): Promise<Point>;
   settled(): Promise<void>;
 }
@@ -22,7 +24,7 @@ export interface Interface {
 export const kempe: Interface = {
   async load(given) {
     enter("edit");
-    await open(given);
+    if (!(await open(given))) return { problems: [{ message: texts.core.tooLarge }], unassembled: null };
     return { problems: problems.value, unassembled: unassembled.value };
   },
   toml: async () => text.value,
@@ -37,6 +39,10 @@ export const kempe: Interface = {
   },
   settled,
   quantity: async (name) => (await send("quantity", { name })).ok,
+  async values(names) {
+    const { units, rows } = await valuesOf(names);
+    return { t: [...(course.value?.t ?? [])], units, rows: rows.map((row) => [...row]) };
+  },
   async run(t_end) {
     const found = await run(t_end);
     if (found && mode.value !== "read") enter("read");

@@ -10,7 +10,7 @@ import { drawing, finish, restart } from "../modes/place";
 import * as reading from "../modes/read";
 import { redo, undo } from "../store/document";
 import { fit, typedLength, zoom } from "../store/sheet";
-import { dialog, MODES, message, mode, selection, tool, tree } from "../store/state";
+import { dialog, MODES, mechanism, message, mode, selection, tool, tree } from "../store/state";
 
 let copied: { name: string; body: Tree } | null = null;
 
@@ -107,9 +107,7 @@ function stopAll(): void {
 }
 
 function toggle(): void {
-  if (mode.value === "live") {
-    if (living.playing.value) living.pause();
-    else void living.play();
-  }
+  const driven = mode.value === "move" && mechanism.value?.drivers.length;
+  if (mode.value === "live" || driven) living.toggle();
   if (mode.value === "read") reading.toggle();
 }

@@ -1,5 +1,4 @@
 // Living: play, speed, energy, parameters.
-import { useState } from "preact/hooks";
 import { significant } from "../draw/numbers";
 import * as living from "../modes/live";
 import { goHome } from "../store/session";
@@ -24,10 +23,10 @@ export function LivePanel() {
           label={playing ? words.pause : words.play}
           icon={playing ? "pause" : "play"}
           kind="main"
-          onClick={() => (playing ? living.pause() : void living.play())}
+          onClick={living.toggle}
           id="live-play"
         />
-        <Button label={words.step} icon="step" onClick={() => void living.step()} />
+        <Button label={words.step} icon="step" onClick={() => void living.step()} id="live-step" />
         <Button label={words.restart} icon="first" onClick={reset} />
         <label class="choice">
           <span>{words.speed}</span>
@@ -90,7 +89,7 @@ function Parameters() {
 
 /** A slider from a fifth to the double of the value of the text, or around zero. */
 function Slider({ name, value, unit }: { name: string; value: number; unit: string }) {
-  const [now, setNow] = useState(value);
+  const now = living.changed.value[name] ?? value;
   const [low, high] = value === 0 ? [-1, 1] : [Math.min(0.2 * value, 2 * value), Math.max(0.2 * value, 2 * value)];
   return (
     <label class="slider">
@@ -104,10 +103,7 @@ function Slider({ name, value, unit }: { name: string; value: number; unit: stri
         max={high}
         step="any"
         value={now}
-        onInput={(event) => {
-          setNow(Number(event.currentTarget.value));
-          void living.setParameters({ [name]: Number(event.currentTarget.value) });
-        }}
+        onInput={(event) => void living.setParameters({ [name]: Number(event.currentTarget.value) })}
       />
     </label>
   );

@@ -1,6 +1,6 @@
 // Moving: assembly modes, held coordinates, playing the drivers, mobility.
 
-import * as drivers from "../modes/drivers";
+import * as living from "../modes/live";
 import { choose, configurations, findConfigurations, locked } from "../modes/move";
 import { goHome } from "../store/session";
 import { mechanism, mobility, pose } from "../store/state";
@@ -16,7 +16,7 @@ export function MovePanel() {
       <div class="buttons">
         <Button label={words.reset} onClick={() => void goHome()} />
         {mechanism.value?.drivers.length ? (
-          <Button label={drivers.playing.value ? words.pause : words.play} onClick={() => void drivers.toggle()} />
+          <Button label={living.playing.value ? words.pause : words.play} onClick={living.toggle} id="play-drivers" />
         ) : null}
       </div>
       <Section title={words.configurations}>

@@ -9,9 +9,12 @@ import { listenToPointer } from "../modes/pointer";
 import { follow, paintSheet } from "../page/painting";
 import { resized } from "../store/session";
 import { fit, preview, typedLength, view, viewChanged, zoom } from "../store/sheet";
-import { mode, shown, snapping, title, tool } from "../store/state";
+import { items, mode, shown, snapping, title, tool } from "../store/state";
 import { texts } from "../texts";
 import { Button, Check } from "./parts";
+
+/** The mark that benchmarks/studio.py reads. */
+const FIRST = "first picture";
 
 export function Sheet() {
   const canvas = useRef<HTMLCanvasElement>(null);
@@ -102,6 +105,7 @@ function connect(canvas: HTMLCanvasElement): () => void {
     waiting = false;
     sharpen(canvas);
     paintSheet(cleared(canvas), colours);
+    if (items.peek().length && !performance.getEntriesByName(FIRST).length) performance.mark(FIRST);
   };
   const soon = () => {
     if (waiting) return;

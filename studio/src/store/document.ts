@@ -1,9 +1,11 @@
 // The text of the case with its history: every change, by hand or by mouse, is a change of the text.
 import { signal } from "@preact/signals";
 import type { Change } from "../core/protocol";
+import { texts } from "../texts";
+import { MOST_OF_TEXT } from "./limits";
 import { edited, load, report, Superseded } from "./session";
 import { fitNext } from "./sheet";
-import { message, selection, text } from "./state";
+import { announce, message, selection, text } from "./state";
 
 /** Texts kept for undoing; a text is at most 2 MB. */
 const MOST = 200;
@@ -15,8 +17,9 @@ export const future = signal<string[]>([]);
 export const fileName = signal("mechanism.toml");
 let typedAt = 0;
 
-/** Begin with another text. */
-export async function open(given: string, name = "mechanism.toml"): Promise<void> {
+/** Begin with another text; false if it is too large. */
+export async function open(given: string, name = "mechanism.toml"): Promise<boolean> {
+  if (isTooLarge(given)) return false;
   past.value = [];
   future.value = [];
   fileName.value = name;
@@ -25,10 +28,19 @@ export async function open(given: string, name = "mechanism.toml"): Promise<void
   message.value = null;
   text.value = given;
   await load(given).catch(report);
+  return true;
+}
+
+/** Whether a text is so large that the page would become slow; then a message says so. */
+function isTooLarge(given: string): boolean {
+  const found = given.length > MOST_OF_TEXT;
+  if (found) announce("problem", texts.core.tooLarge);
+  return found;
 }
 
 /** Take up a text; `record` makes it a step of the history, after the text `before`. */
 export async function take(given: string, record = true, before = text.value): Promise<void> {
+  if (isTooLarge(given)) return;
   if (record && given !== before) remember(before);
   text.value = given;
   try {

@@ -9,6 +9,7 @@ import {
   catalogue,
   home,
   items,
+  loads,
   mechanism,
   mobility,
   pose,
@@ -79,6 +80,7 @@ export async function load(given: string): Promise<Loaded> {
 
 function show(found: Loaded): void {
   batch(() => {
+    loads.value += 1;
     problems.value = found.problems ?? [];
     unassembled.value = found.unassembled ?? null;
     if (found.case) tree.value = found.case;
@@ -112,6 +114,11 @@ export async function redraw(): Promise<void> {
 /** Bring the core and the drawing back to the start of the text. */
 export async function goHome(): Promise<void> {
   if (accepted) await load(accepted).catch(report);
+}
+
+/** Show the pose that the core has, after poses of a run were shown. */
+export async function showPresent(): Promise<void> {
+  await send("pose", {}).then(({ ok }) => (pose.value = ok), report);
 }
 
 /** The drawing has another size. */

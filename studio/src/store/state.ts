@@ -20,6 +20,8 @@ export interface Message {
 export type Selection = { group: Group; name: string; point?: string } | null;
 
 export const ready = signal(false);
+/** Counts the texts that the core has read; each makes its runs and motions void. */
+export const loads = signal(0);
 export const catalogue = signal<Catalogue>(readCatalogue({}));
 export const tools = computed<Tool[]>(() => toolsOf(catalogue.value));
 

@@ -1,0 +1,68 @@
+"""The runs of all examples in the page are those of the native core."""
+
+from pathlib import Path
+
+import kempe as kp
+import numpy as np
+import pytest
+from studio.window import Studio
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+#: The module and the native core round sines and powers differently.
+TOLERANCE = 1e-9
+#: Chaotic motions are compared for so long, s.
+CHAOTIC = {"double_pendulum": 2.0}
+#: Runs that take the module several seconds are compared for so long, s.
+LONG = {"geneva_drive": 0.42}
+#: With knots of its table in most steps, rounding decides which steps are accepted, and the results
+#: differ as much as the tolerances allow: 1e-6. With constant steps, nothing depends on rounding.
+CONSTANT_STEP = {"engine": ("rtol = 1e-10, atol = 1e-12", "step = 2e-4")}
+
+
+def text_of(path: Path) -> str:
+    text = path.read_text(encoding="utf-8")
+    for old, new in [CONSTANT_STEP[path.stem]] if path.stem in CONSTANT_STEP else []:
+        assert old in text
+        text = text.replace(old, new)
+    return text
+
+
+def coordinates(case: kp.Case) -> list[str]:
+    bodies = {name: body for name, body in case.tree()["bodies"].items() if name != "ground"}
+    return [
+        f"{name}.{quantity}"
+        for name, body in bodies.items()
+        for quantity in ("x", "y", "angle")
+        if not (quantity == "angle" and body.get("type") == "point_mass")
+    ]
+
+
+def sizes(names: list[str], rows: np.ndarray) -> np.ndarray:
+    """The size of each quantity: the largest length of the motion, or a radian or the angle."""
+    peaks = np.abs(rows).max(axis=1)
+    angles = np.array([name.endswith(".angle") for name in names])
+    return np.where(angles, np.maximum(peaks, 1.0), peaks[~angles].max() or 1.0)
+
+
+@pytest.mark.parametrize("name", [path.stem for path in sorted(EXAMPLES.glob("*.toml"))])
+def test_an_example_runs_in_the_page_as_in_python(one: Studio, tmp_path: Path, name: str) -> None:
+    path = tmp_path / f"{name}.toml"
+    path.write_text(text_of(EXAMPLES / path.name), encoding="utf-8")
+    case = kp.load(path)
+    assert one.load(path.read_text(encoding="utf-8")) == {"problems": [], "unassembled": None}
+    if name in LONG:
+        end = LONG[name]
+        solution = kp.dynamics(case.model, case.start(), t_end=end, output_step=end / 500)
+        assert one.call("end => kempe.run(end)", end)["status"] == "reached"
+    else:
+        solution = next(iter(case.each()))[1]
+        assert one.call("kempe.run()")["error"] is None
+    names = coordinates(case)
+    found = one.call("names => kempe.values(names)", names)
+    np.testing.assert_allclose(found["t"], solution.t, rtol=0, atol=TOLERANCE * solution.t[-1])
+    native = np.array([solution[one] for one in names])
+    last = np.searchsorted(solution.t, CHAOTIC.get(name, np.inf))
+    at = np.linspace(0, last - 1, 11).astype(int)[1:]
+    off = np.abs(np.array(found["rows"]) - native)[:, at].max(axis=1) / sizes(names, native)
+    assert off.max() < TOLERANCE, names[int(off.argmax())]
+    assert np.ptp(native, axis=1).max() > 1e-3  # it moves
