@@ -6,6 +6,7 @@ import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
 import { build } from "esbuild";
 import lzma from "lzma-native";
+import { licences } from "./licences.mjs";
 
 const HERE = dirname(dirname(fileURLToPath(import.meta.url)));
 const ROOT = dirname(HERE);
@@ -81,7 +82,15 @@ const policy = [
   "base-uri 'none'",
   "form-action 'none'",
 ].join("; ");
-const parts = { policy, version: version(), style, script, core: await packed() };
+const parts = {
+  policy,
+  version: version(),
+  style,
+  script,
+  core: await packed(),
+  // "<" could end the element
+  licences: licences(HERE, join(ROOT, "THIRD_PARTY_NOTICES.txt")).replaceAll("<", "‹").replaceAll(">", "›"),
+};
 const page = readFileSync(join(HERE, "index.html"), "utf8").replace(/\{\{(\w+)\}\}/g, (_, name) => parts[name]);
 mkdirSync(join(HERE, "dist"), { recursive: true });
 writeFileSync(join(HERE, "dist", "index.html"), page);

@@ -202,6 +202,7 @@ export const texts = {
   },
   help: {
     title: "Keys and help",
+    licences: "Licences of the software in this page",
     keys: [
       ["1 2 3 4", "edit, move, live, read"],
       ["ctrl Z, ctrl shift Z", "undo, redo"],

@@ -2,13 +2,15 @@
 
 import base64
 import json
+import re
 import zlib
 from pathlib import Path
 
 import pytest
 from studio.window import Opener
 
-EXAMPLES = Path(__file__).parents[2] / "examples"
+ROOT = Path(__file__).parents[2]
+EXAMPLES = ROOT / "examples"
 
 
 def link(text: bytes) -> str:
@@ -52,6 +54,20 @@ def test_a_link_holds_the_model(studio: Opener) -> None:
     address = one.page.locator("#link").input_value()
     other = studio(link="#" + address.split("#")[1])
     assert other.toml() == text
+
+
+def test_the_licences_of_the_software_in_the_page(studio: Opener) -> None:
+    one = studio()
+    shown = one.page.locator("#licences").inner_html()
+    lock = json.loads((ROOT / "studio" / "package-lock.json").read_text("utf-8"))
+    shipped = {
+        folder.removeprefix("node_modules/")
+        for folder, package in lock["packages"].items()
+        if folder and not package.get("dev")
+    }
+    assert {"preact", "uplot"} <= shipped
+    assert [name for name in shipped if not re.search(rf"^{name} \d", shown, re.MULTILINE)] == []
+    assert "kurbo" in shown  # a crate in the core
 
 
 @pytest.mark.parametrize(

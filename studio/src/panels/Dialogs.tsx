@@ -100,6 +100,10 @@ function Help() {
           </div>
         ))}
       </dl>
+      <details id="licences-shown">
+        <summary>{texts.help.licences}</summary>
+        <pre>{document.getElementById("licences")?.textContent}</pre>
+      </details>
     </Dialog>
   );
 }
