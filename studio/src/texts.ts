@@ -199,6 +199,9 @@ export const texts = {
     copy: "Copy the link",
     copied: "The link was copied.",
     damaged: "The link is damaged or too long; it was not opened.",
+    pageTitle: "As a page",
+    page: "One file with this mechanism and the whole studio, for a lecture, a disk or any web server. It needs no network.",
+    savePage: "Save as a page",
   },
   help: {
     title: "Keys and help",

@@ -19,7 +19,7 @@ def built() -> None:
         pytest.skip("studio/dist/index.html is missing; tools/build_studio.sh builds it")
 
 
-def opened(browser: "sync_api.Browser", link: str = "", **more: Any) -> Studio:
+def opened(browser: "sync_api.Browser", link: str = "", page: Path = PAGE, **more: Any) -> Studio:
     """The studio in a window of its own, which notes messages, errors and requests."""
     context = browser.new_context(**more)
     one = Studio(context.new_page())
@@ -27,7 +27,7 @@ def opened(browser: "sync_api.Browser", link: str = "", **more: Any) -> Studio:
     one.page.on("pageerror", lambda error: one.messages.append(str(error)))
     one.page.on("dialog", lambda dialog: one.messages.append(dialog.message))
     context.on("request", lambda request: one.requests.append(request.url))
-    one.page.goto(PAGE.as_uri() + link)
+    one.page.goto(page.as_uri() + link)
     one.wait("typeof kempe === 'object' && kempe.state().then(state => state !== null)", 20.0)
     one.settle()
     return one
@@ -48,9 +48,9 @@ def studio(
     """Open the studio in a window of a size; what it complains of, or requests, fails the test."""
     windows: list[Studio] = []
 
-    def open_studio(width: int = 1280, height: int = 800, link: str = "", **more: Any) -> Studio:
+    def open_studio(width: int = 1280, height: int = 800, **more: Any) -> Studio:
         size = {"width": width, "height": height}
-        windows.append(opened(browser, link, viewport=size, **more))
+        windows.append(opened(browser, viewport=size, **more))
         return windows[-1]
 
     yield open_studio

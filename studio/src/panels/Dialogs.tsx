@@ -3,9 +3,10 @@
 import { examples } from "virtual:examples";
 import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
+import { savePage } from "../give/lecture";
 import { linkOf, MOST_OF_LINK } from "../give/link";
 import { open } from "../store/document";
-import { dialog, text } from "../store/state";
+import { dialog, text, title } from "../store/state";
 import { texts } from "../texts";
 import { Button } from "./parts";
 
@@ -79,6 +80,9 @@ function Share() {
       ) : (
         <p class="problem">{words.tooLong(link.length, MOST_OF_LINK)}</p>
       )}
+      <h3>{words.pageTitle}</h3>
+      <p>{words.page}</p>
+      <Button label={words.savePage} kind="wide" onClick={() => savePage(title.value, text.value)} />
     </Dialog>
   );
 }

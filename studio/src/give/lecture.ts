@@ -1,0 +1,18 @@
+// A copy of this page that opens with a case: for a lecture, a disk or any static host.
+
+import { download, nameOf } from "./download";
+
+/** The page as it was before anything was drawn in it. */
+const ORIGINAL = document.documentElement.cloneNode(true) as HTMLElement;
+
+/** The text of a page that opens with a case. Its policy holds, because scripts and styles are unchanged. */
+export function pageWith(text: string): string {
+  const page = ORIGINAL.cloneNode(true) as HTMLElement;
+  // "<" could end the script element
+  page.querySelector("#case")!.textContent = JSON.stringify(text).replaceAll("<", "\\u003c");
+  return `<!doctype html>\n${page.outerHTML}\n`;
+}
+
+export function savePage(title: string, text: string): void {
+  download(nameOf(title, ".html"), pageWith(text), "text/html");
+}
