@@ -7,9 +7,9 @@
 #     tools/check_wasm.sh build      builds the module of pages, and prints its path
 #     tools/check_wasm.sh run        the four-bar linkage runs in Node and agrees with the reference
 #
-# The toolchain is that of rustup if it has the target (`rustup target add wasm32-unknown-unknown`).
+# The toolchain is that of rustup if it has the source of the standard library (`rustup component add rust-src`).
 # Otherwise `install` unpacks Debian's packages into target/wasm, about 1 GB; it changes nothing
-# outside and needs no root. Their standard library is built from its source.
+# outside and needs no root. The standard library is built from its source.
 # Exit code: 0 when all is well, 1 when something fails, 5 when there is no toolchain.
 set -u
 
@@ -28,16 +28,16 @@ no_toolchain() {
     exit 5
 }
 
-has_rustup_target() { [ -d "$(rustc --print sysroot 2>/dev/null)/lib/rustlib/$TARGET" ]; }
+has_rustup_source() { [ -d "$(rustc --print sysroot 2>/dev/null)/lib/rustlib/src/rust/library" ]; }
 has_debian() { [ -f "$DEBIAN/complete" ]; }
 
 # --- install --------------------------------------------------------------------------------------
 
 install() {
-    has_rustup_target && return
+    has_rustup_source && return
     has_debian && return
     command -v apt-get >/dev/null 2>&1 && command -v dpkg-deb >/dev/null 2>&1 ||
-        no_toolchain "no Rust for $TARGET, and no apt to get one: run 'rustup target add $TARGET'"
+        no_toolchain "no Rust for $TARGET, and no apt to get one: run 'rustup component add rust-src'"
     say "unpacking $PACKAGES into $DEBIAN"
     rm -rf "$DEBIAN"
     mkdir -p "$DEBIAN/packages" || no_toolchain "cannot write to $HOME_OF_WASM"
@@ -69,21 +69,23 @@ missing_packages() {
 
 # --- build ----------------------------------------------------------------------------------------
 
-# wasm_cargo COMMAND…: cargo for the target, with whichever toolchain there is.
+# wasm_cargo COMMAND…: cargo for the target, with whichever toolchain there is. The standard library is compiled for size,
+# and panics stop at once: nobody would read their messages, and their code is a sixth of the module.
 wasm_cargo() {
     command=$1
     shift
-    if has_rustup_target; then
-        cargo "$command" --manifest-path "$CRATE" --target "$TARGET" --target-dir "$HOME_OF_WASM/build" "$@"
+    set -- "$command" --manifest-path "$CRATE" --target "$TARGET" --target-dir "$HOME_OF_WASM/build" \
+        -Zbuild-std=std,panic_abort -Zbuild-std-features=optimize_for_size -Zpanic-immediate-abort "$@"
+    export RUSTC_BOOTSTRAP=1 CARGO_PROFILE_WASM_PANIC=immediate-abort
+    if has_rustup_source; then
+        cargo "$@"
         return
     fi
     has_debian || no_toolchain "no Rust for $TARGET: run 'tools/check_wasm.sh install'"
     libraries=$(dirname "$(find "$DEBIAN/usr/lib" -name 'librustc_driver-*.so' | head -n 1)")
-    LD_LIBRARY_PATH=$libraries \
-        RUSTC=$DEBIAN/usr/bin/rustc RUSTC_BOOTSTRAP=1 \
+    LD_LIBRARY_PATH=$libraries RUSTC=$DEBIAN/usr/bin/rustc \
         CARGO_TARGET_WASM32_UNKNOWN_UNKNOWN_LINKER=$DEBIAN/usr/bin/wasm-ld-19 \
-        "$DEBIAN/usr/bin/cargo" "$command" --manifest-path "$CRATE" -Zbuild-std=std,panic_abort \
-        --target "$TARGET" --target-dir "$HOME_OF_WASM/build" "$@"
+        "$DEBIAN/usr/bin/cargo" "$@"
 }
 
 check() {

@@ -9,8 +9,7 @@ use std::sync::Arc;
 
 /// Fields of joints and drivers that take laws of time.
 const LAWS: [&str; 3] = ["value", "length", "residual"];
-/// The type of a driver of a coordinate, and its name here; users cannot write names with a space.
-const DRIVER: &str = "coordinate_driver";
+/// The name of a new driver; users cannot write names with a space.
 const NAME: &str = "driven value";
 
 /// What takes the place of the time: a quantity and its unit.
@@ -74,13 +73,24 @@ fn drive(definition: &mut Definition, driver: Option<String>, quantity: &str) {
         return;
     }
     let fields = vec![
-        ("type".to_string(), Value::Text(DRIVER.to_string())),
+        ("type".to_string(), Value::Text(driver_of_coordinates())),
         ("coordinate".to_string(), Value::Text(quantity.to_string())),
         ("value".to_string(), law()),
     ];
     let name = driver.unwrap_or_else(|| NAME.to_string());
     definition.drivers.retain(|entry| entry.name != name);
     definition.drivers.push(Entry { name, fields });
+}
+
+/// The type of the driver of a coordinate.
+fn driver_of_coordinates() -> String {
+    let found = kempe::case::catalogue();
+    let has = |kind: &serde_json::Value, key: &str| {
+        kind["fields"].as_array().is_some_and(|all| all.iter().any(|field| field["name"] == key))
+    };
+    let mut drivers = found["drivers"].as_array().into_iter().flatten();
+    let kind = drivers.find(|kind| has(kind, "coordinate") && has(kind, "value"));
+    kind.and_then(|kind| kind["name"].as_str()).unwrap_or_default().to_string()
 }
 
 /// Replaces the time in the laws of joints and drivers by that of the start, except in one driver.

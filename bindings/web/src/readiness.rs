@@ -1,18 +1,14 @@
-//! What stands in the way of each analysis: the checks with which the core begins it, at the start of the case.
+//! What stands in the way of each analysis that runs here: the checks with which the core begins it, at the start of the
+//! case.
 
 use crate::fault::problem;
 use crate::loaded::Loaded;
 use kempe::analyses::dynamics::{Prepared, Reason as NoMotion};
-use kempe::analyses::equilibrium::{equilibrium, Options as Resting, Reason as NoRest};
 use kempe::analyses::kinematics::{kinematics, recorded, Reason as NotDriven};
-use kempe::analyses::linearization::{linearize, Failure as NotLinear};
 use kempe::model::{Definition, Entry};
 use kempe::{assemble, Flow, Model, Options, Problem, State};
 use serde_json::{json, Value};
 use std::sync::Arc;
-
-/// Steps after which a search for a position of rest counts as possible.
-const BEGUN: usize = 2000;
 
 /// What stands in the way of each analysis; null where nothing does. Where the mechanism does not close, no other analysis
 /// can begin.
@@ -29,8 +25,6 @@ pub fn readiness(loaded: &Loaded) -> Value {
         stated("dynamics", found.of_dynamics()),
         stated("kinematics", driven.clone()),
         stated("inverse_dynamics", driven.or_else(|| found.of_reactions())),
-        stated("equilibrium", found.of_rest()),
-        stated("modes", found.of_modes()),
     ])
 }
 
@@ -118,33 +112,6 @@ impl Obstacles<'_> {
             NoMotion::Redundant { name, message, hint, .. } => self.at(&name, message, hint),
             NoMotion::Singular { name, message, .. } => self.at(&name, message, ""),
             other => self.at("", other.to_string(), ""),
-        }
-    }
-
-    /// A search that has begun without an obstacle may still end without a result.
-    fn of_rest(&self) -> Option<Problem> {
-        let watch = |steps| if steps < BEGUN { Flow::Continue } else { Flow::Stop };
-        let reason = equilibrium(self.model, self.state, &Resting::new(), watch).err()?;
-        let message = reason.to_string();
-        match &reason {
-            NoRest::Stopped => None,
-            NoRest::Singular { name, .. } | NoRest::State { name } => self.at(name, message, ""),
-            NoRest::Endless { coordinate, .. }
-            | NoRest::Lost { coordinate, .. }
-            | NoRest::Loose { coordinate } => self.at(coordinate, message, ""),
-            _ => self.at("", message, ""),
-        }
-    }
-
-    fn of_modes(&self) -> Option<Problem> {
-        let failure = linearize(self.model, self.state, &[], &[]).err()?;
-        let message = failure.to_string();
-        match &failure {
-            NotLinear::Singular { name, .. } | NotLinear::Open { name, .. } => {
-                self.at(name, message, "")
-            }
-            NotLinear::NoInertia { coordinate, .. } => self.at(coordinate, message, ""),
-            _ => self.at("", message, ""),
         }
     }
 }

@@ -98,6 +98,14 @@ export interface Ran {
   statistics: Record<string, Value>;
   events: { name: string; t: number }[];
   error: Problem | null;
+  /** What takes the place of the time in kinematics over a quantity. */
+  over: Quantity | null;
+}
+
+/** What stands in the way of an analysis; `path` leads to the element. */
+export interface Readiness {
+  analysis: string;
+  problem: Problem | null;
 }
 
 export interface Quantity {
@@ -134,6 +142,7 @@ export interface Requests {
   };
   configurations: { send: { limit?: number }; reply: { complete: boolean; poses: Pose[] } };
   mobility: { send: object; reply: Mobility };
+  readiness: { send: object; reply: Readiness[] };
   quantities: { send: object; reply: Quantity[] };
   quantity: { send: { name: string }; reply: { value: number; unit: string } };
   scene: { send: object; reply: { scene: Scene } };

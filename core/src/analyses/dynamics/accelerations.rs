@@ -5,12 +5,13 @@
 //! singular position, or with a number that is not finite), each is solved separately.
 
 use super::failure::Failure;
-use super::lane_batch::{are_finite, over_lanes};
+use super::lane_batch::are_finite;
 use super::model_cache::ModelCache;
 use super::redundant_rows::{exchange, workspace_at};
 use super::run_results::Run;
 use super::shared_reaction;
 use super::trajectory::States;
+use super::wide::Wide;
 use crate::equations::augmented::NearSingular;
 use crate::equations::Workspace;
 use crate::integrate::{all_finite, Flow};
@@ -63,8 +64,8 @@ pub(super) fn accelerations(
     if passing {
         one.matrix.set_near_singular(NearSingular::Regularise);
     }
-    let lanes = independent.is_none() && over_lanes(count);
-    let mut many = lanes.then(|| Many::new(cache.wide(model), &one));
+    let wide = if independent.is_some() { None } else { cache.wide(model, count) };
+    let mut many = wide.map(|wide| Many::new(wide, &one));
     let mut found = Accelerations::with_room(model, count);
     for first in (0..count).step_by(Lanes::WIDTH) {
         let end = (first + Lanes::WIDTH).min(count);
@@ -138,7 +139,7 @@ fn take_smallest(
 
 /// Four states at once.
 struct Many<'a> {
-    model: &'a Model<Lanes>,
+    wide: Wide<'a>,
     workspace: Workspace<Lanes>,
     q: Vec<Lanes>,
     v: Vec<Lanes>,
@@ -147,12 +148,13 @@ struct Many<'a> {
 
 impl<'a> Many<'a> {
     /// With the plan of elimination of `one`.
-    fn new(model: &'a Model<Lanes>, one: &Workspace) -> Self {
+    fn new(wide: Wide<'a>, one: &Workspace) -> Self {
+        let model = wide.model();
         let mut workspace = Workspace::like(model, one);
         workspace.matrix.set_near_singular(NearSingular::Refuse);
         let room = |width: usize| vec![Lanes::zero(); width];
         let (n_q, n_z) = (model.layout.n_q, model.layout.n_z);
-        Self { model, workspace, q: room(n_q), v: room(n_q), z: room(n_z) }
+        Self { wide, workspace, q: room(n_q), v: room(n_q), z: room(n_z) }
     }
 
     /// Leaves out the same rows as `one`.
@@ -168,7 +170,8 @@ impl<'a> Many<'a> {
         Lanes::from_rows(rows.q, &mut self.q);
         Lanes::from_rows(rows.v, &mut self.v);
         Lanes::from_rows(rows.z, &mut self.z);
-        let Self { model, workspace, q, v, z } = self;
+        let Self { wide, workspace, q, v, z } = self;
+        let model = wide.model();
         let solved = workspace.react(model, Lanes::new(t), [q, v, z]);
         workspace.least_multipliers(model);
         let (a, lam) = (workspace.a(), workspace.lam());

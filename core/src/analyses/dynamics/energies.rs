@@ -1,7 +1,6 @@
 //! Energies at the states of a run, computed on request; several states at once over lanes.
 
 use super::failure::Failure;
-use super::lane_batch::over_lanes;
 use super::model_cache::ModelCache;
 use super::run_results::Run;
 use super::trajectory::States;
@@ -57,8 +56,8 @@ fn mechanical(
     let (n, n_z) = (model.layout.n_q, model.layout.n_z);
     let mut found = Vec::with_capacity(t.len());
     let mut done = 0;
-    if over_lanes(t.len()) {
-        let wide = cache.wide(model);
+    if let Some(wide) = cache.wide(model, t.len()) {
+        let wide = wide.model();
         let mut motions = Motions::new(&wide.layout);
         let [mut places, mut rates, mut states] =
             [n, n, n_z].map(|width| vec![Lanes::zero(); width]);

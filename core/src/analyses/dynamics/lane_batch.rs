@@ -4,24 +4,15 @@ use super::branch_averaging;
 use super::options::Options;
 use super::report_projection::ReportProjection;
 use super::trajectory::Trajectory;
+use super::wide::Wide;
 use crate::equations::augmented::NearSingular;
 use crate::equations::Workspace;
 use crate::integrate::Step;
 use crate::math::{Lanes, Real};
-use crate::model::Model;
-
-/// Number of states from which a model over lanes, which solves several at once, is faster.
-const MANY: usize = 4 * Lanes::WIDTH;
-
-/// Whether so many states are solved over lanes. In WebAssembly they are not: it is used without vector registers, and
-/// pages would load a quarter more code.
-#[inline(always)]
-pub(super) fn over_lanes(count: usize) -> bool {
-    !cfg!(target_arch = "wasm32") && count >= MANY
-}
 
 /// States of a grid, collected until there is one for each lane.
 pub(super) struct LaneBatch<'a> {
+    wide: Wide<'a>,
     pub placer: ReportProjection<'a, Lanes>,
     t: [f64; Lanes::WIDTH],
     count: usize,
@@ -35,11 +26,13 @@ pub(super) struct LaneBatch<'a> {
 
 impl<'a> LaneBatch<'a> {
     /// Uses the plan of elimination of the equations of motion of this run.
-    pub fn new(model: &'a Model<Lanes>, options: &Options, one: &Workspace) -> Self {
+    pub fn new(wide: Wide<'a>, options: &Options, one: &Workspace) -> Self {
+        let model = wide.model();
         let (n, len) = (model.layout.n_q, model.layout.n_y());
         let mut workspace = Workspace::like(model, one);
         workspace.matrix.set_near_singular(NearSingular::Refuse);
         Self {
+            wide,
             placer: ReportProjection::new(model, options, workspace),
             t: [0.0; Lanes::WIDTH],
             count: 0,
@@ -74,12 +67,9 @@ impl<'a> LaneBatch<'a> {
 
     /// Projects all states; returns whether every one is regular. If not, the lanes are invalid.
     pub fn place(&mut self) -> bool {
-        if !over_lanes(usize::MAX) {
-            return false; // so that the code below is left out
-        }
         self.fill_up();
         Lanes::from_rows(&self.given, &mut self.y);
-        let layout = &self.placer.model.layout;
+        let layout = &self.wide.model().layout;
         self.rates.copy_from_slice(layout.split(&self.y)[1]);
         self.placer.place(Lanes::new(self.t), &mut self.y).is_ok()
             && are_finite([&self.y])
@@ -98,7 +88,7 @@ impl<'a> LaneBatch<'a> {
     /// Records the projected states and empties the batch.
     pub fn keep(&mut self, trajectory: &mut Trajectory) {
         let count = std::mem::take(&mut self.count);
-        let parts = self.placer.model.layout.split(&self.y);
+        let parts = self.wide.model().layout.split(&self.y);
         let Trajectory { t, q, v, z, works } = trajectory;
         t.extend_from_slice(&self.t[..count]);
         for (to, lanes) in [q, v, z, works].into_iter().zip(parts) {

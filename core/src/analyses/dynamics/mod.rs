@@ -21,7 +21,7 @@
 //! | `singularity_passage`, `singularity_forecast`, `branch_averaging` | singular positions |
 //! | `redundant_rows` | redundant equations that a run leaves out |
 //! | `singularity_handover` | methods that leave singular positions to DOP853 |
-//! | `recorder`, `trajectory`, `report_projection`, `lane_batch` | reported states |
+//! | `recorder`, `trajectory`, `report_projection`, `lane_batch`, `wide` | reported states |
 //! | `interpolated_states` | states between them |
 //! | `constraint_violation` | joints that open too far |
 //! | `accelerations`, `energies` | quantities that follow from reported states |
@@ -76,6 +76,7 @@ mod stiffness_detection;
 mod switch_schedule;
 mod switching;
 mod trajectory;
+mod wide;
 
 pub use accelerations::Accelerations;
 pub use clock::{system_clock, Clock};

@@ -1,7 +1,7 @@
 //! Data derived from a model that its runs share; each is computed at first use.
 
+use super::wide::{Wide, WideCell};
 use crate::equations::Plan;
-use crate::math::Lanes;
 use crate::model::Model;
 use std::sync::{Arc, OnceLock};
 
@@ -11,8 +11,7 @@ pub(super) struct ModelCache {
     plan: OnceLock<Arc<Plan>>,
     /// That for redundant constraints.
     redundant: OnceLock<Arc<Plan>>,
-    /// In a box: it has the alignment of vector registers, which allocators of other languages do not provide.
-    wide: OnceLock<Box<Model<Lanes>>>,
+    wide: WideCell,
 }
 
 impl ModelCache {
@@ -24,8 +23,9 @@ impl ModelCache {
         })
     }
 
-    /// The model over lanes.
-    pub fn wide(&self, model: &Model) -> &Model<Lanes> {
-        self.wide.get_or_init(|| Box::new(model.lift()))
+    /// The model over lanes, if so many states are solved faster by it.
+    #[inline]
+    pub fn wide(&self, model: &Model, states: usize) -> Option<Wide<'_>> {
+        self.wide.of(model, states)
     }
 }

@@ -1,22 +1,18 @@
 //! Recording of the states of a run at chosen times.
 
-use super::lane_batch::{over_lanes, LaneBatch};
+use super::lane_batch::LaneBatch;
 use super::methods::Scheme;
 use super::motion_ode::MotionOde;
 use super::options::Options;
 use super::report_projection::ReportProjection;
 use super::sampling::Sample;
 use super::trajectory::{PiecewiseInterpolant, Trajectory};
+use super::wide::Wide;
 use crate::equations::Workspace;
 use crate::integrate::{all_finite, Flow, Step, HIGHEST};
 use crate::math::Lanes;
 use crate::model::Model;
 use crate::solve::Breakdown;
-
-/// Whether a grid has so many states that a model over lanes, which solves several at once, is faster.
-pub(super) fn many(output_step: Option<f64>, span: f64) -> bool {
-    output_step.is_some_and(|h| over_lanes((span / h).abs() as usize))
-}
 
 /// Reported states for which memory is reserved in each step; tables grow beyond it.
 const IN_A_STEP: usize = 4;
@@ -34,9 +30,9 @@ fn unreported(scheme: &Scheme) -> usize {
     constant.map_or(UNREPORTED, |_| 1)
 }
 
-/// Number of states of a grid; zero if the steps are reported.
-fn grid_states(output_step: Option<f64>, span: f64) -> usize {
-    output_step.map_or(0, |h| ((span / h).abs() + 2.0) as usize) // NaN gives none
+/// Number of steps of a grid; zero if the steps of the method are reported.
+pub(super) fn grid_steps(options: &Options, t0: f64) -> f64 {
+    options.output_step.map_or(0.0, |h| ((options.t_end - t0) / h).abs())
 }
 
 /// Empty tables for a run from `t0`, with room for the states that a grid contains.
@@ -45,7 +41,8 @@ pub(super) fn tables(
     options: &Options,
     t0: f64,
 ) -> (Trajectory, Option<PiecewiseInterpolant>) {
-    let (layout, states) = (&model.layout, grid_states(options.output_step, options.t_end - t0));
+    let layout = &model.layout;
+    let states = (grid_steps(options, t0) + 2.0) as usize; // NaN gives none
     // all steps get the highest degree of the method from the start
     let several = matches!(options.method, Scheme::Auto(_) | Scheme::Dop853(_));
     let degree = if several { HIGHEST } else { 0 };
@@ -89,7 +86,7 @@ impl<'a> Recorder<'a> {
     /// model over lanes if there are many states to report.
     pub fn new(
         system: &MotionOde<'a>,
-        wide: Option<&'a Model<Lanes>>,
+        wide: Option<Wide<'a>>,
         options: &Options,
         (t0, t): (f64, f64),
         (trajectory, dense): (Trajectory, Option<PiecewiseInterpolant>),

@@ -159,7 +159,7 @@ pub(super) fn run_phase<W: FnMut(f64) -> Flow>(
         Stabilization::Projection(projection) => Some(projection),
         _ => None,
     };
-    let wide = recorder::many(options.output_step, options.t_end - at.t).then(|| cache.wide(model));
+    let wide = cache.wide(model, recorder::grid_steps(options, at.t) as usize);
     let tables = (std::mem::take(&mut run.trajectory), run.dense.take());
     let mut recorder = Recorder::new(&ode, wide, options, (at.t0, at.t), tables);
     let q = model.layout.split(&at.y)[0].to_vec();
