@@ -3,6 +3,7 @@ import { type Group, spoken, typeOf } from "../catalogue/catalogue";
 import { entries, entry, isTable } from "../catalogue/tree";
 import type { Tree } from "../core/protocol";
 import { copy, mirror, remove, rename } from "../edit/commands";
+import { openOutline } from "../give/outline";
 import { catalogue, selection, tree } from "../store/state";
 import { texts } from "../texts";
 import { Case } from "./Case";
@@ -44,6 +45,9 @@ function Entry({ group, name, value }: { group: Group; name: string; value: Tree
         ),
       )}
       <Readings group={group} name={name} />
+      {type?.fields.some(({ shape }) => shape === "outline") ? (
+        <Button label={texts.outline.open} hint={texts.outline.hint} onClick={() => openOutline(name)} id="outline" />
+      ) : null}
       <div class="buttons end">
         {group === "bodies" && name !== "ground" ? (
           <>

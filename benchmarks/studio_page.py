@@ -1,7 +1,7 @@
 """Measure the built page of the studio in Chromium.
 
-    python benchmarks/studio.py               # all measurements, ten minutes of play
-    python benchmarks/studio.py --minutes 1
+    python benchmarks/studio_page.py               # all measurements, ten minutes of play
+    python benchmarks/studio_page.py --minutes 1
 
 The program prints the size of the page, the time to the first picture, the times of drags and
 drawings, the growth of the heap during play, and the violations that axe-core finds in each mode.
