@@ -108,6 +108,9 @@ export const texts = {
     length: "Length now",
     byPoints: "Place by points",
     results: "Now",
+    held: "Kept while drawing",
+    lengths: "lengths",
+    angle: "angle",
     absent: "–",
   },
   outline: {
