@@ -113,6 +113,11 @@ export const texts = {
     angle: "angle",
     absent: "–",
   },
+  measures: {
+    title: "Measures",
+    add: "Measure a quantity, such as C.force",
+    numbers: (peak: string, mean: string, final: string) => `peak ${peak}, mean ${mean}, last ${final}`,
+  },
   outline: {
     open: "Outline from SVG …",
     hint: "The paths of a file become the outline; a unit of the file is a millimetre unless its width says otherwise",

@@ -220,3 +220,19 @@ def test_a_drag_keeps_the_lengths_angles_and_points_that_are_held(studio: Opener
     held(one, "ground", "A")
     drag(one, (-0.4, -0.2), (-0.5, 0.0))
     assert one.toml() == text
+
+
+def test_the_editor_has_its_styles_within_the_policy(studio: Opener) -> None:
+    one = studio()
+    one.load('kempe = 1\ntitle = "A"\nmass = 3\n')
+    one.page.locator("#tab-text").click()
+    one.page.wait_for_timeout(300)
+    style = """([name, property]) => getComputedStyle(
+      document.querySelector(".editor").shadowRoot.querySelector(name))[property]"""
+    assert "monospace" in one.call(style, [".cm-scroller", "fontFamily"])
+    assert one.call(style, [".cm-scroller", "display"]) == "flex"
+    assert "wavy" in one.call(style, [".cm-lintRange-error", "textDecorationStyle"])
+    one.page.locator(".cm-lintRange-error").hover()
+    one.page.wait_for_timeout(800)
+    assert one.call(style, [".cm-tooltip", "position"]) in ("absolute", "fixed")
+    assert "mass" in one.page.locator(".cm-tooltip").inner_text()

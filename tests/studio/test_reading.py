@@ -10,6 +10,9 @@ from studio.window import Studio
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 CASE = EXAMPLES / "pendulum.toml"
+#: A number with its unit, and the units that the test has.
+MEASURED = re.compile(r"(−?[\d.]+) (mm|µm|m|N|mN|kN)")
+SCALES = {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "N": 1.0, "mN": 1e-3, "kN": 1e3}
 
 
 def plot_only(one: Studio, quantity: str) -> None:
@@ -88,3 +91,28 @@ def test_a_file_that_is_no_run_of_the_mechanism_gives_a_message(
     path.write_bytes(b"PK no zip")
     choose(one, path)
     assert "not a stored run" in one.message()
+
+
+def test_measures_of_the_case_and_typed_ones_have_the_numbers_of_python(
+    one: Studio, tmp_path: Path
+) -> None:
+    path = tmp_path / "measured.toml"
+    path.write_text(CASE.read_text(encoding="utf-8") + '[measures]\npeg = "pin.force"\n')
+    solution = kp.load(path).run()["swing"]
+    one.load(path.read_text(encoding="utf-8"))
+    one.mode("read")
+    one.page.get_by_label("Measure a quantity").first.fill("rod.x")
+    one.page.keyboard.press("Enter")
+    one.settle()
+    texts = one.page.locator(".measure").all_inner_texts()
+    for text, name in zip(texts, ("pin.force", "rod.x"), strict=True):
+        values = solution[name]
+        mean = np.trapezoid(values, solution.t) / solution.t[-1]
+        numbers = [(float(x.replace("−", "-")), u) for x, u in MEASURED.findall(text)]
+        found = [x * SCALES[u] for x, u in numbers]
+        peak = values[np.abs(values).argmax()]
+        assert found == pytest.approx([peak, mean, values[-1]], rel=1e-3), text
+    one.page.get_by_label("Measure a quantity").first.fill("rod.colour")
+    one.page.keyboard.press("Enter")
+    one.settle()
+    assert "no quantity 'rod.colour'" in one.page.locator(".measure .problem").inner_text()

@@ -6,6 +6,7 @@ import { arrows, KINDS, type Kind } from "../page/motionOverlay";
 import { plots, stored } from "../store/plots";
 import { degrees } from "../store/state";
 import { texts } from "../texts";
+import { Measures } from "./Measures";
 import { Plot } from "./Plot";
 import { Button, Check, Section } from "./parts";
 
@@ -57,6 +58,7 @@ export function ReadPanel() {
             ))}
             <Add />
           </Section>
+          <Measures />
         </>
       ) : (
         <p class="doc">{running.value ? words.running : words.none}</p>
