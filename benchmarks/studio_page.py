@@ -185,7 +185,8 @@ def main() -> None:
         for windows in (25, 100):
             count, times = dragged(browser, windows)
             for what, words in (("drag", "the core moves them"), ("draw", "the page draws them")):
-                print(f"{count} bodies, {words}: p95 {p95(times[what]):.1f} ms")
+                middle = statistics.median(times[what])
+                print(f"{count} bodies, {words}: {middle:.1f} ms, p95 {p95(times[what]):.1f} ms")
         for mode, found in violations(browser).items():
             print(f"axe-core, mode {mode}: {len(found)} violations", *found, sep="\n  ")
         print(f"heap growth in {minutes:g} minutes: {heap_growth(browser, minutes):.0f} kB")

@@ -178,3 +178,61 @@ def test_text_and_drawing_follow_each_other(studio: Opener) -> None:
     paste(one, text.replace('"bar"', '"bra"', 1))
     assert "bra" in one.message()
     assert one.page.locator(".cm-lintRange-error").count() > 0
+
+
+def held(studio: Studio, body: str, what: str) -> None:
+    """Keep a length, an angle or a point of a body while drawing."""
+    studio.page.locator("#sheet").focus()
+    studio.page.keyboard.press("Escape")
+    studio.page.locator(".contents button").filter(has_text=body).first.click()
+    studio.page.locator(".locks label").filter(has_text=what).click()
+
+
+def drag(studio: Studio, begin: tuple[float, float], end: tuple[float, float]) -> None:
+    studio.page.mouse.move(*studio.screen(*begin))
+    studio.page.mouse.down()
+    studio.page.mouse.move(*studio.screen(*end), steps=5)
+    studio.page.wait_for_timeout(100)
+    studio.page.mouse.up()
+    studio.settle()
+
+
+def ends(studio: Studio, body: str) -> list[list[float]]:
+    return list(studio.tree()["bodies"][body]["through"].values())
+
+
+def test_a_drag_keeps_the_lengths_angles_and_points_that_are_held(studio: Opener) -> None:
+    one = studio()
+    draw_four_bar(one)
+    length = math.dist(*ends(one, "bar3"))
+    held(one, "bar3", "lengths")
+    drag(one, (0.3, 0.3), (0.5, 0.2))
+    (cx, cy), _ = after = ends(one, "bar3")
+    assert math.dist(*after) == pytest.approx(length, rel=1e-9)
+    assert (cx, cy) == pytest.approx(ends(one, "bar2")[1], abs=1e-12)
+    assert cx > 0.35
+    held(one, "bar1", "angle")
+    drag(one, (-0.3, -0.1), (-0.1, -0.1))
+    (ax, ay), (bx, by) = ends(one, "bar1")
+    assert bx - ax == pytest.approx(by - ay, abs=1e-9)  # 45°, as it was drawn
+    assert bx > -0.29
+    text = one.toml()
+    held(one, "ground", "A")
+    drag(one, (-0.4, -0.2), (-0.5, 0.0))
+    assert one.toml() == text
+
+
+def test_the_editor_has_its_styles_within_the_policy(studio: Opener) -> None:
+    one = studio()
+    one.load('kempe = 1\ntitle = "A"\nmass = 3\n')
+    one.page.locator("#tab-text").click()
+    one.page.wait_for_timeout(300)
+    style = """([name, property]) => getComputedStyle(
+      document.querySelector(".editor").shadowRoot.querySelector(name))[property]"""
+    assert "monospace" in one.call(style, [".cm-scroller", "fontFamily"])
+    assert one.call(style, [".cm-scroller", "display"]) == "flex"
+    assert "wavy" in one.call(style, [".cm-lintRange-error", "textDecorationStyle"])
+    one.page.locator(".cm-lintRange-error").hover()
+    one.page.wait_for_timeout(800)
+    assert one.call(style, [".cm-tooltip", "position"]) in ("absolute", "fixed")
+    assert "mass" in one.page.locator(".cm-tooltip").inner_text()

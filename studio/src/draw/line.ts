@@ -1,17 +1,27 @@
 // Paths that keep their text, so that the same painting makes pixels and SVG.
 import type { Point } from "../plane/points";
 
-/** A path of the canvas with its text in the notation of SVG. */
+/** A path of the canvas with its text in the notation of SVG, which is written when it is read. */
 export class Line extends Path2D {
-  constructor(readonly text: string) {
-    super(text);
+  private readonly written: () => string;
+
+  constructor(text: string | (() => string)) {
+    super(typeof text === "string" ? text : undefined);
+    this.written = typeof text === "string" ? () => text : text;
+  }
+
+  get text(): string {
+    return this.written();
   }
 }
 
 /** A line through points. */
 export function through(points: readonly Point[], closed: boolean): Line {
-  const text = points.map(([x, y], k) => `${k ? "L" : "M"}${x} ${y}`).join("");
-  return new Line(closed && points.length ? `${text}Z` : text);
+  const ends = closed && points.length > 0;
+  const line = new Line(() => points.map(([x, y], k) => `${k ? "L" : "M"}${x} ${y}`).join("") + (ends ? "Z" : ""));
+  points.forEach(([x, y], k) => (k ? line.lineTo(x, y) : line.moveTo(x, y)));
+  if (ends) line.closePath();
+  return line;
 }
 
 export function circle([x, y]: Point, radius: number): Line {

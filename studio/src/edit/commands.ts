@@ -6,8 +6,9 @@ import { allPoints } from "../plane/hits";
 import { distance, type Point } from "../plane/points";
 import { change } from "../store/document";
 import { view } from "../store/sheet";
-import { announce, mechanism, poses, selection, tree } from "../store/state";
+import { announce, held, mechanism, poses, selection, tree } from "../store/state";
 import { texts } from "../texts";
+import { heldShift } from "./holding";
 import { isPlain, moved } from "./moving";
 import { removed, removedPoint, renamed } from "./removing";
 
@@ -94,9 +95,13 @@ export async function nudge(dx: number, dy: number): Promise<void> {
   const all = allPoints(bodies, poses.value);
   const own = all.filter(({ body, point }) => isChosen(body.name, point));
   if (!chosen || !own.length) return;
-  const changes = own.flatMap(({ at }) => {
-    const there = all.filter((other) => distance(other.at, at) * view.scale < 0.5);
-    return moved(tree.value, there, poses.value, bodies, [tidy(at[0] + dx * step), tidy(at[1] + dy * step)]).changes;
+  const places = own.map(({ at }) => ({
+    at,
+    hits: all.filter((other) => distance(other.at, at) * view.scale < 0.5),
+  }));
+  const [sx, sy] = heldShift([dx * step, dy * step], places, all, held.value);
+  const changes = places.flatMap(({ at, hits }) => {
+    return moved(tree.value, hits, poses.value, bodies, [tidy(at[0] + sx), tidy(at[1] + sy)]).changes;
   });
   await change([...new Map(changes.map((one) => [one.path.join("\0"), one])).values()]);
 }

@@ -6,6 +6,7 @@ import { MOST_OF_TEXT } from "../store/limits";
 import { report } from "../store/session";
 import { announce, text } from "../store/state";
 import { texts } from "../texts";
+import { choose } from "./choose";
 import { download } from "./download";
 
 /** The text of a new case. */
@@ -23,14 +24,7 @@ export async function begin(): Promise<void> {
 }
 
 export function openFile(): void {
-  const input = document.createElement("input");
-  input.type = "file";
-  input.accept = ".toml,text/plain";
-  input.addEventListener("change", () => {
-    const file = input.files?.[0];
-    if (file) void take(file);
-  });
-  input.click();
+  choose(".toml,text/plain", take);
 }
 
 /** Take up a file that was chosen or dropped. */

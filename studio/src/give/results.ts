@@ -1,10 +1,13 @@
 // Results as files.
 import { course, valuesOf } from "../modes/read";
-import { plots } from "../store/plots";
+import { plots, stored } from "../store/plots";
 import { report } from "../store/session";
-import { mechanism, title } from "../store/state";
+import { announce, mechanism, title } from "../store/state";
+import { texts } from "../texts";
+import { choose } from "./choose";
 import { download, nameOf } from "./download";
-import { type NumbersOf, npz } from "./npz";
+import { type NumbersOf, npz, readNpz } from "./npz";
+import { storedRun } from "./stored";
 import { csv } from "./table";
 
 function plotted(): string[] {
@@ -45,5 +48,24 @@ export async function saveNpz(): Promise<void> {
     download(nameOf(title.value, ".npz"), npz(arrays) as BlobPart, "application/zip");
   } catch (error) {
     report(error);
+  }
+}
+
+/** Let the user choose a stored run, whose curves are drawn in the same plots. */
+export function openStored(): void {
+  choose(".npz", async (file) => {
+    const bytes = new Uint8Array(await file.arrayBuffer());
+    const found = storedRun(file.name, tryRead(bytes), mechanism.value?.coordinates ?? []);
+    stored.value = found;
+    if (found) announce("done", texts.read.compared(file.name, found.rows.size));
+    else announce("problem", texts.read.notCompared(file.name));
+  });
+}
+
+function tryRead(bytes: Uint8Array): Record<string, NumbersOf> {
+  try {
+    return readNpz(bytes);
+  } catch {
+    return {};
   }
 }

@@ -2,13 +2,14 @@
 import { entries } from "../catalogue/tree";
 import type { Change } from "../core/protocol";
 import { snapStep } from "../draw/measure";
+import { heldShift } from "../edit/holding";
 import { drawnThrough, type Fixed, moved } from "../edit/moving";
 import type { PointHit } from "../plane/hits";
 import { distance, type Point } from "../plane/points";
 import { snapped } from "../plane/snap";
 import { change, Draft } from "../store/document";
 import { preview, view } from "../store/sheet";
-import { announce, mechanism, poses, selection, snapping, tree } from "../store/state";
+import { announce, held, mechanism, poses, selection, snapping, tree } from "../store/state";
 import { texts } from "../texts";
 import type { Handler, Spot } from "./handler";
 import { bodyUnder, elementUnder, points, pointsUnder } from "./seen";
@@ -19,6 +20,7 @@ interface Drag {
   began: Point;
   places: { at: Point; hits: PointHit[] }[];
   still: Point[];
+  all: PointHit[];
   placements: typeof poses.value;
 }
 
@@ -32,7 +34,7 @@ export const edit: Handler = {
     if (!hits.length && !body) return false;
     const all = points();
     const own = hits.length ? hits : all.filter((hit) => hit.body.name === body!.name);
-    drag = { draft: new Draft(), began: spot.at, places: placesOf(own, all), still: [], placements: poses.value };
+    drag = { draft: new Draft(), began: spot.at, places: placesOf(own, all), still: [], all, placements: poses.value };
     drag.still = all.filter((hit) => !drag!.places.some(({ hits }) => hits.includes(hit))).map(({ at }) => at);
     fixed = null;
     return true;
@@ -75,7 +77,7 @@ function near(a: Point, b: Point): boolean {
   return distance(a, b) * view.scale < 0.5;
 }
 
-function changesOf({ began, places, still, placements }: Drag, spot: Spot): Change[] {
+function changesOf({ began, places, still, all, placements }: Drag, spot: Spot): Change[] {
   const first = places[0]!;
   const to: Point = [first.at[0] + spot.at[0] - began[0], first.at[1] + spot.at[1] - began[1]];
   const free = spot.free || !snapping.value;
@@ -85,10 +87,14 @@ function changesOf({ began, places, still, placements }: Drag, spot: Spot): Chan
     scale: view.scale,
     free,
   });
-  const shift: Point = [at[0] - first.at[0], at[1] - first.at[1]];
-  preview.value = { line: [], mark: { at, kind } };
+  const wanted: Point = [at[0] - first.at[0], at[1] - first.at[1]];
+  const shift = heldShift(wanted, places, all, held.value);
+  const limited = shift[0] !== wanted[0] || shift[1] !== wanted[1];
+  const end: Point = limited ? [first.at[0] + shift[0], first.at[1] + shift[1]] : at;
+  preview.value = { line: [], mark: { at: end, kind: limited ? "held" : kind } };
   return places.flatMap((place) => {
-    const target: Point = place === first ? at : [round(place.at[0] + shift[0]), round(place.at[1] + shift[1])];
+    const target: Point =
+      place === first && !limited ? at : [round(place.at[0] + shift[0]), round(place.at[1] + shift[1])];
     const found = moved(tree.value, place.hits, placements, mechanism.value?.bodies ?? [], target);
     fixed = found.fixed[0] ?? fixed;
     return found.fixed.length ? [] : found.changes;

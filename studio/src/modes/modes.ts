@@ -1,5 +1,6 @@
 // Changing between the modes.
 import { effect } from "@preact/signals";
+import { scaling } from "../store/backdrop";
 import { goHome, showPresent } from "../store/session";
 import { loads, type Mode, mode, panel, tool } from "../store/state";
 import { edit } from "./edit";
@@ -8,8 +9,10 @@ import * as living from "./live";
 import { configurations, move } from "./move";
 import { place, restart } from "./place";
 import * as reading from "./read";
+import { endScaling, scale } from "./scaling";
 
 export function handler(): Handler {
+  if (mode.value === "edit" && scaling.value) return scale;
   if (mode.value === "edit") return tool.value ? place : edit;
   return { move, live: living.live, read: reading.read }[mode.value];
 }
@@ -30,6 +33,7 @@ export function enter(next: Mode): void {
 function leave(before: Mode): void {
   restart(null);
   configurations.value = null;
+  endScaling();
   const others = Object.keys(living.changed.value).length > 0;
   living.stop();
   if (others) void goHome();

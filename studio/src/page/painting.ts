@@ -17,13 +17,28 @@ import { type Colours, palette } from "../draw/surface";
 import { paintVectors } from "../draw/vectors";
 import { points } from "../modes/seen";
 import { type Point, placed } from "../plane/points";
+import { backdrop } from "../store/backdrop";
 import { preview, view, viewed } from "../store/sheet";
 import { catalogue, items, mechanism, mode, poses, scene, selection, shown, tree } from "../store/state";
 import { traces, vectors } from "./motionOverlay";
 
 /** Everything that the drawing depends on. */
 export function follow(): void {
-  for (const one of [viewed, preview, items, mechanism, mode, poses, scene, selection, shown, tree, traces, vectors])
+  for (const one of [
+    backdrop,
+    viewed,
+    preview,
+    items,
+    mechanism,
+    mode,
+    poses,
+    scene,
+    selection,
+    shown,
+    tree,
+    traces,
+    vectors,
+  ])
     one.value;
 }
 
@@ -31,6 +46,7 @@ export function follow(): void {
 export function paintSheet(context: CanvasRenderingContext2D, colours: Colours = palette(), bare = false): void {
   const found = mechanism.value;
   const editing = mode.value === "edit" && !bare;
+  if (!bare) paintBackdrop(context);
   if (shown.value.grid) paintGrid(context, view, colours, editing);
   if (found) {
     if (shown.value.traces) paintTraces(context, view, traces.value, colours);
@@ -43,6 +59,18 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
   }
   paintLengthScale(context, view, scene.value?.length ?? { unit: "m", metres: 1 }, colours);
   if (!bare) paintPreview(context, colours);
+}
+
+function paintBackdrop(context: CanvasRenderingContext2D): void {
+  const found = backdrop.value;
+  if (!found) return;
+  const { image, corner, opacity } = found;
+  const [x, y] = view.toScreen(corner);
+  const scale = found.scale * view.scale;
+  context.save();
+  context.globalAlpha = opacity;
+  context.drawImage(image, x, y, scale * image.width, scale * image.height);
+  context.restore();
 }
 
 /** Points without a pin: a pin is drawn by its own symbol. */

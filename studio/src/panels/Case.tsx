@@ -7,6 +7,7 @@ import { isName, rename } from "../edit/commands";
 import { typed, typedList, written, writtenList } from "../edit/values";
 import { announce, catalogue, mechanism, tree } from "../store/state";
 import { texts } from "../texts";
+import { Backdrop } from "./Backdrop";
 import { Field, put } from "./Field";
 import { Contents } from "./Properties";
 import { Button, Section } from "./parts";
@@ -32,6 +33,7 @@ export function Case() {
       ))}
       <Start value={isTable(found.start) ? found.start : {}} />
       <Analyses />
+      <Backdrop />
     </div>
   );
 }

@@ -1,10 +1,12 @@
 // One plot over time, with its curves, their peaks, and the time that is shown.
 import { useEffect, useRef, useState } from "preact/hooks";
 import uPlot from "uplot";
+import { displayed } from "../draw/display";
 import { minus, readable, withUnit } from "../draw/numbers";
 import { font, palette } from "../draw/surface";
+import type { Stored } from "../give/stored";
 import { course, quantities, show, time, valuesOf } from "../modes/read";
-import { type PlotOf, plots } from "../store/plots";
+import { type PlotOf, plots, stored } from "../store/plots";
 import { report } from "../store/session";
 import { degrees } from "../store/state";
 import { texts } from "../texts";
@@ -14,6 +16,8 @@ const HEIGHT = 190;
 
 interface Curves {
   names: string[];
+  /** The SI unit. */
+  base: string;
   units: string[];
   rows: Float64Array[];
 }
@@ -24,10 +28,14 @@ export function Plot({ plot }: { plot: PlotOf }) {
   const drawn = useRef<uPlot | null>(null);
   const run = course.value;
   const turn = degrees.value;
+  const other = stored.value;
   useEffect(() => {
     let current = true;
     void valuesOf(plot.names)
-      .then(({ units, rows }) => current && setCurves({ names: plot.names, ...inUnits(units, rows, turn) }))
+      .then(
+        ({ units, rows }) =>
+          current && setCurves({ names: plot.names, base: units[0] ?? "", ...inUnits(units, rows, turn) }),
+      )
       .catch(report);
     return () => {
       current = false;
@@ -35,7 +43,7 @@ export function Plot({ plot }: { plot: PlotOf }) {
   }, [plot.names.join(), run, turn]);
   useEffect(() => {
     if (!curves || !run || !host.current) return;
-    const made = draw(host.current, run.t, curves);
+    const made = draw(host.current, run.t, curves, other ? besides(other, curves, turn) : null);
     drawn.current = made;
     const observer = new ResizeObserver(() =>
       made.setSize({ width: host.current?.clientWidth ?? 300, height: HEIGHT }),
@@ -46,7 +54,7 @@ export function Plot({ plot }: { plot: PlotOf }) {
       made.destroy();
       drawn.current = null;
     };
-  }, [curves, run]);
+  }, [curves, run, other]);
   const now = time.value;
   useEffect(() => drawn.current?.redraw(false), [now]);
   return (
@@ -54,10 +62,18 @@ export function Plot({ plot }: { plot: PlotOf }) {
       <div ref={host} class="curves" role="img" aria-label={plot.names.join(", ")} />
       <ul class="legend">
         {curves?.names.map((name, k) => (
-          <Entry key={name} name={name} unit={curves.units[k] ?? ""} row={curves.rows[k]!} number={k} plot={plot} />
+          <Entry
+            key={name}
+            name={name}
+            unit={curves.units[k] ?? ""}
+            row={curves.rows[k]!}
+            number={k}
+            plot={plot}
+            base={curves.base}
+          />
         ))}
       </ul>
-      <AddCurve plot={plot} unit={curves?.units[0] ?? ""} />
+      <AddCurve plot={plot} base={curves?.base ?? ""} />
     </article>
   );
 }
@@ -68,15 +84,17 @@ function Entry({
   row,
   number,
   plot,
+  base,
 }: {
   name: string;
+  base: string;
   unit: string;
   row: Float64Array;
   number: number;
   plot: PlotOf;
 }) {
-  let peak = 0;
-  for (const value of row) if (Math.abs(value) > Math.abs(peak)) peak = value;
+  const beside = stored.value?.rows.get(name);
+  const { factor } = displayed(base, degrees.value);
   const remove = () => {
     const names = plot.names.filter((one) => one !== name);
     plots.value = plots.value.flatMap((one) =>
@@ -87,14 +105,14 @@ function Entry({
     <li>
       <i class={`mark mark-${(number % 7) + 1}`} />
       <bdi class="name">{name}</bdi>
-      <span class="value">{`${texts.read.peak} ${withUnit(peak, unit)}`}</span>
+      <span class="value">{`${texts.read.peak} ${withUnit(peakOf(row), unit)}`}</span>
+      {beside ? <span class="value">{`${texts.read.stored} ${withUnit(peakOf(beside) * factor, unit)}`}</span> : null}
       <Button label={`${texts.properties.remove} ${name}`} icon="close" kind="small" onClick={remove} />
     </li>
   );
 }
 
-function AddCurve({ plot, unit }: { plot: PlotOf; unit: string }) {
-  const base = unit === "°" ? "rad" : unit;
+function AddCurve({ plot, base }: { plot: PlotOf; base: string }) {
   const all = quantities.value.filter((one) => one.unit === base && !plot.names.includes(one.name));
   if (!all.length) return null;
   const add = (name: string) => {
@@ -118,18 +136,37 @@ function AddCurve({ plot, unit }: { plot: PlotOf; unit: string }) {
   );
 }
 
-/** Angles in degrees where these are shown. */
-function inUnits(units: string[], rows: Float64Array[], turn: boolean): Pick<Curves, "units" | "rows"> {
-  const factor = (unit: string) => (turn && unit.startsWith("rad") ? 180 / Math.PI : 1);
-  return {
-    units: units.map((unit) => (factor(unit) === 1 ? unit : unit.replace("rad", "°"))),
-    rows: rows.map((row, k) =>
-      factor(units[k] ?? "") === 1 ? row : row.map((value) => value * factor(units[k] ?? "")),
-    ),
-  };
+/** The value of the largest magnitude. */
+function peakOf(row: Float64Array): number {
+  let peak = 0;
+  for (const value of row) if (Math.abs(value) > Math.abs(peak)) peak = value;
+  return peak;
 }
 
-function draw(host: HTMLElement, t: Float64Array, { names, units, rows }: Curves): uPlot {
+/** Values in display units. */
+function inUnits(units: string[], rows: Float64Array[], turn: boolean): Pick<Curves, "units" | "rows"> {
+  const shown = units.map((unit) => displayed(unit, turn));
+  const scaled = (row: Float64Array, factor: number) => (factor === 1 ? row : row.map((value) => value * factor));
+  return { units: shown.map(({ unit }) => unit), rows: rows.map((row, k) => scaled(row, shown[k]?.factor ?? 1)) };
+}
+
+/** The curves of a stored run that has some of these quantities. */
+function besides(other: Stored, { names, base }: Curves, turn: boolean): Beside {
+  const { factor } = displayed(base, turn);
+  const found = names.flatMap((name, k): Beside["curves"] => {
+    const row = other.rows.get(name);
+    return row ? [{ number: k, row: row.map((value) => value * factor) }] : [];
+  });
+  return { t: other.t, curves: found };
+}
+
+interface Beside {
+  t: Float64Array;
+  /** Each with the number of the curve of the same quantity. */
+  curves: { number: number; row: Float64Array }[];
+}
+
+function draw(host: HTMLElement, t: Float64Array, { names, units, rows }: Curves, beside: Beside | null): uPlot {
   const colours = palette();
   const axis = {
     stroke: colours.named.soft!,
@@ -146,7 +183,17 @@ function draw(host: HTMLElement, t: Float64Array, { names, units, rows }: Curves
       legend: { show: false },
       cursor: { drag: { x: true, y: false } },
       scales: { x: { time: false } },
-      series: [{}, ...names.map((name, k) => ({ label: name, stroke: colours.body(k + 1), width: 1.6 }))],
+      series: [
+        {},
+        ...names.map((name, k) => ({ label: name, stroke: colours.body(k + 1), width: 1.6, spanGaps: true })),
+        ...(beside?.curves ?? []).map(({ number }) => ({
+          label: `${names[number]}, ${texts.read.stored}`,
+          stroke: colours.body(number + 1),
+          width: 1.6,
+          dash: [6, 5],
+          spanGaps: true,
+        })),
+      ],
       axes: [
         { ...axis, label: "t / s", labelSize: 16, labelFont: font(11), size: 34 },
         { ...axis, label: /[/ ]/.test(unit) ? `(${unit})` : unit, labelSize: 16, labelFont: font(11), size: 56 },
@@ -156,9 +203,17 @@ function draw(host: HTMLElement, t: Float64Array, { names, units, rows }: Curves
         ready: [(plot) => plot.over.addEventListener("click", (event) => show(plot.posToVal(event.offsetX, "x")))],
       },
     },
-    [t, ...rows] as unknown as uPlot.AlignedData,
+    joined(t, rows, beside),
     host,
   );
+}
+
+/** Present and stored curves over the times of both. */
+function joined(t: Float64Array, rows: Float64Array[], beside: Beside | null): uPlot.AlignedData {
+  const present = [t, ...rows] as unknown as uPlot.AlignedData;
+  if (!beside?.curves.length) return present;
+  const other = [beside.t, ...beside.curves.map(({ row }) => row)] as unknown as uPlot.AlignedData;
+  return uPlot.join([present, other]);
 }
 
 /** A line at the time that the drawing shows. */

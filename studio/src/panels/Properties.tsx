@@ -3,10 +3,12 @@ import { type Group, spoken, typeOf } from "../catalogue/catalogue";
 import { entries, entry, isTable } from "../catalogue/tree";
 import type { Tree } from "../core/protocol";
 import { copy, mirror, remove, rename } from "../edit/commands";
+import { openOutline } from "../give/outline";
 import { catalogue, selection, tree } from "../store/state";
 import { texts } from "../texts";
 import { Case } from "./Case";
 import { Field } from "./Field";
+import { Held } from "./Held";
 import { PointRows } from "./PointRows";
 import { Button, Section } from "./parts";
 import { Readings } from "./Readings";
@@ -43,7 +45,11 @@ function Entry({ group, name, value }: { group: Group; name: string; value: Tree
           <Field key={field.name} field={field} path={[group, name, field.name]} value={value[field.name]} />
         ),
       )}
+      {group === "bodies" ? <Held name={name} /> : null}
       <Readings group={group} name={name} />
+      {type?.fields.some(({ shape }) => shape === "outline") ? (
+        <Button label={texts.outline.open} hint={texts.outline.hint} onClick={() => openOutline(name)} id="outline" />
+      ) : null}
       <div class="buttons end">
         {group === "bodies" && name !== "ground" ? (
           <>

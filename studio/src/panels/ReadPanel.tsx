@@ -1,11 +1,12 @@
 // Reading: run an analysis, plots, arrows, files.
 import { useState } from "preact/hooks";
-import { saveCsv, saveNpz } from "../give/results";
+import { openStored, saveCsv, saveNpz } from "../give/results";
 import { analyses, analysis, chosen, course, quantities, run, running } from "../modes/read";
 import { arrows, KINDS, type Kind } from "../page/motionOverlay";
-import { plots } from "../store/plots";
+import { plots, stored } from "../store/plots";
 import { degrees } from "../store/state";
 import { texts } from "../texts";
+import { Measures } from "./Measures";
 import { Plot } from "./Plot";
 import { Button, Check, Section } from "./parts";
 
@@ -31,6 +32,7 @@ export function ReadPanel() {
             title={words.plots}
             action={
               <span class="buttons">
+                <Button label={words.compare} hint={words.compareHint} kind="small" onClick={openStored} id="compare" />
                 <Button label={words.csvHint} kind="small" onClick={() => void saveCsv()}>
                   {words.csv}
                 </Button>
@@ -40,11 +42,23 @@ export function ReadPanel() {
               </span>
             }
           >
+            {stored.value ? (
+              <p class="stored">
+                <bdi>{`${words.stored}: ${stored.value.file}`}</bdi>
+                <Button
+                  label={words.endComparison(stored.value.file)}
+                  icon="close"
+                  kind="small"
+                  onClick={() => (stored.value = null)}
+                />
+              </p>
+            ) : null}
             {plots.value.map((one) => (
               <Plot key={one.key} plot={one} />
             ))}
             <Add />
           </Section>
+          <Measures />
         </>
       ) : (
         <p class="doc">{running.value ? words.running : words.none}</p>

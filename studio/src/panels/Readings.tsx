@@ -1,6 +1,7 @@
 // Quantities of the selection at the pose that is shown.
 import { useEffect, useState } from "preact/hooks";
 import type { Group } from "../catalogue/catalogue";
+import { displayed } from "../draw/display";
 import { significant, withUnit } from "../draw/numbers";
 import { placed } from "../plane/points";
 import { send } from "../store/session";
@@ -50,8 +51,8 @@ async function readings(name: string): Promise<[string, string][]> {
 export function shown(value: number | null, unit: string): string {
   if (value === null || !Number.isFinite(value)) return texts.properties.absent;
   const tidy = Math.abs(value) < 1e-12 ? 0 : value;
-  if (degrees.value && unit === "rad") return `${significant((tidy * 180) / Math.PI)}°`;
-  return withUnit(tidy, unit);
+  const { factor, unit: own } = displayed(unit, degrees.value);
+  return withUnit(tidy * factor, own);
 }
 
 /** The distance of the two points of a body. */

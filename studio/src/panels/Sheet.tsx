@@ -13,7 +13,7 @@ import { items, mode, shown, snapping, title, tool } from "../store/state";
 import { texts } from "../texts";
 import { Button, Check } from "./parts";
 
-/** The mark that benchmarks/studio.py reads. */
+/** The mark that benchmarks/studio_page.py reads. */
 const FIRST = "first picture";
 
 export function Sheet() {

@@ -5,7 +5,7 @@ import { texts } from "../texts";
 import { MOST_OF_TEXT } from "./limits";
 import { edited, load, report, Superseded } from "./session";
 import { fitNext } from "./sheet";
-import { announce, message, selection, text } from "./state";
+import { announce, held, message, selection, text } from "./state";
 
 /** Texts kept for undoing; a text is at most 2 MB. */
 const MOST = 200;
@@ -24,6 +24,7 @@ export async function open(given: string, name = "mechanism.toml"): Promise<bool
   future.value = [];
   fileName.value = name;
   selection.value = null;
+  held.value = new Set();
   fitNext();
   message.value = null;
   text.value = given;

@@ -1,5 +1,6 @@
 // Which quantities are plotted.
 import { effect, signal } from "@preact/signals";
+import type { Stored } from "../give/stored";
 import { course, quantities } from "../modes/read";
 
 export interface PlotOf {
@@ -7,6 +8,8 @@ export interface PlotOf {
   names: string[];
 }
 
+/** A stored run whose curves are drawn beside those of the present one. */
+export const stored = signal<Stored | null>(null);
 export const plots = signal<PlotOf[]>([]);
 
 /** The first run shows the angles of the bodies; later ones keep those quantities that still exist. */

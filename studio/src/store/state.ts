@@ -52,6 +52,8 @@ export const shown = signal({ names: true, numbers: true, grid: true, traces: tr
 /** Display units: angles in degrees and speeds in rpm, or in rad and rad/s. */
 export const degrees = signal(true);
 export const snapping = signal(true);
+/** What a drag of the drawing does not change; edit/holding.ts names it. */
+export const held = signal<ReadonlySet<string>>(new Set());
 
 export const panel = signal<"properties" | "text" | "results" | "insert">("properties");
 export const dialog = signal<"gallery" | "share" | "help" | null>(null);

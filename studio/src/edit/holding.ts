@@ -1,0 +1,60 @@
+// What stays as it is while the drawing is changed: places of points, lengths and angles of bodies.
+import type { PointHit } from "../plane/hits";
+import { distance, type Point } from "../plane/points";
+
+/** Points of the drawing that move together, at one place. */
+export interface Place {
+  at: Point;
+  hits: readonly PointHit[];
+}
+
+export const ofPoint = (body: string, point: string) => `point ${body}.${point}`;
+export const ofLengths = (body: string) => `lengths ${body}`;
+export const ofAngle = (body: string) => `angle ${body}`;
+
+/** A curve on which a shift has to end: a circle, or the line through no shift. */
+type Curve = { center: Point; radius: number } | { along: Point };
+
+/** The shift nearest to a wanted one that keeps what is held; none if more than one thing limits it. */
+export function heldShift(
+  wanted: Point,
+  places: readonly Place[],
+  all: readonly PointHit[],
+  held: ReadonlySet<string>,
+): Point {
+  if (places.some(({ hits }) => hits.some(({ body, point }) => held.has(ofPoint(body.name, point))))) return [0, 0];
+  const moving = new Set(places.flatMap(({ hits }) => hits));
+  const curves = places.flatMap((place) => place.hits.flatMap((hit) => curvesOf(hit, place.at, all, moving, held)));
+  const [only, ...others] = curves;
+  if (!only) return wanted;
+  return others.length ? [0, 0] : nearest(wanted, only);
+}
+
+function curvesOf(
+  { body }: PointHit,
+  at: Point,
+  all: readonly PointHit[],
+  moving: ReadonlySet<PointHit>,
+  held: ReadonlySet<string>,
+): Curve[] {
+  const still = all.filter((other) => other.body.name === body.name && !moving.has(other));
+  const away = still.filter((other) => distance(other.at, at) > 0);
+  const steps = away.map((other): Point => [other.at[0] - at[0], other.at[1] - at[1]]);
+  return [
+    ...(held.has(ofLengths(body.name)) ? steps.map((center) => ({ center, radius: Math.hypot(...center) })) : []),
+    ...(held.has(ofAngle(body.name)) ? steps.map((along) => ({ along })) : []),
+  ];
+}
+
+function nearest([x, y]: Point, curve: Curve): Point {
+  if ("along" in curve) {
+    const [ax, ay] = curve.along;
+    const share = (x * ax + y * ay) / (ax * ax + ay * ay);
+    return [share * ax, share * ay];
+  }
+  const { center, radius } = curve;
+  const far = distance([x, y], center);
+  if (far === 0) return [0, 0];
+  const share = radius / far;
+  return [center[0] + share * (x - center[0]), center[1] + share * (y - center[1])];
+}

@@ -1,0 +1,31 @@
+// Opening a picture behind the drawing.
+import { backdrop } from "../store/backdrop";
+import { view } from "../store/sheet";
+import { announce } from "../store/state";
+import { texts } from "../texts";
+import { choose } from "./choose";
+
+const OPACITY = 0.5;
+/** The share of the sheet that a new picture takes. */
+const SHARE = 0.8;
+
+/** Let the user choose a picture; it is put into the middle of the sheet. */
+export function openBackdrop(): void {
+  choose("image/*", async (file) => {
+    const image = new Image();
+    image.src = URL.createObjectURL(file);
+    try {
+      await image.decode();
+    } catch {
+      announce("problem", texts.picture.unreadable(file.name));
+      return;
+    } finally {
+      URL.revokeObjectURL(image.src);
+    }
+    const pixels = SHARE * Math.min(view.width / image.width, view.height / image.height);
+    const [x, y] = view.toPlane([view.width / 2, view.height / 2]);
+    const scale = pixels / view.scale;
+    const corner: [number, number] = [x - (scale * image.width) / 2, y + (scale * image.height) / 2];
+    backdrop.value = { image, corner, scale, opacity: OPACITY };
+  });
+}

@@ -1,0 +1,118 @@
+"""Reading results: display units, and a stored run beside the present one."""
+
+import re
+from pathlib import Path
+
+import kempe as kp
+import numpy as np
+import pytest
+from studio.window import Studio
+
+EXAMPLES = Path(__file__).parents[2] / "examples"
+CASE = EXAMPLES / "pendulum.toml"
+#: A number with its unit, and the units that the test has.
+MEASURED = re.compile(r"(−?[\d.]+) (mm|µm|m|N|mN|kN)")
+SCALES = {"m": 1.0, "mm": 1e-3, "µm": 1e-6, "N": 1.0, "mN": 1e-3, "kN": 1e3}
+
+
+def plot_only(one: Studio, quantity: str) -> None:
+    """One plot with one curve."""
+    one.page.get_by_label("Add plot").select_option(quantity)
+    one.settle()
+
+
+def shown(one: Studio, word: str, quantity: str) -> float:
+    """The number behind a word in the legend of a quantity."""
+    entry = one.page.locator(".legend li").filter(has_text=quantity).last.inner_text()
+    found = re.search(rf"{word} (−?[\d.]+)", entry)
+    assert found, entry
+    return float(found[1].replace("−", "-"))
+
+
+def choose(one: Studio, path: Path) -> None:
+    with one.page.expect_file_chooser() as chooser:
+        one.page.locator("#compare").click()
+    chooser.value.set_files(path)
+    one.page.wait_for_timeout(300)
+    one.settle()
+
+
+def test_speeds_are_shown_in_rpm_and_angles_in_degrees(one: Studio) -> None:
+    one.load(CASE.read_text(encoding="utf-8"))
+    one.mode("read")
+    plot_only(one, "rod.omega")
+    omega = kp.load(CASE).run()["swing"]["rod.omega"]
+    peak = omega[np.abs(omega).argmax()]
+    assert shown(one, "peak", "rod.omega") == pytest.approx(peak * 30 / np.pi, rel=1e-3)
+    assert "rpm" in one.page.locator(".legend").last.inner_text()
+    one.page.get_by_text("° and rpm").click()
+    one.settle()
+    assert shown(one, "peak", "rod.omega") == pytest.approx(peak, rel=1e-3)
+    one.page.get_by_text("° and rpm").click()
+
+
+def test_a_stored_run_is_drawn_dashed_in_the_same_plots(one: Studio, tmp_path: Path) -> None:
+    solution = kp.load(CASE, parameters={"L": 2}).run()["swing"]
+    path = tmp_path / "longer.npz"
+    solution.save(path)
+    one.load(CASE.read_text(encoding="utf-8"))
+    one.mode("read")
+    plot_only(one, "rod.alpha")
+    one.call(
+        """() => {
+          window.dashes = 0;
+          const dash = CanvasRenderingContext2D.prototype.setLineDash;
+          CanvasRenderingContext2D.prototype.setLineDash = function (lengths) {
+            if (lengths.length && this.canvas.closest(".plot")) window.dashes += 1;
+            return dash.call(this, lengths);
+          };
+        }"""
+    )
+    assert one.page.locator("p.stored").count() == 0
+    choose(one, path)
+    assert "longer.npz" in one.message()
+    assert one.call("dashes") > 0
+    for name, factor in (("rod.angle", 180 / np.pi), ("rod.alpha", 180 / np.pi)):
+        peak = solution[name][np.abs(solution[name]).argmax()] * factor
+        assert shown(one, "stored", name) == pytest.approx(peak, rel=1e-3)
+    one.page.locator("p.stored button").click()
+    assert "stored" not in one.page.locator(".legend").last.inner_text()
+
+
+def test_a_file_that_is_no_run_of_the_mechanism_gives_a_message(
+    one: Studio, tmp_path: Path
+) -> None:
+    one.load(CASE.read_text(encoding="utf-8"))
+    one.mode("read")
+    path = tmp_path / "other.npz"
+    kp.load(EXAMPLES / "four_bar.toml").run()["release"].save(path)
+    choose(one, path)
+    assert "not a stored run" in one.message()
+    path.write_bytes(b"PK no zip")
+    choose(one, path)
+    assert "not a stored run" in one.message()
+
+
+def test_measures_of_the_case_and_typed_ones_have_the_numbers_of_python(
+    one: Studio, tmp_path: Path
+) -> None:
+    path = tmp_path / "measured.toml"
+    path.write_text(CASE.read_text(encoding="utf-8") + '[measures]\npeg = "pin.force"\n')
+    solution = kp.load(path).run()["swing"]
+    one.load(path.read_text(encoding="utf-8"))
+    one.mode("read")
+    one.page.get_by_label("Measure a quantity").first.fill("rod.x")
+    one.page.keyboard.press("Enter")
+    one.settle()
+    texts = one.page.locator(".measure").all_inner_texts()
+    for text, name in zip(texts, ("pin.force", "rod.x"), strict=True):
+        values = solution[name]
+        mean = np.trapezoid(values, solution.t) / solution.t[-1]
+        numbers = [(float(x.replace("−", "-")), u) for x, u in MEASURED.findall(text)]
+        found = [x * SCALES[u] for x, u in numbers]
+        peak = values[np.abs(values).argmax()]
+        assert found == pytest.approx([peak, mean, values[-1]], rel=1e-3), text
+    one.page.get_by_label("Measure a quantity").first.fill("rod.colour")
+    one.page.keyboard.press("Enter")
+    one.settle()
+    assert "no quantity 'rod.colour'" in one.page.locator(".measure .problem").inner_text()
