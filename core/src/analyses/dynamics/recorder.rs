@@ -43,7 +43,7 @@ pub(super) fn tables(
 ) -> (Trajectory, Option<PiecewiseInterpolant>) {
     let layout = &model.layout;
     let states = (grid_steps(options, t0) + 2.0) as usize; // NaN gives none
-    // all steps get the highest degree of the method from the start
+                                                           // all steps get the highest degree of the method from the start
     let several = matches!(options.method, Scheme::Auto(_) | Scheme::Dop853(_));
     let degree = if several { HIGHEST } else { 0 };
     let dense =
