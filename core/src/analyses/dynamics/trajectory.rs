@@ -155,7 +155,17 @@ impl Steps<'_> {
     /// # Panics
     /// If there is no step.
     pub fn at(&self, times: &[f64]) -> Vec<f64> {
-        let Self { t: bounds, n_y, degree, .. } = *self;
+        // with a constant degree, the loop over it unrolls
+        match self.degree {
+            4 => self.rows(times, 4),
+            7 => self.rows(times, 7),
+            degree => self.rows(times, degree),
+        }
+    }
+
+    #[inline(always)]
+    fn rows(&self, times: &[f64], degree: usize) -> Vec<f64> {
+        let Self { t: bounds, n_y, .. } = *self;
         let steps = bounds.len() - 1;
         let falls = bounds[steps] < bounds[0];
         let mut found = Vec::with_capacity(times.len() * n_y);
@@ -165,11 +175,11 @@ impl Steps<'_> {
             let step = after.clamp(1, steps) - 1;
             let h = bounds[step + 1] - bounds[step];
             let theta = (t - bounds[step]) / if h == 0.0 { 1.0 } else { h };
-            let c = &self.c[step * n_y * degree..(step + 1) * n_y * degree];
+            let c = self.c[step * n_y * degree..(step + 1) * n_y * degree].chunks_exact(degree);
+            let y = &self.y[step * n_y..(step + 1) * n_y];
             let horner =
                 |row: &[f64]| row.iter().rev().fold(0.0, |total: f64, c| (total + c) * theta);
-            let y = &self.y[step * n_y..(step + 1) * n_y];
-            found.extend((0..n_y).map(|k| y[k] + h * horner(&c[k * degree..(k + 1) * degree])));
+            found.extend(y.iter().zip(c).map(|(y, row)| y + h * horner(&row[..degree])));
         }
         found
     }
