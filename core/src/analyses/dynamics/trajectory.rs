@@ -168,8 +168,8 @@ impl Steps<'_> {
         let Self { t: bounds, n_y, .. } = *self;
         let steps = bounds.len() - 1;
         let falls = bounds[steps] < bounds[0];
-        let mut found = Vec::with_capacity(times.len() * n_y);
-        for &t in times {
+        let mut found = vec![0.0; times.len() * n_y];
+        for (&t, out) in times.iter().zip(found.chunks_exact_mut(n_y.max(1))) {
             let after =
                 bounds.partition_point(|bound| if falls { *bound >= t } else { *bound <= t });
             let step = after.clamp(1, steps) - 1;
@@ -179,7 +179,9 @@ impl Steps<'_> {
             let y = &self.y[step * n_y..(step + 1) * n_y];
             let horner =
                 |row: &[f64]| row.iter().rev().fold(0.0, |total: f64, c| (total + c) * theta);
-            found.extend(y.iter().zip(c).map(|(y, row)| y + h * horner(&row[..degree])));
+            for ((out, y), row) in out.iter_mut().zip(y).zip(c) {
+                *out = y + h * horner(&row[..degree]);
+            }
         }
         found
     }

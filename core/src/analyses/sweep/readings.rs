@@ -65,7 +65,7 @@ impl<'a> Readings<'a> {
             true => Some(self.solved()?),
             false => None,
         };
-        let values = of.values(self.model(), states, solved.map(|s| [&s.a[..], &s.lam[..]]));
+        let values = self.values_of(of, states, solved);
         match values.iter().all(|x| x.is_finite()) && !values.is_empty() {
             true => Ok(values),
             false => Err(Missing::Single),
@@ -111,9 +111,22 @@ impl<'a> Readings<'a> {
         self.run.dense.as_ref().is_some_and(|dense| instants.len() >= dense.t.len())
     }
 
+    /// The values at states between the outputs; None where one is not finite.
     pub fn values(&self, of: &Measure, rows: &Rows) -> Option<Vec<f64>> {
-        let solved = rows.solved.as_ref().map(|s| [&s.a[..], &s.lam[..]]);
-        let values = of.values(self.model(), rows.states(), solved);
+        let values = self.values_of(of, rows.states(), rows.solved.as_ref());
         values.iter().all(|x| x.is_finite()).then_some(values)
+    }
+
+    fn values_of(
+        &self,
+        of: &Measure,
+        states: States<'_>,
+        solved: Option<&Accelerations>,
+    ) -> Vec<f64> {
+        let (model, solved) = (self.model(), solved.map(|s| [&s.a[..], &s.lam[..]]));
+        match self.prepared.wide_for(states.t.len()) {
+            Some(wide) => of.values_over_lanes((model, wide), states, solved),
+            None => of.values(model, states, solved),
+        }
     }
 }
