@@ -3,6 +3,7 @@
     .venv/bin/python benchmarks/many_variants.py           # 2000 flagships, 100 000 small variants
     .venv/bin/python benchmarks/many_variants.py --runs 100000 --small 1000000
     .venv/bin/python benchmarks/many_variants.py --dask       # what a block on a cluster costs
+    .venv/bin/python benchmarks/many_variants.py --mujoco     # beside RK4 of MuJoCo at 1 ms
 
 The floor (``benchmarks/floor``) simulates the flagship by hand, with RK45 and Baumgarte's
 stabilization. Its times are CPU times of one thread; those of sweeps are CPU times of all threads,
@@ -22,6 +23,9 @@ from typing import Any
 import kempe as kp
 import numpy as np
 from floor_program import build, told
+from peers import mujoco_tree
+from peers.setting import Setting
+from problems import problem
 
 ROOT = Path(__file__).parents[1]
 METHODS: dict[str, dict[str, Any]] = {
@@ -29,6 +33,8 @@ METHODS: dict[str, dict[str, Any]] = {
     "default": {"method": kp.Auto(), "stabilization": kp.Projection()},
 }
 _TURNS = 4
+#: The integrator and solver of MuJoCo.
+MUJOCO = {"integrator": "RK4", "solver": "Newton"}
 MEASURES = {"no peak": ["rocker.angle.final"], "peak": ["C.force.max"]}
 
 
@@ -62,10 +68,10 @@ def runs(n: int, floor: Path | None) -> None:
     program = floor or build()
     for method, changes in METHODS.items():
         for name, measures in MEASURES.items():
-            dense = {} if name == "peak" else {"dense_output": False}
-            case = flagship({**changes, **dense})
+            case = flagship(changes)
             turns = [
-                (told(program, 5, "runs")["runs"], spent(case, n // 4, measures)) for _ in range(4)
+                (told(program, 5, "runs")["runs"], spent(case, n // _TURNS, measures))
+                for _ in range(_TURNS)
             ]
             by_hand = statistics.median(at[1]["chain"]["seconds"] for at, _ in turns)
             cpu = statistics.median(times[0] for _, times in turns)
@@ -105,6 +111,24 @@ def cluster(n: int) -> None:
         print(f"{n} variants on {workers} {name}: {time.perf_counter() - began:.1f} s wall")
 
 
+def mujoco(n: int) -> None:
+    """CPU time of a run by MuJoCo beside that of a variant, in alternation."""
+    run = mujoco_tree.prepare(problem("flagship"), Setting(mujoco_tree.CURVE, 1e-3, MUJOCO))
+    for method, changes in METHODS.items():
+        turns = []
+        for _ in range(_TURNS):
+            began = time.process_time()
+            run()
+            told = time.process_time() - began
+            turns.append((told, spent(flagship(changes), n // _TURNS, MEASURES["no peak"])[0]))
+        theirs, ours = (statistics.median(times) for times in zip(*turns, strict=True))
+        print(
+            f"{method:22} {1e3 * ours:7.3f} ms CPU  MuJoCo {1e3 * theirs:7.1f} ms CPU: "
+            f"{theirs / ours:.0f} × as long",
+            flush=True,
+        )
+
+
 def main() -> None:
     """Measure what the command line names."""
     parser = argparse.ArgumentParser(description=__doc__)
@@ -112,9 +136,13 @@ def main() -> None:
     parser.add_argument("--small", type=int, default=100_000, help="small variants")
     parser.add_argument("--floor", type=Path, help="the floor program, if it is built")
     parser.add_argument("--dask", action="store_true", help="compare threads and a cluster")
+    parser.add_argument("--mujoco", action="store_true", help="compare with MuJoCo")
     words = parser.parse_args()
     if words.dask:
         cluster(words.runs)
+        return
+    if words.mujoco:
+        mujoco(words.runs)
         return
     memory(words.small)
     runs(words.runs, words.floor)

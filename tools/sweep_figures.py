@@ -20,19 +20,24 @@ TARGET = ROOT / "docs" / "images" / "sweeps" / "map.png"
 WIDTH, COLOURS = 900, 256
 
 
-def main() -> None:
-    """Run the command of the page, and keep its figure with few colours."""
+def picture() -> Image.Image:
+    """The figure that the command of the page writes today, with few colours."""
     found = re.search(r"^\$ \./kempe (sweep .*)$", PAGE.read_text("utf-8"), re.M)
     assert found is not None
     words = shlex.split(found[1].replace("examples/", f"{ROOT}/examples/"))
     with tempfile.TemporaryDirectory() as folder:
         if run([*words, "--output", folder]):
-            raise SystemExit("the command of the page failed")
+            raise RuntimeError("the command of the page failed")
         with Image.open(Path(folder) / "figures" / "00_map_C_force_max.png") as image:
             size = WIDTH, round(WIDTH * image.height / image.width)
             small = image.convert("RGB").resize(size, Image.Resampling.LANCZOS)
+    return small.quantize(COLOURS)
+
+
+def main() -> None:
+    """Draw the figure anew."""
     TARGET.parent.mkdir(parents=True, exist_ok=True)
-    small.quantize(COLOURS).save(TARGET, optimize=True)
+    picture().save(TARGET, optimize=True)
 
 
 if __name__ == "__main__":

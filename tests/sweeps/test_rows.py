@@ -1,6 +1,7 @@
 """The rows of a sweep are the numbers of single runs, to the last bit; failures have reasons."""
 
 import re
+from typing import Any
 
 import kempe as kp
 import numpy as np
@@ -37,6 +38,46 @@ def test_every_statistic_equals_that_of_a_single_run(case: kp.Case) -> None:
     result = kp.sweep(case, {"L2": [25, 26.5], "k": [5e5, 2e6]}, texts)
     assert not result.reasons
     same(result, [0, 3])
+
+
+def run_of(case: kp.Case, **options: Any) -> kp.Case:
+    """The case with another run of half a second."""
+    start = {"set": case._start.set, "guess": case._start.guess}
+    return kp.Case(case.model, start, [kp.Dynamics(t_end=0.5, name="release", **options)])
+
+
+@pytest.mark.parametrize("output_step", [0.01, 0.07, None])
+@pytest.mark.parametrize(
+    "options",
+    [
+        {"method": kp.RK45(), "stabilization": kp.Baumgarte()},
+        {"method": kp.DOP853(), "stabilization": kp.Baumgarte(alpha=20, beta=20)},
+        {"method": kp.DOP853(), "stabilization": kp.Projection()},
+        {"method": kp.RK4(step=0.003), "stabilization": kp.NoStabilization()},
+        {"method": kp.RK45(), "stabilization": kp.Baumgarte(), "stop": "crank.angle > 2"},
+    ],
+    ids=["rk45", "dop853", "projection", "rk4", "stop"],
+)
+def test_final_values_alone_equal_those_of_single_runs(
+    case: kp.Case, options: dict[str, Any], output_step: float | None
+) -> None:
+    """Other outputs are left out: the run ends on the grid, beside it, or has no grid."""
+    case = run_of(case, output_step=output_step, **options)
+    texts = ["rocker.omega.final", "pin.final", "crank.alpha.final"]
+    result = kp.sweep(case, {"k": [5e5, 2e6]}, texts)
+    assert result.succeeded.all()
+    same(result, [0, 1])
+
+
+def test_a_run_without_outputs_has_the_reason_of_a_single_run(case: kp.Case) -> None:
+    stabilization = kp.Baumgarte(alpha=0.1, beta=0.1)
+    case = run_of(case, output_step=0.01, method=kp.RK4(step=0.05), stabilization=stabilization)
+    result = kp.sweep(case, {"k": [1e5, 1e7]}, ["crank.angle.final"])
+    assert result.reasons
+    for k, reason in result.reasons.items():
+        with pytest.raises(kp.KempeError) as caught:
+            result.run(k)
+        assert caught.value.args[0] == reason
 
 
 def test_the_core_computes_them(case: kp.Case, monkeypatch: pytest.MonkeyPatch) -> None:

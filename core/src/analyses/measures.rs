@@ -6,10 +6,11 @@
 
 use super::dynamics::States;
 use super::quantities::Quantities;
-use super::signal_rows::{each, Rows};
+use super::signal_rows::{each, each_over_lanes, Rows};
 use super::signal_units::unit_of;
 use super::signals::Signal;
 use crate::expression::{unit::Unit, Expression, ExpressionError, Inferred, Symbol, Tape, Values};
+use crate::math::Lanes;
 use crate::model::{Model, Problem, Value};
 
 /// The unit of an expression whose dimension does not follow from its parameters.
@@ -79,6 +80,20 @@ impl Measure {
         let mut found = Vec::with_capacity(states.t.len());
         let rows = Rows { states, works: &[], solved };
         each(model, rows, &self.signals, |t, values| found.push(self.value(model, t, values)));
+        found
+    }
+
+    /// The same for many states, four at once: `wide` is the lifted model.
+    pub(super) fn values_over_lanes(
+        &self,
+        (model, wide): (&Model, &Model<Lanes>),
+        states: States<'_>,
+        solved: Option<[&[f64]; 2]>,
+    ) -> Vec<f64> {
+        let mut found = Vec::with_capacity(states.t.len());
+        let rows = Rows { states, works: &[], solved };
+        let give = |t: f64, values: &[f64]| found.push(self.value(model, t, values));
+        each_over_lanes((model, wide), rows, &self.signals, give);
         found
     }
 

@@ -3,6 +3,7 @@
 use super::dynamics::States;
 use super::signals::{Seen, Signal};
 use crate::equations::kinematics::Motions;
+use crate::math::{Lanes, Real};
 use crate::model::Model;
 
 /// States with the works up to them, rows of three or none, and with rows of accelerations and multipliers.
@@ -47,4 +48,51 @@ pub(super) fn each(
         }
         give(t, &values);
     }
+}
+
+/// The same, with four states at once over the lifted model.
+///
+/// # Panics
+/// If the rows do not fit the model or each other.
+pub(super) fn each_over_lanes(
+    (model, wide): (&Model, &Model<Lanes>),
+    rows: Rows<'_>,
+    signals: &[Signal],
+    mut give: impl FnMut(f64, &[f64]),
+) {
+    let Rows { states, works, solved } = rows;
+    let (fours, count) = (states.t.chunks_exact(Lanes::WIDTH), states.t.len().max(1));
+    let left = fours.remainder();
+    let tables = [states.q, states.v, states.z, works];
+    let mut lanes = tables.map(|table| vec![Lanes::zero(); table.len() / count]);
+    let absent = [wide.layout.n_q, wide.n_multipliers()];
+    let mut of_solved = absent.map(|n| vec![Lanes::constant(f64::NAN); n]);
+    let mut motions = Motions::new(&wide.layout);
+    let mut values = vec![0.0; signals.len()];
+    for (k, t) in fours.enumerate() {
+        let given = solved.iter().flatten().zip(&mut of_solved);
+        for (table, lanes) in tables.iter().zip(&mut lanes).chain(given) {
+            let four = Lanes::WIDTH * lanes.len();
+            Lanes::from_rows(&table[k * four..(k + 1) * four], lanes);
+        }
+        let [q, v, z, works] = lanes.each_ref().map(Vec::as_slice);
+        motions.place(&wide.layout, q, v);
+        let solved = of_solved.each_ref().map(Vec::as_slice);
+        let (at, state) = (Lanes::new([t[0], t[1], t[2], t[3]]), [q, v, z]);
+        let seen = Seen { t: at, state, works, motions: &motions, solved, so_far: None };
+        let found: Vec<_> = signals.iter().map(|one| one.value(wide, &seen).to_array()).collect();
+        for (lane, t) in t.iter().enumerate() {
+            values.iter_mut().zip(&found).for_each(|(to, of)| *to = of[lane]);
+            give(*t, &values);
+        }
+    }
+    let last = |table| rest(table, (count, states.t.len() - left.len()));
+    let [q, v, z, works] = tables.map(last);
+    let states = States { t: left, q, v, z };
+    each(model, Rows { states, works, solved: solved.map(|two| two.map(last)) }, signals, give);
+}
+
+/// The rows of a table with so many rows from one on.
+fn rest(table: &[f64], (count, from): (usize, usize)) -> &[f64] {
+    &table[table.len() / count * from..]
 }

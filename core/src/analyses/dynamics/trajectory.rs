@@ -155,21 +155,33 @@ impl Steps<'_> {
     /// # Panics
     /// If there is no step.
     pub fn at(&self, times: &[f64]) -> Vec<f64> {
-        let Self { t: bounds, n_y, degree, .. } = *self;
+        // with a constant degree, the loop over it unrolls
+        match self.degree {
+            4 => self.rows(times, 4),
+            7 => self.rows(times, 7),
+            degree => self.rows(times, degree),
+        }
+    }
+
+    #[inline(always)]
+    fn rows(&self, times: &[f64], degree: usize) -> Vec<f64> {
+        let Self { t: bounds, n_y, .. } = *self;
         let steps = bounds.len() - 1;
         let falls = bounds[steps] < bounds[0];
-        let mut found = Vec::with_capacity(times.len() * n_y);
-        for &t in times {
+        let mut found = vec![0.0; times.len() * n_y];
+        for (&t, out) in times.iter().zip(found.chunks_exact_mut(n_y.max(1))) {
             let after =
                 bounds.partition_point(|bound| if falls { *bound >= t } else { *bound <= t });
             let step = after.clamp(1, steps) - 1;
             let h = bounds[step + 1] - bounds[step];
             let theta = (t - bounds[step]) / if h == 0.0 { 1.0 } else { h };
-            let c = &self.c[step * n_y * degree..(step + 1) * n_y * degree];
+            let c = self.c[step * n_y * degree..(step + 1) * n_y * degree].chunks_exact(degree);
+            let y = &self.y[step * n_y..(step + 1) * n_y];
             let horner =
                 |row: &[f64]| row.iter().rev().fold(0.0, |total: f64, c| (total + c) * theta);
-            let y = &self.y[step * n_y..(step + 1) * n_y];
-            found.extend((0..n_y).map(|k| y[k] + h * horner(&c[k * degree..(k + 1) * degree])));
+            for ((out, y), row) in out.iter_mut().zip(y).zip(c) {
+                *out = y + h * horner(&row[..degree]);
+            }
         }
         found
     }

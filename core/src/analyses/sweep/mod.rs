@@ -5,6 +5,8 @@
 //! the order, and the caller may compute variants on as many threads as it likes.
 
 mod faults;
+mod fine;
+mod kept;
 mod readings;
 mod series;
 mod statistic;
@@ -13,10 +15,12 @@ pub use faults::{measure_fault, variable_fault, MOTIONS};
 pub use statistic::Statistic;
 
 use super::assemble::{self, assemble_until, Request};
-use super::dynamics::{self, Prepared, Reason};
+use super::dynamics::{self, Failure, Options, Prepared, Reason, Run};
 use super::measures::Measure;
+use super::State;
 use crate::integrate::Flow;
 use crate::model::{Model, Value};
+use fine::Between;
 use readings::{Missing, Readings};
 use series::Series;
 use std::sync::Arc;
@@ -85,8 +89,7 @@ impl Sweep {
             return Outcome::Single;
         }
         let prepared = Prepared::new(&model);
-        let watch = |_| if stop() { Flow::Stop } else { Flow::Continue };
-        let run = match prepared.dynamics(&state, &options, watch) {
+        let run = match self.run(&prepared, &state, &options, stop) {
             _ if stop() => return Outcome::Stopped,
             Ok(run) => run,
             Err(failure) => return failed(&failure.reason),
@@ -94,19 +97,42 @@ impl Sweep {
         if run.settings.iter().any(|setting| !setting.is_plain()) {
             return Outcome::Single;
         }
-        match self.numbers(&Readings::new(&prepared, &run)) {
+        match self.numbers(&prepared, &run) {
             Ok(values) => Outcome::Values(values),
             Err(Missing::Failed(reason)) => failed(&reason),
             Err(Missing::Single) => Outcome::Single,
         }
     }
 
-    fn numbers(&self, readings: &Readings<'_>) -> Result<Vec<f64>, Missing> {
-        let series = self.measures.iter().map(|text| {
+    /// Runs a variant, without the outputs that no statistic reads.
+    fn run(
+        &self,
+        prepared: &Prepared<&Model>,
+        state: &State,
+        options: &Options,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Run, Box<Failure>> {
+        let watch = |_| if stop() { Flow::Stop } else { Flow::Continue };
+        let wanted: Vec<Statistic> = self.wanted.iter().map(|(_, statistic)| *statistic).collect();
+        let kept = kept::kept(options, &wanted, options.t_start.unwrap_or(state.t));
+        let run = prepared.dynamics(state, &kept, watch);
+        match run {
+            // the reason is that of the run with all outputs: the fault may be found at one of them
+            Err(_) if kept != *options => prepared.dynamics(state, options, watch),
+            run => run,
+        }
+    }
+
+    fn numbers(&self, prepared: &Prepared<&Model>, run: &Run) -> Result<Vec<f64>, Missing> {
+        let measures = self.measures.iter().enumerate().map(|(k, text)| {
             // names are those of the variant: the place of a point may depend on a parameter
-            let measure = Measure::read(readings.model(), text).map_err(|_| Missing::Single)?;
-            Series::new(readings, measure)
+            let measure = Measure::read(prepared.model(), text).map_err(|_| Missing::Single)?;
+            let is_extreme = |(of, one): &(usize, Statistic)| *of == k && one.is_extreme();
+            Ok((measure, self.wanted.iter().any(is_extreme)))
         });
+        let readings = Readings::new(prepared, run, measures.collect::<Result<_, _>>()?);
+        let between = Between::new(readings);
+        let series = (0..self.measures.len()).map(|k| Series::new(&between, k));
         let series = series.collect::<Result<Vec<_>, _>>()?;
         self.wanted.iter().map(|(of, statistic)| series[*of].statistic(*statistic)).collect()
     }

@@ -2,7 +2,6 @@
 
 use crate::analyses::dynamics::{Accelerations, Prepared, Reason, Run, States};
 use crate::analyses::measures::Measure;
-use crate::analyses::statistics::{changes, instants, row_norms, Maxima};
 use crate::integrate::Flow;
 use crate::model::Model;
 use std::cell::OnceCell;
@@ -29,28 +28,30 @@ impl Rows {
     fn states(&self) -> States<'_> {
         States { t: &self.t, q: &self.q, v: &self.v, z: &self.z }
     }
-}
 
-/// The motion of a run at close instants, and the singular positions in it.
-pub struct Fine {
-    pub rows: Rows,
-    /// The maxima of all multipliers together, beside which values mean nothing.
-    pub near: Maxima,
+    /// Rows of multipliers; none if they were not solved.
+    pub fn multipliers(&self) -> &[f64] {
+        self.solved.as_ref().map_or(&[], |solved| &solved.lam)
+    }
 }
 
 /// A run that is read.
 pub struct Readings<'a> {
     prepared: &'a Prepared<&'a Model>,
     pub run: &'a Run,
+    /// The measures, and whether extreme values of each are wanted.
+    pub measures: Vec<(Measure, bool)>,
     /// Accelerations and multipliers at the outputs.
     solved: OnceCell<Accelerations>,
-    /// None without an interpolant.
-    fine: OnceCell<Option<Fine>>,
 }
 
 impl<'a> Readings<'a> {
-    pub fn new(prepared: &'a Prepared<&'a Model>, run: &'a Run) -> Self {
-        Self { prepared, run, solved: OnceCell::new(), fine: OnceCell::new() }
+    pub fn new(
+        prepared: &'a Prepared<&'a Model>,
+        run: &'a Run,
+        measures: Vec<(Measure, bool)>,
+    ) -> Self {
+        Self { prepared, run, measures, solved: OnceCell::new() }
     }
 
     pub fn model(&self) -> &'a Model {
@@ -64,7 +65,7 @@ impl<'a> Readings<'a> {
             true => Some(self.solved()?),
             false => None,
         };
-        let values = of.values(self.model(), states, solved.map(|s| [&s.a[..], &s.lam[..]]));
+        let values = self.values_of(of, states, solved);
         match values.iter().all(|x| x.is_finite()) && !values.is_empty() {
             true => Ok(values),
             false => Err(Missing::Single),
@@ -85,10 +86,13 @@ impl<'a> Readings<'a> {
     pub fn at(&self, times: &[f64], solve: bool) -> Option<Rows> {
         let (layout, dense) = (&self.model().layout, self.run.dense.as_ref()?);
         let (y, width, n, n_z) = (dense.at(times), layout.n_y(), layout.n_q, layout.n_z);
-        let part = |from: usize, count: usize| -> Vec<f64> {
-            y.chunks_exact(width).flat_map(|row| &row[from..from + count]).copied().collect()
-        };
-        let (t, q, v, z) = (times.to_vec(), part(0, n), part(n, n), part(2 * n, n_z));
+        let room = |width: usize| Vec::with_capacity(width * times.len());
+        let (t, mut q, mut v, mut z) = (times.to_vec(), room(n), room(n), room(n_z));
+        for row in y.chunks_exact(width) {
+            q.extend_from_slice(&row[..n]);
+            v.extend_from_slice(&row[n..2 * n]);
+            z.extend_from_slice(&row[2 * n..2 * n + n_z]);
+        }
         let mut rows = Rows { t, q, v, z, solved: None };
         if let Some(projection) = self.run.projection {
             let [q, v] = self.prepared.project(rows.states(), projection).ok()?;
@@ -102,50 +106,27 @@ impl<'a> Readings<'a> {
         Some(rows)
     }
 
-    /// The motion at close instants.
-    pub fn fine(&self) -> Result<Option<&Fine>, Missing> {
-        if let Some(known) = self.fine.get() {
-            return Ok(known.as_ref());
-        }
-        let t = &self.run.trajectory.t;
-        let found = match &self.run.dense {
-            Some(dense) if t.len() > 1 => {
-                let layout = &self.model().layout;
-                let numbers = 4 * layout.n_q + layout.n_rows + 1;
-                let times = instants(&dense.t, t, numbers);
-                // without multipliers somewhere a single run uses its outputs
-                let rows = self.at(&times, true).ok_or(Missing::Single)?;
-                let near = self.singular(&rows);
-                Some(Fine { rows, near })
-            }
-            _ => None,
-        };
-        Ok(self.fine.get_or_init(|| found).as_ref())
+    /// Whether each step has one of these instants.
+    pub fn resolved(&self, instants: &[f64]) -> bool {
+        self.run.dense.as_ref().is_some_and(|dense| instants.len() >= dense.t.len())
     }
 
-    /// The maxima of all multipliers together, which find the singular positions of a run.
-    fn singular(&self, fine: &Rows) -> Maxima {
-        let norms = |rows: &Rows| {
-            let count = rows.t.len();
-            let lam = rows.solved.as_ref().map_or(&[][..], |solved| &solved.lam);
-            row_norms(lam, lam.len() / count.max(1), count)
-        };
-        let size = norms(fine);
-        if !changes(&size) {
-            return Maxima::default();
-        }
-        let mut read = |t: &[f64]| self.at(t, true).map(|rows| norms(&rows));
-        Maxima::search((&fine.t, &size), (&[], &[]), self.resolved(fine), &mut read)
-    }
-
-    /// Whether each step has an instant.
-    pub fn resolved(&self, fine: &Rows) -> bool {
-        self.run.dense.as_ref().is_some_and(|dense| fine.t.len() >= dense.t.len())
-    }
-
+    /// The values at states between the outputs; None where one is not finite.
     pub fn values(&self, of: &Measure, rows: &Rows) -> Option<Vec<f64>> {
-        let solved = rows.solved.as_ref().map(|s| [&s.a[..], &s.lam[..]]);
-        let values = of.values(self.model(), rows.states(), solved);
+        let values = self.values_of(of, rows.states(), rows.solved.as_ref());
         values.iter().all(|x| x.is_finite()).then_some(values)
+    }
+
+    fn values_of(
+        &self,
+        of: &Measure,
+        states: States<'_>,
+        solved: Option<&Accelerations>,
+    ) -> Vec<f64> {
+        let (model, solved) = (self.model(), solved.map(|s| [&s.a[..], &s.lam[..]]));
+        match self.prepared.wide_for(states.t.len()) {
+            Some(wide) => of.values_over_lanes((model, wide), states, solved),
+            None => of.values(model, states, solved),
+        }
     }
 }

@@ -1,8 +1,8 @@
 //! The values of a measure over a run, and their statistics.
 
-use super::readings::{Fine, Missing, Readings};
+use super::fine::{Between, Fine};
+use super::readings::{Missing, Readings};
 use super::Statistic;
-use crate::analyses::measures::Measure;
 use crate::analyses::statistics::{
     changes, extreme, mean, root_mean_square, settling, Extreme, Maxima, Samples, Settling,
 };
@@ -10,8 +10,10 @@ use std::cell::OnceCell;
 
 /// A measure over a run.
 pub struct Series<'a> {
+    between: &'a Between<'a>,
     readings: &'a Readings<'a>,
-    measure: Measure,
+    /// The place of its measure.
+    place: usize,
     /// Whether it needs accelerations or multipliers.
     solves: bool,
     /// The values at the outputs.
@@ -21,10 +23,18 @@ pub struct Series<'a> {
 }
 
 impl<'a> Series<'a> {
-    pub fn new(readings: &'a Readings<'a>, measure: Measure) -> Result<Self, Missing> {
-        let outputs = readings.outputs(&measure)?;
+    pub fn new(between: &'a Between<'a>, place: usize) -> Result<Self, Missing> {
+        let readings = &between.readings;
+        let (measure, _) = &readings.measures[place];
+        let outputs = readings.outputs(measure)?;
         let solves = measure.needs_solution(readings.model());
-        Ok(Self { readings, measure, solves, outputs, extremes: Default::default() })
+        Ok(Self { between, readings, place, solves, outputs, extremes: Default::default() })
+    }
+
+    /// The values at other times; None where the run has none.
+    fn read(&self, t: &[f64]) -> Option<Vec<f64>> {
+        let (measure, _) = &self.readings.measures[self.place];
+        self.readings.values(measure, &self.readings.at(t, self.solves)?)
     }
 
     /// A statistic of the measure.
@@ -63,20 +73,17 @@ impl<'a> Series<'a> {
         let signed = |values: &[f64]| -> Vec<f64> { values.iter().map(|x| sign * x).collect() };
         let signed_outputs = signed(&self.outputs);
         let outputs = Samples { t: &self.readings.run.trajectory.t, values: &signed_outputs };
-        let Some(Fine { rows, near }) = self.readings.fine()? else {
+        let Some(Fine { t, values, near }) = self.between.fine()? else {
             return Ok(extreme(sign, outputs, None));
         };
-        let values = signed(&self.readings.values(&self.measure, rows).ok_or(Missing::Single)?);
+        let values = signed(&values[self.place]);
         if !changes(&values) {
             return Ok(extreme(sign, outputs, None));
         }
-        let mut read = |t: &[f64]| {
-            Some(signed(&self.readings.values(&self.measure, &self.readings.at(t, self.solves)?)?))
-        };
-        let samples = Samples { t: &rows.t, values: &values };
+        let mut read = |t: &[f64]| Some(signed(&self.read(t)?));
+        let samples = Samples { t, values: &values };
         let known = (&near.near[..], &near.near_t[..]);
-        let found =
-            Maxima::search((&rows.t, &values), known, self.readings.resolved(rows), &mut read);
+        let found = Maxima::search((t, &values), known, self.readings.resolved(t), &mut read);
         match found.near.is_empty() {
             true => Ok(extreme(sign, outputs, Some((samples, &found)))),
             // a single run continues the quantity across these positions
@@ -86,8 +93,7 @@ impl<'a> Series<'a> {
 
     fn settling(&self) -> Result<f64, Missing> {
         let t = &self.readings.run.trajectory.t;
-        let mut read =
-            |t: &[f64]| self.readings.values(&self.measure, &self.readings.at(t, self.solves)?);
+        let mut read = |t: &[f64]| self.read(t);
         let continuous = self.readings.run.dense.as_ref().is_some_and(|dense| dense.t.len() > 1);
         let found = match continuous {
             true => settling(t, &self.outputs, None, Some(&mut read)),

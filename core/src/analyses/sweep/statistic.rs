@@ -41,4 +41,14 @@ impl Statistic {
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.iter().find(|(known, _)| *known == name).map(|(_, found)| *found)
     }
+
+    /// Whether it is an extreme value or its time.
+    pub fn is_extreme(self) -> bool {
+        matches!(self, Self::Max | Self::Min | Self::Peak | Self::TimeOfMax | Self::TimeOfMin)
+    }
+
+    /// Whether it depends on values between the outputs.
+    pub fn looks_between_outputs(self) -> bool {
+        self.is_extreme() || self == Self::Settling
+    }
 }
