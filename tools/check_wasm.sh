@@ -70,7 +70,7 @@ missing_packages() {
 # --- build ----------------------------------------------------------------------------------------
 
 # wasm_cargo COMMAND…: cargo for the target, with whichever toolchain there is. The standard library is compiled for size,
-# and panics stop at once: nobody would read their messages, and their code is a sixth of the module.
+# and panics stop at once, since pages do not show their messages.
 wasm_cargo() {
     command=$1
     shift

@@ -13,7 +13,7 @@ const ROOT = dirname(HERE);
 /** The compiled core; bindings/web/README.md says how it is built. */
 const CORE = process.env.KEMPE_WEB ?? join(ROOT, "target", "web", "kempe_web.wasm");
 /** Largest page, bytes compressed. */
-const MOST = 1.5 * 1024 * 1024;
+const MOST = 1.1 * 1024 * 1024;
 
 /** The examples of the repository, with the titles of their cases. */
 function examples() {

@@ -30,7 +30,7 @@ fn unreported(scheme: &Scheme) -> usize {
     constant.map_or(UNREPORTED, |_| 1)
 }
 
-/// Number of steps of a grid; zero if the steps of the method are reported.
+/// Number of steps of a grid, a whole number or not; zero if the steps of the method are reported.
 pub(super) fn grid_steps(options: &Options, t0: f64) -> f64 {
     options.output_step.map_or(0.0, |h| ((options.t_end - t0) / h).abs())
 }
@@ -42,8 +42,8 @@ pub(super) fn tables(
     t0: f64,
 ) -> (Trajectory, Option<PiecewiseInterpolant>) {
     let layout = &model.layout;
-    let states = (grid_steps(options, t0) + 2.0) as usize; // NaN gives none
-                                                           // all steps get the highest degree of the method from the start
+    let states = (grid_steps(options, t0) + 2.0) as usize;
+    // all steps get the highest degree of the method from the start
     let several = matches!(options.method, Scheme::Auto(_) | Scheme::Dop853(_));
     let degree = if several { HIGHEST } else { 0 };
     let dense =
