@@ -120,7 +120,7 @@ export const texts = {
   },
   outline: {
     open: "Outline from SVG …",
-    hint: "The paths of a file become the outline; a unit of the file is a millimetre unless its width says otherwise",
+    hint: "The paths of a file become the outline; a unit of the file is a millimetre unless its width has a unit",
     unreadable: (file: string) =>
       `${file} has no path that can be read. Convert its shapes to paths and apply their transforms.`,
   },

@@ -1,4 +1,4 @@
-// A picture behind the drawing. It is no part of the case.
+// A picture behind the drawing. It is not a part of the case.
 import { signal } from "@preact/signals";
 import { distance, type Point } from "../plane/points";
 
