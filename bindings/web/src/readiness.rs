@@ -1,4 +1,4 @@
-//! What stands in the way of each analysis that runs here: the checks with which the core begins it, at the start of the
+//! What prevents each analysis that runs here: the checks with which the core begins it, at the start of the
 //! case.
 
 use crate::fault::problem;
@@ -10,7 +10,7 @@ use kempe::{assemble, Flow, Model, Options, Problem, State};
 use serde_json::{json, Value};
 use std::sync::Arc;
 
-/// What stands in the way of each analysis; null where nothing does. Where the mechanism does not close, no other analysis
+/// What prevents each analysis; null where nothing does. Where the mechanism does not close, no other analysis
 /// can begin.
 pub fn readiness(loaded: &Loaded) -> Value {
     let (model, definition) = (&loaded.model, &loaded.case.definition);

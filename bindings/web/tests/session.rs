@@ -226,7 +226,7 @@ n = 3
     );
 }
 
-/// What stands in the way of an analysis, with its place.
+/// What prevents an analysis, with its place.
 fn obstacle(page: &mut Page, analysis: &str) -> Option<[String; 2]> {
     let all = page.ask(json!({ "do": "readiness" }));
     let found = all.as_array().expect("a list").iter().find(|one| one["analysis"] == analysis);

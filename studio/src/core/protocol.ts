@@ -102,7 +102,7 @@ export interface Ran {
   over: Quantity | null;
 }
 
-/** What stands in the way of an analysis; `path` leads to the element. */
+/** What prevents an analysis; `path` leads to the element. */
 export interface Readiness {
   analysis: string;
   problem: Problem | null;

@@ -7,12 +7,12 @@ use super::course::{self, Act};
 use super::energies::energies;
 use super::failure::Failure;
 use super::interpolated_states;
-use super::lane_batch::over_lanes;
 use super::model_cache::ModelCache;
 use super::options::Options;
 use super::run::Watcher;
 use super::run_results::Run;
 use super::trajectory::States;
+use super::wide::Wide;
 use crate::analyses::State;
 use crate::integrate::Flow;
 use crate::math::Lanes;
@@ -60,7 +60,7 @@ impl<M: Deref<Target = Model>> Prepared<M> {
 
     /// The model over lanes for so many states, if they are enough for it.
     pub(in crate::analyses) fn wide_for(&self, count: usize) -> Option<&Model<Lanes>> {
-        over_lanes(count).then(|| self.cache.wide(&self.model))
+        self.cache.wide(&self.model, count).map(Wide::model)
     }
 
     /// Integrates the equations of motion from `start` to `options.t_end`, as [`dynamics`](super::dynamics) does.
