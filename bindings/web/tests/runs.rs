@@ -1,0 +1,165 @@
+//! Runs of a session, and kinematics over a quantity.
+
+mod page;
+
+use page::{example, number, Page, PENDULUM};
+use serde_json::{json, Value};
+use std::f64::consts::PI;
+
+#[test]
+fn the_reaction_of_the_four_bar_at_the_start_is_that_of_its_reference() {
+    let text = example("four_bar");
+    let reference = include_str!("../../../tests/reference/four_bar.json");
+    let reference: Value = serde_json::from_str(reference).expect("JSON");
+    let mut page = Page::of(&text);
+    let expected = reference["start"]["q"].as_array().expect("coordinates");
+    let pose = page.ask(json!({ "do": "pose" }));
+    for (found, expected) in pose["q"].as_array().expect("q").iter().zip(expected) {
+        assert!((number(found) - number(expected)).abs() < 1e-9, "{found} {expected}");
+    }
+    let force = page.quantity("C.force");
+    assert!((force - 24_932.0).abs() < 1.0, "{force}");
+    let torque = page.quantity("spring.torque");
+    let angle = page.quantity("rocker.angle");
+    assert!((torque - 1e6 * (1.5 * PI - angle)).abs() < 1e-6, "{torque}");
+}
+
+#[test]
+fn a_run_gives_frames_and_values() {
+    let mut page = Page::of(PENDULUM);
+    let ran = page.ask(json!({ "do": "run", "analysis": "swing" }));
+    assert_eq!((number(&ran["count"]), &ran["status"]), (101.0, &json!("reached")));
+    let frames = page.ask(json!({ "do": "frames" }));
+    assert_eq!(number(&frames["numbers"]), 101.0 * 4.0);
+    let frames = page.0.numbers().to_vec();
+    let names = json!(["bar.angle", "bar.omega", "A.force", "energy.total", "bar.B.y"]);
+    let found = page.ask(json!({ "do": "values", "names": names }));
+    assert_eq!(found["units"], json!(["rad", "rad/s", "N", "J", "m"]));
+    let values = page.0.numbers().to_vec();
+    let row = |k: usize| &values[101 * k..101 * (k + 1)];
+    let first = row(3)[0];
+    for k in 0..101 {
+        let (angle, omega) = (row(0)[k], row(1)[k]);
+        assert_eq!([frames[4 * k], frames[4 * k + 3]], [0.01 * k as f64, angle].map(|x| x));
+        // conservation of energy: ω² = 3 g (-sin angle) / L
+        let expected = 3.0 * 9.81 * -angle.sin();
+        assert!((omega * omega - expected).abs() < 1e-5, "{omega} {expected}");
+        assert!((row(3)[k] - first).abs() < 1e-6);
+        assert!((row(4)[k] - angle.sin()).abs() < 1e-12);
+        // along the bar m (g sin + ω² L/2), across it m g cos / 4
+        let along = 2.0 * (9.81 * angle.sin() - 0.5 * omega * omega);
+        let across = 2.0 * 9.81 * angle.cos() / 4.0;
+        assert!((row(2)[k] - along.hypot(across)).abs() < 1e-5, "{} at {k}", row(2)[k]);
+    }
+    let message = page.fault(json!({ "do": "values", "names": ["bar.angel"] }));
+    assert!(message.contains("bar.angel"), "{message}");
+}
+
+/// The slider-crank with kinematics over a value, and perhaps a driver of the crank.
+fn slider_crank_over(over: &str, range: &str, driver: &str) -> Page {
+    let more = format!(
+        "{driver}\n[analyses.cycle]\ntype = \"kinematics\"\nfrom = \"start\"\nover = \"{over}\"\nrange = {range}\nn = 91\n"
+    );
+    let text = example("slider_crank").replace(", \"crank.omega\" = 30", "");
+    Page::of(&(text + &more))
+}
+
+/// Values of a run, a list for each quantity.
+fn values(page: &mut Page, names: &[&str]) -> Vec<Vec<f64>> {
+    page.ask(json!({ "do": "values", "names": names }));
+    let numbers = page.0.numbers();
+    numbers.chunks(numbers.len() / names.len()).map(<[f64]>::to_vec).collect()
+}
+
+#[test]
+fn kinematics_over_the_crank_angle_is_that_of_the_closed_form() {
+    let law = "[drivers.turn]\ntype = \"coordinate_driver\"\ncoordinate = \"crank.angle\"\nvalue = \"60*deg + 5*t\"";
+    for (over, driver) in [("crank.angle", ""), ("crank.angle", law), ("turn", law)] {
+        let mut page = slider_crank_over(over, "[0, \"360*deg\"]", driver);
+        let ran = page.ask(json!({ "do": "run", "analysis": "cycle" }));
+        assert_eq!((number(&ran["count"]), &ran["status"]), (91.0, &json!("reached")), "{ran}");
+        assert_eq!(ran["over"], json!({ "name": "crank.angle", "unit": "rad" }));
+        let found = values(&mut page, &["crank.angle", "slider.x", "slider.vx", "slider.ax"]);
+        page.ask(json!({ "do": "frames" }));
+        let frames = page.0.numbers().to_vec();
+        for k in 0..91 {
+            let angle = (4.0 * k as f64).to_radians();
+            let ((s, c), r) = (angle.sin_cos(), 0.1);
+            let root = (0.09 - r * r * s * s).sqrt();
+            // x, and its first and second derivative by the angle
+            let rate = -r * s - r * r * s * c / root;
+            let second =
+                -r * c - r * r * ((c * c - s * s) / root + (r * s * c).powi(2) / root.powi(3));
+            let expected = [angle, r * c + root, rate, second];
+            assert!((frames[k * frames.len() / 91] - angle).abs() < 1e-12);
+            for (row, expected) in found.iter().zip(expected) {
+                assert!((row[k] - expected).abs() < 1e-9, "{over}: {} {expected} at {k}", row[k]);
+            }
+        }
+    }
+}
+
+#[test]
+fn another_quantity_replaces_the_only_driver() {
+    let law = "[drivers.turn]\ntype = \"coordinate_driver\"\ncoordinate = \"crank.angle\"\nvalue = \"60*deg + 5*t\"";
+    let mut page = slider_crank_over("slider.x", "[0.3, 0.25]", law);
+    page.ask(json!({ "do": "run", "analysis": "cycle" }));
+    let found = values(&mut page, &["slider.x", "crank.angle"]);
+    for (x, angle) in found[0].iter().zip(&found[1]) {
+        // law of cosines
+        let expected = ((x * x + 0.01 - 0.09) / (2.0 * x * 0.1)).acos();
+        assert!((angle - expected).abs() < 1e-9, "{angle} {expected}");
+    }
+    assert!((found[0][90] - 0.25).abs() < 1e-12);
+    let beyond = page.ask(json!({ "do": "load", "text": example("slider_crank") + "\n[analyses.far]\ntype = \"kinematics\"\nfrom = \"start\"\nover = \"slider.x\"\nrange = [0.3, 0.5]\n" }));
+    assert_eq!(beyond["problems"], json!([]));
+    let ran = page.ask(json!({ "do": "run", "analysis": "far" }));
+    assert_eq!(ran["status"], "failed");
+    let message = ran["error"]["message"].as_str().expect("a text");
+    assert!(message.contains("0.4 m: dead point, crank and rod in line"), "{message}");
+}
+
+#[test]
+fn other_drivers_stay_where_they_are() {
+    let second = PENDULUM
+        .replace("[start]\nset = { \"bar.angle\" = 0 }\n", "")
+        .replace("[analyses.swing]\ntype = \"dynamics\"\nt_end = 1\noutput_step = 0.01\n", "")
+        .replace("[joints.A]", "[bodies.other]\ntype = \"bar\"\nmass = 1\nlength = 1\nends = [\"A\", \"B\"]\n[joints.O]\ntype = \"revolute\"\ni = \"ground.A\"\nj = \"other.A\"\n[joints.A]");
+    let more = r#"
+[drivers.first]
+type = "coordinate_driver"
+coordinate = "bar.angle"
+value = "t"
+[drivers.second]
+type = "coordinate_driver"
+coordinate = "other.angle"
+value = "0.2 + 3*t + cos(2*t)"
+[analyses.before]
+type = "kinematics"
+t_end = 4
+[analyses.cycle]
+type = "kinematics"
+over = "first"
+range = [1, 2]
+n = 3
+"#;
+    let mut page = Page::of(&(second + more));
+    page.ask(json!({ "do": "run", "analysis": "cycle" }));
+    let found = values(&mut page, &["bar.angle", "other.angle", "other.omega"]);
+    for (k, angle) in [1.0, 1.5, 2.0].into_iter().enumerate() {
+        assert!((found[0][k] - angle).abs() < 1e-12);
+        assert!(
+            (found[1][k] - 12.2 - 8_f64.cos()).abs() < 1e-12 && found[2][k] == 0.0,
+            "{found:?}"
+        );
+    }
+    let both = "over = \"bar.B.x\"";
+    let text = page.ask(json!({ "do": "save", "format": "toml" }))["text"].clone();
+    let text = text.as_str().expect("a text").replace("over = \"first\"", both);
+    let mut page = Page::of(&text);
+    let message = page.fault(json!({ "do": "run", "analysis": "cycle" }));
+    assert!(
+        message.contains("the drivers first, second determine the motion already"),
+        "{message}"
+    );
+}
