@@ -116,3 +116,13 @@ def test_measures_of_the_case_and_typed_ones_have_the_numbers_of_python(
     one.page.keyboard.press("Enter")
     one.settle()
     assert "no quantity 'rod.colour'" in one.page.locator(".measure .problem").inner_text()
+
+
+def test_another_case_has_plots_of_its_own(one: Studio) -> None:
+    for name in ("slider_crank", "four_bar"):  # both have a crank
+        one.load((EXAMPLES / f"{name}.toml").read_text(encoding="utf-8"))
+        one.mode("read")
+        one.settle()
+    legend = one.page.locator(".legend li").all_inner_texts()
+    names = [entry.split()[0] for entry in legend]
+    assert names == ["crank.angle", "coupler.angle", "rocker.angle"]

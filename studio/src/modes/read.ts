@@ -61,12 +61,13 @@ export async function run(t_end?: number): Promise<Ran | null> {
     const { numbers } = await send("frames", {});
     const width = 1 + 3 * ((mechanism.value?.bodies.length ?? 1) - 1);
     const t = Float64Array.from({ length: Math.floor(numbers.length / width) }, (_, k) => numbers[k * width]!);
+    const ground = mechanism.value?.bodies[0]?.name ?? "";
+    const found = (await send("quantities", {})).ok.filter(({ name }) => !name.startsWith(`${ground}.`));
     batch(() => {
       course.value = { ran: ok, t, rows: numbers, width };
       time.value = t[0] ?? 0;
+      quantities.value = found;
     });
-    const ground = mechanism.value?.bodies[0]?.name ?? "";
-    quantities.value = (await send("quantities", {})).ok.filter(({ name }) => !name.startsWith(`${ground}.`));
     if (ok.error) announce("problem", ok.error.message, ok.error.hint ? { hint: ok.error.hint } : {});
     else announce("done", texts.read.done(ok.count, ok.t_end));
     show(time.value);

@@ -5,7 +5,7 @@ import { texts } from "../texts";
 import { MOST_OF_TEXT } from "./limits";
 import { edited, load, report, Superseded } from "./session";
 import { fitNext } from "./sheet";
-import { announce, held, message, selection, text } from "./state";
+import { announce, held, message, openings, selection, text } from "./state";
 
 /** Texts kept for undoing; a text is at most 2 MB. */
 const MOST = 200;
@@ -20,6 +20,7 @@ let typedAt = 0;
 /** Begin with another text; false if it is too large. */
 export async function open(given: string, name = "mechanism.toml"): Promise<boolean> {
   if (isTooLarge(given)) return false;
+  openings.value += 1;
   past.value = [];
   future.value = [];
   fileName.value = name;

@@ -2,6 +2,7 @@
 import { effect, signal } from "@preact/signals";
 import type { Stored } from "../give/stored";
 import { course, quantities } from "../modes/read";
+import { loads, openings } from "./state";
 
 export interface PlotOf {
   key: number;
@@ -12,7 +13,16 @@ export interface PlotOf {
 export const stored = signal<Stored | null>(null);
 export const plots = signal<PlotOf[]>([]);
 
-/** The first run shows the angles of the bodies; later ones keep those quantities that still exist. */
+let opening = 0;
+
+/** Another case has plots of its own, from when the core has read it: until then runs may be those of the case before. */
+effect(() => {
+  loads.value;
+  if (openings.peek() !== opening) plots.value = [];
+  opening = openings.peek();
+});
+
+/** The first run of a case shows the angles of the bodies; later ones keep those quantities that still exist. */
 effect(() => {
   if (!course.value || !quantities.value.length) return;
   const all = new Set(quantities.value.map(({ name }) => name));

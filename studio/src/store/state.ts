@@ -22,6 +22,8 @@ export type Selection = { group: Group; name: string; point?: string } | null;
 export const ready = signal(false);
 /** Counts the texts that the core has read; each makes its runs and motions void. */
 export const loads = signal(0);
+/** Counts the cases that were opened. */
+export const openings = signal(0);
 export const catalogue = signal<Catalogue>(readCatalogue({}));
 export const tools = computed<Tool[]>(() => toolsOf(catalogue.value));
 
