@@ -222,6 +222,16 @@ export const texts = {
     degrees: "° and rpm",
   },
   gallery: { title: "Examples", close: "Close", open: "Open" },
+  ready: {
+    title: "What can be computed",
+    yes: "ready",
+    names: {
+      assembly: "Assembly",
+      dynamics: "Dynamics",
+      kinematics: "Kinematics",
+      inverse_dynamics: "Inverse dynamics",
+    } as Record<string, string>,
+  },
   share: {
     title: "Share",
     text: "The link holds the whole model, compressed. Nothing is sent to anyone until you send the link.",

@@ -11,6 +11,7 @@ import { Backdrop } from "./Backdrop";
 import { Field, put } from "./Field";
 import { Contents } from "./Properties";
 import { Button, Section } from "./parts";
+import { Ready } from "./Ready";
 
 export function Case() {
   const words = texts.properties;
@@ -33,6 +34,7 @@ export function Case() {
       ))}
       <Start value={isTable(found.start) ? found.start : {}} />
       <Analyses />
+      <Ready />
       <Backdrop />
     </div>
   );
