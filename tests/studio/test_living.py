@@ -53,7 +53,7 @@ def test_a_pull_moves_a_pendulum_that_hangs_towards_the_mouse(one: Studio) -> No
     one.page.mouse.move(*one.screen(0.0, -1.0))
     one.page.mouse.down()
     one.page.mouse.move(*one.screen(0.4, -0.9), steps=4)
-    # the spring of the mouse draws the end of the rod to it, but for the weight
+    # the spring of the mouse draws the end of the rod to it, against the weight
     angle = math.atan2(-0.9, 0.4)
     wait_for_angle(one, lambda held: abs(held - angle) < 0.2)
     assert one.state()["q"][2] - -math.pi / 2 > 0.15
