@@ -15,6 +15,8 @@ use std::sync::Arc;
 /// Advances that are computed ahead, and the longest time of them, s, unless one advance is longer.
 const ADVANCES: f64 = 15.0;
 const AHEAD: f64 = 0.25;
+/// Shorter advances are computed ahead as one of this length, s: two frames may have almost the same time.
+const SHORTEST: f64 = 1e-4;
 /// Outputs in one advance; the picture lags by less than the time between them.
 const OUTPUTS: f64 = 4.0;
 /// Part of an advance that is rounding.
@@ -107,6 +109,7 @@ impl Live {
     /// Computes ahead from the present state; the reason for which the motion ended, if it did.
     fn compute(&mut self, by: f64, steps: &mut usize) -> Option<String> {
         self.settle_works();
+        let by = by.max(SHORTEST);
         let span = (ADVANCES * by).min(AHEAD).max(self.goal - self.state.t);
         let mut options = Options::new(self.state.t + span);
         options.output_step = Some(by / OUTPUTS);

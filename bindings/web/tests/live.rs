@@ -94,3 +94,24 @@ fn parameters_change_the_motion_but_not_the_text() {
     let text = page.ask(json!({ "do": "save", "format": "toml" }));
     assert!(text["text"].as_str().expect("a text").contains("m = 2"));
 }
+
+/// The time between two frames of a screen may be anything down to rounding.
+#[test]
+fn advances_however_short_do_not_end_the_motion() {
+    let mut page = Page::of(PENDULUM);
+    let pull = |k: i32| json!({ "do": "pull", "body": "bar", "point": [0.5, 0], "to": [1, 0.1 * f64::from(k)], "stiffness": 40, "damping": 6 });
+    let mut due = 0.0;
+    page.ask(json!({ "do": "live" }));
+    for k in 0..100 {
+        if k % 7 == 0 {
+            page.ask(pull(k % 3));
+        }
+        for by in [1.0 / 60.0, 0.1 * 0.1_f64.powi(k % 20)] {
+            let found = page.ask(json!({ "do": "advance", "by": by }));
+            assert!(found["ended"].is_null(), "{by}: {found}");
+            due += by;
+            let late = due - number(&found["t"]);
+            assert!(late > -1e-7 && late < 0.01, "late by {late}");
+        }
+    }
+}
