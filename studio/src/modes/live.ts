@@ -5,10 +5,12 @@ import { report, send } from "../store/session";
 import { preview, view } from "../store/sheet";
 import { announce, mechanism, mode, pose, poses, selection, live as state } from "../store/state";
 import { texts } from "../texts";
+import { Frames } from "./frames";
 import { type Grip, gripAt } from "./grip";
 import type { Handler } from "./handler";
 
-export const playing = signal(false);
+const frames = new Frames();
+export const playing = frames.playing;
 export const speed = signal(1);
 /** Parameters whose values are not those of the text. */
 export const changed = signal<Record<string, number>>({});
@@ -79,28 +81,13 @@ async function begin(): Promise<void> {
 }
 
 export async function play(): Promise<void> {
-  if (playing.value) return;
-  playing.value = true;
-  try {
-    await begin();
-    await run();
-  } catch (error) {
-    report(error);
-  }
-  playing.value = false;
-}
-
-async function run(): Promise<void> {
-  let last = performance.now();
   const started = mode.value;
-  const goesOn = () => playing.value && mode.value === started;
-  while (goesOn()) {
-    const now = await new Promise<number>((done) => requestAnimationFrame(done));
-    if (!goesOn()) return;
-    const by = Math.min(LONGEST_FRAME, Math.max(0, (now - last) / 1000)) * speed.value;
-    last = now;
-    if (by > 0 && !(await advance(by))) return;
-  }
+  const each = (ms: number) => {
+    if (mode.value !== started) return false;
+    const by = Math.min(LONGEST_FRAME, ms / 1000) * speed.value;
+    return by > 0 ? advance(by) : true;
+  };
+  await frames.play(each, begin).catch(report);
 }
 
 /** Go on by some simulated seconds; false if the motion ended. */
@@ -116,7 +103,7 @@ async function advance(by: number): Promise<boolean> {
 }
 
 export function pause(): void {
-  playing.value = false;
+  frames.stop();
 }
 
 export function toggle(): void {

@@ -37,14 +37,14 @@ function leave(before: Mode): void {
   const others = Object.keys(living.changed.value).length > 0;
   living.stop();
   if (others) void goHome();
-  reading.playing.value = false;
+  reading.pause();
   if (before === "read") void showPresent();
 }
 
 effect(() => {
   loads.value;
   reading.course.value = null;
-  reading.playing.value = false;
+  reading.pause();
   living.stop();
   living.changed.value = {};
 });

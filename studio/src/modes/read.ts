@@ -4,6 +4,7 @@ import type { Pose, Quantity, Ran } from "../core/protocol";
 import { report, send } from "../store/session";
 import { announce, catalogue, mechanism, mode, pose, selection } from "../store/state";
 import { texts } from "../texts";
+import { Frames } from "./frames";
 import { gripAt } from "./grip";
 import type { Handler } from "./handler";
 
@@ -18,7 +19,8 @@ export interface Course {
 export const course = signal<Course | null>(null);
 export const quantities = signal<Quantity[]>([]);
 export const time = signal(0);
-export const playing = signal(false);
+const frames = new Frames();
+export const playing = frames.playing;
 export const rate = signal(1);
 export const running = signal(false);
 /** The analysis of the case that is chosen; empty for dynamics from the pose that is shown. */
@@ -121,21 +123,22 @@ export function show(at: number): void {
 }
 
 export async function play(): Promise<void> {
-  if (playing.value || !course.value) return;
-  playing.value = true;
+  if (!course.value) return;
   if (time.value >= span.value[1]) show(span.value[0]);
-  let last = performance.now();
-  while (playing.value && mode.value === "read") {
-    const now = await new Promise<number>((done) => requestAnimationFrame(done));
-    const next = time.value + Math.min(0.5, Math.max(0, now - last) / 1000) * rate.value;
-    last = now;
+  await frames.play((ms) => {
+    if (mode.value !== "read") return false;
+    const next = time.value + (Math.min(500, ms) / 1000) * rate.value;
     show(next >= span.value[1] ? span.value[0] : next);
-  }
-  playing.value = false;
+    return true;
+  });
+}
+
+export function pause(): void {
+  frames.stop();
 }
 
 export function toggle(): void {
-  if (playing.value) playing.value = false;
+  if (playing.value) pause();
   else void play();
 }
 

@@ -63,8 +63,9 @@ function connect(host: HTMLElement): () => void {
   root.replaceChildren(parent);
   let timer: ReturnType<typeof setTimeout> | undefined;
   const listener = EditorView.updateListener.of((update) => {
-    if (!update.docChanged || update.transactions.some((one) => one.isUserEvent("outside"))) return;
+    if (!update.docChanged) return;
     clearTimeout(timer);
+    if (update.transactions.some((one) => one.isUserEvent("outside"))) return;
     timer = setTimeout(() => void type(update.state.doc.toString()), PAUSE);
   });
   const view = new EditorView({
