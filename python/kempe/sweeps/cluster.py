@@ -23,6 +23,8 @@ from kempe.sweeps.table import Table
 _PACE, _MOST = 2.0, 20_000
 #: Blocks that wait for each thread, so that none is idle between two blocks.
 _AHEAD = 2
+#: Time after which a scheduler that does not answer counts as missing, s.
+_LONGEST_WAIT = 10
 
 
 def fill(table: Table, plan: Plan, design: Floats, scheduler: Any, workers: int | None) -> None:
@@ -94,7 +96,7 @@ def connected(address: str) -> Any:
     """
     distributed = _distributed()
     try:
-        return distributed.Client(address)
+        return distributed.Client(address, timeout=_LONGEST_WAIT)
     except (OSError, ValueError) as error:
         raise ModelError(
             f"no Dask scheduler at {address}: {error}", hint="check the address and the network"
