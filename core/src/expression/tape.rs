@@ -7,6 +7,9 @@ use super::{Symbol, MAX_OPERANDS};
 use crate::math::Real;
 use std::sync::Arc;
 
+/// Most operands of a short expression.
+const SHORT: usize = 8;
+
 /// One step of an evaluation. Operands are on the stack, the last one on top.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Instruction {
@@ -139,13 +142,13 @@ impl Tape {
     /// Nothing is allocated. Outside the domain of a function the value is NaN, never a panic. A switch has the piece
     /// that is held for it. Where the held pieces have no value, as √x of x > 0 just below zero, none is held.
     pub fn evaluate<S: Real>(&self, values: &impl Values<S>) -> S {
-        if self.switches == 0 {
-            return self.by_depth(values, &mut |_| {});
+        if self.switches == 0 && self.operands <= SHORT {
+            return self.run::<S, _, SHORT>(values, &mut |_| {});
         }
-        let value = self.value_with_switches(values, &mut |_| {});
-        match value.is_finite() {
+        let value = self.run_shared(values, &mut |_| {});
+        match self.switches == 0 || value.is_finite() {
             true => value,
-            false => self.value_with_switches(&Free(values), &mut |_| {}),
+            false => self.run_shared(&Free(values), &mut |_| {}),
         }
     }
 
@@ -156,7 +159,7 @@ impl Tape {
         mut take: impl FnMut(usize, S),
     ) {
         if self.switches > 0 {
-            self.value_with_switches(values, &mut |seen: Seen<'_, S>| {
+            self.run_shared(values, &mut |seen: Seen<'_, S>| {
                 if let Seen::Switch(k, sigma) = seen {
                     take(k, sigma);
                 }
@@ -164,30 +167,22 @@ impl Tape {
         }
     }
 
-    #[inline(always)]
-    fn by_depth<S: Real>(&self, values: &impl Values<S>, look: &mut impl FnMut(Seen<'_, S>)) -> S {
+    /// One copy for all kinds of values and observers, because there are many of them for each scalar.
+    #[inline(never)]
+    fn run_shared<S: Real>(&self, values: &dyn Values<S>, look: &mut dyn FnMut(Seen<'_, S>)) -> S {
         // a large stack of large scalars costs more to clear than a short expression to evaluate
-        if self.operands <= 8 {
-            self.run::<S, 8>(values, look)
+        if self.operands <= SHORT {
+            self.run::<S, _, SHORT>(values, look)
         } else {
-            self.run::<S, MAX_OPERANDS>(values, look)
+            self.run::<S, _, MAX_OPERANDS>(values, look)
         }
     }
 
-    #[inline(never)]
-    fn value_with_switches<S: Real>(
-        &self,
-        values: &impl Values<S>,
-        look: &mut impl FnMut(Seen<'_, S>),
-    ) -> S {
-        self.by_depth(values, look)
-    }
-
     #[inline(always)]
-    fn run<S: Real, const DEPTH: usize>(
+    fn run<S: Real, V: Values<S> + ?Sized, const DEPTH: usize>(
         &self,
-        values: &impl Values<S>,
-        look: &mut impl FnMut(Seen<'_, S>),
+        values: &V,
+        look: &mut dyn FnMut(Seen<'_, S>),
     ) -> S {
         let mut stack = [S::zero(); DEPTH];
         let mut top = 0; // first free place
@@ -317,7 +312,7 @@ impl Tape {
     /// Why the expression has no value, if a table is read outside its range.
     pub fn refusal(&self, values: &impl Values<f64>) -> Option<String> {
         let mut reason = None;
-        self.run::<f64, MAX_OPERANDS>(values, &mut |seen: Seen<'_, f64>| {
+        self.run_shared(values, &mut |seen: Seen<'_, f64>| {
             if let Seen::Table(table, x) = seen {
                 reason = reason.take().or_else(|| table.refusal(x));
             }
