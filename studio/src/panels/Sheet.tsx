@@ -11,6 +11,7 @@ import { resized } from "../store/session";
 import { fit, preview, typedLength, view, viewChanged, zoom } from "../store/sheet";
 import { items, mode, shown, snapping, title, tool } from "../store/state";
 import { texts } from "../texts";
+import { Guide } from "./Guide";
 import { Button, Check } from "./parts";
 
 /** The mark that benchmarks/studio_page.py reads. */
@@ -55,6 +56,9 @@ export function Sheet() {
           </Button>
         </div>
       </div>
+      <div class="tool-place">
+        <ToolBox />
+      </div>
       <div class="space">
         <canvas
           id="sheet"
@@ -63,7 +67,7 @@ export function Sheet() {
           role="img"
           aria-label={words.label(title.value || texts.menu.untitled)}
         />
-        <ToolBox />
+        <Guide />
       </div>
     </section>
   );

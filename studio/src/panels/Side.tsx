@@ -1,4 +1,5 @@
 // The panel at the side: what belongs to the mode, the text, and on phones the palette.
+import { phase } from "../guide/guide";
 import { mode, panel, problems } from "../store/state";
 import { texts } from "../texts";
 import { Editor } from "./Editor";
@@ -21,6 +22,7 @@ export function Side() {
             id="insert"
             label={texts.tabs.insert}
             chosen={shown === "insert"}
+            next={phase.value === "tool" && shown !== "insert"}
             onClick={() => (panel.value = "insert")}
           />
         ) : null}
@@ -39,9 +41,19 @@ export function Side() {
   );
 }
 
-function Tab({ id, label, chosen, onClick }: { id: string; label: string; chosen: boolean; onClick(): void }) {
+interface TabProps {
+  id: string;
+  label: string;
+  chosen: boolean;
+  /** Marked as the next step of the first build. */
+  next?: boolean;
+  onClick(): void;
+}
+
+function Tab({ id, label, chosen, next, onClick }: TabProps) {
+  const kind = `tab-${id}${next ? " next" : ""}`;
   return (
-    <button type="button" role="tab" id={`tab-${id}`} class={`tab-${id}`} aria-selected={chosen} onClick={onClick}>
+    <button type="button" role="tab" id={`tab-${id}`} class={kind} aria-selected={chosen} onClick={onClick}>
       {label}
     </button>
   );
