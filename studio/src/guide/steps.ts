@@ -2,8 +2,10 @@
 import { isPin } from "../catalogue/catalogue";
 import type { Tool } from "../catalogue/tools";
 import { entries } from "../catalogue/tree";
+import { snapStep } from "../draw/measure";
 import { points } from "../modes/seen";
 import { distance, type Point } from "../plane/points";
+import { view, viewed } from "../store/sheet";
 import { catalogue, home, live, type Mode, mechanism, mode, pose, tree } from "../store/state";
 
 /** Places to click, in their order, and the line between them. */
@@ -22,11 +24,9 @@ export interface Step {
 }
 
 const NOTHING: Ghost = { at: [], line: [] };
-/** The fixed points that are suggested, m. */
-const FIXED: Point[] = [
-  [-0.4, -0.3],
-  [0.4, -0.3],
-];
+/** The line between the suggested fixed points: its length as shares of width and height of the sheet, its place below the middle. */
+const LENGTH = [0.45, 0.45] as const;
+const BELOW = 0.14;
 /** Ends of crank and coupler, as shares of the line between the fixed points: a crank-rocker. */
 const CRANK_END: Point = [0.15, 0.25];
 const COUPLER_END: Point = [0.85, 0.8];
@@ -103,9 +103,19 @@ function lineTo(begin: number, end: number): Ghost {
 }
 
 function ghostOfGround(): Ghost {
+  viewed.value;
+  const step = snapStep(view);
+  const [middle, y] = view
+    .toPlane([view.width / 2, (0.5 + BELOW) * view.height])
+    .map((x) => Math.round(x / step) * step);
+  const half = Math.round(Math.min(LENGTH[0] * view.width, LENGTH[1] * view.height) / view.scale / step / 2) * step;
+  const suggested: Point[] = [
+    [middle! - half, y!],
+    [middle! + half, y!],
+  ];
   const [first] = fixed();
-  if (!first) return { at: FIXED, line: [] };
-  const far = [...FIXED].sort((a, b) => distance(b, first) - distance(a, first));
+  if (!first) return { at: suggested, line: [] };
+  const far = suggested.sort((a, b) => distance(b, first) - distance(a, first));
   return { at: [far[0]!], line: [] };
 }
 

@@ -2,6 +2,8 @@
 import { useLayoutEffect, useRef, useState } from "preact/hooks";
 import { at, begin, blank, ghost, leave, phase, skip, step, tooled } from "../guide/guide";
 import { STEPS } from "../guide/steps";
+import { points } from "../modes/seen";
+import type { Point } from "../plane/points";
 import { view, viewed } from "../store/sheet";
 import { mode, tool } from "../store/state";
 import { texts } from "../texts";
@@ -16,7 +18,6 @@ export function Guide() {
   if (!blank.value || tool.value || mode.value !== "edit") return null;
   return (
     <div class="guide offer">
-      <p>{texts.guide.offer}</p>
       <Button label={texts.guide.begin} kind="main" onClick={() => void begin()} id="guide-begin" />
     </div>
   );
@@ -53,10 +54,16 @@ function textOf(name: keyof typeof texts.guide.steps): string {
   return phase.value === "tool" ? words.tool(label, name) : words.steps[name];
 }
 
-/** Where the card is, px: below its marks, otherwise above them, otherwise in the corner. */
+/** What the card leaves free: its marks, or the mechanism. */
+function kept(): Point[] {
+  const { at: places, line } = ghost.value ?? { at: [], line: [] };
+  return places.length ? [...places, ...line] : points().map((one) => one.at);
+}
+
+/** Where the card is, px: below what it leaves free, otherwise above, otherwise where more room is. */
 function placeOf({ width, height }: { width: number; height: number }): [number, number] {
   viewed.value;
-  const places = [...(ghost.value?.at ?? []), ...(ghost.value?.line ?? [])].map((one) => view.toScreen(one));
+  const places = kept().map((one) => view.toScreen(one));
   const low = view.height - height - EDGE;
   if (!places.length) return [EDGE, Math.max(EDGE, low - ROOM)];
   const [xs, ys] = [places.map(([x]) => x), places.map(([, y]) => y)];
@@ -65,5 +72,6 @@ function placeOf({ width, height }: { width: number; height: number }): [number,
   const below = Math.max(...ys) + ROOM;
   const above = Math.min(...ys) - ROOM - height;
   if (below <= low) return [left, below];
-  return above >= EDGE ? [left, above] : [EDGE, low];
+  if (above >= EDGE) return [left, above];
+  return [EDGE, Math.min(...ys) > view.height - Math.max(...ys) ? EDGE : low];
 }

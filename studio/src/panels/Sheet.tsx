@@ -2,10 +2,12 @@
 import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { cleared, palette, sharpen } from "../draw/surface";
+import { cancelGif, making, saveGif } from "../give/gif";
 import { saveDrawing, saveSvg } from "../give/pictures";
 import { handler } from "../modes/modes";
 import { drawing, finish, restart } from "../modes/place";
 import { listenToPointer } from "../modes/pointer";
+import { course } from "../modes/read";
 import { follow, paintSheet } from "../page/painting";
 import { resized } from "../store/session";
 import { fit, preview, typedLength, view, viewChanged, zoom } from "../store/sheet";
@@ -54,6 +56,7 @@ export function Sheet() {
           <Button label={words.svgHint} onClick={saveSvg}>
             {words.svg}
           </Button>
+          <Gif />
         </div>
       </div>
       <div class="tool-place">
@@ -70,6 +73,22 @@ export function Sheet() {
         <Guide />
       </div>
     </section>
+  );
+}
+
+/** The motion of a run as a GIF; while it is made, its progress, and a click cancels. */
+function Gif() {
+  if (mode.value !== "read" || !course.value) return null;
+  const { gif, gifHint, gifCancel, gifProgress } = texts.sheet;
+  const share = making.value;
+  return (
+    <Button
+      label={share === null ? gifHint : gifCancel}
+      onClick={share === null ? () => void saveGif() : cancelGif}
+      id="gif"
+    >
+      {share === null ? gif : gifProgress(Math.round(100 * share))}
+    </Button>
   );
 }
 
