@@ -67,6 +67,9 @@ export const texts = {
     fixed: (body: string, point: string) =>
       `${body}.${point} does not follow: a length or a formula of the text determines it.`,
     place: (body: string) => `Place ${body} by its points`,
+    noLength: "A length is a number greater than 0, in m.",
+    notKept: (body: string) =>
+      `With this length of ${body} the bodies beside it cannot keep theirs; they were changed.`,
     noMirror: (body: string) =>
       `${body} cannot be mirrored: it must be placed by points, without shapes, outlines and curves.`,
     invalidName: (name: string) => `“${name}” cannot be a name: a name has letters, digits and _ and is used once.`,
@@ -104,6 +107,8 @@ export const texts = {
     position: "Position",
     remove: "Delete",
     removeHint: "Delete (del)",
+    addPoint: "Add a point",
+    addPointHint: "A point beside the middle; drag it to its place. Read draws its path",
     copy: "Duplicate",
     mirror: "Mirror",
     mirrorHint: "Mirror at the vertical line through its middle",

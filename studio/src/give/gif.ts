@@ -63,6 +63,7 @@ async function encoded(goesOn: () => boolean): Promise<Uint8Array<ArrayBuffer> |
     making.value = k / times.length;
     show(at);
     const pixels = applyPalette(picture.painted(), palette);
+    await new Promise((done) => setTimeout(done));
     const first = k === 0 ? { palette, repeat: 0 } : {};
     gif.writeFrame(pixels, picture.width, picture.height, { ...first, delay: 10 * delay });
   }
