@@ -273,6 +273,20 @@ export const texts = {
       ["wheel, two fingers", "zoom; drag the empty sheet to move it"],
     ] as [string, string][],
   },
+  hints: {
+    dismiss: "Hide this hint",
+    all: {
+      edit: "Drag a point to change the geometry; everything that is pinned there follows.",
+      move: "Drag the mechanism; arrows of the keyboard push the selected body.",
+      live: "Hold a body with the mouse to pull at it; space pauses.",
+      read: "The slider below the drawing shows any time of the run; curves follow.",
+      two: "Type digits after the first click for an exact length; begin at a point to pin the bar there.",
+      many: "Click all points of the body; enter or a double click finishes it.",
+      one: "Click where the mass is; on a point it is pinned there.",
+      fixed: "Each click makes a fixed point; a body that begins there is pinned to ground.",
+      reference: "The line below the drawing names what to click next; esc begins again.",
+    },
+  },
   guide: {
     title: "A first four-bar linkage",
     begin: "Build a four-bar step by step",

@@ -4,6 +4,7 @@ import { EMPTY } from "../give/files";
 import { enter } from "../modes/modes";
 import { restart } from "../modes/place";
 import { take } from "../store/document";
+import { quiet } from "../store/hints";
 import { fitNext } from "../store/sheet";
 import { dialog, mechanism, mode, panel, selection, tool, tools } from "../store/state";
 import { type Ghost, STEPS } from "./steps";
@@ -53,6 +54,11 @@ export function skip(): void {
 export function leave(): void {
   at.value = null;
 }
+
+/** The card explains; hints would say the same. */
+effect(() => {
+  quiet.value = step.value !== null;
+});
 
 /** Go on when a step is done. */
 effect(() => {

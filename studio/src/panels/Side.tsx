@@ -1,5 +1,6 @@
 // The panel at the side: what belongs to the mode, the text, and on phones the palette.
 import { phase } from "../guide/guide";
+import { dismiss, hint } from "../store/hints";
 import { mode, panel, problems } from "../store/state";
 import { texts } from "../texts";
 import { Editor } from "./Editor";
@@ -7,6 +8,7 @@ import { LivePanel } from "./LivePanel";
 import { MovePanel } from "./MovePanel";
 import { Palette } from "./Palette";
 import { Properties } from "./Properties";
+import { Button } from "./parts";
 import { ReadPanel } from "./ReadPanel";
 
 export function Side() {
@@ -34,10 +36,23 @@ export function Side() {
           onClick={() => (panel.value = "text")}
         />
       </div>
+      <FirstTime />
       <div class="tab-body" role="tabpanel" aria-label={shown === "text" ? texts.tabs.text : label} tabIndex={-1}>
         {shown === "text" ? <Editor /> : shown === "insert" ? <Palette /> : <Main />}
       </div>
     </aside>
+  );
+}
+
+/** One sentence about what is used for the first time. */
+function FirstTime() {
+  const one = hint.value;
+  if (!one) return null;
+  return (
+    <p class="first-time" role="note" id="hint">
+      {texts.hints.all[one]}
+      <Button label={texts.hints.dismiss} icon="close" kind="small" onClick={() => dismiss(one)} />
+    </p>
   );
 }
 
