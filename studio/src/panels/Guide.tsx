@@ -54,10 +54,10 @@ function textOf(name: keyof typeof texts.guide.steps): string {
   return phase.value === "tool" ? words.tool(label, name) : words.steps[name];
 }
 
-/** What the card leaves free: its marks, or the mechanism. */
+/** What the card leaves free: its marks and the mechanism. */
 function kept(): Point[] {
   const { at: places, line } = ghost.value ?? { at: [], line: [] };
-  return places.length ? [...places, ...line] : points().map((one) => one.at);
+  return [...places, ...line, ...points().map((one) => one.at)];
 }
 
 /** Where the card is, px: below what it leaves free, otherwise above, otherwise where more room is. */
