@@ -113,11 +113,18 @@ test("a fixed point is added to ground, also where there is none yet", () => {
 });
 
 test("a reference to a place on a body makes a point in its frame", () => {
-  const found = pointReference({ at: [0.5, 1], hits: [] }, bodies[1]!, { tree, bodies, poses }, []);
+  const plain: Tree = { bodies: { crank: { type: "rod", length: 2, ends: ["A", "B"] } } };
+  const found = pointReference({ at: [0.5, 1], hits: [] }, bodies[1]!, { tree: plain, bodies, poses }, []);
   expect(found.reference).toBe("crank.C");
   const [change] = found.changes as { path: string[]; value: Record<string, [number, number]> }[];
   expect(change!.path).toEqual(["bodies", "crank", "points"]);
   expect(placed(poses[1]!, change!.value.C!)[0]).toBeCloseTo(0.5, 12);
+});
+
+test("a body that is placed by its points gets another place, as it was drawn", () => {
+  const moved: [number, number, number][] = [poses[0]!, [2, 0, 0]];
+  const found = pointReference({ at: [2.5, 0.3], hits: [] }, bodies[1]!, { tree, bodies, poses: moved }, []);
+  expect(found.changes).toEqual([{ path: ["bodies", "crank", "through", "C"], value: [-0.3, 1.5] }]);
 });
 
 test("a driver begins at the present value of its quantity", () => {

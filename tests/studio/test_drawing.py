@@ -201,6 +201,50 @@ def ends(studio: Studio, body: str) -> list[list[float]]:
     return list(studio.tree()["bodies"][body]["through"].values())
 
 
+def test_a_typed_length_of_a_drawn_bar_keeps_those_of_its_neighbours(studio: Opener) -> None:
+    one = studio()
+    draw_four_bar(one)
+    before = [math.dist(*ends(one, name)) for name in ("bar1", "bar3")]
+    one.click(0.0, 0.1)
+    one.page.locator("#body-length").fill("0.8")
+    one.page.locator("#body-length").press("Enter")
+    one.settle()
+    assert math.dist(*ends(one, "bar2")) == pytest.approx(0.8, rel=1e-9)
+    after = [math.dist(*ends(one, name)) for name in ("bar1", "bar3")]
+    assert after == pytest.approx(before, rel=1e-9)
+    one.page.locator("#body-length").fill("5")
+    one.page.locator("#body-length").press("Enter")
+    one.settle()
+    assert "cannot keep" in one.message()
+    assert math.dist(*ends(one, "bar2")) == pytest.approx(5, rel=1e-9)
+
+
+def test_a_point_is_added_to_the_coupler_and_dragged(studio: Opener) -> None:
+    one = studio()
+    draw_four_bar(one)
+    one.click(0.0, 0.1)
+    one.page.locator("#add-point").click()
+    one.settle()
+    name = list(one.tree()["bodies"]["bar2"]["through"])[2]
+    drag(one, (one.quantity(f"bar2.{name}.x"), one.quantity(f"bar2.{name}.y")), (0.1, 0.5))
+    assert one.quantity(f"bar2.{name}.x") == pytest.approx(0.1, abs=1e-9)
+    assert one.quantity(f"bar2.{name}.y") == pytest.approx(0.5, abs=1e-9)
+    traced = [list(body["through"]) for body in list(one.tree()["bodies"].values())[1:]]
+    assert traced == [["A", "C"], ["C", "D", name], ["D", "B"]]
+
+
+def test_a_spring_may_hold_a_bar_anywhere(studio: Opener) -> None:
+    one = studio()
+    draw_four_bar(one)
+    one.tool("spring_damper")
+    one.click(-0.4, -0.2)
+    one.click(0.0, 0.1)  # on the coupler, where it has no point
+    (spring,) = one.tree()["forces"].values()
+    assert spring["j"].startswith("bar2.")
+    assert one.quantity(f"{spring['j']}.x") == pytest.approx(0.0, abs=1e-6)
+    assert one.page.locator("#tab-text").inner_text() == "Text"  # without a fault
+
+
 def test_a_drag_keeps_the_lengths_angles_and_points_that_are_held(studio: Opener) -> None:
     one = studio()
     draw_four_bar(one)

@@ -179,3 +179,17 @@ def test_results_are_those_of_the_core_after_a_visit_to_the_drawing(one: Studio)
     one.settle()
     assert "5 s" in one.message()
     assert len(one.call("kempe.values(['rod.angle'])")["rows"][0]) == 501
+
+
+def test_a_driven_mechanism_that_was_dragged_lives_from_its_start(one: Studio) -> None:
+    one.load(example("quick_return"))
+    start = one.state()["q"]
+    one.mode("move")
+    one.page.locator("#sheet").focus()
+    for _ in range(4):
+        one.page.keyboard.press("ArrowUp")
+        one.settle()
+    assert one.state()["q"] != start
+    one.mode("live")
+    one.wait("kempe.state().then(({ t }) => t > 0.2)", 30.0)
+    assert one.message() == ""

@@ -4,7 +4,8 @@ import type { Placing, Tool } from "../catalogue/tools";
 import { entries, entry, freeName, freePointNames, isTable } from "../catalogue/tree";
 import type { Body, Change, Tree, Value } from "../core/protocol";
 import type { PointHit } from "../plane/hits";
-import { distance, inFrame, type Placement, type Point, rounded } from "../plane/points";
+import { distance, inFrame, type Placement, type Point, placed, rounded } from "../plane/points";
+import { isPlain } from "./moving";
 
 /** A place that was clicked, with the points that are there. */
 export interface Place {
@@ -60,11 +61,14 @@ function placedBody(placing: Placing | null, names: string[], places: Place[]): 
 
 /** The middle of some places in the frame that they give a body: between the first two, with its x axis along them. */
 function middleIn(at: Point[]): Point {
-  const [[ax, ay], [bx, by]] = at as [Point, Point];
-  const frame: Placement = [(ax + bx) / 2, (ay + by) / 2, Math.atan2(by - ay, bx - ax)];
-  const [x, y] = inFrame(frame, middleOf(at));
-  const step = distance([ax, ay], [bx, by]) * 1e-4;
+  const [a, b] = at as [Point, Point];
+  const [x, y] = inFrame(frameOf(a, b), middleOf(at));
+  const step = distance(a, b) * 1e-4;
   return [rounded(x, step), rounded(y, step)];
+}
+
+function frameOf([ax, ay]: Point, [bx, by]: Point): Placement {
+  return [(ax + bx) / 2, (ay + by) / 2, Math.atan2(by - ay, bx - ax)];
 }
 
 function middleOf(at: Point[]): Point {
@@ -127,12 +131,22 @@ function addGroundPoint(at: Point, { tree, bodies }: Pick<Case, "tree" | "bodies
   return { changes: [pointChange(tree, GROUND, name!, at)], name: GROUND };
 }
 
-/** The change that adds a point to a body. */
-function pointChange(tree: Tree | null, body: string, point: string, at: Point): Change {
+/** The change that adds a point of the plane to a body: to its places as it was drawn, otherwise in its frame. */
+export function pointChange(tree: Tree | null, body: string, point: string, at: Point, pose?: Placement): Change {
   const found = entry(tree, "bodies", body);
-  if (!found) return { path: ["bodies", body], value: { points: { [point]: at } } };
-  if (!isTable(found.points)) return { path: ["bodies", body, "points"], value: { [point]: at } };
-  return { path: ["bodies", body, "points", point], value: at };
+  const value = pose ? tidied(inFrame(pose, at)) : at;
+  const [a, b] = isTable(found?.through) ? Object.values(found.through) : [];
+  if (isPlain(a) && isPlain(b)) {
+    const place = placed(frameOf(a as Point, b as Point), value);
+    return { path: ["bodies", body, "through", point], value: tidied(place) };
+  }
+  if (!found) return { path: ["bodies", body], value: { points: { [point]: value } } };
+  if (!isTable(found.points)) return { path: ["bodies", body, "points"], value: { [point]: value } };
+  return { path: ["bodies", body, "points", point], value };
+}
+
+function tidied([x, y]: Point): Point {
+  return [rounded(x, 1e-9), rounded(y, 1e-9)];
 }
 
 /** A reference to a point at a place: an existing one, or a new one of the body there. */
@@ -147,10 +161,8 @@ export function pointReference(
   const name = body?.name ?? GROUND;
   const used = [...bodies.flatMap(({ points }) => Object.keys(points)), ...taken];
   const [point] = freePointNames(tree, used, 1);
-  const pose = body ? poses[bodies.indexOf(body)] : null;
-  const [x, y] = pose ? inFrame(pose, place.at) : place.at;
-  const at: Point = [rounded(x, 1e-9), rounded(y, 1e-9)];
-  return { reference: `${name}.${point}`, changes: [pointChange(tree, name, point!, at)] };
+  const pose = body ? poses[bodies.indexOf(body)] : undefined;
+  return { reference: `${name}.${point}`, changes: [pointChange(tree, name, point!, tidied(place.at), pose)] };
 }
 
 /** An element whose references have been chosen. */

@@ -1,14 +1,16 @@
 // Commands on the selection: rename, remove, copy, mirror, move by keys.
-import { entry, freeName, groupOf, isTable } from "../catalogue/tree";
+import { entry, freeName, freePointNames, groupOf, isTable } from "../catalogue/tree";
 import type { Change, Tree, Value } from "../core/protocol";
-import { snapStep } from "../draw/measure";
+import { gridStep, snapStep } from "../draw/measure";
 import { allPoints } from "../plane/hits";
-import { distance, type Point } from "../plane/points";
+import { distance, type Point, placed } from "../plane/points";
 import { change } from "../store/document";
 import { view } from "../store/sheet";
 import { announce, held, mechanism, poses, selection, tree } from "../store/state";
 import { texts } from "../texts";
+import { pointChange } from "./adding";
 import { heldShift } from "./holding";
+import { lengthened } from "./length";
 import { isPlain, moved } from "./moving";
 import { removed, removedPoint, renamed } from "./removing";
 
@@ -85,6 +87,31 @@ function mapped(body: Tree, keys: string[], map: (at: Point) => Point): Tree {
 
 function tidy(value: number): number {
   return Number(value.toPrecision(12));
+}
+
+/** Give a body that is placed by two points another length. */
+export async function setLength(name: string, length: number): Promise<void> {
+  const bodies = mechanism.value?.bodies ?? [];
+  const found = lengthened(name, length, allPoints(bodies, poses.value));
+  if (!found) return announce("problem", texts.edit.noLength);
+  const to: Point = [tidy(found.to[0]), tidy(found.to[1])];
+  const { changes, fixed } = moved(tree.value, found.hits, poses.value, bodies, to);
+  if (fixed[0]) return announce("problem", texts.edit.fixed(fixed[0].body, fixed[0].point));
+  if ((await change(changes)) && !found.kept) announce("info", texts.edit.notKept(name));
+}
+
+/** Add a point beside the middle of a body, to be dragged to its place. */
+export async function addPoint(name: string): Promise<void> {
+  const bodies = mechanism.value?.bodies ?? [];
+  const k = bodies.findIndex((one) => one.name === name);
+  const pose = poses.value[k];
+  if (!pose) return;
+  const used = bodies.flatMap(({ points }) => Object.keys(points));
+  const [point] = freePointNames(tree.value, used, 1);
+  const [x, y] = placed(pose, bodies[k]!.center);
+  const at: Point = [tidy(x), tidy(y + gridStep(view) / 2)];
+  if (await change([pointChange(tree.value, name, point!, at, pose)]))
+    selection.value = { group: "bodies", name, point: point! };
 }
 
 /** Move the selected point, or all points of the selected body, by steps of the grid. */

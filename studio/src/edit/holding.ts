@@ -1,4 +1,6 @@
 // What stays as it is while the drawing is changed: places of points, lengths and angles of bodies.
+
+import { type Curve, nearestOnAll } from "../plane/curves";
 import type { PointHit } from "../plane/hits";
 import { distance, type Point } from "../plane/points";
 
@@ -12,10 +14,10 @@ export const ofPoint = (body: string, point: string) => `point ${body}.${point}`
 export const ofLengths = (body: string) => `lengths ${body}`;
 export const ofAngle = (body: string) => `angle ${body}`;
 
-/** A curve on which a shift has to end: a circle, or the line through no shift. */
-type Curve = { center: Point; radius: number } | { along: Point };
+/** A shift that is smaller relative to the wanted one is a rounding error. */
+const ROUNDING = 1e-9;
 
-/** The shift nearest to a wanted one that keeps what is held; none if more than one thing limits it. */
+/** The shift nearest to a wanted one that keeps what is held. */
 export function heldShift(
   wanted: Point,
   places: readonly Place[],
@@ -25,9 +27,8 @@ export function heldShift(
   if (places.some(({ hits }) => hits.some(({ body, point }) => held.has(ofPoint(body.name, point))))) return [0, 0];
   const moving = new Set(places.flatMap(({ hits }) => hits));
   const curves = places.flatMap((place) => place.hits.flatMap((hit) => curvesOf(hit, place.at, all, moving, held)));
-  const [only, ...others] = curves;
-  if (!only) return wanted;
-  return others.length ? [0, 0] : nearest(wanted, only);
+  const shift = nearestOnAll(wanted, curves) ?? [0, 0];
+  return Math.hypot(...shift) > ROUNDING * Math.hypot(...wanted) ? shift : [0, 0];
 }
 
 function curvesOf(
@@ -44,17 +45,4 @@ function curvesOf(
     ...(held.has(ofLengths(body.name)) ? steps.map((center) => ({ center, radius: Math.hypot(...center) })) : []),
     ...(held.has(ofAngle(body.name)) ? steps.map((along) => ({ along })) : []),
   ];
-}
-
-function nearest([x, y]: Point, curve: Curve): Point {
-  if ("along" in curve) {
-    const [ax, ay] = curve.along;
-    const share = (x * ax + y * ay) / (ax * ax + ay * ay);
-    return [share * ax, share * ay];
-  }
-  const { center, radius } = curve;
-  const far = distance([x, y], center);
-  if (far === 0) return [0, 0];
-  const share = radius / far;
-  return [center[0] + share * (x - center[0]), center[1] + share * (y - center[1])];
 }

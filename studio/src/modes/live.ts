@@ -1,9 +1,9 @@
 // Living: the mechanism moves under its forces and drivers, in real time.
 import { signal } from "@preact/signals";
 import { type Point, placed } from "../plane/points";
-import { report, send } from "../store/session";
+import { goHome, report, send } from "../store/session";
 import { preview, view } from "../store/sheet";
-import { announce, mechanism, mode, pose, poses, selection, live as state } from "../store/state";
+import { announce, home, mechanism, mode, pose, poses, selection, live as state } from "../store/state";
 import { texts } from "../texts";
 import { Frames } from "./frames";
 import { type Grip, gripAt } from "./grip";
@@ -80,8 +80,17 @@ async function begin(): Promise<void> {
   }
 }
 
+/** Drivers prescribe the pose: a mechanism that was dragged away from its start goes back there. */
+async function goToDrivers(): Promise<void> {
+  const [now, before] = [pose.value?.q, home.value?.q];
+  if (begun || !mechanism.value?.drivers.length || !now || !before) return;
+  if (now.some((one, k) => one !== before[k])) await goHome();
+}
+
 export async function play(): Promise<void> {
   const started = mode.value;
+  await goToDrivers();
+  if (mode.value !== started) return;
   const each = (ms: number) => {
     if (mode.value !== started) return false;
     const by = Math.min(LONGEST_FRAME, ms / 1000) * speed.value;
@@ -114,6 +123,7 @@ export function toggle(): void {
 export async function step(): Promise<void> {
   pause();
   try {
+    await goToDrivers();
     await begin();
     await advance(SINGLE_STEP * speed.value);
   } catch (error) {

@@ -1,6 +1,7 @@
 // Moving: every length is kept, and the mechanism follows the pointer on its branch.
 import { signal } from "@preact/signals";
 import type { Pose } from "../core/protocol";
+import { snapStep } from "../draw/measure";
 import { distance, type Point, placed } from "../plane/points";
 import { report, send } from "../store/session";
 import { preview, view } from "../store/sheet";
@@ -9,11 +10,15 @@ import { texts } from "../texts";
 import { type Grip, gripAt } from "./grip";
 import type { Handler } from "./handler";
 import * as living from "./live";
+import { points } from "./seen";
 
 /** Coordinates that a drag does not change. */
 export const locked = signal<string[]>([]);
 /** All configurations with the free coordinates of the present pose. */
 export const configurations = signal<{ complete: boolean; poses: Pose[] } | null>(null);
+
+/** Steps to which points are placed in one push by a key. */
+const PUSH = 2;
 
 let grip: Grip | null = null;
 let target: Point | null = null;
@@ -64,6 +69,19 @@ async function follow({ body, point }: Grip): Promise<void> {
     report(error);
   }
   working = false;
+}
+
+/** Move the selected body, or the first one, by a step: its last point that ground does not hold. */
+export async function push(dx: number, dy: number): Promise<void> {
+  const all = points();
+  const fixed = all.filter(({ body }) => body.ground);
+  const free = all.filter(({ body, at }) => !body.ground && !fixed.some((one) => distance(one.at, at) < 1e-9));
+  const last = free.findLast(({ body }) => body.name === selection.value?.name) ?? free[0];
+  if (!last || working) return;
+  const step = PUSH * snapStep(view);
+  target = [last.at[0] + dx * step, last.at[1] + dy * step];
+  living.stop();
+  await follow({ body: last.body, point: last.body.points[last.point]! });
 }
 
 /** A line from the body to the pointer where it cannot follow. */

@@ -4,12 +4,16 @@ import { entry } from "../catalogue/tree";
 import type { Tree } from "../core/protocol";
 import { nudge, paste, remove } from "../edit/commands";
 import { openFile, saveFile } from "../give/files";
+import { ghost } from "../guide/guide";
+import { clickCursor, moveCursor } from "../modes/cursor";
 import * as living from "../modes/live";
 import { enter } from "../modes/modes";
+import { push } from "../modes/move";
 import { drawing, finish, restart } from "../modes/place";
 import * as reading from "../modes/read";
+import type { Point } from "../plane/points";
 import { redo, undo } from "../store/document";
-import { fit, typedLength, zoom } from "../store/sheet";
+import { fit, typedLength, view, zoom } from "../store/sheet";
 import { dialog, MODES, mechanism, message, mode, selection, tool, tree } from "../store/state";
 
 let copied: { name: string; body: Tree } | null = null;
@@ -82,9 +86,22 @@ function plain(event: KeyboardEvent): (() => void) | null {
     ArrowDown: [0, -1],
   };
   const step = steps[key];
+  if (step && drawsByKeys()) return () => moveCursor(suggested(), ...step);
+  if (key === " " && drawsByKeys()) return () => clickCursor(suggested());
+  if (step && mode.value === "move") return () => void push(...step);
   if (step && mode.value === "edit" && selection.value) return () => void nudge(...step);
   if (step && mode.value === "read" && step[0]) return () => reading.show(reading.time.value + step[0] * frame());
   return actions[key] ?? null;
+}
+
+function drawsByKeys(): boolean {
+  return mode.value === "edit" && tool.value !== null;
+}
+
+/** Where drawing by keys begins: at the next mark of the first build, otherwise in the middle of the sheet. */
+function suggested(): Point {
+  const marks = ghost.value?.at ?? [];
+  return marks[drawing() ? 1 : 0] ?? marks[0] ?? view.toPlane(view.middle());
 }
 
 /** The time between two states of a run. */

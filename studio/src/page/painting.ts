@@ -1,6 +1,7 @@
 // The whole drawing, from what the page shows now.
 import { isPin } from "../catalogue/catalogue";
 import { entry } from "../catalogue/tree";
+import { paintGhost } from "../draw/ghost";
 import { paintGravity, paintGrid, paintLengthScale } from "../draw/measure";
 import {
   paintHandles,
@@ -15,6 +16,7 @@ import {
 import { paintItems } from "../draw/paint";
 import { type Colours, palette } from "../draw/surface";
 import { paintVectors } from "../draw/vectors";
+import { ghost } from "../guide/guide";
 import { points } from "../modes/seen";
 import { type Point, placed } from "../plane/points";
 import { backdrop } from "../store/backdrop";
@@ -26,6 +28,7 @@ import { traces, vectors } from "./motionOverlay";
 export function follow(): void {
   for (const one of [
     backdrop,
+    ghost,
     viewed,
     preview,
     items,
@@ -58,7 +61,9 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
     paintGravity(context, view, found.gravity, colours);
   }
   paintLengthScale(context, view, scene.value?.length ?? { unit: "m", metres: 1 }, colours);
-  if (!bare) paintPreview(context, colours);
+  if (bare) return;
+  if (ghost.value) paintGhost(context, view, ghost.value, colours);
+  paintPreview(context, colours);
 }
 
 function paintBackdrop(context: CanvasRenderingContext2D): void {

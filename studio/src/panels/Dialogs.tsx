@@ -5,6 +5,7 @@ import type { ComponentChildren } from "preact";
 import { useEffect, useMemo, useRef, useState } from "preact/hooks";
 import { savePage } from "../give/lecture";
 import { linkOf, MOST_OF_LINK } from "../give/link";
+import { begin } from "../guide/guide";
 import { open } from "../store/document";
 import { dialog, text, title } from "../store/state";
 import { texts } from "../texts";
@@ -90,12 +91,9 @@ function Share() {
 function Help() {
   return (
     <Dialog title={texts.help.title}>
-      <h3>{texts.help.firstTitle}</h3>
-      <ol>
-        {texts.help.first.map((one) => (
-          <li key={one}>{one}</li>
-        ))}
-      </ol>
+      <h3>{texts.guide.title}</h3>
+      <p>{texts.guide.replaces}</p>
+      <Button label={texts.guide.begin} kind="main" onClick={() => void begin()} id="help-guide" />
       <dl class="keys">
         {texts.help.keys.map(([key, what]) => (
           <div key={key}>

@@ -1,6 +1,7 @@
 // The palette: every type of the catalogue, by group.
 import { GROUPS } from "../catalogue/catalogue";
 import type { Tool } from "../catalogue/tools";
+import { phase, tooled } from "../guide/guide";
 import { restart } from "../modes/place";
 import { panel, tool, tools } from "../store/state";
 import { texts } from "../texts";
@@ -32,11 +33,12 @@ function ToolButton({ one }: { one: Tool }) {
   const choose = () => {
     restart(active ? null : one);
     if (panel.value === "insert" && !active) panel.value = "properties";
+    document.getElementById("sheet")?.focus({ preventScroll: true }); // keys draw
   };
   return (
     <button
       type="button"
-      class="tool"
+      class={phase.value === "tool" && tooled.value === one ? "tool next" : "tool"}
       data-type={one.type.name}
       aria-pressed={active}
       title={one.type.doc.replaceAll("\n", " ")}

@@ -2,7 +2,7 @@
 import { type Group, spoken, typeOf } from "../catalogue/catalogue";
 import { entries, entry, isTable } from "../catalogue/tree";
 import type { Tree } from "../core/protocol";
-import { copy, mirror, remove, rename } from "../edit/commands";
+import { addPoint, copy, mirror, remove, rename, setLength } from "../edit/commands";
 import { openOutline } from "../give/outline";
 import { catalogue, selection, tree } from "../store/state";
 import { texts } from "../texts";
@@ -11,7 +11,7 @@ import { Field } from "./Field";
 import { Held } from "./Held";
 import { PointRows } from "./PointRows";
 import { Button, Section } from "./parts";
-import { Readings } from "./Readings";
+import { lengthOf, Readings } from "./Readings";
 
 export function Properties() {
   const chosen = selection.value;
@@ -34,7 +34,9 @@ function Entry({ group, name, value }: { group: Group; name: string; value: Tree
       <Name group={group} name={name} />
       <p class="doc">{type ? firstSentence(type.doc) : null}</p>
       {type?.fields.map((field) =>
-        field.shape === "points" ? (
+        field.name === "length" && !(field.name in value) && isTable(value.through) ? (
+          <Length key={field.name} body={name} />
+        ) : field.shape === "points" ? (
           <PointRows
             key={field.name}
             field={field}
@@ -51,6 +53,9 @@ function Entry({ group, name, value }: { group: Group; name: string; value: Tree
         <Button label={texts.outline.open} hint={texts.outline.hint} onClick={() => openOutline(name)} id="outline" />
       ) : null}
       <div class="buttons end">
+        {type?.fields.some(({ name: own }) => own === "points") ? (
+          <Button label={words.addPoint} hint={words.addPointHint} onClick={() => void addPoint(name)} id="add-point" />
+        ) : null}
         {group === "bodies" && name !== "ground" ? (
           <>
             <Button label={words.copy} onClick={() => void copy(name)} />
@@ -83,6 +88,27 @@ function Name({ group, name }: { group: Group; name: string }) {
         }}
       />
       <span class="unit" />
+    </div>
+  );
+}
+
+/** The length of a body that is placed by two points. */
+function Length({ body }: { body: string }) {
+  const shown = lengthOf(body);
+  return (
+    <div class="field">
+      <label for="body-length">length</label>
+      <input
+        id="body-length"
+        type="text"
+        inputMode="decimal"
+        autocomplete="off"
+        value={shown}
+        onChange={(event) =>
+          event.currentTarget.value !== shown && void setLength(body, Number(event.currentTarget.value))
+        }
+      />
+      <span class="unit">m</span>
     </div>
   );
 }

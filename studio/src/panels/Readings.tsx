@@ -28,7 +28,8 @@ export function Readings({ group, name }: { group: Group; name: string }) {
       clearTimeout(timer);
     };
   }, [name, now]);
-  const own = group === "bodies" ? [...lengthOf(name), ...rows] : rows;
+  const length = group === "bodies" ? lengthOf(name) : "";
+  const own: [string, string][] = length ? [[texts.properties.length, `${length} m`], ...rows] : rows;
   return own.length ? (
     <Section title={texts.properties.results}>
       <Facts rows={own} />
@@ -55,13 +56,12 @@ export function shown(value: number | null, unit: string): string {
   return withUnit(tidy * factor, own);
 }
 
-/** The distance of the two points of a body. */
-function lengthOf(name: string): [string, string][] {
+/** The distance of the first two points of a moving body, m; empty without them. */
+export function lengthOf(name: string): string {
   const bodies = mechanism.value?.bodies ?? [];
   const k = bodies.findIndex((body) => body.name === name);
   const place = poses.value[k];
-  const ends = Object.values(bodies[k]?.points ?? {});
-  if (!place || ends.length !== 2 || bodies[k]!.ground) return [];
-  const [a, b] = ends.map((at) => placed(place, at));
-  return [[texts.properties.length, `${significant(Math.hypot(a![0] - b![0], a![1] - b![1]), 6)} m`]];
+  const [a, b] = Object.values(bodies[k]?.points ?? {}).map((at) => place && placed(place, at));
+  if (!a || !b || bodies[k]!.ground) return "";
+  return significant(Math.hypot(a[0] - b[0], a[1] - b[1]), 6);
 }

@@ -2,15 +2,18 @@
 import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { cleared, palette, sharpen } from "../draw/surface";
+import { cancelGif, making, saveGif } from "../give/gif";
 import { saveDrawing, saveSvg } from "../give/pictures";
 import { handler } from "../modes/modes";
 import { drawing, finish, restart } from "../modes/place";
 import { listenToPointer } from "../modes/pointer";
+import { course } from "../modes/read";
 import { follow, paintSheet } from "../page/painting";
 import { resized } from "../store/session";
 import { fit, preview, typedLength, view, viewChanged, zoom } from "../store/sheet";
 import { items, mode, shown, snapping, title, tool } from "../store/state";
 import { texts } from "../texts";
+import { Guide } from "./Guide";
 import { Button, Check } from "./parts";
 
 /** The mark that benchmarks/studio_page.py reads. */
@@ -53,7 +56,11 @@ export function Sheet() {
           <Button label={words.svgHint} onClick={saveSvg}>
             {words.svg}
           </Button>
+          <Gif />
         </div>
+      </div>
+      <div class="tool-place">
+        <ToolBox />
       </div>
       <div class="space">
         <canvas
@@ -63,9 +70,25 @@ export function Sheet() {
           role="img"
           aria-label={words.label(title.value || texts.menu.untitled)}
         />
-        <ToolBox />
+        <Guide />
       </div>
     </section>
+  );
+}
+
+/** The motion of a run as a GIF; while it is made, its progress, and a click cancels. */
+function Gif() {
+  if (mode.value !== "read" || !course.value) return null;
+  const { gif, gifHint, gifCancel, gifProgress } = texts.sheet;
+  const share = making.value;
+  return (
+    <Button
+      label={share === null ? gifHint : gifCancel}
+      onClick={share === null ? () => void saveGif() : cancelGif}
+      id="gif"
+    >
+      {share === null ? gif : gifProgress(Math.round(100 * share))}
+    </Button>
   );
 }
 

@@ -1,4 +1,6 @@
 // The panel at the side: what belongs to the mode, the text, and on phones the palette.
+import { phase } from "../guide/guide";
+import { dismiss, hint } from "../store/hints";
 import { mode, panel, problems } from "../store/state";
 import { texts } from "../texts";
 import { Editor } from "./Editor";
@@ -6,6 +8,7 @@ import { LivePanel } from "./LivePanel";
 import { MovePanel } from "./MovePanel";
 import { Palette } from "./Palette";
 import { Properties } from "./Properties";
+import { Button } from "./parts";
 import { ReadPanel } from "./ReadPanel";
 
 export function Side() {
@@ -21,6 +24,7 @@ export function Side() {
             id="insert"
             label={texts.tabs.insert}
             chosen={shown === "insert"}
+            next={phase.value === "tool" && shown !== "insert"}
             onClick={() => (panel.value = "insert")}
           />
         ) : null}
@@ -32,6 +36,7 @@ export function Side() {
           onClick={() => (panel.value = "text")}
         />
       </div>
+      <FirstTime />
       <div class="tab-body" role="tabpanel" aria-label={shown === "text" ? texts.tabs.text : label} tabIndex={-1}>
         {shown === "text" ? <Editor /> : shown === "insert" ? <Palette /> : <Main />}
       </div>
@@ -39,9 +44,31 @@ export function Side() {
   );
 }
 
-function Tab({ id, label, chosen, onClick }: { id: string; label: string; chosen: boolean; onClick(): void }) {
+/** One sentence about what is used for the first time. */
+function FirstTime() {
+  const one = hint.value;
+  if (!one) return null;
   return (
-    <button type="button" role="tab" id={`tab-${id}`} class={`tab-${id}`} aria-selected={chosen} onClick={onClick}>
+    <p class="first-time" role="note" id="hint">
+      {texts.hints.all[one]}
+      <Button label={texts.hints.dismiss} icon="close" kind="small" onClick={() => dismiss(one)} />
+    </p>
+  );
+}
+
+interface TabProps {
+  id: string;
+  label: string;
+  chosen: boolean;
+  /** Marked as the next step of the first build. */
+  next?: boolean;
+  onClick(): void;
+}
+
+function Tab({ id, label, chosen, next, onClick }: TabProps) {
+  const kind = `tab-${id}${next ? " next" : ""}`;
+  return (
+    <button type="button" role="tab" id={`tab-${id}`} class={kind} aria-selected={chosen} onClick={onClick}>
       {label}
     </button>
   );

@@ -1,6 +1,7 @@
 // The bar at the top: title, files, history, modes.
 
 import { begin, openFile, saveFile } from "../give/files";
+import { phase, step } from "../guide/guide";
 import { enter } from "../modes/modes";
 import { future, past, redo, undo } from "../store/document";
 import { dialog, MODES, type Mode, mode, title } from "../store/state";
@@ -46,6 +47,7 @@ export function Toolbar() {
             type="button"
             role="radio"
             id={`mode-${one}`}
+            class={phase.value === "mode" && step.value?.mode === one ? "next" : ""}
             aria-checked={mode.value === one}
             title={texts.modeHints[one]}
             onClick={(event) => choose(one, event)}

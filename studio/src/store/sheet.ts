@@ -55,8 +55,11 @@ effect(() => {
   if (!bounds?.every(Number.isFinite)) return;
   const [x0, y0, x1, y1] = bounds;
   const room = ROOM * Math.max(x1 - x0, y1 - y0);
+  const before = view.bounds;
   if (room > 0) view.bounds = [x0 - room, y0 - room, x1 + room, y1 + room];
   if (fitting) view.fit();
+  // A new size of the canvas does not fit what has been drawn since.
+  else if (before.some((one, k) => one !== view.bounds[k])) view.moved = true;
   fitting = false;
   viewed.value = viewed.peek() + 1;
 });

@@ -1,0 +1,66 @@
+// The first build: a four-bar linkage, led step by step on the sheet.
+import { computed, effect, signal } from "@preact/signals";
+import { EMPTY } from "../give/files";
+import { enter } from "../modes/modes";
+import { restart } from "../modes/place";
+import { take } from "../store/document";
+import { quiet } from "../store/hints";
+import { fitNext } from "../store/sheet";
+import { dialog, mechanism, mode, panel, selection, tool, tools } from "../store/state";
+import { type Ghost, STEPS } from "./steps";
+
+/** The number of the present step; null when nobody is led. */
+export const at = signal<number | null>(null);
+export const step = computed(() => (at.value === null ? null : (STEPS[at.value] ?? null)));
+
+/** The tool of the present step. */
+export const tooled = computed(() => tools.value.find((one) => step.value?.tool?.(one)) ?? null);
+
+/** What comes next within the step: its mode, its tool, or its clicks on the sheet. */
+export const phase = computed<"mode" | "tool" | "sheet">(() => {
+  if (step.value && mode.value !== step.value.mode) return "mode";
+  return tooled.value && tool.value?.type !== tooled.value.type ? "tool" : "sheet";
+});
+
+/** What is marked on the sheet. */
+export const ghost = computed<Ghost | null>(() =>
+  step.value && mode.value === step.value.mode ? step.value.ghost() : null,
+);
+
+/** Whether the sheet has nothing on it. */
+export const blank = computed(() => {
+  const bodies = mechanism.value?.bodies;
+  return bodies?.length === 1 && !Object.keys(bodies[0]!.points).length;
+});
+
+/** Begin on an empty sheet. Undo brings back what was there. */
+export async function begin(): Promise<void> {
+  dialog.value = null;
+  enter("edit");
+  restart(null);
+  selection.value = null;
+  panel.value = "properties";
+  if (!blank.value) {
+    fitNext();
+    await take(EMPTY);
+  }
+  at.value = 0;
+}
+
+export function skip(): void {
+  if (at.value !== null) at.value = at.value + 1 < STEPS.length ? at.value + 1 : null;
+}
+
+export function leave(): void {
+  at.value = null;
+}
+
+/** The card explains; hints would say the same. */
+effect(() => {
+  quiet.value = step.value !== null;
+});
+
+/** Go on when a step is done. */
+effect(() => {
+  if (step.value?.done()) skip();
+});

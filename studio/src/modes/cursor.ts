@@ -1,0 +1,27 @@
+// Drawing by keys: arrows move a place on the sheet, and a key clicks there.
+import { snapStep } from "../draw/measure";
+import type { Point } from "../plane/points";
+import { view } from "../store/sheet";
+import type { Spot } from "./handler";
+import { place } from "./place";
+
+let at: Point | null = null;
+
+function spot(): Spot {
+  return { px: view.toScreen(at!), at: at!, touch: false, free: false };
+}
+
+/** Move the place by steps of the grid; it begins at `start`. */
+export function moveCursor(start: Point, dx: number, dy: number): void {
+  const [x, y] = at ?? start;
+  const step = snapStep(view);
+  at = [x + dx * step, y + dy * step];
+  place.hover!(spot());
+}
+
+/** Click at the place. The next click begins at a start of its own. */
+export function clickCursor(start: Point): void {
+  at ??= start;
+  place.click!(spot());
+  at = null;
+}
