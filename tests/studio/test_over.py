@@ -60,8 +60,11 @@ def test_an_analysis_over_the_crank_angle_has_the_numbers_of_python(
     turn = kp.Kinematics(over="crank.angle", range=(0, "2*pi"), name="turn")
     output = machine()[2]
     solution = opened(one, tmp_path, machine, turn).run()["turn"]
-    rate = {"rocker.angle": "rocker.omega", "piston.x": "piston.vx"}[output]
-    names = ("crank.angle", output, rate, "coupler.alpha")
+    rates = {
+        "rocker.angle": ("rocker.omega", "rocker.alpha"),
+        "piston.x": ("piston.vx", "piston.ax"),
+    }
+    names = ("crank.angle", output, *rates[output])
     t, rows, _ = read(one, *names)
     assert len(t) == 361
     np.testing.assert_allclose(t[TEN], np.radians(TEN), rtol=0, atol=1e-12)

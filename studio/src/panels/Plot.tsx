@@ -13,6 +13,8 @@ import { texts } from "../texts";
 import { Button } from "./parts";
 
 const HEIGHT = 190;
+/** Distances of ticks on axes in degrees. */
+const DEGREES = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 60, 90, 180, 360, 720, 1800, 3600, 7200, 18000, 36000];
 
 interface Curves {
   names: string[];
@@ -154,13 +156,14 @@ function inUnits(units: string[], rows: Float64Array[], turn: boolean): Pick<Cur
 /** The horizontal axis: its label, and by what to multiply values in SI units. */
 interface Across {
   label: string;
+  unit: string;
   factor: number;
 }
 
 function acrossOf(turn: boolean): Across {
   const { name, unit: base } = variable.peek();
   const { factor, unit } = displayed(base, turn);
-  return { label: `${name} / ${unit}`, factor };
+  return { label: `${name} / ${unit}`, unit, factor };
 }
 
 /** The curves of a stored run that has some of these quantities. */
@@ -203,6 +206,7 @@ function draw(
     values: (_: uPlot, values: number[]) => values.map((value) => minus(String(Number(value.toPrecision(6))))),
   };
   const unit = readable(units[0] ?? "");
+  const ticks = (of: string) => (of === "°" ? { incrs: DEGREES } : {});
   return new uPlot(
     {
       width: host.clientWidth || 300,
@@ -222,8 +226,15 @@ function draw(
         })),
       ],
       axes: [
-        { ...axis, label: across.label, labelSize: 16, labelFont: font(11), size: 34 },
-        { ...axis, label: /[/ ]/.test(unit) ? `(${unit})` : unit, labelSize: 16, labelFont: font(11), size: 56 },
+        { ...axis, ...ticks(across.unit), label: across.label, labelSize: 16, labelFont: font(11), size: 34 },
+        {
+          ...axis,
+          ...ticks(unit),
+          label: /[/ ]/.test(unit) ? `(${unit})` : unit,
+          labelSize: 16,
+          labelFont: font(11),
+          size: 56,
+        },
       ],
       hooks: {
         draw: [(plot) => cursorLine(plot, across.factor, colours.named.accent!)],
