@@ -197,7 +197,7 @@ export const texts = {
     first: "from",
     last: "to",
     noRange: "The range is not complete. Write its first and its last value.",
-    atUnitRate: (name: string, unit: string) => `Rates, powers and inertia forces are those at 1 ${unit} of ${name}.`,
+    atUnitRate: (name: string, unit: string) => `Rates, powers and inertia forces are those at 1 ${unit}/s of ${name}.`,
     done: (count: number, name: string, end: string) => `${count} states up to ${name} = ${end}`,
     none: "Run an analysis to read its results.",
     play: "Play",

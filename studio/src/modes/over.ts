@@ -2,7 +2,7 @@
 import { computed, effect, signal } from "@preact/signals";
 import { entries } from "../catalogue/tree";
 import type { Quantity } from "../core/protocol";
-import { degrees, loads, mechanism, mobility, tree } from "../store/state";
+import { degrees, mechanism, mobility, openings, tree } from "../store/state";
 
 /** One more choice among the analyses of the case; names have no space. */
 export const OVER = "over a quantity";
@@ -66,9 +66,6 @@ export function rangeOfCore(): [string, string] | null {
 
 effect(() => {
   degrees.value;
+  openings.value;
   written.value = null;
-});
-effect(() => {
-  loads.value;
-  positions.value = [];
 });

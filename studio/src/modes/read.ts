@@ -1,13 +1,13 @@
 // Reading: a run of an analysis, its poses over time, its quantities.
-import { batch, computed, signal } from "@preact/signals";
+import { batch, computed, effect, signal } from "@preact/signals";
 import type { Pose, Quantity, Ran, Requests } from "../core/protocol";
 import { report, send } from "../store/session";
-import { announce, catalogue, mechanism, mode, pose, selection } from "../store/state";
+import { announce, catalogue, mechanism, mode, openings, pose, selection } from "../store/state";
 import { texts } from "../texts";
 import { Frames } from "./frames";
 import { gripAt } from "./grip";
 import type { Handler } from "./handler";
-import { OVER, over, rangeOfCore, TIME } from "./over";
+import { OVER, offer, over, rangeOfCore, TIME } from "./over";
 import { written } from "./shown";
 
 /** A run with its frames: t and the poses of all moving bodies, row by row. A run to lower values is kept backwards. */
@@ -39,6 +39,11 @@ export const analysis = computed(() => {
   if (chosen.value === "" || chosen.value === OVER || analyses.value.some(({ name }) => name === chosen.value))
     return chosen.value!;
   return analyses.value[0]?.name ?? "";
+});
+
+effect(() => {
+  openings.value;
+  chosen.value = null;
 });
 
 /** The quantity in the place of the time, and the unit of its values; otherwise the time. */
@@ -91,6 +96,7 @@ export async function run(t_end?: number): Promise<Ran | null> {
 /** The run that the panel describes. */
 async function requested(): Promise<Requests["run"]["send"]> {
   if (analysis.value !== OVER) return analysis.value ? { analysis: analysis.value } : untilTime();
+  offer((await send("quantities", {})).ok);
   const range = rangeOfCore();
   if (!over.value || !range) throw new Error(texts.read.noRange);
   return { over: over.value.name, range };

@@ -211,6 +211,7 @@ function draw(
     {
       width: host.clientWidth || 300,
       height: HEIGHT,
+      pxAlign: 0,
       legend: { show: false },
       cursor: { drag: { x: true, y: false } },
       scales: { x: { time: false } },

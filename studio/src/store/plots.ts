@@ -38,8 +38,7 @@ const MOST = 3;
 
 function firstOf(all: { name: string; unit: string }[]): string[] {
   const unit = all.some((one) => one.unit === "rad") ? "rad" : all[0]!.unit;
-  return all
-    .filter((one) => one.unit === unit && one.name !== variable.value.name)
-    .slice(0, MOST)
-    .map(({ name }) => name);
+  const first = all.filter((one) => one.unit === unit).slice(0, MOST);
+  const others = first.filter(({ name }) => name !== variable.value.name);
+  return (others.length ? others : first).map(({ name }) => name);
 }
