@@ -20,7 +20,9 @@ struct Expression {
 /// The measures of the case, and the transmission angles of its mechanism.
 fn expressions(loaded: &Loaded) -> Vec<Expression> {
     let measures = loaded.case.definition.measures.iter().filter_map(|(name, value)| match value {
-        Value::Text(text) => Some(Expression { name: name.clone(), text: text.clone(), unit: None }),
+        Value::Text(text) => {
+            Some(Expression { name: name.clone(), text: text.clone(), unit: None })
+        }
         _ => None,
     });
     let model = &loaded.model;

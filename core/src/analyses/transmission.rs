@@ -22,9 +22,8 @@ fn joins(item: &ConstraintItem) -> bool {
 
 /// The pins and slides of a body besides one joint.
 pub fn others_at(model: &Model, joint: usize, body: BodyId) -> Vec<usize> {
-    let holds = |item: &ConstraintItem| {
-        item.bodies.contains(&body) && (is_pin(item) || is_slide(item))
-    };
+    let holds =
+        |item: &ConstraintItem| item.bodies.contains(&body) && (is_pin(item) || is_slide(item));
     let all = model.constraints.iter().enumerate();
     all.filter(|(k, item)| *k != joint && holds(item)).map(|(k, _)| k).collect()
 }
