@@ -57,6 +57,8 @@ CALLS: dict[str, Callable[[], object]] = {
     "linearize": lambda: _core.linearize(MODEL, T, Q, V, Z, [], []),
     "modes_options": lambda: _core.modes_options(MODEL, '{"type": "modes"}'),
     "kinematics_options": lambda: _core.kinematics_options(MODEL, '{"type": "kinematics"}'),
+    "line_at": lambda: _core.line_at(MODEL, "C", "rocker"),
+    "transmitting": lambda: _core.transmitting(MODEL),
     "limits": lambda: _core.limits(MODEL, T, Q, V, Z, None),
     "mobility": lambda: _core.mobility(MODEL, T, Q, V, Z),
     "configurations": lambda: _core.configurations(MODEL, '{"crank.angle": 1}', 9, T),

@@ -33,6 +33,7 @@ mod respond;
 mod statistics;
 mod sweep;
 mod tables;
+mod transmission;
 mod watch;
 
 use guard::guard;
@@ -126,6 +127,8 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(linearization::modes_options, module)?)?;
     module.add_function(wrap_pyfunction!(limits::limits, module)?)?;
     module.add_function(wrap_pyfunction!(mobility::mobility, module)?)?;
+    module.add_function(wrap_pyfunction!(transmission::line_at, module)?)?;
+    module.add_function(wrap_pyfunction!(transmission::transmitting, module)?)?;
     module.add_function(wrap_pyfunction!(configurations::configurations, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::evaluate, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::project, module)?)?;

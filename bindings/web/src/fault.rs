@@ -29,6 +29,12 @@ impl Fault {
         Self { message: first, hint: None, problems: found.iter().map(problem).collect() }
     }
 
+    /// Of one fault of a request, with its remedy.
+    pub fn of_problem(found: Problem) -> Self {
+        let hint = found.hint.unwrap_or_default();
+        Self::new(found.message).hint(hint)
+    }
+
     /// As the value of `error` in a reply.
     pub fn value(&self) -> Value {
         json!({ "message": self.message, "hint": self.hint, "problems": self.problems })

@@ -14,6 +14,7 @@ mod live;
 mod loaded;
 mod mechanism;
 mod modes;
+mod named;
 mod over;
 mod pose;
 mod readiness;

@@ -30,8 +30,7 @@ pub fn driven_by(
     let quantity = known.and_then(|entry| text(entry, "coordinate")).unwrap_or(over).to_string();
     let same = |entry: &&Entry| text(entry, "coordinate") == Some(&quantity);
     let driver = definition.drivers.iter().find(same).map(|entry| entry.name.clone());
-    let found = readings::find(&loaded.model, &quantity)
-        .map_err(|problem| Fault::of_problems(&[problem]))?;
+    let found = readings::find(&loaded.model, &quantity).map_err(Fault::of_problem)?;
     let value = readings::of_state(&loaded.model, start, &[&quantity])[0];
     hold_others(&mut definition, driver.as_deref(), start.t);
     if driver.is_none() && loaded.model.layout.n_rows >= loaded.model.layout.n_q {

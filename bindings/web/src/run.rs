@@ -1,12 +1,13 @@
 //! Analyses of a case with a motion as result.
 
-use crate::convert::Fields;
+use crate::convert::{written, Fields};
 use crate::fault::Fault;
 use crate::loaded::Loaded;
+use crate::named;
 use crate::over::{driven_by, Variable};
 use kempe::analyses::dynamics::{read, Prepared, Run};
+use kempe::analyses::kinematics as driven;
 use kempe::analyses::kinematics::{kinematics, recorded, Motion};
-use kempe::analyses::{kinematics as driven, readings};
 use kempe::equations::kinematics::Motions;
 use kempe::model::{Entry, Value as Written};
 use kempe::{Flow, Model, Options, State};
@@ -30,13 +31,21 @@ pub struct Ran {
 }
 
 impl Ran {
-    /// Runs an analysis of the case by its name, or dynamics from the present state until `t_end`.
+    /// Runs an analysis of the case by its name; or, from the present state, kinematics over a quantity, or dynamics until
+    /// `t_end`.
     pub fn of(loaded: &Loaded, fields: &Fields<'_>) -> Result<Self, Fault> {
         if !loaded.assembled {
             return Err(Fault::new("the mechanism does not close").hint("assemble it first"));
         }
         if fields.get("analysis").is_some() {
             return Self::named(loaded, fields.text("analysis")?);
+        }
+        if fields.get("over").is_some() {
+            let given = ["over", "range", "n"].into_iter();
+            let fields = given.filter_map(|key| Some((key.into(), written(fields.get(key)?)?)));
+            let options = driven::Options::checked(&loaded.model, &fields.collect::<Vec<_>>(), &[]);
+            let options = options.map_err(|found| Fault::of_problems(&found))?;
+            return Self::kinematics(loaded, &loaded.state, &options);
         }
         let (t, t_end) = (loaded.state.t, fields.number("t_end")?);
         let mut options = Options::new(t_end);
@@ -168,16 +177,15 @@ impl Ran {
         found
     }
 
-    /// Values of quantities, a row for each; and their units.
-    pub fn values(&self, names: &[&str]) -> Result<(Vec<String>, Vec<f64>), Fault> {
+    /// The units of quantities and expressions, and their values, a row for each.
+    pub fn values(
+        &self,
+        loaded: &Loaded,
+        names: &[&str],
+    ) -> Result<(Vec<String>, Vec<f64>), Fault> {
         let found: Result<Vec<_>, _> =
-            names.iter().map(|name| readings::find(&self.model, name)).collect();
-        let found = found.map_err(|problem| {
-            let hint = problem.hint.clone().unwrap_or_default();
-            Fault::new(problem.message).hint(hint)
-        })?;
-        let rows = readings::of_run(&self.model, &self.run, names);
-        Ok((found.into_iter().map(|one| one.unit).collect(), rows.concat()))
+            names.iter().map(|name| named::find(loaded, &self.model, name)).collect();
+        Ok(named::values(&self.model, &self.run, &found?))
     }
 
     fn end(&self) -> State {

@@ -9,6 +9,7 @@ use crate::fault::Fault;
 use crate::live::Live;
 use crate::loaded::{load, without_drivers, Loaded};
 use crate::modes::configurations;
+use crate::named;
 use crate::pose::pose;
 use crate::readiness::readiness;
 use crate::run::Ran;
@@ -142,16 +143,13 @@ impl Session {
     }
 
     fn quantities(&mut self) -> Result<Value, Fault> {
-        let found = readings::readable(&self.loaded()?.model);
+        let found = named::all(self.loaded()?);
         Ok(found.iter().map(|one| json!({ "name": one.name, "unit": one.unit })).collect())
     }
 
     fn quantity(&mut self, name: &str) -> Result<Value, Fault> {
         let loaded = self.loaded.as_ref().ok_or_else(no_mechanism)?;
-        let found = readings::find(&loaded.model, name).map_err(|problem| {
-            let hint = problem.hint.clone().unwrap_or_default();
-            Fault::new(problem.message).hint(hint)
-        })?;
+        let found = readings::find(&loaded.model, name).map_err(Fault::of_problem)?;
         let still = (&loaded.model, &loaded.state);
         let (model, state) = self.live.as_ref().map_or(still, |live| (live.model(), live.state()));
         let value = readings::of_state(model, state, &[name])[0];
@@ -206,7 +204,8 @@ impl Session {
     }
 
     fn values(&mut self, names: &[&str]) -> Result<Value, Fault> {
-        let (units, numbers) = self.last_run()?.values(names)?;
+        let loaded = self.loaded.as_ref().ok_or_else(no_mechanism)?;
+        let (units, numbers) = self.last_run()?.values(loaded, names)?;
         self.numbers = numbers;
         Ok(json!({ "units": units, "numbers": self.numbers.len() }))
     }

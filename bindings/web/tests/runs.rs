@@ -163,3 +163,27 @@ n = 3
         "{message}"
     );
 }
+
+#[test]
+fn a_run_over_a_quantity_needs_no_analysis_of_the_case() {
+    let mut page = Page::of(&example("slider_crank"));
+    let request = |range: Value| json!({ "do": "run", "over": "crank.angle", "range": range });
+    let ran = page.ask(request(json!(["90*deg", "(-30)*deg"])));
+    assert_eq!((number(&ran["count"]), &ran["status"]), (361.0, &json!("reached")), "{ran}");
+    assert!((number(&ran["t_end"]) + PI / 6.0).abs() < 1e-12, "{ran}");
+    let names = ["transmission angle at B", "slider.x", "2*slider.x + abs(rod.B.y - 0.1)"];
+    let found = page.ask(json!({ "do": "values", "names": names }));
+    assert_eq!(found["units"][0], "rad");
+    let found = values(&mut page, &names);
+    for k in 0..361 {
+        let angle = (90.0 - k as f64 / 3.0).to_radians();
+        let x = 0.1 * angle.cos() + (0.09 - (0.1 * angle.sin()).powi(2)).sqrt();
+        // between the rod and the normal of the slide
+        let expected = [(angle.sin() / 3.0).acos(), x, 2.0 * x + 0.1];
+        for (row, expected) in found.iter().zip(expected) {
+            assert!((row[k] - expected).abs() < 1e-9, "{} {expected} at {k}", row[k]);
+        }
+    }
+    let message = page.fault(request(json!(["0"])));
+    assert!(message.contains("range"), "{message}");
+}

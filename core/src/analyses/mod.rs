@@ -34,6 +34,7 @@ mod so_far;
 mod state;
 pub mod statistics;
 pub mod sweep;
+pub mod transmission;
 mod uniqueness;
 
 pub use dependence::Dependent;

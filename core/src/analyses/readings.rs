@@ -4,6 +4,7 @@
 //! drivers and modes of forces; each state is read with the model of its phase.
 
 use super::dynamics::{Prepared, Run, Setting, States};
+use super::measures::Measure;
 use super::signal_names::{names, signal};
 use super::signal_rows::{each, Rows};
 use super::signal_units::unit_of;
@@ -65,6 +66,24 @@ pub fn of_run(model: &Model, run: &Run, names: &[&str]) -> Vec<Vec<f64>> {
         let active = setting.model(model).unwrap_or_else(|_| model.clone());
         let rows = of_states(&active, (states, works), names, run.passing);
         found.iter_mut().zip(rows).for_each(|(all, own)| all.extend(own));
+    }
+    found
+}
+
+/// The values of an expression of quantities at all reported states; not a number where one of its quantities is none.
+pub fn measure_of_run(model: &Model, run: &Run, measure: &Measure) -> Vec<f64> {
+    let names: Vec<&str> = measure.quantities.iter().map(String::as_str).collect();
+    let (rows, t) = (of_run(model, run, &names), &run.trajectory.t);
+    let plain = Setting::default();
+    let mut found = Vec::with_capacity(t.len());
+    for phase in 0..run.phases.len() {
+        let setting = run.settings.get(phase).unwrap_or(&plain);
+        let active = setting.open(model).unwrap_or_else(|_| model.clone());
+        let first = run.phases[phase];
+        for k in first..first + run.states_of(phase).t.len() {
+            let quantities: Vec<f64> = rows.iter().map(|row| row[k]).collect();
+            found.push(measure.value(&active, t[k], &quantities));
+        }
     }
     found
 }

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import TypeAlias
 
 import numpy as np
 
+from kempe import _core
 from kempe.arrays import Floats, fixed
 from kempe.compiled import CompiledModel, ConstraintInfo, Vector
 from kempe.errors import ModelError
@@ -53,11 +53,6 @@ def is_pin(info: ConstraintInfo) -> bool:
     return info.group == "joints" and turns and not info.coordinates
 
 
-def is_slide(info: ConstraintInfo) -> bool:
-    """Whether a joint is a straight slide without turning."""
-    return info.group == "joints" and [unit for _, unit in info.equations] == ["m", "rad"]
-
-
 def mass_and_inertia(motion: Motion, body: str) -> tuple[Floats, Floats]:
     """Mass of a body at each time, (n_t,), kg, and its inertia about the mass centre, kg·m²."""
     count = np.shape(motion.t)
@@ -69,26 +64,22 @@ def mass_and_inertia(motion: Motion, body: str) -> tuple[Floats, Floats]:
 
 def others_at(model: CompiledModel, body: str, joint: str) -> list[ConstraintInfo]:
     """The joints of a body besides one, that hold a point or guide it along a line."""
-    return [
-        info
-        for name, info in model.joints.items()
-        if name != joint and body in (info.i, info.j) and (is_pin(info) or is_slide(info))
-    ]
+    names, _ = _core.line_at(model.core, joint, body)
+    return [model.constraints[name] for name in names]
 
 
-def one_other(model: CompiledModel, body: str, joint: str) -> ConstraintInfo:
-    """The only other joint of a link with two joints.
+def line_at(model: CompiledModel, body: str, joint: str) -> float:
+    """The direction of the line of a link from a pin, in its frame, rad.
 
     Raises:
-        ModelError: it has none, or several.
+        ModelError: it has no other pin or slide, or several.
     """
-    found = others_at(model, body, joint)
-    if len(found) != 1:
-        names: Sequence[str] = [info.name for info in found]
-        told = f"{len(found)} other joints ({few(names)})" if found else "no other joint"
+    names, angle = _core.line_at(model.core, joint, body)
+    if angle is None:
+        told = f"{len(names)} other joints ({few(names)})" if names else "no other joint"
         raise ModelError(
             f"{body} has {told} besides {joint}, so that its line is not unique",
             name=body,
             hint=f'name a point on its line: lines={{"{body}": "{body}.POINT"}}',
         )
-    return found[0]
+    return angle

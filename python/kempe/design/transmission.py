@@ -13,10 +13,11 @@ from functools import partial
 
 import numpy as np
 
+from kempe import _core
 from kempe.arrays import Floats, fixed
 from kempe.compiled import CompiledModel
 from kempe.design.locate import Limits, instants, limits, zeros
-from kempe.design.places import Place, is_pin, is_slide, one_other, others_at, point_of
+from kempe.design.places import Place, is_pin, line_at, others_at, point_of
 from kempe.errors import ModelError
 from kempe.extrema import Extreme
 from kempe.motion import Motion
@@ -105,6 +106,11 @@ def transmission_angle(
     )
 
 
+def transmitting(model: CompiledModel) -> list[str]:
+    """Pins at which a link without a driver, guided by ground, is moved by another link."""
+    return _core.transmitting(model.core)
+
+
 def _angle(joint: str, lines: Mapping[str, Place], motion: Motion) -> Floats:
     """The angle between the lines of both bodies at a pin, from 0 to π."""
     info = motion.compiled.constraints[joint]
@@ -115,19 +121,13 @@ def _angle(joint: str, lines: Mapping[str, Place], motion: Motion) -> Floats:
 
 def _line(motion: Motion, joint: str, body: str, place: Place | None) -> Floats:
     """The direction of a link from a pin, (…, 2)."""
-    here = motion.compiled.constraints[joint]
-    at = here.point_i if here.i == body else here.point_j
     own = motion.body(body)
     if place is not None:
+        here = motion.compiled.constraints[joint]
+        at = here.point_i if here.i == body else here.point_j
         return point_of(motion, place).position - own.at(at).position
-    other = one_other(motion.compiled, body, joint)
-    is_i = other.i == body
-    if is_slide(other):
-        axis = other.axis_i if is_i else other.axis_j
-        turn = own.angle + axis + np.pi / 2.0
-        return np.stack([np.cos(turn), np.sin(turn)], axis=-1)
-    there = other.point_i if is_i else other.point_j
-    return own.at(there).position - own.at(at).position
+    turn = own.angle + line_at(motion.compiled, body, joint)
+    return np.stack([np.cos(turn), np.sin(turn)], axis=-1)
 
 
 def velocity_ratio(motion: Motion, output: str, input: str) -> Floats:  # noqa: A002

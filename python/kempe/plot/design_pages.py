@@ -10,7 +10,7 @@ import numpy as np
 
 from kempe.compiled import CompiledModel
 from kempe.design.coupler_curve import coupler_curve as curve_of
-from kempe.design.places import is_pin, is_slide, others_at
+from kempe.design.transmission import transmitting
 from kempe.errors import KempeError
 from kempe.plot import style
 from kempe.plot.centres import instant_centres
@@ -79,24 +79,6 @@ def free_points(model: CompiledModel) -> list[str]:
             if all(np.hypot(s[0] - x, s[1] - y) > _SAME for x, y in joined):
                 found.append(f"{body}.{name}")
     return found
-
-
-def transmitting(model: CompiledModel) -> list[str]:
-    """Pins at which a link without a driver, guided by ground, is moved by another link."""
-    driven = {body for driver in model.drivers.values() for body in driver.bodies}
-    return [
-        name
-        for name, info in model.joints.items()
-        if is_pin(info)
-        and all(len(others_at(model, body, name)) == 1 for body in (info.i, info.j))
-        and any(_is_output(model, body, name, driven) for body in (info.i, info.j))
-    ]
-
-
-def _is_output(model: CompiledModel, body: str, joint: str, driven: set[str]) -> bool:
-    (other,) = others_at(model, body, joint)
-    grounded = "ground" in (other.i, other.j) and (is_pin(other) or is_slide(other))
-    return body in model.bodies and body not in driven and grounded
 
 
 def _moves(solution: Solution, point: str) -> bool:

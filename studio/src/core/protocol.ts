@@ -157,7 +157,10 @@ export interface Requests {
     reply: object;
   };
   parameters: { send: { values: Record<string, number> }; reply: Pose };
-  run: { send: { analysis?: string; t_end?: number; output_step?: number }; reply: Ran };
+  run: {
+    send: { analysis?: string; t_end?: number; output_step?: number; over?: string; range?: [string, string] };
+    reply: Ran;
+  };
   frames: { send: object; reply: object };
   values: { send: { names: string[] }; reply: { units: string[] } };
   save: { send: { format: "toml" | "json" }; reply: { text: string } };

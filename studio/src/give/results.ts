@@ -1,5 +1,5 @@
 // Results as files.
-import { course, valuesOf } from "../modes/read";
+import { course, valuesOf, variable } from "../modes/read";
 import { plots, stored } from "../store/plots";
 import { report } from "../store/session";
 import { announce, mechanism, title } from "../store/state";
@@ -18,15 +18,16 @@ export async function saveCsv(): Promise<void> {
   const run = course.value;
   if (!run) return;
   try {
-    const names = plotted();
+    const first = variable.value;
+    const names = plotted().filter((name) => name !== first.name);
     const { units, rows } = await valuesOf(names);
-    download(nameOf(title.value, ".csv"), csv(run.t, names, units, rows), "text/csv;charset=utf-8");
+    download(nameOf(title.value, ".csv"), csv(run.t, names, units, rows, first), "text/csv;charset=utf-8");
   } catch (error) {
     report(error);
   }
 }
 
-/** Times, the poses of the bodies by name, and the plotted quantities. */
+/** Times or the values in their place, the poses of the bodies by name, and the plotted quantities. */
 export async function saveNpz(): Promise<void> {
   const run = course.value;
   if (!run) return;
@@ -34,7 +35,8 @@ export async function saveNpz(): Promise<void> {
     const names = plotted();
     const { rows } = await valuesOf(names);
     const n = run.t.length;
-    const arrays: Record<string, NumbersOf> = { t: { shape: [n], values: run.t } };
+    const times = { shape: [n], values: run.t };
+    const arrays: Record<string, NumbersOf> = { t: times, [variable.value.name]: times };
     mechanism.value?.bodies.slice(1).forEach(({ name }, body) => {
       const values = Float64Array.from(
         { length: 3 * n },

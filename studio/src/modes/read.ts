@@ -1,16 +1,19 @@
 // Reading: a run of an analysis, its poses over time, its quantities.
-import { batch, computed, signal } from "@preact/signals";
-import type { Pose, Quantity, Ran } from "../core/protocol";
+import { batch, computed, effect, signal } from "@preact/signals";
+import type { Pose, Quantity, Ran, Requests } from "../core/protocol";
 import { report, send } from "../store/session";
-import { announce, catalogue, mechanism, mode, pose, selection } from "../store/state";
+import { announce, catalogue, mechanism, mode, openings, pose, selection } from "../store/state";
 import { texts } from "../texts";
 import { Frames } from "./frames";
 import { gripAt } from "./grip";
 import type { Handler } from "./handler";
+import { OVER, offer, over, rangeOfCore, TIME } from "./over";
+import { written } from "./shown";
 
-/** A run with its frames: t and the poses of all moving bodies, row by row. */
+/** A run with its frames: t and the poses of all moving bodies, row by row. A run to lower values is kept backwards. */
 export interface Course {
   ran: Ran;
+  backwards: boolean;
   t: Float64Array;
   rows: Float64Array;
   width: number;
@@ -33,11 +36,20 @@ export const analyses = computed(() => {
 
 /** The analysis that runs: the chosen one if the case still has it, otherwise the first. */
 export const analysis = computed(() => {
-  if (chosen.value === "" || analyses.value.some(({ name }) => name === chosen.value)) return chosen.value!;
+  if (chosen.value === "" || chosen.value === OVER || analyses.value.some(({ name }) => name === chosen.value))
+    return chosen.value!;
   return analyses.value[0]?.name ?? "";
 });
 
-/** The end of a run without an analysis, s, and its number of outputs. */
+effect(() => {
+  openings.value;
+  chosen.value = null;
+});
+
+/** The quantity in the place of the time, and the unit of its values; otherwise the time. */
+export const variable = computed(() => course.value?.ran.over ?? TIME);
+
+/** The end of a run without an analysis, s, which is also the time in which a range is played; and its number of outputs. */
 const T_END = 5;
 const OUTPUTS = 500;
 
@@ -58,20 +70,19 @@ export const read: Handler = {
 export async function run(t_end?: number): Promise<Ran | null> {
   running.value = true;
   try {
-    const named = t_end === undefined && analysis.value;
-    const { ok } = await send("run", named ? { analysis: named } : await untilTime(t_end));
+    const { ok } = await send("run", t_end === undefined ? await requested() : await untilTime(t_end));
     const { numbers } = await send("frames", {});
     const width = 1 + 3 * ((mechanism.value?.bodies.length ?? 1) - 1);
-    const t = Float64Array.from({ length: Math.floor(numbers.length / width) }, (_, k) => numbers[k * width]!);
+    const frames = inOrder(numbers, width);
     const ground = mechanism.value?.bodies[0]?.name ?? "";
     const found = (await send("quantities", {})).ok.filter(({ name }) => !name.startsWith(`${ground}.`));
     batch(() => {
-      course.value = { ran: ok, t, rows: numbers, width };
-      time.value = t[0] ?? 0;
+      course.value = { ran: ok, width, ...frames };
+      time.value = frames.t[0] ?? 0;
       quantities.value = found;
     });
     if (ok.error) announce("problem", ok.error.message, ok.error.hint ? { hint: ok.error.hint } : {});
-    else announce("done", texts.read.done(ok.count, ok.t_end));
+    else announce("done", texts.read.done(ok.count, variable.value.name, written(ok.t_end, variable.value.unit)));
     show(time.value);
     return ok;
   } catch (error) {
@@ -80,6 +91,27 @@ export async function run(t_end?: number): Promise<Ran | null> {
   } finally {
     running.value = false;
   }
+}
+
+/** The run that the panel describes. */
+async function requested(): Promise<Requests["run"]["send"]> {
+  if (analysis.value !== OVER) return analysis.value ? { analysis: analysis.value } : untilTime();
+  offer((await send("quantities", {})).ok);
+  const range = rangeOfCore();
+  if (!over.value || !range) throw new Error(texts.read.noRange);
+  return { over: over.value.name, range };
+}
+
+/** The times and frames with growing times. */
+function inOrder(numbers: Float64Array, width: number): Pick<Course, "t" | "rows" | "backwards"> {
+  const n = Math.floor(numbers.length / width);
+  const backwards = n > 1 && numbers[0]! > numbers[(n - 1) * width]!;
+  const rows = new Float64Array(numbers.length);
+  for (let k = 0; k < n; k += 1) {
+    const from = (backwards ? n - 1 - k : k) * width;
+    rows.set(numbers.subarray(from, from + width), k * width);
+  }
+  return { t: Float64Array.from({ length: n }, (_, k) => rows[k * width]!), rows, backwards };
 }
 
 /** A run from the pose that the core has, until a time or for some seconds. */
@@ -127,7 +159,8 @@ export async function play(): Promise<void> {
   if (time.value >= span.value[1]) show(span.value[0]);
   await frames.play((ms) => {
     if (mode.value !== "read") return false;
-    const next = time.value + (Math.min(500, ms) / 1000) * rate.value;
+    const pace = variable.value === TIME ? 1 : (span.value[1] - span.value[0]) / T_END;
+    const next = time.value + (Math.min(500, ms) / 1000) * rate.value * pace;
     show(next >= span.value[1] ? span.value[0] : next);
     return true;
   });
@@ -146,5 +179,6 @@ export function toggle(): void {
 export async function valuesOf(names: string[]): Promise<{ units: string[]; rows: Float64Array[] }> {
   const { ok, numbers } = await send("values", { names });
   const n = numbers.length / Math.max(1, names.length);
-  return { units: ok.units, rows: names.map((_, k) => numbers.slice(k * n, (k + 1) * n)) };
+  const row = (k: number) => numbers.slice(k * n, (k + 1) * n);
+  return { units: ok.units, rows: names.map((_, k) => (course.value?.backwards ? row(k).reverse() : row(k))) };
 }

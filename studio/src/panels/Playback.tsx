@@ -1,5 +1,7 @@
 // The slider of time under the drawing.
-import { course, playing, rate, show, span, time, toggle } from "../modes/read";
+import { TIME } from "../modes/over";
+import { course, playing, rate, show, span, time, toggle, variable } from "../modes/read";
+import { clock } from "../modes/shown";
 import { mode } from "../store/state";
 import { texts } from "../texts";
 import { Button } from "./parts";
@@ -10,8 +12,10 @@ export function Playback() {
   if (mode.value !== "read" || !course.value) return null;
   const [begin, end] = span.value;
   const words = texts.read;
+  const { name, unit } = variable.value;
+  const label = variable.value === TIME ? words.time : name;
   return (
-    <div class="panel playback" role="group" aria-label={words.time}>
+    <div class="panel playback" role="group" aria-label={label}>
       <Button
         label={playing.value ? words.pause : words.play}
         icon={playing.value ? "pause" : "play"}
@@ -22,14 +26,17 @@ export function Playback() {
       <input
         type="range"
         id="scrub"
-        aria-label={words.time}
+        aria-label={label}
         min={begin}
         max={end}
         step="any"
         value={time.value}
         onInput={(event) => show(Number(event.currentTarget.value))}
       />
-      <output class="clock">{`${time.value.toFixed(3)} s`}</output>
+      <output class="clock">
+        {variable.value === TIME ? null : <bdi class="word">{`${name} `}</bdi>}
+        {clock(time.value, unit)}
+      </output>
       <label class="choice">
         <span class="word">{words.speed}</span>
         <select value={String(rate.value)} onChange={(event) => (rate.value = Number(event.currentTarget.value))}>

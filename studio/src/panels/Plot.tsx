@@ -1,11 +1,11 @@
-// One plot over time, with its curves, their peaks, and the time that is shown.
+// One plot over time or a quantity, with its curves, their peaks, and the instant that is shown.
 import { useEffect, useRef, useState } from "preact/hooks";
 import uPlot from "uplot";
 import { displayed } from "../draw/display";
 import { minus, readable, withUnit } from "../draw/numbers";
 import { font, palette } from "../draw/surface";
 import type { Stored } from "../give/stored";
-import { course, quantities, show, time, valuesOf } from "../modes/read";
+import { course, quantities, show, time, valuesOf, variable } from "../modes/read";
 import { type PlotOf, plots, stored } from "../store/plots";
 import { report } from "../store/session";
 import { degrees } from "../store/state";
@@ -13,6 +13,8 @@ import { texts } from "../texts";
 import { Button } from "./parts";
 
 const HEIGHT = 190;
+/** Distances of ticks on axes in degrees. */
+const DEGREES = [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 45, 60, 90, 180, 360, 720, 1800, 3600, 7200, 18000, 36000];
 
 interface Curves {
   names: string[];
@@ -43,7 +45,8 @@ export function Plot({ plot }: { plot: PlotOf }) {
   }, [plot.names.join(), run, turn]);
   useEffect(() => {
     if (!curves || !run || !host.current) return;
-    const made = draw(host.current, run.t, curves, other ? besides(other, curves, turn) : null);
+    const across = acrossOf(turn);
+    const made = draw(host.current, run.t, across, curves, other ? besides(other, curves, turn) : null);
     drawn.current = made;
     const observer = new ResizeObserver(() =>
       made.setSize({ width: host.current?.clientWidth ?? 300, height: HEIGHT }),
@@ -150,14 +153,35 @@ function inUnits(units: string[], rows: Float64Array[], turn: boolean): Pick<Cur
   return { units: shown.map(({ unit }) => unit), rows: rows.map((row, k) => scaled(row, shown[k]?.factor ?? 1)) };
 }
 
+/** The horizontal axis: its label, and by what to multiply values in SI units. */
+interface Across {
+  label: string;
+  unit: string;
+  factor: number;
+}
+
+function acrossOf(turn: boolean): Across {
+  const { name, unit: base } = variable.peek();
+  const { factor, unit } = displayed(base, turn);
+  return { label: `${name} / ${unit}`, unit, factor };
+}
+
 /** The curves of a stored run that has some of these quantities. */
-function besides(other: Stored, { names, base }: Curves, turn: boolean): Beside {
+function besides(other: Stored, { names, base }: Curves, turn: boolean): Beside | null {
   const { factor } = displayed(base, turn);
+  const t = placesOf(other, variable.peek().name);
+  if (!t) return null;
   const found = names.flatMap((name, k): Beside["curves"] => {
     const row = other.rows.get(name);
     return row ? [{ number: k, row: row.map((value) => value * factor) }] : [];
   });
-  return { t: other.t, curves: found };
+  return { t, curves: found };
+}
+
+/** Where the values of a stored run are on the axis; null if they do not grow. */
+function placesOf({ t, rows }: Stored, name: string): Float64Array | null {
+  const found = rows.get(name) ?? t;
+  return found.every((value, k) => k === 0 || value >= found[k - 1]!) ? found : null;
 }
 
 interface Beside {
@@ -166,7 +190,13 @@ interface Beside {
   curves: { number: number; row: Float64Array }[];
 }
 
-function draw(host: HTMLElement, t: Float64Array, { names, units, rows }: Curves, beside: Beside | null): uPlot {
+function draw(
+  host: HTMLElement,
+  t: Float64Array,
+  across: Across,
+  { names, units, rows }: Curves,
+  beside: Beside | null,
+): uPlot {
   const colours = palette();
   const axis = {
     stroke: colours.named.soft!,
@@ -176,10 +206,12 @@ function draw(host: HTMLElement, t: Float64Array, { names, units, rows }: Curves
     values: (_: uPlot, values: number[]) => values.map((value) => minus(String(Number(value.toPrecision(6))))),
   };
   const unit = readable(units[0] ?? "");
+  const ticks = (of: string) => (of === "°" ? { incrs: DEGREES } : {});
   return new uPlot(
     {
       width: host.clientWidth || 300,
       height: HEIGHT,
+      pxAlign: 0,
       legend: { show: false },
       cursor: { drag: { x: true, y: false } },
       scales: { x: { time: false } },
@@ -195,30 +227,41 @@ function draw(host: HTMLElement, t: Float64Array, { names, units, rows }: Curves
         })),
       ],
       axes: [
-        { ...axis, label: "t / s", labelSize: 16, labelFont: font(11), size: 34 },
-        { ...axis, label: /[/ ]/.test(unit) ? `(${unit})` : unit, labelSize: 16, labelFont: font(11), size: 56 },
+        { ...axis, ...ticks(across.unit), label: across.label, labelSize: 16, labelFont: font(11), size: 34 },
+        {
+          ...axis,
+          ...ticks(unit),
+          label: /[/ ]/.test(unit) ? `(${unit})` : unit,
+          labelSize: 16,
+          labelFont: font(11),
+          size: 56,
+        },
       ],
       hooks: {
-        draw: [(plot) => cursorLine(plot, colours.named.accent!)],
-        ready: [(plot) => plot.over.addEventListener("click", (event) => show(plot.posToVal(event.offsetX, "x")))],
+        draw: [(plot) => cursorLine(plot, across.factor, colours.named.accent!)],
+        ready: [
+          (plot) =>
+            plot.over.addEventListener("click", (event) => show(plot.posToVal(event.offsetX, "x") / across.factor)),
+        ],
       },
     },
-    joined(t, rows, beside),
+    joined(t, across.factor, rows, beside),
     host,
   );
 }
 
 /** Present and stored curves over the times of both. */
-function joined(t: Float64Array, rows: Float64Array[], beside: Beside | null): uPlot.AlignedData {
-  const present = [t, ...rows] as unknown as uPlot.AlignedData;
+function joined(t: Float64Array, factor: number, rows: Float64Array[], beside: Beside | null): uPlot.AlignedData {
+  const scaled = (values: Float64Array) => values.map((value) => value * factor);
+  const present = [scaled(t), ...rows] as unknown as uPlot.AlignedData;
   if (!beside?.curves.length) return present;
-  const other = [beside.t, ...beside.curves.map(({ row }) => row)] as unknown as uPlot.AlignedData;
+  const other = [scaled(beside.t), ...beside.curves.map(({ row }) => row)] as unknown as uPlot.AlignedData;
   return uPlot.join([present, other]);
 }
 
-/** A line at the time that the drawing shows. */
-function cursorLine({ ctx, bbox, valToPos }: uPlot, colour: string): void {
-  const x = Math.round(valToPos(time.peek(), "x", true));
+/** A line at the instant that the drawing shows. */
+function cursorLine({ ctx, bbox, valToPos }: uPlot, factor: number, colour: string): void {
+  const x = Math.round(valToPos(time.peek() * factor, "x", true));
   if (x < bbox.left || x > bbox.left + bbox.width) return;
   ctx.save();
   ctx.strokeStyle = colour;

@@ -1,12 +1,14 @@
 // Reading: run an analysis, plots, arrows, files.
 import { useState } from "preact/hooks";
 import { openStored, saveCsv, saveNpz } from "../give/results";
-import { analyses, analysis, chosen, course, quantities, run, running } from "../modes/read";
+import { OVER, TIME } from "../modes/over";
+import { analyses, analysis, chosen, course, quantities, run, running, variable } from "../modes/read";
 import { arrows, KINDS, type Kind } from "../page/motionOverlay";
 import { plots, stored } from "../store/plots";
 import { degrees } from "../store/state";
 import { texts } from "../texts";
 import { Measures } from "./Measures";
+import { OverFields } from "./OverFields";
 import { Plot } from "./Plot";
 import { Button, Check, Section } from "./parts";
 
@@ -53,6 +55,9 @@ export function ReadPanel() {
                 />
               </p>
             ) : null}
+            {variable.value === TIME ? null : (
+              <p class="doc">{words.atUnitRate(variable.value.name, variable.value.unit)}</p>
+            )}
             {plots.value.map((one) => (
               <Plot key={one.key} plot={one} />
             ))}
@@ -85,9 +90,11 @@ function RunBar() {
           {analyses.value.map(({ name, type }) => (
             <option key={name} value={name}>{`${name} (${type.replaceAll("_", " ")})`}</option>
           ))}
+          <option value={OVER}>{words.over}</option>
           <option value="">{words.defaults}</option>
         </select>
       </label>
+      {analysis.value === OVER ? <OverFields /> : null}
       {free ? (
         <label class="choice">
           <span>{words.end}</span>
@@ -138,7 +145,7 @@ function Add() {
   );
 }
 
-/** The body or element of a quantity: the first part of its name. */
+/** The body or element of a quantity, the first part of its name; measures and transmission angles have none. */
 function ownerOf(name: string): string {
-  return name.split(".")[0]!;
+  return name.includes(".") ? name.split(".")[0]! : texts.read.others;
 }

@@ -1,7 +1,7 @@
 // Which quantities are plotted.
 import { effect, signal } from "@preact/signals";
 import type { Stored } from "../give/stored";
-import { course, quantities } from "../modes/read";
+import { course, quantities, variable } from "../modes/read";
 import { loads, openings } from "./state";
 
 export interface PlotOf {
@@ -38,8 +38,7 @@ const MOST = 3;
 
 function firstOf(all: { name: string; unit: string }[]): string[] {
   const unit = all.some((one) => one.unit === "rad") ? "rad" : all[0]!.unit;
-  return all
-    .filter((one) => one.unit === unit)
-    .slice(0, MOST)
-    .map(({ name }) => name);
+  const first = all.filter((one) => one.unit === unit).slice(0, MOST);
+  const others = first.filter(({ name }) => name !== variable.value.name);
+  return (others.length ? others : first).map(({ name }) => name);
 }

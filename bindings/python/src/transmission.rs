@@ -1,0 +1,37 @@
+//! Lines of links at their pins, for transmission angles.
+
+use crate::evaluate::{one_of, unknown};
+use crate::guard::guard;
+use crate::model::PyModel;
+use kempe::analyses::transmission::{line_at as line, others_at, transmitting as pins};
+use pyo3::prelude::*;
+
+/// The pins and slides of a body besides a joint, and the direction of the line of the body from this joint, in its
+/// frame, rad; the line is None unless there is exactly one other.
+#[pyfunction]
+#[pyo3(signature = (model, joint, body))]
+pub fn line_at(
+    py: Python<'_>,
+    model: &PyModel,
+    joint: &str,
+    body: &str,
+) -> PyResult<(Vec<String>, Option<f64>)> {
+    guard("line_at", || {
+        let model = &model.model;
+        let k = model.constraint(joint).ok_or_else(|| unknown(py, "joint or driver", joint))?;
+        let on = one_of(py, model, &model.constraints[k].bodies, joint, body)?;
+        let name = |k: usize| model.constraints[k].name.clone();
+        Ok((others_at(model, k, on).into_iter().map(name).collect(), line(model, k, on)))
+    })
+}
+
+/// The pins at which a link without a driver, guided by ground, is moved by another link.
+#[pyfunction]
+#[pyo3(signature = (model))]
+pub fn transmitting(model: &PyModel) -> PyResult<Vec<String>> {
+    guard("transmitting", || {
+        let model = &model.model;
+        let name = |k: usize| model.constraints[k].name.clone();
+        Ok(pins(model).into_iter().map(name).collect())
+    })
+}

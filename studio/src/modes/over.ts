@@ -1,0 +1,71 @@
+// What takes the place of the time: the quantity and the range of kinematics that the user requests.
+import { computed, effect, signal } from "@preact/signals";
+import { entries } from "../catalogue/tree";
+import type { Quantity } from "../core/protocol";
+import { degrees, mechanism, mobility, openings, tree } from "../store/state";
+
+/** One more choice among the analyses of the case; names have no space. */
+export const OVER = "over a quantity";
+/** The time, where nothing takes its place. */
+export const TIME: Quantity = { name: "t", unit: "s" };
+
+/** The quantities of the mechanism that a run may follow. */
+export const positions = signal<Quantity[]>([]);
+const chosen = signal("");
+/** First and last value as the user writes them; null for a whole turn. */
+const written = signal<[string, string] | null>(null);
+
+/** The quantities that drivers have as their coordinate. */
+const driven = computed(() =>
+  Object.values(entries(tree.value, "drivers")).flatMap(({ coordinate }) =>
+    typeof coordinate === "string" ? [coordinate] : [],
+  ),
+);
+
+/** Keep the position quantities of bodies and elements: those of drivers and of links that turn fully come first. */
+export function offer(all: Quantity[]): void {
+  const turning = (mobility.value?.four_bars ?? []).flatMap((one) => one.turning.map((body) => `${body}.angle`));
+  const angles = (mechanism.value?.coordinates ?? []).filter((name) => name.endsWith(".angle"));
+  const first = [...driven.value, ...turning, ...angles];
+  const rank = (name: string) => (first.includes(name) ? first.indexOf(name) : first.length);
+  const own = all.filter(({ name, unit }) => /^(m|rad)$/.test(unit) && name.split(".").length === 2);
+  positions.value = own.sort((a, b) => rank(a.name) - rank(b.name));
+}
+
+/** The quantity that a requested run follows. */
+export const over = computed<Quantity | undefined>(
+  () => positions.value.find(({ name }) => name === chosen.value) ?? positions.value[0],
+);
+
+export function follow(name: string): void {
+  chosen.value = name;
+  written.value = null;
+}
+
+/** The unit in which the range is written. */
+export const unit = computed(() => (over.value?.unit === "rad" && degrees.value ? "°" : (over.value?.unit ?? "")));
+
+/** The range as it is shown; a quantity that is no angle has none at first. */
+export const range = computed<[string, string]>(() => {
+  if (written.value) return written.value;
+  if (over.value?.unit !== "rad") return ["", ""];
+  return unit.value === "°" ? ["0", "360"] : ["0", "2*pi"];
+});
+
+export function writeRange(side: 0 | 1, text: string): void {
+  const [first, last] = range.value;
+  written.value = side === 0 ? [text, last] : [first, text];
+}
+
+/** The range as the core reads it; null if an end is missing. */
+export function rangeOfCore(): [string, string] | null {
+  const inUnit = (text: string) => (unit.value === "°" ? `(${text})*deg` : text);
+  const [first, last] = range.value.map((text) => text.trim());
+  return first && last ? [inUnit(first), inUnit(last)] : null;
+}
+
+effect(() => {
+  degrees.value;
+  openings.value;
+  written.value = null;
+});
