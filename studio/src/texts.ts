@@ -191,6 +191,7 @@ export const texts = {
     running: "Running …",
     analysis: "Analysis",
     defaults: "from this pose",
+    on: (body: string) => `on ${body}`,
     end: "End / s",
     done: (count: number, t: number) => `${count} states up to t = ${Number(t.toPrecision(6))} s`,
     none: "Run an analysis to read its results.",

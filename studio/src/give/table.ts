@@ -1,8 +1,14 @@
 // Curves as CSV.
 
 /** One line for each time, in SI units and rad, with all digits. */
-export function csv(t: Float64Array, names: string[], units: string[], rows: Float64Array[]): string {
-  const head = ["t [s]", ...names.map((name, k) => `${name} [${units[k]}]`)].map(cell);
+export function csv(
+  t: ArrayLike<number>,
+  names: string[],
+  units: string[],
+  rows: ArrayLike<number>[],
+  first = "t [s]",
+): string {
+  const head = [first, ...names.map((name, k) => `${name} [${units[k]}]`)].map(cell);
   const number = (value: number) => (Number.isFinite(value) ? String(value) : "nan");
   const lines = Array.from(t, (one, k) => [one, ...rows.map((row) => row[k]!)].map(number).join(","));
   return [head.join(","), ...lines, ""].join("\n");

@@ -1,28 +1,32 @@
 // The part of the time that plots show.
+import type { Motion } from "./motion";
 
 /** A window of time within a motion; all plots share it. */
 export class TimeSpan {
-  constructor(motion) {
-    this.motion = motion;
-    this.showAll();
+  from: number;
+  to: number;
+
+  constructor(private readonly motion: Motion) {
+    this.from = motion.begin;
+    this.to = motion.end;
   }
 
-  showAll() {
+  showAll(): void {
     this.from = this.motion.begin;
     this.to = this.motion.end;
   }
 
   /** Show `factor` times as much time around t. */
-  stretch(factor, t) {
+  stretch(factor: number, t: number): void {
     const { begin, end } = this.motion;
-    const [from, to] = [this.from, this.to].map((edge) => t + (edge - t) * factor);
+    const [from, to] = [t + (this.from - t) * factor, t + (this.to - t) * factor];
     if (to - from < 1e-6 * (end - begin)) return;
     this.from = Math.max(begin, from);
     this.to = Math.min(end, to);
   }
 
   /** Move the window so that it holds t. */
-  follow(t) {
+  follow(t: number): void {
     if (t >= this.from && t <= this.to) return;
     const length = this.to - this.from;
     this.from = Math.min(Math.max(t - 0.1 * length, this.motion.begin), this.motion.end - length);

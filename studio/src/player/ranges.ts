@@ -1,8 +1,9 @@
 // Which values the axis of a plot holds.
+import type { Point } from "../plane/points";
 
 /** The least and the largest value, with some room. */
-export function widened(values, divisor) {
-  let [low, high] = [Infinity, -Infinity];
+export function widened(values: number[][], divisor: number): Point {
+  let [low, high] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
   for (const value of values.flat()) [low, high] = [Math.min(low, value / divisor), Math.max(high, value / divisor)];
   if (!(high >= low)) return [0, 1];
   const room = 0.06 * (high - low) || 0.5 * Math.abs(high) || 1;
@@ -10,8 +11,8 @@ export function widened(values, divisor) {
 }
 
 /** The powers of ten around the magnitudes, zeros left out. */
-export function exponents(values) {
-  let [low, high] = [Infinity, -Infinity];
+export function exponents(values: number[][]): Point {
+  let [low, high] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
   for (const value of values.flat()) {
     if (value === 0) continue;
     const exponent = Math.log10(Math.abs(value));

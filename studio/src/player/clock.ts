@@ -1,35 +1,39 @@
 // The present time, and how it goes on while the motion is played.
+import type { Motion } from "./motion";
 
 /** A clock over the duration of a motion; calls `changed` whenever it moves, starts or stops. */
 export class Clock {
-  constructor(motion, rate, changed) {
-    this.motion = motion;
-    this.rate = rate;
-    this.changed = changed;
+  t: number;
+  speed = 1;
+  loop = false;
+  playing = false;
+  private last: number | null = null;
+
+  constructor(
+    private readonly motion: Motion,
+    readonly rate: number,
+    private readonly changed: () => void,
+  ) {
     this.t = motion.begin;
-    this.speed = 1;
-    this.loop = false;
-    this.playing = false;
-    this.last = null;
   }
 
-  seek(t) {
+  seek(t: number): void {
     if (!Number.isFinite(t)) return;
     this.t = Math.min(this.motion.end, Math.max(this.motion.begin, t));
     this.changed();
   }
 
   /** Go on by so many frames, and stop there. */
-  step(frames) {
+  step(frames: number): void {
     this.pause();
     const times = this.motion.t;
     const { low, share } = this.motion.place(this.t);
     const here = share >= 1 ? low + 1 : low;
     const between = share > 0 && share < 1 && frames < 0 ? 1 : 0; // back to the frame just passed
-    this.seek(times[Math.min(times.length - 1, Math.max(0, here + frames + between))]);
+    this.seek(times[Math.min(times.length - 1, Math.max(0, here + frames + between))]!);
   }
 
-  play() {
+  play(): void {
     if (this.playing || this.motion.end <= this.motion.begin) return;
     if (this.t >= this.motion.end) this.t = this.motion.begin;
     this.playing = true;
@@ -38,12 +42,17 @@ export class Clock {
     this.changed();
   }
 
-  pause() {
+  pause(): void {
     this.playing = false;
     this.changed();
   }
 
-  tick(now) {
+  toggle(): void {
+    if (this.playing) this.pause();
+    else this.play();
+  }
+
+  private tick(now: number): void {
     if (!this.playing) return;
     const elapsed = this.last === null ? 0 : (now - this.last) / 1000;
     this.last = now;
@@ -53,7 +62,7 @@ export class Clock {
     if (this.playing) requestAnimationFrame((next) => this.tick(next));
   }
 
-  after(elapsed) {
+  private after(elapsed: number): number {
     const { begin, end } = this.motion;
     const t = this.t + elapsed * this.rate * this.speed;
     if (t < end) return t;
