@@ -2,9 +2,10 @@
 import { computed, effect, signal } from "@preact/signals";
 import type { ArrowKind, Vectors } from "../draw/arrows";
 import { Trace } from "../draw/traces";
-import { course, quantities, time, valuesOf } from "../modes/read";
+import { type Course, course, quantities, time, valuesOf } from "../modes/read";
 import { points } from "../modes/seen";
 import { placeIn } from "../plane/instants";
+import { distinctPaths, type Path } from "../plane/paths";
 import { type Point, placed } from "../plane/points";
 import { report } from "../store/session";
 import { mechanism, mode, scene } from "../store/state";
@@ -29,27 +30,28 @@ interface Fetched {
 
 const fetched = signal<Fetched[]>([]);
 
-/** Traced points: those of all moving bodies that more than one body or none shares. */
-export const traced = computed(() => {
-  const bodies = mechanism.value?.bodies ?? [];
-  const listed = (scene.value as { traces?: { body: number; point: Point }[] } | null)?.traces;
-  if (listed?.length) return listed;
-  return bodies.flatMap((body, k) =>
-    body.ground ? [] : Object.values(body.points).map((point) => ({ body: k, point })),
+/** The paths over a run that are drawn; their points are those with arrows. */
+const paths = computed(() => {
+  const found = course.value;
+  if (!found) return [];
+  const bodies = (mechanism.value?.bodies ?? []).map((body, number) => ({ ...body, number }));
+  const all = bodies.flatMap(({ name, ground, number, points: own }) =>
+    ground ? [] : Object.entries(own).map(([point, at]) => pathOf(found, `${name}.${point}`, number, at)),
   );
+  return distinctPaths(all);
 });
 
-export const traces = computed(() => {
-  const found = course.value;
-  if (!found || mode.value !== "read") return [];
-  const { t, rows, width } = found;
-  return traced.value.map(({ body, point }) => {
-    const line = Array.from(t, (_, k): Point => {
-      const at = k * width + 1 + 3 * (body - 1);
-      return placed([rows[at]!, rows[at + 1]!, rows[at + 2]!], point);
-    });
-    return new Trace(body, line);
+function pathOf({ t, rows, width }: Course, name: string, body: number, point: Point): Path {
+  const line = Array.from(t, (_, k): Point => {
+    const at = k * width + 1 + 3 * (body - 1);
+    return placed([rows[at]!, rows[at + 1]!, rows[at + 2]!], point);
   });
+  return { name, body, line };
+}
+
+export const traces = computed(() => {
+  if (mode.value !== "read") return [];
+  return paths.value.map(({ body, line }) => new Trace(body, line));
 });
 
 /** Fetch the components of the arrows that are shown, once for each run. */
@@ -79,7 +81,8 @@ async function fetchKind(kind: Kind, all: string[]): Promise<Fetched | null> {
   const stems = all
     .filter((name) => name.endsWith(`.${x}`) && all.includes(`${name.slice(0, -2)}${y}`))
     .map((name) => name.slice(0, -3));
-  const places = new Set(where().map(({ element }) => element));
+  const shown = kind === "reactions" ? joints().map(({ name }) => name) : paths.value.map(({ name }) => name);
+  const places = new Set(shown);
   const names = stems.filter((stem) => places.has(stem));
   if (!names.length) return null;
   const { units, rows } = await valuesOf(names.flatMap((name) => [`${name}.${x}`, `${name}.${y}`]));
@@ -102,16 +105,23 @@ function where(): Place[] {
     const element = `${body.name}.${point}`;
     return { element, owner: element, at };
   });
-  const joints =
-    (scene.value as { joints?: { name: string; bodies: [number, number]; points: [Point, Point] }[] } | null)?.joints ??
-    [];
   const bodies = mechanism.value?.bodies ?? [];
-  const places = joints.map(({ name, bodies: [, j], points: [, at] }): Place => {
+  const places = joints().map(({ name, bodies: [, j], points: [, at] }): Place => {
     const pose = course.value ? poseNow(j) : null;
     const owner = texts.read.on(bodies[j]?.name ?? "");
     return { element: name, owner, at: pose ? placed(pose, at) : at };
   });
   return bodies.length ? [...named, ...places] : [];
+}
+
+interface Joint {
+  name: string;
+  bodies: [number, number];
+  points: [Point, Point];
+}
+
+function joints(): Joint[] {
+  return (scene.value as { joints?: Joint[] } | null)?.joints ?? [];
 }
 
 function poseNow(body: number): [number, number, number] {
