@@ -1,14 +1,15 @@
 // Curves as CSV.
+import type { Quantity } from "../core/protocol";
 
-/** One line for each time, in SI units and rad, with all digits. */
+/** One line for each time or value in its place, in SI units and rad, with all digits. */
 export function csv(
-  t: ArrayLike<number>,
+  t: Float64Array,
   names: string[],
   units: string[],
-  rows: ArrayLike<number>[],
-  first = "t [s]",
+  rows: Float64Array[],
+  first: Quantity = { name: "t", unit: "s" },
 ): string {
-  const head = [first, ...names.map((name, k) => `${name} [${units[k]}]`)].map(cell);
+  const head = [`${first.name} [${first.unit}]`, ...names.map((name, k) => `${name} [${units[k]}]`)].map(cell);
   const number = (value: number) => (Number.isFinite(value) ? String(value) : "nan");
   const lines = Array.from(t, (one, k) => [one, ...rows.map((row) => row[k]!)].map(number).join(","));
   return [head.join(","), ...lines, ""].join("\n");

@@ -8,7 +8,7 @@ import { placeIn } from "../plane/instants";
 import { distinctPaths, type Path } from "../plane/paths";
 import { type Point, placed } from "../plane/points";
 import { report } from "../store/session";
-import { mechanism, mode, scene } from "../store/state";
+import { mechanism, mode, poses, scene } from "../store/state";
 import { texts } from "../texts";
 
 /** Kinds of arrows: the endings of the names of their two components. */
@@ -107,7 +107,7 @@ function where(): Place[] {
   });
   const bodies = mechanism.value?.bodies ?? [];
   const places = joints().map(({ name, bodies: [, j], points: [, at] }): Place => {
-    const pose = course.value ? poseNow(j) : null;
+    const pose = poses.value[j];
     const owner = texts.read.on(bodies[j]?.name ?? "");
     return { element: name, owner, at: pose ? placed(pose, at) : at };
   });
@@ -122,17 +122,6 @@ interface Joint {
 
 function joints(): Joint[] {
   return (scene.value as { joints?: Joint[] } | null)?.joints ?? [];
-}
-
-function poseNow(body: number): [number, number, number] {
-  const { t, rows, width } = course.value!;
-  if (body === 0) return [0, 0, 0];
-  const { low, high, share } = placeIn(t, time.value);
-  const value = (k: number) => {
-    const [a, b] = [rows[low * width + 3 * body - 2 + k]!, rows[high * width + 3 * body - 2 + k]!];
-    return a + share * (b - a);
-  };
-  return [value(0), value(1), value(2)];
 }
 
 /** Vectors, and the largest of their kind over the run. */

@@ -1,4 +1,5 @@
 // The present time, and how it goes on while the motion is played.
+import { Loop } from "../draw/loop";
 import type { Motion } from "./motion";
 
 /** A clock over the duration of a motion; calls `changed` whenever it moves, starts or stops. */
@@ -6,8 +7,8 @@ export class Clock {
   t: number;
   speed = 1;
   loop = false;
-  playing = false;
-  private last: number | null = null;
+  private readonly on = { value: false };
+  private readonly frames = new Loop(this.on);
 
   constructor(
     private readonly motion: Motion,
@@ -15,6 +16,10 @@ export class Clock {
     private readonly changed: () => void,
   ) {
     this.t = motion.begin;
+  }
+
+  get playing(): boolean {
+    return this.on.value;
   }
 
   seek(t: number): void {
@@ -36,14 +41,12 @@ export class Clock {
   play(): void {
     if (this.playing || this.motion.end <= this.motion.begin) return;
     if (this.t >= this.motion.end) this.t = this.motion.begin;
-    this.playing = true;
-    this.last = null;
-    requestAnimationFrame((now) => this.tick(now));
+    void this.frames.play((ms) => this.tick(ms)).then(this.changed);
     this.changed();
   }
 
   pause(): void {
-    this.playing = false;
+    this.frames.stop();
     this.changed();
   }
 
@@ -52,14 +55,11 @@ export class Clock {
     else this.play();
   }
 
-  private tick(now: number): void {
-    if (!this.playing) return;
-    const elapsed = this.last === null ? 0 : (now - this.last) / 1000;
-    this.last = now;
-    this.t = this.after(Math.min(elapsed, 0.5)); // a hidden page gets no ticks
-    if (this.t >= this.motion.end && !this.loop) this.playing = false;
+  /** Go on by one frame; false at the end. */
+  private tick(ms: number): boolean {
+    this.t = this.after(Math.min(ms, 500) / 1000); // a hidden page gets no frames
     this.changed();
-    if (this.playing) requestAnimationFrame((next) => this.tick(next));
+    return this.loop || this.t < this.motion.end;
   }
 
   private after(elapsed: number): number {

@@ -25,8 +25,8 @@ export function table(motion: Motion, curves: readonly Curve[]): string {
   const { name, unit } = motion.variable;
   const units = distinct.map((curve) => plainUnit(curve.unit));
   const names = distinct.map((curve) => curve.name);
-  const rows = distinct.map(({ values }) => values);
-  return csv(motion.t, names, units, rows, `${name} [${unit}]`);
+  const rows = distinct.map(({ values }) => Float64Array.from(values));
+  return csv(Float64Array.from(motion.t), names, units, rows, { name, unit });
 }
 
 /** Units as in the tables of kempe: letters of ASCII. */

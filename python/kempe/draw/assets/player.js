@@ -332,6 +332,38 @@ function nameOf(title2, what) {
   return `${words.join("_").slice(0, 40)}${what}`;
 }
 
+// src/draw/loop.ts
+var Loop = class {
+  constructor(on) {
+    this.on = on;
+  }
+  on;
+  starts = 0;
+  /** Call `each` with the ms since the frame before, until it returns false or the motion is stopped. */
+  async play(each, begin) {
+    if (this.on.value) return;
+    this.on.value = true;
+    this.starts += 1;
+    const own = this.starts;
+    const goesOn = () => this.on.value && this.starts === own;
+    try {
+      await begin?.();
+      let last = performance.now();
+      while (goesOn()) {
+        const now = await new Promise((done) => requestAnimationFrame(done));
+        const ms = Math.max(0, now - last);
+        last = now;
+        if (!goesOn() || !await each(ms)) break;
+      }
+    } finally {
+      if (this.starts === own) this.on.value = false;
+    }
+  }
+  stop() {
+    this.on.value = false;
+  }
+};
+
 // src/player/clock.ts
 var Clock = class {
   constructor(motion2, rate, changed) {
@@ -346,8 +378,11 @@ var Clock = class {
   t;
   speed = 1;
   loop = false;
-  playing = false;
-  last = null;
+  on = { value: false };
+  frames = new Loop(this.on);
+  get playing() {
+    return this.on.value;
+  }
   seek(t) {
     if (!Number.isFinite(t)) return;
     this.t = Math.min(this.motion.end, Math.max(this.motion.begin, t));
@@ -365,27 +400,22 @@ var Clock = class {
   play() {
     if (this.playing || this.motion.end <= this.motion.begin) return;
     if (this.t >= this.motion.end) this.t = this.motion.begin;
-    this.playing = true;
-    this.last = null;
-    requestAnimationFrame((now) => this.tick(now));
+    void this.frames.play((ms) => this.tick(ms)).then(this.changed);
     this.changed();
   }
   pause() {
-    this.playing = false;
+    this.frames.stop();
     this.changed();
   }
   toggle() {
     if (this.playing) this.pause();
     else this.play();
   }
-  tick(now) {
-    if (!this.playing) return;
-    const elapsed = this.last === null ? 0 : (now - this.last) / 1e3;
-    this.last = now;
-    this.t = this.after(Math.min(elapsed, 0.5));
-    if (this.t >= this.motion.end && !this.loop) this.playing = false;
+  /** Go on by one frame; false at the end. */
+  tick(ms) {
+    this.t = this.after(Math.min(ms, 500) / 1e3);
     this.changed();
-    if (this.playing) requestAnimationFrame((next) => this.tick(next));
+    return this.loop || this.t < this.motion.end;
   }
   after(elapsed) {
     const { begin, end } = this.motion;
@@ -1050,8 +1080,8 @@ var Drawing = class {
 };
 
 // src/give/table.ts
-function csv(t, names, units, rows, first = "t [s]") {
-  const head2 = [first, ...names.map((name, k) => `${name} [${units[k]}]`)].map(cell);
+function csv(t, names, units, rows, first = { name: "t", unit: "s" }) {
+  const head2 = [`${first.name} [${first.unit}]`, ...names.map((name, k) => `${name} [${units[k]}]`)].map(cell);
   const number = (value) => Number.isFinite(value) ? String(value) : "nan";
   const lines = Array.from(t, (one, k) => [one, ...rows.map((row) => row[k])].map(number).join(","));
   return [head2.join(","), ...lines, ""].join("\n");
@@ -1071,8 +1101,8 @@ function table(motion2, curves) {
   const { name, unit } = motion2.variable;
   const units = distinct.map((curve) => plainUnit(curve.unit));
   const names = distinct.map((curve) => curve.name);
-  const rows = distinct.map(({ values }) => values);
-  return csv(motion2.t, names, units, rows, `${name} [${unit}]`);
+  const rows = distinct.map(({ values }) => Float64Array.from(values));
+  return csv(Float64Array.from(motion2.t), names, units, rows, { name, unit });
 }
 function plainUnit(unit) {
   return unit.replace("·", "*").replace("²", "^2");
