@@ -1769,8 +1769,8 @@ function ofScene(scene2, motion2, group) {
   const channels = scene2.channels.filter((channel) => channel.group === group);
   const units = [...new Set(channels.map(({ unit }) => unit))];
   return units.map((unit) => {
-    const alike = channels.filter((channel) => channel.unit === unit);
-    const curves = alike.map((channel, k) => new Curve(motion2, ofChannel(channel, k)));
+    const listed = channels.filter((channel) => channel.unit === unit);
+    const curves = listed.map((channel, k) => new Curve(motion2, ofChannel(channel, k)));
     const name = units.length > 1 ? `${texts.channels[group]} / ${unit}` : texts.channels[group];
     return { key: `${group}.${unit}`, group: texts.groups[group], name, symbol: OF_SCENE[group], curves };
   });
