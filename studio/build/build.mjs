@@ -4,8 +4,8 @@ import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
-import { build } from "esbuild";
 import lzma from "lzma-native";
+import { bundle } from "./bundle.mjs";
 import { licences } from "./licences.mjs";
 
 const HERE = dirname(dirname(fileURLToPath(import.meta.url)));
@@ -14,6 +14,8 @@ const ROOT = dirname(HERE);
 const CORE = process.env.KEMPE_WEB ?? join(ROOT, "target", "web", "kempe_web.wasm");
 /** Largest page, bytes compressed. */
 const MOST = 1.1 * 1024 * 1024;
+
+const OPTIONS = { minify: !process.env.KEMPE_PLAIN, format: "iife", jsx: "automatic", jsxImportSource: "preact" };
 
 /** The examples of the repository, with the titles of their cases. */
 function examples() {
@@ -35,28 +37,10 @@ const made = {
       contents: `export const examples = ${JSON.stringify(examples())}`,
     }));
     onLoad({ filter: /^virtual:worker$/, namespace: "made" }, async () => ({
-      contents: `export default ${JSON.stringify((await bundle("src/core/worker.ts", {})).script)}`,
+      contents: `export default ${JSON.stringify((await bundle("src/core/worker.ts", OPTIONS)).script)}`,
     }));
   },
 };
-
-async function bundle(entry, more) {
-  const { outputFiles } = await build({
-    entryPoints: [join(HERE, entry)],
-    bundle: true,
-    write: false,
-    outdir: "out",
-    minify: !process.env.KEMPE_PLAIN,
-    target: "es2022",
-    format: "iife",
-    legalComments: "none",
-    jsx: "automatic",
-    jsxImportSource: "preact",
-    ...more,
-  });
-  const text = (suffix) => outputFiles.find(({ path }) => path.endsWith(suffix))?.text.trim() ?? "";
-  return { script: text(".js"), style: text(".css") };
-}
 
 /** The core as base64 of xz, which is a third smaller than gzip. Its checksum is one that the worker's decoder knows. */
 async function packed() {
@@ -72,7 +56,7 @@ function version() {
   return /^version = "(.*)"/m.exec(readFileSync(join(ROOT, "Cargo.toml"), "utf8"))?.[1] ?? "";
 }
 
-const { script, style } = await bundle("src/main.tsx", { format: "esm", plugins: [made] });
+const { script, style } = await bundle("src/main.tsx", { ...OPTIONS, format: "esm", plugins: [made] });
 const policy = [
   "default-src 'none'",
   `script-src ${hash(script)} 'wasm-unsafe-eval'`,

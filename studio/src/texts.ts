@@ -200,6 +200,7 @@ export const texts = {
     running: "Running …",
     analysis: "Analysis",
     defaults: "from this pose",
+    on: (body: string) => `on ${body}`,
     end: "End / s",
     over: "over a quantity",
     quantityOver: "Quantity on the axis",

@@ -350,12 +350,12 @@ def test_seeking_nonsense_changes_nothing(opened: Any, solutions: dict[str, kp.S
 
 @pytest.mark.parametrize("made", [moving, slider_crank, sprung, point_pendulum])
 def test_the_page_puts_items_where_frames_have_them(browser: Any, made: Any) -> None:
-    """``place.js`` and ``kempe.draw.placing`` are the same rules."""
+    """``studio/src/draw/place.ts`` and ``kempe.draw.placing`` have the same rules."""
     shown = kp.scene(made())
     found, scale = frame_items(shown), 17.0
     poses = [[0.0] * 3, *shown["frames"]["poses"][-1]]
     page = browser.new_page()
-    page.add_script_tag(content="".join(map(plain_script, ("motion", "place"))))
+    page.add_script_tag(content="".join(map(module, ("plane/points", "draw/place"))))
     told = page.evaluate(
         """([items, poses, scale]) => {
           const view = { scale, toScreen: ([x, y]) => [x * scale, -y * scale] };
@@ -370,10 +370,13 @@ def test_the_page_puts_items_where_frames_have_them(browser: Any, made: Any) -> 
         np.testing.assert_allclose(np.array(points) * [1, -1], expected, atol=1e-9)
 
 
-def plain_script(name: str) -> str:
-    """A module of the page as a script whose functions everybody sees."""
-    text = (PACKAGE / "draw" / "assets" / f"{name}.js").read_text(encoding="utf-8")
-    return re.sub(r"^(import .*;$|export )", "", text, flags=re.MULTILINE)
+def module(name: str) -> str:
+    """The part of the page's script that comes from one module; its functions are then global."""
+    text = (PACKAGE / "draw" / "assets" / "player.js").read_text(encoding="utf-8")
+    parts = dict(
+        re.findall(r"^// src/(\S+)\.ts\n(.*?)(?=^// src/|\Z)", text, re.MULTILINE | re.DOTALL)
+    )
+    return str(parts[name])
 
 
 def test_a_motion_over_a_quantity_shows_its_name_and_unit(opened: Any) -> None:

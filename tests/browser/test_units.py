@@ -3,7 +3,7 @@
 from typing import Any
 
 import pytest
-from browser.test_player import plain_script
+from browser.test_player import module
 from kempe.draw.units import scale
 
 UNITS = ("m", "rad", "m/s", "m/s²", "N", "N·m", "J", "A", "rad/s")
@@ -13,7 +13,7 @@ PEAKS = (3e-8, 0.004, 0.1, 0.19, 0.2, 1.0, 1.99, 2.0, 50.0, 999.0, 1999.0, 2000.
 @pytest.fixture(scope="module")
 def numbers(browser: Any) -> Any:
     page = browser.new_page()
-    page.add_script_tag(content=plain_script("numbers"))
+    page.add_script_tag(content=module("draw/numbers"))
     yield page
     page.close()
 

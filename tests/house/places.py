@@ -19,6 +19,9 @@ CODE = [
         "tools",
         "benchmarks",
         "examples",
+        "studio/build",
+        "studio/src",
+        "studio/tests",
     )
 ]
 

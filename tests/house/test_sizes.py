@@ -14,7 +14,7 @@ GENERATED = "@generated"  # in the first line of generated files
 
 TEXTS = {
     path: path.read_text(encoding="utf-8")
-    for path in sources(".rs", ".py", ".pyi", ".sh", ".js", ".ts", ".css", ".html")
+    for path in sources(".rs", ".py", ".pyi", ".sh", ".js", ".mjs", ".ts", ".tsx", ".css", ".html")
 }
 FILES = [path for path, text in TEXTS.items() if GENERATED not in text.partition("\n")[0]]
 

@@ -1,6 +1,6 @@
 //! Places of the items of a display list at one instant; only here metres become points.
 //!
-//! The painters have the same rules: `python/kempe/draw/placing.py` and `assets/place.js`.
+//! The painters have the same rules: `python/kempe/draw/placing.py` and `studio/src/draw/place.ts`.
 
 use super::items::{Frame, Item, Row};
 use crate::plane::{direction, minus, placed, size, At, Pose};

@@ -1,6 +1,7 @@
 """Places of the items of a display list at one instant; only here metres become points.
 
-``assets/place.js`` has the same rules for the page, ``drawing/src/display/placing.rs`` for names.
+``studio/src/draw/place.ts`` has the same rules for pages, ``drawing/src/display/placing.rs`` for
+names.
 """
 
 from __future__ import annotations

@@ -3,6 +3,9 @@
 Everything that a user named is data: the scene is JSON in a script element that no browser runs,
 with every ``<`` escaped, and the page puts names in place as text. A policy in the page forbids all
 scripts but its own, which is known by its hash, and all requests.
+
+The script and the style are bundled from ``studio/src/player``, which has the painters of the studio;
+``npm run build`` in ``studio/`` writes them.
 """
 
 from __future__ import annotations
@@ -23,35 +26,6 @@ from kempe.draw.sampling import Span
 from kempe.draw.scene import Scene, scene
 from kempe.solution import Solution
 from kempe.state import State
-
-#: The modules of the page, each after those that it imports.
-MODULES = (
-    "numbers",
-    "motion",
-    "view",
-    "scales",
-    "surface",
-    "place",
-    "paint",
-    "arrow",
-    "arrows",
-    "vectors",
-    "measure",
-    "drawing",
-    "axes",
-    "ranges",
-    "plot",
-    "quantities",
-    "timespan",
-    "gestures",
-    "card",
-    "plots",
-    "export",
-    "clock",
-    "keyboard",
-    "controls",
-    "main",
-)
 
 
 def player(
@@ -86,7 +60,7 @@ def player(
 def page(shown: Scene, *, labels: bool = True) -> str:
     """The text of the page that shows a scene, with its display list."""
     shown = {**shown, "display": rounded_all(frame_items(shown, labels=labels))}
-    style, script = _asset("player.css"), _script()
+    style, script = _asset("player.css"), _asset("player.js")
     policy = (
         f"default-src 'none'; script-src '{_hash(script)}'; style-src '{_hash(style)}'; "
         "img-src data:; base-uri 'none'; form-action 'none'"
@@ -106,16 +80,6 @@ def _json_for_html(shown: Scene) -> str:
     """JSON in ASCII that cannot end the HTML element around it."""
     text = json.dumps(shown, allow_nan=False, separators=(",", ":"), ensure_ascii=True)
     return text.replace("<", "\\u003c").replace(">", "\\u003e").replace("&", "\\u0026")
-
-
-def _script() -> str:
-    """All modules as one: a page opened from a disk may not import others."""
-    return "\n".join(_without_links(_asset(f"{name}.js")) for name in MODULES)
-
-
-def _without_links(module: str) -> str:
-    plain = re.sub(r"^import .* from \"\./\w+\.js\";\n", "", module, flags=re.MULTILINE)
-    return re.sub(r"^export ", "", plain, flags=re.MULTILINE)
 
 
 def _asset(name: str) -> str:

@@ -3,8 +3,8 @@ import type { Point } from "../plane/points";
 import type { View } from "../plane/view";
 import { paintArrow } from "./arrow";
 import { Line } from "./line";
-import { roundBelow } from "./numbers";
 import { type Colours, font, rimmed } from "./surface";
+import { roundBelow } from "./ticks";
 
 /** The step of the grid, m. */
 export function gridStep(view: View): number {
@@ -16,10 +16,10 @@ export function paintGrid(context: CanvasRenderingContext2D, view: View, colours
   const step = gridStep(view);
   if (fine) {
     context.globalAlpha = 0.55;
-    paintLines(context, view, snapStep(view), colours.named.grid!);
+    paintLines(context, view, snapStep(view), colours.named.grid);
     context.globalAlpha = 1;
   }
-  paintLines(context, view, step, fine ? colours.named.edge! : colours.named.grid!, fine ? 0.5 : 1);
+  paintLines(context, view, step, fine ? colours.named.edge : colours.named.grid, fine ? 0.5 : 1);
 }
 
 /** The step to which points are placed: a tenth of that of the grid. */
@@ -57,14 +57,14 @@ export function paintLengthScale(
   const step = gridStep(view);
   const length = step * view.scale;
   const [x, y] = [16, view.height - 16];
-  context.strokeStyle = colours.named.soft!;
+  context.strokeStyle = colours.named.soft;
   context.lineWidth = 1.5;
   context.stroke(new Line(`M${x} ${y - 5}v5h${length}v-5`));
   context.font = font(12);
   context.textAlign = "center";
   context.textBaseline = "alphabetic";
   const text = `${Number((step / metres).toPrecision(3))} ${unit}`;
-  rimmed(context, text, [x + length / 2, y - 6], colours.named.soft!, colours.named.panel!);
+  rimmed(context, text, [x + length / 2, y - 6], colours.named.soft, colours.named.panel);
 }
 
 /** Which way things fall. */
@@ -73,10 +73,10 @@ export function paintGravity(context: CanvasRenderingContext2D, view: View, grav
   if (!(size > 0)) return;
   const [dx, dy] = [gravity[0] / size, -gravity[1] / size];
   const [x, y] = [view.width - 30, 32];
-  paintArrow(context, [x - 13 * dx, y - 13 * dy], [x + 13 * dx, y + 13 * dy], colours.named.soft!, 1.6);
+  paintArrow(context, [x - 13 * dx, y - 13 * dy], [x + 13 * dx, y + 13 * dy], colours.named.soft, 1.6);
   context.font = `italic ${font(14)}`;
   context.textAlign = "center";
   context.textBaseline = "middle";
-  context.fillStyle = colours.named.soft!;
+  context.fillStyle = colours.named.soft;
   context.fillText("g", x - 12 * Math.abs(dy) - 0.1, y - 14 * Math.abs(dx));
 }

@@ -1,4 +1,4 @@
-// Numbers for people: round steps, units with prefixes, as many digits as can be distinguished.
+// Numbers for people: units with prefixes, as many digits as can be distinguished.
 
 const PREFIXES: Record<number, string> = { 9: "G", 6: "M", 3: "k", 0: "", [-3]: "m", [-6]: "µ", [-9]: "n" };
 /** The powers that a prefix expresses; the rules are those of kempe/draw/units.py. */
@@ -13,19 +13,13 @@ const WITH_PREFIX: Record<string, number[]> = {
 };
 const SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹";
 
-/** The largest of 1, 2, 5, 10, 20 … that is not above a positive value. */
-export function roundBelow(value: number): number {
-  const power = 10 ** Math.floor(Math.log10(value) + 1e-12);
-  return ([5, 2, 1].find((step) => step * power <= value * (1 + 1e-12)) ?? 1) * power;
-}
-
 /** A unit of the core as people write it. */
 export function readable(unit: string): string {
   return unit.replaceAll("*", "·").replaceAll("^2", "²").replaceAll("^3", "³");
 }
 
 /** By what to divide values up to `peak`, and the unit that they have then. */
-function scaled(peak: number, unit: string): { factor: number; unit: string } {
+export function scaled(peak: number, unit: string): { factor: number; unit: string } {
   const power = powerOf(peak);
   if (!power || (unit.startsWith("°") && Math.abs(power) <= 3)) return { factor: 1, unit };
   const prefix = WITH_PREFIX[unit]?.includes(power);
@@ -37,7 +31,8 @@ function powerOf(peak: number): number {
   return 3 * Math.floor(Math.log10(peak >= 2 ? peak / 2 : peak) / 3);
 }
 
-function powerOfTen(power: number): string {
+/** Such as 10⁻³. */
+export function powerOfTen(power: number): string {
   const digits = [...String(Math.abs(power))].map((digit) => SUPERSCRIPTS[Number(digit)]);
   return `10${power < 0 ? "⁻" : ""}${digits.join("")}`;
 }
@@ -51,13 +46,16 @@ export function quantity(value: number, unit: string, digits = 3): string {
   return `${minus(value === 0 ? "0" : text)} ${written}`;
 }
 
+/** A number and its unit; the sign of degrees follows without a space. */
+export function besideUnit(text: string, unit: string): string {
+  return unit === "°" ? `${text}°` : `${text} ${unit}`.trim();
+}
+
 /** A value with its unit and four digits, such as "24.93 kN" and "12.5°". */
 export function withUnit(value: number, unit: string): string {
-  if (unit === "°") return `${significant(value)}°`;
   const written = readable(unit);
-  return WITH_PREFIX[written] && written !== "rad"
-    ? quantity(value, unit, 4)
-    : `${significant(value)} ${written}`.trim();
+  if (WITH_PREFIX[written] && written !== "rad") return quantity(value, unit, 4);
+  return besideUnit(significant(value), written);
 }
 
 /** A round quantity, such as "10 kN". */
@@ -75,6 +73,19 @@ export function significant(value: number, digits = 4): string {
   if (size >= 1e-3 && size < 1e6) return minus(value.toPrecision(digits));
   const [mantissa, power] = value.toExponential(digits - 1).split("e");
   return `${minus(mantissa ?? "")}·${powerOfTen(Number(power))}`;
+}
+
+/** A value with five digits for the largest of its channel: all values of a channel have the same decimals. */
+export function fixed(value: number, peak: number): string {
+  if (!Number.isFinite(value)) return "–";
+  if (value === 0 || !(peak > 0)) return "0";
+  const decimals = 4 - Math.floor(Math.log10(peak));
+  return minus(value.toFixed(Math.min(12, Math.max(0, decimals))));
+}
+
+/** Label of an axis, such as "x / mm" and "v / (m/s)". */
+export function axisLabel(symbol: string, unit: string): string {
+  return `${symbol} / ${/[/ ]/.test(unit) ? `(${unit})` : unit}`;
 }
 
 /** With a proper minus sign. */

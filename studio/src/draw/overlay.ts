@@ -36,9 +36,9 @@ export function paintHandles(
   context.lineWidth = 1.5;
   for (const at of points) {
     const ring = circle(view.toScreen(at), HANDLE);
-    context.fillStyle = colours.named.panel!;
+    context.fillStyle = colours.named.panel;
     context.fill(ring);
-    context.strokeStyle = colours.named.ink!;
+    context.strokeStyle = colours.named.ink;
     context.stroke(ring);
   }
 }
@@ -55,7 +55,7 @@ export function paintSelectedBody(
   if (!points.length) points.push(view.toScreen(placed(pose, body.center)));
   context.save();
   context.globalAlpha = 0.28;
-  context.strokeStyle = colours.named.accent!;
+  context.strokeStyle = colours.named.accent;
   context.lineWidth = 26;
   context.stroke(through(points.length > 1 ? points : [points[0]!, points[0]!], points.length > 2));
   context.restore();
@@ -69,7 +69,7 @@ export function paintRing(
   colours: Colours,
   radius = 12,
 ): void {
-  context.strokeStyle = colours.named.accent!;
+  context.strokeStyle = colours.named.accent;
   context.lineWidth = 2.5;
   context.stroke(circle(view.toScreen(at), radius));
 }
@@ -86,7 +86,7 @@ export function paintLine(
   if (line.length < 2) return;
   const points = line.map((at) => view.toScreen(at));
   context.save();
-  context.strokeStyle = colours.named.accent!;
+  context.strokeStyle = colours.named.accent;
   context.globalAlpha = 0.75;
   context.lineWidth = 8;
   context.stroke(through(points, closed && points.length > 2));
@@ -98,7 +98,7 @@ export function paintLine(
   context.font = font(13, 600);
   context.textAlign = "center";
   context.textBaseline = "middle";
-  rimmed(context, label, [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2 - beside], colours.named.text!, colours.named.panel!);
+  rimmed(context, label, [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2 - beside], colours.named.text, colours.named.panel);
 }
 
 /** The place that a click chooses; its form gives the reason. */
@@ -110,7 +110,7 @@ export function paintMark(
   colours: Colours,
 ): void {
   const [x, y] = view.toScreen(at);
-  context.strokeStyle = colours.named.accent!;
+  context.strokeStyle = colours.named.accent;
   context.lineWidth = 1.8;
   if (kind === "point") paintRing(context, view, at, colours, 9);
   else context.stroke(new Line(`M${x - 7} ${y}h14M${x} ${y - 7}v14`));
@@ -126,28 +126,6 @@ export function paintPull(
 ): void {
   context.save();
   context.setLineDash([5, 4]);
-  paintArrow(context, view.toScreen(from), view.toScreen(to), colours.named.accent!, 2);
-  context.restore();
-}
-
-/** Paths of points. */
-export function paintTraces(
-  context: CanvasRenderingContext2D,
-  view: View,
-  traces: readonly { line: readonly Point[]; body: number }[],
-  colours: Colours,
-): void {
-  context.save();
-  context.globalAlpha = 0.55;
-  context.lineWidth = 1.5;
-  for (const { line, body } of traces) {
-    context.strokeStyle = colours.body(body);
-    context.stroke(
-      through(
-        line.map((at) => view.toScreen(at)),
-        false,
-      ),
-    );
-  }
+  paintArrow(context, view.toScreen(from), view.toScreen(to), colours.named.accent, 2);
   context.restore();
 }

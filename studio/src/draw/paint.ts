@@ -5,7 +5,7 @@ import type { Item } from "./items";
 import { Line, through } from "./line";
 import { shortened } from "./numbers";
 import { hatching, isPlaceable, placeItem, UNIT } from "./place";
-import { type Colours, font, rimmed } from "./surface";
+import { type ColourName, type Colours, font, rimmed } from "./surface";
 
 const HATCH_WIDTH = 0.7;
 
@@ -14,7 +14,10 @@ export interface Shown {
   numbers: boolean;
 }
 
-/** Everything in the display list that is shown. */
+/** Left, top, right and bottom, px. */
+export type Box = [number, number, number, number];
+
+/** Everything in the display list that is shown; returns the boxes of the texts. */
 export function paintItems(
   context: CanvasRenderingContext2D,
   view: View,
@@ -22,16 +25,18 @@ export function paintItems(
   poses: readonly Placement[],
   shown: Shown,
   colours: Colours,
-): void {
+): Box[] {
+  const boxes: Box[] = [];
   for (const item of items) {
     if (!isShown(item, shown) || !isPlaceable(item, poses)) continue;
     const { points, angle } = placeItem(item, poses, view, UNIT);
     if (!points.every(([x, y]) => Number.isFinite(x + y))) continue;
     const colour = tinted(colours, item);
-    if (item.kind === "text") paintText(context, view, item, points[0]!, angle, colours);
+    if (item.kind === "text") boxes.push(paintText(context, view, item, points[0]!, angle, colours));
     else if (item.kind === "fill") paintFill(context, points, colour);
     else paintLine(context, item, points, colour);
   }
+  return boxes;
 }
 
 /** Names and numbers can be switched off; the circle of a number goes with it. */
@@ -44,8 +49,8 @@ function isShown(item: Item, shown: Shown): boolean {
 /** The colour of an item: that of its role, mixed with the colour of the sheet. */
 function tinted(colours: Colours, { colour, tint }: Item): string {
   const [role, number] = colour.split(" ");
-  const full = role === "body" ? colours.body(Number(number)) : colours.named[role!];
-  return tint ? `color-mix(in srgb, ${colours.named.panel} ${100 * tint}%, ${full})` : (full ?? "");
+  const full = role === "body" ? colours.body(Number(number)) : colours.named[role as ColourName];
+  return tint ? `color-mix(in srgb, ${colours.named.panel} ${100 * tint}%, ${full})` : full;
 }
 
 function paintFill(context: CanvasRenderingContext2D, points: Point[], colour: string): void {
@@ -74,7 +79,7 @@ function paintText(
   [x, y]: Point,
   angle: number,
   colours: Colours,
-): void {
+): Box {
   context.save();
   const slant = item.slanted ? "italic " : "";
   context.font = slant + font(item.size * UNIT, item.weight === "bold" ? 600 : 400);
@@ -85,8 +90,10 @@ function paintText(
   const [cx, cy] = item.turned ? place : inside(context, text, place, view);
   context.translate(cx, cy);
   if (item.turned) context.rotate(-readableAngle(angle));
-  rimmed(context, text, [0, 0], tinted(colours, item), colours.named.panel!);
+  rimmed(context, text, [0, 0], tinted(colours, item), colours.named.panel);
+  const [wide, high] = [context.measureText(text).width / 2, 0.6 * item.size * UNIT];
   context.restore();
+  return [cx - wide, cy - high, cx + wide, cy + high];
 }
 
 /** The same direction of a line of text, read from the left or from below. */

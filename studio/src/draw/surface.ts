@@ -1,12 +1,6 @@
 // A canvas that is as sharp as the screen, and the colours of the page.
 import type { Point } from "../plane/points";
 
-export interface Colours {
-  named: Record<string, string>;
-  body(number: number): string;
-}
-
-const BODY_COLOURS = 7;
 const NAMES = [
   "page",
   "panel",
@@ -25,7 +19,18 @@ const NAMES = [
   "velocities",
   "accelerations",
   "problem",
-];
+] as const;
+
+export type ColourName = (typeof NAMES)[number];
+
+export interface Colours {
+  named: Record<ColourName, string>;
+  body(number: number): string;
+}
+
+const BODY_COLOURS = 7;
+/** Lengths of strokes and gaps of the curves after the colours are used up, px. */
+const DASHES = [[], [7, 4], [2, 4], [9, 3, 2, 3]];
 
 /** Fit a canvas to its place. */
 export function sharpen(canvas: HTMLCanvasElement): void {
@@ -53,9 +58,9 @@ export function cleared(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
 export function palette(): Colours {
   const style = getComputedStyle(document.documentElement);
   const read = (name: string) => style.getPropertyValue(`--${name}`).trim();
-  const named = Object.fromEntries(NAMES.map((name) => [name, read(name)]));
+  const named = Object.fromEntries(NAMES.map((name) => [name, read(name)])) as Colours["named"];
   const bodies = Array.from({ length: BODY_COLOURS }, (_, k) => read(`body-${k + 1}`));
-  return { named, body: (number) => (number ? bodies[(number - 1) % BODY_COLOURS]! : named.ground!) };
+  return { named, body: (number) => (number ? bodies[(number - 1) % BODY_COLOURS]! : named.ground) };
 }
 
 /** The colours of a picture on white paper, whatever the page has. */
@@ -86,4 +91,14 @@ export function rimmed(
   context.strokeText(text, x, y);
   context.fillStyle = colour;
   context.fillText(text, x, y);
+}
+
+/** The colour of the curve of a number. */
+export function colourOf(number: number, colours: Colours): string {
+  return colours.body((number % BODY_COLOURS) + 1);
+}
+
+/** Its dashes. */
+export function dashOf(number: number): number[] {
+  return DASHES[Math.floor(number / BODY_COLOURS) % DASHES.length]!;
 }

@@ -14,7 +14,7 @@ export function saveSvg(): void {
   const svg = new SvgContext(document.createElement("canvas").getContext("2d")!);
   const colours = paperPalette();
   paintSheet(svg.context, colours, true);
-  const picture = svg.written(Math.round(view.width), Math.round(view.height), colours.named.panel!);
+  const picture = svg.written(Math.round(view.width), Math.round(view.height), colours.named.panel);
   download(nameOf(title.value, ".svg"), picture, "image/svg+xml");
 }
 
@@ -26,7 +26,7 @@ export function saveDrawing(): void {
   const context = canvas.getContext("2d")!;
   const colours = paperPalette();
   context.scale(SHARPNESS, SHARPNESS);
-  context.fillStyle = colours.named.panel!;
+  context.fillStyle = colours.named.panel;
   context.fillRect(0, 0, view.width, view.height);
   context.lineCap = "round";
   context.lineJoin = "round";

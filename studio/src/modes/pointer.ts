@@ -1,4 +1,5 @@
 // Pointer and wheel: a mode takes them, or they move and zoom the sheet.
+import { placeOn, spreadOf, turned } from "../plane/gestures";
 import { distance, type Point } from "../plane/points";
 import type { View } from "../plane/view";
 import type { Handler, Spot } from "./handler";
@@ -16,10 +17,7 @@ export function listenToPointer(
   let began: Point = [0, 0];
   let still = true;
   let taken: Handler | null = null;
-  const place = (event: MouseEvent): Point => {
-    const { left, top } = canvas.getBoundingClientRect();
-    return [event.clientX - left, event.clientY - top];
-  };
+  const place = (event: MouseEvent) => placeOn(canvas, event);
   const spot = (event: PointerEvent | MouseEvent): Spot => {
     const px = place(event);
     const touch = "pointerType" in event && event.pointerType === "touch";
@@ -56,9 +54,7 @@ export function listenToPointer(
       return;
     }
     if (still) return;
-    const after = spreadOf(fingers);
-    view.pan(after.middle[0] - spread.middle[0], after.middle[1] - spread.middle[1]);
-    if (spread.width > 0 && after.width > 0) view.zoom(after.width / spread.width, after.middle);
+    view.follow(spread, spreadOf(fingers));
     changed();
   });
   canvas.addEventListener("pointerup", (event) => {
@@ -89,18 +85,4 @@ export function listenToPointer(
     view.fit();
     changed();
   });
-}
-
-/** Middle of the fingers and the distance between the first two, px. */
-function spreadOf(fingers: Map<number, Point>): { middle: Point; width: number } {
-  const places = [...fingers.values()];
-  const middle = [0, 1].map((k) => places.reduce((sum, at) => sum + at[k]!, 0) / places.length) as Point;
-  const [a, b] = places;
-  return { middle, width: a && b ? distance(a, b) : 0 };
-}
-
-/** How much a turn of the wheel magnifies. */
-function turned({ deltaY, deltaMode }: WheelEvent): number {
-  const pixels = deltaY * (deltaMode === 1 ? 16 : 1);
-  return Math.exp(-Math.max(-200, Math.min(200, pixels)) / 400);
 }

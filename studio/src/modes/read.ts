@@ -1,6 +1,7 @@
 // Reading: a run of an analysis, its poses over time, its quantities.
 import { batch, computed, effect, signal } from "@preact/signals";
 import type { Pose, Quantity, Ran, Requests } from "../core/protocol";
+import { placeIn } from "../plane/instants";
 import { report, send } from "../store/session";
 import { announce, catalogue, mechanism, mode, openings, pose, selection } from "../store/state";
 import { texts } from "../texts";
@@ -119,18 +120,6 @@ async function untilTime(t_end?: number): Promise<{ t_end: number; output_step: 
   const { t } = (await send("pose", {})).ok;
   const end = t_end ?? t + T_END;
   return { t_end: end, output_step: (end - t) / OUTPUTS };
-}
-
-/** The frame that begins before t, and the share of the way to the next one. */
-export function placeIn(t: Float64Array, at: number): { low: number; high: number; share: number } {
-  let [low, high] = [0, t.length - 1];
-  while (high - low > 1) {
-    const middle = (low + high) >> 1;
-    if (t[middle]! <= at) low = middle;
-    else high = middle;
-  }
-  const h = t[high]! - t[low]!;
-  return { low, high, share: h > 0 ? Math.min(1, Math.max(0, (at - t[low]!) / h)) : 0 };
 }
 
 /** The poses at one time: between frames as their mean, weighted by the distance in time. */

@@ -1,6 +1,7 @@
 // The whole drawing, from what the page shows now.
 import { isPin } from "../catalogue/catalogue";
 import { entry } from "../catalogue/tree";
+import { paintArrows, type Vectors } from "../draw/arrows";
 import { paintGhost } from "../draw/ghost";
 import { paintGravity, paintGrid, paintLengthScale } from "../draw/measure";
 import {
@@ -11,18 +12,17 @@ import {
   paintPull,
   paintRing,
   paintSelectedBody,
-  paintTraces,
 } from "../draw/overlay";
 import { paintItems } from "../draw/paint";
 import { type Colours, palette } from "../draw/surface";
-import { paintVectors } from "../draw/vectors";
+import { paintTraces } from "../draw/traces";
 import { ghost } from "../guide/guide";
 import { points } from "../modes/seen";
 import { type Point, placed } from "../plane/points";
 import { backdrop } from "../store/backdrop";
 import { preview, view, viewed } from "../store/sheet";
 import { catalogue, items, mechanism, mode, poses, scene, selection, shown, tree } from "../store/state";
-import { traces, vectors } from "./motionOverlay";
+import { type Shown, traces, vectors } from "./motionOverlay";
 
 /** Everything that the drawing depends on. */
 export function follow(): void {
@@ -54,16 +54,24 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
   if (found) {
     if (shown.value.traces) paintTraces(context, view, traces.value, colours);
     if (!bare) paintSelection(context, colours);
-    if (items.value.length) paintItems(context, view, items.value, poses.value, shown.value, colours);
-    else paintLinks(context, view, found.bodies, poses.value, colours);
+    const names = paintItems(context, view, items.value, poses.value, shown.value, colours);
+    if (!items.value.length) paintLinks(context, view, found.bodies, poses.value, colours);
     if (editing) paintHandles(context, view, loosePoints(), colours);
-    for (const kind of vectors.value) paintVectors(context, view, kind, colours);
+    paintArrows(context, view, vectors.value.map(sized), names, colours);
     paintGravity(context, view, found.gravity, colours);
   }
   paintLengthScale(context, view, scene.value?.length ?? { unit: "m", metres: 1 }, colours);
   if (bare) return;
   if (ghost.value) paintGhost(context, view, ghost.value, colours);
   paintPreview(context, colours);
+}
+
+/** Share of the drawing that the largest arrow of a kind takes. */
+const LONGEST = 0.2;
+
+function sized({ largest, ...vectors }: Shown): Vectors {
+  const pixels = largest > 0 ? (LONGEST * Math.min(view.width, view.height)) / largest : 0;
+  return { ...vectors, pixels };
 }
 
 function paintBackdrop(context: CanvasRenderingContext2D): void {

@@ -1,9 +1,10 @@
 // Which part of the plane a canvas shows: the only place where metres become pixels.
+import type { Spread } from "./gestures";
 import type { Point } from "./points";
 
 export type Bounds = readonly [number, number, number, number];
 
-const MARGIN = 64;
+const MARGIN = 56;
 /** Room at the lower edge for scales, px. */
 const FOOT = 26;
 
@@ -76,6 +77,18 @@ export class View {
     const after = this.toPlane(at);
     this.center = [this.center[0] + before[0] - after[0], this.center[1] + before[1] - after[1]];
     this.moved = true;
+  }
+
+  /** Move and zoom with fingers: the middle of them, and the distance between two. */
+  follow(before: Spread, after: Spread): void {
+    this.pan(after.middle[0] - before.middle[0], after.middle[1] - before.middle[1]);
+    if (before.width > 0 && after.width > 0) this.zoom(after.width / before.width, after.middle);
+  }
+
+  /** The same as a matrix for paths in metres. */
+  matrix(): DOMMatrix {
+    const [e, f] = this.toScreen([0, 0]);
+    return new DOMMatrix([this.scale, 0, 0, -this.scale, e, f]);
   }
 
   /** Move the drawing by so many pixels. */

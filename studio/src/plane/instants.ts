@@ -1,0 +1,19 @@
+// The place of a time among the times of a run.
+
+export interface Between {
+  low: number;
+  high: number;
+  share: number;
+}
+
+/** The output that lies before t, and the share of the way to the next one, from 0 to 1. */
+export function placeIn(times: ArrayLike<number>, t: number): Between {
+  let [low, high] = [0, times.length - 1];
+  while (high - low > 1) {
+    const middle = (low + high) >> 1;
+    if (times[middle]! <= t) low = middle;
+    else high = middle;
+  }
+  const h = times[high]! - times[low]!;
+  return { low, high, share: h > 0 ? Math.min(1, Math.max(0, (t - times[low]!) / h)) : 0 };
+}

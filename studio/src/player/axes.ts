@@ -1,0 +1,121 @@
+// The axes of a plot: which values they hold, where a value is, and how ticks are written.
+import { type Colours, font } from "../draw/surface";
+import { decades, type Ticks, ticks } from "../draw/ticks";
+import type { Point } from "../plane/points";
+import { texts } from "./texts";
+import type { TimeSpan } from "./timespan";
+
+const TOP = 32;
+const BOTTOM = 40;
+const RIGHT = 14;
+const TICK_TEXT = 12;
+
+/** The size of a plot, px. */
+export interface Size {
+  width: number;
+  height: number;
+}
+
+/** What the axes hold: a range of values or exponents, and by what times are divided. */
+export interface Held {
+  range: Point;
+  log: boolean;
+  divisor: number;
+}
+
+/** Axes of a plot of a size over a span of time. */
+export class Axes {
+  private readonly left: number;
+  private readonly up: Ticks;
+  private readonly across: Ticks;
+
+  constructor(
+    context: CanvasRenderingContext2D,
+    private readonly size: Size,
+    private readonly span: TimeSpan,
+    private readonly held: Held,
+  ) {
+    const { range, log, divisor } = held;
+    const count = Math.max(2, Math.floor((size.height - TOP - BOTTOM) / 36));
+    this.up = log ? decades(...range, count) : ticks(...range, count);
+    context.font = font(TICK_TEXT);
+    const widest = Math.max(...this.up.values.map((value) => context.measureText(this.up.write(value)).width));
+    this.left = Math.ceil(Math.max(34, widest + 16));
+    const most = Math.max(2, Math.floor((size.width - this.left) / 90));
+    this.across = ticks(span.from / divisor, span.to / divisor, most);
+  }
+
+  /** Where a time and a value (of the logarithm on a logarithmic axis) are, px. */
+  place(t: number, value: number): Point {
+    const { from, to } = this.span;
+    const { width, height } = this.size;
+    const [low, high] = this.held.range;
+    const share = to > from ? (t - from) / (to - from) : 0;
+    const rise = (value - low) / (high - low);
+    return [this.left + share * (width - this.left - RIGHT), height - BOTTOM - rise * (height - TOP - BOTTOM)];
+  }
+
+  /** The time under a place, px from the left. */
+  timeAt(px: number): number {
+    const share = (px - this.left) / Math.max(1, this.size.width - this.left - RIGHT);
+    return this.span.from + Math.min(1, Math.max(0, share)) * (this.span.to - this.span.from);
+  }
+
+  /** Keep what is painted next between the axes. */
+  clip(context: CanvasRenderingContext2D): void {
+    const { width, height } = this.size;
+    context.beginPath();
+    context.rect(this.left - 2, TOP - 8, width - this.left - RIGHT + 4, height - TOP - BOTTOM + 12);
+    context.clip();
+  }
+
+  paint(context: CanvasRenderingContext2D, label: string, colours: Colours): void {
+    const { width, height } = this.size;
+    context.lineWidth = 1;
+    context.font = font(TICK_TEXT);
+    context.fillStyle = colours.named.soft;
+    this.paintUp(context, colours);
+    this.paintAcross(context, colours);
+    context.fillStyle = colours.named.text;
+    context.textAlign = "center";
+    context.textBaseline = "alphabetic";
+    context.fillText(texts.timeAxis, (this.left + width - RIGHT) / 2, height - 5);
+    context.textAlign = "left";
+    context.textBaseline = "top";
+    context.fillText(label, 10, 7);
+  }
+
+  private paintUp(context: CanvasRenderingContext2D, colours: Colours): void {
+    context.strokeStyle = colours.named.grid;
+    context.textAlign = "right";
+    context.textBaseline = "middle";
+    for (const value of this.up.values) {
+      const y = Math.round(this.place(this.span.from, value)[1]) + 0.5;
+      context.stroke(new Path2D(`M${this.left} ${y}H${this.size.width - RIGHT}`));
+      context.fillText(this.up.write(value), this.left - 8, y);
+    }
+  }
+
+  /** Ticks of time; the last one is moved to the left where it would be cut. */
+  private paintAcross(context: CanvasRenderingContext2D, colours: Colours): void {
+    const { width, height } = this.size;
+    const base = height - BOTTOM;
+    context.strokeStyle = colours.named.edge;
+    context.textAlign = "center";
+    context.textBaseline = "top";
+    context.stroke(new Path2D(`M${this.left} ${base + 0.5}H${width - RIGHT}`));
+    for (const value of this.across.values) {
+      const x = Math.round(this.place(value * this.held.divisor, this.held.range[0])[0]) + 0.5;
+      const text = this.across.write(value);
+      const half = context.measureText(text).width / 2 + 2;
+      context.stroke(new Path2D(`M${x} ${base}v5`));
+      context.fillText(text, Math.min(x, width - half), base + 8);
+    }
+  }
+
+  /** A line up at t. */
+  line(context: CanvasRenderingContext2D, t: number): void {
+    const [x] = this.place(t, this.held.range[0]);
+    context.stroke(new Path2D(`M${x} ${TOP - 6}V${this.size.height - BOTTOM}`));
+  }
+}

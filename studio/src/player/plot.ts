@@ -1,0 +1,227 @@
+// A plot over time with a cursor at the present, and the values under the pointer.
+import { axisLabel, besideUnit, fixed, scaled, significant } from "../draw/numbers";
+import { type Colours, cleared, colourOf, dashOf, font, rimmed, sharpen } from "../draw/surface";
+import type { Point } from "../plane/points";
+import { Axes } from "./axes";
+import type { Curve } from "./curve";
+import type { Motion } from "./motion";
+import { exponents, widened } from "./ranges";
+import type { TimeSpan } from "./timespan";
+
+const DEGREES = 180 / Math.PI;
+
+/** Plots curves of one unit on a canvas. */
+export class Plot {
+  curves: Curve[] = [];
+  log = false;
+  degrees = false;
+  /** Where the pointer is, px; null if it is elsewhere. */
+  pointer: Point | null = null;
+  width = 0;
+  height = 0;
+  label = "";
+  reading = "";
+  range: Point = [0, 1];
+  private symbol = "";
+  private unit = "";
+  private factor = 1;
+  private peaks: number[] = [];
+  private onLog = false;
+  private version = 0;
+  private axes: Axes | null = null;
+  private kept: { key: string; picture: HTMLCanvasElement } | null = null;
+
+  constructor(
+    private readonly canvas: HTMLCanvasElement,
+    private readonly motion: Motion,
+    private readonly span: TimeSpan,
+  ) {
+    this.scale();
+  }
+
+  /** Show these curves. */
+  show(curves: Curve[], symbol: string): void {
+    this.curves = curves;
+    this.symbol = symbol;
+    this.scale();
+  }
+
+  /** Choose units and ranges for the curves. */
+  scale(): void {
+    const given = this.curves[0]?.unit ?? "";
+    const turns = this.degrees && given.startsWith("rad");
+    const factor = turns ? DEGREES : 1;
+    const values = this.curves.map((curve) =>
+      curve.values.map((value) => factor * curve.shown(value)).filter(Number.isFinite),
+    );
+    const peaks = values.map((all) => all.reduce((most, value) => Math.max(most, Math.abs(value)), 0));
+    const peak = Math.max(0, ...peaks);
+    const unit = turns ? given.replace("rad", "°") : given;
+    const written = this.log && peak > 0 ? { factor: 1, unit } : scaled(peak, unit);
+    this.factor = factor / written.factor;
+    this.peaks = peaks.map((one) => one / written.factor);
+    this.unit = written.unit;
+    this.onLog = this.log && peak > 0;
+    this.version += 1;
+    this.range = this.onLog ? exponents(values) : widened(values, written.factor);
+    this.label = axisLabel(this.onLog && !this.symbol.startsWith("|") ? `|${this.symbol}|` : this.symbol, this.unit);
+  }
+
+  resize(): void {
+    sharpen(this.canvas);
+    const { width, height } = this.canvas.getBoundingClientRect();
+    this.width = width;
+    this.height = height;
+  }
+
+  /** A value of a curve in the unit of the axis. */
+  private shown(curve: Curve, t: number): number {
+    return this.factor * curve.at(t);
+  }
+
+  private peakOf(curve: Curve): number {
+    return this.peaks[this.curves.indexOf(curve)]!;
+  }
+
+  /** A value as text with its unit: on a linear axis with the decimals of its curve. */
+  write(curve: Curve, t: number): string {
+    const value = this.shown(curve, t);
+    return besideUnit(this.onLog ? significant(value) : fixed(value, this.peakOf(curve)), this.unit);
+  }
+
+  /** Characters of the longest text of a curve. */
+  widest(curve: Curve): number {
+    const peak = this.peakOf(curve);
+    return besideUnit(this.onLog ? significant(-peak) : fixed(-peak, peak), this.unit).length;
+  }
+
+  timeAt(px: number): number {
+    return this.axes ? this.axes.timeAt(px) : this.motion.begin;
+  }
+
+  /** Draw with the cursor at t and, if a time is looked at, a line there. */
+  paint(t: number, looked: number | null, colours: Colours): void {
+    const context = cleared(this.canvas);
+    if (!this.curves.length) return;
+    context.drawImage(this.picture(colours), 0, 0, this.width, this.height);
+    this.paintLine(context, t, colours.named.text);
+    if (looked !== null) this.paintLine(context, looked, colours.named.accent);
+    this.paintDots(context, looked ?? t, colours);
+    this.reading = looked !== null && this.pointer ? this.paintReading(context, looked, this.pointer, colours) : "";
+  }
+
+  /** Axes and curves, painted anew only when they change. */
+  private picture(colours: Colours): HTMLCanvasElement {
+    const { width, height, canvas, span, version } = this;
+    const key = JSON.stringify([width, height, canvas.width, span.from, span.to, version, colours.named.text]);
+    if (this.kept?.key !== key) {
+      const picture = document.createElement("canvas");
+      picture.width = canvas.width;
+      picture.height = canvas.height;
+      const context = picture.getContext("2d")!;
+      context.scale(picture.width / width, picture.height / height);
+      context.lineCap = "round";
+      context.lineJoin = "round";
+      this.paintStill(context, colours);
+      this.kept = { key, picture };
+    }
+    return this.kept.picture;
+  }
+
+  private paintStill(context: CanvasRenderingContext2D, colours: Colours): void {
+    const held = { range: this.range, log: this.onLog, divisor: this.motion.variable.divisor };
+    this.axes = new Axes(context, this, this.span, held);
+    this.axes.paint(context, this.label, colours);
+    context.save();
+    this.axes.clip(context);
+    for (const curve of this.curves) this.paintCurve(context, curve, colours);
+    context.restore();
+  }
+
+  /** For a picture: axes, curves and the cursor at t. */
+  paintAll(context: CanvasRenderingContext2D, t: number, colours: Colours): void {
+    this.paintStill(context, colours);
+    this.paintLine(context, t, colours.named.text);
+    this.paintDots(context, t, colours);
+  }
+
+  /** The place of a value on the canvas; null where a logarithm has none. */
+  private place(t: number, value: number): Point | null {
+    if (!Number.isFinite(value) || (this.onLog && value === 0)) return null;
+    return this.axes!.place(t, this.onLog ? Math.log10(Math.abs(value)) : value);
+  }
+
+  private paintCurve(context: CanvasRenderingContext2D, curve: Curve, colours: Colours): void {
+    context.strokeStyle = colourOf(curve.number, colours);
+    context.setLineDash(dashOf(curve.number));
+    context.lineWidth = 1.8;
+    context.stroke(this.line(curve));
+    context.setLineDash([]);
+  }
+
+  /** A curve between the edges of the window, in pieces of at most 4 px, with gaps where it has no value. */
+  private line(curve: Curve): Path2D {
+    const { t } = this.motion;
+    const [{ low: first }, { high: last }] = [this.motion.place(this.span.from), this.motion.place(this.span.to)];
+    const apart = this.width / Math.max(1, last - first);
+    const pieces = this.motion.smooth ? Math.min(16, Math.ceil(apart / 4)) : 1;
+    const path = new Path2D();
+    let broken = true;
+    const visit = (at: number, value: number) => {
+      const place = this.place(at, value);
+      if (place && broken) path.moveTo(...place);
+      if (place) path.lineTo(...place);
+      broken = !place;
+    };
+    for (let k = first; k <= last; k += 1) {
+      visit(t[k]!, this.factor * curve.shown(curve.values[k]!));
+      for (let piece = 1; piece < pieces && k < last; piece += 1) {
+        const at = t[k]! + (piece / pieces) * (t[k + 1]! - t[k]!);
+        visit(at, this.shown(curve, at));
+      }
+    }
+    return path;
+  }
+
+  private paintLine(context: CanvasRenderingContext2D, t: number, colour: string): void {
+    context.strokeStyle = colour;
+    context.lineWidth = 1.2;
+    this.axes!.line(context, t);
+  }
+
+  private paintDots(context: CanvasRenderingContext2D, t: number, colours: Colours): void {
+    for (const curve of this.curves) {
+      const place = this.place(t, this.shown(curve, t));
+      if (!place) continue;
+      const dot = new Path2D();
+      dot.arc(...place, 4, 0, 2 * Math.PI);
+      context.fillStyle = colourOf(curve.number, colours);
+      context.fill(dot);
+      context.strokeStyle = colours.named.panel;
+      context.stroke(dot);
+    }
+  }
+
+  /** The curve nearest to the pointer at t. */
+  private nearest(t: number, [, y]: Point): Curve {
+    const away = (curve: Curve) => {
+      const place = this.place(t, this.shown(curve, t));
+      return place ? Math.abs(place[1] - y) : Number.POSITIVE_INFINITY;
+    };
+    return this.curves.reduce((best, curve) => (away(curve) < away(best) ? curve : best));
+  }
+
+  /** Time and value of the curve nearest to the pointer, as text beside the line. */
+  private paintReading(context: CanvasRenderingContext2D, t: number, pointer: Point, colours: Colours): string {
+    const curve = this.nearest(t, pointer);
+    const text = `${curve.name} = ${this.write(curve, t)}`;
+    context.font = font(12, 600);
+    context.textBaseline = "top";
+    context.textAlign = "left";
+    const x = this.axes!.place(t, this.range[0])[0] + 8;
+    const width = context.measureText(text).width;
+    const at: Point = [Math.max(4, Math.min(x, this.width - width - 6)), 24];
+    rimmed(context, text, at, colours.named.text, colours.named.panel);
+    return text;
+  }
+}

@@ -1,0 +1,113 @@
+// All plots of the page: they share the time, its window and the units of angles.
+import type { Colours } from "../draw/surface";
+import { Card, type Templates } from "./card";
+import { type Seeking, seekable } from "./gestures";
+import type { Motion } from "./motion";
+import type { Plot } from "./plot";
+import { type Quantity, quantities } from "./quantities";
+import type { Scene } from "./scene";
+import { TimeSpan } from "./timespan";
+
+const MOST = 6;
+
+interface Calls {
+  seek(t: number): void;
+  changed(): void;
+  /** Called with whether there is room for another plot. */
+  counted(more: boolean): void;
+}
+
+/** The list of plots. */
+export class Plots {
+  cards: Card[] = [];
+  readonly all: Quantity[];
+  private looked: number | null = null;
+  private degrees = false;
+  private readonly span: TimeSpan;
+  private readonly watch: ResizeObserver;
+
+  constructor(
+    private readonly list: HTMLElement,
+    private readonly templates: Templates,
+    scene: Scene,
+    private readonly motion: Motion,
+    private readonly calls: Calls,
+  ) {
+    this.span = new TimeSpan(motion);
+    this.all = quantities(scene, motion);
+    this.watch = new ResizeObserver(() => {
+      this.resize();
+      calls.changed();
+    });
+  }
+
+  /** Add a plot of the first quantity that no other shows. */
+  add(): void {
+    if (this.cards.length >= MOST || !this.all.length) return;
+    const shown = new Set(this.cards.map(({ quantity }) => Number(quantity.value)));
+    const next = this.all.findIndex((_, k) => !shown.has(k));
+    const card = new Card(this.templates, this.all, this.motion, this.span, this.calls.changed);
+    card.removal.addEventListener("click", () => this.remove(card));
+    card.plot.degrees = this.degrees;
+    this.cards.push(card);
+    this.list.append(card.element);
+    this.watch.observe(card.canvas);
+    seekable(card.canvas, this.seeking(card.plot));
+    card.choose(Math.max(0, next), 0);
+    this.update();
+  }
+
+  private seeking(plot: Plot): Seeking {
+    const { changed, seek } = this.calls;
+    return {
+      timeAt: (px) => plot.timeAt(px),
+      seek,
+      look: (at) => {
+        plot.pointer = at;
+        this.looked = at && this.motion.t[this.motion.nearest(plot.timeAt(at[0]))]!;
+        changed();
+      },
+      stretch: (factor, px) => {
+        this.span.stretch(factor, plot.timeAt(px));
+        changed();
+      },
+      showAll: () => {
+        this.span.showAll();
+        changed();
+      },
+    };
+  }
+
+  private remove(card: Card): void {
+    this.watch.unobserve(card.canvas);
+    this.cards = this.cards.filter((one) => one !== card);
+    card.element.remove();
+    this.update();
+    this.cards[0]!.quantity.focus();
+    this.calls.changed();
+  }
+
+  private update(): void {
+    for (const { removal } of this.cards) removal.hidden = this.cards.length < 2;
+    this.calls.counted(this.cards.length < MOST);
+    this.resize();
+  }
+
+  setDegrees(degrees: boolean): void {
+    this.degrees = degrees;
+    for (const { plot } of this.cards) {
+      plot.degrees = degrees;
+      plot.scale();
+    }
+    this.calls.changed();
+  }
+
+  private resize(): void {
+    for (const { plot } of this.cards) plot.resize();
+  }
+
+  paint(t: number, colours: Colours): void {
+    this.span.follow(t);
+    for (const card of this.cards) card.paint(t, this.looked, colours);
+  }
+}

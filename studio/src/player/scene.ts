@@ -1,0 +1,60 @@
+// The scene: the data of the page, as docs/scene.md describes them.
+import type { Item } from "../draw/items";
+import type { Placement, Point } from "../plane/points";
+import type { Bounds } from "../plane/view";
+
+export interface Frames {
+  t: number[];
+  poses: Placement[][];
+  rates: Placement[][];
+  accelerations: Placement[][];
+  /** The force of each joint on its body j. */
+  reactions: Point[][];
+}
+
+export interface Channel {
+  name: string;
+  group: string;
+  of: string;
+  quantity: string;
+  unit: string;
+  values: number[];
+}
+
+export interface Scene {
+  title: string;
+  gravity: Point;
+  bounds: Bounds;
+  length: { unit: string; metres: number };
+  /** Ground first. */
+  bodies: { name: string; number: number; kind: string; points: { name: string; at: Point }[]; center: Point }[];
+  joints: { name: string; bodies: [number, number]; points: [Point, Point] }[];
+  traces: { name: string; body: number; point: Point }[];
+  variable: { name: string; unit: string; shown: string; divisor: number };
+  frames: Frames;
+  interpolation: "cubic" | "none";
+  accuracy: number | null;
+  events: { name: string; t: number }[];
+  playback: { rate: number };
+  reaction_scale: { force: number; length: number };
+  largest: { velocity: number; acceleration: number };
+  channels: Channel[];
+  display: Item[];
+}
+
+/** The scene in a text of JSON. A number that was not finite is null there and NaN here. */
+export function parsed(text: string): Scene {
+  const scene = JSON.parse(text) as Scene;
+  const { poses, rates, accelerations, reactions } = scene.frames;
+  for (const frames of [poses, rates, accelerations, reactions])
+    for (const rows of frames) for (const row of rows) fill(row);
+  for (const { values } of scene.channels) fill(values);
+  return scene;
+}
+
+function fill(row: readonly (number | null)[]): void {
+  const values = row as (number | null)[];
+  values.forEach((value, k) => {
+    if (value === null) values[k] = Number.NaN;
+  });
+}
