@@ -2,10 +2,10 @@
 
     python benchmarks/studio_tasks.py
 
-The program does each task in the built page, in Chromium, only through what is visible. It prints the
-numbers of clicks, drags and keys, and the time that the keystroke-level model estimates: Card, Moran and
-Newell, "The keystroke-level model for user performance time with interactive systems", Communications of
-the ACM 23 (1980). It needs Chromium (or $CHROMIUM) and playwright.
+The program does each task in the built page, in Chromium, only through what is visible. It prints
+the numbers of clicks, drags and keys, and the time that the keystroke-level model estimates: Card,
+Moran and Newell, "The keystroke-level model for user performance time with interactive systems",
+Communications of the ACM 23 (1980). It needs Chromium (or $CHROMIUM) and playwright.
 """
 
 from __future__ import annotations
@@ -63,25 +63,31 @@ class Person:
         self.count = Count()
 
     def think(self) -> None:
+        """Think of the next part of the task."""
         self.count.thoughts += 1
 
     def press(self, target: Locator) -> None:
+        """Click a control."""
         self.count.hands_at(keyboard=False)
         self.count.clicks += 1
         target.click()
 
     def button(self, words: str) -> None:
+        """Click a button by its words."""
         self.press(self.page.get_by_role("button", name=words, exact=True).first)
 
     def mode(self, words: str) -> None:
+        """Change the mode."""
         self.press(self.page.get_by_role("radio", name=words, exact=True))
 
     def place(self, at: tuple[float, float]) -> tuple[float, float]:
+        """Where a place of the sheet is in the window, px."""
         box = self.page.locator("canvas#sheet").bounding_box()
         assert box
         return box["x"] + at[0] * box["width"], box["y"] + at[1] * box["height"]
 
     def sheet(self, *places: tuple[float, float]) -> None:
+        """Click places of the sheet."""
         for at in places:
             self.count.hands_at(keyboard=False)
             self.count.clicks += 1
@@ -89,6 +95,7 @@ class Person:
             self.page.wait_for_timeout(300)
 
     def drag(self, begin: tuple[float, float], end: tuple[float, float]) -> None:
+        """Drag from one place of the sheet to another."""
         self.count.hands_at(keyboard=False)
         self.count.drags += 1
         self.page.mouse.move(*self.place(begin))
@@ -98,6 +105,7 @@ class Person:
         self.page.wait_for_timeout(300)
 
     def type(self, words: str) -> None:
+        """Type words and press enter."""
         self.count.hands_at(keyboard=True)
         self.count.keys += len(words) + 1
         self.page.keyboard.type(words)

@@ -97,7 +97,7 @@ export const texts = {
     addParameter: "Add a parameter",
     parameterName: "Name of the parameter",
     elements: "Contents",
-    nothing: "An empty sheet. Choose a body under Insert and click two places, or open an example.",
+    nothing: "An empty sheet. Choose a body among the tools and click two places, or open an example.",
     analyses: "Analyses",
     addAnalysis: "Add an analysis",
     start: "Start",
@@ -305,7 +305,7 @@ export const texts = {
     count: (k: number, n: number) => `${k}/${n}`,
     mode: (name: string) => `Switch to “${name}”.`,
     tool: (label: string, step: string) =>
-      `Choose “${label}” under Insert${step === "driver" ? " / Drivers: it turns the crank." : "."}`,
+      `Choose the tool “${label}”: follow the dashed frame.${step === "driver" ? " It turns the crank." : ""}`,
     steps: {
       ground: "Click two fixed points. They hold the linkage.",
       crank: "Draw the crank: click a fixed point, then its free end. The bar is pinned where it begins.",

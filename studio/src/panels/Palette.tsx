@@ -1,4 +1,5 @@
 // The palette: every type of the catalogue, by group.
+import { useEffect, useRef } from "preact/hooks";
 import { GROUPS } from "../catalogue/catalogue";
 import type { Tool } from "../catalogue/tools";
 import { phase, tooled } from "../guide/guide";
@@ -30,6 +31,11 @@ export function Palette() {
 
 function ToolButton({ one }: { one: Tool }) {
   const active = tool.value?.type === one.type && tool.value.group === one.group;
+  const next = phase.value === "tool" && tooled.value === one;
+  const button = useRef<HTMLButtonElement>(null);
+  useEffect(() => {
+    if (next) button.current?.scrollIntoView({ block: "nearest" });
+  }, [next]);
   const choose = () => {
     restart(active ? null : one);
     if (panel.value === "insert" && !active) panel.value = "properties";
@@ -38,7 +44,8 @@ function ToolButton({ one }: { one: Tool }) {
   return (
     <button
       type="button"
-      class={phase.value === "tool" && tooled.value === one ? "tool next" : "tool"}
+      ref={button}
+      class={next ? "tool next" : "tool"}
       data-type={one.type.name}
       aria-pressed={active}
       title={one.type.doc.replaceAll("\n", " ")}
