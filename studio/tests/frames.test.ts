@@ -3,7 +3,7 @@ import { Frames } from "../src/modes/frames";
 
 let waiting: ((now: number) => void)[] = [];
 
-/** A screen that shows a frame when the test says so. */
+/** A screen that shows a frame when the test calls it. */
 function screen(): (ms: number) => Promise<void> {
   let now = performance.now();
   waiting = [];

@@ -15,7 +15,7 @@ test("arcs turn the other way", () => {
   expect(mappedPath("M0 0A5 2 30 0 1 10 10", 2, [0, 0])).toBe("M 0 0 A 10 4 -30 0 0 20 -20");
 });
 
-test("other texts are no path", () => {
+test("other texts give no path", () => {
   expect(mappedPath("M0", 1, [0, 0])).toBeNull();
   expect(mappedPath("", 1, [0, 0])).toBeNull();
   expect(mappedPath("M0 0 R 1 1", 1, [0, 0])).toBeNull();

@@ -5,7 +5,7 @@ import re
 import tokenize
 from pathlib import Path
 
-#: Comments and strings of Rust and JavaScript; the other alternatives are skipped.
+#: Comments and strings of Rust, JavaScript and TypeScript; the other alternatives are skipped.
 _RUST = re.compile(
     r"""
       (?P<text>//[^\n]*|/\*.*?\*/|\bb?r(?P<hashes>\#*)".*?"(?P=hashes)|"(?:\\.|[^"\\])*")
@@ -27,7 +27,7 @@ def prose(path: Path) -> str:
     text = path.read_text(encoding="utf-8")
     if path.suffix in (".py", ".pyi"):
         text = _python(text)
-    elif path.suffix in (".rs", ".js"):
+    elif path.suffix in (".rs", ".js", ".ts", ".tsx"):
         text = _kept(text, [m.span("text") for m in _RUST.finditer(text) if m["text"]])
     return _MARKS.sub(lambda mark: " " * len(mark[0]), text)
 

@@ -52,7 +52,7 @@ STILTED = {
 }
 
 #: Kinds of files with prose.
-SUFFIXES = {".rs", ".py", ".pyi", ".js", ".md", ".toml", ".sh", ""}
+SUFFIXES = {".rs", ".py", ".pyi", ".js", ".ts", ".tsx", ".md", ".toml", ".sh", ""}
 #: This file contains the expressions themselves.
 OWN = "tests/house/test_language.py"
 

@@ -4,8 +4,8 @@ Everything that a user named is data: the scene is JSON in a script element that
 with every ``<`` escaped, and the page puts names in place as text. A policy in the page forbids all
 scripts but its own, which is known by its hash, and all requests.
 
-The script and the style are bundled from ``studio/src/player``, which has the painters of the studio;
-``npm run build`` in ``studio/`` writes them.
+The script and the style are bundled from ``studio/src/player``, which shares its painters with the
+studio; ``npm run build`` in ``studio/`` writes them.
 """
 
 from __future__ import annotations

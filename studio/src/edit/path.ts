@@ -5,7 +5,7 @@ const COUNTS: Record<string, number> = { m: 2, l: 2, h: 1, v: 1, c: 6, s: 4, q: 
 const TOKEN = /([a-z])|([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)/gi;
 const DIGITS = 6;
 
-/** A path scaled and with y upwards: (x, y) goes to (scale x + dx, dy - scale y). Null if it is no path. */
+/** A path scaled and with y upwards: (x, y) goes to (scale x + dx, dy - scale y). Null for other texts. */
 export function mappedPath(d: string, scale: number, [dx, dy]: [number, number]): string | null {
   const parts: string[] = [];
   for (const [letter, numbers] of commands(d)) {

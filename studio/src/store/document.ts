@@ -33,7 +33,7 @@ export async function open(given: string, name = "mechanism.toml"): Promise<bool
   return true;
 }
 
-/** Whether a text is so large that the page would become slow; then a message says so. */
+/** Whether a text is so large that the page would become slow; a message is shown then. */
 function isTooLarge(given: string): boolean {
   const found = given.length > MOST_OF_TEXT;
   if (found) announce("problem", texts.core.tooLarge);
