@@ -2,7 +2,7 @@
 import { batch, computed, effect, signal } from "@preact/signals";
 import type { Pose, Quantity, Ran, Requests } from "../core/protocol";
 import { placeIn } from "../plane/instants";
-import { report, send } from "../store/session";
+import { report, Superseded, send } from "../store/session";
 import { announce, catalogue, mechanism, mode, openings, pose, selection } from "../store/state";
 import { texts } from "../texts";
 import { Frames } from "./frames";
@@ -164,10 +164,13 @@ export function toggle(): void {
   else void play();
 }
 
-/** Values of quantities at all outputs, one row for each name. */
+/** Values of quantities at all outputs, one row for each name; `Superseded` if the run is replaced meanwhile. */
 export async function valuesOf(names: string[]): Promise<{ units: string[]; rows: Float64Array[] }> {
-  const { ok, numbers } = await send("values", { names });
+  const run = course.value;
+  const { ok, numbers } = await send("values", { names }).catch((error: unknown) => {
+    throw course.value === run ? error : new Superseded();
+  });
   const n = numbers.length / Math.max(1, names.length);
   const row = (k: number) => numbers.slice(k * n, (k + 1) * n);
-  return { units: ok.units, rows: names.map((_, k) => (course.value?.backwards ? row(k).reverse() : row(k))) };
+  return { units: ok.units, rows: names.map((_, k) => (run?.backwards ? row(k).reverse() : row(k))) };
 }

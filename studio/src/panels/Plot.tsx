@@ -32,6 +32,7 @@ export function Plot({ plot }: { plot: PlotOf }) {
   const turn = degrees.value;
   const other = stored.value;
   useEffect(() => {
+    if (!run) return;
     let current = true;
     void valuesOf(plot.names)
       .then(
