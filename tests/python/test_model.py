@@ -124,6 +124,21 @@ def test_a_body_may_be_given_by_global_points() -> None:
     assert m.bodies["rod"].inertia == pytest.approx(25 / 12)
 
 
+@pytest.mark.parametrize("x", [0.5, 0.0, -2.0])
+def test_a_bar_between_global_points_may_have_others(x: float) -> None:
+    m = kp.Model()
+    points = {"M": (x, 0.25), "B": (2, 0)}  # B as its place in the bar
+    m.bar("rod", mass=1, through={"A": (1, 1), "B": (4, 5)}, points=points)
+    m.ground.points(A=(1, 1))
+    m.revolute("A", "ground.A", "rod.A")
+    state = kp.assemble(m, set={"rod.angle": 0})
+    places = {name: [state[f"rod.{name}.{axis}"] for axis in "xy"] for name in "ABM"}
+    assert places["A"] == pytest.approx([1, 1])
+    assert places["B"] == pytest.approx([5.5, 1])
+    assert places["M"] == pytest.approx([3.5 + x, 1.25])
+    assert m.bodies["rod"].inertia == pytest.approx(25 / 12)
+
+
 def test_the_elements_match_the_catalogue() -> None:
     written = Path(elements.__file__).read_text(encoding="utf-8")
     assert _generate.source(_core.catalogue()) == written

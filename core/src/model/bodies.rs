@@ -154,9 +154,14 @@ impl Reader<'_> {
             let x = self.compose(&format!("{sign}{length}/2"));
             body.points.push((name.clone(), Local { x, y: Tape::from(0.0) }));
         }
-        body.points.extend(self.points());
         if self.entry.get("through").is_some() {
-            self.place(&mut body, &through);
+            self.place(&mut body, &through); // its ends come first
+        }
+        for (name, s) in self.points() {
+            match body.points.iter_mut().find(|(known, _)| *known == name) {
+                Some((_, known)) => *known = s,
+                None => body.points.push((name, s)),
+            }
         }
         body
     }
