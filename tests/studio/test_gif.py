@@ -31,6 +31,8 @@ def bare(one: Studio) -> Iterator[Studio]:
 def read(one: Studio, speed: str = "1") -> None:
     one.load(CASE.read_text(encoding="utf-8"))
     one.mode("read")
+    for what in ("Reactions", "Velocities", "Accelerations"):
+        one.page.get_by_label(what, exact=True).uncheck()
     one.settle()
     one.page.locator(".playback select").select_option(speed)
 
