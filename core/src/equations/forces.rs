@@ -90,6 +90,7 @@ impl<S: Real> VisitForces<S> for Sum<'_, S> {
 
 impl<S: Real> Sum<'_, S> {
     /// A force with a law of time or state.
+    #[inline(never)] // as in `visit`
     fn law(&mut self, item: &ForceItem<S>, k: usize) {
         let at = situation(self.model, k, self.motions, self.acting);
         let element = at_state(self.model, item, self.motions, self.acting);

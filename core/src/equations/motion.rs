@@ -210,6 +210,7 @@ impl<S: Real> Workspace<S> {
 
     /// The same by the whole matrix; the factor may be that of a modified matrix. Forces that depend on reactions are
     /// iterated.
+    #[inline(never)] // rare: within the common path it would take registers
     fn solve_and_refine(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
         let Self {
             motions, z, compiled, matrix, solution, powers, offset, reactive, memory, ..

@@ -166,6 +166,7 @@ impl<S: Real> PutOthers<'_, S> {
     }
 
     /// A joint with a law.
+    #[inline(never)] // as in `visit`
     fn law(&mut self, k: usize) {
         let At { model, motions, t, .. } = self.at;
         constraints::linearize_one(model, k, motions, t, |terms, columns| {
