@@ -149,8 +149,12 @@ impl<'a> Recorder<'a> {
         self.keep(t, y, violation.map_or(Ok(()), Err))
     }
 
-    /// Reports the state of a step at a time between its ends; a failure may appear later, when it is projected.
-    fn report_between(&mut self, step: &Step<'_>, t: f64) -> Flow {
+    /// Reports the state of a step at a time of the grid. The end of a step meets the constraints already; a failure
+    /// between the ends may appear later, when the state is projected.
+    fn report_in(&mut self, step: &Step<'_>, t: f64) -> Flow {
+        if t == step.t {
+            return self.report(t, step.y);
+        }
         if self.sample.as_ref().is_some_and(|sample| sample.reaches(t)) {
             let flow = self.flush();
             step.interpolate(t, &mut self.y);
@@ -236,7 +240,7 @@ impl<'a> Recorder<'a> {
         while let (Flow::Continue, Some(t)) = (flow, self.due(step.t)) {
             self.latest = t;
             self.go_on();
-            flow = self.report_between(step, t);
+            flow = self.report_in(step, t);
             flow = if flow == Flow::Continue { watch(t) } else { flow };
         }
         if flow == Flow::Continue && step.t == self.t_end && self.latest != step.t {
