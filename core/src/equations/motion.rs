@@ -116,6 +116,18 @@ impl<S: Real> Workspace<S> {
         }
     }
 
+    /// Whether one elimination solves the equations.
+    pub fn solves_directly(&self) -> bool {
+        !self.modified
+    }
+
+    /// Whether the equations of another variant of the model have the same structure.
+    pub fn is_like(&self, other: &Self) -> bool {
+        let plans = [self, other].map(|one| one.matrix.plan());
+        Arc::ptr_eq(plans[0], plans[1])
+            || self.modified == other.modified && plans[0].is_like(plans[1])
+    }
+
     /// Whether one elimination solves the equations without damped rows.
     pub(super) fn set_direct(&mut self) {
         self.modified = self.matrix.adds_mass(&self.compiled) || self.depends;
@@ -182,6 +194,12 @@ impl<S: Real> Workspace<S> {
             }
         }
         self.solve_and_refine(model, t, gains)
+    }
+
+    /// [`respond`](Self::respond) where one elimination solves the equations. Returns false elsewhere, over lanes where
+    /// one lane needs more.
+    pub fn respond_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> bool {
+        !self.modified && self.solve_directly(model, t, gains).is_ok()
     }
 
     /// q̈ and λ if the matrix is that of the equations: each joint is put into it when it is evaluated.

@@ -39,6 +39,12 @@ impl Plan {
         Self::with(model, true)
     }
 
+    /// Whether another variant of the model has the same plan: what is condensed, lent or coupled depends on its numbers.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        let coupled = [self, other].map(|plan| plan.pattern.coupled());
+        self.condensed == other.condensed && self.loans == other.loans && coupled[0] == coupled[1]
+    }
+
     /// Whether redundant constraints are accepted.
     pub(super) fn accepts_redundancy<S: Real>(&self, model: &Model<S>) -> bool {
         model.allow_redundancy && !self.condenses

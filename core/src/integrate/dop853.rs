@@ -13,15 +13,12 @@
 //! without: one evaluation less than scipy's for every step that is rejected.
 
 use super::dop853_coefficients::*;
-use super::failure::Cause;
-use super::ode::Ode;
-use super::runge_kutta::RungeKutta;
+use super::runge_kutta::{RungeKutta, Stages};
 use super::stages::{rows, rows_mut, sum_at, Block};
 use super::step_control::StepControl;
 use super::step_placement::Gap;
 use super::step_size::Control;
-use super::tolerances::Tolerances;
-use super::trial::Trial;
+use super::tolerances::Squares;
 use std::borrow::Cow;
 
 /// DOP853 with its options.
@@ -115,12 +112,12 @@ impl RungeKutta for Dop853 {
         Cow::Borrowed(&self.control)
     }
 
-    fn advance<Y: Ode>(
-        trial: &mut Trial<'_, '_, Y>,
+    fn advance<T: Stages>(
+        trial: &mut T,
         k: &mut [Block],
         y_new: &mut [Block],
-    ) -> Result<(), Cause<Y::Stop>> {
-        let [k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12] = rows_mut(k, trial.y.len());
+    ) -> Result<(), T::Stop> {
+        let [k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12] = rows_mut(k, trial.width());
         trial.stage(C[0], A2, [k1], k2)?;
         trial.stage(C[1], A3, [k1, k2], k3)?;
         trial.stage(C[2], A4, [k1, k3], k4)?;
@@ -132,11 +129,11 @@ impl RungeKutta for Dop853 {
         trial.stage(C[8], A10, [k1, k4, k5, k6, k7, k8, k9], k10)?;
         trial.stage(C[9], A11, [k1, k4, k5, k6, k7, k8, k9, k10], k11)?;
         trial.stage(C[10], A12, [k1, k4, k5, k6, k7, k8, k9, k10, k11], k12)?;
-        trial.end(B, [k1, k6, k7, k8, k9, k10, k11, k12], y_new)
+        trial.end(1.0, B, [k1, k6, k7, k8, k9, k10, k11, k12], y_new)
     }
 
-    fn extend<Y: Ode>(trial: &mut Trial<'_, '_, Y>, k: &mut [Block]) -> Result<(), Cause<Y::Stop>> {
-        let rows = rows_mut(k, trial.y.len());
+    fn extend<T: Stages>(trial: &mut T, k: &mut [Block]) -> Result<(), T::Stop> {
+        let rows = rows_mut(k, trial.width());
         let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16] = rows;
         trial.stage(C_EXTRA[0], A14, [k1, k7, k8, k9, k10, k11, k12, k13], k14)?;
         trial.stage(C_EXTRA[1], A15, [k1, k6, k7, k8, k11, k12, k13, k14], k15)?;
@@ -144,19 +141,16 @@ impl RungeKutta for Dop853 {
         trial.finite(k16)
     }
 
-    fn error_norm(
-        h: f64,
-        k: &[Block],
-        states: (&[Block], &[Block]),
-        tolerances: &Tolerances,
-    ) -> f64 {
-        let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12] = rows(k, states.0.len());
+    fn error_squares<N: Squares>(k: &[Block], states: [&[Block]; 2], norm: &N) -> [N::Sum; 2] {
+        let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12] = rows(k, states[0].len());
         let k = [k1, k6, k7, k8, k9, k10, k11, k12];
-        let [fifth, third] = tolerances.squares(states, |i| [sum_at(i, E5, k), sum_at(i, E3, k)]);
+        norm.squares(states, |i| [sum_at(i, E5, k), sum_at(i, E3, k)])
+    }
+
+    fn error_norm(h: f64, [fifth, third]: [f64; 2], components: f64) -> f64 {
         if fifth == 0.0 && third == 0.0 {
             return 0.0;
         }
-        let controlled = tolerances.controlled as f64;
-        h.abs() * fifth / ((fifth + 0.01 * third) * controlled).sqrt()
+        h.abs() * fifth / ((fifth + 0.01 * third) * components).sqrt()
     }
 }

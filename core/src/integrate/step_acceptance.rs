@@ -1,9 +1,10 @@
 //! The end of an accepted step: it is projected, its derivative is evaluated, and its interpolant is prepared.
 
-use super::explicit_stepper::{Accepted, ExplicitStepper, Prepared, Work};
+use super::explicit_stepper::ExplicitStepper;
+use super::explicit_work::{Accepted, Prepared, Work};
 use super::failure::Cause;
 use super::hermite_birkhoff::{Ends, INSIDE};
-use super::interpolant::Interpolant;
+use super::interpolant::{Interpolant, HERMITE};
 use super::ode::Ode;
 use super::right_hand_side::{all_finite, RightHandSide};
 use super::runge_kutta::RungeKutta;
@@ -63,6 +64,10 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         let interpolant = match (accepted.interpolant, hermite_birkhoff) {
             (Prepared::HermiteBirkhoff, Some(it)) => it.interpolant(),
             (Prepared::Extended, _) => table(P::TABLE),
+            (Prepared::Ends, _) => {
+                let rows = k[..3 * *width].as_flattened();
+                Interpolant::new(rows, Lanes::WIDTH * *width, &HERMITE, 4)
+            }
             _ => table(P::WITHOUT_EXTRA),
         };
         let derivatives = [0, last_row::<P>(accepted.projected)].map(|s| row(k, *width, s));
@@ -141,7 +146,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
 
 /// The row of the derivative at the end of a step: the last stage, or behind the jump where the last stage belongs
 /// to the state before a projection.
-fn last_row<P: RungeKutta>(projected: bool) -> usize {
+pub(super) fn last_row<P: RungeKutta>(projected: bool) -> usize {
     match projected && P::LAST_IN_ERROR {
         false => P::STAGES - 1,
         true => P::STAGES + P::EXTRA + 1,

@@ -7,6 +7,7 @@ use super::dae::Dae;
 use super::events::{self, Direction};
 use super::failure::Cause;
 use super::ode::Ode;
+use super::side_by_side::SideBySide;
 use super::statistics::Statistics;
 use super::step::Step;
 
@@ -57,6 +58,11 @@ pub trait Stepper<Y, E> {
 
     /// Counts of all steps so far.
     fn statistics(&self) -> Statistics;
+
+    /// The stepper as one of several that take their steps [side by side](super::LaneSteps), if its method can.
+    fn side_by_side(&mut self) -> Option<&mut dyn SideBySide> {
+        None
+    }
 
     /// Time within the last step at which g(t, y) changes sign, with the state there; see
     /// [`locate`](fn@super::locate). None if the signs at both ends are equal.

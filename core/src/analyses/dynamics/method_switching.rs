@@ -8,7 +8,8 @@ use super::options::Options;
 use super::singularity_handover::{Method, SingularityHandover};
 use super::stiffness_detection::{MethodChoice, StiffnessDetector, LIMIT, TRIAL, WORTH};
 use crate::integrate::{
-    BoxedStepper, Cause, Dop853, ExplicitMethod, Radau, Statistics, Step, StepControl, Stepper,
+    BoxedStepper, Cause, Dop853, ExplicitMethod, Radau, SideBySide, Statistics, Step, StepControl,
+    Stepper,
 };
 use crate::solve::Breakdown;
 
@@ -142,7 +143,7 @@ impl<'a> MethodSwitching<'a> {
     }
 
     /// Whether the explicit method should end after this step, for stiffness.
-    fn judge_explicit(&mut self, ode: &MotionOde<'a>) {
+    pub fn judge_explicit(&mut self, ode: &MotionOde<'a>) {
         let Piece::Explicit(stepper) = &self.piece else { return };
         if ode.passage.in_reach() {
             return; // the singular position limits the steps
@@ -261,5 +262,12 @@ impl<'a> Stepper<MotionOde<'a>, Breakdown> for MethodSwitching<'a> {
 
     fn statistics(&self) -> Statistics {
         self.total.plus(self.piece.get().statistics())
+    }
+    /// While the explicit method takes the steps.
+    fn side_by_side(&mut self) -> Option<&mut dyn SideBySide> {
+        match &mut self.piece {
+            Piece::Explicit(stepper) if !self.due => stepper.side_by_side(),
+            _ => None,
+        }
     }
 }

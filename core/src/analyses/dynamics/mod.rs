@@ -43,6 +43,8 @@ mod implicit_motion;
 mod initial_stiffness;
 mod interpolated_states;
 mod lane_batch;
+#[cfg(not(target_arch = "wasm32"))]
+mod lane_motion;
 mod law_fault;
 mod law_jump;
 mod massless;
@@ -66,6 +68,8 @@ mod run_results;
 mod sampling;
 mod setting;
 mod shared_reaction;
+#[cfg(not(target_arch = "wasm32"))]
+mod side_by_side;
 mod singularity_forecast;
 mod singularity_handover;
 mod singularity_passage;
@@ -90,6 +94,8 @@ pub use prepared::Prepared;
 pub use run::{Event, Phase};
 pub use run_results::{EventStates, Passed, Run, Statistics};
 pub use setting::Setting;
+#[cfg(not(target_arch = "wasm32"))]
+pub use side_by_side::{side_by_side, Outcome, Trials, Variant};
 pub use stabilizations::Stabilization;
 pub use stepper::Stepper;
 pub use stiffness_detection::MethodChoice;

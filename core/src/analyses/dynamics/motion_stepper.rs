@@ -15,7 +15,8 @@ use super::switch_schedule::Schedule;
 use super::switching::{After, Switching};
 use crate::analyses::mobility::dependent;
 use crate::integrate::{
-    BoxedStepper, Cause, Direction, ExplicitMethod, Statistics, Step, StepControl, Stepper,
+    BoxedStepper, Cause, Direction, ExplicitMethod, SideBySide, Statistics, Step, StepControl,
+    Stepper,
 };
 use crate::solve::Breakdown;
 use crate::stabilize::Projector;
@@ -225,6 +226,23 @@ impl<'a> MotionStepper<'a> {
         let names = group.into_iter().map(|k| model.constraints[k].name.clone()).collect();
         let residual = self.ode.projector.as_ref().map_or(0.0, Projector::gap);
         self.passed.push(Passed { t: at, names, slope, residual });
+    }
+
+    /// The stepper as one of several that take steps side by side, with the equations of motion; None if the next step
+    /// has to be taken alone.
+    pub fn side_by_side(&mut self) -> Option<(&mut MotionOde<'a>, &mut dyn SideBySide)> {
+        let ordinary = self.switching.is_none()
+            && self.ode.passage.is_clear()
+            && self.ode.workspace.matrix.omitted().is_empty();
+        let stepper = self.kind.get_mut().side_by_side().filter(|_| ordinary)?;
+        Some((&mut self.ode, stepper))
+    }
+
+    /// Has to be called after a step that was taken beside others.
+    pub fn after_step_beside_others(&mut self) {
+        if let Kind::Auto(stepper) = &mut self.kind {
+            stepper.judge_explicit(&self.ode);
+        }
     }
 
     /// Computes the data that only the interpolant needs.

@@ -58,6 +58,11 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         &self.model
     }
 
+    /// The data that its runs share.
+    pub(super) fn cache(&self) -> &ModelCache {
+        &self.cache
+    }
+
     /// The model over lanes for so many states, if they are enough for it.
     pub(in crate::analyses) fn wide_for(&self, count: usize) -> Option<&Model<Lanes>> {
         self.cache.wide(&self.model, count).map(Wide::model)

@@ -10,7 +10,6 @@ use super::options::Options;
 use super::recorder::{self, Recorder};
 use super::redundant_rows::workspace_at;
 use super::run_results::Run;
-use super::stabilizations::Stabilization;
 use super::start_check::StartCheck;
 use super::switch_schedule::Schedule;
 use crate::analyses::curves::Ranges;
@@ -143,6 +142,33 @@ pub(super) fn run_phase<W: FnMut(f64) -> Flow>(
     run: &mut Run,
     watcher: &mut Watcher<'_, W>,
 ) -> Result<PhaseEnd, Box<Failure>> {
+    let (begun, mut recorder) = begin_phase((phase, cache), watched, at, options, run)?;
+    let outcome = begun.and_then(|steps| {
+        let Some(mut steps) = steps else { return Ok(PhaseEnd::Stopped) };
+        let outcome = loop {
+            match steps.step((&mut recorder, watcher), run) {
+                Ok(None) => {}
+                Ok(Some(end)) => break Ok(end),
+                Err(failure) => break Err(failure),
+            }
+        };
+        steps.end(at, run);
+        outcome
+    });
+    end_phase(phase.model, recorder, at, outcome, run)
+}
+
+/// The steps of a phase, None if it is stopped at its start, and their recorder, which has the tables of the run.
+type Begun<'a> = (Result<Option<PhaseSteps<'a>>, Box<Failure>>, Recorder<'a>);
+
+/// Begins a phase; updates `at` and `run`.
+pub(super) fn begin_phase<'a>(
+    (phase, cache): (&Phase<'a>, &'a ModelCache),
+    watched: Vec<Watched<'a>>,
+    at: &mut At,
+    options: &Options,
+    run: &mut Run,
+) -> Result<Begun<'a>, Box<Failure>> {
     let model = phase.model;
     let first = run.phases.is_empty();
     let check =
@@ -155,29 +181,37 @@ pub(super) fn run_phase<W: FnMut(f64) -> Flow>(
     let mut ode = MotionOde::new(model, options, workspace);
     run.phases.push(run.trajectory.t.len());
     run.passing = ode.passing;
-    run.projection = match options.stabilization {
-        Stabilization::Projection(projection) => Some(projection),
-        _ => None,
-    };
+    run.projection = ode.projection();
     let wide = cache.wide(model, recorder::grid_steps(options, at.t) as usize);
     let tables = (std::mem::take(&mut run.trajectory), run.dense.take());
     let mut recorder = Recorder::new(&ode, wide, options, (at.t0, at.t), tables);
     let q = model.layout.split(&at.y)[0].to_vec();
-    let started = ode.begin_phase(at.t, &mut at.y, phase.project_velocities, true);
-    let outcome = match started {
+    let begun = match ode.begin_phase(at.t, &mut at.y, phase.project_velocities, true) {
         Err(breakdown) => Err(Failure::at_state(model, at.t, &q, breakdown)),
-        Ok(()) if recorder.begin(at.t, &at.y) == Flow::Stop => Ok(PhaseEnd::Stopped),
+        Ok(()) if recorder.begin(at.t, &at.y) == Flow::Stop => Ok(None),
         Ok(()) => {
             let so_far = std::mem::take(&mut at.so_far);
             let events = EventList::new(&ode, watched, at.t, &at.fired, so_far);
-            step_through(ode, events, at, options, (&mut recorder, watcher), schedule, run)
+            PhaseSteps::new(ode, events, at, options, schedule).map(Some)
         }
     };
+    Ok((begun, recorder))
+}
+
+/// Ends a phase that [began](begin_phase): returns the tables to the run.
+pub(super) fn end_phase(
+    model: &Model,
+    mut recorder: Recorder<'_>,
+    at: &At,
+    outcome: Result<PhaseEnd, Box<Failure>>,
+    run: &mut Run,
+) -> Result<PhaseEnd, Box<Failure>> {
     recorder.flush();
     run.statistics.factorisations += recorder.factorisations();
     let Recorder { trajectory, dense, breakdown, .. } = recorder;
     (run.trajectory, run.dense) = (trajectory, dense);
-    let last = run.trajectory.q.rchunks(model.layout.n_q.max(1)).next().unwrap_or(&q);
+    let begin = model.layout.split(&at.y)[0];
+    let last = run.trajectory.q.rchunks(model.layout.n_q.max(1)).next().unwrap_or(begin);
     match breakdown {
         Some((t, breakdown)) if outcome.is_ok() => {
             Err(Failure::at_state(model, t, last, breakdown))
@@ -186,49 +220,97 @@ pub(super) fn run_phase<W: FnMut(f64) -> Flow>(
     }
 }
 
-/// Takes the steps of a phase.
-fn step_through<W: FnMut(f64) -> Flow>(
-    ode: MotionOde<'_>,
-    mut events: Option<EventList<'_>>,
-    at: &mut At,
-    options: &Options,
-    (recorder, watcher): (&mut Recorder<'_>, &mut Watcher<'_, W>),
-    schedule: Schedule,
-    run: &mut Run,
-) -> Result<PhaseEnd, Box<Failure>> {
-    let model = ode.model;
-    let failed = |cause, t, y: &[f64]| Failure::of_integrator(model, cause, t, y);
-    let mut stepper = MotionStepper::new(ode, options, schedule, at.t, &at.y)
-        .map_err(|cause| failed(cause, at.t, &at.y))?;
-    let ranges = Ranges::of(model);
-    at.fired.clear();
-    let outcome = loop {
-        if stepper.t() == recorder.t_end {
-            let ended = at.fired.is_empty() && recorder.t_end == options.t_end;
-            break Ok(if ended { PhaseEnd::Reached } else { PhaseEnd::Event });
+/// The steps of a phase.
+pub(super) struct PhaseSteps<'a> {
+    pub stepper: MotionStepper<'a>,
+    events: Option<EventList<'a>>,
+    ranges: Ranges,
+    /// The start of the phase, for messages.
+    start: (f64, Vec<f64>),
+    /// The end of the run.
+    t_end: f64,
+    /// The events that end the phase.
+    fired: Vec<usize>,
+}
+
+impl<'a> PhaseSteps<'a> {
+    fn new(
+        ode: MotionOde<'a>,
+        events: Option<EventList<'a>>,
+        at: &At,
+        options: &Options,
+        schedule: Schedule,
+    ) -> Result<Self, Box<Failure>> {
+        let model = ode.model;
+        let stepper = MotionStepper::new(ode, options, schedule, at.t, &at.y)
+            .map_err(|cause| Failure::of_integrator(model, cause, at.t, &at.y))?;
+        let start = (at.t, at.y.clone());
+        let (ranges, t_end, fired) = (Ranges::of(model), options.t_end, Vec::new());
+        Ok(Self { stepper, events, ranges, start, t_end, fired })
+    }
+
+    /// How the phase ended, if its last step was taken.
+    pub fn reached(&self, recorder: &Recorder<'_>) -> Option<PhaseEnd> {
+        if self.stepper.t() != recorder.t_end {
+            return None;
         }
-        match next_step(&mut stepper, &mut events, (recorder, watcher), run, &mut at.fired) {
+        let ended = self.fired.is_empty() && recorder.t_end == self.t_end;
+        Some(if ended { PhaseEnd::Reached } else { PhaseEnd::Event })
+    }
+
+    /// Takes a step. Returns how the phase ended, if it did.
+    pub fn step<W: FnMut(f64) -> Flow>(
+        &mut self,
+        observers: (&mut Recorder<'_>, &mut Watcher<'_, W>),
+        run: &mut Run,
+    ) -> Result<Option<PhaseEnd>, Box<Failure>> {
+        if let Some(end) = self.reached(observers.0) {
+            return Ok(Some(end));
+        }
+        match self.stepper.step() {
+            Ok(()) => self.follow(observers, run),
+            Err(cause) => Err(self.stepper.failure(cause)),
+        }
+    }
+
+    /// Looks at the step that was taken.
+    pub fn follow<W: FnMut(f64) -> Flow>(
+        &mut self,
+        observers: (&mut Recorder<'_>, &mut Watcher<'_, W>),
+        run: &mut Run,
+    ) -> Result<Option<PhaseEnd>, Box<Failure>> {
+        let model = self.stepper.ode.model;
+        let Self { stepper, events, fired, .. } = self;
+        match look_at_step(stepper, events, observers, run, fired) {
             Ok(Next::Step(Flow::Continue)) => {
-                let q = model.layout.split(stepper.y())[0];
-                if let Some((_, message)) = ranges.beyond(model, q) {
-                    break Err(Failure::off_the_curve(stepper.t(), &message));
+                let q = model.layout.split(self.stepper.y())[0];
+                match self.ranges.beyond(model, q) {
+                    Some((_, message)) => Err(Failure::off_the_curve(self.stepper.t(), &message)),
+                    None => Ok(None),
                 }
             }
-            Ok(Next::Step(Flow::Stop)) => break Ok(PhaseEnd::Stopped),
+            Ok(Next::Step(Flow::Stop)) => Ok(Some(PhaseEnd::Stopped)),
             // the step is taken again, to end at the event
             Ok(Next::Event(t)) => {
-                stepper.end_within_step(t).map_err(|cause| failed(cause, at.t, &at.y))?;
+                let (t_start, y_start) = (self.start.0, &self.start.1);
+                let again = self.stepper.end_within_step(t);
+                again.map_err(|cause| Failure::of_integrator(model, cause, t_start, y_start))?;
+                Ok(None)
             }
-            Err(cause) => break Err(stepper.failure(cause)),
+            Err(cause) => Err(self.stepper.failure(cause)),
         }
-    };
-    run.statistics.add(stepper.statistics(), stepper.factorisations());
-    run.choice = stepper.choice();
-    run.passed.append(&mut stepper.passed);
-    at.t = stepper.t();
-    at.y.copy_from_slice(stepper.y());
-    at.so_far = events.map(EventList::so_far).unwrap_or_default();
-    outcome
+    }
+
+    /// Ends the steps; updates `at` and `run`.
+    pub fn end(mut self, at: &mut At, run: &mut Run) {
+        run.statistics.add(self.stepper.statistics(), self.stepper.factorisations());
+        run.choice = self.stepper.choice();
+        run.passed.append(&mut self.stepper.passed);
+        at.t = self.stepper.t();
+        at.y.copy_from_slice(self.stepper.y());
+        at.fired = self.fired;
+        at.so_far = self.events.map(EventList::so_far).unwrap_or_default();
+    }
 }
 
 /// The outcome of a step.
@@ -238,16 +320,15 @@ enum Next {
     Event(f64),
 }
 
-/// Takes a step and passes it to the recorder and to the caller. Events in it are added to the run; those that end the
-/// phase are also put into `fired`.
-fn next_step<W: FnMut(f64) -> Flow>(
+/// Passes the last step to the recorder and to the caller. Events in it are added to the run; those that end the phase
+/// are also put into `fired`.
+fn look_at_step<W: FnMut(f64) -> Flow>(
     stepper: &mut MotionStepper<'_>,
     events: &mut Option<EventList<'_>>,
     (recorder, watcher): (&mut Recorder<'_>, &mut Watcher<'_, W>),
     run: &mut Run,
     fired: &mut Vec<usize>,
 ) -> Result<Next, Cause<Breakdown>> {
-    stepper.step()?;
     let model = stepper.ode.model;
     let Watcher { watch, look } = watcher;
     if events.is_some() || look.is_some() || recorder.looks_inside(stepper.t()) {

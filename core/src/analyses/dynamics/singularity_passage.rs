@@ -144,12 +144,36 @@ impl SingularityPassage {
     /// Accepts the trial of the last forecast; the workspace belongs to its end.
     pub fn accept(&mut self, t: f64, work: &Workspace) {
         if self.passing {
-            self.least = f64::INFINITY;
-            let end = work.matrix.cancellation();
-            let passed = self.approach.accept(end.map(|(_, ratio)| (t, ratio)));
-            if let (Some((at, slope)), Some((row, _))) = (passed, end) {
-                self.passed = Some((at, slope, row));
-            }
+            self.accept_at(t, work.matrix.cancellation());
+        }
+    }
+
+    fn accept_at(&mut self, t: f64, end: Option<(usize, f64)>) {
+        self.least = f64::INFINITY;
+        let passed = self.approach.accept(end.map(|(_, ratio)| (t, ratio)));
+        if let (Some((at, slope)), Some((row, _))) = (passed, end) {
+            self.passed = Some((at, slope, row));
+        }
+    }
+
+    /// Whether no singular position is near or in reach.
+    pub fn is_clear(&self) -> bool {
+        !self.near && !self.in_reach()
+    }
+
+    /// Ends a trial with the loss of digits at its end, if no singular position is in reach; otherwise returns false.
+    pub fn clears(&mut self, t: f64, ratio: f64) -> bool {
+        let clear = !self.passing || self.approach.is_clear((t, ratio));
+        if self.passing && clear {
+            self.approach.foresee((t, ratio));
+        }
+        clear
+    }
+
+    /// Accepts a trial that was clear, with the loss of digits at its end.
+    pub fn accept_clear(&mut self, t: f64, ratio: f64) {
+        if self.passing {
+            self.accept_at(t, Some((0, ratio)));
         }
     }
 

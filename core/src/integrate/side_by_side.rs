@@ -1,0 +1,115 @@
+//! Steppers that take their steps side by side, one in each lane of the vector registers (`lane_steps`).
+
+use super::explicit_stepper::ExplicitStepper;
+use super::explicit_work::{Accepted, Prepared, Work};
+use super::hermite_birkhoff::HermiteBirkhoff;
+use super::lane_steps::LaneMethod;
+use super::runge_kutta::RungeKutta;
+use super::stages::{chord, row_mut, Block};
+use super::step_acceptance::last_row;
+use super::tolerances::LaneTolerances;
+
+/// A stepper that can take ordinary steps beside others. [`LaneSteps`](super::LaneSteps) calls its methods.
+pub trait SideBySide {
+    /// Its method.
+    #[doc(hidden)]
+    fn method(&self) -> &'static dyn LaneMethod;
+
+    /// Begins a trial: fills its lane, and returns the times t and t_new. None if it has to take the step alone.
+    #[doc(hidden)]
+    fn propose(&mut self, at: Start<'_>) -> Option<[f64; 2]>;
+
+    /// Returns whether the error norm allows the trial; if not, the next one is shorter.
+    #[doc(hidden)]
+    fn judge(&mut self, norm: f64, evaluations: usize) -> bool;
+
+    /// Accepts the trial.
+    #[doc(hidden)]
+    fn accept(&mut self, norm: f64, end: End<'_>);
+}
+
+/// The lane of a trial, to be filled with the state at its start, the derivative there, and the tolerances.
+#[doc(hidden)]
+pub struct Start<'a> {
+    pub(super) lane: usize,
+    pub(super) y: &'a mut [Block],
+    pub(super) dy: &'a mut [Block],
+    pub(super) tolerances: &'a mut LaneTolerances,
+}
+
+/// The state at the end of a trial, in a lane, and the derivative there.
+#[doc(hidden)]
+pub struct End<'a> {
+    pub(super) lane: usize,
+    pub(super) y: &'a [Block],
+    pub(super) dy: &'a [Block],
+    pub(super) projected: bool,
+    pub(super) evaluations: usize,
+}
+
+impl<P: RungeKutta> SideBySide for ExplicitStepper<P> {
+    fn method(&self) -> &'static dyn LaneMethod {
+        P::OVER_LANES
+    }
+
+    fn propose(&mut self, Start { lane, y, dy, tolerances }: Start<'_>) -> Option<[f64; 2]> {
+        self.move_on();
+        let ordinary = self.grid.is_none() && self.placement.is_idle() && self.t != self.t_end;
+        if !ordinary || self.size.as_ref().is_none_or(|size| self.check_counts::<()>(size).is_err())
+        {
+            return None;
+        }
+        let mut size = self.size.take()?;
+        self.begin_trials(&mut size);
+        self.rejected_before = true; // the bounds of this step are applied
+        let proposal = self.proposal(&size);
+        self.size = Some(size);
+        let Work { width, k, y: own, tolerances: of, .. } = &self.work;
+        put(own, lane, y);
+        put(&k[..*width], lane, dy);
+        tolerances.set(lane, of);
+        proposal.map(|proposal| [self.t, proposal.t_new])
+    }
+
+    fn judge(&mut self, norm: f64, evaluations: usize) -> bool {
+        if norm < 1.0 {
+            return true;
+        }
+        let proposal = self.size.as_ref().and_then(|size| self.proposal(size));
+        if let (Some(proposal), Some(size)) = (proposal, &mut self.size) {
+            size.reject((proposal.t_new - self.t).abs(), norm);
+        }
+        self.counts.rejected += 1;
+        self.counts.evaluations += evaluations;
+        false
+    }
+
+    fn accept(&mut self, norm: f64, End { lane, y, dy, projected, evaluations }: End<'_>) {
+        let Some(mut size) = self.size.take() else { return };
+        let Some(proposal) = self.proposal(&size) else { return };
+        self.resize(&mut size, proposal, norm);
+        self.size = Some(size);
+        self.rejected_before = false;
+        self.counts.steps += 1;
+        self.counts.evaluations += evaluations;
+        let t = proposal.t_new;
+        let Work { width, k, y: begin, y_new, hermite_birkhoff, .. } = &mut self.work;
+        take(y, lane, y_new);
+        take(dy, lane, row_mut(k, *width, last_row::<P>(projected)));
+        // for the interpolant, which has no stages
+        take(dy, lane, row_mut(k, *width, 1));
+        chord(begin, y_new, t - self.t, row_mut(k, *width, 2));
+        hermite_birkhoff.iter_mut().for_each(HermiteBirkhoff::forget);
+        self.accepted = Some(Accepted { t, projected, interpolant: Prepared::Ends });
+    }
+}
+
+/// Copies numbers into a lane.
+fn put(from: &[Block], lane: usize, to: &mut [Block]) {
+    to.iter_mut().zip(from.as_flattened()).for_each(|(to, x)| to[lane] = *x);
+}
+
+/// Copies numbers from a lane.
+fn take(from: &[Block], lane: usize, to: &mut [Block]) {
+    to.as_flattened_mut().iter_mut().zip(from).for_each(|(to, x)| *to = x[lane]);
+}
