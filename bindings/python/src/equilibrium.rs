@@ -7,6 +7,7 @@ use crate::model::PyModel;
 use crate::options;
 use crate::watch::Watch;
 use kempe::analyses::equilibrium as statics;
+use kempe::analyses::options::Declared;
 use kempe::analyses::State;
 use kempe::model::Model;
 use pyo3::prelude::*;

@@ -6,6 +6,7 @@ use crate::guard::guard;
 use crate::model::PyModel;
 use crate::options;
 use kempe::analyses::linearization as linear;
+use kempe::analyses::options::Declared;
 use kempe::model::Model;
 use numpy::ToPyArray;
 use pyo3::prelude::*;

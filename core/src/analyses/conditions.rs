@@ -1,12 +1,12 @@
 //! Conditions on quantities of a motion: a comparison, or an expression that becomes zero.
 
-use super::quantities::Quantities;
+use super::quantities::{Quantities, QuantityValues};
 use super::signals::{energies, Energy, Seen, Signal};
 use super::so_far::{SoFar, PLACES};
 use crate::equations::kinematics::Motions;
 use crate::equations::newton_euler::balances;
 use crate::equations::Workspace;
-use crate::expression::{Expression, ExpressionError, Inferred, Sense, Symbol, Tape, Values};
+use crate::expression::{Expression, ExpressionError, Inferred, Sense, Symbol, Tape};
 use crate::integrate::{Direction, Step};
 use crate::model::{Model, Problem};
 
@@ -80,33 +80,14 @@ impl Condition {
     /// Its value at a state; the event is where it changes sign. A comparison holds where it is positive.
     pub fn value(&self, model: &Model, seen: &Seen<'_>) -> f64 {
         let of = |signal: &Signal| signal.value(model, seen);
-        let variables: Vec<f64> = self.signals.iter().map(of).collect();
-        let at = At { model, t: seen.t, variables };
+        let quantities: Vec<f64> = self.signals.iter().map(of).collect();
+        let at = QuantityValues { model, t: seen.t, quantities: &quantities };
         self.comparison.map_or(1.0, |sense| sense.sign) * self.tape.evaluate(&at)
     }
 
     /// The changes of sign that are events.
     pub fn direction(&self, wanted: Direction) -> Direction {
         self.comparison.map_or(wanted, |_| Direction::Rising)
-    }
-}
-
-/// The values of the names of a condition.
-struct At<'a> {
-    model: &'a Model,
-    t: f64,
-    variables: Vec<f64>,
-}
-
-impl Values<f64> for At<'_> {
-    fn parameter(&self, k: usize) -> f64 {
-        self.model.parameters[k]
-    }
-    fn time(&self) -> f64 {
-        self.t
-    }
-    fn variable(&self, k: usize) -> f64 {
-        self.variables[k]
     }
 }
 

@@ -5,11 +5,11 @@
 //! quantities come from the caller, which has them at all outputs.
 
 use super::dynamics::States;
-use super::quantities::Quantities;
+use super::quantities::{Quantities, QuantityValues};
 use super::signal_rows::{each, each_over_lanes, Rows};
 use super::signal_units::unit_of;
 use super::signals::Signal;
-use crate::expression::{unit::Unit, Expression, ExpressionError, Inferred, Symbol, Tape, Values};
+use crate::expression::{unit::Unit, Expression, ExpressionError, Inferred, Symbol, Tape};
 use crate::math::Lanes;
 use crate::model::{Model, Problem, Value};
 
@@ -99,7 +99,7 @@ impl Measure {
 
     /// Its value for the values of its quantities, in their order.
     pub fn value(&self, model: &Model, t: f64, quantities: &[f64]) -> f64 {
-        self.tape.evaluate(&At { model, t, quantities })
+        self.tape.evaluate(&QuantityValues { model, t, quantities })
     }
 }
 
@@ -121,25 +121,6 @@ fn written(inferred: Inferred, units: &[String]) -> String {
         Some(unit) => unit.clone(),
         None if of.s == 0 && of.m == 0 && of.kg == 0 && of.a == 0 => "rad".to_string(),
         None => of.common_unit().map_or_else(|| of.to_string(), str::to_string),
-    }
-}
-
-/// The values of the names of a measure.
-struct At<'a> {
-    model: &'a Model,
-    t: f64,
-    quantities: &'a [f64],
-}
-
-impl Values<f64> for At<'_> {
-    fn parameter(&self, k: usize) -> f64 {
-        self.model.parameters[k]
-    }
-    fn time(&self) -> f64 {
-        self.t
-    }
-    fn variable(&self, k: usize) -> f64 {
-        self.quantities[k]
     }
 }
 

@@ -2,7 +2,7 @@
 
 use super::signal_names::{names, signal};
 use super::signals::Signal;
-use crate::expression::{Names, Symbol, Table};
+use crate::expression::{Names, Symbol, Table, Values};
 use crate::model::Model;
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -59,5 +59,25 @@ impl Names for Quantities<'_> {
 
     fn tables(&self) -> &[Arc<Table>] {
         &self.model.blueprint.tables
+    }
+}
+
+/// The values of the names of a formula.
+pub(super) struct QuantityValues<'a> {
+    pub model: &'a Model,
+    pub t: f64,
+    /// Of the quantities, in the order of their variables.
+    pub quantities: &'a [f64],
+}
+
+impl Values<f64> for QuantityValues<'_> {
+    fn parameter(&self, k: usize) -> f64 {
+        self.model.parameters[k]
+    }
+    fn time(&self) -> f64 {
+        self.t
+    }
+    fn variable(&self, k: usize) -> f64 {
+        self.quantities[k]
     }
 }

@@ -38,21 +38,12 @@ pub struct Parameters {
 }
 
 impl Parameters {
-    /// Compiles definitions, each a name and an expression in the other parameters.
+    /// Compiles definitions, each a name and an expression in the other parameters, which may call tables.
     ///
     /// # Errors
-    /// A name that is reserved, not an identifier or used twice; an expression that does not
-    /// compile (the time and the state have no meaning here); definitions in a circle; a sum of different
-    /// dimensions.
-    pub fn compile<N: AsRef<str>>(definitions: &[(N, Expression)]) -> Result<Self, ParameterError> {
-        Self::with_tables(definitions, &[])
-    }
-
-    /// The same with tables that the expressions may call.
-    ///
-    /// # Errors
-    /// As [`compile`](Self::compile); a table with the name of a parameter.
-    pub fn with_tables<N: AsRef<str>>(
+    /// A name that is reserved, not an identifier, that of a table or used twice; an expression that does not compile
+    /// (the time and the state have no meaning here); definitions in a circle; a sum of different dimensions.
+    pub fn compile<N: AsRef<str>>(
         definitions: &[(N, Expression)],
         tables: &[Arc<Table>],
     ) -> Result<Self, ParameterError> {
@@ -83,11 +74,6 @@ impl Parameters {
         &self.inferred
     }
 
-    /// Indices of the definitions: each after those that it refers to, otherwise as written.
-    pub fn order(&self) -> &[usize] {
-        &self.order
-    }
-
     /// The values of all parameters, in the order of the definitions.
     ///
     /// Where `given(k)` has a value it replaces definition `k`, and what refers to it follows: a
@@ -100,16 +86,6 @@ impl Parameters {
         }
         values
     }
-}
-
-/// The order of evaluation alone: see [`Parameters::compile`], which also fails for the same reasons.
-///
-/// # Errors
-/// As [`Parameters::compile`].
-pub fn resolve<N: AsRef<str>>(
-    definitions: &[(N, Expression)],
-) -> Result<Vec<usize>, ParameterError> {
-    Parameters::compile(definitions).map(|parameters| parameters.order)
 }
 
 /// The names of the definitions.

@@ -10,7 +10,7 @@ use super::model_cache::ModelCache;
 use super::modes::{self, watched_mode, Place};
 use super::option_checks::check_lengths;
 use super::options::Options;
-use super::run::{run_phase, At, Phase, PhaseEnd, Watcher};
+use super::run::{run_phase, At, Phase, PhaseEnd};
 use super::run_results::{EventStates, Run};
 use super::setting::Setting;
 use super::start_check::StartCheck;
@@ -124,12 +124,12 @@ fn impossible(problems: &[Problem], t: f64) -> Box<Failure> {
 }
 
 /// Runs a model through its phases.
-pub(super) fn run<W: FnMut(f64) -> Flow>(
+pub(super) fn run(
     base: (&Model, &ModelCache),
     start: &State,
     options: &Options,
     clock: Clock,
-    mut watcher: Watcher<'_, W>,
+    mut watch: impl FnMut(f64) -> Flow,
     mut act: Option<Act<'_>>,
 ) -> Result<Run, Box<Failure>> {
     let began = clock();
@@ -151,8 +151,8 @@ pub(super) fn run<W: FnMut(f64) -> Flow>(
         let conditions = conditions(model, &setting, &events)?;
         let watched = watched(model, &events, &conditions, &setting.released);
         run.settings.push(setting.clone());
-        let phase = Phase { project_velocities: holds(&setting), ..Phase::new(model) };
-        let outcome = run_phase((&phase, cache), watched, &mut at, options, &mut run, &mut watcher);
+        let phase = Phase { model, cache, project_velocities: holds(&setting) };
+        let outcome = run_phase(phase, watched, &mut at, options, &mut run, &mut watch);
         run.statistics.seconds = clock() - began;
         let ended = outcome.and_then(|ended| match ended {
             PhaseEnd::Reached => {
@@ -247,7 +247,7 @@ fn watched<'c>(
         let done = matches!(&event.effect, Effect::Release(driver) if released.contains(driver));
         let condition = condition.as_ref().filter(|_| !done);
         Watched {
-            function: condition.map_or(Function::Given(&never), Function::Condition),
+            function: condition.map_or(Function::Never, Function::Condition),
             direction: condition.map_or(event.direction, |c| c.direction(event.direction)),
             ends: event.effect != Effect::None,
             listed: true,
@@ -323,11 +323,6 @@ fn settle(
     }
     setting.modes = settled.modes;
     Ok(())
-}
-
-/// The function of an event that does not happen any more.
-fn never(_: f64, _: [&[f64]; 3]) -> f64 {
-    1.0
 }
 
 /// Carries out the events that ended a phase, in their order. Returns whether the run goes on.

@@ -38,8 +38,8 @@ pub(super) enum Function<'a> {
     Condition(&'a Condition),
     /// Of a force with modes; positive while its mode lasts.
     Mode(ModeFunction),
-    /// g(t, q, v, z) of a caller.
-    Given(&'a dyn Fn(f64, [&[f64]; 3]) -> f64),
+    /// Of an event that does not happen any more.
+    Never,
 }
 
 impl Function<'_> {
@@ -47,7 +47,7 @@ impl Function<'_> {
         match self {
             Self::Condition(condition) => condition.value(model, seen),
             Self::Mode(of) => of.value(model, seen),
-            Self::Given(g) => g(seen.t, seen.state),
+            Self::Never => 1.0,
         }
     }
 
@@ -55,7 +55,7 @@ impl Function<'_> {
     fn at_zero(&self) -> f64 {
         let holds = match self {
             Self::Condition(condition) => condition.holds_at_zero(),
-            Self::Mode(_) | Self::Given(_) => None,
+            Self::Mode(_) | Self::Never => None,
         };
         holds.map_or(0.0, |holds| if holds { f64::MIN_POSITIVE } else { -f64::MIN_POSITIVE })
     }
@@ -108,7 +108,7 @@ impl<'a> EventList<'a> {
         let solves = watched.iter().any(|event| match event.function {
             Function::Condition(condition) => condition.needs_solution,
             Function::Mode(of) => of.needs_solution(),
-            Function::Given(_) => false,
+            Function::Never => false,
         });
         for event in &watched {
             if let Function::Condition(condition) = event.function {

@@ -1,7 +1,6 @@
-//! A run: a sequence of phases, each with its own active constraints.
+//! One phase of a run, with its own active constraints. `course` makes the sequence of phases.
 
-use super::clock::Clock;
-use super::event_list::{EventList, Found, Function, Watched};
+use super::event_list::{EventList, Found, Watched};
 use super::failure::Failure;
 use super::model_cache::ModelCache;
 use super::motion_ode::MotionOde;
@@ -16,89 +15,9 @@ use super::switch_schedule::Schedule;
 use crate::analyses::curves::Ranges;
 use crate::analyses::so_far::SoFar;
 use crate::analyses::State;
-use crate::integrate::{Cause, Direction, Flow, Step};
+use crate::integrate::{Cause, Flow};
 use crate::model::Model;
 use crate::solve::Breakdown;
-
-/// A function of the state whose change of sign ends a phase.
-#[derive(Clone, Copy)]
-pub struct Event<'a> {
-    /// g(t, q, v, z).
-    pub g: &'a dyn Fn(f64, [&[f64]; 3]) -> f64,
-    /// The changes of sign that count.
-    pub direction: Direction,
-}
-
-/// A part of a run with its own active constraints.
-#[derive(Clone, Copy)]
-pub struct Phase<'a> {
-    /// Bodies, constraints and forces. The models of all phases have the same bodies and states.
-    pub model: &'a Model,
-    /// Time at which the phase ends, s; None for the end of the run.
-    pub t_end: Option<f64>,
-    /// An event that ends the phase before.
-    pub event: Option<Event<'a>>,
-    /// Whether the velocities at its start are projected onto its constraints, in the metric of the mass matrix.
-    /// Otherwise they should meet the constraints already.
-    pub project_velocities: bool,
-}
-
-impl<'a> Phase<'a> {
-    /// A phase to the end of the run.
-    pub fn new(model: &'a Model) -> Self {
-        Self { model, t_end: None, event: None, project_velocities: false }
-    }
-}
-
-/// The functions of the caller that observe a run.
-pub(super) struct Watcher<'l, W> {
-    /// Called with the time after each step and each reported state.
-    pub watch: W,
-    /// Called with each step.
-    pub look: Option<&'l mut dyn FnMut(&Step<'_>) -> Flow>,
-}
-
-/// The phases of a run, each with the cache of its model.
-pub(super) type Phases<'p, 'm> = &'p [(Phase<'m>, &'m ModelCache)];
-
-/// Integrates through all phases.
-pub(super) fn simulate<W: FnMut(f64) -> Flow>(
-    phases: Phases<'_, '_>,
-    start: &State,
-    options: &Options,
-    clock: Clock,
-    mut watcher: Watcher<'_, W>,
-) -> Result<Run, Box<Failure>> {
-    let began = clock();
-    for (phase, _) in phases {
-        options.check(phase.model, start)?;
-    }
-    let mut run = Run::default();
-    let mut at = At { t0: start.t, t: start.t, ..At::default() };
-    for (k, (phase, cache)) in phases.iter().enumerate() {
-        if k == 0 {
-            at = At::begin(phase.model, start, options, &mut run);
-        }
-        let t_end = phase.t_end.unwrap_or(options.t_end);
-        let options = Options { t_end, ..options.clone() };
-        let given = phase.event.iter().map(|event| Watched {
-            function: Function::Given(event.g),
-            direction: event.direction,
-            ends: true,
-            listed: true,
-        });
-        let watched = given.collect();
-        let outcome = run_phase((phase, cache), watched, &mut at, &options, &mut run, &mut watcher);
-        run.statistics.seconds = clock() - began;
-        match outcome {
-            Ok(PhaseEnd::Reached | PhaseEnd::Event) => {}
-            Ok(PhaseEnd::Stopped) => return Ok(run),
-            Err(failure) => return Err(Box::new(Failure { run, ..*failure })),
-        }
-    }
-    run.reached = true;
-    Ok(run)
-}
 
 /// The place of a run in its phases.
 #[derive(Default)]
@@ -109,7 +28,7 @@ pub(super) struct At {
     pub y: Vec<f64>,
     /// The events that ended the last phase.
     pub fired: Vec<usize>,
-    /// What conditions know of the run.
+    /// The course of the run that conditions refer to.
     pub so_far: SoFar,
 }
 
@@ -134,20 +53,30 @@ pub(super) enum PhaseEnd {
     Event,
 }
 
-/// Integrates one phase; updates `at` and `run`.
-pub(super) fn run_phase<W: FnMut(f64) -> Flow>(
-    (phase, cache): (&Phase<'_>, &ModelCache),
+/// The bodies, constraints and forces of a phase.
+#[derive(Clone, Copy)]
+pub(super) struct Phase<'a> {
+    pub model: &'a Model,
+    pub cache: &'a ModelCache,
+    /// Whether the velocities at its start are projected onto its constraints, in the metric of the mass matrix.
+    /// Otherwise they should meet the constraints already.
+    pub project_velocities: bool,
+}
+
+/// Integrates one phase; updates `at` and `run`. `watch` is called with the time after each step and each reported state.
+pub(super) fn run_phase(
+    phase: Phase<'_>,
     watched: Vec<Watched<'_>>,
     at: &mut At,
     options: &Options,
     run: &mut Run,
-    watcher: &mut Watcher<'_, W>,
+    watch: &mut impl FnMut(f64) -> Flow,
 ) -> Result<PhaseEnd, Box<Failure>> {
-    let model = phase.model;
+    let Phase { model, cache, project_velocities } = phase;
     let first = run.phases.is_empty();
     let check =
         if first { StartCheck::of_run(options) } else { StartCheck::of_continuation(options) };
-    let check = if phase.project_velocities { check.of_positions() } else { check };
+    let check = if project_velocities { check.of_positions() } else { check };
     let [q, v, z, _] = model.layout.split(&at.y);
     check.check(model, at.t, [q, v, z])?;
     let schedule = Schedule::new(model, (at.t, options.t_end))?;
@@ -163,14 +92,14 @@ pub(super) fn run_phase<W: FnMut(f64) -> Flow>(
     let tables = (std::mem::take(&mut run.trajectory), run.dense.take());
     let mut recorder = Recorder::new(&ode, wide, options, (at.t0, at.t), tables);
     let q = model.layout.split(&at.y)[0].to_vec();
-    let started = ode.begin_phase(at.t, &mut at.y, phase.project_velocities, true);
+    let started = ode.begin_phase(at.t, &mut at.y, project_velocities, true);
     let outcome = match started {
         Err(breakdown) => Err(Failure::at_state(model, at.t, &q, breakdown)),
         Ok(()) if recorder.begin(at.t, &at.y) == Flow::Stop => Ok(PhaseEnd::Stopped),
         Ok(()) => {
             let so_far = std::mem::take(&mut at.so_far);
             let events = EventList::new(&ode, watched, at.t, &at.fired, so_far);
-            step_through(ode, events, at, options, (&mut recorder, watcher), schedule, run)
+            step_through(ode, events, at, options, (&mut recorder, watch), schedule, run)
         }
     };
     recorder.flush();
@@ -187,12 +116,12 @@ pub(super) fn run_phase<W: FnMut(f64) -> Flow>(
 }
 
 /// Takes the steps of a phase.
-fn step_through<W: FnMut(f64) -> Flow>(
+fn step_through(
     ode: MotionOde<'_>,
     mut events: Option<EventList<'_>>,
     at: &mut At,
     options: &Options,
-    (recorder, watcher): (&mut Recorder<'_>, &mut Watcher<'_, W>),
+    (recorder, watch): (&mut Recorder<'_>, &mut impl FnMut(f64) -> Flow),
     schedule: Schedule,
     run: &mut Run,
 ) -> Result<PhaseEnd, Box<Failure>> {
@@ -207,7 +136,7 @@ fn step_through<W: FnMut(f64) -> Flow>(
             let ended = at.fired.is_empty() && recorder.t_end == options.t_end;
             break Ok(if ended { PhaseEnd::Reached } else { PhaseEnd::Event });
         }
-        match next_step(&mut stepper, &mut events, (recorder, watcher), run, &mut at.fired) {
+        match next_step(&mut stepper, &mut events, (recorder, watch), run, &mut at.fired) {
             Ok(Next::Step(Flow::Continue)) => {
                 let q = model.layout.split(stepper.y())[0];
                 if let Some((_, message)) = ranges.beyond(model, q) {
@@ -240,17 +169,16 @@ enum Next {
 
 /// Takes a step and passes it to the recorder and to the caller. Events in it are added to the run; those that end the
 /// phase are also put into `fired`.
-fn next_step<W: FnMut(f64) -> Flow>(
+fn next_step(
     stepper: &mut MotionStepper<'_>,
     events: &mut Option<EventList<'_>>,
-    (recorder, watcher): (&mut Recorder<'_>, &mut Watcher<'_, W>),
+    (recorder, watch): (&mut Recorder<'_>, &mut impl FnMut(f64) -> Flow),
     run: &mut Run,
     fired: &mut Vec<usize>,
 ) -> Result<Next, Cause<Breakdown>> {
     stepper.step()?;
     let model = stepper.ode.model;
-    let Watcher { watch, look } = watcher;
-    if events.is_some() || look.is_some() || recorder.looks_inside(stepper.t()) {
+    if events.is_some() || recorder.looks_inside(stepper.t()) {
         stepper.prepare_interpolant()?;
     }
     let step = stepper.last_step().expect("a step was taken");
@@ -281,9 +209,5 @@ fn next_step<W: FnMut(f64) -> Flow>(
     if flow == Flow::Continue {
         flow = watch(step.t);
     }
-    let flow = match look {
-        Some(look) if flow == Flow::Continue => look(&step),
-        _ => flow,
-    };
     Ok(Next::Step(flow))
 }

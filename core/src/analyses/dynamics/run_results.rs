@@ -103,11 +103,6 @@ impl Run {
         }
     }
 
-    /// The phase of a row of the trajectory.
-    pub fn phase_of(&self, row: usize) -> usize {
-        self.phases.partition_point(|first| *first <= row).saturating_sub(1)
-    }
-
     /// The reported states of a phase.
     pub fn states_of(&self, phase: usize) -> States<'_> {
         let end = |k: usize| self.phases.get(k).copied().unwrap_or(self.trajectory.t.len());

@@ -2,6 +2,7 @@
 
 use super::reader::Reader;
 use crate::elements::Table;
+use crate::model::{Model, Problem, Value};
 
 /// A set of options as data.
 #[derive(Clone, Debug)]
@@ -47,6 +48,30 @@ pub trait Declared: Sized {
     fn declaration() -> Declaration;
     /// Reads all options; None if one was faulty (the reader keeps the reports).
     fn read(reader: &mut Reader<'_>) -> Option<Self>;
+
+    /// The option that does not fit the others, with a message.
+    fn conflict(&self, _: &Model) -> Option<(&'static str, String)> {
+        None
+    }
+
+    /// Reads the fields of an analysis of this type; `path` is its path in the file.
+    ///
+    /// # Errors
+    /// Every faulty value, with its path.
+    fn checked(
+        model: &Model,
+        fields: &[(String, Value)],
+        path: &[String],
+    ) -> Result<Self, Vec<Problem>> {
+        let read = Reader::read(model, fields, path, Self::read)?;
+        match read.conflict(model) {
+            None => Ok(read),
+            Some((key, message)) => {
+                let path: Vec<&str> = path.iter().map(String::as_str).chain([key]).collect();
+                Err(vec![Problem::at(&path, message)])
+            }
+        }
+    }
 }
 
 /// A value that is chosen from a family by its `type`.
@@ -55,12 +80,14 @@ pub trait Member {
     fn family() -> Family;
 }
 
-/// Declares options: required ones in parentheses, then those with defaults, then those that exclude others.
+/// Declares options: required ones in parentheses, then those with defaults, those that exclude others, and a function
+/// that finds an option which does not fit the others.
 macro_rules! options {
     ($(#[doc = $doc:literal])* $Name:ident, $name:literal, $class:literal
         ($($(#[doc = $what:literal])* $required:ident : $must:ty $([$($in:tt)*])?),*)
         {$($(#[doc = $about:literal])* $field:ident : $kind:ty $([$($unit:tt)*])? = $default:expr),* $(,)?}
         $(excludes { $($one:ident: $($other:ident),+;)+ })?
+        $(conflict $conflict:expr;)?
     ) => {
         $(#[doc = $doc])*
         #[derive(Clone, Debug, PartialEq)]
@@ -116,6 +143,15 @@ macro_rules! options {
                     reader, stringify!($field), concat!($($(stringify!($unit)),*)?), $default);)*
                 Some(Self { $($required: $required?,)* $($field: $field?),* })
             }
+
+            $(fn conflict(
+                &self,
+                model: &$crate::model::Model,
+            ) -> Option<(&'static str, String)> {
+                let conflict: fn(&Self, &$crate::model::Model) -> Option<(&'static str, String)> =
+                    $conflict;
+                conflict(self, model)
+            })?
         }
     };
 }

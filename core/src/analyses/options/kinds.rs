@@ -192,26 +192,43 @@ impl<W: Words> Kind for W {
     }
 }
 
-/// Two numbers of any unit.
-#[allow(non_camel_case_types)] // a type in `options!`, written like a word
-pub enum interval {}
-impl Kind for interval {
-    type Value = [f64; 2];
+/// Declares a kind of option without a default, by its reader.
+macro_rules! kind {
+    ($(#[doc = $doc:literal])* $kind:ident: $Value:ty, $Shape:ident, $read:expr) => {
+        $(#[doc = $doc])*
+        #[allow(non_camel_case_types)] // a type in `options!`, written like a word
+        pub enum $kind {}
+        impl $crate::analyses::options::Kind for $kind {
+            type Value = $Value;
 
-    fn shape() -> Shape {
-        Shape::Pair
-    }
-    fn data(_: &[f64; 2]) -> Default {
-        Default::Absent
-    }
-    fn read(reader: &mut Reader<'_>, key: &'static str, _: &'static str) -> Option<[f64; 2]> {
-        match reader.get(key)? {
-            Written::List(ends) if ends.len() == 2 => {
-                let [first, last] = [&ends[0], &ends[1]].map(|end| reader.value(key, end));
-                Some([first?, last?])
+            fn shape() -> $crate::elements::Shape {
+                $crate::elements::Shape::$Shape
             }
-            _ => reader.refuse(key, "must be two numbers, [first, last]"),
+            fn data(_: &$Value) -> $crate::elements::Default {
+                $crate::elements::Default::Absent
+            }
+            fn read(
+                reader: &mut $crate::analyses::options::Reader<'_>,
+                key: &'static str,
+                _: &'static str,
+            ) -> Option<$Value> {
+                use $crate::analyses::options::Reader;
+                let read: fn(&mut Reader<'_>, &'static str) -> Option<$Value> = $read;
+                read(reader, key)
+            }
         }
+    };
+}
+pub(in crate::analyses) use kind;
+
+kind! {
+    /// Two numbers of any unit.
+    interval: [f64; 2], Pair, |reader, key| match reader.get(key)? {
+        Written::List(ends) if ends.len() == 2 => {
+            let [first, last] = [&ends[0], &ends[1]].map(|end| reader.value(key, end));
+            Some([first?, last?])
+        }
+        _ => reader.refuse(key, "must be two numbers, [first, last]"),
     }
 }
 
