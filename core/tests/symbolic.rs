@@ -2,7 +2,7 @@
 
 use kempe::expression::{Expression, Scope};
 use kempe::math::{Dual, Jet, Real};
-use kempe::symbolic::{record, Form, Kind, Name, Record, Symbolic};
+use kempe::symbolic::{record, Form, Name, NameKind, Record, Symbolic};
 
 /// The text of a function of a, b and c.
 fn text(f: impl Fn([Symbolic; 3]) -> Symbolic) -> String {
@@ -103,7 +103,7 @@ fn derivatives_are_those_of_dual_numbers_and_jets() {
         let printed = record(|record| {
             let moving = |name: &str| {
                 let symbol = |text: &str, rate| {
-                    record.changing(Name::new(text, text, text, Kind::Coordinate), rate)
+                    record.changing(Name::new(text, text, text, NameKind::Coordinate), rate)
                 };
                 symbol(name, symbol(&format!("{name}_t"), Symbolic::zero()))
             };

@@ -1,6 +1,6 @@
 //! Conditions on quantities of a motion: a comparison, or an expression that becomes zero.
 
-use super::quantities::{Quantities, QuantityValues};
+use super::quantities::{QuantityNames, QuantityValues};
 use super::signals::{energies, Energy, Seen, Signal};
 use super::so_far::{SoFar, PLACES};
 use crate::equations::kinematics::Motions;
@@ -35,7 +35,7 @@ impl Condition {
 
     fn compile(model: &Model, released: &[String], text: &str) -> Result<Self, ExpressionError> {
         let (expression, comparison) = Expression::parse_condition(text)?;
-        let quantities = Quantities::of(model, released);
+        let quantities = QuantityNames::of(model, released);
         let tape = expression.compile(&quantities)?;
         let inferred = &model.blueprint.inferred;
         expression.infer(&quantities, &|symbol| match symbol {

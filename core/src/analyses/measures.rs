@@ -5,7 +5,7 @@
 //! quantities come from the caller, which has them at all outputs.
 
 use super::dynamics::States;
-use super::quantities::{Quantities, QuantityValues};
+use super::quantities::{QuantityNames, QuantityValues};
 use super::signal_rows::{each, each_over_lanes, Rows};
 use super::signal_units::unit_of;
 use super::signals::Signal;
@@ -41,7 +41,7 @@ impl Measure {
 
     fn compile(model: &Model, text: &str) -> Result<Self, ExpressionError> {
         let expression = Expression::parse(text)?;
-        let names = Quantities::of(model, &[]);
+        let names = QuantityNames::of(model, &[]);
         let tape = expression.compile(&names)?;
         let found = names.found.borrow().clone();
         let units: Vec<_> = found.iter().map(|(name, of)| unit_of(model, name, of)).collect();

@@ -8,7 +8,7 @@ use std::cell::RefCell;
 use std::sync::Arc;
 
 /// The names of a formula; each quantity becomes a variable.
-pub(super) struct Quantities<'a> {
+pub(super) struct QuantityNames<'a> {
     model: &'a Model,
     released: &'a [String],
     /// The quantities that occur, with their names, in the order of their variables.
@@ -17,7 +17,7 @@ pub(super) struct Quantities<'a> {
     missed: RefCell<String>,
 }
 
-impl<'a> Quantities<'a> {
+impl<'a> QuantityNames<'a> {
     /// Of a model, from which the drivers `released` were removed.
     pub fn of(model: &'a Model, released: &'a [String]) -> Self {
         Self { model, released, found: RefCell::default(), missed: RefCell::default() }
@@ -30,7 +30,7 @@ impl<'a> Quantities<'a> {
     }
 }
 
-impl Names for Quantities<'_> {
+impl Names for QuantityNames<'_> {
     fn resolve(&self, name: &str) -> Option<Symbol> {
         let blueprint = &self.model.blueprint;
         if let Some(k) = blueprint.parameters.iter().position(|known| known == name) {

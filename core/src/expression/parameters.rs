@@ -142,32 +142,32 @@ fn index<'a, N: AsRef<str>>(
 /// Depth-first order; a circle comes back as the indices along it, the first one not repeated.
 fn order(tapes: &[Tape]) -> Result<Vec<usize>, Vec<usize>> {
     #[derive(Clone, Copy, PartialEq)]
-    enum Mark {
+    enum Visit {
         New,
         Open,
         Done,
     }
     let needs: Vec<Vec<usize>> = tapes.iter().map(|tape| tape.parameters().collect()).collect();
-    let mut marks = vec![Mark::New; tapes.len()];
+    let mut marks = vec![Visit::New; tapes.len()];
     let mut order = Vec::with_capacity(tapes.len());
     for root in 0..tapes.len() {
         // the open parameters, each with how many of its needs are looked at: no recursion, because
         // a chain may be as long as the list
-        let mut path = if marks[root] == Mark::New { vec![(root, 0)] } else { Vec::new() };
+        let mut path = if marks[root] == Visit::New { vec![(root, 0)] } else { Vec::new() };
         while let Some((k, looked_at)) = path.last_mut() {
-            marks[*k] = Mark::Open;
+            marks[*k] = Visit::Open;
             match needs[*k].get(*looked_at) {
                 None => {
-                    marks[*k] = Mark::Done;
+                    marks[*k] = Visit::Done;
                     order.push(*k);
                     path.pop();
                 }
                 Some(&next) => {
                     *looked_at += 1;
                     match marks[next] {
-                        Mark::Done => {}
-                        Mark::New => path.push((next, 0)),
-                        Mark::Open => {
+                        Visit::Done => {}
+                        Visit::New => path.push((next, 0)),
+                        Visit::Open => {
                             let circle = path.iter().map(|(k, _)| *k);
                             return Err(circle.skip_while(|k| *k != next).collect());
                         }

@@ -10,7 +10,7 @@
 //! runs between their times, where they hold one piece.
 
 use super::tape::Values;
-use super::{Switch, Tape};
+use super::{FormulaSwitch, Tape};
 use crate::math::{Dual, Interval, Lift, Real};
 
 /// Largest number of times.
@@ -50,14 +50,14 @@ pub fn switch_places(
     span: [f64; 2],
     out: &mut Vec<f64>,
 ) -> Result<(), TooManySwitches> {
-    let varies = |s: Switch| Switch { time: s.time || s.state, state: false, ..s };
-    let switches: Vec<Switch> = tape.switches().into_iter().map(varies).collect();
+    let varies = |s: FormulaSwitch| FormulaSwitch { time: s.time || s.state, state: false, ..s };
+    let switches: Vec<FormulaSwitch> = tape.switches().into_iter().map(varies).collect();
     search(tape, &switches, parameters, span, out)
 }
 
 fn search(
     tape: &Tape,
-    switches: &[Switch],
+    switches: &[FormulaSwitch],
     parameters: &[f64],
     span: [f64; 2],
     out: &mut Vec<f64>,
@@ -100,7 +100,7 @@ pub fn pieces_at(tape: &Tape, parameters: &[f64], t: f64) -> Vec<f64> {
     natural(tape, &tape.switches(), parameters, t)
 }
 
-fn natural(tape: &Tape, switches: &[Switch], parameters: &[f64], t: f64) -> Vec<f64> {
+fn natural(tape: &Tape, switches: &[FormulaSwitch], parameters: &[f64], t: f64) -> Vec<f64> {
     let mut pieces = Vec::with_capacity(switches.len());
     let values = At { tape, parameters, t, pieces: &[] };
     tape.switch_functions(&values, |_, sigma| {
@@ -147,7 +147,7 @@ struct Search<'a> {
     parameters: &'a [f64],
     k: usize,
     pieces: Vec<f64>,
-    switch: &'a Switch,
+    switch: &'a FormulaSwitch,
 }
 
 impl Search<'_> {

@@ -123,7 +123,7 @@ enum Seen<'a, S> {
 
 /// A switch of an expression.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Switch {
+pub struct FormulaSwitch {
     /// The boundaries of its pieces.
     pub boundaries: Boundaries,
     /// Whether its function depends on the time.
@@ -250,7 +250,7 @@ impl Tape {
     }
 
     /// The switches of the expression, in the order of their indices.
-    pub fn switches(&self) -> Vec<Switch> {
+    pub fn switches(&self) -> Vec<FormulaSwitch> {
         let mut stack: Vec<[bool; 3]> = Vec::new(); // time, state, table
         let mut switches = Vec::with_capacity(self.switches);
         let any = |all: &[[bool; 3]]| -> [bool; 3] {
@@ -260,7 +260,7 @@ impl Tape {
             let operands = stack.split_off(stack.len() - instruction.operands());
             if let Some((boundaries, arguments, smooth)) = self.switch_of(instruction) {
                 let [time, state, table] = any(&operands[..arguments]);
-                switches.push(Switch { boundaries, time, state, table, smooth });
+                switches.push(FormulaSwitch { boundaries, time, state, table, smooth });
             }
             stack.push(match instruction {
                 Instruction::Load(Symbol::Time) => [true, false, false],

@@ -10,7 +10,7 @@ use super::ode::Ode;
 use super::right_hand_side::RightHandSide;
 use super::runge_kutta::RungeKutta;
 use super::stages::{combine, room, row_mut, rows_mut, width, Block};
-use super::statistics::Statistics;
+use super::statistics::StepCounts;
 use super::step::Step;
 use super::step_control::StepControl;
 use super::step_placement::StepPlacement;
@@ -72,12 +72,12 @@ impl Work {
 pub(super) struct Accepted {
     pub t: f64,
     pub projected: bool,
-    pub interpolant: Prepared,
+    pub interpolant: InterpolantLevel,
 }
 
 /// How far the interpolant of a step is prepared.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Prepared {
+pub(super) enum InterpolantLevel {
     /// By the stages of the step alone.
     Plain,
     /// With the extra stages of the method.
@@ -98,7 +98,7 @@ pub(super) struct ExplicitStepper<P> {
     /// The step to try next, once the first derivative was evaluated.
     size: Option<StepSize>,
     pub accepted: Option<Accepted>,
-    counts: Statistics,
+    counts: StepCounts,
     placement: StepPlacement,
     pub work: Work,
     method: PhantomData<P>,
@@ -122,7 +122,7 @@ impl<P: RungeKutta> ExplicitMethod for P {
             t_end,
             size: None,
             accepted: None,
-            counts: Statistics::default(),
+            counts: StepCounts::default(),
             placement: StepPlacement::default(),
             method: PhantomData,
         }))
@@ -177,7 +177,7 @@ impl<P: RungeKutta, Y: Ode> Stepper<Y, Y::Stop> for ExplicitStepper<P> {
         Ok(())
     }
 
-    fn statistics(&self) -> Statistics {
+    fn statistics(&self) -> StepCounts {
         self.counts
     }
 }
@@ -200,7 +200,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         self.size = Some(size);
         let (t, projected) = taken?;
         self.counts.steps += 1;
-        let accepted = Accepted { t, projected, interpolant: Prepared::Plain };
+        let accepted = Accepted { t, projected, interpolant: InterpolantLevel::Plain };
         self.measure(accepted);
         self.accepted = Some(accepted);
         Ok(())
@@ -223,7 +223,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
 
     fn check_counts<E>(&self, size: &StepSize) -> Result<(), Cause<E>> {
         let Some(most) = self.control.max_steps else { return Ok(()) };
-        let Statistics { steps, rejected, .. } = self.counts;
+        let StepCounts { steps, rejected, .. } = self.counts;
         if steps >= most {
             return Err(Cause::MaxSteps { steps });
         }

@@ -1,6 +1,6 @@
 //! The end of an accepted step: it is projected, its derivative is evaluated, and its interpolant is prepared.
 
-use super::explicit_stepper::{Accepted, ExplicitStepper, Prepared, Work};
+use super::explicit_stepper::{Accepted, ExplicitStepper, InterpolantLevel, Work};
 use super::failure::Cause;
 use super::hermite_birkhoff::{Ends, INSIDE};
 use super::interpolant::Interpolant;
@@ -61,8 +61,8 @@ impl<P: RungeKutta> ExplicitStepper<P> {
             Interpolant::new(stages, Lanes::WIDTH * *width, table, P::DEGREE)
         };
         let interpolant = match (accepted.interpolant, hermite_birkhoff) {
-            (Prepared::HermiteBirkhoff, Some(it)) => it.interpolant(),
-            (Prepared::Extended, _) => table(P::TABLE),
+            (InterpolantLevel::HermiteBirkhoff, Some(it)) => it.interpolant(),
+            (InterpolantLevel::Extended, _) => table(P::TABLE),
             _ => table(P::WITHOUT_EXTRA),
         };
         let derivatives = [0, last_row::<P>(accepted.projected)].map(|s| row(k, *width, s));
@@ -87,7 +87,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         rhs: &mut RightHandSide<'_, Y>,
     ) -> Result<(), Cause<Y::Stop>> {
         let (true, Some(accepted)) = (P::EXTRA > 0, &mut self.accepted) else { return Ok(()) };
-        if accepted.interpolant != Prepared::Plain {
+        if accepted.interpolant != InterpolantLevel::Plain {
             return Ok(());
         }
         let Work { width, k, y, y_new, trial, hermite_birkhoff, .. } = &mut self.work;
@@ -102,12 +102,12 @@ impl<P: RungeKutta> ExplicitStepper<P> {
                 let outcome = rhs.at(self.t + INSIDE * h, trial, inside);
                 outcome.map(|()| {
                     hermite_birkhoff.complete(ends, &inside.as_flattened()[..n]);
-                    Prepared::HermiteBirkhoff
+                    InterpolantLevel::HermiteBirkhoff
                 })
             }
             None => {
                 let trial = &mut Trial::new(rhs, (self.t, accepted.t), y, trial);
-                P::extend(trial, k).map(|()| Prepared::Extended)
+                P::extend(trial, k).map(|()| InterpolantLevel::Extended)
             }
         };
         match outcome {

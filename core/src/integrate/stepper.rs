@@ -7,7 +7,7 @@ use super::dae::Dae;
 use super::events::{self, Direction};
 use super::failure::Cause;
 use super::ode::Ode;
-use super::statistics::Statistics;
+use super::statistics::StepCounts;
 use super::step::Step;
 
 /// Advances a system `Y`, whose own errors are `E`, by one accepted step at a time.
@@ -56,7 +56,7 @@ pub trait Stepper<Y, E> {
     fn restart_until(&mut self, t: f64, y: &[f64], t_end: f64) -> Result<(), Cause<E>>;
 
     /// Counts of all steps so far.
-    fn statistics(&self) -> Statistics;
+    fn statistics(&self) -> StepCounts;
 
     /// Time within the last step at which g(t, y) changes sign, with the state there; see
     /// [`locate`](fn@super::locate). None if the signs at both ends are equal.

@@ -23,7 +23,7 @@ const EQUAL: f64 = 1e-9;
 
 /// Where the value of a coordinate or rate came from that was not set.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Source {
+pub enum ValueSource {
     /// From its guess.
     Guess,
     /// As near to its guess, in m, rad or per s, as the joints allow.
@@ -50,7 +50,7 @@ pub struct Choice {
     /// SI unit.
     pub unit: &'static str,
     /// Where the value came from.
-    pub source: Source,
+    pub source: ValueSource,
 }
 
 /// What was left unset.
@@ -117,8 +117,8 @@ pub(super) fn unset(
         let of = guesses.iter().find(|of| of.body.0 == body && of.coordinate == rate);
         let source = match of {
             Some(of) => near(model, coordinate, of.value, v[column]),
-            None if still => Source::Rest,
-            None => Source::LeastEnergy,
+            None if still => ValueSource::Rest,
+            None => ValueSource::LeastEnergy,
         };
         choice(model, (column, body, rate), v, source)
     };
@@ -137,7 +137,7 @@ fn met_first(
 ) -> Vec<CoordinateTarget> {
     guesses.sort_by_key(|of| {
         let place = model.layout.bodies[of.body.0].first + of.coordinate.column();
-        near(model, of.coordinate, of.value, values[place]) != Source::Guess
+        near(model, of.coordinate, of.value, values[place]) != ValueSource::Guess
     });
     guesses
 }
@@ -178,23 +178,23 @@ fn source(
     asked: &Targets,
     (column, body, coordinate): Candidate,
     q: &[f64],
-) -> Source {
+) -> ValueSource {
     let mut guesses = of_bodies(&request.guess);
     let guess = guesses.find(|of| of.body.0 == body && of.coordinate == coordinate);
     match (guess, asked.soft[body][coordinate.column()]) {
         (Some(guess), _) => near(model, coordinate, guess.value, q[column]),
-        (None, Some(_)) => Source::Drawing,
-        (None, None) if of_quantities(&request.guess).next().is_some() => Source::Guesses,
-        (None, None) => Source::Nothing,
+        (None, Some(_)) => ValueSource::Drawing,
+        (None, None) if of_quantities(&request.guess).next().is_some() => ValueSource::Guesses,
+        (None, None) => ValueSource::Nothing,
     }
 }
 
 /// Whether a value is that of its guess.
-fn near(model: &Model, coordinate: Coordinate, guess: f64, value: f64) -> Source {
+fn near(model: &Model, coordinate: Coordinate, guess: f64, value: f64) -> ValueSource {
     let unit = if coordinate.column() == 2 { 1.0 } else { size(model) };
     match (value - guess).abs() <= EQUAL * unit.max(value.abs()) {
-        true => Source::Guess,
-        false => Source::NearGuess(guess),
+        true => ValueSource::Guess,
+        false => ValueSource::NearGuess(guess),
     }
 }
 
@@ -202,7 +202,7 @@ fn choice(
     model: &Model,
     (column, body, coordinate): Candidate,
     values: &[f64],
-    source: Source,
+    source: ValueSource,
 ) -> Choice {
     Choice {
         name: format!("{}.{}", model.bodies[body].name, coordinate.name()),

@@ -33,7 +33,7 @@ fn parts(model: &Model, step: &Step<'_>) -> usize {
 
 /// A function of the state.
 #[derive(Clone, Copy)]
-pub(super) enum Function<'a> {
+pub(super) enum EventFunction<'a> {
     /// Of a condition in a case.
     Condition(&'a Condition),
     /// Of a force with modes; positive while its mode lasts.
@@ -42,7 +42,7 @@ pub(super) enum Function<'a> {
     Never,
 }
 
-impl Function<'_> {
+impl EventFunction<'_> {
     fn value(&self, model: &Model, seen: &Seen<'_>) -> f64 {
         match self {
             Self::Condition(condition) => condition.value(model, seen),
@@ -64,7 +64,7 @@ impl Function<'_> {
 /// An event of a phase.
 #[derive(Clone, Copy)]
 pub(super) struct Watched<'a> {
-    pub function: Function<'a>,
+    pub function: EventFunction<'a>,
     pub direction: Direction,
     /// Whether the phase ends at it.
     pub ends: bool,
@@ -73,7 +73,7 @@ pub(super) struct Watched<'a> {
 }
 
 /// What follows a step.
-pub(super) enum Found {
+pub(super) enum StepEvents {
     /// These events are in it.
     Events(Vec<Crossing>),
     /// The same, and the phase ends with the step, also if none is at its end.
@@ -106,12 +106,12 @@ impl<'a> EventList<'a> {
             return None;
         }
         let solves = watched.iter().any(|event| match event.function {
-            Function::Condition(condition) => condition.needs_solution,
-            Function::Mode(of) => of.needs_solution(),
-            Function::Never => false,
+            EventFunction::Condition(condition) => condition.needs_solution,
+            EventFunction::Mode(of) => of.needs_solution(),
+            EventFunction::Never => false,
         });
         for event in &watched {
-            if let Function::Condition(condition) = event.function {
+            if let EventFunction::Condition(condition) = event.function {
                 condition.watch(&mut so_far);
             }
         }
@@ -130,7 +130,7 @@ impl<'a> EventList<'a> {
     }
 
     /// The events in a step of a phase that ends at `t_end` at the latest. The interpolant is prepared.
-    pub fn look(&mut self, model: &Model, step: &Step<'_>, t_end: f64) -> Found {
+    pub fn look(&mut self, model: &Model, step: &Step<'_>, t_end: f64) -> StepEvents {
         let found = self.scan(model, step);
         let spacing = CLOSE * f64::EPSILON * step.t.abs().max(step.t_old.abs());
         let together = |a: f64, b: f64| (a - b).abs() <= spacing;
@@ -144,13 +144,17 @@ impl<'a> EventList<'a> {
         let Some((t, index)) = end else {
             self.evaluator.advance(model, step);
             // the phase ends where the event was expected, and the next one continues
-            return if arrived.is_some() { Found::End(found) } else { Found::Events(found) };
+            return if arrived.is_some() {
+                StepEvents::End(found)
+            } else {
+                StepEvents::Events(found)
+            };
         };
         let done = together(t, step.t) || self.tries >= AGAIN && arrived.is_some();
         if !done {
             self.tries += 1;
             self.awaited = Some((t, index));
-            return Found::Again(t);
+            return StepEvents::Again(t);
         }
         (self.awaited, self.tries) = (None, 0);
         self.evaluator.advance(model, step);
@@ -167,7 +171,7 @@ impl<'a> EventList<'a> {
         }
         let sign = (step.t - step.t_old).signum();
         found.sort_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)).then(a.index.cmp(&b.index)));
-        Found::End(found)
+        StepEvents::End(found)
     }
 
     fn scan(&mut self, model: &Model, step: &Step<'_>) -> Vec<Crossing> {
@@ -181,7 +185,8 @@ impl<'a> EventList<'a> {
             if t == began.0 {
                 began.1.iter().for_each(|index| out[*index] = 0.0);
                 // the mode may end again within a time that is short beside the steps
-                let of_mode = |event: &Watched<'_>| matches!(event.function, Function::Mode(_));
+                let of_mode =
+                    |event: &Watched<'_>| matches!(event.function, EventFunction::Mode(_));
                 let modes =
                     watched.iter().zip(out).filter(|(event, _)| of_mode(event) && event.ends);
                 modes.for_each(|(_, out)| *out = out.max(f64::MIN_POSITIVE));
@@ -206,7 +211,7 @@ impl<'a> EventList<'a> {
         let [mut old, before, at] = states.map(|state| {
             self.evaluator.see(model, state, step, |seen| function.value(model, seen))
         });
-        if step.t_old == self.began.0 && matches!(function, Function::Mode(_)) {
+        if step.t_old == self.began.0 && matches!(function, EventFunction::Mode(_)) {
             old = old.max(f64::MIN_POSITIVE); // the mode has just begun
         }
         let by = -at * h / (at - before);

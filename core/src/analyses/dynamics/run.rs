@@ -1,6 +1,6 @@
 //! One phase of a run, with its own active constraints. `course` makes the sequence of phases.
 
-use super::event_list::{EventList, Found, Watched};
+use super::event_list::{EventList, StepEvents, Watched};
 use super::failure::Failure;
 use super::model_cache::ModelCache;
 use super::motion_ode::MotionOde;
@@ -21,7 +21,7 @@ use crate::solve::Breakdown;
 
 /// The place of a run in its phases.
 #[derive(Default)]
-pub(super) struct At {
+pub(super) struct Progress {
     /// The start of the run.
     t0: f64,
     pub t: f64,
@@ -32,7 +32,7 @@ pub(super) struct At {
     pub so_far: SoFar,
 }
 
-impl At {
+impl Progress {
     /// At the start of a run; makes its tables.
     pub fn begin(model: &Model, start: &State, options: &Options, run: &mut Run) -> Self {
         let t0 = options.t_start.unwrap_or(start.t);
@@ -49,7 +49,7 @@ pub(super) enum PhaseEnd {
     Reached,
     /// By the caller.
     Stopped,
-    /// At events, which are in [`At::fired`].
+    /// At events, which are in [`Progress::fired`].
     Event,
 }
 
@@ -67,7 +67,7 @@ pub(super) struct Phase<'a> {
 pub(super) fn run_phase(
     phase: Phase<'_>,
     watched: Vec<Watched<'_>>,
-    at: &mut At,
+    at: &mut Progress,
     options: &Options,
     run: &mut Run,
     watch: &mut impl FnMut(f64) -> Flow,
@@ -119,7 +119,7 @@ pub(super) fn run_phase(
 fn step_through(
     ode: MotionOde<'_>,
     mut events: Option<EventList<'_>>,
-    at: &mut At,
+    at: &mut Progress,
     options: &Options,
     (recorder, watch): (&mut Recorder<'_>, &mut impl FnMut(f64) -> Flow),
     schedule: Schedule,
@@ -184,14 +184,14 @@ fn next_step(
     let step = stepper.last_step().expect("a step was taken");
     let found = events.as_mut().map(|events| events.look(model, &step, recorder.t_end));
     let happened = match found {
-        Some(Found::Again(t)) => return Ok(Next::Event(t)),
-        Some(Found::End(happened)) => {
+        Some(StepEvents::Again(t)) => return Ok(Next::Event(t)),
+        Some(StepEvents::End(happened)) => {
             recorder.t_end = step.t;
             let ending = happened.iter().filter(|event| event.t == step.t);
             fired.extend(ending.map(|event| event.index));
             happened
         }
-        Some(Found::Events(happened)) => happened,
+        Some(StepEvents::Events(happened)) => happened,
         None => Vec::new(),
     };
     // a step that is taken again has no sample

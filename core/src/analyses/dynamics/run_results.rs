@@ -29,7 +29,7 @@ pub struct Statistics {
 
 impl Statistics {
     /// Adds the counts of a stepper and the factorisations that belong to it.
-    pub(super) fn add(&mut self, counts: integrate::Statistics, factorisations: usize) {
+    pub(super) fn add(&mut self, counts: integrate::StepCounts, factorisations: usize) {
         self.steps += counts.steps;
         self.rejected += counts.rejected;
         self.evaluations += counts.evaluations;

@@ -10,7 +10,7 @@ use super::motion_ode::MotionOde;
 use super::singularity_forecast::SingularityForecast;
 use crate::equations::Gains;
 use crate::integrate::{
-    Atol, BoxedStepper, Cause, Dop853, ExplicitMethod, Statistics, Step, StepControl, Stepper,
+    Atol, BoxedStepper, Cause, Dop853, ExplicitMethod, Step, StepControl, StepCounts, Stepper,
 };
 use crate::solve::Breakdown;
 
@@ -356,7 +356,7 @@ impl<'a> Stepper<MotionOde<'a>, Breakdown> for SingularityHandover<'a> {
         Ok(())
     }
 
-    fn statistics(&self) -> Statistics {
+    fn statistics(&self) -> StepCounts {
         let mut counts = self.method.get().statistics();
         counts.steps -= self.taken_again;
         counts.rejected += self.taken_again;

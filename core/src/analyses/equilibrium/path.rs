@@ -6,7 +6,7 @@ use super::holding;
 use super::options::Options;
 use super::parameter;
 use super::points::{End, Path};
-use super::spot::{Course, Direction, Step};
+use super::spot::{ParameterPath, PathDirection, PathStep};
 use super::stride::advance;
 use super::turning;
 use crate::analyses::State;
@@ -45,10 +45,10 @@ pub fn path(
     let n = start.q.len() as f64;
     let weights = column_scales(&first).iter().map(|s| 1.0 / (s * s * n)).collect();
     let (holders, t, unit) = (options.hold.len(), start.t, (range[1] - range[0]).abs());
-    let course = Course { model: &held, holders, t, over, unit, weights };
+    let course = ParameterPath { model: &held, holders, t, over, unit, weights };
     let spot = course.spot(range[0], &begin.state.q, &begin.state.z)?;
     let onward =
-        Direction { q: vec![0.0; start.q.len()], p: (range[1] - range[0]).signum() * unit };
+        PathDirection { q: vec![0.0; start.q.len()], p: (range[1] - range[0]).signum() * unit };
     let Some(tangent) = course.tangent(&spot, &onward) else {
         return Err(Reason::singular(&first, t, &begin.state.q));
     };
@@ -60,13 +60,13 @@ pub fn path(
         end: End::Long,
     };
     path.end =
-        follow(&course, Step { spot, tangent, iterations: 0 }, range, &mut path, &mut watch)?;
+        follow(&course, PathStep { spot, tangent, iterations: 0 }, range, &mut path, &mut watch)?;
     Ok(path)
 }
 
 fn follow(
-    course: &Course<'_>,
-    mut at: Step,
+    course: &ParameterPath<'_>,
+    mut at: PathStep,
     range: [f64; 2],
     path: &mut Path,
     watch: &mut dyn FnMut(f64) -> Flow,

@@ -2,7 +2,7 @@
 
 use super::failure::Reason;
 use super::result::Equilibrium;
-use super::spot::{Course, Spot};
+use super::spot::{ParameterPath, Spot};
 
 /// The end of a path.
 #[derive(Clone, Debug, PartialEq)]
@@ -36,7 +36,7 @@ pub struct Path {
 
 impl Path {
     /// Adds a point; returns its place.
-    pub(super) fn add(&mut self, course: &Course<'_>, spot: &Spot) -> Result<usize, Reason> {
+    pub(super) fn add(&mut self, course: &ParameterPath<'_>, spot: &Spot) -> Result<usize, Reason> {
         self.points.push(course.equilibrium(spot)?);
         self.values.push(spot.value);
         Ok(self.values.len() - 1)

@@ -7,7 +7,7 @@
 
 use super::failure::Reason;
 use super::relaxation;
-use super::statics::{Local, Place, Statics};
+use super::statics::{Local, StaticState, Statics};
 use crate::integrate::Flow;
 use crate::solve::{is_positive, solve_dense, Eigen};
 
@@ -35,7 +35,7 @@ const FAR: f64 = 40.0;
 
 /// A rest position.
 pub(super) struct Found {
-    pub place: Place,
+    pub place: StaticState,
     /// Steps of Newton's method.
     pub steps: usize,
     /// Steps of dynamic relaxation.
@@ -62,7 +62,7 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// The rest position that a start leads to.
-    pub fn run(mut self, start: Place) -> Result<Found, Reason> {
+    pub fn run(mut self, start: StaticState) -> Result<Found, Reason> {
         let first = start.clone();
         let mut place = start;
         for round in 0..ROUNDS {
@@ -92,13 +92,13 @@ impl<'s, 'a> Search<'s, 'a> {
         Err(Reason::of_search(self.statics.model, way, left, &own))
     }
 
-    fn far(&self, first: &Place, place: &Place) -> bool {
+    fn far(&self, first: &StaticState, place: &StaticState) -> bool {
         let way: Vec<f64> = place.q.iter().zip(&first.q).map(|(b, a)| b - a).collect();
         self.statics.largest(&way) > FAR
     }
 
     /// Goes down until the forces vanish; returns the place, and whether they do.
-    fn descend(&mut self, mut place: Place) -> Result<(Place, bool), Reason> {
+    fn descend(&mut self, mut place: StaticState) -> Result<(StaticState, bool), Reason> {
         let (mut radius, mut pushes, begin) = (FIRST, 0, self.steps);
         let mut local = self.statics.local(&place)?;
         let mut at_start = self.steps == 0 && self.relaxed == 0;
@@ -133,10 +133,10 @@ impl<'s, 'a> Search<'s, 'a> {
     /// One step that lowers the energy; None if there is none.
     fn step(
         &mut self,
-        place: &Place,
+        place: &StaticState,
         local: &Local,
         radius: &mut f64,
-    ) -> Result<Option<(Place, Local)>, Reason> {
+    ) -> Result<Option<(StaticState, Local)>, Reason> {
         let newton = solved(&local.stiffness, &local.gradient);
         let full = match &newton {
             Some(p) if self.nearest || self.good(local, p) => p.clone(),
@@ -170,10 +170,10 @@ impl<'s, 'a> Search<'s, 'a> {
     /// The place after a step, if it is better.
     fn tried(
         &mut self,
-        place: &Place,
+        place: &StaticState,
         local: &Local,
         p: &[f64],
-    ) -> Result<Option<(Place, Local)>, Reason> {
+    ) -> Result<Option<(StaticState, Local)>, Reason> {
         let dq = local.basis.extend(p);
         let Some(next) = self.moved(place, &dq) else { return Ok(None) };
         let Ok(there) = self.statics.local(&next) else { return Ok(None) };
@@ -191,7 +191,7 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// The closed place near q + dq, unless closing leads elsewhere.
-    fn moved(&mut self, place: &Place, dq: &[f64]) -> Option<Place> {
+    fn moved(&mut self, place: &StaticState, dq: &[f64]) -> Option<StaticState> {
         let q: Vec<f64> = place.q.iter().zip(dq).map(|(q, dq)| q + dq).collect();
         let next = self.statics.place(&q, &place.z).ok()?;
         let closing: Vec<f64> = next.q.iter().zip(&q).map(|(b, a)| b - a).collect();
@@ -200,7 +200,11 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// The same place with the forces reduced to rounding.
-    fn polished(&mut self, mut place: Place, mut local: Local) -> Result<(Place, Local), Reason> {
+    fn polished(
+        &mut self,
+        mut place: StaticState,
+        mut local: Local,
+    ) -> Result<(StaticState, Local), Reason> {
         for _ in 0..8 {
             let before = relative(&local, &place);
             let Some(p) = solved(&local.stiffness, &local.gradient) else { break };
@@ -224,10 +228,10 @@ impl<'s, 'a> Search<'s, 'a> {
     /// A place beside an unstable one with less energy.
     fn pushed(
         &mut self,
-        place: &Place,
+        place: &StaticState,
         local: &Local,
         direction: &[f64],
-    ) -> Result<Option<(Place, Local)>, Reason> {
+    ) -> Result<Option<(StaticState, Local)>, Reason> {
         let dq = local.basis.extend(direction);
         let length = self.statics.largest(&dq);
         for way in [PUSH, -PUSH] {
@@ -244,7 +248,7 @@ impl<'s, 'a> Search<'s, 'a> {
 }
 
 /// The force along the freedoms, relative to the largest single force.
-pub(super) fn relative(local: &Local, place: &Place) -> f64 {
+pub(super) fn relative(local: &Local, place: &StaticState) -> f64 {
     let size = dot(&local.gradient, &local.gradient).sqrt();
     if size == 0.0 {
         0.0
@@ -263,7 +267,7 @@ pub(super) fn zero(stiffness: &[f64], scale: f64) -> f64 {
 }
 
 /// The direction in which the potential falls most from a rest position; None if it is a minimum.
-fn down(local: &Local, place: &Place) -> Option<Vec<f64>> {
+fn down(local: &Local, place: &StaticState) -> Option<Vec<f64>> {
     let eigen = Eigen::of(&local.stiffness, local.gradient.len());
     let least = *eigen.values.first()?;
     (least < -zero(&local.stiffness, place.scale) && is_symmetric(&local.stiffness))

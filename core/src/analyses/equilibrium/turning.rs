@@ -2,7 +2,7 @@
 
 use super::failure::Reason;
 use super::points::{End, Path};
-use super::spot::{Course, Step};
+use super::spot::{ParameterPath, PathStep};
 use super::stride::advance;
 
 /// Length of the path to which a point is located.
@@ -14,9 +14,9 @@ const CROSSED: f64 = 1e-9;
 
 /// Adds the fold, or the crossing of another path, between two points.
 pub(super) fn between(
-    course: &Course<'_>,
-    from: &Step,
-    to: &Step,
+    course: &ParameterPath<'_>,
+    from: &PathStep,
+    to: &PathStep,
     ds: f64,
     range: [f64; 2],
     path: &mut Path,
@@ -53,12 +53,12 @@ pub(super) fn between(
 
 /// The end of the path, if it leaves the range before `to`, with its last point.
 pub(super) fn outside(
-    course: &Course<'_>,
-    from: &Step,
-    to: &Step,
+    course: &ParameterPath<'_>,
+    from: &PathStep,
+    to: &PathStep,
     ds: f64,
     range: [f64; 2],
-) -> Option<(End, Step)> {
+) -> Option<(End, PathStep)> {
     let way = (range[1] - range[0]).signum();
     for (end, bound, beyond) in [(End::Last, range[1], way), (End::First, range[0], -way)] {
         if beyond * (to.spot.value - bound) >= 0.0 && beyond * (from.spot.value - bound) < 0.0 {
@@ -72,15 +72,15 @@ pub(super) fn outside(
 
 /// The point between two where a function of points is zero: regula falsi, and bisection in every third trial.
 fn zero(
-    course: &Course<'_>,
-    from: &Step,
-    to: &Step,
+    course: &ParameterPath<'_>,
+    from: &PathStep,
+    to: &PathStep,
     ds: f64,
-    of: impl Fn(&Step) -> f64,
-) -> Option<Step> {
+    of: impl Fn(&PathStep) -> f64,
+) -> Option<PathStep> {
     let (mut low, mut high) = (0.0, ds);
     let mut ends = [of(from), of(to)];
-    let mut best: Option<Step> = None;
+    let mut best: Option<PathStep> = None;
     for trial in 0..TRIALS {
         let share = if trial % 3 == 2 { 0.5 } else { ends[0] / (ends[0] - ends[1]) };
         let middle = low + share.clamp(1e-6, 1.0 - 1e-6) * (high - low);

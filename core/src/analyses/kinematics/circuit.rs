@@ -1,6 +1,6 @@
 //! A circuit: the path of a position by its length, through all limits, until it returns.
 
-use super::path::{Path, Place};
+use super::path::{Path, PathPoint};
 use super::solution::Solver;
 use crate::elements::BodyId;
 use crate::model::{size, Model};
@@ -98,8 +98,8 @@ fn crossed(a: f64, b: f64, period: f64) -> Option<f64> {
 /// The position between two places at which t has a value.
 fn at_level(
     path: &mut Path<'_, '_>,
-    from: &Place,
-    to: &Place,
+    from: &PathPoint,
+    to: &PathPoint,
     (level, ds): (f64, f64),
 ) -> Option<Vec<f64>> {
     let n = from.q.len();

@@ -2,7 +2,7 @@
 
 use super::failure::Reason;
 use super::limit;
-use super::path::{Path, Place};
+use super::path::{Path, PathPoint};
 use super::solution::{Point, Solver};
 
 /// Longest step of the path, scaled.
@@ -37,7 +37,7 @@ pub(super) fn around(solver: &mut Solver<'_>, from: &Point, goal: f64) -> Result
         }
         if sign * (next.t - goal) >= 0.0 {
             // the path passes the goal: only this last part is too steep
-            let Place { t, q, .. } = &place;
+            let PathPoint { t, q, .. } = &place;
             let share = (goal - t) / (next.t - t);
             let guess = q.iter().zip(&next.q).map(|(a, b)| a + share * (b - a)).collect();
             return path

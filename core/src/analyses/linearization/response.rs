@@ -10,7 +10,7 @@
 
 use super::freedoms::Freedoms;
 use super::least_norm::LeastNorm;
-use super::variation::{Point, Variation};
+use super::variation::{StatePoint, Variation};
 use crate::equations::kinematics::Motions;
 use crate::equations::mass;
 use crate::model::Model;
@@ -63,7 +63,7 @@ impl<'a> Linear<'a> {
             let mut unit = vec![0.0; model.layout.n_rows];
             unit[*row] = 1.0;
             let own = factors.transposed(&unit);
-            let all = variation.along(Point { lam: &unit, ..Point::default() }).forces;
+            let all = variation.along(StatePoint { lam: &unit, ..StatePoint::default() }).forces;
             (*row, own.iter().zip(all).map(|(own, all)| own - all).collect())
         };
         let reactive: Vec<(usize, Vec<f64>)> = rows.iter().map(column).collect();

@@ -92,14 +92,14 @@ macro_rules! options {
         $(#[doc = $doc])*
         #[derive(Clone, Debug, PartialEq)]
         pub struct $Name {
-            $($(#[doc = $what])* pub $required: <$must as $crate::analyses::options::Kind>::Value,)*
-            $($(#[doc = $about])* pub $field: <$kind as $crate::analyses::options::Kind>::Value,)*
+            $($(#[doc = $what])* pub $required: <$must as $crate::analyses::options::OptionKind>::Value,)*
+            $($(#[doc = $about])* pub $field: <$kind as $crate::analyses::options::OptionKind>::Value,)*
         }
 
         impl $Name {
             /// With the defaults of all other options.
             #[allow(clippy::new_without_default)] // where nothing is required
-            pub fn new($($required: <$must as $crate::analyses::options::Kind>::Value),*) -> Self {
+            pub fn new($($required: <$must as $crate::analyses::options::OptionKind>::Value),*) -> Self {
                 Self { $($required,)* $($field: $default),* }
             }
         }
@@ -109,21 +109,21 @@ macro_rules! options {
 
             fn declaration() -> $crate::analyses::options::Declaration {
                 #[allow(unused_imports)] // where there are no options
-                use $crate::analyses::options::Kind;
+                use $crate::analyses::options::OptionKind;
                 let doc = |lines: &[&str]| lines.concat().trim().to_string();
                 let fields = vec![
                     $($crate::elements::Field {
                         name: stringify!($required),
-                        shape: <$must as Kind>::shape(),
+                        shape: <$must as OptionKind>::shape(),
                         unit: concat!($($(stringify!($in)),*)?).to_string(),
                         default: None,
                         doc: doc(&[$($what),*]),
                     },)*
                     $($crate::elements::Field {
                         name: stringify!($field),
-                        shape: <$kind as Kind>::shape(),
+                        shape: <$kind as OptionKind>::shape(),
                         unit: concat!($($(stringify!($unit)),*)?).to_string(),
-                        default: Some(<$kind as Kind>::data(&$default)),
+                        default: Some(<$kind as OptionKind>::data(&$default)),
                         doc: doc(&[$($about),*]),
                     },)*
                 ];
@@ -137,9 +137,9 @@ macro_rules! options {
             #[allow(unused_variables)] // where there are no options
             fn read(reader: &mut $crate::analyses::options::Reader<'_>) -> Option<Self> {
                 // every option is read, so that all problems are reported at once
-                $(let $required = <$must as $crate::analyses::options::Kind>::required(
+                $(let $required = <$must as $crate::analyses::options::OptionKind>::required(
                     reader, stringify!($required), concat!($($(stringify!($in)),*)?));)*
-                $(let $field = <$kind as $crate::analyses::options::Kind>::optional(
+                $(let $field = <$kind as $crate::analyses::options::OptionKind>::optional(
                     reader, stringify!($field), concat!($($(stringify!($unit)),*)?), $default);)*
                 Some(Self { $($required: $required?,)* $($field: $field?),* })
             }
@@ -174,7 +174,7 @@ macro_rules! family {
             }
         }
 
-        impl $crate::analyses::options::Kind for $Value {
+        impl $crate::analyses::options::OptionKind for $Value {
             type Value = Self;
 
             fn shape() -> $crate::elements::Shape {

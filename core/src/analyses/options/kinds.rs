@@ -5,7 +5,7 @@ use crate::elements::{Default, Shape};
 use crate::model::Value as Written;
 
 /// A kind of option.
-pub trait Kind {
+pub trait OptionKind {
     /// The value in the struct of options.
     type Value;
     /// The values that the file may hold.
@@ -42,7 +42,7 @@ pub trait Kind {
 }
 
 /// An option that may be left out; it then has no value.
-impl<K: Kind> Kind for Option<K> {
+impl<K: OptionKind> OptionKind for Option<K> {
     type Value = Option<K::Value>;
 
     fn shape() -> Shape {
@@ -77,7 +77,7 @@ macro_rules! numbers {
                 $holds
             }
         }
-        impl Kind for $kind {
+        impl OptionKind for $kind {
             type Value = f64;
 
             fn shape() -> Shape {
@@ -112,7 +112,7 @@ macro_rules! plain {
         $(#[doc = $doc])*
         #[allow(non_camel_case_types)] // a type in `options!`, written like a word
         pub enum $kind {}
-        impl Kind for $kind {
+        impl OptionKind for $kind {
             type Value = $Value;
 
             fn shape() -> Shape {
@@ -149,7 +149,7 @@ impl Bounded for count {
         x >= 1.0 && x.fract() == 0.0
     }
 }
-impl Kind for count {
+impl OptionKind for count {
     type Value = usize;
 
     fn shape() -> Shape {
@@ -171,7 +171,7 @@ pub trait Words: Copy + PartialEq + 'static {
     const VALUES: &'static [Self];
 }
 
-impl<W: Words> Kind for W {
+impl<W: Words> OptionKind for W {
     type Value = W;
 
     fn shape() -> Shape {
@@ -198,7 +198,7 @@ macro_rules! kind {
         $(#[doc = $doc])*
         #[allow(non_camel_case_types)] // a type in `options!`, written like a word
         pub enum $kind {}
-        impl $crate::analyses::options::Kind for $kind {
+        impl $crate::analyses::options::OptionKind for $kind {
             type Value = $Value;
 
             fn shape() -> $crate::elements::Shape {

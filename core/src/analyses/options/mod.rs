@@ -17,5 +17,5 @@ pub(super) use kinds::{
     count, flag, hht_alpha, interval, kind, name, not_negative, number, positive, spectral_radius,
     words,
 };
-pub use kinds::{Bounded, Kind, Words};
+pub use kinds::{Bounded, OptionKind, Words};
 pub use reader::Reader;

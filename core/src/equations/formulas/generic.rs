@@ -9,7 +9,7 @@ use crate::elements::{
 };
 use crate::expression::Tape;
 use crate::math::{Local, Pose};
-use crate::symbolic::{record, upright, Form, Kind, Name, Record, Symbolic};
+use crate::symbolic::{record, upright, Form, Name, NameKind, Record, Symbolic};
 
 /// The equations of a type of joint or driver; None if there is no such type. Bodies are i, j …, a
 /// point is s′ in its body, and a driven coordinate is the angle.
@@ -77,7 +77,7 @@ fn side(record: &Record, field: &str, k: usize) -> Symbolic {
         &format!("{field}_{}", body.text),
         &format!("{field}{}", body.unicode),
         &format!("{}_{{{}}}", upright(field), body.latex),
-        Kind::Field,
+        NameKind::Field,
     );
     record.symbol(Name { owner: Some(k), ..name })
 }

@@ -6,7 +6,7 @@
 
 use super::super::model_cache::ModelCache;
 use super::super::redundant_rows::workspace_at;
-use super::place::{largest, mode_of, Place, STILL};
+use super::place::{largest, mode_of, StateAt, STILL};
 use crate::analyses::mobility;
 use crate::elements::{Behaviour, Mode};
 use crate::equations::constraints;
@@ -21,7 +21,7 @@ const BEGINS: f64 = 1e-6;
 /// modes have the directions in which friction slides otherwise.
 pub(super) fn independent(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     free: &[ForceMode],
     candidates: &[(usize, f64)],
 ) -> Vec<ForceMode> {
@@ -66,7 +66,7 @@ pub(super) fn independent(
 }
 
 /// The value that a row of a phase holds: that of a coordinate if friction sticks, zero for a contact.
-fn value_of(phase: &Model, place: &Place<'_>, row: usize) -> f64 {
+fn value_of(phase: &Model, place: &StateAt<'_>, row: usize) -> f64 {
     let owner = phase.forces.iter().find(|item| item.held_row == Some(row));
     let Some(Behaviour::Sticks) = owner.and_then(|item| item.element.behaviour()) else {
         return 0.0;
@@ -80,7 +80,7 @@ fn value_of(phase: &Model, place: &Place<'_>, row: usize) -> f64 {
 /// The mode of a force whose equation depends on those that hold, on joints and on drivers.
 fn dependent(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     held: &[ForceMode],
     (force, free): (usize, Mode),
 ) -> ForceMode {
@@ -101,7 +101,7 @@ fn dependent(
 /// The friction that holds without which a friction would slide, and the sign of its speed then.
 fn leader(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     held: &[ForceMode],
     force: usize,
 ) -> Option<(usize, f64)> {
@@ -131,7 +131,7 @@ fn leader(
 /// or a driver begins to move it. Speed or acceleration then has the direction in which it slides.
 fn passes(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     held: &[ForceMode],
     (force, free, begins): (usize, Mode, f64),
 ) -> bool {

@@ -7,7 +7,7 @@
 use super::super::failure::Failure;
 use super::dependence::independent;
 use super::impacts::{self, restitution};
-use super::place::{largest, mode_of, unit, with_modes, Place, STILL};
+use super::place::{largest, mode_of, unit, with_modes, StateAt, STILL};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
@@ -32,7 +32,7 @@ const NOISE: f64 = 1e-13;
 /// before the velocities jumped, if they did.
 pub(super) fn decide(
     model: &Model,
-    place: &mut Place<'_>,
+    place: &mut StateAt<'_>,
     before: &[ForceMode],
     (touching, fired, jumped): (&[usize], &[usize], Option<f64>),
 ) -> Result<Vec<ForceMode>, Box<Failure>> {
@@ -87,7 +87,7 @@ pub(super) fn decide(
 }
 
 /// The slack of contacts that touch and of what holds: the rounding errors of gaps and forces.
-fn give_slack(model: &Model, place: &Place<'_>, touching: &[usize], modes: &mut [ForceMode]) {
+fn give_slack(model: &Model, place: &StateAt<'_>, touching: &[usize], modes: &mut [ForceMode]) {
     let rates = place.gap_rates(model, touching);
     let gaps = place.thresholds(model, touching);
     let noise = NOISE * place.force_scale(model, &[]);
@@ -107,7 +107,7 @@ fn give_slack(model: &Model, place: &Place<'_>, touching: &[usize], modes: &mut 
 /// one rests, the flights of others may be lower.
 fn at_rest(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     before: &[ForceMode],
     touching: &[usize],
 ) -> Result<Vec<usize>, Box<Failure>> {
@@ -148,7 +148,7 @@ fn at_rest(
 /// Lets the candidates hold, without those that cannot. Those that `ended` have no reserve left.
 fn hold(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     free: Vec<ForceMode>,
     (candidates, ended): (&[usize], &[usize]),
 ) -> Result<Vec<ForceMode>, Box<Failure>> {
@@ -184,7 +184,7 @@ fn hold(
 /// Releases the force with the largest excess until none exceeds its limit.
 fn released(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     mut now: Vec<ForceMode>,
     (all, ended): (&[(usize, f64)], &[usize]),
 ) -> Result<Vec<ForceMode>, Box<Failure>> {
@@ -206,7 +206,7 @@ fn released(
 /// The modes with some forces that hold, as far as their equations are independent.
 fn with_held(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     free: &[ForceMode],
     left: &[(usize, f64)],
 ) -> Vec<ForceMode> {
@@ -220,7 +220,7 @@ fn with_held(
 /// Whether the contacts among the candidates that are free move apart, and friction that slides moves in its direction.
 fn moves_apart(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     modes: &[ForceMode],
     candidates: &[usize],
 ) -> bool {
@@ -248,7 +248,7 @@ fn with_leaders(held: &[ForceMode], ended: &[usize]) -> Vec<usize> {
 /// The force that exceeds what it can hold most, and the direction in which friction slides then.
 fn worst(
     phase: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     ended: &[usize],
 ) -> Result<Option<(usize, Option<f64>)>, Box<Failure>> {
     let ([q, v, z], t) = (place.state(phase), place.t);

@@ -6,7 +6,7 @@
 
 use super::{After, Due, Switching, AGAIN};
 use crate::integrate::Step;
-use crate::model::{Model, Owner};
+use crate::model::{Model, SwitchOwner};
 
 /// Part of a step over which the rate of u is found.
 const PART: f64 = 1e-3;
@@ -17,7 +17,7 @@ impl Switching {
         let due = self.due.as_ref().filter(|due| due.t == step.t)?;
         let &[(k, piece)] = &due.changes[..] else { return None };
         let switch = &model.switches[k];
-        if switch.law || !matches!(switch.owner, Owner::Constraint(_)) {
+        if switch.law || !matches!(switch.owner, SwitchOwner::Constraint(_)) {
             return None;
         }
         let tries = due.tries;
