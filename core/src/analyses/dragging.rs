@@ -155,10 +155,10 @@ impl Hand<'_> {
             if let Some(next) = self.closed(&predicted, CORRECTION * part * whole) {
                 let course = match path.as_ref().zip(next.path(self)) {
                     Some((old, new)) => old.follows(&new, &self.closing),
-                    None => Continuation::Ahead,
+                    None => PathRelation::Ahead,
                 };
-                blocked |= course == Continuation::Back;
-                if course == Continuation::Ahead
+                blocked |= course == PathRelation::Back;
+                if course == PathRelation::Ahead
                     && next.is_better(place, part * place.progress(&step))
                 {
                     return Ok(next);
@@ -264,7 +264,7 @@ struct FreeDirection {
 
 /// How a path continues another one.
 #[derive(Clone, Copy, PartialEq)]
-enum Continuation {
+enum PathRelation {
     Ahead,
     /// The point goes back on its own path.
     Back,
@@ -273,14 +273,14 @@ enum Continuation {
 }
 
 impl FreeDirection {
-    fn follows(&self, next: &Self, closing: &Closing<'_>) -> Continuation {
+    fn follows(&self, next: &Self, closing: &Closing<'_>) -> PathRelation {
         let cosine = closing.product(&self.rates, &next.rates);
         if cosine.abs() < TURN {
-            return Continuation::Aside;
+            return PathRelation::Aside;
         }
         match cosine.signum() * self.velocity.dot(next.velocity) < 0.0 {
-            true => Continuation::Back,
-            false => Continuation::Ahead,
+            true => PathRelation::Back,
+            false => PathRelation::Ahead,
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The SI units of quantities of a motion.
 
 use super::signal_names::COORDINATES;
-use super::signals::{Energy, Part, Signal};
+use super::signals::{Energy, ForcePart, Signal};
 use crate::equations::measured::offered;
 use crate::model::Model;
 
@@ -61,10 +61,10 @@ fn of_state(model: &Model, place: usize) -> &'static str {
     state.map_or("1", |state| state.unit)
 }
 
-fn of_part(part: Part) -> &'static str {
+fn of_part(part: ForcePart) -> &'static str {
     match part {
-        Part::Torque => "N*m",
-        Part::X | Part::Y | Part::Size => "N",
+        ForcePart::Torque => "N*m",
+        ForcePart::X | ForcePart::Y | ForcePart::Size => "N",
     }
 }
 

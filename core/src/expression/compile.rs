@@ -7,7 +7,7 @@ use super::points::TABLE_ENDS;
 use super::suggest::did_you_mean;
 use super::switch::Piecewise;
 use super::table::Table;
-use super::tape::{Instruction, Scope};
+use super::tape::{FormulaValues, Instruction};
 use super::tree::{Node, NodeKind};
 use super::{ExpressionError, Names, Symbol, Tape, MAX_OPERANDS};
 use crate::math::Real;
@@ -216,7 +216,7 @@ fn fold(code: &[Instruction], tables: &[Arc<Table>]) -> f64 {
         tables: tables.to_vec(),
         ..Tape::default()
     };
-    tape.evaluate(&Scope { parameters: &[], time: f64::NAN, variables: &[] })
+    tape.evaluate(&FormulaValues { parameters: &[], time: f64::NAN, variables: &[] })
 }
 
 fn too_many_operands(span: &Range<usize>) -> ExpressionError {

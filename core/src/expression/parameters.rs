@@ -1,8 +1,8 @@
 //! Parameters that refer to other parameters: the order in which they can be evaluated.
 
 use super::{
-    is_identifier, is_reserved, Expression, ExpressionError, Inferred, Names, Scope, Symbol, Table,
-    Tape, FUNCTIONS,
+    is_identifier, is_reserved, Expression, ExpressionError, FormulaValues, Inferred, Names,
+    Symbol, Table, Tape, FUNCTIONS,
 };
 use crate::math::Real;
 use std::collections::HashMap;
@@ -81,7 +81,7 @@ impl Parameters {
     pub fn evaluate<S: Real>(&self, given: impl Fn(usize) -> Option<S>) -> Vec<S> {
         let mut values = vec![S::zero(); self.tapes.len()];
         for &k in &self.order {
-            let scope = Scope { parameters: &values, time: S::zero(), variables: &[] };
+            let scope = FormulaValues { parameters: &values, time: S::zero(), variables: &[] };
             values[k] = given(k).unwrap_or_else(|| self.tapes[k].evaluate(&scope));
         }
         values

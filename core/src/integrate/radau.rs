@@ -57,7 +57,7 @@ impl Radau {
 }
 
 /// The state between the steps.
-struct Progress {
+struct RadauProgress {
     step: RadauStep,
     /// Magnitude of the step to try, once the derivative at the start is known.
     size: Option<f64>,
@@ -76,12 +76,12 @@ impl ImplicitMethod for Radau {
     ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>> {
         let lengths = system.lengths();
         let step = RadauStep::new(lengths);
-        let state = Progress { step, size: None, keep_tangent: false, before: None };
+        let state = RadauProgress { step, size: None, keep_tangent: false, before: None };
         ImplicitStepper::start(self.control.usable(), lengths, span, y, state)
     }
 }
 
-impl ImplicitScheme for Progress {
+impl ImplicitScheme for RadauProgress {
     const ROWS: usize = ROWS;
     const DEGREE: usize = DEGREE;
 
@@ -112,7 +112,7 @@ impl ImplicitScheme for Progress {
     }
 }
 
-type RadauStepper = ImplicitStepper<Progress>;
+type RadauStepper = ImplicitStepper<RadauProgress>;
 
 impl RadauStepper {
     /// The derivative at the start, and the first step.
@@ -215,7 +215,7 @@ impl RadauStepper {
         span: (f64, f64),
         rejected: bool,
     ) -> Result<f64, Cause<Y::Stop>> {
-        let Self { method: Progress { step, .. }, scale, .. } = self;
+        let Self { method: RadauProgress { step, .. }, scale, .. } = self;
         let mut norm = step.error(dae, span, scale, false)?;
         if norm >= 1.0 && (rejected || self.method.before.is_none()) {
             norm = step.error(dae, span, scale, true)?;
@@ -251,7 +251,7 @@ impl RadauStepper {
         dae: &mut CountedDae<'_, Y>,
         t_new: f64,
     ) -> Result<(), Cause<Y::Stop>> {
-        let Self { method: Progress { step, .. }, steps, lengths, .. } = self;
+        let Self { method: RadauProgress { step, .. }, steps, lengths, .. } = self;
         let ImplicitSteps { t, y, y_new, dy, rows, .. } = steps;
         let (h, n, len) = (t_new - *t, lengths.coordinates, lengths.total());
         step.evaluate(dae, (*t, h)); // for the powers

@@ -7,7 +7,7 @@ use super::blueprint::Blueprint;
 use super::definition::{Definition, Entry, Value};
 use super::items::Body;
 use super::link::Linker;
-use super::quantity_owner::{place, Formulas, QuantityOwner};
+use super::quantity_owner::{place, FormulaModel, QuantityOwner};
 use super::scope::{Quantities, Scope};
 use crate::elements::{BodyId, Constraint, Followed, ForceElement, Group, Measured, PointOn};
 use crate::expression::Tape;
@@ -21,7 +21,7 @@ pub struct Elements<'a> {
     definition: &'a Definition,
     scope: &'a Scope,
     bodies: &'a [Body<Tape>],
-    formulas: Formulas,
+    formulas: FormulaModel,
     depth: Cell<u32>,
 }
 
@@ -29,7 +29,7 @@ impl<'a> Elements<'a> {
     /// Of a definition with linked bodies.
     pub fn new(definition: &'a Definition, scope: &'a Scope, bodies: &'a [Body<Tape>]) -> Self {
         let turns = scope.bodies.iter().map(|(_, turns)| *turns).collect();
-        let formulas = Formulas { parameters: scope.parameters.len(), turns };
+        let formulas = FormulaModel { parameters: scope.parameters.len(), turns };
         Self { definition, scope, bodies, formulas, depth: Cell::new(0) }
     }
 
@@ -138,7 +138,7 @@ pub enum Offered {
 
 /// The quantity `owner.word` of a linked model; None if no point or element has the name.
 pub fn quantity_of(blueprint: &Blueprint, owner: &str, word: &str) -> Option<Offered> {
-    let formulas = Formulas {
+    let formulas = FormulaModel {
         parameters: blueprint.parameters.len(),
         turns: blueprint.bodies.iter().map(|body| body.turns).collect(),
     };

@@ -91,13 +91,13 @@ impl<S: Real> QuantityOwner<S> {
 }
 
 /// Parameters, and the coordinates of the bodies of an owner; other laws in its fields are not read.
-struct Known<'a, S, T> {
+struct KnownValues<'a, S, T> {
     parameters: &'a [S],
     bodies: &'a [BodyId],
     poses: &'a [Pose<T>],
 }
 
-impl<S: Real, T: Lift<S>> Values<T> for Known<'_, S, T> {
+impl<S: Real, T: Lift<S>> Values<T> for KnownValues<'_, S, T> {
     fn parameter(&self, k: usize) -> T {
         T::lift(self.parameters[k])
     }
@@ -114,30 +114,30 @@ impl<S: Real, T: Lift<S>> Values<T> for Known<'_, S, T> {
 }
 
 /// An owner as symbols.
-struct Recorded<'a> {
+struct OwnerSymbols<'a> {
     owner: &'a QuantityOwner<Tape>,
     parameters: Vec<Symbolic>,
     bodies: Vec<BodyId>,
     poses: Vec<Pose<Jet<Symbolic>>>,
 }
 
-impl Recorded<'_> {
+impl OwnerSymbols<'_> {
     /// Over a scalar, for poses of its bodies.
     fn over<T: Lift<Symbolic>>(&self, poses: &[Pose<T>]) -> QuantityOwner<T> {
-        let known = Known { parameters: &self.parameters, bodies: &self.bodies, poses };
+        let known = KnownValues { parameters: &self.parameters, bodies: &self.bodies, poses };
         self.owner.map(&mut |tape| tape.evaluate(&known))
     }
 }
 
 /// The model in which the quantities are formulas.
-pub(super) struct Formulas {
+pub(super) struct FormulaModel {
     /// Number of its parameters.
     pub parameters: usize,
     /// Whether each body has an angle, ground first.
     pub turns: Vec<bool>,
 }
 
-impl Formulas {
+impl FormulaModel {
     /// The quantity of an owner at a place, or its rate, as a formula; and the frames of its ends.
     pub fn compile(
         &self,
@@ -162,7 +162,7 @@ impl Formulas {
     fn recorded<R>(
         &self,
         owner: &QuantityOwner<Tape>,
-        f: impl FnOnce(&Recorded<'_>, &dyn Fn(Symbolic) -> Tape) -> R,
+        f: impl FnOnce(&OwnerSymbols<'_>, &dyn Fn(Symbolic) -> Tape) -> R,
     ) -> R {
         record(|record| {
             let mut symbols = Vec::new();
@@ -179,7 +179,7 @@ impl Formulas {
                 .iter()
                 .map(|body| self.pose(*body, &mut |meaning| symbol(record, None, meaning)))
                 .collect();
-            let own = Recorded { owner, parameters, bodies, poses };
+            let own = OwnerSymbols { owner, parameters, bodies, poses };
             f(&own, &|x| record.tape(x, &symbols))
         })
     }

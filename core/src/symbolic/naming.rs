@@ -13,7 +13,7 @@ impl Arena {
     /// The expressions with their parts named. A sum gets a name if it is a component of a vector
     /// and part of a product, a power or a function.
     pub fn name_parts(&mut self, roots: &[Id]) -> Vec<Id> {
-        let mut found = Found::default();
+        let mut found = PartsToName::default();
         for root in roots {
             found.visit(self, *root, false);
         }
@@ -72,14 +72,14 @@ impl Arena {
 
 /// Parts that are to be named, in the order of their appearance.
 #[derive(Default)]
-struct Found {
+struct PartsToName {
     seen: HashSet<Id>,
     angles: Vec<Id>,
     x: Vec<Id>,
     y: Vec<Id>,
 }
 
-impl Found {
+impl PartsToName {
     /// Goes through an expression; `nested` if it is part of a product, a power or a function.
     fn visit(&mut self, arena: &Arena, id: Id, nested: bool) {
         if nested && !self.seen.insert(id) {

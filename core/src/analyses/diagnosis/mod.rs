@@ -17,7 +17,7 @@ mod remedies;
 
 pub use as_json::json as as_json;
 pub use four_bars::{FourBar, Grashof};
-pub use passing::Singularity;
+pub use passing::SingularKind;
 pub use remedies::{remedies, JointDirection, Remedy};
 
 use super::dependence;
@@ -53,7 +53,7 @@ pub struct Diagnosis {
     /// Redundant equations.
     pub redundant: Vec<Redundancy>,
     /// Equations that depend on others at this position only, and the kind of position.
-    pub singular: Vec<(Redundancy, Singularity)>,
+    pub singular: Vec<(Redundancy, SingularKind)>,
     /// Bodies (names) that cannot move even if the drivers are released.
     pub locked: Vec<String>,
     /// Bodies (names) that no chain of joints connects with ground.

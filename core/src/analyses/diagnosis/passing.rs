@@ -18,7 +18,7 @@ const ZERO: f64 = 1e-7;
 
 /// The kind of a singular position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Singularity {
+pub enum SingularKind {
     /// A driver cannot move the mechanism.
     DeadPoint,
     /// Motions cross, or touch: the branch is not determined by the position.
@@ -27,7 +27,7 @@ pub enum Singularity {
     Uncertainty,
 }
 
-impl fmt::Display for Singularity {
+impl fmt::Display for SingularKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::DeadPoint => "dead point",
@@ -38,7 +38,7 @@ impl fmt::Display for Singularity {
 }
 
 /// The kind for each of the equations that are dependent at this position only.
-pub(super) fn kinds(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -> Vec<Singularity> {
+pub(super) fn kinds(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -> Vec<SingularKind> {
     let driven = |one: &Dependent| one.group.iter().any(|k| model.constraints[*k].driven);
     let equations = &mobility.singular_equations;
     if equations.is_empty() {
@@ -50,9 +50,9 @@ pub(super) fn kinds(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -> Ve
         .iter()
         .map(|one| {
             if driven(one) {
-                Singularity::DeadPoint
+                SingularKind::DeadPoint
             } else {
-                kind.unwrap_or(Singularity::ChangePoint)
+                kind.unwrap_or(SingularKind::ChangePoint)
             }
         })
         .collect()
@@ -64,8 +64,8 @@ pub(super) fn freedoms(model: &Model, t: f64, q: &[f64]) -> Option<Vec<Vec<f64>>
 }
 
 /// The kind of a position at which equations of joints depend on each other.
-fn crossing(model: &Model, t: f64, q: &[f64], equations: &[&Dependent]) -> Singularity {
-    let Some(freedoms) = freedoms(model, t, q) else { return Singularity::ChangePoint };
+fn crossing(model: &Model, t: f64, q: &[f64], equations: &[&Dependent]) -> SingularKind {
+    let Some(freedoms) = freedoms(model, t, q) else { return SingularKind::ChangePoint };
     let forms = independent(forms(model, t, q, equations, &freedoms));
     let definite = |form: &Vec<f64>| {
         let [least, most] = signs(form, freedoms.len());
@@ -73,8 +73,8 @@ fn crossing(model: &Model, t: f64, q: &[f64], equations: &[&Dependent]) -> Singu
     };
     // a form with one sign excludes every motion
     match forms.iter().any(definite) {
-        true => Singularity::Uncertainty,
-        false => Singularity::ChangePoint,
+        true => SingularKind::Uncertainty,
+        false => SingularKind::ChangePoint,
     }
 }
 

@@ -41,7 +41,7 @@ pub(super) struct StartCheck {
 }
 
 /// Rows of Φ, or of its rate, with the largest allowed number of each.
-struct Level<'a> {
+struct ConstraintRows<'a> {
     rows: &'a [f64],
     most: Vec<f64>,
     /// After the unit of a row.
@@ -111,7 +111,7 @@ impl StartCheck {
         let rows = row_scales(model);
         let level = |found, most: f64, per| {
             let most = rows.iter().map(|scale| most * scale).collect();
-            Level { rows: found, most, per }
+            ConstraintRows { rows: found, most, per }
         };
         let closed =
             (ROUNDING * largest(model, q)).clamp(self.closed, self.closed.max(self.rounded));
@@ -131,7 +131,7 @@ impl StartCheck {
     }
 }
 
-impl Level<'_> {
+impl ConstraintRows<'_> {
     fn check(&self, model: &Model, t: f64, hint: &'static str) -> Result<(), Box<Failure>> {
         // NaN counts as open
         let over = self.rows.iter().zip(&self.most).map(|(gap, most)| gap.abs() / most);

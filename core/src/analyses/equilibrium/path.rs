@@ -5,7 +5,7 @@ use super::failure::Reason;
 use super::holding;
 use super::options::Options;
 use super::parameter;
-use super::points::{End, Path};
+use super::points::{EquilibriumPath, PathEnd};
 use super::spot::{ParameterPath, PathDirection, PathStep};
 use super::stride::advance;
 use super::turning;
@@ -35,7 +35,7 @@ pub fn path(
     start: &State,
     options: &Options,
     mut watch: impl FnMut(f64) -> Flow,
-) -> Result<Path, Reason> {
+) -> Result<EquilibriumPath, Reason> {
     let (Some(over), Some(range)) = (&options.over, options.range) else {
         return Err(Reason::Option(Vec::new()));
     };
@@ -52,12 +52,12 @@ pub fn path(
     let Some(tangent) = course.tangent(&spot, &onward) else {
         return Err(Reason::singular(&first, t, &begin.state.q));
     };
-    let mut path = Path {
+    let mut path = EquilibriumPath {
         values: vec![range[0]],
         points: vec![begin],
         folds: Vec::new(),
         branches: Vec::new(),
-        end: End::Long,
+        end: PathEnd::Long,
     };
     path.end =
         follow(&course, PathStep { spot, tangent, iterations: 0 }, range, &mut path, &mut watch)?;
@@ -68,17 +68,17 @@ fn follow(
     course: &ParameterPath<'_>,
     mut at: PathStep,
     range: [f64; 2],
-    path: &mut Path,
+    path: &mut EquilibriumPath,
     watch: &mut dyn FnMut(f64) -> Flow,
-) -> Result<End, Reason> {
+) -> Result<PathEnd, Reason> {
     let mut ds = FIRST;
     while path.values.len() < POINTS {
         if watch(at.spot.value) == Flow::Stop {
-            return Ok(End::Stopped);
+            return Ok(PathEnd::Stopped);
         }
         let next = match advance(course, &at, ds) {
             Ok(next) => next,
-            Err(reason) if ds < SHORTEST => return Ok(End::Lost(reason)),
+            Err(reason) if ds < SHORTEST => return Ok(PathEnd::Lost(reason)),
             Err(_) => {
                 ds *= 0.5;
                 continue;
@@ -95,5 +95,5 @@ fn follow(
         }
         at = next;
     }
-    Ok(End::Long)
+    Ok(PathEnd::Long)
 }

@@ -7,7 +7,7 @@
 
 use super::failure::Reason;
 use super::relaxation;
-use super::statics::{Local, StaticState, Statics};
+use super::statics::{LocalForces, StaticState, Statics};
 use crate::integrate::Flow;
 use crate::solve::{is_positive, solve_dense, Eigen};
 
@@ -34,7 +34,7 @@ const PUSHES: usize = 12;
 const FAR: f64 = 40.0;
 
 /// A rest position.
-pub(super) struct Found {
+pub(super) struct RestPosition {
     pub place: StaticState,
     /// Steps of Newton's method.
     pub steps: usize,
@@ -43,7 +43,7 @@ pub(super) struct Found {
 }
 
 /// The search from one start.
-pub(super) struct Search<'s, 'a> {
+pub(super) struct RestSearch<'s, 'a> {
     pub statics: &'s mut Statics<'a>,
     /// Whether the nearest equilibrium is sought, stable or not.
     pub nearest: bool,
@@ -52,7 +52,7 @@ pub(super) struct Search<'s, 'a> {
     relaxed: usize,
 }
 
-impl<'s, 'a> Search<'s, 'a> {
+impl<'s, 'a> RestSearch<'s, 'a> {
     pub fn new(
         statics: &'s mut Statics<'a>,
         nearest: bool,
@@ -62,14 +62,14 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// The rest position that a start leads to.
-    pub fn run(mut self, start: StaticState) -> Result<Found, Reason> {
+    pub fn run(mut self, start: StaticState) -> Result<RestPosition, Reason> {
         let first = start.clone();
         let mut place = start;
         for round in 0..ROUNDS {
             let (reached, rests) = self.descend(place)?;
             place = reached;
             if rests {
-                return Ok(Found { place, steps: self.steps, relaxed: self.relaxed });
+                return Ok(RestPosition { place, steps: self.steps, relaxed: self.relaxed });
             }
             if self.nearest || round + 1 == ROUNDS || self.far(&first, &place) {
                 break;
@@ -134,9 +134,9 @@ impl<'s, 'a> Search<'s, 'a> {
     fn step(
         &mut self,
         place: &StaticState,
-        local: &Local,
+        local: &LocalForces,
         radius: &mut f64,
-    ) -> Result<Option<(StaticState, Local)>, Reason> {
+    ) -> Result<Option<(StaticState, LocalForces)>, Reason> {
         let newton = solved(&local.stiffness, &local.gradient);
         let full = match &newton {
             Some(p) if self.nearest || self.good(local, p) => p.clone(),
@@ -159,7 +159,7 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// Whether Newton's step goes down to a minimum.
-    fn good(&self, local: &Local, p: &[f64]) -> bool {
+    fn good(&self, local: &LocalForces, p: &[f64]) -> bool {
         let f = p.len();
         let transposed = |k: usize| local.stiffness[(k % f) * f + k / f];
         let symmetric: Vec<f64> =
@@ -171,9 +171,9 @@ impl<'s, 'a> Search<'s, 'a> {
     fn tried(
         &mut self,
         place: &StaticState,
-        local: &Local,
+        local: &LocalForces,
         p: &[f64],
-    ) -> Result<Option<(StaticState, Local)>, Reason> {
+    ) -> Result<Option<(StaticState, LocalForces)>, Reason> {
         let dq = local.basis.extend(p);
         let Some(next) = self.moved(place, &dq) else { return Ok(None) };
         let Ok(there) = self.statics.local(&next) else { return Ok(None) };
@@ -203,8 +203,8 @@ impl<'s, 'a> Search<'s, 'a> {
     fn polished(
         &mut self,
         mut place: StaticState,
-        mut local: Local,
-    ) -> Result<(StaticState, Local), Reason> {
+        mut local: LocalForces,
+    ) -> Result<(StaticState, LocalForces), Reason> {
         for _ in 0..8 {
             let before = relative(&local, &place);
             let Some(p) = solved(&local.stiffness, &local.gradient) else { break };
@@ -229,9 +229,9 @@ impl<'s, 'a> Search<'s, 'a> {
     fn pushed(
         &mut self,
         place: &StaticState,
-        local: &Local,
+        local: &LocalForces,
         direction: &[f64],
-    ) -> Result<Option<(StaticState, Local)>, Reason> {
+    ) -> Result<Option<(StaticState, LocalForces)>, Reason> {
         let dq = local.basis.extend(direction);
         let length = self.statics.largest(&dq);
         for way in [PUSH, -PUSH] {
@@ -248,7 +248,7 @@ impl<'s, 'a> Search<'s, 'a> {
 }
 
 /// The force along the freedoms, relative to the largest single force.
-pub(super) fn relative(local: &Local, place: &StaticState) -> f64 {
+pub(super) fn relative(local: &LocalForces, place: &StaticState) -> f64 {
     let size = dot(&local.gradient, &local.gradient).sqrt();
     if size == 0.0 {
         0.0
@@ -267,7 +267,7 @@ pub(super) fn zero(stiffness: &[f64], scale: f64) -> f64 {
 }
 
 /// The direction in which the potential falls most from a rest position; None if it is a minimum.
-fn down(local: &Local, place: &StaticState) -> Option<Vec<f64>> {
+fn down(local: &LocalForces, place: &StaticState) -> Option<Vec<f64>> {
     let eigen = Eigen::of(&local.stiffness, local.gradient.len());
     let least = *eigen.values.first()?;
     (least < -zero(&local.stiffness, place.scale) && is_symmetric(&local.stiffness))
@@ -290,7 +290,7 @@ fn solved(stiffness: &[f64], gradient: &[f64]) -> Option<Vec<f64>> {
 }
 
 /// The step with the magnitudes of the eigenvalues.
-fn modified(local: &Local, scale: f64) -> Vec<f64> {
+fn modified(local: &LocalForces, scale: f64) -> Vec<f64> {
     let f = local.gradient.len();
     let eigen = Eigen::of(&local.stiffness, f);
     let largest = eigen.values.iter().fold(scale, |most, x| most.max(x.abs()));

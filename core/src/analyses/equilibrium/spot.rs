@@ -8,7 +8,7 @@ use super::failure::Reason;
 use super::parameter::{self, ByParameter};
 use super::result::Equilibrium;
 use super::search::zero;
-use super::statics::{Local, StaticState, Statics};
+use super::statics::{LocalForces, StaticState, Statics};
 use crate::model::Model;
 use crate::solve::{solve_dense, Eigen};
 
@@ -38,7 +38,7 @@ pub(super) struct PathDirection {
 pub(super) struct Spot {
     pub value: f64,
     pub place: StaticState,
-    local: Local,
+    local: LocalForces,
     by: ByParameter,
     /// Derivative of the reduced forces by the parameter.
     reduced: Vec<f64>,
@@ -91,7 +91,7 @@ impl ParameterPath<'_> {
         right: &[f64],
         last: f64,
     ) -> Option<PathDirection> {
-        let Local { basis, stiffness, .. } = &spot.local;
+        let LocalForces { basis, stiffness, .. } = &spot.local;
         let f = spot.reduced.len();
         let n = f + 1;
         let mut matrix = vec![0.0; n * n];

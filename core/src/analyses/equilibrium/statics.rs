@@ -35,7 +35,7 @@ pub(super) struct StaticState {
 }
 
 /// The forces and stiffness along the freedoms of a place.
-pub(super) struct Local {
+pub(super) struct LocalForces {
     /// The freedoms; the basis is orthonormal in the scaled coordinates.
     pub basis: Freedoms,
     /// The forces missing along the basis, J.
@@ -181,12 +181,12 @@ impl<'a> Statics<'a> {
     }
 
     /// Forces and stiffness along the freedoms of a place.
-    pub fn local(&self, place: &StaticState) -> Result<Local, Reason> {
+    pub fn local(&self, place: &StaticState) -> Result<LocalForces, Reason> {
         let mut basis = self.freedoms(place)?;
         orthonormalize(&mut basis.basis, &self.columns);
         let gradient = basis.reduce(&place.missing);
         let stiffness = self.stiffness(place, &basis)?;
-        Ok(Local { basis, gradient, stiffness })
+        Ok(LocalForces { basis, gradient, stiffness })
     }
 
     /// The reduced stiffness on a basis, shape (f, f); the states of elements follow at ż = 0.

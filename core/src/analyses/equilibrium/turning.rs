@@ -1,7 +1,7 @@
 //! Special points between two points of a path: folds, crossings of other paths, and the ends of the range.
 
 use super::failure::Reason;
-use super::points::{End, Path};
+use super::points::{EquilibriumPath, PathEnd};
 use super::spot::{ParameterPath, PathStep};
 use super::stride::advance;
 
@@ -19,7 +19,7 @@ pub(super) fn between(
     to: &PathStep,
     ds: f64,
     range: [f64; 2],
-    path: &mut Path,
+    path: &mut EquilibriumPath,
 ) -> Result<(), Reason> {
     let inside = |value: f64| (value - range[0]) * (value - range[1]) <= 0.0;
     if from.tangent.p * to.tangent.p < 0.0 {
@@ -58,9 +58,9 @@ pub(super) fn outside(
     to: &PathStep,
     ds: f64,
     range: [f64; 2],
-) -> Option<(End, PathStep)> {
+) -> Option<(PathEnd, PathStep)> {
     let way = (range[1] - range[0]).signum();
-    for (end, bound, beyond) in [(End::Last, range[1], way), (End::First, range[0], -way)] {
+    for (end, bound, beyond) in [(PathEnd::Last, range[1], way), (PathEnd::First, range[0], -way)] {
         if beyond * (to.spot.value - bound) >= 0.0 && beyond * (from.spot.value - bound) < 0.0 {
             let mut last = zero(course, from, to, ds, |step| step.spot.value - bound)?;
             last.spot.value = bound;

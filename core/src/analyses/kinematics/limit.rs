@@ -2,7 +2,7 @@
 
 use super::dead_point::Limit;
 use super::failure::{self, Reason};
-use super::path::{Path, PathPoint};
+use super::path::{DrivenPath, PathPoint};
 use super::solution::Point;
 use crate::model::Model;
 
@@ -12,7 +12,12 @@ const LOCATED: f64 = 1e-9;
 const MOST: usize = 60;
 
 /// The limit between a place and the one `ds` further on, where t goes back.
-pub(super) fn locate(path: &mut Path<'_, '_>, from: &PathPoint, ds: f64, sign: f64) -> Reason {
+pub(super) fn locate(
+    path: &mut DrivenPath<'_, '_>,
+    from: &PathPoint,
+    ds: f64,
+    sign: f64,
+) -> Reason {
     let n = from.q.len();
     let forward = |place: &PathPoint| sign * place.tangent[n];
     let (mut low, mut high) = (0.0, ds);

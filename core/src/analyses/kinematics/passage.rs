@@ -2,7 +2,7 @@
 
 use super::failure::Reason;
 use super::limit;
-use super::path::{Path, PathPoint};
+use super::path::{DrivenPath, PathPoint};
 use super::solution::{Point, Solver};
 
 /// Longest step of the path, scaled.
@@ -18,7 +18,7 @@ pub(super) fn around(solver: &mut Solver<'_>, from: &Point, goal: f64) -> Result
     let sign = (goal - from.t).signum();
     let pace = solver.norm(&from.v);
     let unit = if pace > 0.0 { 1.0 / pace } else { (goal - from.t).abs() };
-    let mut path = Path { solver, unit };
+    let mut path = DrivenPath { solver, unit };
     let Some(mut place) = path.begin(from, sign) else {
         return Err(limit::lost(path.solver.model, from));
     };

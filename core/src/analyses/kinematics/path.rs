@@ -22,13 +22,13 @@ pub(super) struct PathPoint {
 }
 
 /// The path from a regular point.
-pub(super) struct Path<'s, 'a> {
+pub(super) struct DrivenPath<'s, 'a> {
     pub solver: &'s mut Solver<'a>,
     /// Scale of t.
     pub unit: f64,
 }
 
-impl Path<'_, '_> {
+impl DrivenPath<'_, '_> {
     /// The place of a regular point, with its tangent in the direction of t.
     pub fn begin(&mut self, from: &Point, sign: f64) -> Option<PathPoint> {
         let columns = &self.solver.columns;

@@ -105,11 +105,11 @@ pub fn linearize(
     let variation = Variation::new(model, *t, at, true);
     let linear = Linear::new(model, [q, v], freedom, (&variation, &reactive::rows(model)));
     let linear = linear.map_err(|column| Failure::no_inertia(model, *t, column))?;
-    Equations { model, t: *t, at, variation, linear, outputs }.all(&inputs)
+    LinearEquations { model, t: *t, at, variation, linear, outputs }.all(&inputs)
 }
 
 /// The equations at a state.
-struct Equations<'a> {
+struct LinearEquations<'a> {
     model: &'a Model,
     t: f64,
     at: StatePoint<'a>,
@@ -118,7 +118,7 @@ struct Equations<'a> {
     outputs: Vec<Signal>,
 }
 
-impl Equations<'_> {
+impl LinearEquations<'_> {
     fn all(self, inputs: &[Input]) -> Result<Linearization, Failure> {
         let Self { model, ref linear, at, .. } = self;
         let held = &model.layout.held;

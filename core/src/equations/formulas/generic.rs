@@ -14,7 +14,7 @@ use crate::symbolic::{record, upright, Form, Name, NameKind, Record, Symbolic};
 /// The equations of a type of joint or driver; None if there is no such type. Bodies are i, j …, a
 /// point is s′ in its body, and a driven coordinate is the angle.
 pub fn of_type(group: Group, kind: &str, form: Form) -> Option<Formulas> {
-    let element = Constraint::read(group, kind, &mut Sample { bodies: 0 })??;
+    let element = Constraint::read(group, kind, &mut SampleNames { bodies: 0 })??;
     Some(of_element(&element, form))
 }
 
@@ -83,18 +83,18 @@ fn side(record: &Record, field: &str, k: usize) -> Symbolic {
 }
 
 /// An element of a type between different bodies, with all numbers zero.
-struct Sample {
+struct SampleNames {
     bodies: usize,
 }
 
-impl Sample {
+impl SampleNames {
     fn next_body(&mut self) -> BodyId {
         self.bodies += 1;
         BodyId(self.bodies)
     }
 }
 
-impl Source for Sample {
+impl Source for SampleNames {
     fn given(&mut self, _: &Field) -> bool {
         true
     }
