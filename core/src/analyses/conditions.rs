@@ -15,7 +15,7 @@ use crate::model::{Model, Problem};
 pub(super) struct Condition {
     tape: Tape,
     signals: Vec<Signal>,
-    /// None for an expression.
+    /// The sense of a comparison; None for an expression.
     comparison: Option<Sense>,
     /// Whether a quantity needs accelerations or multipliers.
     pub needs_solution: bool,
@@ -55,7 +55,7 @@ impl Condition {
         Ok(Self { tape, signals, comparison, needs_solution })
     }
 
-    /// Has the quantities of the run so far watched that it uses.
+    /// Adds the quantities of the run so far that the condition uses to those that are watched.
     pub fn watch(&self, so_far: &mut SoFar) {
         for signal in &self.signals {
             match signal {
@@ -72,7 +72,7 @@ impl Condition {
         self.comparison.is_some()
     }
 
-    /// Of a comparison: whether it holds at zero.
+    /// Whether a comparison holds at zero; None for an expression.
     pub fn holds_at_zero(&self) -> Option<bool> {
         self.comparison.map(|sense| !sense.strict)
     }
@@ -91,7 +91,7 @@ impl Condition {
     }
 }
 
-/// Gives states to conditions; it solves the equations of motion where one of them needs it.
+/// Evaluates conditions at states. The equations of motion are solved if one of the conditions needs their solution.
 pub(super) struct Evaluator {
     motions: Motions,
     workspace: Option<Box<Workspace>>,
@@ -101,7 +101,7 @@ pub(super) struct Evaluator {
 }
 
 impl Evaluator {
-    /// With a copy of a workspace of the equations of motion if they have to be solved, and the run so far.
+    /// Takes a copy of a workspace of the equations of motion if `solves` is set, and the run so far.
     pub fn new(model: &Model, solves: bool, workspace: &Workspace, so_far: SoFar) -> Self {
         Self {
             motions: Motions::new(&model.layout),
@@ -111,7 +111,7 @@ impl Evaluator {
         }
     }
 
-    /// Gives the state y = (q, v, z, works) at a time of a step.
+    /// Calls `give` with the state y = (q, v, z, works) at a time of a step.
     pub fn see<R>(
         &mut self,
         model: &Model,
@@ -123,7 +123,7 @@ impl Evaluator {
         self.at(model, t, y, |seen| give(&Seen { so_far: Some(&so_far), ..*seen }))
     }
 
-    /// Goes on to the end of a step that is accepted.
+    /// Continues the run so far to the end of an accepted step.
     pub fn advance(&mut self, model: &Model, step: &Step<'_>) {
         self.so_far = self.up_to(model, step.t, step);
     }
@@ -156,7 +156,7 @@ impl Evaluator {
         so_far
     }
 
-    /// Gives a state.
+    /// Calls `give` with a state.
     fn at<R>(&mut self, model: &Model, t: f64, y: &[f64], give: impl FnOnce(&Seen<'_>) -> R) -> R {
         let [q, v, z, works] = model.layout.split(y);
         self.motions.place(&model.layout, q, v);

@@ -95,7 +95,7 @@ pub fn drag(model: &Model, t: f64, q: &[f64], grip: Grip, target: Vec2) -> Optio
     Some(Dragged { distance: place.way.norm(), q: place.q, dead_point })
 }
 
-/// What is dragged, and where to.
+/// The dragged point and its target.
 struct Hand<'a> {
     model: &'a Model,
     grip: Grip,
@@ -138,7 +138,7 @@ impl Hand<'_> {
         Err(false)
     }
 
-    /// The place after the largest part of a step that leads nearer to the target, on the same branch; or whether a dead
+    /// The state after the largest part of a step that leads nearer to the target, on the same branch; or whether a dead
     /// point is in the way.
     fn advance(
         &mut self,
@@ -181,10 +181,10 @@ impl Hand<'_> {
     }
 }
 
-/// A position, and what forces at the point can do there.
+/// A position, with the motions that forces at the dragged point cause there.
 struct DragState {
     q: Vec<f64>,
-    /// The way r from the point to the target, m.
+    /// The vector r from the point to the target, m.
     way: Vec2,
     /// J, one row for each axis.
     jacobian: [Vec<f64>; 2],
@@ -256,9 +256,9 @@ impl DragState {
 
 /// The direction in which a mechanism with one freedom moves.
 struct FreeDirection {
-    /// Of unit length.
+    /// Rates of all coordinates along the path, of unit length.
     rates: Vec<f64>,
-    /// Of the dragged point.
+    /// Velocity of the dragged point.
     velocity: Vec2,
 }
 

@@ -18,7 +18,7 @@ pub(super) struct QuantityNames<'a> {
 }
 
 impl<'a> QuantityNames<'a> {
-    /// Of a model, from which the drivers `released` were removed.
+    /// The names of a model from which the drivers `released` were removed.
     pub fn of(model: &'a Model, released: &'a [String]) -> Self {
         Self { model, released, found: RefCell::default(), missed: RefCell::default() }
     }
@@ -66,7 +66,7 @@ impl Names for QuantityNames<'_> {
 pub(super) struct QuantityValues<'a> {
     pub model: &'a Model,
     pub t: f64,
-    /// Of the quantities, in the order of their variables.
+    /// The values of the quantities, in the order of their variables.
     pub quantities: &'a [f64],
 }
 

@@ -35,7 +35,7 @@ pub(super) fn unit_of(model: &Model, name: &str, signal: &Signal) -> String {
     }
 }
 
-/// Of a coordinate of ground, or of a driver that was released.
+/// The unit of a coordinate of ground, or of a quantity of a driver that was released.
 fn of_ground(name: &str) -> String {
     let last = name.rsplit('.').next().unwrap_or_default();
     let places = (0..3).flat_map(|order| (0..3).map(move |k| (order, k)));

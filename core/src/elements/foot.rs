@@ -30,7 +30,7 @@ pub struct Rim<S = f64> {
 }
 
 impl<S> Rim<S> {
-    /// Of a curve.
+    /// Makes the search for a curve.
     pub fn new(on: CurveOn<S>) -> Self {
         Self { on, searches: OnceLock::new(), known: Arc::default() }
     }

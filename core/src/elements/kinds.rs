@@ -293,11 +293,11 @@ words! {
 words! {
     /// The frame of the components of a vector.
     frame: Frame {
-        /// That of ground.
+        /// The frame of ground.
         Global = "global",
-        /// That of body i.
+        /// The frame of body i.
         I = "i",
-        /// That of body j.
+        /// The frame of body j.
         J = "j",
     }
 }

@@ -71,7 +71,7 @@ fn around(a: Circle, b: Circle) -> Circle {
 }
 
 impl CurveSearch {
-    /// Of a curve without a fault.
+    /// Prepares a curve without a fault.
     pub fn new(curve: Curve, numbers: Vec<f64>) -> Self {
         let count = match &curve {
             Curve::Points(own) => OF_POINT * own.points.len(),

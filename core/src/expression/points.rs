@@ -11,7 +11,7 @@ pub(super) const SI: Unit =
 pub enum Outside {
     /// None: a law that reads it there has no value.
     Refuse,
-    /// That of the nearest end.
+    /// The value at the nearest end.
     Hold,
     /// The tangent at the nearest end.
     Linear,

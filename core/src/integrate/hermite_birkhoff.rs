@@ -40,7 +40,7 @@ pub(super) struct Ends<'a> {
 }
 
 impl<'a> Ends<'a> {
-    /// Of `n` components, from states and derivatives at the beginning and at the end.
+    /// The data of `n` components: states and derivatives at the beginning and at the end.
     pub fn new(
         h: f64,
         y: [&'a [stages::Block]; 2],

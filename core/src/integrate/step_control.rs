@@ -37,13 +37,13 @@ pub struct StepControl {
 
 /// Default tolerances (rtol, atol); atol is a part of the scale of each component.
 impl StepControl {
-    /// Of RK45, DOP853 and Radau.
+    /// Tolerances of RK45, DOP853 and Radau.
     pub const USUAL: (f64, f64) = (1e-6, 1e-9);
-    /// Of generalized-α, whose order is 2.
+    /// Tolerances of generalized-α, whose order is 2.
     pub const LOW_ORDER: (f64, f64) = (1e-4, 1e-7);
-    /// Of the automatic choice of the method.
+    /// Tolerances of the automatic choice of the method.
     pub const AUTO: (f64, f64) = (1e-8, 1e-11);
-    /// Of Newton's iteration with a constant step.
+    /// Tolerances of Newton's iteration with a constant step.
     pub const NEWTON: (f64, f64) = (1e-10, 1e-12);
 }
 

@@ -26,7 +26,7 @@ pub struct Elements<'a> {
 }
 
 impl<'a> Elements<'a> {
-    /// Of a definition with linked bodies.
+    /// The quantities of a definition with linked bodies.
     pub fn new(definition: &'a Definition, scope: &'a Scope, bodies: &'a [Body<Tape>]) -> Self {
         let turns = scope.bodies.iter().map(|(_, turns)| *turns).collect();
         let formulas = FormulaModel { parameters: scope.parameters.len(), turns };

@@ -30,7 +30,7 @@ pub struct Switch {
 }
 
 impl Switch {
-    /// Of an element itself: it may depend on everything.
+    /// The switch of an element itself; it may depend on everything.
     pub(super) fn of_element(owner: SwitchOwner) -> Self {
         Self {
             owner,
@@ -42,7 +42,7 @@ impl Switch {
         }
     }
 
-    /// Of the curve of a joint, at its breaks.
+    /// The switch at the breaks of the curve of a joint.
     pub(super) fn of_curve(owner: SwitchOwner, breaks: Arc<Knots>) -> Self {
         let boundaries = Boundaries::Knots(breaks);
         Self { owner, boundaries, time: false, state: true, law: false, smooth: false }

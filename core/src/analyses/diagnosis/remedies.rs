@@ -26,7 +26,7 @@ pub struct Remedy {
     pub equations: Vec<String>,
     /// Whether the joint has other equations.
     pub is_part: bool,
-    /// Of a pin: the direction that may be freed.
+    /// The direction that may be freed, if the joint is a pin.
     pub along: Option<JointDirection>,
 }
 

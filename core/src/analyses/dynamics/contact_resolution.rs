@@ -20,14 +20,14 @@ const DURATION: f64 = 3.0;
 /// Ends of the first steps, as parts of the time in contact, and of the last ones, as parts of one step.
 const GRADED: [f64; 4] = [0.25, 0.05, 0.01, 0.002];
 
-/// The steps of a method.
+/// How a method chooses its steps.
 #[derive(Clone, Copy, Debug)]
 pub(super) enum StepChoice {
-    /// Of constant length, of an explicit method.
+    /// Constant steps of an explicit method.
     Constant(f64),
-    /// The same of an implicit method.
+    /// Constant steps of an implicit method.
     Implicit,
-    /// Chosen by the error.
+    /// Steps chosen by the error.
     Chosen,
 }
 

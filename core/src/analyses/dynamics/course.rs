@@ -33,10 +33,10 @@ pub struct Change {
 /// Called with the name of an event, the state there, and the setting until then; None ends the run.
 pub type Act<'a> = &'a mut dyn FnMut(&str, &State, &Setting) -> Option<Change>;
 
-/// What follows from an event.
+/// The effect of an event.
 #[derive(Clone, PartialEq)]
 enum Effect {
-    /// It is listed.
+    /// The event is listed, and nothing else.
     None,
     /// The run ends.
     Stop,
@@ -116,7 +116,7 @@ impl Own {
     }
 }
 
-/// Numbers that cannot be right.
+/// The failure of parameters with impossible values.
 fn impossible(problems: &[Problem], t: f64) -> Box<Failure> {
     let all: Vec<String> = problems.iter().map(ToString::to_string).collect();
     let message = format!("the parameters at t = {t:.6} s: {}", all.join("; "));
@@ -207,7 +207,7 @@ fn changed(
     let model = own.as_ref().map_or(base, |own| &own.model);
     let [q, v, z, _] = model.layout.split(&at.y);
     let check = StartCheck::of_change(options);
-    // what begins to hold has a small speed, which the phase removes
+    // a force that begins to hold has a small speed, which the projection at the start of the phase removes
     let check = if holds(setting) { check.of_positions() } else { check };
     check.check(model, at.t, [q, v, z])?;
     Ok(own)

@@ -34,11 +34,11 @@ fn parts(model: &Model, step: &Step<'_>) -> usize {
 /// A function of the state.
 #[derive(Clone, Copy)]
 pub(super) enum EventFunction<'a> {
-    /// Of a condition in a case.
+    /// The function of a condition in a case.
     Condition(&'a Condition),
-    /// Of a force with modes; positive while its mode lasts.
+    /// The function of a force with modes; it is positive while the mode lasts.
     Mode(ModeFunction),
-    /// Of an event that does not happen any more.
+    /// An event that does not happen any more.
     Never,
 }
 
@@ -68,15 +68,16 @@ pub(super) struct Watched<'a> {
     pub direction: Direction,
     /// Whether the phase ends at it.
     pub ends: bool,
-    /// Whether it is listed where its function changes sign; otherwise what follows decides.
+    /// Whether the event is listed where its function changes sign. The events of modes are listed later, when the new
+    /// modes are known.
     pub listed: bool,
 }
 
-/// What follows a step.
+/// The events in a step, and how the phase continues.
 pub(super) enum StepEvents {
-    /// These events are in it.
+    /// These events are in the step, and the phase continues.
     Events(Vec<Crossing>),
-    /// The same, and the phase ends with the step, also if none is at its end.
+    /// These events are in the step, and the phase ends with it, even if no event is at its end.
     End(Vec<Crossing>),
     /// The step is taken again, to end at this time.
     Again(f64),
@@ -94,7 +95,8 @@ pub(super) struct EventList<'a> {
 }
 
 impl<'a> EventList<'a> {
-    /// Of a phase that begins at `t`, with the events that ended the one before and the run up to there.
+    /// The events of a phase that begins at `t`. `fired` are the events that ended the phase before; `so_far` is the run
+    /// up to `t`. Returns None if there are no events.
     pub fn new(
         ode: &MotionOde<'_>,
         watched: Vec<Watched<'a>>,
@@ -200,8 +202,8 @@ impl<'a> EventList<'a> {
         crossings(step, parts(model, step), &directions, &mut functions, &ends)
     }
 
-    /// The time of an event that is expected at the end of a step and lies slightly later; None if the interpolant had it
-    /// there wrongly.
+    /// The time of an event that is expected at the end of a step and lies slightly later. None if there is no event: the
+    /// interpolant was wrong.
     fn later(&mut self, model: &Model, step: &Step<'_>, index: usize, t_end: f64) -> Option<f64> {
         let function = self.watched[index].function;
         let h = SLOPE * (step.t - step.t_old);

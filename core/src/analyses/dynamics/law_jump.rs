@@ -50,7 +50,7 @@ impl LawJump {
         })
     }
 
-    /// In the words of a message.
+    /// The message about this jump.
     pub fn describe(self, model: &Model, t: f64) -> String {
         let item = &model.constraints[self.constraint];
         let what = item.group.singular();

@@ -56,9 +56,9 @@ pub(super) struct MethodSwitching<'a> {
     due: bool,
     /// Length of the last step of the last method.
     step: Option<f64>,
-    /// Statistics of the earlier pieces.
+    /// Counts of the earlier steppers.
     total: StepCounts,
-    /// Factorisations of the earlier pieces that the statistics do not contain.
+    /// Factorisations of the earlier steppers that the counts do not contain.
     factorisations: usize,
     /// Time at which Radau began, its number of steps since then, and the time of the last comparison.
     tried: (f64, usize, f64),
@@ -113,7 +113,7 @@ impl<'a> MethodSwitching<'a> {
         }
     }
 
-    /// Tolerances and steps of a piece that begins at `t`.
+    /// Tolerances and steps of a stepper that begins at `t`.
     fn control_from(&self, t: f64) -> StepControl {
         let max_steps = self.control.max_steps.map(|most| most - self.total.steps.min(most));
         let first_step = self.step.map(|h| h.min((self.t_end - t).abs()));

@@ -23,7 +23,7 @@ use crate::stabilize::Projector;
 /// The stepper of a method.
 enum MethodStepper<'a> {
     Explicit(BoxedStepper<MotionOde<'a>, Breakdown>),
-    /// Of an implicit method, or of a constant step.
+    /// An implicit method, or a constant step.
     HandingOver(Box<SingularityHandover<'a>>),
     Auto(Box<MethodSwitching<'a>>),
 }
@@ -45,7 +45,7 @@ impl<'a> MethodStepper<'a> {
         }
     }
 
-    /// Of an explicit method that was started.
+    /// The stepper of an explicit method that was started.
     fn explicit(
         stepper: BoxedStepper<MotionOde<'a>, Breakdown>,
         (ode, control, span): (&MotionOde<'a>, &StepControl, (f64, f64)),
@@ -185,13 +185,13 @@ impl<'a> MotionStepper<'a> {
         }
     }
 
-    /// Goes on from a state with the pieces of the switches, to the next one.
+    /// Continues from a state with the held pieces, up to the next switch.
     fn hold(&mut self, switching: &Switching, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
         self.ode.workspace.motions.pieces.clone_from(&switching.pieces);
         self.kind.get_mut().restart_until(t, y, switching.end())
     }
 
-    /// The same with the switches of this stepper.
+    /// Continues from a state with the switches of this stepper, if there are any.
     fn go_on_from(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
         let Some(switching) = self.switching.take() else { return Ok(()) };
         let outcome = self.hold(&switching, t, y);
@@ -244,7 +244,7 @@ impl<'a> MotionStepper<'a> {
         self.kind.get().y()
     }
 
-    /// Goes on from a state `y` at a time `t` within the last step.
+    /// Continues from a state `y` at a time `t` within the last step.
     pub fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
         self.sample = None;
         if let Some(switching) = &mut self.switching {

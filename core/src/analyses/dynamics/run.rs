@@ -19,7 +19,7 @@ use crate::integrate::{Cause, Flow};
 use crate::model::Model;
 use crate::solve::Breakdown;
 
-/// The place of a run in its phases.
+/// The progress of a run through its phases.
 #[derive(Default)]
 pub(super) struct Progress {
     /// The start of the run.

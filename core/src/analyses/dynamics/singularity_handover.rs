@@ -55,17 +55,17 @@ impl<'a> Method<'a> {
     }
 }
 
-/// The stepper whose turn it is.
+/// The stepper that takes the next step.
 #[derive(Clone, Copy, PartialEq)]
 enum Turn {
-    /// That of the method.
+    /// The method.
     Method,
-    /// That of the method took the last step; DOP853 takes the next.
+    /// DOP853; the method took the last step.
     HandOver,
     Dop853,
-    /// DOP853 ends at this time of the grid of a constant step.
+    /// DOP853, whose step ends at this time of the grid of a constant step.
     ToGrid(f64),
-    /// DOP853 took the last step; the method takes the next.
+    /// The method; DOP853 took the last step.
     HandBack,
 }
 
@@ -93,7 +93,7 @@ pub(super) struct SingularityHandover<'a> {
 }
 
 impl<'a> SingularityHandover<'a> {
-    /// Of a method that begins a span, with its tolerances and steps.
+    /// Wraps a method that begins a span, with its tolerances and steps.
     pub fn new(method: Method<'a>, control: &StepControl, (t, t_end): (f64, f64)) -> Self {
         Self {
             method,

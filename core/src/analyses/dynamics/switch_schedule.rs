@@ -16,7 +16,7 @@ pub(super) struct Schedule {
     pub start: Vec<f64>,
     /// The times in the order of the run, each with the switches that change and their new pieces.
     pub times: Vec<(f64, Vec<(usize, f64)>)>,
-    /// Those at which sampled laws are computed.
+    /// The times at which sampled laws are computed.
     pub samples: Vec<f64>,
 }
 

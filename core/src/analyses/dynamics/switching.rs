@@ -52,9 +52,9 @@ struct Due {
     tries: usize,
 }
 
-/// What follows a step.
+/// How a run continues after a step.
 pub(super) enum After {
-    /// The step is good.
+    /// The step is accepted.
     Accept,
     /// The step is taken again, to the switch that is now due.
     Again,
@@ -89,7 +89,7 @@ pub(super) struct Switching {
 }
 
 impl Switching {
-    /// Of a run that begins with `y` at `t`; None without switches.
+    /// The switches of a run that begins with `y` at `t`; None if the model has none.
     pub fn new(
         ode: &mut MotionOde<'_>,
         (schedule, steps): (Schedule, StepChoice),

@@ -302,9 +302,9 @@ impl<'a> Statics<'a> {
 
 /// Derivatives by the states of elements.
 pub(super) struct SlopesByStates {
-    /// Of ż, shape (n, n).
+    /// Derivatives of ż, shape (n, n).
     rates: Vec<f64>,
-    /// Of Φ_qᵀ λ - Q, one column for each state.
+    /// Derivatives of Φ_qᵀ λ - Q, one column for each state.
     forces: Vec<Vec<f64>>,
 }
 

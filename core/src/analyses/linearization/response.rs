@@ -22,9 +22,9 @@ const MASSLESS: f64 = 1e-13;
 /// Changes of accelerations and multipliers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct LinearResponse {
-    /// Of all coordinates, shape (n_q).
+    /// Changes of the accelerations of all coordinates, shape (n_q).
     pub a: Vec<f64>,
-    /// Of the multipliers, shape (n_rows).
+    /// Changes of the multipliers, shape (n_rows).
     pub lam: Vec<f64>,
     /// The reduced force Nᵀ (f + R δλ - M p), shape (f).
     pub force: Vec<f64>,

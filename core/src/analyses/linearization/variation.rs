@@ -29,13 +29,13 @@ pub(in crate::analyses) struct StatePoint<'a> {
 /// The derivatives along a direction.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::analyses) struct Slopes {
-    /// Of M a + Φ_qᵀ λ - Q, and of the loads, shape (n_q).
+    /// Derivative of M a + Φ_qᵀ λ - Q and of the loads, shape (n_q).
     pub forces: Vec<f64>,
-    /// Of Φ_q v + Φ_t, shape (n_rows).
+    /// Derivative of Φ_q v + Φ_t, shape (n_rows).
     pub rates: Vec<f64>,
-    /// Of Φ_q a - γ, shape (n_rows).
+    /// Derivative of Φ_q a - γ, shape (n_rows).
     pub accelerations: Vec<f64>,
-    /// Of ż, shape (n_z).
+    /// Derivative of ż, shape (n_z).
     pub states: Vec<f64>,
 }
 

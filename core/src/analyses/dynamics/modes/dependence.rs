@@ -1,4 +1,4 @@
-//! Which friction and contacts can hold together, and what follows for the others.
+//! Decides which friction and contacts can hold together, and the modes of the others.
 //!
 //! Equations may depend on others. Where they depend on those of other friction, friction follows it. Where joints and
 //! drivers alone hold the coordinate of friction, it is idle until a driver moves it, and where its speed is zero for a
@@ -98,7 +98,7 @@ fn dependent(
     }
 }
 
-/// The friction that holds without which a friction would slide, and the sign of its speed then.
+/// The sticking friction that keeps another one, `force`, from sliding, and the sign of the speed if it were released.
 fn leader(
     model: &Model,
     place: &StateAt<'_>,
@@ -127,8 +127,8 @@ fn leader(
     found.map(|(ratio, leader)| (leader, ratio.signum()))
 }
 
-/// Whether friction slides on that has no speed for a moment only: its speed changes its sign while the mechanism moves,
-/// or a driver begins to move it. Speed or acceleration then has the direction in which it slides.
+/// Whether friction whose speed is zero for a moment continues to slide: the speed changes its sign while the mechanism
+/// moves, or a driver begins to move it. Then the speed or the acceleration has the direction of sliding.
 fn passes(
     model: &Model,
     place: &StateAt<'_>,
@@ -139,7 +139,8 @@ fn passes(
         return false;
     };
     let jet = place.gap_jets(model, &[force], workspace.a())[0];
-    // what holds may hold the whole mechanism: its accelerations are then rounding errors of those without it
+    // the holding forces may keep the whole mechanism at rest; its accelerations are then rounding errors of the
+    // accelerations without these forces
     let free = place.solved(model).map_or(0.0, |free| largest(free.a()));
     let fastest = largest(workspace.a()).max(free);
     sign * jet.value > 0.5 * begins || sign * jet.rate > STILL * fastest

@@ -71,7 +71,7 @@ pub(super) fn decide(
     }
     let contact =
         |k: &usize| !matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Sticks));
-    // what was released holds only where nothing else does
+    // forces whose mode has just ended come last
     let ended = |k: &usize| fired.contains(k) && mode_of(before, *k).holds();
     candidates.sort_by_key(|k| (ended(k), !contact(k), *k));
     let ended: Vec<usize> = candidates.iter().copied().filter(ended).collect();
@@ -86,7 +86,7 @@ pub(super) fn decide(
     Ok(modes)
 }
 
-/// The slack of contacts that touch and of what holds: the rounding errors of gaps and forces.
+/// Sets the slack of contacts that touch and of forces that hold: the rounding errors of gaps and forces.
 fn give_slack(model: &Model, place: &StateAt<'_>, touching: &[usize], modes: &mut [ForceMode]) {
     let rates = place.gap_rates(model, touching);
     let gaps = place.thresholds(model, touching);
@@ -145,7 +145,7 @@ fn at_rest(
     }
 }
 
-/// Lets the candidates hold, without those that cannot. Those that `ended` have no reserve left.
+/// Finds the candidates that can hold. The reserve of those in `ended` is zero.
 fn hold(
     model: &Model,
     place: &StateAt<'_>,
@@ -159,7 +159,8 @@ fn hold(
     if found.as_ref().is_ok_and(|modes| fits(modes)) || candidates.len() > MOST_TRIED {
         return found;
     }
-    // what was released first may be needed later: all combinations, those that hold most first
+    // a force that was released early may have to hold after all: all combinations are tried, those in which most
+    // forces hold first
     for choice in 0..3_usize.pow(candidates.len() as u32) {
         let of = |place: usize| choice / 3_usize.pow(place as u32) % 3;
         let (mut now, mut left) = (free.clone(), Vec::new());
@@ -173,7 +174,7 @@ fn hold(
         }
         let modes = with_held(model, place, &now, &left);
         let ended = with_leaders(&modes, ended);
-        // friction in directions that do not belong together may have no solution
+        // with friction in contradictory directions there may be no solution
         if matches!(worst(&model.in_modes(&modes), place, &ended), Ok(None)) && fits(&modes) {
             return Ok(modes);
         }
