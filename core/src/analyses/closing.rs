@@ -39,7 +39,7 @@ pub struct Closing<'a> {
 }
 
 impl<'a> Closing<'a> {
-    /// For a model at time `t`.
+    /// The equations of a model at time `t`.
     pub fn new(model: &'a Model, t: f64, stop: Halt<'a>) -> Self {
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
         let weights = column_scales(model).iter().map(|scale| 1.0 / (scale * scale)).collect();
@@ -56,7 +56,7 @@ impl<'a> Closing<'a> {
         }
     }
 
-    /// The same without some rows of Φ.
+    /// The equations without some rows of Φ.
     pub fn without(mut self, rows: &[usize]) -> Self {
         self.left_out = vec![false; self.model.layout.n_rows];
         rows.iter().for_each(|row| self.left_out[*row] = true);

@@ -64,7 +64,7 @@ pub struct Bound {
 /// The end of a motion in one direction.
 enum DirectionEnd {
     At(Bound),
-    /// As at the start after this number of turns.
+    /// The mechanism is as at the start after this number of turns.
     Returned(usize),
     Never,
     Stopped,
@@ -131,7 +131,7 @@ fn reach(model: &Model) -> f64 {
     FARTHEST * size(model)
 }
 
-/// The motion from a start, either way.
+/// The motion from a start in both directions.
 struct Walk<'a, W> {
     model: &'a Model,
     start: &'a State,
@@ -143,7 +143,7 @@ struct Walk<'a, W> {
 type Path = Vec<(f64, Vec<f64>)>;
 
 impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
-    /// The end in a direction, and the way there without the start.
+    /// The end in a direction, and the positions on the way there without the start.
     fn towards(&mut self, way: f64) -> Result<(DirectionEnd, Path), Box<Failure>> {
         let mut motion = Continuation::begin(self.model, self.start)?;
         let mut path = Path::new();

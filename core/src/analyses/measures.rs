@@ -83,7 +83,7 @@ impl Measure {
         found
     }
 
-    /// The same for many states, four at once: `wide` is the lifted model.
+    /// Its values at many states, four at once: `wide` is the lifted model.
     pub(super) fn values_over_lanes(
         &self,
         (model, wide): (&Model, &Model<Lanes>),
@@ -124,7 +124,7 @@ fn written(inferred: Inferred, units: &[String]) -> String {
     }
 }
 
-/// Everything that is wrong with the measures of a definition.
+/// All problems of the measures of a definition.
 pub fn check(model: &Model, measures: &[(String, Value)]) -> Vec<Problem> {
     let names: Vec<&str> = measures.iter().map(|(name, _)| name.as_str()).collect();
     let wrong = measures.iter().filter_map(|(name, value)| {

@@ -11,7 +11,7 @@ use super::linearization::Options as ModesOptions;
 use super::options::Declared;
 use crate::model::{Entry, Model, Problem, Value};
 
-/// Everything that is wrong with analyses that follow each other from an assembled start at t = 0.
+/// All problems of analyses that follow each other from an assembled start at t = 0.
 pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
     let mut problems = releases(model);
     // the time at which each analysis ends, if it is known
@@ -88,7 +88,7 @@ fn dynamics_end(
     }
 }
 
-/// Conditions of drivers that are wrong.
+/// The problems of release conditions of drivers.
 fn releases(model: &Model) -> Vec<Problem> {
     let wrong = model.constraints.iter().filter_map(|driver| {
         let problem = Condition::read(model, &[], driver.element.release()?).err()?;

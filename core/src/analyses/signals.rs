@@ -19,7 +19,7 @@ pub(super) struct Seen<'a, S = f64> {
     pub state: [&'a [S]; 3],
     /// Works up to the state, J.
     pub works: &'a [S],
-    /// The same positions and rates.
+    /// The same positions and rates as poses and twists.
     pub motions: &'a Motions<S>,
     /// Accelerations and multipliers; NaN where they are not unique.
     pub solved: [&'a [S]; 2],

@@ -55,7 +55,7 @@ pub(super) enum Origin {
     /// Written in braces.
     #[default]
     Inline,
-    /// By a header `[a.b]`, of `a`.
+    /// Implicitly, by a header such as `[a.b]` of `a`.
     Implied,
     /// By its own header.
     Header,

@@ -32,7 +32,7 @@ struct FormulaPair {
 }
 
 impl Formula<Tape> {
-    /// From formulas in u, the only variable, which has no unit, and in parameters of a model.
+    /// A curve from formulas in u, the only variable, which has no unit, and in parameters of a model.
     pub fn new(x: Tape, y: Tape, range: [Tape; 2], periodic: bool) -> Self {
         let mut parameters: Vec<usize> = x.parameters().chain(y.parameters()).collect();
         parameters.sort_unstable();
@@ -47,7 +47,7 @@ impl Formula<Tape> {
         }
     }
 
-    /// The same with u as the polar angle.
+    /// A curve from a formula of the radius, with u as the polar angle.
     pub fn polar(self) -> Self {
         Self { unit: "rad", ..self }
     }

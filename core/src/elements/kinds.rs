@@ -22,7 +22,7 @@ pub struct PointOn<S = f64> {
 pub struct CurveOn<S = f64> {
     /// The body.
     pub body: BodyId,
-    /// In the frame of the body.
+    /// The curve in the frame of the body.
     pub curve: Curve<S>,
 }
 

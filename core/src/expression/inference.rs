@@ -25,7 +25,7 @@ pub enum Inferred {
 
 const ANGLE: Dimension = Dimension::new(0, 0, 0);
 
-/// With the unit that people use: `N (kg*m*s^-2)`.
+/// The dimension with the usual unit: `N (kg*m*s^-2)`.
 impl fmt::Display for Inferred {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -16,7 +16,7 @@ pub struct ParameterError {
     pub parameter: usize,
     /// Its name.
     pub name: String,
-    /// What is wrong; the span is in the text of its expression, and covers all of it where the
+    /// Description of the fault; the span is in the text of its expression, and covers all of it where the
     /// name is at fault.
     pub error: ExpressionError,
 }

@@ -40,7 +40,7 @@ pub fn switch_times(
     search(tape, &tape.switches(), parameters, span, out)
 }
 
-/// The same for an expression of one variable, such as a curve, over this variable in place of the time.
+/// The switches of an expression of one variable, such as a curve, over this variable in place of the time.
 ///
 /// # Errors
 /// As [`switch_times`].

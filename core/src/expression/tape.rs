@@ -113,7 +113,7 @@ pub struct Tape {
     pub(super) first_switch: usize,
 }
 
-/// What an observer of an evaluation sees.
+/// A value that the observer of an evaluation receives.
 enum Visited<'a, S> {
     /// The function of the switch with this index.
     Switch(usize, S),

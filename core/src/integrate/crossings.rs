@@ -95,7 +95,7 @@ fn together(step: &Step<'_>) -> f64 {
     TOGETHER * f64::EPSILON * step.t.abs().max(step.t_old.abs())
 }
 
-/// By time, and at one time by function.
+/// Sorts by time, and at one time by function.
 fn sort(step: &Step<'_>, crossings: &mut [Crossing]) {
     let sign = (step.t - step.t_old).signum();
     crossings.sort_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)));

@@ -151,7 +151,7 @@ pub trait Dae {
     /// Factorises the matrix with the last tangent. Returns false if it is singular; a shorter step may help.
     fn factor(&mut self, coefficients: NewtonCoefficients) -> bool;
 
-    /// The same with complex coefficients; both factors are kept.
+    /// Factorises the matrix with complex coefficients; both factors are kept.
     fn factor_complex(&mut self, coefficients: NewtonCoefficients<Complex>) -> bool;
 
     /// Solves with the real factors, in place; (q part, z part, λ part).

@@ -25,7 +25,7 @@ impl<Y: Dae> CountedDae<'_, Y> {
         self.system.accelerate(t, at, out).map_err(|error| Cause::Equations { t, error })
     }
 
-    /// The same where it has to be finite.
+    /// The derivative of a state, which must be finite.
     pub fn begin(&mut self, t: f64, state: &mut ImplicitState) -> Result<(), Cause<Y::Stop>> {
         self.accelerate(t, state)?;
         match [&state.a, &state.lam, &state.dz].into_iter().all(|x| all_finite(x)) {

@@ -78,11 +78,11 @@ pub(super) struct Accepted {
 /// How far the interpolant of a step is prepared.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum InterpolantLevel {
-    /// By the stages of the step alone.
+    /// Prepared from the stages of the step alone.
     Plain,
-    /// With the extra stages of the method.
+    /// Prepared with the extra stages of the method.
     Extended,
-    /// By one evaluation inside the step.
+    /// Prepared by one evaluation inside the step.
     HermiteBirkhoff,
 }
 

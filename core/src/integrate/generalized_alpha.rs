@@ -37,12 +37,12 @@ pub struct GeneralizedAlpha {
 }
 
 impl GeneralizedAlpha {
-    /// With step control and no bounds on steps.
+    /// The method with step control and no bounds on steps.
     pub fn new(parameters: AlphaParameters, rtol: f64, atol: f64) -> Self {
         Self { parameters, control: StepControl::new(rtol, atol) }
     }
 
-    /// With a constant step, and Newton's iteration to `rtol` and `atol`.
+    /// The method with a constant step, and Newton's iteration to `rtol` and `atol`.
     pub fn constant(parameters: AlphaParameters, step: f64, rtol: f64, atol: f64) -> Self {
         let control = StepControl { step: Some(step), ..StepControl::new(rtol, atol) };
         Self { parameters, control }

@@ -19,7 +19,7 @@ pub(super) struct ImplicitSteps {
 }
 
 impl ImplicitSteps {
-    /// From `y` at `t0`, with so many rows of the interpolant.
+    /// Begins with `y` at `t0`; the interpolant has so many rows.
     pub fn new((t0, t_end): (f64, f64), y: &[f64], rows: usize) -> Self {
         let len = y.len();
         Self {

@@ -45,12 +45,12 @@ pub struct Radau {
 }
 
 impl Radau {
-    /// With the given tolerances and no bounds on steps.
+    /// The method with these tolerances and no bounds on steps.
     pub fn new(rtol: f64, atol: f64) -> Self {
         Self { control: StepControl::new(rtol, atol) }
     }
 
-    /// With a constant step, and Newton's iteration to `rtol` and `atol`.
+    /// The method with a constant step, and Newton's iteration to `rtol` and `atol`.
     pub fn constant(step: f64, rtol: f64, atol: f64) -> Self {
         Self { control: StepControl { step: Some(step), ..StepControl::new(rtol, atol) } }
     }

@@ -49,7 +49,7 @@ pub trait Stepper<Y, E> {
         self.restart_until(t, y, self.t_end())
     }
 
-    /// The same, with another end of the steps.
+    /// Continues from another state, with another end of the steps.
     ///
     /// # Errors
     /// As [`restart`](Self::restart).

@@ -263,7 +263,7 @@ impl Scope {
         self.law(value, path, unit, (reach, None), problems)
     }
 
-    /// The same at a place where quantities may be used.
+    /// A formula at a place where quantities may be used.
     pub fn law(
         &self,
         value: &Value,

@@ -27,7 +27,7 @@ pub(super) struct Subpath {
 pub(super) struct PathFault {
     /// The faulty bytes of the text.
     pub span: Range<usize>,
-    /// What is wrong there.
+    /// Description of the fault.
     pub message: String,
 }
 

@@ -185,7 +185,7 @@ fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
     Failure { fault: Fault::Open, name, gap, message, hint: hint.to_string(), places: Vec::new() }
 }
 
-/// "with crank.angle = 70° ", or nothing.
+/// The text "with crank.angle = 70° ", or nothing.
 fn asked<'a>(model: &Model, set: impl Iterator<Item = &'a Target>) -> String {
     let all: Vec<String> = set.map(|target| target.written(model)).collect();
     match all.is_empty() {

@@ -40,7 +40,7 @@ pub struct Report {
     pub alternatives: Option<usize>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
-    /// What was left unset.
+    /// The coordinates and rates that were not set.
     pub unset: Unset,
 }
 

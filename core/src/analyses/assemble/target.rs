@@ -26,7 +26,7 @@ pub struct QuantityTarget {
     pub rate: bool,
     /// SI unit.
     pub unit: String,
-    /// In its unit.
+    /// The value in its unit.
     pub value: f64,
 }
 
@@ -54,7 +54,7 @@ pub enum Target {
     State {
         /// Its place in z.
         place: usize,
-        /// In its unit.
+        /// The value in its unit.
         value: f64,
     },
 }

@@ -21,16 +21,16 @@ const MOST_NAMED: usize = 120;
 /// Largest difference, relative to the size of the mechanism, of a value that equals its guess.
 const EQUAL: f64 = 1e-9;
 
-/// Where the value of a coordinate or rate came from that was not set.
+/// The source of the value of a coordinate or rate that was not set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ValueSource {
-    /// From its guess.
+    /// Its guess.
     Guess,
-    /// As near to its guess, in m, rad or per s, as the joints allow.
+    /// The value nearest to its guess that the joints allow; the number is the difference in m, rad or per s.
     NearGuess(f64),
     /// Quantities other than coordinates were guessed.
     Guesses,
-    /// From the drawn position of the body.
+    /// The drawn position of the body.
     Drawing,
     /// Nothing was given.
     Nothing,
@@ -49,11 +49,11 @@ pub struct Choice {
     pub value: f64,
     /// SI unit.
     pub unit: &'static str,
-    /// Where the value came from.
+    /// The source of the value.
     pub source: ValueSource,
 }
 
-/// What was left unset.
+/// The coordinates and rates that were not set.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Unset {
     /// Number of freedoms, and of rates.
@@ -67,7 +67,8 @@ pub struct Unset {
 /// A candidate: its column, and the index of its body with the coordinate.
 type Candidate = (usize, usize, Coordinate);
 
-/// What a request left unset, at its result; `extended` is the model with the positions that are set. Nothing if a state
+/// The coordinates and rates that a request did not set, with their values in the result; `extended` is the model with
+/// the positions that are set. Nothing if a state
 /// was given.
 pub(super) fn unset(
     [model, extended]: [&Model; 2],
@@ -171,7 +172,7 @@ fn named(
     found.independent.into_iter().map(|k| candidates[k]).collect()
 }
 
-/// Where the value of a coordinate came from.
+/// The source of the value of a coordinate.
 fn source(
     model: &Model,
     request: &Request,

@@ -41,7 +41,7 @@ options! {
     }
 }
 
-/// What a mechanism can do at a position.
+/// The freedoms, redundancies and singular positions of a mechanism at a position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnosis {
     /// Coordinates less constraint equations, drivers included; negative if there are more equations.
@@ -72,7 +72,7 @@ pub struct Redundancy {
     pub joints: Vec<String>,
     /// Their equations that take part, such as `C.x`: any single one may be removed.
     pub equations: Vec<String>,
-    /// What may be freed in each joint; one of them is enough.
+    /// The equations that may be freed in each joint; one joint is enough.
     pub remedies: Vec<Remedy>,
     /// One of the equations, such that the equations of this name in all redundancies may be removed together.
     pub remove: String,

@@ -17,7 +17,7 @@ use std::fmt;
 /// Angle up to which two directions are the same, rad.
 const SAME: f64 = 1e-7;
 
-/// What may be freed in one joint.
+/// The equations that may be freed in one joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Remedy {
     /// The joint or driver.

@@ -9,7 +9,7 @@ use crate::model::{size, Model, Value};
 /// An absolute tolerance as written.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AbsoluteTolerance {
-    /// The same number for every component, in its unit.
+    /// One number for every component, in the unit of the component.
     Uniform(f64),
     /// For each component of (q, v, z) the number of its kind, if there is one, and its scale.
     ByKind(Vec<(Option<f64>, f64)>),

@@ -47,7 +47,7 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         Self { model, cache: ModelCache::default(), clock: system_clock }
     }
 
-    /// The same with another clock for the wall time of runs.
+    /// Takes the wall time of runs from another clock.
     pub fn with_clock(self, clock: Clock) -> Self {
         Self { clock, ..self }
     }
@@ -75,7 +75,7 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         course::run((&self.model, &self.cache), start, options, self.clock, watch, None)
     }
 
-    /// The same; `act` is called at each event that [acts](crate::analyses::EventOption::acts).
+    /// Integrates the equations of motion; `act` is called at each event that [acts](crate::analyses::EventOption::acts).
     ///
     /// # Errors
     /// As [`dynamics`](Self::dynamics), and for a change that does not meet the constraints.

@@ -21,7 +21,7 @@ const IN_A_STEP: usize = 4;
 /// then open over many steps, and each check costs two fifths of the instructions of an evaluation.
 const UNREPORTED: usize = 4;
 
-/// The same for a scheme: an unstable constant step opens joints within few steps.
+/// The number of these steps for a scheme: an unstable constant step opens joints within few steps.
 fn unreported(scheme: &Scheme) -> usize {
     let constant = match scheme {
         Scheme::GeneralizedAlpha(_) | Scheme::Radau(_) | Scheme::Auto(_) => None,

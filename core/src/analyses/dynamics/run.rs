@@ -45,11 +45,11 @@ impl Progress {
 
 /// How a phase ended.
 pub(super) enum PhaseEnd {
-    /// At its end time.
+    /// The phase reached its end time.
     Reached,
-    /// By the caller.
+    /// The caller ended the phase.
     Stopped,
-    /// At events, which are in [`Progress::fired`].
+    /// The phase ended at events, which are in [`Progress::fired`].
     Event,
 }
 

@@ -34,7 +34,7 @@ const ROUNDING: f64 = 1e-6;
 
 /// The method between singular positions.
 pub(super) enum Method<'a> {
-    /// With a constant step.
+    /// An explicit method with a constant step.
     Explicit(BoxedStepper<MotionOde<'a>, Breakdown>),
     Implicit(ImplicitMotion<'a>),
 }

@@ -65,7 +65,7 @@ pub fn equilibrium(
     from(&held, start, options, &mut watch)
 }
 
-/// The same for a model with its holders.
+/// The equilibrium of a model that contains its holders.
 fn from(
     held: &Model,
     start: &State,

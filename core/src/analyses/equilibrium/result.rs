@@ -21,7 +21,7 @@ pub struct Equilibrium {
     pub state: State,
     /// Multipliers of joints and drivers: Φ_qᵀ λ = Q with the loads of joints, shape (n_rows).
     pub lam: Vec<f64>,
-    /// What each holder applies, positive if it increases its quantity, N or N·m.
+    /// The effort of each holder, positive if it increases its quantity, N or N·m.
     pub holders: Vec<f64>,
     /// The effort of each driver by its name.
     pub efforts: Vec<(String, f64)>,

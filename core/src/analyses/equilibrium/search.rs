@@ -199,7 +199,7 @@ impl<'s, 'a> RestSearch<'s, 'a> {
         near.then_some(next)
     }
 
-    /// The same place with the forces reduced to rounding.
+    /// The same state with the forces reduced to rounding errors.
     fn polished(
         &mut self,
         mut place: StaticState,

@@ -38,7 +38,7 @@ pub(super) struct Linear<'a> {
     pub freedoms: Freedoms,
     /// Nᵀ M N, row by row.
     pub mass: Vec<f64>,
-    /// The same after elimination.
+    /// The rows after elimination.
     eliminated: Vec<f64>,
     /// Rows of multipliers on which forces depend, with the columns of R.
     reactive: Vec<(usize, Vec<f64>)>,

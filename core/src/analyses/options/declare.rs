@@ -16,7 +16,7 @@ pub struct Declaration {
 }
 
 impl Declaration {
-    /// With the exclusions in the docs of the options that exclude others.
+    /// A declaration. The docs of options that exclude others get the exclusions.
     pub fn new(
         class: &'static str,
         mut table: Table,
@@ -97,7 +97,7 @@ macro_rules! options {
         }
 
         impl $Name {
-            /// With the defaults of all other options.
+            /// The options with the defaults of all others.
             #[allow(clippy::new_without_default)] // where nothing is required
             pub fn new($($required: <$must as $crate::analyses::options::OptionKind>::Value),*) -> Self {
                 Self { $($required,)* $($field: $default),* }

@@ -167,7 +167,7 @@ impl OptionKind for count {
 pub trait Words: Copy + PartialEq + 'static {
     /// The words.
     const WORDS: &'static [&'static str];
-    /// What they mean, in their order.
+    /// The values, in the order of the words.
     const VALUES: &'static [Self];
 }
 

@@ -94,7 +94,7 @@ fn both_senses<S: Real>(
     [-elastic, -damped.scale(e.damping)]
 }
 
-/// The same of an element that only pulls or pushes.
+/// The force of an element that only pulls or pushes.
 fn one_sense<S: Real>(
     e: &SpringDamper<S>,
     only: Only,
