@@ -11,7 +11,7 @@
 //! - [`Run`] holds the reported states. From them follow coordinates ([`Run::coordinate`]), reactions
 //!   ([`Run::reactions`]), accelerations and multipliers ([`Run::accelerations`]) and energies ([`Run::energies`]).
 //! - [`Stepper`] is for a program that takes the steps itself: it locates events and continues from other states.
-//! - [`Problems`] and [`failures`] explain in words what is wrong with a model, or why a mechanism cannot be
+//! - [`Problems`] and [`failures`] describe the faults of a model, or the reason for which a mechanism cannot be
 //!   assembled or simulated.
 #![forbid(unsafe_code)]
 

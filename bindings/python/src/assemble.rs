@@ -1,4 +1,4 @@
-//! Assembly as Python sees it.
+//! Assembly, for Python.
 
 use crate::attended::attended;
 use crate::convert::{number, state, tree, Row};

@@ -1,4 +1,4 @@
-//! Statics as Python sees it: without the interpreter's lock, interruptible, with progress.
+//! Statics, for Python: without the interpreter's lock, interruptible, with progress.
 
 use crate::convert::{state, Row};
 use crate::errors::{raise_plain, Failure, Kind};

@@ -1,4 +1,4 @@
-//! Kinematics as Python sees it: without the interpreter's lock, interruptible, with progress.
+//! Kinematics, for Python: without the interpreter's lock, interruptible, with progress.
 
 use crate::convert::{row, state, Row};
 use crate::dynamics::PyRun;

@@ -1,4 +1,4 @@
-//! Linear equations as Python sees them.
+//! Linear equations, for Python.
 
 use crate::convert::{refuse, state, table, Row};
 use crate::errors::{raise_plain, Failure, Kind};

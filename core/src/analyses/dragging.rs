@@ -138,7 +138,8 @@ impl Hand<'_> {
         Err(false)
     }
 
-    /// The state after the largest part of a step that leads nearer to the target, on the same branch; or whether a dead
+    /// The state after the largest part of a step that leads nearer to the target, on the same branch; or whether a
+    /// dead
     /// point is in the way.
     fn advance(
         &mut self,

@@ -26,7 +26,7 @@ pub struct EventOption {
 }
 
 impl EventOption {
-    /// An event at a condition in both directions; the run goes on.
+    /// An event at a condition in both directions; the run continues.
     pub fn new(name: impl Into<String>, condition: impl Into<String>) -> Self {
         Self {
             name: name.into(),

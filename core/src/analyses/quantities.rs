@@ -23,7 +23,7 @@ impl<'a> QuantityNames<'a> {
         Self { model, released, found: RefCell::default(), missed: RefCell::default() }
     }
 
-    /// A released driver acts no more.
+    /// A driver that was released has the effort zero.
     fn of_released(&self, name: &str) -> Option<Signal> {
         let (owner, _) = name.rsplit_once('.')?;
         self.released.iter().any(|known| known == owner).then_some(Signal::Constant(0.0))

@@ -1,4 +1,5 @@
-//! What conditions use of a run from its start up to a state: the energy that force elements have dissipated, and the
+//! Sums over a run from its start up to a state, for conditions: the energy that force elements have dissipated, and
+//! the
 //! balances of energies and reactions.
 //!
 //! The power is integrated on the interpolant of each step, as in reports. So the sums need no states of their own, and
@@ -40,7 +41,7 @@ pub(super) struct SoFar {
 }
 
 impl SoFar {
-    /// Watches the energy that an element dissipates; a sum that exists goes on.
+    /// Watches the energy that an element dissipates; a sum that exists continues.
     pub fn watch_element(&mut self, k: usize) {
         if self.of(k).is_none() {
             self.elements.push((k, 0.0));

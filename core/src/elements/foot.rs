@@ -18,7 +18,7 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 /// Searches that are kept for each element.
 const MOST_KNOWN: usize = 8;
 
-/// A curve of a body, and what a search needs of it.
+/// A curve of a body, with the data for searches.
 #[derive(Clone, Debug)]
 pub struct Rim<S = f64> {
     /// The curve.

@@ -29,7 +29,7 @@ struct Circle {
 pub(super) enum AlongCurve {
     /// Between the ends, at this u.
     Within(f64),
-    /// At the first end; the curve goes on in the direction away from p.
+    /// At the first end; the curve continues in the direction away from p.
     First(f64),
     /// At the last end.
     Last(f64),

@@ -1,4 +1,4 @@
-//! Parameters of the generalized-α method and what follows from them.
+//! Parameters of the generalized-α method, and the coefficients that follow from them.
 //!
 //! ```text
 //! q₁ = q₀ + h v₀ + h² ((½ - β) a₀ + β a₁)          v₁ = v₀ + h ((1 - γ) a₀ + γ a₁)
@@ -41,7 +41,8 @@ impl AlphaParameters {
         Self::of_order_two(0.0, -alpha)
     }
 
-    /// The parameters for first-order states z with the same spectral radius ρ = (1 - x) / (1 + x), x = α_f - α_m, where z and
+    /// The parameters for first-order states z with the same spectral radius ρ = (1 - x) / (1 + x), x = α_f - α_m,
+    /// where z and
     /// z′ take the places of v and v̇ (Jansen, Whiting and Hulbert, *A generalized-α method for integrating the filtered
     /// Navier–Stokes equations with a stabilized finite element method*, Comput. Methods Appl. Mech. Eng. 190 (2000) 305).
     pub fn of_states(&self) -> Self {

@@ -257,7 +257,7 @@ impl<'a, 'b> Sampled<'a, 'b> {
         change.at(bracket.close(4.0 * spacing, |t| sign * self.at(t)[index]))
     }
 
-    /// Samples just before and just past the earliest change. A change is closed in only if it comes before those found
+    /// Samples just before and just past the earliest change. A change is located only if it comes before those found
     /// so far, which few of many changes do unless they are simultaneous up to rounding errors.
     fn earliest<'c>(
         &mut self,

@@ -135,7 +135,7 @@ impl HermiteBirkhoff {
         }
     }
 
-    /// Goes on to the next step.
+    /// Continues to the next step.
     pub fn remember(&mut self, ends: Ends<'_>) {
         self.h_before = ends.h;
         self.rates.copy_from_slice(&ends.y_old[self.positions..]);

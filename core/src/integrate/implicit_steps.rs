@@ -51,7 +51,7 @@ impl ImplicitSteps {
         assert!(self.t != self.t_end, "a step beyond t_end");
     }
 
-    /// Goes on from another state.
+    /// Continues from another state.
     pub fn restart(&mut self, t: f64, y: &[f64]) {
         (self.t, self.accepted) = (t, None);
         self.y.copy_from_slice(y);

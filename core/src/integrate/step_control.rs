@@ -101,7 +101,8 @@ impl StepControl {
         }
     }
 
-    /// Checks the options of a stepper that continues from another state. A first step that was an option is not checked
+    /// Checks the options of a stepper that continues from another state. A first step that was an option is not
+    /// checked
     /// again.
     pub(super) fn restart<E>(
         &self,

@@ -40,7 +40,7 @@ pub trait Stepper<Y, E> {
     /// State reached.
     fn y(&self) -> &[f64];
 
-    /// Goes on from a state `y` at a time `t` within the last step, for instance after an event that changes the
+    /// Continues from a state `y` at a time `t` within the last step, for instance after an event that changes the
     /// velocities. The stepper then has two states at one time: the end of the last step and `y`.
     ///
     /// # Errors

@@ -226,7 +226,7 @@ impl Reader<'_> {
         written.into_iter().map(|w| local(w, self)).collect()
     }
 
-    /// A table of points as text; checked, so that composed formulas cannot fail for its sake.
+    /// A table of points as text; it is checked here, so that formulas composed of it cannot fail.
     fn written(&mut self, key: &str) -> Vec<WrittenPoint> {
         let mut points = Vec::new();
         let items = match self.entry.get(key) {

@@ -1,4 +1,4 @@
-//! Numbers of a model that cannot be right.
+//! Checks of the numbers of a model.
 
 use super::items::Body;
 use super::model::Model;

@@ -1,4 +1,4 @@
-//! What is drawn of a body in place of a link around its points.
+//! The drawing of a body in place of a link around its points.
 
 use super::body_shape::{BodyShape, Form};
 use super::items::Body;

@@ -15,7 +15,7 @@ use std::sync::Arc;
 /// A planar mechanism, ready to be evaluated. Immutable.
 #[derive(Clone, Debug)]
 pub struct Model<S = f64> {
-    /// Where it came from; gives the same model over other parameters.
+    /// The linked definition, from which a model with other parameters is made.
     pub blueprint: Arc<Blueprint>,
     /// Values of the parameters.
     pub parameters: Vec<S>,

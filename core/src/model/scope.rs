@@ -45,7 +45,7 @@ pub(super) fn states(entry: &Entry) -> &'static [OwnState] {
     states_of(kind, &given)
 }
 
-/// How much a formula may depend on.
+/// The quantities on which a formula may depend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reach {
     /// Parameters only.

@@ -44,7 +44,7 @@ pub(super) fn parse(text: &str) -> Result<Vec<Subpath>, PathFault> {
     }
 }
 
-/// The place of an error, and what is wrong there.
+/// The place of an error, and its description.
 fn fault(text: &str, error: &Error) -> PathFault {
     let place = match error {
         Error::UnexpectedData(place) | Error::InvalidNumber(place) => place - 1,

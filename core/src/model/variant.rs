@@ -13,7 +13,7 @@ impl Model {
     /// The same model with other values of some parameters; formulas in them follow.
     ///
     /// # Errors
-    /// Every number that cannot be right.
+    /// All numbers with impossible values.
     pub fn with_values(&self, changes: &[(String, f64)]) -> Result<Self, Vec<Problem>> {
         let (mut problems, mut blueprint) = (Vec::new(), Blueprint::clone(&self.blueprint));
         for (name, x) in changes {
@@ -59,7 +59,8 @@ impl Model {
 }
 
 impl Model {
-    /// The same model with the modes only, for reports: the multipliers of forces that hold follow those of the rows of the
+    /// The same model with the modes only, for reports: the multipliers of forces that hold follow those of the rows
+    /// of the
     /// model.
     pub fn marked(&self, modes: &[ForceMode]) -> Self {
         let blueprint = Blueprint { modes: modes.to_vec(), ..(*self.blueprint).clone() };

@@ -39,7 +39,8 @@ pub(super) struct Worklist {
     pub equations: Queue,
     /// Bodies on a slide, which a link may place.
     pub slides: Queue,
-    /// Bodies that may be placed by assumption: with a pin and a known angle, with known coordinates, with a pin, and any.
+    /// Bodies that may be placed by assumption: with a pin and a known angle, with known coordinates, with a pin, and
+    /// any.
     pub assumed: [Queue; 4],
 }
 

@@ -1,4 +1,5 @@
-//! What a mechanism can do at a position: freedoms, redundant equations and singular positions with their kinds, bodies
+//! The diagnosis of a mechanism at a position: freedoms, redundant equations and singular positions with their kinds,
+//! bodies
 //! that are locked or loose, and four-bar loops.
 //!
 //! | file | concept |

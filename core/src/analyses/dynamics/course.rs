@@ -330,7 +330,7 @@ fn settle(
     Ok(())
 }
 
-/// Carries out the events that ended a phase, in their order. Returns whether the run goes on.
+/// Carries out the events that ended a phase, in their order. Returns whether the run continues.
 fn take_effect(
     events: &[Planned],
     at: &mut Progress,

@@ -95,7 +95,8 @@ pub(super) struct EventList<'a> {
 }
 
 impl<'a> EventList<'a> {
-    /// The events of a phase that begins at `t`. `fired` are the events that ended the phase before; `so_far` is the run
+    /// The events of a phase that begins at `t`. `fired` are the events that ended the phase before; `so_far` is the
+    /// run
     /// up to `t`. Returns None if there are no events.
     pub fn new(
         ode: &MotionOde<'_>,
@@ -202,7 +203,8 @@ impl<'a> EventList<'a> {
         crossings(step, parts(model, step), &directions, &mut functions, &ends)
     }
 
-    /// The time of an event that is expected at the end of a step and lies slightly later. None if there is no event: the
+    /// The time of an event that is expected at the end of a step and lies slightly later. None if there is no event:
+    /// the
     /// interpolant was wrong.
     fn later(&mut self, model: &Model, step: &Step<'_>, index: usize, t_end: f64) -> Option<f64> {
         let function = self.watched[index].function;

@@ -75,7 +75,8 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         course::run((&self.model, &self.cache), start, options, self.clock, watch, None)
     }
 
-    /// Integrates the equations of motion; `act` is called at each event that [acts](crate::analyses::EventOption::acts).
+    /// Integrates the equations of motion; `act` is called at each event that
+    /// [acts](crate::analyses::EventOption::acts).
     ///
     /// # Errors
     /// As [`dynamics`](Self::dynamics), and for a change that does not meet the constraints.

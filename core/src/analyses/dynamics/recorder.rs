@@ -120,7 +120,7 @@ impl<'a> Recorder<'a> {
         self.one.factorisations() + Lanes::WIDTH * many
     }
 
-    /// Leaves out the rows that the equations of motion leave out; returns whether to go on.
+    /// Leaves out the rows that the equations of motion leave out; returns whether the run may continue.
     pub fn follow(&mut self, workspace: &Workspace) -> Flow {
         let omitted = workspace.matrix.omitted();
         if self.one.omitted() == omitted {

@@ -124,7 +124,8 @@ impl ReportProjection<'_> {
         apart.is_some_and(|apart| apart < branch_averaging::BESIDE)
     }
 
-    /// Projects a reported state. If it ends on another branch beside a singular position, the state is computed from neighbouring
+    /// Projects a reported state. If it ends on another branch beside a singular position, the state is computed from
+    /// neighbouring
     /// states, if this changes the rates less.
     ///
     /// # Errors

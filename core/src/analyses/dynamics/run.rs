@@ -63,7 +63,8 @@ pub(super) struct Phase<'a> {
     pub project_velocities: bool,
 }
 
-/// Integrates one phase; updates `at` and `run`. `watch` is called with the time after each step and each reported state.
+/// Integrates one phase; updates `at` and `run`. `watch` is called with the time after each step and each reported
+/// state.
 pub(super) fn run_phase(
     phase: Phase<'_>,
     watched: Vec<Watched<'_>>,

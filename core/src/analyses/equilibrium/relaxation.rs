@@ -10,7 +10,7 @@ use crate::integrate::Flow;
 const STEPS: usize = 4000;
 /// Longest step of a scaled coordinate.
 const LONGEST: f64 = 0.05;
-/// Force, relative to the largest single force, at which Newton's method goes on.
+/// Force, relative to the largest single force, at which Newton's method continues.
 const ENOUGH: f64 = 1e-5;
 /// Smallest number of steps, for a position where Newton's method has just failed.
 const LEAST: usize = 60;

@@ -22,7 +22,7 @@ pub struct Limit {
     pub t: f64,
     /// The position, shape (n_q).
     pub q: Vec<f64>,
-    /// The driver that cannot go on.
+    /// The driver that cannot move further.
     pub driver: String,
     /// What it drives, such as `crank` for the angle of this body, or `slide.displacement`.
     pub driven: String,

@@ -12,7 +12,8 @@ const SHORTEST: f64 = 1e-9;
 /// Largest number of steps around a position where Φ_q is nearly singular.
 const MOST: usize = 2000;
 
-/// Passes a position near which the steps in t are too short: a change point, where the motion goes on, or a limit, where
+/// Passes a position near which the steps in t are too short: a change point, where the motion continues, or a limit,
+/// where
 /// it ends.
 pub(super) fn around(solver: &mut Solver<'_>, from: &Point, goal: f64) -> Result<Point, Reason> {
     let sign = (goal - from.t).signum();

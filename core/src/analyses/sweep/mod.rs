@@ -2,7 +2,7 @@
 //!
 //! A variant is what a single run of the changed case is: its model from the linked blueprint, assembly from the start of
 //! the case, the run, and the measures. Nothing passes from one variant to another, so that its numbers do not depend on
-//! the order, and the caller may compute variants on as many threads as it likes.
+//! the order, and the caller may compute variants on any number of threads.
 
 mod faults;
 mod fine;

@@ -40,7 +40,7 @@ pub(super) fn decide(
     impacts::halt(model, place, &rest)?;
     let all: Vec<usize> = with_modes(model).collect();
     let thresholds = place.thresholds(model, &all);
-    // after an impact that stops the mechanism, rounding errors are all that is left
+    // after an impact that stops the mechanism, only rounding errors of the speeds remain
     let speed = place.speed_scale(model, before).max(jumped.unwrap_or(0.0));
     let jumped = jumped.is_some();
     let mut modes: Vec<ForceMode> = Vec::new();
