@@ -139,8 +139,7 @@ impl Hand<'_> {
     }
 
     /// The state after the largest part of a step that leads nearer to the target, on the same branch; or whether a
-    /// dead
-    /// point is in the way.
+    /// dead point is in the way.
     fn advance(
         &mut self,
         place: &DragState,

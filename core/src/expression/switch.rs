@@ -56,8 +56,7 @@ impl Piecewise {
     }
 
     /// Whether the value is C² where the piece changes. The error estimate of a step then includes it, but may miss a
-    /// short
-    /// pulse.
+    /// short pulse.
     pub fn is_smooth(self) -> bool {
         match self {
             Self::Unary(Unary::Motion(law)) => law != MotionLaw::Harmonic,

@@ -42,9 +42,9 @@ impl AlphaParameters {
     }
 
     /// The parameters for first-order states z with the same spectral radius ρ = (1 - x) / (1 + x), x = α_f - α_m,
-    /// where z and
-    /// z′ take the places of v and v̇ (Jansen, Whiting and Hulbert, *A generalized-α method for integrating the filtered
-    /// Navier–Stokes equations with a stabilized finite element method*, Comput. Methods Appl. Mech. Eng. 190 (2000) 305).
+    /// where z and z′ take the places of v and v̇ (Jansen, Whiting and Hulbert, *A generalized-α method for
+    /// integrating the filtered Navier–Stokes equations with a stabilized finite element method*, Comput. Methods
+    /// Appl. Mech. Eng. 190 (2000) 305).
     pub fn of_states(&self) -> Self {
         let x = self.alpha_f - self.alpha_m;
         Self::of_order_two(0.5 - x, 0.5 * (1.0 - x))

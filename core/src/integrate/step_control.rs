@@ -102,8 +102,7 @@ impl StepControl {
     }
 
     /// Checks the options of a stepper that continues from another state. A first step that was an option is not
-    /// checked
-    /// again.
+    /// checked again.
     pub(super) fn restart<E>(
         &self,
         span: (f64, f64),

@@ -60,8 +60,7 @@ impl Model {
 
 impl Model {
     /// The same model with the modes only, for reports: the multipliers of forces that hold follow those of the rows
-    /// of the
-    /// model.
+    /// of the model.
     pub fn marked(&self, modes: &[ForceMode]) -> Self {
         let blueprint = Blueprint { modes: modes.to_vec(), ..(*self.blueprint).clone() };
         Self::new(&Arc::new(blueprint), &self.parameters)

@@ -67,9 +67,8 @@ pub struct Unset {
 /// A candidate: its column, and the index of its body with the coordinate.
 type Candidate = (usize, usize, Coordinate);
 
-/// The coordinates and rates that a request did not set, with their values in the result; `extended` is the model with
-/// the positions that are set. Nothing if a state
-/// was given.
+/// The coordinates and rates that a request did not set, with their values in the result; `extended` is the model
+/// with the positions that are set. Nothing if a state was given.
 pub(super) fn unset(
     [model, extended]: [&Model; 2],
     request: &Request,

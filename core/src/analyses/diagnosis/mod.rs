@@ -1,6 +1,5 @@
 //! The diagnosis of a mechanism at a position: freedoms, redundant equations and singular positions with their kinds,
-//! bodies
-//! that are locked or loose, and four-bar loops.
+//! bodies that are locked or loose, and four-bar loops.
 //!
 //! | file | concept |
 //! |---|---|

@@ -96,8 +96,7 @@ pub(super) struct EventList<'a> {
 
 impl<'a> EventList<'a> {
     /// The events of a phase that begins at `t`. `fired` are the events that ended the phase before; `so_far` is the
-    /// run
-    /// up to `t`. Returns None if there are no events.
+    /// run up to `t`. Returns None if there are no events.
     pub fn new(
         ode: &MotionOde<'_>,
         watched: Vec<Watched<'a>>,
@@ -204,8 +203,7 @@ impl<'a> EventList<'a> {
     }
 
     /// The time of an event that is expected at the end of a step and lies slightly later. None if there is no event:
-    /// the
-    /// interpolant was wrong.
+    /// the interpolant was wrong.
     fn later(&mut self, model: &Model, step: &Step<'_>, index: usize, t_end: f64) -> Option<f64> {
         let function = self.watched[index].function;
         let h = SLOPE * (step.t - step.t_old);

@@ -125,8 +125,7 @@ impl ReportProjection<'_> {
     }
 
     /// Projects a reported state. If it ends on another branch beside a singular position, the state is computed from
-    /// neighbouring
-    /// states, if this changes the rates less.
+    /// neighbouring states, if this changes the rates less.
     ///
     /// # Errors
     /// [`Breakdown`].

@@ -2,8 +2,8 @@
 //!
 //! Newton's method on the freedoms, with the exact stiffness. Where the stiffness is not positive, the step uses the
 //! magnitudes of its eigenvalues (Gill, Murray and Wright, *Practical Optimization*, 1981, 4.4), so that it goes down
-//! the potential and leaves maxima and saddles. Steps are bounded, and shortened until the energy falls. If that fails, as
-//! where forces have kinks, dynamic relaxation continues.
+//! the potential and leaves maxima and saddles. Steps are bounded, and shortened until the energy falls. If that
+//! fails, as where forces have kinks, dynamic relaxation continues.
 
 use super::failure::Reason;
 use super::relaxation;

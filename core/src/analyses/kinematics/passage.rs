@@ -13,8 +13,7 @@ const SHORTEST: f64 = 1e-9;
 const MOST: usize = 2000;
 
 /// Passes a position near which the steps in t are too short: a change point, where the motion continues, or a limit,
-/// where
-/// it ends.
+/// where it ends.
 pub(super) fn around(solver: &mut Solver<'_>, from: &Point, goal: f64) -> Result<Point, Reason> {
     let sign = (goal - from.t).signum();
     let pace = solver.norm(&from.v);

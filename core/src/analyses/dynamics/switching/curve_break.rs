@@ -13,8 +13,7 @@ const PART: f64 = 1e-3;
 
 impl Switching {
     /// How the run continues after a step that was to end at the break of a curve, if the contact has not reached the
-    /// break.
-    /// None for other steps.
+    /// break. None for other steps.
     pub(super) fn approach(&mut self, model: &Model, step: &Step<'_>) -> Option<After> {
         let due = self.due.as_ref().filter(|due| due.t == step.t)?;
         let &[(k, piece)] = &due.changes[..] else { return None };
