@@ -127,27 +127,29 @@ fn ordinary_steps_are_taken_side_by_side() {
 #[test]
 fn variants_of_another_structure_and_runs_that_end_early_do_not_disturb_others() {
     // a rod with its mass centre in its frame, one beside it, and one that a light body follows
-    let pendulum = |center: &str, mass: &str| {
-        let text = format!(
-            "kempe = 1\ngravity = [0, -9.81]\n[bodies.ground]\npoints = {{ O = [0, 0] }}\n\
-             [bodies.rod]\nmass = 1\ninertia = 0.1\ncenter = {center}\npoints = {{ O = [0, 0], E = [1, 0] }}\n\
-             [bodies.end]\nmass = {mass}\ninertia = {mass}\npoints = {{ E = [0, 0], F = [1, 0] }}\n\
-             [joints.O]\ntype = \"revolute\"\ni = \"ground.O\"\nj = \"rod.O\"\n\
-             [joints.E]\ntype = \"revolute\"\ni = \"rod.E\"\nj = \"end.E\"\n"
-        );
-        let model = mechanisms::model(&text);
-        let (state, _) =
-            mechanisms::start(&model, &[("rod.angle", "0.3"), ("end.angle", "1")], &[]);
-        (model, state)
-    };
-    let made = [
-        pendulum("[0, 0]", "1"),
-        pendulum("[0.2, 0.1]", "1"),
-        pendulum("[0.2, 0.1]", "1e-9"),
-        pendulum("[0.3, 0]", "0.5"),
-        pendulum("[0.1, 0]", "2"),
-        pendulum("[0, 0]", "3"),
+    let text = "kempe = 1\ngravity = [0, -9.81]\nparameters = { cx = 0, cy = 0, m = 1 }\n\
+        [bodies.ground]\npoints = { O = [0, 0] }\n\
+        [bodies.rod]\nmass = 1\ninertia = 0.1\ncenter = [\"cx\", \"cy\"]\npoints = { O = [0, 0], E = [1, 0] }\n\
+        [bodies.end]\nmass = \"m\"\ninertia = \"m\"\ncenter = [0.1, 0]\npoints = { E = [0, 0] }\n\
+        [joints.O]\ntype = \"revolute\"\ni = \"ground.O\"\nj = \"rod.O\"\n\
+        [joints.E]\ntype = \"revolute\"\ni = \"rod.E\"\nj = \"end.E\"\n";
+    let base = mechanisms::model(text);
+    let numbers = [
+        [0.0, 0.0, 1.0],
+        [0.2, 0.1, 1.0],
+        [0.2, 0.1, 1e-9],
+        [0.3, 0.0, 0.5],
+        [0.1, 0.0, 2.0],
+        [0.0, 0.0, 3.0],
     ];
+    let made = numbers.map(|numbers| {
+        let names = ["cx", "cy", "m"].map(str::to_string);
+        let values: Vec<_> = names.into_iter().zip(numbers).collect();
+        let model = base.with_values(&values).expect("a pendulum");
+        let set = [("rod.angle", "0.3"), ("end.angle", "1")];
+        let (state, _) = mechanisms::start(&model, &set, &[]);
+        (model, state)
+    });
     for way in ways() {
         compare(&made, &way);
         // too few steps are allowed

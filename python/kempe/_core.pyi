@@ -290,7 +290,7 @@ def linearize(
     """
 
 def mobility(model: Model, t: float, q: _F, v: _F, z: _F) -> str:
-    """What a mechanism can do at a position, as JSON."""
+    """The freedoms, redundancies and singular positions at a position, as JSON."""
 
 def line_at(model: Model, joint: str, body: str) -> tuple[list[str], float | None]:
     """The pins and slides of a body besides a joint, and its line from there in its frame, rad."""

@@ -1,7 +1,7 @@
 """Reading and writing of files: completely or not at all; errors contain a remedy.
 
 A file is written beside its place under another name, flushed to the disk and then moved over the
-old one, so that a reader sees the old or the new content and never a part (POSIX rename).
+old one, so that a reader gets the old or the new content and never a part (POSIX rename).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Mobility: what a mechanism can do at a position, and which of its constraints are superfluous."""
+"""Mobility: the freedoms of a mechanism at a position, and its redundant constraints."""
 
 from __future__ import annotations
 
@@ -103,7 +103,7 @@ class FourBar:
 
 
 class MobilityResult(Result):
-    """What a mechanism can do at a position.
+    """The freedoms and redundant constraints of a mechanism at a position.
 
     Attributes:
         gruebler: coordinates less constraint equations, drivers included.
@@ -186,7 +186,7 @@ class MobilityResult(Result):
 
 
 def mobility(model: Model | CompiledModel, state: State) -> MobilityResult:
-    """What a mechanism can do at an assembled position.
+    """Find the freedoms and redundant constraints of a mechanism at an assembled position.
 
     Degrees of freedom by Grübler's count and by rank; redundant equations with all joints that take
     part; singular positions with their kind; locked and loose bodies; massless bodies whose motion

@@ -1,4 +1,4 @@
-//! A case as Python sees it: text in, text out, and the compiled model.
+//! Cases, for Python: text in, text out, and the compiled model.
 
 use crate::attended::attended;
 use crate::convert::{refuse, tree, Row};
@@ -108,7 +108,7 @@ impl PyCase {
         })
     }
 
-    /// Raises what is wrong with start and analyses, with places in the text.
+    /// Raises the problems of the start and of the analyses, with their places in the text.
     fn check(&self, py: Python<'_>, model: &PyModel) -> PyResult<()> {
         guard("Case.check", || {
             let found = self.case.faults(&model.model);

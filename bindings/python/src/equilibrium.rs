@@ -1,4 +1,4 @@
-//! Statics as Python sees it: without the interpreter's lock, interruptible, with progress.
+//! Statics, for Python: without the interpreter's lock, interruptible, with progress.
 
 use crate::convert::{state, Row};
 use crate::errors::{raise_plain, Failure, Kind};
@@ -7,6 +7,7 @@ use crate::model::PyModel;
 use crate::options;
 use crate::watch::Watch;
 use kempe::analyses::equilibrium as statics;
+use kempe::analyses::options::Declared;
 use kempe::analyses::State;
 use kempe::model::Model;
 use pyo3::prelude::*;

@@ -102,7 +102,7 @@ fn of_states(
     names: &[&str],
     passing: bool,
 ) -> Vec<Vec<f64>> {
-    // a driver that was released acts no more
+    // a driver that was released has the effort zero
     let signals: Vec<Signal> =
         names.iter().map(|name| signal(model, name).unwrap_or(Signal::Constant(0.0))).collect();
     let solves = signals.iter().any(|signal| signal.needs_solution(model));

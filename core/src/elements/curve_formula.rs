@@ -7,7 +7,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// x(u) and y(u).
 #[derive(Clone, Debug)]
 pub struct Formula<S = f64> {
-    written: Arc<Written>,
+    written: Arc<FormulaPair>,
     /// Values of the parameters that the formulas use.
     values: Vec<S>,
     /// The ends of u.
@@ -23,7 +23,7 @@ type Found = (Vec<f64>, Option<Arc<Knots>>);
 
 /// The formulas, and the indices of the parameters that they use.
 #[derive(Debug)]
-struct Written {
+struct FormulaPair {
     x: Tape,
     y: Tape,
     parameters: Vec<usize>,
@@ -32,14 +32,14 @@ struct Written {
 }
 
 impl Formula<Tape> {
-    /// From formulas in u, the only variable, which has no unit, and in parameters of a model.
+    /// A curve from formulas in u, the only variable, which has no unit, and in parameters of a model.
     pub fn new(x: Tape, y: Tape, range: [Tape; 2], periodic: bool) -> Self {
         let mut parameters: Vec<usize> = x.parameters().chain(y.parameters()).collect();
         parameters.sort_unstable();
         parameters.dedup();
         let values = parameters.iter().map(|k| Tape::of(Symbol::Parameter(*k))).collect();
         Self {
-            written: Arc::new(Written { x, y, parameters, breaks: Mutex::default() }),
+            written: Arc::new(FormulaPair { x, y, parameters, breaks: Mutex::default() }),
             values,
             range,
             periodic,
@@ -47,7 +47,7 @@ impl Formula<Tape> {
         }
     }
 
-    /// The same with u as the polar angle.
+    /// A curve from a formula of the radius, with u as the polar angle.
     pub fn polar(self) -> Self {
         Self { unit: "rad", ..self }
     }
@@ -70,14 +70,14 @@ impl<S> Formula<S> {
 type Third<S> = Jet<Dual<1, S>>;
 
 /// The names of the formulas, over a scalar `T` that contains `S`.
-struct Named<'a, S, T> {
+struct FormulaNames<'a, S, T> {
     parameters: &'a [usize],
     values: &'a [S],
     u: T,
     lift: fn(S) -> T,
 }
 
-impl<S: Real, T: Real> Values<T> for Named<'_, S, T> {
+impl<S: Real, T: Real> Values<T> for FormulaNames<'_, S, T> {
     fn parameter(&self, k: usize) -> T {
         let place = self.parameters.binary_search(&k).expect("a parameter of the formula");
         (self.lift)(self.values[place])
@@ -102,7 +102,8 @@ impl<S: Real> Formula<S> {
 
     /// x and y over a scalar that contains `S`.
     fn both<T: Real>(&self, u: T, lift: fn(S) -> T) -> [T; 2] {
-        let named = Named { parameters: &self.written.parameters, values: &self.values, u, lift };
+        let named =
+            FormulaNames { parameters: &self.written.parameters, values: &self.values, u, lift };
         [&self.written.x, &self.written.y].map(|tape| tape.evaluate(&named))
     }
 

@@ -137,7 +137,7 @@ pub use kinds::{
 pub use measured::Measured;
 pub use mode::{Behaviour, Mode};
 pub use plain_bearing::Bearing;
-pub use plane_curve::{Curve, Points as CurvePoints};
+pub use plane_curve::{Curve, CurvePoints};
 pub use pool::{Place, Pooled, VisitForces, VisitJoints};
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 #[cfg(feature = "test-elements")]

@@ -15,7 +15,7 @@ pub enum Curve<S = f64> {
     /// x(u) and y(u) as formulas.
     Formula(Formula<S>),
     /// A spline over the accumulated chord length of its points.
-    Points(Points<S>),
+    Points(CurvePoints<S>),
     /// A circle; u is the angle, counter-clockwise.
     Circle {
         /// Its centre, m.
@@ -41,7 +41,7 @@ pub enum Curve<S = f64> {
 
 /// A spline through points.
 #[derive(Clone, Debug)]
-pub struct Points<S = f64> {
+pub struct CurvePoints<S = f64> {
     /// The points, m.
     pub points: Vec<Local<S>>,
     /// How they are joined.
@@ -51,14 +51,14 @@ pub struct Points<S = f64> {
     solved: OnceLock<Box<[Spline<S>; 2]>>,
 }
 
-impl<S> Points<S> {
+impl<S> CurvePoints<S> {
     /// A spline that is solved at its first use.
     pub fn new(points: Vec<Local<S>>, kind: Interpolation, periodic: bool) -> Self {
         Self { points, kind, periodic, solved: OnceLock::new() }
     }
 }
 
-impl<S: Real> Points<S> {
+impl<S: Real> CurvePoints<S> {
     /// x and y over the chord length.
     fn splines(&self) -> &[Spline<S>; 2] {
         self.solved.get_or_init(|| {
@@ -105,7 +105,7 @@ impl<S> Curve<S> {
             Self::Formula(formula) => Curve::Formula(formula.map(f)),
             Self::Points(own) => {
                 let points = own.points.iter().map(local).collect();
-                let mut curve = Points::new(points, own.kind, own.periodic);
+                let mut curve = CurvePoints::new(points, own.kind, own.periodic);
                 if let Some([x, y]) = own.solved.get().map(|solved| &**solved) {
                     curve.solved = Box::new([x.map(f), y.map(f)]).into();
                 }

@@ -24,7 +24,8 @@ pub(super) struct Lent<S> {
 pub struct Compiled<S = f64> {
     /// Inertia of the moving bodies, without ground.
     pub inertias: Vec<Inertia<S>>,
-    /// What light bodies borrow for condensed elimination; None if no body is light, or if loans are not enough.
+    /// The inertia that light bodies borrow for condensed elimination; None if no body is light, or if loans are not
+    /// enough.
     pub(super) lent: Option<Lent<S>>,
     /// The moving bodies whose mass centre is off the frame's origin, as places in `inertias`.
     pub off_center: Vec<usize>,

@@ -157,9 +157,9 @@ impl<S: Real> Stabilized<S> {
 
 /// The rows of Φ_q of a constraint, as its blocks take them.
 pub(super) enum ByBlock<'a, S> {
-    /// By participant of the element.
+    /// One for each participant of the element.
     Participants(&'a [BodyId], &'a [[S; 3]]),
-    /// By block: a law may touch more bodies than the element.
+    /// One for each block: a law may touch more bodies than the element.
     Blocks(&'a [[S; 3]]),
 }
 

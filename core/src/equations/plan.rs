@@ -23,7 +23,7 @@ pub struct Plan {
     pub(super) owners: Vec<Columns>,
     /// Whether grounded bodies are condensed.
     pub(super) condenses: bool,
-    /// What light bodies borrow then; None if nothing is lent.
+    /// The inertia that light bodies borrow then; None if nothing is lent.
     pub(super) loans: Option<Vec<Loan>>,
 }
 

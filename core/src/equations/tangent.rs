@@ -348,13 +348,13 @@ impl Tangent {
 /// The variable by which a force is differentiated.
 #[derive(Clone, Copy)]
 enum Variable {
-    /// By the pose of the body, or the internal coordinates, with this place among the participants.
+    /// The pose of the body, or the internal coordinates, with this place among the participants.
     Position(usize),
-    /// By its twist.
+    /// The twist of the body.
     Velocity(usize),
-    /// By the state with this place in z.
+    /// The state with this place in z.
     State(usize),
-    /// By the multiplier of this row.
+    /// The multiplier of this row.
     Multiplier(usize),
 }
 

@@ -66,5 +66,5 @@ pub use switch::Boundaries;
 pub use switch_times::{pieces_at, switch_places, switch_times, TooManySwitches};
 pub use symbol::Symbol;
 pub use table::{Kink, Table};
-pub use tape::{Scope, Switch, Tape, Values};
+pub use tape::{FormulaSwitch, FormulaValues, Tape, Values};
 pub use text::{Expression, Sense};

@@ -29,7 +29,7 @@ pub struct Dop853 {
 }
 
 impl Dop853 {
-    /// With the given tolerances and no bounds.
+    /// The method with these tolerances and no bounds on steps.
     pub fn new(rtol: f64, atol: f64) -> Self {
         Self { control: StepControl::new(rtol, atol) }
     }
@@ -43,7 +43,7 @@ const DEGREE: usize = 7;
 
 /// Coefficients of θ … θ⁷ of each stage, and of the jump of a projection.
 const TABLE: [f64; (ALL + 1) * DEGREE] = table(true);
-/// The same with three of the seven parts: the cubic Hermite polynomial.
+/// The interpolant with three of its seven parts: the cubic Hermite polynomial.
 const HERMITE: [f64; (ALL + 1) * DEGREE] = table(false);
 
 /// The parts of the extension, θ, θ (1-θ), θ² (1-θ), θ² (1-θ)² …, by powers of θ.

@@ -3,7 +3,7 @@
 //! With the elementary control it takes the same steps as `scipy.integrate.solve_ivp`, so that counts of steps can be
 //! compared.
 
-use super::explicit_work::{Accepted, Prepared, Work};
+use super::explicit_work::{Accepted, InterpolantLevel, Work};
 use super::failure::Cause;
 use super::fixed_step::Grid;
 use super::hermite_birkhoff::HermiteBirkhoff;
@@ -13,7 +13,7 @@ use super::runge_kutta::RungeKutta;
 #[cfg(not(target_arch = "wasm32"))]
 use super::side_by_side::SideBySide;
 use super::stages::{combine, row_mut, rows_mut};
-use super::statistics::Statistics;
+use super::statistics::StepCounts;
 use super::step::Step;
 use super::step_control::StepControl;
 use super::step_placement::StepPlacement;
@@ -48,7 +48,7 @@ pub(super) struct ExplicitStepper<P> {
     /// The step to try next, once the first derivative was evaluated.
     pub(super) size: Option<StepSize>,
     pub(super) accepted: Option<Accepted>,
-    pub(super) counts: Statistics,
+    pub(super) counts: StepCounts,
     pub(super) placement: StepPlacement,
     /// Whether the last trial was rejected, so that the next one belongs to the same step.
     pub(super) rejected_before: bool,
@@ -74,7 +74,7 @@ impl<P: RungeKutta> ExplicitMethod for P {
             t_end,
             size: None,
             accepted: None,
-            counts: Statistics::default(),
+            counts: StepCounts::default(),
             placement: StepPlacement::default(),
             rejected_before: false,
             method: PhantomData,
@@ -131,7 +131,7 @@ impl<P: RungeKutta, Y: Ode> Stepper<Y, Y::Stop> for ExplicitStepper<P> {
         Ok(())
     }
 
-    fn statistics(&self) -> Statistics {
+    fn statistics(&self) -> StepCounts {
         self.counts
     }
 
@@ -159,7 +159,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         self.size = Some(size);
         let (t, projected) = taken?;
         self.counts.steps += 1;
-        let accepted = Accepted { t, projected, interpolant: Prepared::Plain };
+        let accepted = Accepted { t, projected, interpolant: InterpolantLevel::Plain };
         self.measure(accepted);
         self.accepted = Some(accepted);
         Ok(())
@@ -182,7 +182,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
 
     pub(super) fn check_counts<E>(&self, size: &StepSize) -> Result<(), Cause<E>> {
         let Some(most) = self.control.max_steps else { return Ok(()) };
-        let Statistics { steps, rejected, .. } = self.counts;
+        let StepCounts { steps, rejected, .. } = self.counts;
         if steps >= most {
             return Err(Cause::MaxSteps { steps });
         }

@@ -52,18 +52,18 @@ impl Work {
 pub(super) struct Accepted {
     pub t: f64,
     pub projected: bool,
-    pub interpolant: Prepared,
+    pub interpolant: InterpolantLevel,
 }
 
 /// How far the interpolant of a step is prepared.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Prepared {
-    /// By the ends of the step alone.
+pub(super) enum InterpolantLevel {
+    /// Prepared from the ends of the step alone.
     Ends,
-    /// By the stages of the step alone.
+    /// Prepared from the stages of the step alone.
     Plain,
-    /// With the extra stages of the method.
+    /// Prepared with the extra stages of the method.
     Extended,
-    /// By one evaluation inside the step.
+    /// Prepared by one evaluation inside the step.
     HermiteBirkhoff,
 }

@@ -95,7 +95,7 @@ pub(crate) use right_hand_side::all_finite;
 pub use rk4::Rk4;
 pub use rk45::Rk45;
 pub use side_by_side::SideBySide;
-pub use statistics::Statistics;
+pub use statistics::StepCounts;
 pub use step::{Flow, Step};
 pub use step_control::{Atol, StepControl};
 pub use stepper::{BoxedStepper, ExplicitMethod, ImplicitMethod, Stepper};

@@ -20,7 +20,7 @@ pub struct Rk4 {
 }
 
 impl Rk4 {
-    /// With the given step and no bound on their number.
+    /// The method with this step and no bound on the number of steps.
     pub fn new(step: f64) -> Self {
         Self { control: StepControl::constant(step) }
     }

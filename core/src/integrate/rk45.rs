@@ -20,7 +20,7 @@ pub struct Rk45 {
 }
 
 impl Rk45 {
-    /// With the given tolerances and no bounds.
+    /// The method with these tolerances and no bounds on steps.
     pub fn new(rtol: f64, atol: f64) -> Self {
         Self { control: StepControl::new(rtol, atol) }
     }

@@ -1,7 +1,7 @@
 //! Steppers that take their steps side by side, one in each lane of the vector registers (`lane_steps`).
 
 use super::explicit_stepper::ExplicitStepper;
-use super::explicit_work::{Accepted, Prepared, Work};
+use super::explicit_work::{Accepted, InterpolantLevel, Work};
 use super::hermite_birkhoff::HermiteBirkhoff;
 use super::lane_steps::LaneMethod;
 use super::runge_kutta::RungeKutta;
@@ -100,7 +100,7 @@ impl<P: RungeKutta> SideBySide for ExplicitStepper<P> {
         take(dy, lane, row_mut(k, *width, 1));
         chord(begin, y_new, t - self.t, row_mut(k, *width, 2));
         hermite_birkhoff.iter_mut().for_each(HermiteBirkhoff::forget);
-        self.accepted = Some(Accepted { t, projected, interpolant: Prepared::Ends });
+        self.accepted = Some(Accepted { t, projected, interpolant: InterpolantLevel::Ends });
     }
 }
 

@@ -68,7 +68,7 @@ pub(super) fn rows<const S: usize>(k: &[Block], width: usize) -> [&[Block]; S] {
     std::array::from_fn(|s| row(k, width, s))
 }
 
-/// The same, to be written.
+/// The same components, mutable.
 #[inline(always)]
 pub(super) fn rows_mut<const S: usize>(k: &mut [Block], width: usize) -> [&mut [Block]; S] {
     // not in chunks, which begin with a division
@@ -86,7 +86,7 @@ pub(super) fn row(k: &[Block], width: usize, s: usize) -> &[Block] {
     &k[s * width..][..width]
 }
 
-/// The same, to be written.
+/// The same components, mutable.
 #[inline(always)]
 pub(super) fn row_mut(k: &mut [Block], width: usize, s: usize) -> &mut [Block] {
     &mut k[s * width..][..width]

@@ -1,7 +1,7 @@
 //! The end of an accepted step: it is projected, its derivative is evaluated, and its interpolant is prepared.
 
 use super::explicit_stepper::ExplicitStepper;
-use super::explicit_work::{Accepted, Prepared, Work};
+use super::explicit_work::{Accepted, InterpolantLevel, Work};
 use super::failure::Cause;
 use super::hermite_birkhoff::{Ends, INSIDE};
 use super::interpolant::{Interpolant, HERMITE};
@@ -62,9 +62,9 @@ impl<P: RungeKutta> ExplicitStepper<P> {
             Interpolant::new(stages, Lanes::WIDTH * *width, table, P::DEGREE)
         };
         let interpolant = match (accepted.interpolant, hermite_birkhoff) {
-            (Prepared::HermiteBirkhoff, Some(it)) => it.interpolant(),
-            (Prepared::Extended, _) => table(P::TABLE),
-            (Prepared::Ends, _) => {
+            (InterpolantLevel::HermiteBirkhoff, Some(it)) => it.interpolant(),
+            (InterpolantLevel::Extended, _) => table(P::TABLE),
+            (InterpolantLevel::Ends, _) => {
                 let rows = k[..3 * *width].as_flattened();
                 Interpolant::new(rows, Lanes::WIDTH * *width, &HERMITE, 4)
             }
@@ -92,7 +92,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         rhs: &mut RightHandSide<'_, Y>,
     ) -> Result<(), Cause<Y::Stop>> {
         let (true, Some(accepted)) = (P::EXTRA > 0, &mut self.accepted) else { return Ok(()) };
-        if accepted.interpolant != Prepared::Plain {
+        if accepted.interpolant != InterpolantLevel::Plain {
             return Ok(());
         }
         let Work { width, k, y, y_new, trial, hermite_birkhoff, .. } = &mut self.work;
@@ -107,12 +107,12 @@ impl<P: RungeKutta> ExplicitStepper<P> {
                 let outcome = rhs.at(self.t + INSIDE * h, trial, inside);
                 outcome.map(|()| {
                     hermite_birkhoff.complete(ends, &inside.as_flattened()[..n]);
-                    Prepared::HermiteBirkhoff
+                    InterpolantLevel::HermiteBirkhoff
                 })
             }
             None => {
                 let trial = &mut Trial::new(rhs, (self.t, accepted.t), y, trial);
-                P::extend(trial, k).map(|()| Prepared::Extended)
+                P::extend(trial, k).map(|()| InterpolantLevel::Extended)
             }
         };
         match outcome {

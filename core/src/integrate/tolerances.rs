@@ -7,9 +7,9 @@ use crate::math::{Lanes, Real};
 /// Tolerances of every component.
 pub(super) struct Tolerances {
     rtol: f64,
-    /// Of the components that count; infinite behind the last.
+    /// Absolute tolerances of the components that count; infinite behind the last one.
     atol: Vec<Block>,
-    /// How many components count.
+    /// Number of components that count.
     pub controlled: usize,
 }
 

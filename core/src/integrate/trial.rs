@@ -22,7 +22,7 @@ pub(super) struct Trial<'r, 's, Y> {
 }
 
 impl<'r, 's, Y: Ode> Trial<'r, 's, Y> {
-    /// From y at t to t_new; `work` is scratch as long as y.
+    /// A trial from y at t to t_new; `work` is scratch memory of the length of y.
     #[inline(always)]
     pub fn new(
         rhs: &'r mut RightHandSide<'s, Y>,

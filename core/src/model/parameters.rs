@@ -75,7 +75,7 @@ pub fn evaluate(
 ) -> Evaluated {
     let written: Vec<(&str, Expression)> =
         formulas.iter().map(|(name, e)| (name.as_str(), e.clone())).collect();
-    let compiled = match Parameters::with_tables(&written, tables) {
+    let compiled = match Parameters::compile(&written, tables) {
         Ok(compiled) => compiled,
         Err(fault) => {
             let at = Problem::at(&["parameters", fault.name.as_str()], fault.error.message);

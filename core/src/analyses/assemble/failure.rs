@@ -1,6 +1,6 @@
 //! Failures of assembly, in terms of the mechanism.
 
-use super::placement::Gap;
+use super::placement::DyadGap;
 use super::request::Request;
 use super::target::{of_motion, of_rates, trimmed, Target};
 use crate::analyses::closing::Closing;
@@ -57,7 +57,7 @@ pub(super) fn open(
     request: &Request,
     closing: &Closing<'_>,
     q: &[f64],
-    gap: Option<&Gap>,
+    gap: Option<&DyadGap>,
 ) -> Failure {
     match gap {
         Some(gap) => dyad_open(model, request, gap),
@@ -121,7 +121,7 @@ pub(super) fn off_the_curve((name, message): (String, String)) -> Failure {
     Failure { fault: Fault::Open, name, gap: 0.0, message, hint, places: Vec::new() }
 }
 
-fn dyad_open(model: &Model, request: &Request, gap: &Gap) -> Failure {
+fn dyad_open(model: &Model, request: &Request, gap: &DyadGap) -> Failure {
     let joint = &model.constraints[gap.joint].name;
     let [a, b] = gap.bodies.map(|k| model.bodies[k].name.as_str());
     let missing = gap.missing.abs();
@@ -185,7 +185,7 @@ fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
     Failure { fault: Fault::Open, name, gap, message, hint: hint.to_string(), places: Vec::new() }
 }
 
-/// "with crank.angle = 70° ", or nothing.
+/// The text "with crank.angle = 70° ", or nothing.
 fn asked<'a>(model: &Model, set: impl Iterator<Item = &'a Target>) -> String {
     let all: Vec<String> = set.map(|target| target.written(model)).collect();
     match all.is_empty() {

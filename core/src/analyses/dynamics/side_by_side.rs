@@ -11,7 +11,7 @@ use super::modes::has_modes;
 use super::options::Options;
 use super::prepared::Prepared;
 use super::recorder::Recorder;
-use super::run::{begin_phase, end_phase, At, Phase, PhaseEnd, PhaseSteps, Watcher};
+use super::run::{begin_phase, end_phase, Phase, PhaseEnd, PhaseSteps, Progress};
 use super::run_results::Run;
 use super::setting::Setting;
 use super::stabilizations::Stabilization;
@@ -63,7 +63,7 @@ struct Underway<'a> {
     /// Its place among the variants.
     place: usize,
     model: &'a Model,
-    at: At,
+    at: Progress,
     run: Run,
     recorder: Recorder<'a>,
     steps: PhaseSteps<'a>,
@@ -78,11 +78,10 @@ impl<'a> Underway<'a> {
         if let Err(failure) = options.check(model, start) {
             return Err(Box::new(Err(failure)));
         }
-        let mut at = At::begin(model, start, options, &mut run);
+        let mut at = Progress::begin(model, start, options, &mut run);
         run.settings.push(Setting::of(options));
-        let phase = Phase::new(model);
-        let begun = begin_phase((&phase, prepared.cache()), Vec::new(), &mut at, options, &mut run);
-        match begun {
+        let phase = Phase { model, cache: prepared.cache(), project_velocities: false };
+        match begin_phase(phase, Vec::new(), &mut at, options, &mut run) {
             Err(failure) => Err(Box::new(Err(Box::new(Failure { run, ..*failure })))),
             Ok((Ok(Some(steps)), recorder)) => Ok(Self { place, model, at, run, recorder, steps }),
             Ok((stopped, recorder)) => {
@@ -94,8 +93,8 @@ impl<'a> Underway<'a> {
 
     /// Takes a step alone, or looks at one that was taken beside others. Returns whether the run goes on.
     fn go_on(&mut self, beside: bool, watch: &dyn Fn() -> Flow) -> Result<bool, Box<Failure>> {
-        let watcher = &mut Watcher { watch: |_| watch(), look: None };
-        let observers = (&mut self.recorder, watcher);
+        let mut each_step = |_| watch();
+        let observers = (&mut self.recorder, &mut each_step);
         let ended = match beside {
             true => {
                 self.steps.stepper.after_step_beside_others();
@@ -117,7 +116,7 @@ impl<'a> Underway<'a> {
 fn conclude(
     model: &Model,
     recorder: Recorder<'_>,
-    at: &At,
+    at: &Progress,
     outcome: Result<PhaseEnd, Box<Failure>>,
     mut run: Run,
 ) -> Outcome {
@@ -139,7 +138,8 @@ pub struct Trials {
     pub alone: usize,
 }
 
-/// Integrates variants of one model, which all [can be run so](Variant::serves). `watch` may stop all runs.
+/// Integrates variants of one model, which differ in the [values of parameters](Model::with_values) and all
+/// [can be run so](Variant::serves). `watch` may stop all runs.
 pub fn side_by_side(variants: &[Variant<'_>], watch: &dyn Fn() -> Flow) -> (Vec<Outcome>, Trials) {
     let mut trials = Trials::default();
     let mut outcomes: Vec<Option<Outcome>> = variants.iter().map(|_| None).collect();

@@ -21,7 +21,7 @@ use crate::solve::Breakdown;
 /// Branches cannot be distinguished if the ratio of a pivot to its largest summand is below this: a part of 1e-3 of
 /// the mechanism's size.
 const INDISTINCT: f64 = 1e-6;
-/// The same part: a mechanism counts as at rest within this distance of its turning point.
+/// Part of the size of the mechanism: a mechanism counts as at rest within this distance of its turning point.
 const REST: f64 = 1e-3;
 /// Part of γ that may remain; the error of a trial state leaves far less.
 const REMAINDER: f64 = 0.05;
@@ -91,7 +91,7 @@ impl SingularityPassage {
         checked.is_ok()
     }
 
-    /// The same near a singular position.
+    /// Checks the accelerations near a singular position.
     #[cold]
     fn check(
         &mut self,

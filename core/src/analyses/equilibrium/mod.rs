@@ -39,13 +39,13 @@ pub use compliance::compliance;
 pub use failure::Reason;
 pub use options::Options;
 pub use path::path;
-pub use points::{End, Path};
+pub use points::{EquilibriumPath, PathEnd};
 pub use result::Equilibrium;
 
 use super::State;
 use crate::integrate::Flow;
 use crate::model::Model;
-use search::Search;
+use search::RestSearch;
 use statics::Statics;
 
 /// The position in which a mechanism comes to rest from `start`, whose rates do not count.
@@ -65,7 +65,7 @@ pub fn equilibrium(
     from(&held, start, options, &mut watch)
 }
 
-/// The same for a model with its holders.
+/// The equilibrium of a model that contains its holders.
 fn from(
     held: &Model,
     start: &State,
@@ -74,7 +74,7 @@ fn from(
 ) -> Result<Equilibrium, Reason> {
     let mut statics = Statics::new(held, start.t);
     let place = statics.place(&start.q, &start.z)?;
-    let found = Search::new(&mut statics, options.nearest, watch).run(place)?;
+    let found = RestSearch::new(&mut statics, options.nearest, watch).run(place)?;
     let result = Equilibrium::at(&statics, &found.place, options.hold.len())?;
     Ok(Equilibrium { steps: found.steps, relaxed: found.relaxed, ..result })
 }

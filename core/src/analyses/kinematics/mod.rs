@@ -2,7 +2,7 @@
 //!
 //! At each time the positions solve Φ(q, t) = 0, the velocities Φ_q v = ν and the accelerations Φ_q a = γ (Haug 3.6).
 //! The motion is followed from the start by short steps, so that it stays on its branch. Where it
-//! cannot go on because the driven value has reached an extreme, this limit is found exactly.
+//! cannot continue because the driven value has reached an extreme, this limit is found exactly.
 //!
 //! | file | concept |
 //! |---|---|

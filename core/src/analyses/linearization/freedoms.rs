@@ -99,7 +99,7 @@ fn orthonormal(factors: &LeastNorm<'_>, count: usize) -> Vec<Vec<f64>> {
     let part = |k: usize| (12.9898 * (k as f64 + 1.618)).sin() * 43758.5453;
     let probe = |j: usize| (0..n).map(|k| part(j * n + k).fract() - 0.5).collect();
     let mut found: Vec<Vec<f64>> = (0..count).map(probe).collect();
-    // the second pass removes what the first has left by rounding
+    // the second pass removes the rounding errors of the first
     for _ in 0..2 {
         for column in &mut found {
             scale(column, &factors.scales, 1);

@@ -1,8 +1,8 @@
 //! Sweeps: one mechanism with many values of its parameters and start, and the statistics of measures of each run.
 //!
-//! A variant is what a single run of the changed case is: its model from the linked blueprint, assembly from the start of
-//! the case, the run, and the measures. Nothing passes from one variant to another, so that its numbers do not depend on
-//! the order, and the caller may compute variants on as many threads as it likes.
+//! A variant is what a single run of the changed case is: its model from the linked blueprint, assembly from the
+//! start of the case, the run, and the measures. Nothing passes from one variant to another, so that its numbers do
+//! not depend on the order, and the caller may compute variants on any number of threads.
 
 mod faults;
 mod fine;
