@@ -6,7 +6,7 @@ use crate::guard::{caught, guard, Caught};
 use crate::model::PyModel;
 use crate::options;
 use crate::respond::Table;
-use kempe::analyses::sweep::{Outcome, Row, Statistic, Sweep};
+use kempe::analyses::sweep::{Outcome, Statistic, Sweep, VariantRow};
 use kempe::math::Lanes;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
@@ -95,9 +95,9 @@ fn on_threads(
         let (of_parameters, of_start) = row.split_at(parameters.len());
         (named(parameters, of_parameters), named(coordinates, of_start))
     });
-    let rows: Vec<Row> = rows.collect();
+    let rows: Vec<VariantRow> = rows.collect();
     let block = (rows.len() / (BLOCKS * workers.max(1))).clamp(Lanes::WIDTH, BLOCK);
-    let run = |rows: &[Row]| caught(|| sweep.variants(rows, stop));
+    let run = |rows: &[VariantRow]| caught(|| sweep.variants(rows, stop));
     let pool = ThreadPoolBuilder::new().num_threads(workers).stack_size(STACK).build();
     let outcomes: Result<Vec<_>, _> = match pool {
         Ok(pool) => pool.install(|| rows.par_chunks(block).map(run).collect()),

@@ -13,7 +13,7 @@
 //! without: one evaluation less than scipy's for every step that is rejected.
 
 use super::dop853_coefficients::*;
-use super::runge_kutta::{RungeKutta, Stages};
+use super::runge_kutta::{RungeKutta, TrialStages};
 use super::stages::{rows, rows_mut, sum_at, Block};
 use super::step_control::StepControl;
 use super::step_placement::Gap;
@@ -112,7 +112,7 @@ impl RungeKutta for Dop853 {
         Cow::Borrowed(&self.control)
     }
 
-    fn advance<T: Stages>(
+    fn advance<T: TrialStages>(
         trial: &mut T,
         k: &mut [Block],
         y_new: &mut [Block],
@@ -132,7 +132,7 @@ impl RungeKutta for Dop853 {
         trial.end(1.0, B, [k1, k6, k7, k8, k9, k10, k11, k12], y_new)
     }
 
-    fn extend<T: Stages>(trial: &mut T, k: &mut [Block]) -> Result<(), T::Stop> {
+    fn extend<T: TrialStages>(trial: &mut T, k: &mut [Block]) -> Result<(), T::Stop> {
         let rows = rows_mut(k, trial.width());
         let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16] = rows;
         trial.stage(C_EXTRA[0], A14, [k1, k7, k8, k9, k10, k11, k12, k13], k14)?;

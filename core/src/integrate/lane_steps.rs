@@ -7,8 +7,8 @@
 //! takes the step alone, from the same state.
 
 use super::right_hand_side::all_finite;
-use super::runge_kutta::{RungeKutta, Stages};
-use super::side_by_side::{End, SideBySide, Start};
+use super::runge_kutta::{RungeKutta, TrialStages};
+use super::side_by_side::{LaneEnd, LaneStart, SideBySide};
 use super::stages::{combine, row, Block};
 use super::tolerances::LaneTolerances;
 use crate::math::{Lanes, Real};
@@ -107,7 +107,7 @@ fn ordinary(holds: bool) -> Result<(), NotOrdinary> {
     }
 }
 
-impl Stages for LaneTrial<'_> {
+impl TrialStages for LaneTrial<'_> {
     type Stop = NotOrdinary;
 
     fn width(&self) -> usize {
@@ -234,7 +234,8 @@ impl LaneSteps {
             match (&mut steppers[lane], projected[lane]) {
                 (Some(stepper), Some(projected)) => {
                     let evaluations = evaluations + usize::from(projected || !last_in_error);
-                    let end = End { lane, y: &self.y_new, dy: &self.dy, projected, evaluations };
+                    let end =
+                        LaneEnd { lane, y: &self.y_new, dy: &self.dy, projected, evaluations };
                     stepper.accept(norms[lane], end);
                 }
                 _ => taken[lane] = Taken::Alone,
@@ -263,7 +264,7 @@ impl LaneSteps {
                 continue;
             };
             let (y, dy) = (&mut self.y, &mut self.k[..n]);
-            let start = Start { lane, y, dy, tolerances: &mut self.tolerances };
+            let start = LaneStart { lane, y, dy, tolerances: &mut self.tolerances };
             if let Some([t, t_new]) = stepper.propose(start) {
                 (times.t[lane], times.t_new[lane], times.lanes[lane]) = (t, t_new, true);
                 first = first.or(Some(lane));

@@ -1,7 +1,7 @@
 //! The classical Runge–Kutta method of order 4 with a constant step (Kutta, *Z. Math. Phys.* 46 (1901)
 //! 435); between steps the cubic Hermite polynomial, of order 3.
 
-use super::runge_kutta::{RungeKutta, Stages};
+use super::runge_kutta::{RungeKutta, TrialStages};
 use super::stages::{rows_mut, Block};
 use super::step_control::StepControl;
 use super::step_placement::Gap;
@@ -56,7 +56,7 @@ impl RungeKutta for Rk4 {
         Cow::Owned(StepControl { step, ..self.control.clone() })
     }
 
-    fn advance<T: Stages>(
+    fn advance<T: TrialStages>(
         trial: &mut T,
         k: &mut [Block],
         y_new: &mut [Block],

@@ -4,7 +4,7 @@
 //! (1980) 19. Extension: Shampine, *Some practical Runge–Kutta formulas*, Math. Comp. 46 (1986) 135,
 //! with the optimal c₆. Control: that of `scipy.integrate.RK45`.
 
-use super::runge_kutta::{RungeKutta, Stages};
+use super::runge_kutta::{RungeKutta, TrialStages};
 use super::stages::{rows, rows_mut, sum_at, Block};
 use super::step_control::StepControl;
 use super::step_placement::Gap;
@@ -71,7 +71,7 @@ impl RungeKutta for Rk45 {
         Cow::Borrowed(&self.control)
     }
 
-    fn advance<T: Stages>(
+    fn advance<T: TrialStages>(
         trial: &mut T,
         k: &mut [Block],
         y_new: &mut [Block],

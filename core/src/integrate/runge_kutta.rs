@@ -41,14 +41,14 @@ pub(super) trait RungeKutta: Sized + 'static {
 
     /// The stages after the first, which is given, in rows of `k`, the last one only if it is
     /// [`LAST_IN_ERROR`](Self::LAST_IN_ERROR); the state at the end into `y_new`.
-    fn advance<T: Stages>(
+    fn advance<T: TrialStages>(
         trial: &mut T,
         k: &mut [Block],
         y_new: &mut [Block],
     ) -> Result<(), T::Stop>;
 
     /// The extra stages of an accepted step, in the rows of `k` after the others.
-    fn extend<T: Stages>(_: &mut T, _k: &mut [Block]) -> Result<(), T::Stop> {
+    fn extend<T: TrialStages>(_: &mut T, _k: &mut [Block]) -> Result<(), T::Stop> {
         Ok(())
     }
 
@@ -60,7 +60,7 @@ pub(super) trait RungeKutta: Sized + 'static {
 }
 
 /// The evaluations of a trial step, of one state or of one in each lane.
-pub(super) trait Stages {
+pub(super) trait TrialStages {
     /// The reason for which a trial ends early.
     type Stop;
 

@@ -17,7 +17,7 @@ pub trait SideBySide {
 
     /// Begins a trial: fills its lane, and returns the times t and t_new. None if it has to take the step alone.
     #[doc(hidden)]
-    fn propose(&mut self, at: Start<'_>) -> Option<[f64; 2]>;
+    fn propose(&mut self, at: LaneStart<'_>) -> Option<[f64; 2]>;
 
     /// Returns whether the error norm allows the trial; if not, the next one is shorter.
     #[doc(hidden)]
@@ -25,12 +25,12 @@ pub trait SideBySide {
 
     /// Accepts the trial.
     #[doc(hidden)]
-    fn accept(&mut self, norm: f64, end: End<'_>);
+    fn accept(&mut self, norm: f64, end: LaneEnd<'_>);
 }
 
 /// The lane of a trial, to be filled with the state at its start, the derivative there, and the tolerances.
 #[doc(hidden)]
-pub struct Start<'a> {
+pub struct LaneStart<'a> {
     pub(super) lane: usize,
     pub(super) y: &'a mut [Block],
     pub(super) dy: &'a mut [Block],
@@ -39,7 +39,7 @@ pub struct Start<'a> {
 
 /// The state at the end of a trial, in a lane, and the derivative there.
 #[doc(hidden)]
-pub struct End<'a> {
+pub struct LaneEnd<'a> {
     pub(super) lane: usize,
     pub(super) y: &'a [Block],
     pub(super) dy: &'a [Block],
@@ -52,7 +52,10 @@ impl<P: RungeKutta> SideBySide for ExplicitStepper<P> {
         P::OVER_LANES
     }
 
-    fn propose(&mut self, Start { lane, y, dy, tolerances }: Start<'_>) -> Option<[f64; 2]> {
+    fn propose(
+        &mut self,
+        LaneStart { lane, y, dy, tolerances }: LaneStart<'_>,
+    ) -> Option<[f64; 2]> {
         self.move_on();
         let ordinary = self.grid.is_none() && self.placement.is_idle() && self.t != self.t_end;
         if !ordinary || self.size.as_ref().is_none_or(|size| self.check_counts::<()>(size).is_err())
@@ -84,7 +87,7 @@ impl<P: RungeKutta> SideBySide for ExplicitStepper<P> {
         false
     }
 
-    fn accept(&mut self, norm: f64, End { lane, y, dy, projected, evaluations }: End<'_>) {
+    fn accept(&mut self, norm: f64, LaneEnd { lane, y, dy, projected, evaluations }: LaneEnd<'_>) {
         let Some(mut size) = self.size.take() else { return };
         let Some(proposal) = self.proposal(&size) else { return };
         self.resize(&mut size, proposal, norm);

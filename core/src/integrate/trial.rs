@@ -3,7 +3,7 @@
 use super::failure::Cause;
 use super::ode::Ode;
 use super::right_hand_side::RightHandSide;
-use super::runge_kutta::Stages;
+use super::runge_kutta::TrialStages;
 use super::stages::{combine, Block};
 use crate::math::{Lanes, Real};
 
@@ -34,7 +34,7 @@ impl<'r, 's, Y: Ode> Trial<'r, 's, Y> {
     }
 }
 
-impl<Y: Ode> Stages for Trial<'_, '_, Y> {
+impl<Y: Ode> TrialStages for Trial<'_, '_, Y> {
     type Stop = Cause<Y::Stop>;
 
     #[inline(always)]

@@ -95,7 +95,7 @@ pub use prepared::Prepared;
 pub use run_results::{EventStates, Passed, Run, Statistics};
 pub use setting::Setting;
 #[cfg(not(target_arch = "wasm32"))]
-pub use side_by_side::{side_by_side, Outcome, Trials, Variant};
+pub use side_by_side::{side_by_side, RunOutcome, Trials, Variant};
 pub use stabilizations::Stabilization;
 pub use stepper::Stepper;
 pub use stiffness_detection::MethodChoice;

@@ -33,7 +33,7 @@ pub struct Variant<'a> {
 }
 
 /// The result of a run.
-pub type Outcome = Result<Run, Box<Failure>>;
+pub type RunOutcome = Result<Run, Box<Failure>>;
 
 impl Variant<'_> {
     /// Whether its steps can be taken beside others: by an explicit method with error control, without events, switches,
@@ -71,7 +71,7 @@ struct Underway<'a> {
 
 impl<'a> Underway<'a> {
     /// Begins a run; a result if it ends at once.
-    fn begin(place: usize, variant: &Variant<'a>) -> Result<Self, Box<Outcome>> {
+    fn begin(place: usize, variant: &Variant<'a>) -> Result<Self, Box<RunOutcome>> {
         let Variant { prepared, start, options } = variant;
         let model: &'a Model = prepared.model();
         let mut run = Run::default();
@@ -105,7 +105,7 @@ impl<'a> Underway<'a> {
         Ok(ended.is_none() && self.steps.reached(&self.recorder).is_none())
     }
 
-    fn end(mut self, outcome: Result<(), Box<Failure>>) -> Outcome {
+    fn end(mut self, outcome: Result<(), Box<Failure>>) -> RunOutcome {
         let reached = self.steps.reached(&self.recorder);
         let outcome = outcome.map(|()| reached.unwrap_or(PhaseEnd::Stopped));
         self.steps.end(&mut self.at, &mut self.run);
@@ -119,7 +119,7 @@ fn conclude(
     at: &Progress,
     outcome: Result<PhaseEnd, Box<Failure>>,
     mut run: Run,
-) -> Outcome {
+) -> RunOutcome {
     match end_phase(model, recorder, at, outcome, &mut run) {
         Ok(end) => {
             run.reached = matches!(end, PhaseEnd::Reached);
@@ -140,9 +140,12 @@ pub struct Trials {
 
 /// Integrates variants of one model, which differ in the [values of parameters](Model::with_values) and all
 /// [can be run so](Variant::serves). `watch` may stop all runs.
-pub fn side_by_side(variants: &[Variant<'_>], watch: &dyn Fn() -> Flow) -> (Vec<Outcome>, Trials) {
+pub fn side_by_side(
+    variants: &[Variant<'_>],
+    watch: &dyn Fn() -> Flow,
+) -> (Vec<RunOutcome>, Trials) {
     let mut trials = Trials::default();
-    let mut outcomes: Vec<Option<Outcome>> = variants.iter().map(|_| None).collect();
+    let mut outcomes: Vec<Option<RunOutcome>> = variants.iter().map(|_| None).collect();
     let mut waiting = variants.iter().enumerate();
     let mut lanes: [Option<Underway<'_>>; WIDTH] = Default::default();
     let (mut steps, mut motion) = (LaneSteps::default(), None);
@@ -181,7 +184,7 @@ pub fn side_by_side(variants: &[Variant<'_>], watch: &dyn Fn() -> Flow) -> (Vec<
 /// Begins the next run that does not end at once.
 fn next<'v, 'a: 'v>(
     waiting: &mut impl Iterator<Item = (usize, &'v Variant<'a>)>,
-    outcomes: &mut [Option<Outcome>],
+    outcomes: &mut [Option<RunOutcome>],
 ) -> Option<Underway<'a>> {
     waiting.find_map(|(place, variant)| match Underway::begin(place, variant) {
         Ok(run) => Some(run),

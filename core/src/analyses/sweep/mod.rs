@@ -57,7 +57,7 @@ pub enum Outcome {
 }
 
 /// The parameters and the entries of `set` that a variant changes.
-pub type Row = (Vec<(String, f64)>, Vec<(String, f64)>);
+pub type VariantRow = (Vec<(String, f64)>, Vec<(String, f64)>);
 
 /// A variant before its run.
 struct Ready {
@@ -79,7 +79,7 @@ impl Sweep {
     /// it is faster, several runs take their steps side by side; their numbers are the same.
     ///
     /// `stop` is looked at now and then.
-    pub fn variants(&self, rows: &[Row], stop: &(dyn Fn() -> bool + Sync)) -> Vec<Outcome> {
+    pub fn variants(&self, rows: &[VariantRow], stop: &(dyn Fn() -> bool + Sync)) -> Vec<Outcome> {
         let ready: Vec<_> = rows.iter().map(|row| self.ready(row, stop)).collect();
         let prepared = ready.iter().map(|ready| ready.as_ref().ok());
         let prepared: Vec<_> =
@@ -95,7 +95,11 @@ impl Sweep {
     }
 
     /// A variant before its run.
-    fn ready(&self, (parameters, start): &Row, stop: &dyn Fn() -> bool) -> Result<Ready, Outcome> {
+    fn ready(
+        &self,
+        (parameters, start): &VariantRow,
+        stop: &dyn Fn() -> bool,
+    ) -> Result<Ready, Outcome> {
         if stop() {
             return Err(Outcome::Stopped);
         }
@@ -124,7 +128,7 @@ impl Sweep {
         ready: &'r [Result<Ready, Outcome>],
         prepared: &'r [Option<Prepared<&'r Model>>],
         stop: &dyn Fn() -> bool,
-    ) -> Vec<Option<dynamics::Outcome>> {
+    ) -> Vec<Option<dynamics::RunOutcome>> {
         let mut runs: Vec<_> = ready.iter().map(|_| None).collect();
         let all = ready.iter().zip(prepared).enumerate();
         let (places, variants): (Vec<_>, Vec<_>) = all
@@ -147,7 +151,7 @@ impl Sweep {
         &self,
         ready: &Ready,
         prepared: &Prepared<&Model>,
-        run: Option<dynamics::Outcome>,
+        run: Option<dynamics::RunOutcome>,
         stop: &dyn Fn() -> bool,
     ) -> Outcome {
         let watch = |_| if stop() { Flow::Stop } else { Flow::Continue };
