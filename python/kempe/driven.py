@@ -1,4 +1,4 @@
-"""Kinematics and inverse dynamics: the motion that drivers determine, and what it requires."""
+"""Kinematics and inverse dynamics: the motion that drivers determine, and the efforts for it."""
 
 from __future__ import annotations
 
@@ -175,7 +175,7 @@ def _times(t: float, options: Mapping[str, Any]) -> Floats:
 def driven_by(
     model: CompiledModel, over: str, start: State
 ) -> tuple[CompiledModel, float, Variable]:
-    """The model with ``over`` driven by t, the value of ``over`` at the start, and what t is now.
+    """The model with ``over`` driven by t, its value at the start, and the quantity in t.
 
     Raises:
         ModelError: there is no such driver or position quantity, or several drivers determine the

@@ -1,4 +1,4 @@
-"""Requests for events of a run: conditions, with what follows from them."""
+"""Requests for events of a run: conditions, with their effects."""
 
 from __future__ import annotations
 

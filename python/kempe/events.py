@@ -34,7 +34,7 @@ Read = Callable[["Motion"], Floats]
 
 
 class EventWarning(UserWarning):
-    """A run had an event after which its result is no longer what the mechanism would do."""
+    """A run had an event after which its result is no longer the motion of the real mechanism."""
 
 
 @dataclass(frozen=True, repr=False)

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 #: Largest number of redundancies or loops in a report.
 _MOST = 20
-#: What the kinds of singular positions mean.
+#: Descriptions of the kinds of singular positions.
 _KINDS = {
     "dead point": "a driver cannot move the mechanism from here",
     "change point": "motions cross here, so that the branch is not determined",
@@ -32,7 +32,9 @@ _KINDS = {
 
 @dataclass(frozen=True)
 class Remedy:
-    """What may be freed in one joint of a redundancy; ``str`` of it is such as ``B along x``.
+    """The equations that may be freed in one joint of a redundancy.
+
+    Its ``str`` is a text such as ``B along x``.
 
     Attributes:
         joint: the joint or driver.
@@ -61,7 +63,8 @@ class Redundancy:
     Attributes:
         joints: the joints and drivers that take part.
         equations: their equations that take part, such as ``C.x``. Any one of them may be removed.
-        remedies: what may be freed in each joint instead of removing it; one of them is enough.
+        remedies: the equations that may be freed in each joint instead of removing it; one
+            of them is enough.
         remove: one of them; those of all redundancies together may be removed.
         consistent: whether the rates that drivers prescribe agree with it.
         kind: "dead point", "change point" or "uncertainty" if it holds at this position only; empty

@@ -1,4 +1,4 @@
-"""ARCHITECTURE.md has at most three pages, and all paths on it and on the pages that continue it exist."""
+"""ARCHITECTURE.md has at most three pages; all paths on the pages about the code exist."""
 
 import re
 from pathlib import Path

@@ -15,17 +15,16 @@ KNOWN = {
     # the model over lanes, with and without vector registers
     "Wide",
     # terms of mechanics or of files, and the same words in numerics or in printed equations
-    "At", "Block", "Bodies", "Entry", "Field", "Form", "Function", "Group", "Held", "Motion", "Pair", "Part", "Place",
-    "Record", "Source", "Start", "Stepper", "Symbol", "Table", "Terms", "Variable", "Words",
+    "At", "Block", "Bodies", "Entry", "Field", "Form", "Function", "Group", "Held", "Motion",
+    "Pair", "Part", "Place", "Record", "Source", "Start", "Stepper", "Symbol", "Table", "Terms",
+    "Variable", "Words",
 }  # fmt: skip
 
 
 def type_names(text: str) -> list[str]:
     """Names of the structs, enums and traits of a file, without those of unit tests."""
     code = code_only(text).partition("#[cfg(test)]\nmod ")[0]
-    return re.findall(
-        r"(?m)^\s*(?:pub(?:\([^)]*\))?\s+)?(?:struct|enum|trait)\s+([A-Z]\w*)", code
-    )
+    return re.findall(r"(?m)^\s*(?:pub(?:\([^)]*\))?\s+)?(?:struct|enum|trait)\s+([A-Z]\w*)", code)
 
 
 def test_a_type_has_a_name_of_its_own() -> None:

@@ -27,10 +27,7 @@ impl Condition {
     /// # Errors
     /// A fault of the text, an unknown name, different dimensions, or a condition that never changes.
     pub fn read(model: &Model, released: &[String], text: &str) -> Result<Self, Problem> {
-        let nowhere: [&str; 0] = [];
-        Self::compile(model, released, text).map_err(|fault| {
-            Problem::at(&nowhere, fault.message).within(fault.span).maybe_hint(fault.hint)
-        })
+        Self::compile(model, released, text).map_err(Problem::from)
     }
 
     fn compile(model: &Model, released: &[String], text: &str) -> Result<Self, ExpressionError> {

@@ -74,8 +74,7 @@ kind! {
                 return Ok(());
             }
             let hint = did_you_mean(name, &known).map_or(String::new(), |hint| format!("; {hint}"));
-            let nowhere: [&str; 0] = [];
-            Err(Problem::at(&nowhere, format!("there is no driver '{name}'{hint}")))
+            Err(Problem::new(format!("there is no driver '{name}'{hint}")))
         })
     }
 }

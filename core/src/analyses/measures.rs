@@ -33,10 +33,7 @@ impl Measure {
     /// # Errors
     /// A fault of the text, an unknown name, or dimensions that do not fit.
     pub fn read(model: &Model, text: &str) -> Result<Self, Problem> {
-        let nowhere: [&str; 0] = [];
-        Self::compile(model, text).map_err(|fault| {
-            Problem::at(&nowhere, fault.message).within(fault.span).maybe_hint(fault.hint)
-        })
+        Self::compile(model, text).map_err(Problem::from)
     }
 
     fn compile(model: &Model, text: &str) -> Result<Self, ExpressionError> {

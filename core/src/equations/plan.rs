@@ -105,7 +105,7 @@ pub(super) fn row_blocks(layout: &StateLayout) -> (Vec<RowBlock>, Vec<usize>) {
     let (mut row_blocks, mut owners) = (Vec::new(), Vec::new());
     for (k, Slots { rows, blocks, .. }) in layout.constraints.iter().enumerate() {
         for skipped in (0..rows.len()).step_by(ROWS) {
-            let touch = |block: &Block| (block.owner, StateLayout::entries(block, skipped).start);
+            let touch = |block: &Block| (block.owner, block.row(skipped).start);
             let signs = blocks.iter().map(|block| block.sign).filter(|sign| *sign != 0.0);
             owners.push(k);
             row_blocks.push(RowBlock {

@@ -180,6 +180,10 @@ impl<S> Model<S> {
     pub fn constraint(&self, name: &str) -> Option<usize> {
         self.constraints.iter().position(|c| c.name == name)
     }
+    /// The names of joints and drivers, by their places.
+    pub fn names_of<'a>(&self, places: impl IntoIterator<Item = &'a usize>) -> Vec<&str> {
+        places.into_iter().map(|k| self.constraints[*k].name.as_str()).collect()
+    }
     /// The name of an equation, such as `C.x`; that of its joint if it has only one.
     pub fn equation_name(&self, row: usize) -> String {
         let (k, equation) = self.layout.owner(row);

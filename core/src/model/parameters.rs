@@ -49,20 +49,15 @@ pub fn values(
 }
 
 fn formula(value: &Value) -> Result<Expression, Problem> {
-    let nowhere: [&str; 0] = [];
     match value {
         Value::Number(x) if x.is_finite() => {
-            Expression::number(*x).map_err(|fault| Problem::at(&nowhere, fault.message))
+            Expression::number(*x).map_err(|fault| Problem::new(fault.message))
         }
-        Value::Number(x) => {
-            Err(Problem::at(&nowhere, format!("{x} is not a number to compute with")))
-        }
-        Value::Text(text) => Expression::parse(text).map_err(|fault| {
-            Problem::at(&nowhere, fault.message).within(fault.span).maybe_hint(fault.hint)
-        }),
+        Value::Number(x) => Err(Problem::new(format!("{x} is not a number to compute with"))),
+        Value::Text(text) => Expression::parse(text).map_err(Problem::from),
         other => {
             let message = format!("must be a number or a formula, not {}", other.noun());
-            Err(Problem::at(&nowhere, message))
+            Err(Problem::new(message))
         }
     }
 }

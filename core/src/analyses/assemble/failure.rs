@@ -239,7 +239,7 @@ pub(super) fn loop_through(model: &Model, joint: usize) -> Option<String> {
     if loop_.len() > 2 && loop_[1] > loop_[loop_.len() - 1] {
         loop_[1..].reverse();
     }
-    let names: Vec<&str> = loop_.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+    let names = model.names_of(&loop_);
     // a long loop is shortened in its middle
     Some(match names.len() {
         0..=MOST_IN_LOOP => names.join("-"),
@@ -299,7 +299,7 @@ pub(super) fn redundant(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -
     let mut all: Vec<usize> = equations.iter().flat_map(|one| one.group.clone()).collect();
     all.sort_unstable();
     all.dedup();
-    let names: Vec<&str> = all.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+    let names = model.names_of(&all);
     let last = group.last().map_or("", |k| model.constraints[*k].name.as_str());
     let whole = twin(model, &group, mobility);
     let freed = match whole {

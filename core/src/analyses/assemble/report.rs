@@ -121,8 +121,7 @@ pub(super) fn folded(model: &Model, dyads: &[Dyad]) -> Vec<String> {
 /// A warning for each group of constraints that depend on each other at this position only.
 pub(super) fn singular(model: &Model, groups: &[Vec<usize>]) -> Vec<String> {
     let one = |group: &Vec<usize>| {
-        let names: Vec<&str> = group.iter().map(|k| model.constraints[*k].name.as_str()).collect();
-        let names = listed(&names);
+        let names = listed(&model.names_of(group));
         format!("this is a singular position: the constraints {names} depend on each other here")
     };
     let mut warnings: Vec<String> = groups.iter().take(MOST_REPORTED).map(one).collect();

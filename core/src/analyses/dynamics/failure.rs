@@ -314,9 +314,8 @@ const MOST_BODIES: usize = 4;
 
 /// The joints that depend on each other, and the positions of the bodies.
 fn place(model: &Model, t: f64, q: &[f64], row: usize) -> String {
-    let joints = dependent(model, t, q, row);
-    let joints: Vec<&str> = joints.iter().map(|k| model.constraints[*k].name.as_str()).collect();
-    format!(" (joints {}; {})", joints.join(", "), positions(model, q))
+    let joints = model.names_of(&dependent(model, t, q, row)).join(", ");
+    format!(" (joints {joints}; {})", positions(model, q))
 }
 
 /// Two motions that pass each other without meeting.

@@ -11,8 +11,7 @@ kind! {
         let what = "position quantities, such as [\"crank.angle\"]";
         reader.names(key, what, |model, name, before| {
             if before.iter().any(|known| known == name) {
-                let nowhere: [&str; 0] = [];
-                return Err(Problem::at(&nowhere, format!("{name} is listed twice")));
+                return Err(Problem::new(format!("{name} is listed twice")));
             }
             position(model, name).map(|_| ())
         })
