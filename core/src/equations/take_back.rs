@@ -22,8 +22,8 @@ use crate::model::Model;
 const LITTLE_INERTIA: f64 = 0.5;
 /// 1 - g of a motion without mass: rounding errors leave about 1e-28.
 const MASSLESS: f64 = 1e-22;
-/// 1 / (1 - g) above which rounding errors of x grow too much.
-const AMPLIFIED: f64 = 1e3;
+/// Product of all 1 / (1 - g) above which rounding errors of x grow too much.
+const AMPLIFIED: f64 = 100.0;
 
 /// Mass or moment of inertia that is added at one coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +79,7 @@ impl<S: Real> Directions<S> {
         let additions = matrix.additions();
         let none = || Direction { column: 0, y: Vec::new(), factor: S::zero() };
         self.all.resize_with(additions.len(), none);
-        let mut doubts = Doubts::default();
+        let (mut doubts, mut growth) = (Doubts::default(), S::one());
         for (k, Addition { column, weight }) in additions.iter().enumerate() {
             let (before, after) = self.all.split_at_mut(k);
             let own = &mut after[0];
@@ -107,8 +107,9 @@ impl<S: Real> Directions<S> {
                     doubts.massless = Some(*column);
                 }
             }
-            doubts.amplified |= any(own.factor - S::constant(AMPLIFIED));
+            growth *= own.factor.max(S::one());
         }
+        doubts.amplified = any(growth - S::constant(AMPLIFIED));
         doubts
     }
 
