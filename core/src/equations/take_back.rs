@@ -107,7 +107,7 @@ impl<S: Real> Directions<S> {
                     doubts.massless = Some(*column);
                 }
             }
-            growth *= own.factor.max(S::one());
+            growth = growth * own.factor.max(S::one());
         }
         doubts.amplified = any(growth - S::constant(AMPLIFIED));
         doubts
