@@ -296,3 +296,35 @@ fn freedoms_that_are_left_are_refused_and_a_limit_is_kept() {
     let found = all(&m, &[("B.angle", "1")]).expect("positions");
     assert!(found.states.len() >= 2, "{}", found.states.len());
 }
+
+/// Bars on ground pins; the last one is the crank of a four-bar linkage.
+const COUPLED: &str =
+    "[bodies.ground]\npoints = { A = [0, 0], B = [1, 0], C = [2, 0], D = [6, 0] }\n\
+     [bodies.a]\ntype = 'bar'\nmass = 1\nlength = 1\nends = ['A', 'P']\n\
+     [bodies.b]\ntype = 'bar'\nmass = 1\nlength = 1\nends = ['B', 'P']\n\
+     [bodies.crank]\ntype = 'bar'\nmass = 1\nlength = 1\nends = ['C', 'E']\n\
+     [bodies.coupler]\ntype = 'bar'\nmass = 1\nlength = 3.5\nends = ['E', 'F']\n\
+     [bodies.rocker]\ntype = 'bar'\nmass = 1\nlength = 2.5\nends = ['D', 'F']\n\
+     [joints]\nA = { type = 'revolute', i = 'ground.A', j = 'a.A' }\n\
+     B = { type = 'revolute', i = 'ground.B', j = 'b.B' }\n\
+     C = { type = 'revolute', i = 'ground.C', j = 'crank.C' }\n\
+     E = { type = 'revolute', i = 'crank.E', j = 'coupler.E' }\n\
+     F = { type = 'revolute', i = 'coupler.F', j = 'rocker.F' }\n\
+     D = { type = 'revolute', i = 'ground.D', j = 'rocker.D' }\n\
+     first = { type = 'coupling', terms = { 'a.angle' = 1, 'b.angle' = -2 } }\n";
+
+#[test]
+fn couplings_of_given_angles_leave_the_list_complete() {
+    let second = "second = { type = 'coupling', terms = { 'b.angle' = 3, 'crank.angle' = -1 }, value = 0.4 }\n";
+    let m = model(&format!("{COUPLED}{second}"));
+    let found = all(&m, &[("a.angle", "1")]).expect("positions");
+    assert!(found.complete && found.states.len() == 2, "both closures of the four-bar linkage");
+    let crank = m.layout.bodies[3].first + 2;
+    for (state, _) in &found.states {
+        assert!((state.q[crank] - 1.1).abs() < 1e-12, "3 * 1 / 2 - 0.4");
+    }
+    // the whole turns of the rocker are not known
+    let other = "second = { type = 'coupling', terms = { 'b.angle' = 3, 'rocker.angle' = -1 } }\n";
+    let found = all(&model(&format!("{COUPLED}{other}")), &[("crank.angle", "1")]);
+    assert!(!found.expect("positions").complete);
+}

@@ -168,7 +168,7 @@ class Model(BodyMethods, ElementMethods, MeasureMethods, TreeMethods):
         """A model with a copy of a tree."""
         model = cls()
         tree = mapping(tree, "tree", "{'bodies': {…}}")
-        kept = {key: tree[key] for key in model._tree if key in tree}
+        kept = {key: tree[key] for key in (*model._tree, "redundancy") if key in tree}
         model._tree.update(copy.deepcopy(kept))
         return model
 

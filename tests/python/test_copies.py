@@ -91,6 +91,18 @@ def test_redundancy_that_was_allowed_stays_allowed(of: Callable[[Any], Any]) -> 
     assert kp.dynamics(start.model, start, t_end=0.1).success
 
 
+def test_the_tree_of_a_model_keeps_that_redundancy_is_allowed() -> None:
+    m = kp.Model("drawer", parameters={"m": 1}, redundancy="allow")
+    m.ground.points(A=(0, 0), B=(1, 0))
+    m.body("drawer", mass="m", inertia=1, points={"A": (0, 0), "B": (1, 0)})
+    m.translational("left", "ground.A", "drawer.A")
+    m.translational("right", "ground.B", "drawer.B")
+    for other in (kp.Model.from_tree(m.tree()), m.with_parameters({"m": 2})):
+        other.ground.points(C=(2, 0))
+        assert other.redundancy == "allow" and other.tree()["redundancy"] == "allow"
+        assert kp.assemble(other)["left"].unique is False
+
+
 def test_a_pair_of_model_and_solution_stays_together(pendulum: kp.Model) -> None:
     sol = kp.dynamics(pendulum, kp.assemble(pendulum), t_end=0.1)
     of_case = kp.Case(pendulum, analyses=[kp.Dynamics(0.1)]).run()[0]

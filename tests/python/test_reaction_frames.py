@@ -1,6 +1,7 @@
 """Frames, points and uniqueness of reactions."""
 
 import json
+import re
 from pathlib import Path
 
 import kempe as kp
@@ -8,6 +9,7 @@ import numpy as np
 import pytest
 from house.places import ROOT
 from kempe.cli import app
+from kempe.draw.player import page
 from kempe.plot.pages import pages
 
 EXAMPLES = sorted((ROOT / "examples").glob("*.toml"))
@@ -157,6 +159,19 @@ def test_redundant_joints_have_no_unique_reaction() -> None:
     assert sol.newton_euler.largest < 1e-9  # the values carry the loads
 
 
+def test_the_page_remarks_values_that_are_not_unique() -> None:
+    shown = kp.scene(door())
+    assert shown["minimum_norm"] == ["low", "high"]
+    found = re.search(r'<script type="application/json"[^>]*>(.*?)</script>', page(shown), re.S)
+    assert found
+    written = json.loads(found[1])
+    remarked = ["low (minimum norm)", "high (minimum norm)", "hook"]
+    assert [joint["name"] for joint in written["joints"]] == remarked
+    torques = {one["of"] for one in written["channels"] if one["quantity"] == "torque"}
+    assert "low (minimum norm)" in torques
+    assert [joint["name"] for joint in shown["joints"]] == ["low", "high", "hook"]
+
+
 def test_values_that_are_not_unique_are_labelled(tmp_path: Path) -> None:
     sol = door()
     sol.to_csv(tmp_path / "door.csv")
@@ -169,10 +184,10 @@ def test_values_that_are_not_unique_are_labelled(tmp_path: Path) -> None:
     assert "minimum norm" not in kp.plot.reactions(sol, "hook").get_title(loc="left")
     labels = [line.get_label() for line in kp.plot.all_reactions(sol).get_lines()]
     assert [", minimum norm" in str(label) for label in labels] == [True, True, False, False]
-    for page in pages(sol):
-        if page.name in ("reactions_low", "reactions_hook"):
-            told = " ".join(text.get_text() for text in page.draw().texts)
-            assert ("not unique: minimum norm" in told) == (page.name == "reactions_low")
+    for one in pages(sol):
+        if one.name in ("reactions_low", "reactions_hook"):
+            told = " ".join(text.get_text() for text in one.draw().texts)
+            assert ("not unique: minimum norm" in told) == (one.name == "reactions_low")
 
 
 def test_the_printed_table_marks_values_that_are_not_unique(

@@ -20,6 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 G = 9.81
+#: Stiffness of the spring on a light rocker, N·m/rad.
+SPRING = 20.0
 
 Vector = NDArray[np.float64]
 #: Derivatives of orders 1 and 2 by the independent coordinate.
@@ -89,8 +91,17 @@ def four_bar(mass: float) -> kp.Model:
     return m
 
 
-def of_four_bar(_: float, y: Vector) -> list[float]:
-    a, rate = y
+def sprung_four_bar(mass: float) -> kp.Model:
+    """Coupler and rocker are light, and a spring acts on the rocker."""
+    tree = four_bar(mass).tree()
+    tree["bodies"]["rocker"]["mass"] = mass
+    m = kp.Model.from_tree(tree)
+    m.torsion_spring("spring", "ground", "rocker", stiffness=SPRING, free_angle=2)
+    return m
+
+
+def of_rocker(a: float) -> tuple[float, float, float]:
+    """The angle of the rocker and its derivatives."""
     d, l3 = math.hypot(3, 0.4), 2.5
     w = 4 - cmath.exp(1j * a)
     # the angle of the rocker from w + l3 e^(ic) = d e^(ib)
@@ -105,8 +116,21 @@ def of_four_bar(_: float, y: Vector) -> list[float]:
     b1, c1 = solved(-1j * cmath.exp(1j * a))
     second = cmath.exp(1j * a) + d * cmath.exp(1j * b) * b1**2 - l3 * cmath.exp(1j * c) * c1**2
     _, c2 = solved(second)
+    return c, c1, c2
+
+
+def of_four_bar(_: float, y: Vector) -> list[float]:
+    a, rate = y
+    c, c1, c2 = of_rocker(a)
     crank = bar(1, 1, FIXED, (1, 0), a)
-    return [rate, acceleration([crank, bar(2, l3, FIXED, (c1, c2), c)], rate)]
+    return [rate, acceleration([crank, bar(2, 2.5, FIXED, (c1, c2), c)], rate)]
+
+
+def of_sprung_four_bar(_: float, y: Vector) -> list[float]:
+    a, rate = y
+    c, c1, _c2 = of_rocker(a)
+    crank = bar(1, 1, FIXED, (1, 0), a)
+    return [rate, acceleration([crank], rate, -SPRING * (c - 2) * c1)]
 
 
 def slider(a: float, l2: float) -> tuple[float, tuple[float, float], Rates]:
@@ -142,6 +166,11 @@ def of_light_rod(_: float, y: Vector) -> list[float]:
     a, rate = y
     moved = slider(a, 2.5)[2]
     return [rate, acceleration([bar(1, 1, FIXED, (1, 0), a), Part(0.8, moved)], rate)]
+
+
+def of_crank(_: float, y: Vector) -> list[float]:
+    a, rate = y
+    return [rate, acceleration([bar(1, 1, FIXED, (1, 0), a)], rate)]
 
 
 def trammel(mass: float) -> kp.Model:
@@ -229,6 +258,15 @@ CASES = {
     "rod": Case(
         lambda mass: engine(crank=1, rod=mass, piston=0.8), CRANK, ("crank.angle",), of_light_rod
     ),
+    "rocker and coupler": Case(
+        sprung_four_bar,
+        {"crank.angle": 0.9, "crank.omega": 3.0, "rocker.angle": 2.0},
+        ("crank.angle",),
+        of_sprung_four_bar,
+    ),
+    "piston and rod": Case(
+        lambda mass: engine(crank=1, rod=mass, piston=mass), CRANK, ("crank.angle",), of_crank
+    ),
     "slider loop": Case(trammel, {"rod.angle": 2.6, "rod.omega": 0.5}, ("rod.angle",), of_trammel),
     "loop": Case(loop, {"first.angle": 1.0, "first.omega": 2.0}, ("first.angle",), of_loop),
     "rods": Case(
@@ -237,89 +275,6 @@ CASES = {
         ("upper.angle", "lower.angle"),
         of_rods,
     ),
-}
-
-
-def hung(mass: float) -> tuple[kp.Model, dict[str, float]]:
-    """A light pendulum on a heavy cart: a light freedom of its own."""
-    m = kp.Model("cart", gravity=(0, -G))
-    m.ground.points(O=(0, 0))
-    m.body("cart", mass=1, inertia=1, points={"P": (0, 0)})
-    m.bar("rod", mass=mass, length=1, ends=("P", "Q"))
-    m.translational("S", "ground.O", "cart.P")
-    m.revolute("P", "cart.P", "rod.P")
-    return m, {"cart.x": 0, "cart.vx": 1, "rod.angle": 0.4, "rod.omega": 2}
-
-
-def slack(mass: float) -> tuple[kp.Model, dict[str, float]]:
-    """Three light links between two heavy pendulums: a light freedom between heavy bodies."""
-    m = kp.Model("links", gravity=(0, -G))
-    m.ground.points(O=(0, 0), E=(3, 0))
-    m.bar("left", mass=1, length=1, ends=("O", "P"))
-    m.bar("right", mass=1, length=1, ends=("E", "P"))
-    for k in range(3):
-        m.bar(f"link{k}", mass=mass, length=1.3, ends=("P", "Q"))
-    m.revolute("O", "ground.O", "left.O")
-    m.revolute("E", "ground.E", "right.E")
-    ends = ["left.P", "link0.P", "link0.Q", "link1.P", "link1.Q", "link2.P", "link2.Q", "right.P"]
-    for k in range(4):
-        m.revolute(f"j{k}", ends[2 * k], ends[2 * k + 1])
-    given = {"left.angle": -1.2, "right.angle": -1.7, "link0.angle": -0.6}
-    return m, given | {"left.omega": 1, "right.omega": -0.5, "link0.omega": 1}
-
-
-def chain(*masses: float) -> tuple[kp.Model, dict[str, float]]:
-    m = kp.Model("chain", gravity=(0, -G))
-    m.ground.points(O=(0, 0))
-    last = "ground.O"
-    given: dict[str, float] = {}
-    for k, mass in enumerate(masses):
-        m.bar(f"b{k}", mass=mass, length=1, ends=("P", "Q"))
-        m.revolute(f"j{k}", last, f"b{k}.P")
-        last = f"b{k}.Q"
-        given |= {f"b{k}.angle": 0.3 * k - 1.2, f"b{k}.omega": 0.7 * (-1) ** k + 0.1 * k}
-    return m, given
-
-
-def quick_return(mass: float) -> tuple[kp.Model, dict[str, float]]:
-    """A light block that slides on a heavy lever."""
-    m = kp.Model("crank and lever", gravity=(0, -G))
-    m.ground.points(O=(0, 0), D=(-2, 0))
-    m.bar("crank", mass=1, length=1, ends=("O", "P"))
-    m.bar("lever", mass=2, length=4, ends=("D", "E"))
-    m.body("block", mass=mass, inertia=0.1 * mass, points={"P": (0, 0)})
-    m.revolute("O", "ground.O", "crank.O")
-    m.revolute("D", "ground.D", "lever.D")
-    m.revolute("P", "crank.P", "block.P")
-    m.translational("S", "lever.D", "block.P")
-    return m, {"crank.angle": 0.7, "crank.omega": 3.0}
-
-
-def flywheel(mass: float) -> tuple[kp.Model, dict[str, float]]:
-    """A wheel with hardly any mass, a light tip that is welded to it, and a light rod."""
-    m = kp.Model("flywheel", gravity=(0, -G))
-    m.ground.points(O=(0, 0))
-    m.body("wheel", mass=mass, inertia=0.4, points={"O": (0, 0), "A": (0.1, 0)})
-    m.bar("rod", mass=mass, length=0.3, ends=("A", "B"))
-    m.bar("tip", mass=0.5 * mass, length=0.1, ends=("P", "Q"))
-    m.body("piston", mass=2, inertia=0, points={"B": (0, 0)})
-    m.revolute("O", "ground.O", "wheel.O")
-    m.revolute("A", "wheel.A", "rod.A")
-    m.revolute("B", "rod.B", "piston.B")
-    m.weld("W", "wheel.A", "tip.P", angle=0.5)
-    m.translational("S", "ground.O", "piston.B")
-    return m, {"wheel.angle": 0.6, "wheel.omega": 4.0}
-
-
-LIGHT: dict[str, Callable[[float], tuple[kp.Model, dict[str, float]]]] = {
-    "hung": hung,
-    "slack": slack,
-    "quick return": quick_return,
-    "flywheel": flywheel,
-    "between": lambda r: chain(1, r, 1),
-    "ever lighter": lambda r: chain(1, r**0.25, r**0.5, r**0.75, r),
-    "ever heavier": lambda r: chain(r, r**0.5, 1),
-    "mixed": lambda r: chain(1, r, 1, r**0.5, r, r, 1),
 }
 
 

@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 from kempe.cli import main
 from scipy.integrate import solve_ivp
-from truth.massless import CASES, FILE, LIGHT, Case, G, Vector, hung, slack
+from truth.light import LIGHT, hung, slack
+from truth.massless import CASES, FILE, Case, G, Vector
 
 T_END = 3.0
 #: Distance from the minimal coordinates.

@@ -1,8 +1,6 @@
-//! Mass and moments of inertia added to light bodies, so that M can be inverted block by block without loss of digits.
+//! Which bodies are light, and how much inertia they need so that M can be inverted block by block without loss of digits.
 //!
-//! They are for models in which light bodies cannot borrow enough from their neighbours (`equations/lending.rs`), and for
-//! redundant rows. The equations of motion remain those of the bodies without the additions E: `equations/refine.rs`
-//! takes them back, to rounding.
+//! `equations/lending.rs` lets them borrow it from their neighbours, or adds it.
 //!
 //! A body is light if it carries loads between heavier ones. Its branches are what each of its joints leads to; ground is
 //! a branch of infinite mass. Only the load of the second heaviest branch passes through the body. So a light pendulum on
@@ -24,14 +22,14 @@ const TURNING: f64 = 0.1;
 const LIGHT_IMPLICIT: f64 = 1e-12;
 /// The mass that it has then.
 const FLOOR_IMPLICIT: f64 = 1e-9;
-/// The part of these additions below which a body with loans is still light.
+/// The part of these numbers below which a body with loans is still light.
 pub(super) const ENOUGH: f64 = LIGHT / FLOOR;
 /// Mass of the internal coordinates of elements, relative to the heaviest body.
 const OWN: f64 = 1e-4;
 /// The same in the matrix of implicit methods.
 const OWN_IMPLICIT: f64 = 1e-7;
 
-/// Mass, kg, and moment of inertia about the mass centre, kg·m², that are added to a body.
+/// Mass, kg, and moment of inertia about the mass centre, kg·m², that a light body needs; zero for other bodies.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Added {
     /// Mass, kg.
@@ -41,13 +39,13 @@ pub struct Added {
 }
 
 impl Added {
-    /// Whether anything is added.
+    /// Whether the body is light.
     pub fn any(&self) -> bool {
         self.mass > 0.0 || self.inertia > 0.0
     }
 }
 
-/// What is added to each body, ground first, while the equations of motion are solved.
+/// What each body needs, ground first, while the equations of motion are solved.
 pub(super) fn added<S: Real>(model: &Model<S>) -> Vec<Added> {
     additions(model, LIGHT, FLOOR)
 }

@@ -3,7 +3,9 @@
 //! With W = M and μ = 0 it is the matrix of the equations of motion (Haug 6.3.18); with W = I it
 //! gives the smallest step of Newton's method, with μ > 0 a damped one.
 
+use super::lending::Lent;
 use super::plan::Plan;
+use super::take_back::Addition;
 use super::{loans, mass, Compiled};
 use crate::math::{Motion, Real};
 use crate::model::Model;
@@ -34,6 +36,8 @@ pub enum NearSingular {
 pub struct Augmented<S = f64> {
     plan: Arc<Plan>,
     saddle: Saddle<S>,
+    /// What light bodies have beside their own inertia in W.
+    lent: Option<Arc<Lent<S>>>,
     near_singular: NearSingular,
     /// Whether the current factor has the ridge.
     regularised: bool,
@@ -51,7 +55,7 @@ impl<S: Real> Augmented<S> {
     pub fn on(plan: Arc<Plan>) -> Self {
         let saddle = Saddle::new(&plan.pattern);
         let near_singular = NearSingular::Ignore;
-        Self { saddle, plan, near_singular, regularised: false, omitted: Vec::new() }
+        Self { saddle, plan, lent: None, near_singular, regularised: false, omitted: Vec::new() }
     }
 
     /// The plan, for others of the same model.
@@ -67,11 +71,11 @@ impl<S: Real> Augmented<S> {
         (&self.plan, &mut self.saddle)
     }
 
-    /// W = M at the given motions, with what is added to light bodies, or lent to them.
+    /// W = M at the given motions, with what is lent and added to light bodies.
     pub fn set_mass(&mut self, compiled: &Compiled<S>, motions: &[Motion<S>]) {
         self.set_inertia(compiled);
         let Self { plan, saddle, .. } = self;
-        let inertias = compiled.inertias_in(plan.condenses);
+        let inertias = &compiled.lent(plan.condenses).inertias;
         mass::turn_all(plan.pattern.coupled(), inertias, motions, &mut saddle.masses);
         for (grounded, group) in compiled.grounded.iter().zip(&mut saddle.condensed) {
             grounded.turn(inertias, motions, group);
@@ -80,9 +84,9 @@ impl<S: Real> Augmented<S> {
 
     /// The part of W = M that does not depend on the state.
     pub(super) fn set_inertia(&mut self, compiled: &Compiled<S>) {
-        let inertias = compiled.inertias_in(self.plan.condenses);
-        let (bodies, own) = self.saddle.masses.split_at_mut(inertias.len());
-        for (mass, inertia) in bodies.iter_mut().zip(inertias) {
+        let lent = compiled.lent(self.plan.condenses);
+        let (bodies, own) = self.saddle.masses.split_at_mut(lent.inertias.len());
+        for (mass, inertia) in bodies.iter_mut().zip(&lent.inertias) {
             let [m, j] = inertia.inverse;
             *mass = InverseMass::diagonal([m, m, j]);
         }
@@ -91,6 +95,7 @@ impl<S: Real> Augmented<S> {
         for (k, grounded) in condensed.zip(&compiled.grounded) {
             grounded.set(k, &mut self.saddle);
         }
+        self.lent = Some(Arc::clone(lent));
     }
 
     /// W diagonal, shape (n_q).
@@ -105,6 +110,7 @@ impl<S: Real> Augmented<S> {
             inverse.iter_mut().zip(d).for_each(|(inverse, d)| *inverse = S::one() / *d);
             *mass = InverseMass::diagonal(inverse);
         }
+        self.lent = None;
     }
 
     /// The entries of Φ_q, to be filled.
@@ -188,34 +194,48 @@ impl<S: Real> Augmented<S> {
         }
     }
 
-    /// Whether mass is added to light bodies, so that the matrix is not that of the equations.
-    pub(super) fn adds_mass(&self, compiled: &Compiled<S>) -> bool {
-        compiled.adds_mass && self.plan.loans.is_none()
+    /// Whether inertia is added to light bodies, so that the matrix is not that of the equations.
+    pub fn adds_inertia(&self) -> bool {
+        !self.additions().is_empty()
+    }
+
+    /// What is added to W, so that the matrix is not that of the equations.
+    #[inline(always)]
+    pub(super) fn additions(&self) -> &[Addition] {
+        self.lent.as_ref().map_or(&[], |lent| &lent.additions)
     }
 
     /// Solves in place; (q part, multiplier part), shape (n_q + n_rows).
     pub fn solve(&self, x: &mut [S]) {
-        let n = x.len() - self.plan.pattern.n_rows();
-        let (entries, (f, gamma)) = (&self.saddle.entries, x.split_at_mut(n));
-        loans::take(self.plan.loans(), entries, gamma, f);
-        self.solve_lent(x);
-        let (a, lam) = x.split_at_mut(n);
-        loans::give_back(self.plan.loans(), entries, a, lam);
-    }
-
-    /// The same with the loans.
-    fn solve_lent(&self, x: &mut [S]) {
-        let Plan { pattern, .. } = &*self.plan;
-        let padding = pattern.n_unknowns() + pattern.n_rows() - x.len();
+        let padding = self.plan.pattern.n_unknowns() + self.plan.pattern.n_rows() - x.len();
         if padding == 0 {
-            return self.saddle.solve(pattern, x);
+            return self.solve_padded(x);
         }
-        let (q, rows) = x.split_at_mut(pattern.n_unknowns() - padding);
+        let (q, rows) = x.split_at_mut(self.plan.pattern.n_unknowns() - padding);
         let zeros = vec![S::zero(); padding];
         let mut padded = [&*q, &zeros, &*rows].concat();
-        self.saddle.solve(pattern, &mut padded);
+        self.solve_padded(&mut padded);
         q.copy_from_slice(&padded[..q.len()]);
         rows.copy_from_slice(&padded[q.len() + padding..]);
+    }
+
+    /// The same with the unknowns that pad the last group; loans are applied.
+    fn solve_padded(&self, x: &mut [S]) {
+        let Plan { pattern, .. } = &*self.plan;
+        let loans = self.lent.as_ref().map_or(&[][..], |lent| &lent.loans);
+        let (f, gamma) = x.split_at_mut(pattern.n_unknowns());
+        loans::take(loans, &self.saddle.entries, gamma, f);
+        self.saddle.solve(pattern, x);
+        let (a, lam) = x.split_at_mut(pattern.n_unknowns());
+        loans::give_back(loans, &self.saddle.entries, a, lam);
+    }
+
+    /// The solution for a load at one coordinate alone, into `x`, shape (n_unknowns + n_rows).
+    pub(super) fn put_response(&self, column: usize, load: S, x: &mut Vec<S>) {
+        x.clear();
+        x.resize(self.plan.pattern.n_unknowns() + self.plan.pattern.n_rows(), S::zero());
+        x[column] = load;
+        self.solve_padded(x);
     }
 
     /// The loss of digits of the worst pivot: the constraint row, and the ratio of the pivot to the largest number from

@@ -5,39 +5,25 @@
 
 use super::added_mass::{self, Added};
 use super::grounded::{grounded, holds, Grounded};
-use super::inertia::{self, inertias, Inertia};
-use super::lending::lend;
-use super::loans::Loan;
+use super::lending::{lend, Lent};
 use crate::elements::{ForcePools, JointPools, Place};
 use crate::math::{Real, Vec2};
-use crate::model::{Body, Model, Weighed};
-
-/// Loans between bodies, and the inertia of the moving bodies with them.
-#[derive(Clone, Debug)]
-pub(super) struct Lent<S> {
-    pub loans: Vec<Loan>,
-    pub inertias: Vec<Inertia<S>>,
-}
+use crate::model::Model;
+use std::sync::Arc;
 
 /// Data derived from a [`Model`]; immutable.
 #[derive(Clone, Debug)]
 pub struct Compiled<S = f64> {
-    /// Inertia of the moving bodies, without ground.
-    pub inertias: Vec<Inertia<S>>,
-    /// The inertia that light bodies borrow for condensed elimination; None if no body is light, or if loans are not
-    /// enough.
-    pub(super) lent: Option<Lent<S>>,
-    /// The moving bodies whose mass centre is off the frame's origin, as places in `inertias`.
+    /// Inertia of the bodies in the matrix, with free bodies and with condensed ones.
+    lent: [Arc<Lent<S>>; 2],
+    /// The moving bodies whose mass centre is off the frame's origin, counted without ground.
     pub off_center: Vec<usize>,
     /// Weight of the bodies as generalized force, shape (n_q).
     pub weight: Vec<S>,
-    /// Mass and inertia that are added to light bodies while the equations are solved; `refine` takes them back. One for
-    /// each moving body, zero for most.
+    /// Mass and inertia of which a part must be lent or added to light bodies. One for each moving body, zero for most.
     pub added: Vec<Added>,
-    /// Mass that is added to the internal coordinates of elements in the same way, kg.
+    /// Mass that is added to the internal coordinates of elements, kg.
     pub own_mass: f64,
-    /// Whether anything is added where nothing is lent.
-    pub adds_mass: bool,
     /// Moving bodies that a joint of two rows holds to ground.
     pub grounded: Vec<Grounded<S>>,
     /// Joints and drivers with constant fields, by type.
@@ -69,66 +55,41 @@ impl<S: Real> Compiled<S> {
                 Some(_) => forces_with_laws.push(k),
             }
         }
-        let inertias = inertias(&model.blueprint.bodies, &model.bodies, &added);
-        let own_coordinates = model.layout.owners.len() >= model.bodies.len();
-        let adds_mass = own_coordinates || added.iter().any(Added::any);
-        let mut holds = holds(model);
-        let lent = if adds_mass && !own_coordinates {
-            lend((model, weighed(&model.bodies)), &added, &holds)
-        } else {
-            None
-        };
-        if lent.is_none() {
-            let light = holds.iter_mut().zip(&added).filter(|(_, added)| added.any());
-            light.for_each(|(hold, _)| *hold = None);
-        }
-        let grounded = match &lent {
-            Some((_, bodies)) => grounded(model, &holds, bodies),
-            None => grounded(model, &holds, &weighed(&model.bodies)),
-        };
-        let of_bodies = |(loans, bodies): (Vec<Loan>, Vec<Weighed<S>>)| Lent {
-            loans,
-            inertias: inertia::lent(&model.bodies, &bodies),
-        };
-        let off_center = (0..inertias.len()).filter(|k| inertias[*k].coupled).collect();
+        let (holds, free) = (holds(model), vec![None; model.bodies.len()]);
+        let lent = [&free, &holds].map(|holds| Arc::new(lend(model, &added, holds)));
+        let grounded = grounded(model, &holds, &lent[1].bodies);
+        let formulas = model.blueprint.bodies.iter().skip(1).enumerate();
+        let off_center = formulas.filter(|(_, body)| !body.is_centred()).map(|(k, _)| k).collect();
         Self {
+            lent,
             off_center,
             weight: weight(model),
             joints,
             joints_with_laws,
             forces,
             forces_with_laws,
-            inertias,
             grounded,
-            lent: lent.map(of_bodies),
             own_mass: added_mass::own_mass(&model.bodies),
-            adds_mass,
             added: added[1..].to_vec(),
         }
     }
 
-    /// Inertia of the moving bodies in the matrix of a plan that condenses bodies or not, without ground.
+    /// Inertia of the bodies in the matrix of a plan that condenses bodies or not.
     #[inline(always)]
-    pub(super) fn inertias_in(&self, condenses: bool) -> &[Inertia<S>] {
-        match &self.lent {
-            Some(lent) if condenses => &lent.inertias,
-            _ => &self.inertias,
-        }
+    pub(super) fn lent(&self, condenses: bool) -> &Arc<Lent<S>> {
+        &self.lent[usize::from(condenses)]
+    }
+
+    /// What light bodies borrow where grounded bodies are condensed: the numbers of loans and of additions.
+    pub fn lent_and_added(&self) -> [usize; 2] {
+        let Lent { loans, additions, .. } = &*self.lent[1];
+        [loans.len(), additions.len()]
     }
 
     /// The largest 1/m of the moving bodies, additions included, 1/kg.
     pub fn compliance(&self) -> S {
-        self.inertias.iter().map(|inertia| inertia.inverse[0]).fold(S::zero(), S::max)
+        self.lent[0].inertias.iter().map(|inertia| inertia.inverse[0]).fold(S::zero(), S::max)
     }
-}
-
-/// Inertia of all bodies, ground first.
-fn weighed<S: Real>(bodies: &[Body<S>]) -> Vec<Weighed<S>> {
-    let of = |body: &Body<S>| {
-        let Body { mass, center, inertia, .. } = *body;
-        Weighed { mass, center, inertia }
-    };
-    bodies.iter().map(of).collect()
 }
 
 /// Weight of the bodies as generalized force, shape (n_q).

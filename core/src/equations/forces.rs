@@ -5,13 +5,13 @@ use super::kinematics::Motions;
 use super::laws::{self, Laws};
 use super::powers::Powers;
 use super::reactions::{self, Frame};
-use super::{Compiled, Inertia};
+use super::Compiled;
 use crate::elements::{
     Behaviour, BodyId, Force, ForceElement, Held, Mode, Nature, Pooled, Situation, VisitForces,
     Wrenches,
 };
 use crate::math::{Motion, Real, Vec2, Wrench};
-use crate::model::{ForceItem, Model};
+use crate::model::{Body, ForceItem, Model};
 use std::borrow::Cow;
 
 /// The quantities that forces may depend on in addition to the motion.
@@ -53,16 +53,16 @@ fn body_forces<S: Real>(
     out[..compiled.weight.len()].copy_from_slice(&compiled.weight);
     for &k in &compiled.off_center {
         let [weight_x, weight_y, _] = model.layout.bodies[k + 1].of(out);
-        let w = off_center(&compiled.inertias[k], &motions[k + 1], Vec2::new(weight_x, weight_y));
+        let w = off_center(&model.bodies[k + 1], &motions[k + 1], Vec2::new(weight_x, weight_y));
         out[model.layout.bodies[k + 1].range()].copy_from_slice(&[w.force.x, w.force.y, w.torque]);
     }
 }
 
 /// Weight, and the centrifugal force m A c′ φ̇², of a mass centre off the frame's origin.
-fn off_center<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>, weight: Vec2<S>) -> Wrench<S> {
-    let arm = motion.pose.global(inertia.center);
+fn off_center<S: Real>(body: &Body<S>, motion: &Motion<S>, weight: Vec2<S>) -> Wrench<S> {
+    let arm = motion.pose.global(body.center);
     let omega = motion.twist.omega;
-    let centrifugal = arm.scale(inertia.mass * omega * omega);
+    let centrifugal = arm.scale(body.mass * omega * omega);
     Wrench { force: weight + centrifugal, torque: arm.cross(weight) }
 }
 

@@ -1,14 +1,12 @@
 //! Masses and moments of inertia of the moving bodies, inverted once.
 
-use super::added_mass::Added;
-use crate::expression::Tape;
 use crate::math::{Local, Real};
-use crate::model::{Body, Weighed};
+use crate::model::{Model, Weighed};
 
-/// Inertia of a moving body.
+/// Inertia of a moving body in W, with loans and additions.
 #[derive(Clone, Copy, Debug)]
 pub struct Inertia<S = f64> {
-    /// 1/m and 1/J about the mass centre, additions included: 1/kg, 1/(kg·m²).
+    /// 1/m and 1/J about the mass centre: 1/kg, 1/(kg·m²).
     pub inverse: [S; 2],
     /// Mass, kg.
     pub mass: S,
@@ -19,37 +17,21 @@ pub struct Inertia<S = f64> {
     pub coupled: bool,
 }
 
-/// Inertias of all moving bodies that have loans, which may move their mass centres.
-pub(super) fn lent<S: Real>(bodies: &[Body<S>], lent: &[Weighed<S>]) -> Vec<Inertia<S>> {
-    let inertia = |(body, own): (&Body<S>, &Weighed<S>)| {
-        let turning = if body.turns { own.inertia } else { S::one() };
+/// Inertias of all moving bodies from those of all bodies, ground first; loans may have moved the mass centres of `moved`.
+pub(super) fn inertias<S: Real>(
+    model: &Model<S>,
+    all: &[Weighed<S>],
+    moved: &[bool],
+) -> Vec<Inertia<S>> {
+    let inertia = |(k, own): (usize, &Weighed<S>)| {
+        let turns = model.bodies[k].turns;
+        let turning = if turns { own.inertia } else { S::one() };
         Inertia {
             inverse: [S::one() / own.mass, S::one() / turning],
             mass: own.mass,
             center: own.center,
-            coupled: body.turns,
+            coupled: turns && (moved[k] || !model.blueprint.bodies[k].is_centred()),
         }
     };
-    bodies.iter().zip(lent).skip(1).map(inertia).collect()
-}
-
-/// Inertias of all moving bodies, given as formulas and as numbers, ground first.
-pub(super) fn inertias<S: Real>(
-    formulas: &[Body<Tape>],
-    bodies: &[Body<S>],
-    added: &[Added],
-) -> Vec<Inertia<S>> {
-    let moving = formulas.iter().zip(bodies).zip(added).skip(1);
-    let inertia = |((formula, body), added): ((&Body<Tape>, &Body<S>), &Added)| {
-        let plus = |own: S, added: f64| own + S::constant(added);
-        let turning = if body.turns { plus(body.inertia, added.inertia) } else { S::one() };
-        let (m, j) = (S::one() / plus(body.mass, added.mass), S::one() / turning);
-        Inertia {
-            inverse: [m, j],
-            mass: body.mass,
-            center: body.center,
-            coupled: !formula.is_centred(),
-        }
-    };
-    moving.map(inertia).collect()
+    all.iter().enumerate().skip(1).map(inertia).collect()
 }

@@ -13,9 +13,8 @@
 
 use super::added_mass::{self, Added};
 use super::coupling::Participants;
-use super::plan::{groups, row_blocks};
+use super::plan::row_blocks;
 use super::tangent::{Entry, Tangent};
-use super::Compiled;
 use crate::math::Field;
 use crate::model::{Model, StateLayout};
 use crate::solve::{BlockLu, LuPlan};
@@ -60,9 +59,7 @@ pub struct Places {
 impl Places {
     /// For a model and the pattern of its tangent.
     pub fn new(model: &Model, tangent: &Tangent) -> Self {
-        let compiled = Compiled::new(model);
-        let groups: Vec<usize> =
-            groups(model, &compiled.inertias).iter().map(|group| group.size).collect();
+        let groups: Vec<usize> = model.layout.owners.iter().map(|columns| columns.count).collect();
         let (blocks, _) = row_blocks(&model.layout);
         let state_sizes = state_blocks(&model.layout);
         let n = groups.len() + state_sizes.len();

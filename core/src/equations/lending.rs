@@ -4,29 +4,50 @@
 //! enough lends in turn. A condensed body needs inertia for its one freedom only: a piston one point mass, a link on
 //! ground one that is not at its pin. Ground lends mass at a pin, so that no link is without.
 //!
-//! The loan of a pin is a point mass. So of two light links in a row none gets a moment of inertia. Where a body is left
-//! without enough, nothing is lent, and `equations/added_mass.rs` applies.
+//! Where nobody can lend enough, as to the links of a massless dyad, inertia is added to the body that needs it at the
+//! fewest coordinates, and lending goes on from there. `equations/take_back.rs` takes the additions back.
 
-use super::added_mass::{number, Added, ENOUGH};
+use super::added_mass::{self, number, Added, ENOUGH};
 use super::grounded::Hold;
+use super::inertia::{self, Inertia};
 use super::loans::{End, Loan};
+use super::take_back::Addition;
 use crate::elements::Fixes;
 use crate::math::{Local, Real};
-use crate::model::{Model, Weighed};
+use crate::model::{Body, Model, Weighed};
 use std::ops::Range;
 
 /// The part of its inertia that a body lends.
 const LENT: f64 = 0.5;
+/// A moment of inertia is added so many times, so that the body can lend.
+const AMPLE: f64 = 10.0;
 
-/// The loans of a model, and the inertia of each body with them, ground first; None if they are not enough.
-pub(super) fn lend<S: Real>(
-    (model, bodies): (&Model<S>, Vec<Weighed<S>>),
-    added: &[Added],
-    holds: &[Option<Hold>],
-) -> Option<(Vec<Loan>, Vec<Weighed<S>>)> {
-    let mut market = Market::new((model, bodies), added, holds);
-    while market.round() {}
-    market.sound.iter().all(|sound| *sound).then_some((market.loans, market.bodies))
+/// The inertia of bodies in the matrix, and how it differs from their own.
+#[derive(Clone, Debug)]
+pub(super) struct Lent<S> {
+    pub loans: Vec<Loan>,
+    /// What is added beside the loans, also to the internal coordinates of elements.
+    pub additions: Vec<Addition>,
+    /// Inertia of all bodies with both, ground first.
+    pub bodies: Vec<Weighed<S>>,
+    /// The same of the moving bodies.
+    pub inertias: Vec<Inertia<S>>,
+}
+
+/// Lends to the light bodies of a model of which `holds` are condensed.
+pub(super) fn lend<S: Real>(model: &Model<S>, added: &[Added], holds: &[Option<Hold>]) -> Lent<S> {
+    let mut market = Market::new(model, added, holds);
+    while market.round() || market.add() {}
+    let Market { loans, mut additions, bodies, mut moved, .. } = market;
+    for Loan { borrower, lender, .. } in &loans {
+        moved[borrower.body] = true;
+        lender.iter().for_each(|lender| moved[lender.body] = true);
+    }
+    let weight = added_mass::own_mass(&model.bodies);
+    let own = model.layout.constraints.iter().flat_map(|slots| slots.own.range());
+    additions.extend(own.map(|column| Addition { column, weight }));
+    let inertias = inertia::inertias(model, &bodies, &moved);
+    Lent { loans, additions, bodies, inertias }
 }
 
 /// What a joint can lend between two moving bodies.
@@ -60,25 +81,27 @@ struct Market<'a, S> {
     /// What the bodies at the ends of each link may lend there.
     shares: Vec<[f64; 2]>,
     loans: Vec<Loan>,
+    additions: Vec<Addition>,
+    /// Whether an addition has moved the mass centre of a body.
+    moved: Vec<bool>,
 }
 
 impl<'a, S: Real> Market<'a, S> {
-    fn new(
-        (model, bodies): (&'a Model<S>, Vec<Weighed<S>>),
-        added: &'a [Added],
-        holds: &[Option<Hold>],
-    ) -> Self {
-        let (n, links) = (model.bodies.len(), links(model));
+    fn new(model: &'a Model<S>, added: &'a [Added], holds: &[Option<Hold>]) -> Self {
+        let n = model.bodies.len();
+        let links = if added.iter().any(Added::any) { links(model) } else { Vec::new() };
         let held = holds.iter().enumerate();
         let mut market = Self {
             model,
             added,
             held: held.map(|(body, hold)| held_by(model, body, hold.as_ref())).collect(),
-            bodies,
+            bodies: model.bodies.iter().map(weighed).collect(),
             sound: vec![false; n],
             shares: vec![[0.0; 2]; links.len()],
             links,
             loans: Vec::new(),
+            additions: Vec::new(),
+            moved: vec![false; n],
         };
         for (body, added) in added.iter().enumerate().take(n) {
             if body == 0 || !added.any() || market.is_enough(body, &market.bodies[body]) {
@@ -95,19 +118,50 @@ impl<'a, S: Real> Market<'a, S> {
         let accepted: Vec<_> = offers
             .filter(|(body, loans)| self.is_enough(*body, &self.with(*body, loans)))
             .collect();
-        for (body, loans) in &accepted {
-            self.bodies[*body] = self.with(*body, loans);
-            for (k, loan) in loans {
-                if let Some(lender) = &loan.lender {
-                    let less =
-                        self.changed(self.bodies[lender.body], *k, lender.body, -loan.weight);
-                    self.bodies[lender.body] = less;
-                }
-                self.loans.push(loan.clone());
-            }
-        }
+        accepted.iter().for_each(|(body, loans)| self.borrow(*body, loans));
         accepted.iter().for_each(|(body, _)| self.accept(*body));
         !accepted.is_empty()
+    }
+
+    /// Adds inertia to the body that needs it at the fewest coordinates, beside what it can borrow; whether there is one.
+    fn add(&mut self) -> bool {
+        let waiting = (0..self.sound.len()).filter(|body| !self.sound[*body]);
+        let needs = waiting.map(|body| {
+            let loans = self.offers(body);
+            let needed = self.needed(body, &self.with(body, &loans));
+            (body, loans, needed)
+        });
+        let columns = |needed: &[bool; 2]| 2 * usize::from(needed[0]) + usize::from(needed[1]);
+        let Some((body, loans, needed)) = needs.min_by_key(|(.., needed)| columns(needed)) else {
+            return false;
+        };
+        self.borrow(body, &loans);
+        let (Added { mass, inertia }, first) =
+            (self.added[body], self.model.layout.bodies[body].first);
+        let mut add = |column, weight| self.additions.push(Addition { column, weight });
+        let own = &mut self.bodies[body];
+        if needed[0] {
+            *own = with_point(*own, mass, Local::zero());
+            self.moved[body] = true;
+            (first..first + 2).for_each(|column| add(column, mass));
+        }
+        if needed[1] {
+            own.inertia += S::constant(AMPLE * inertia);
+            add(first + 2, AMPLE * inertia);
+        }
+        self.accept(body);
+        true
+    }
+
+    fn borrow(&mut self, body: usize, loans: &[(usize, Loan)]) {
+        self.bodies[body] = self.with(body, loans);
+        for (k, loan) in loans {
+            if let Some(lender) = &loan.lender {
+                let less = self.changed(self.bodies[lender.body], *k, lender.body, -loan.weight);
+                self.bodies[lender.body] = less;
+            }
+            self.loans.push(loan.clone());
+        }
     }
 
     /// The loans that a body can have now, with their links.
@@ -139,13 +193,20 @@ impl<'a, S: Real> Market<'a, S> {
 
     /// Whether a body has enough inertia.
     fn is_enough(&self, body: usize, own: &Weighed<S>) -> bool {
+        self.needed(body, own) == [false; 2]
+    }
+
+    /// Whether a body needs mass, and a moment of inertia.
+    fn needed(&self, body: usize, own: &Weighed<S>) -> [bool; 2] {
         let Added { mass, inertia } = self.added[body];
-        let moves = number(own.mass) > 0.0 && number(own.mass) >= ENOUGH * mass;
-        let turns = |own: S| number(own) > 0.0 && number(own) >= ENOUGH * inertia;
+        let short = |own: S, added: f64| !(number(own) > 0.0 && number(own) >= ENOUGH * added);
         match &self.held[body] {
-            Held::Slide => moves,
-            Held::Pin(pin, _) => turns(about(own, *pin)),
-            Held::Free => moves && (!self.model.bodies[body].turns || turns(own.inertia)),
+            Held::Slide => [short(own.mass, mass), false],
+            Held::Pin(pin, _) => [false, short(about(own, *pin), inertia)],
+            Held::Free => {
+                let turns = self.model.bodies[body].turns;
+                [short(own.mass, mass), turns && short(own.inertia, inertia)]
+            }
         }
     }
 
@@ -204,6 +265,12 @@ impl<'a, S: Real> Market<'a, S> {
             self.loans.push(Loan { weight, ..loan.clone() });
         }
     }
+}
+
+/// Inertia of a body of its own.
+fn weighed<S: Real>(body: &Body<S>) -> Weighed<S> {
+    let Body { mass, center, inertia, .. } = *body;
+    Weighed { mass, center, inertia }
 }
 
 /// The moment of inertia about a point.

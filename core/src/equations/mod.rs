@@ -13,7 +13,6 @@ pub mod energy;
 pub mod forces;
 pub mod formulas;
 mod gains;
-mod gradients;
 mod grounded;
 mod independent;
 mod inertia;
@@ -35,6 +34,7 @@ pub mod refine;
 mod residuals;
 mod roles;
 pub mod switches;
+mod take_back;
 pub mod tangent;
 
 pub use compiled::Compiled;

@@ -12,10 +12,12 @@ use super::constraints::{self, Stabilized};
 use super::forces::{self, Acting};
 use super::gains::Gains;
 use super::kinematics::Motions;
+use super::lending::Lent;
 use super::plan::Plan;
 use super::powers::Powers;
 use super::reaction_slopes::by_multiplier;
 use super::roles::{self, Roles};
+use super::take_back::Doubts;
 use super::{loans, mass, reactions, reactive, refine, Compiled};
 use crate::math::Real;
 use crate::model::Model;
@@ -47,8 +49,7 @@ pub struct Workspace<S = f64> {
     offset: Vec<S>,
     /// Vectors of solutions by a modified matrix.
     memory: refine::Memory<S>,
-    /// Whether one elimination does not solve the equations: inertia is added, redundant rows are damped, or forces
-    /// depend on reactions.
+    /// Whether one elimination does not solve the equations: redundant rows are damped, or forces depend on reactions.
     modified: bool,
     /// Whether forces depend on reactions.
     depends: bool,
@@ -93,7 +94,6 @@ impl<S: Real> Workspace<S> {
         let depends = reactive::depends(model);
         let redundant = plan.accepts_redundancy(model);
         let mut matrix = Augmented::on(plan);
-        let adds_mass = matrix.adds_mass(&compiled);
         matrix.set_inertia(&compiled);
         if redundant {
             matrix.set_damping(redundant_rows(model, &compiled));
@@ -103,7 +103,7 @@ impl<S: Real> Workspace<S> {
             z: vec![S::zero(); model.layout.n_z],
             roles,
             matrix,
-            modified: adds_mass || redundant || depends,
+            modified: redundant || depends,
             depends,
             reactive,
             compiled,
@@ -118,19 +118,22 @@ impl<S: Real> Workspace<S> {
 
     /// Whether one elimination solves the equations.
     pub fn solves_directly(&self) -> bool {
-        !self.modified
+        !self.modified && self.matrix.additions().is_empty()
     }
 
-    /// Whether the equations of another variant of the model have the same structure.
-    pub fn is_like(&self, other: &Self) -> bool {
-        let plans = [self, other].map(|one| one.matrix.plan());
-        Arc::ptr_eq(plans[0], plans[1])
-            || self.modified == other.modified && plans[0].is_like(plans[1])
+    /// Whether the equations of another variant of the model, over any scalar, have the same structure.
+    pub fn is_like<P: Real>(&self, other: &Workspace<P>) -> bool {
+        let (plan, of_other) = (self.matrix.plan(), other.matrix.plan());
+        let [own, others] = [
+            &self.compiled.lent(plan.condenses).loans,
+            &other.compiled.lent(plan.condenses).loans,
+        ];
+        own == others && (Arc::ptr_eq(plan, of_other) || plan.is_like(of_other))
     }
 
     /// Whether one elimination solves the equations without damped rows.
     pub(super) fn set_direct(&mut self) {
-        self.modified = self.matrix.adds_mass(&self.compiled) || self.depends;
+        self.modified = self.depends;
     }
 
     /// Sets a constant `term`, shape (n_rows), that is subtracted from γ at every state.
@@ -189,6 +192,7 @@ impl<S: Real> Workspace<S> {
     pub fn respond(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
         if !self.modified {
             match self.solve_directly(model, t, gains) {
+                Ok(()) if !self.is_exact(model) => {}
                 Err(Breakdown::Row(_)) if self.matrix.near_singular() != NearSingular::Ignore => {}
                 outcome => return outcome,
             }
@@ -199,7 +203,7 @@ impl<S: Real> Workspace<S> {
     /// [`respond`](Self::respond) where one elimination solves the equations. Returns false elsewhere, over lanes where
     /// one lane needs more.
     pub fn respond_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> bool {
-        !self.modified && self.solve_directly(model, t, gains).is_ok()
+        self.solves_directly() && self.solve_directly(model, t, gains).is_ok()
     }
 
     /// q̈ and λ if the matrix is that of the equations: each joint is put into it when it is evaluated.
@@ -208,7 +212,7 @@ impl<S: Real> Workspace<S> {
         let Self { motions, z, compiled, roles, matrix, solution, powers, offset, .. } = self;
         let (plan, saddle) = matrix.parts_mut();
         let stabilized = Stabilized::new(gains);
-        let inertias = compiled.inertias_in(plan.condenses);
+        let Lent { loans, inertias, .. } = &**compiled.lent(plan.condenses);
         let at = roles::At { model, compiled, plan, inertias, motions, t, stabilized, offset };
         mass::turn_all(plan.pattern.coupled(), inertias, motions, &mut saddle.masses);
         let (x, right) = solution.split_at_mut(self.n_unknowns);
@@ -216,14 +220,29 @@ impl<S: Real> Workspace<S> {
         forces::generalized(model, compiled, motions, acting, x, powers);
         roles::put_others(roles, at, saddle, right);
         roles::put_lending(roles, at, saddle, right);
-        loans::take(plan.loans(), &saddle.entries, right, x);
+        loans::take(loans, &saddle.entries, right, x);
         roles::condense(roles, at, saddle, (x, right));
         saddle.divide_by_masses(&plan.pattern, x);
         roles::put(roles, at, saddle, (x, right));
         saddle.finish(&plan.pattern, solution)?;
         let (a, lam) = solution.split_at_mut(self.n_unknowns);
-        loans::give_back(plan.loans(), &saddle.entries, a, lam);
+        loans::give_back(loans, &saddle.entries, a, lam);
         Ok(())
+    }
+
+    /// Takes back what was added to light bodies; whether the solution is then as exact as without additions.
+    #[inline(always)]
+    fn is_exact(&mut self, model: &Model<S>) -> bool {
+        self.matrix.additions().is_empty() || self.take_back(model)
+    }
+
+    #[inline(never)] // as below
+    fn take_back(&mut self, model: &Model<S>) -> bool {
+        let Self { motions, matrix, solution, memory, n_unknowns, .. } = self;
+        let doubts = memory.directions.find(model, motions, matrix);
+        let (a, lam) = solution.split_at_mut(*n_unknowns);
+        memory.directions.take_back(a, lam);
+        doubts == Doubts::default()
     }
 
     /// The same by the whole matrix; the factor may be that of a modified matrix. Forces that depend on reactions are
@@ -308,7 +327,7 @@ impl<S: Real> Workspace<S> {
         matrix.set_mass(compiled, motions);
         matrix.factor()?;
         let mut x = [impulses, rates].concat();
-        refine::solve((model, compiled), motions, matrix, &mut x, memory)?;
+        refine::solve(model, motions, matrix, &mut x, memory)?;
         let impulses = x.split_off(self.n_q);
         Ok([x, impulses])
     }
@@ -387,8 +406,7 @@ impl<S: Real> ForGiven<'_, S> {
             reactions::add_loads(model, self.motions, self.t, lam, q);
         }
         self.force = reactive::largest(q);
-        let of = (model, self.compiled);
-        let outcome = refine::solve(of, self.motions, self.matrix, &mut x, self.memory);
+        let outcome = refine::solve(model, self.motions, self.matrix, &mut x, self.memory);
         let (solution, padded) = &mut self.solution;
         solution[..n].copy_from_slice(&x[..n]);
         solution[*padded..].copy_from_slice(&x[n..]);
@@ -412,7 +430,7 @@ impl<S: Real> reactive::Response<S> for ForGiven<'_, S> {
         let acting = Acting { z: self.z, lam: Some(lam), t: self.t };
         let mut x = by_multiplier(model, self.motions, acting, row);
         x.resize(n + model.layout.n_rows, S::zero());
-        refine::solve((model, self.compiled), self.motions, self.matrix, &mut x, self.memory)?;
+        refine::solve(model, self.motions, self.matrix, &mut x, self.memory)?;
         Ok(x.split_off(n))
     }
 }

@@ -2,7 +2,6 @@
 
 use super::compiled::Compiled;
 use super::inertia::Inertia;
-use super::loans::Loan;
 use crate::math::Real;
 use crate::model::{Block, Columns, Model, Slots, StateLayout};
 use crate::solve::{Group, Pattern, RowBlock};
@@ -23,8 +22,6 @@ pub struct Plan {
     pub(super) owners: Vec<Columns>,
     /// Whether grounded bodies are condensed.
     pub(super) condenses: bool,
-    /// The inertia that light bodies borrow then; None if nothing is lent.
-    pub(super) loans: Option<Vec<Loan>>,
 }
 
 impl Plan {
@@ -39,10 +36,10 @@ impl Plan {
         Self::with(model, true)
     }
 
-    /// Whether another variant of the model has the same plan: what is condensed, lent or coupled depends on its numbers.
+    /// Whether another variant of the model has the same plan: the numbers decide which bodies are condensed and coupled.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         let coupled = [self, other].map(|plan| plan.pattern.coupled());
-        self.condensed == other.condensed && self.loans == other.loans && coupled[0] == coupled[1]
+        self.condensed == other.condensed && coupled[0] == coupled[1]
     }
 
     /// Whether redundant constraints are accepted.
@@ -62,28 +59,15 @@ impl Plan {
         let grounded = compiled.grounded.iter().filter(|_| condenses);
         let condensed: Vec<usize> = grounded.map(|grounded| grounded.constraint).collect();
         let condensed_blocks: Vec<usize> = condensed.iter().map(|k| first(*k)).collect();
-        let lent = compiled.lent.as_ref().filter(|_| condenses);
-        let inertias = lent.map_or(&compiled.inertias, |lent| &lent.inertias);
+        let inertias = &compiled.lent(condenses).inertias;
         let pattern = Pattern::new(&groups(model, inertias), &blocks, &condensed_blocks);
-        let loans = lent.map(|lent| lent.loans.clone());
         let pins = pattern.pin_rows().iter().map(|rows| owners[rows.block as usize]).collect();
-        Self { pattern, condensed, pins, owners: model.layout.owners.clone(), condenses, loans }
-    }
-
-    /// The loans, none where nothing is lent.
-    #[inline(always)]
-    pub(super) fn loans(&self) -> &[Loan] {
-        self.loans.as_deref().unwrap_or_default()
+        Self { pattern, condensed, pins, owners: model.layout.owners.clone(), condenses }
     }
 
     /// Number of unknowns of the solver: the coordinates, and those that pad a short last group.
     pub(super) fn n_unknowns(&self) -> usize {
         self.pattern.n_unknowns()
-    }
-
-    /// Number of loans of inertia to light bodies; None where nothing is lent.
-    pub fn n_loans(&self) -> Option<usize> {
-        self.loans.as_ref().map(Vec::len)
     }
 
     /// Number of products of blocks in one elimination.

@@ -1,16 +1,15 @@
 //! Solutions of the true equations of motion by factors of modified ones.
 //!
-//! The factors may be those of a matrix W = M + E with mass added to light bodies, and with damped rows where constraints
-//! are redundant. Let K be the true matrix and P the factorised one. The additions are taken back by conjugate gradients
-//! with P as preconditioner (`equations/gradients.rs`). Then x ← x + P⁻¹ (b - K x), again with conjugate gradients, takes
-//! back rounding errors, the error of redundant rows, which falls by their damping (the method of multipliers), and near
-//! singular positions the ridge. The remainder is computed with K, so the limit is exact.
+//! The factors may be those of a matrix W = M + E with mass added to light bodies, which `equations/take_back.rs` takes
+//! back, and with damped rows where constraints are redundant. Let K be the true matrix, and P the one of these solutions.
+//! Then x ← x + P⁻¹ (b - K x) takes back rounding errors, the error of redundant rows, which falls by their damping (the
+//! method of multipliers), and near singular positions the ridge. The remainder is computed with K, so the limit is exact.
 
 use super::augmented::Augmented;
-use super::gradients::{put_blocks, Additions, Gradients, Vectors};
 use super::kinematics::Motions;
 use super::mass::MassBlock;
-use super::{constraints, mass, Compiled};
+use super::take_back::Directions;
+use super::{constraints, mass};
 use crate::math::Real;
 use crate::model::Model;
 use crate::solve::Breakdown;
@@ -38,15 +37,14 @@ pub struct Memory<S> {
     terms: Vec<S>,
     correction: Vec<S>,
     masses: Vec<MassBlock<S>>,
-    blocks: Additions<S>,
-    vectors: Vectors<S>,
+    pub(super) directions: Directions<S>,
 }
 
 impl<S> Default for Memory<S> {
     fn default() -> Self {
         let [b, magnitudes, sizes, terms, correction] = [(); 5].map(|()| Vec::new());
-        let (masses, blocks, vectors) = (Vec::new(), Vec::new(), Vectors::default());
-        Self { b, magnitudes, sizes, terms, correction, masses, blocks, vectors }
+        let (masses, directions) = (Vec::new(), Directions::default());
+        Self { b, magnitudes, sizes, terms, correction, masses, directions }
     }
 }
 
@@ -55,33 +53,35 @@ impl<S> Default for Memory<S> {
 /// # Errors
 /// A coordinate without mass or inertia on which a load acts while no joint holds it.
 pub fn solve<S: Real>(
-    (model, compiled): (&Model<S>, &Compiled<S>),
+    model: &Model<S>,
     motions: &Motions<S>,
     matrix: &Augmented<S>,
     x: &mut [S],
     memory: &mut Memory<S>,
 ) -> Result<(), Breakdown> {
-    let Memory { b, magnitudes, sizes, terms, correction, masses, blocks, vectors } = memory;
+    let Memory { b, magnitudes, sizes, terms, correction, masses, directions } = memory;
+    let n = model.layout.n_q;
     b.clear();
     b.extend_from_slice(x);
-    let damped = matrix.regularised() || matrix.damps();
-    matrix.solve(x);
     mass::put_blocks(model, motions, masses);
-    if !matrix.adds_mass(compiled) {
+    let damped = matrix.regularised() || matrix.damps();
+    let massless = directions.find(model, motions, matrix).massless;
+    let respond = |x: &mut [S]| {
+        matrix.solve(x);
+        let (a, lam) = x.split_at_mut(n);
+        directions.take_back(a, lam);
+    };
+    respond(x);
+    if matrix.additions().is_empty() {
         for _ in 0..FOR_REDUNDANCY {
             put_remainder(model, masses, matrix.jacobian(), (b, x), correction);
-            matrix.solve(correction);
+            respond(correction);
             x.iter_mut().zip(&*correction).for_each(|(x, dx)| *x += *dx);
         }
         return Ok(());
     }
-    put_blocks(model, compiled, motions, blocks);
-    let mut gradients =
-        Gradients { model, motions, matrix, damped, masses, blocks, undetermined: None };
     magnitudes.clear();
     magnitudes.extend(matrix.jacobian().iter().map(|x| x.abs()));
-    put_terms(model, masses, magnitudes, (b, x), sizes, terms);
-    gradients.take_back(x, terms, vectors);
     let mut last = f64::INFINITY;
     for corrections in 0..MOST {
         put_remainder(model, masses, matrix.jacobian(), (b, x), correction);
@@ -93,15 +93,10 @@ pub fn solve<S: Real>(
             break;
         }
         last = left;
-        matrix.solve(correction);
-        gradients.take_back(correction, terms, vectors);
+        respond(correction);
         x.iter_mut().zip(&*correction).for_each(|(x, dx)| *x += *dx);
-        // the first solution left this part; that of the correction leaves as small a part of it
-        if !damped && left <= SIGNIFICANT {
-            break;
-        }
     }
-    match gradients.undetermined {
+    match massless {
         Some(column) if last > SIGNIFICANT => Err(Breakdown::Column(column)),
         _ => Ok(()),
     }

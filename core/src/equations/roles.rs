@@ -47,6 +47,7 @@ impl<S: Real> Roles<S> {
             let item = &model.constraints[k];
             Place::new(k, &item.bodies, model.layout.constraints[k].rows.start).with_slot(slot)
         };
+        let loans = &compiled.lent(plan.condenses).loans;
         let mut others = vec![true; model.constraints.len()];
         compiled.joints_with_laws.iter().for_each(|k| others[*k] = false);
         for (slot, k) in plan.condensed.iter().enumerate() {
@@ -54,7 +55,7 @@ impl<S: Real> Roles<S> {
             others[*k] = false;
         }
         for (slot, k) in plan.pins.iter().enumerate() {
-            let lends = plan.loans().iter().any(|loan| loan.constraint == *k);
+            let lends = loans.iter().any(|loan| loan.constraint == *k);
             let pool = if lends { &mut roles.lending } else { &mut roles.pins };
             pool.push(&model.constraints[*k].element, place(*k, slot));
             roles.slots.extend(lends.then_some(slot));

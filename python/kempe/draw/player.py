@@ -17,6 +17,7 @@ import json
 import re
 from importlib import resources
 from pathlib import Path
+from typing import Any
 
 from kempe import files
 from kempe._version import __version__
@@ -26,6 +27,7 @@ from kempe.draw.sampling import Span
 from kempe.draw.scene import Scene, scene
 from kempe.solution import Solution
 from kempe.state import State
+from kempe.table import MINIMUM_NORM
 
 
 def player(
@@ -59,7 +61,7 @@ def player(
 
 def page(shown: Scene, *, labels: bool = True) -> str:
     """The text of the page that shows a scene, with its display list."""
-    shown = {**shown, "display": rounded_all(frame_items(shown, labels=labels))}
+    shown = {**_remarked(shown), "display": rounded_all(frame_items(shown, labels=labels))}
     style, script = _asset("player.css"), _asset("player.js")
     policy = (
         f"default-src 'none'; script-src '{_hash(script)}'; style-src '{_hash(style)}'; "
@@ -74,6 +76,21 @@ def page(shown: Scene, *, labels: bool = True) -> str:
         "script": script,
     }
     return re.sub(r"\{\{(\w+)\}\}", lambda found: parts[found[1]], _asset("player.html"))
+
+
+def _remarked(shown: Scene) -> Scene:
+    """The scene with a remark behind the names of joints and drivers without a unique reaction."""
+    open_ones = shown["minimum_norm"]
+
+    def remarked(one: dict[str, Any], key: str) -> dict[str, Any]:
+        name = one[key]
+        return {**one, key: f"{name} ({MINIMUM_NORM})"} if name in open_ones else one
+
+    joints = [remarked(joint, "name") for joint in shown["joints"]]
+    channels = [
+        remarked(one, "of") if one["group"] == "reactions" else one for one in shown["channels"]
+    ]
+    return {**shown, "joints": joints, "channels": channels}
 
 
 def _json_for_html(shown: Scene) -> str:

@@ -96,6 +96,7 @@ def scene(
         "reaction_scale": _reaction_scale(peaks["reaction"], size),
         "largest": {kind: peaks[kind] for kind in ("velocity", "acceleration")},
         "channels": channels.channels(motion, sampling.energy(solution_or_state, motion)),
+        "minimum_norm": [name for name in model.constraints if name in motion.not_unique],
     }
 
 

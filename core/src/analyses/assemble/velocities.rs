@@ -22,8 +22,6 @@ struct Metric<'a> {
     matrix: &'a mut Augmented,
     /// Its largest 1/m.
     compliance: f64,
-    /// The data of the mass matrix, if that is the metric.
-    mass: Option<&'a Compiled>,
 }
 
 /// Makes `v` consistent at `q`; a consistent `v` is unchanged. Returns the largest remaining part of Φ_q q̇ - ν,
@@ -39,8 +37,7 @@ pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
     let compiled = Compiled::new(model);
     matrix.set_mass(&compiled, &motions);
     constraints::jacobian(model, &motions, t, matrix.jacobian_mut());
-    let metric =
-        Metric { matrix: &mut matrix, compliance: compiled.compliance(), mass: Some(&compiled) };
+    let metric = Metric { matrix: &mut matrix, compliance: compiled.compliance() };
     let left = correct(model, t, q, v, (metric, scale));
     if left <= ALIKE {
         return left;
@@ -49,7 +46,7 @@ pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
     let lengths = model.layout.lengths().into_iter();
     let alike: Vec<f64> = lengths.map(|length| if length { 1.0 } else { turning }).collect();
     matrix.set_weights(&alike);
-    let metric = Metric { matrix: &mut matrix, compliance: 1.0, mass: None };
+    let metric = Metric { matrix: &mut matrix, compliance: 1.0 };
     correct(model, t, q, v, (metric, scale))
 }
 
@@ -59,7 +56,7 @@ fn correct(
     t: f64,
     q: &[f64],
     v: &mut [f64],
-    (Metric { matrix, compliance, mass }, scale): (Metric<'_>, f64),
+    (Metric { matrix, compliance }, scale): (Metric<'_>, f64),
 ) -> f64 {
     let m = model.layout.n_rows;
     matrix.set_damping((0..m).map(|_| 0.0));
@@ -81,7 +78,7 @@ fn correct(
         last = left;
         let mut x = vec![0.0; v.len()];
         x.extend(rate.iter().map(|r| -r));
-        nearest(model, &motions, (matrix, mass), &mut x);
+        nearest(model, &motions, matrix, &mut x);
         v.iter_mut().zip(&x).for_each(|(v, dv)| *v += dv);
     }
     last
@@ -89,16 +86,11 @@ fn correct(
 
 /// Solves for a correction in the metric. Where a massless body has a freedom of its own, each of its rates has the same
 /// energy; the factor, with mass added to it, chooses them.
-fn nearest(
-    model: &Model,
-    motions: &Motions,
-    (matrix, mass): (&Augmented, Option<&Compiled>),
-    x: &mut Vec<f64>,
-) {
-    if let Some(compiled) = mass.filter(|compiled| compiled.adds_mass) {
+fn nearest(model: &Model, motions: &Motions, matrix: &Augmented, x: &mut Vec<f64>) {
+    if matrix.adds_inertia() {
         let mut exact = x.clone();
         let memory = &mut refine::Memory::default();
-        if refine::solve((model, compiled), motions, matrix, &mut exact, memory).is_ok() {
+        if refine::solve(model, motions, matrix, &mut exact, memory).is_ok() {
             *x = exact;
             return;
         }

@@ -4,10 +4,14 @@
 //! the bodies coupled to it are elsewhere.
 
 use super::found::Positions;
+use crate::analyses::assemble::Targets;
 use crate::analyses::closing::{Closing, Halt};
 use crate::elements::Group;
 use crate::model::{ConstraintItem, Model};
 use std::f64::consts::TAU;
+
+/// Rounding errors of a linear equation.
+const LINEAR: f64 = 1e-12;
 
 /// Whether a constraint counts whole turns.
 fn counts(item: &ConstraintItem) -> bool {
@@ -16,13 +20,53 @@ fn counts(item: &ConstraintItem) -> bool {
 }
 
 /// The columns of the angles that such constraints count.
-pub(super) fn counted(model: &Model) -> Vec<usize> {
+fn counted(model: &Model) -> Vec<usize> {
     let bodies = model.constraints.iter().filter(|item| counts(item)).flat_map(|item| &item.bodies);
     let columns = bodies.map(|body| model.layout.bodies[body.0]).filter(|body| body.count == 3);
     let mut angles: Vec<usize> = columns.map(|body| body.first + 2).collect();
     angles.sort_unstable();
     angles.dedup();
     angles
+}
+
+/// Gives the angles that follow from given ones by couplings, whole turns included, to the targets; returns whether that
+/// gives all counted angles. Then no body can have turned once more.
+pub(super) fn follow(model: &Model, closing: &Closing<'_>, targets: &mut Targets) -> bool {
+    let rows = model.constraints.iter().zip(&model.layout.constraints);
+    let counting: Vec<_> = rows.filter(|(item, _)| counts(item)).collect();
+    for _ in 0..counting.len() {
+        for (item, slots) in &counting {
+            let mut open = item
+                .bodies
+                .iter()
+                .filter(|body| !body.is_ground() && targets.hard[body.0][2].is_none());
+            let (Some(body), None) = (open.next(), open.next()) else { continue };
+            if let Some(angle) = solved(model, closing, targets, slots.rows.start) {
+                targets.hard[body.0][2] = Some(angle);
+            }
+        }
+    }
+    let bodies = counting.iter().flat_map(|(item, _)| &item.bodies);
+    let mut moving = bodies.filter(|body| !body.is_ground());
+    moving.all(|body| targets.hard[body.0][2].is_some())
+}
+
+/// The one angle of an equation of angles that the targets do not give; None if the equation is not linear in it, or
+/// depends on places.
+fn solved(model: &Model, closing: &Closing<'_>, targets: &Targets, row: usize) -> Option<f64> {
+    let residual = |angle: f64, place: f64| {
+        let mut q = vec![place; model.layout.n_q];
+        for (columns, hard) in model.layout.bodies.iter().zip(&targets.hard) {
+            let turning = columns.range().nth(2);
+            turning.into_iter().for_each(|column| q[column] = hard[2].unwrap_or(angle));
+        }
+        closing.phi(&q)[row]
+    };
+    let [at, next, far, elsewhere] =
+        [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (0.0, 1.0)].map(|(a, p)| residual(a, p));
+    let slope = next - at;
+    let alike = |x: f64, y: f64| (x - y).abs() <= LINEAR * (at.abs() + slope.abs());
+    (slope != 0.0 && alike(far - next, slope) && alike(at, elsewhere)).then(|| -at / slope)
 }
 
 /// Adds the positions that whole turns of each such body lead to, from all positions found.

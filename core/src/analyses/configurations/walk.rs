@@ -1,7 +1,7 @@
 //! All closures of dyads, rods and meshed wheels.
 
 use super::found::Positions;
-use super::turns::counted;
+use super::turns;
 use crate::analyses::assemble::{following, place, Targets};
 use crate::analyses::closing::{Closing, Halt};
 use crate::model::{row_scales, Model};
@@ -20,7 +20,7 @@ pub(super) fn walk(model: &Model, t: f64, found: &mut Positions<'_>, stop: Halt<
     let scales = row_scales(model);
     let mut choices = Some(Vec::new());
     // a dyad closes at any whole turn of its bodies
-    let proven = counted(model).is_empty();
+    let proven = turns::follow(model, &closing, &mut targets);
     for _ in 0..MOST {
         let Some(taken) = choices.take() else { return proven };
         let placement = place(model, &targets, &taken);

@@ -24,10 +24,11 @@ impl LaneMotion {
         let [first, ..] = lanes;
         let alike = |one: &&MotionOde<'_>| {
             one.workspace.is_like(&first.workspace)
+                && one.workspace.solves_directly()
                 && one.gains == first.gains
                 && one.projection() == first.projection()
         };
-        if !lanes.iter().all(alike) || !first.workspace.solves_directly() {
+        if !lanes.iter().all(alike) {
             return None;
         }
         let models = lanes.map(|one| one.model);
@@ -37,6 +38,9 @@ impl LaneMotion {
         let mut workspace = Workspace::like(&model, &first.workspace);
         if first.passing {
             workspace.matrix.set_near_singular(first.workspace.matrix.near_singular());
+        }
+        if !first.workspace.is_like(&workspace) || !workspace.solves_directly() {
+            return None;
         }
         let projection = first.projection();
         let projector = projection.map(|options| LaneProjector::new(models, &model, options));

@@ -1,0 +1,148 @@
+//! Takes back the inertia E = Σ κ u uᵀ that is added where nothing is lent (`equations/lending.rs`); u are unit vectors of
+//! coordinates.
+//!
+//! Let P be the factorised matrix and K that of the equations, P = K + E. One addition after the other is taken from P
+//! (J. Sherman, W. J. Morrison, Ann. Math. Stat. 21 (1950) 124):
+//!
+//! ```text
+//! (P - κ u uᵀ)⁻¹ b = x + y (uᵀ x) / (1 - g),   x = P⁻¹ b,   y = P⁻¹ κ u,   g = uᵀ y
+//! ```
+//!
+//! g is near 1 where the mechanism itself has little inertia along y. Then 1 - g has lost its digits, but it is also
+//! yᵀ (P - κ u uᵀ) y / (κ g), and that is a sum of squares: twice the energy of the motion y. So a freedom whose only
+//! inertia is that of a light body keeps its digits. A motion without energy moves no mass: there, nothing is taken back.
+
+use super::augmented::Augmented;
+use super::kinematics::Motions;
+use super::{constraints, mass};
+use crate::math::Real;
+use crate::model::Model;
+
+/// g above which the energy decides.
+const LITTLE_INERTIA: f64 = 0.5;
+/// 1 - g of a motion without mass: rounding errors leave about 1e-28.
+const MASSLESS: f64 = 1e-22;
+/// Product of all 1 / (1 - g) above which rounding errors of x grow too much.
+const AMPLIFIED: f64 = 100.0;
+
+/// Mass or moment of inertia that is added at one coordinate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Addition {
+    /// Its place among the coordinates.
+    pub column: usize,
+    /// κ, kg or kg·m².
+    pub weight: f64,
+}
+
+/// The motion by which an addition is taken back.
+#[derive(Clone, Debug)]
+struct Direction<S> {
+    /// Its column.
+    column: usize,
+    /// y: coordinates, padding, multipliers.
+    y: Vec<S>,
+    /// 1 / (1 - g).
+    factor: S,
+}
+
+/// The directions of all additions at one state.
+#[derive(Clone, Debug)]
+pub(super) struct Directions<S> {
+    all: Vec<Direction<S>>,
+    /// Φ_q y.
+    rows: Vec<S>,
+}
+
+impl<S> Default for Directions<S> {
+    fn default() -> Self {
+        Self { all: Vec::new(), rows: Vec::new() }
+    }
+}
+
+/// What may be wrong with the directions.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Doubts {
+    /// Rounding errors grow when inertia is taken back.
+    pub amplified: bool,
+    /// A coordinate of a motion without mass.
+    pub massless: Option<usize>,
+}
+
+impl<S: Real> Directions<S> {
+    /// Finds the directions with the factors of the matrix.
+    pub fn find(
+        &mut self,
+        model: &Model<S>,
+        motions: &Motions<S>,
+        matrix: &Augmented<S>,
+    ) -> Doubts {
+        let additions = matrix.additions();
+        let none = || Direction { column: 0, y: Vec::new(), factor: S::zero() };
+        self.all.resize_with(additions.len(), none);
+        let (mut doubts, mut growth) = (Doubts::default(), S::one());
+        for (k, Addition { column, weight }) in additions.iter().enumerate() {
+            let (before, after) = self.all.split_at_mut(k);
+            let own = &mut after[0];
+            own.column = *column;
+            matrix.put_response(*column, S::constant(*weight), &mut own.y);
+            let (a, lam) = own.y.split_at_mut(matrix.plan().n_unknowns());
+            before.iter().for_each(|direction| direction.apply(a, lam));
+            let g = a[*column];
+            own.factor = S::one() / (S::one() - g);
+            let little = g - S::constant(LITTLE_INERTIA);
+            if any(S::select(little, S::one(), S::zero())) {
+                let mut energy = mass::twice_energy(model, motions, a);
+                if matrix.regularised() || matrix.damps() {
+                    energy += stretched(model, matrix, (a, lam), &mut self.rows);
+                }
+                for later in &additions[k + 1..] {
+                    let moved = a[later.column];
+                    energy += S::constant(later.weight) * moved * moved;
+                }
+                let all = S::constant(*weight) * g;
+                let moves = energy - S::constant(MASSLESS) * all;
+                let factor = S::select(moves, all / energy, S::zero());
+                own.factor = S::select(little, factor, own.factor);
+                if any(S::select(little, S::select(moves, S::zero(), S::one()), S::zero())) {
+                    doubts.massless = Some(*column);
+                }
+            }
+            growth = growth * own.factor.max(S::one());
+        }
+        doubts.amplified = any(growth - S::constant(AMPLIFIED));
+        doubts
+    }
+
+    /// Turns x = P⁻¹ b into K⁻¹ b: coordinates and multipliers.
+    pub fn take_back(&self, a: &mut [S], lam: &mut [S]) {
+        self.all.iter().for_each(|direction| direction.apply(a, lam));
+    }
+}
+
+impl<S: Real> Direction<S> {
+    fn apply(&self, a: &mut [S], lam: &mut [S]) {
+        let part = a[self.column] * self.factor;
+        let (moved, multipliers) = self.y.split_at(self.y.len() - lam.len());
+        for (x, y) in a.iter_mut().zip(moved).chain(lam.iter_mut().zip(multipliers)) {
+            *x = x.plus_product(part, *y);
+        }
+    }
+}
+
+/// The part of yᵀ K y that damped rows add: λᵀ Φ_q y.
+fn stretched<S: Real>(
+    model: &Model<S>,
+    matrix: &Augmented<S>,
+    (a, lam): (&[S], &[S]),
+    rows: &mut Vec<S>,
+) -> S {
+    rows.clear();
+    rows.resize(model.layout.n_rows, S::zero());
+    constraints::times_all(model, matrix.jacobian(), a, rows);
+    rows.iter().zip(lam).fold(S::zero(), |sum, (row, lam)| sum.plus_product(*row, *lam))
+}
+
+/// Whether a number is above zero in any lane.
+fn any<S: Real>(x: S) -> bool {
+    S::select(x, S::one(), S::zero()).largest_magnitude() > 0.0
+}
