@@ -84,7 +84,8 @@ impl LaneProjector {
         let (mut last, mut targets) = ([f64::INFINITY; WIDTH], [0.0; WIDTH]);
         for iteration in 0..MOST {
             workspace.motions.place(&model.layout, q, v);
-            self.residuals.look(model, &workspace.motions, t, &[]);
+            let of = (model, &*workspace.compiled);
+            self.residuals.look(of, &workspace.motions, t, &[]);
             let gaps = largest(&self.residuals.rows[level], &self.per_row);
             if iteration == 0 {
                 targets = self.targets(level, q, v, gaps);

@@ -319,8 +319,9 @@ impl<'a, S: Real> Projector<'a, S> {
             return;
         }
         self.move_bodies(&mut workspace.motions, place);
-        let omitted = workspace.matrix.omitted();
-        self.gaps = self.residuals.look(self.model, &workspace.motions, t, omitted);
+        let Workspace { motions, compiled, matrix, .. } = workspace;
+        let of = (self.model, &**compiled);
+        self.gaps = self.residuals.look(of, motions, t, matrix.omitted());
         self.known = Known::All;
     }
 
