@@ -29,7 +29,7 @@ def code_lines(text: str) -> int:
 
 
 def _without_comments(text: str) -> str:
-    """The text without comments; a `//` in a string is no comment."""
+    """The text without comments; a `//` in a string is kept."""
     starts = [match.start() for match in re.finditer(r"//", text)]
     code = code_only(text)
     for start in starts:
