@@ -4,9 +4,9 @@
 //! gives the smallest step of Newton's method, with μ > 0 a damped one.
 
 use super::lending::Lent;
+use super::loans::{self, Addition};
 use super::plan::Plan;
-use super::take_back::Addition;
-use super::{loans, mass, Compiled};
+use super::{mass, Compiled};
 use crate::math::{Motion, Real};
 use crate::model::Model;
 use crate::solve::{Breakdown, InverseMass, Saddle};

@@ -10,8 +10,7 @@
 use super::added_mass::{self, number, Added, ENOUGH};
 use super::grounded::Hold;
 use super::inertia::{self, Inertia};
-use super::loans::{End, Loan};
-use super::take_back::Addition;
+use super::loans::{Addition, End, Loan};
 use crate::elements::Fixes;
 use crate::math::{Local, Real};
 use crate::model::{Body, Model, Weighed};

@@ -31,6 +31,15 @@ pub(super) struct Loan {
     pub lender: Option<End>,
 }
 
+/// Mass or moment of inertia that is added at one coordinate.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Addition {
+    /// Its place among the coordinates.
+    pub column: usize,
+    /// κ, kg or kg·m².
+    pub weight: f64,
+}
+
 /// A body at a loan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct End {

@@ -17,6 +17,7 @@ mod grounded;
 mod independent;
 mod inertia;
 pub mod iteration;
+mod jumps;
 pub mod kinematics;
 mod laws;
 mod lending;

@@ -48,7 +48,7 @@ pub struct Workspace<S = f64> {
     /// A constant vector that is subtracted from γ; empty if absent.
     offset: Vec<S>,
     /// Vectors of solutions by a modified matrix.
-    memory: refine::Memory<S>,
+    pub(super) memory: refine::Memory<S>,
     /// Whether one elimination does not solve the equations: redundant rows are damped, or forces depend on reactions.
     modified: bool,
     /// Whether forces depend on reactions.
@@ -279,57 +279,6 @@ impl<S: Real> Workspace<S> {
             return if found { Ok(()) } else { Err(Breakdown::Reaction(row)) };
         }
         Ok(())
-    }
-
-    /// The jump of the velocities by which each row of Φ_q v changes by its entry of `rates`, shape (n_rows), without
-    /// forces: [M Φ_qᵀ; Φ_q 0] (Δv, P) = (0, rates). Returns Δv, shape (n_q), and the impulses P, shape (n_rows).
-    ///
-    /// # Errors
-    /// [`Breakdown`] where Φ_q loses rank.
-    pub fn jump(
-        &mut self,
-        model: &Model<S>,
-        t: S,
-        q: &[S],
-        rates: &[S],
-    ) -> Result<[Vec<S>; 2], Breakdown> {
-        self.jump_by(model, t, q, (&vec![S::zero(); self.n_q], rates))
-    }
-
-    /// The jump of the velocities by generalized impulses, shape (n_q), on the mechanism: [M Φ_qᵀ; Φ_q 0] (Δv, P) =
-    /// (impulses, 0). Returns Δv, shape (n_q).
-    ///
-    /// # Errors
-    /// [`Breakdown`] where Φ_q loses rank.
-    pub fn velocity_jump(
-        &mut self,
-        model: &Model<S>,
-        t: S,
-        q: &[S],
-        impulses: &[S],
-    ) -> Result<Vec<S>, Breakdown> {
-        let still = vec![S::zero(); model.layout.n_rows];
-        self.jump_by(model, t, q, (impulses, &still)).map(|[jump, _]| jump)
-    }
-
-    fn jump_by(
-        &mut self,
-        model: &Model<S>,
-        t: S,
-        q: &[S],
-        (impulses, rates): (&[S], &[S]),
-    ) -> Result<[Vec<S>; 2], Breakdown> {
-        self.motions.place(&model.layout, q, &vec![S::zero(); self.n_q]);
-        let Self { motions, compiled, matrix, memory, .. } = self;
-        let mut right = vec![S::zero(); model.layout.n_rows];
-        let gains = Gains::default();
-        constraints::linearize(model, motions, t, gains, &mut right, matrix.jacobian_mut());
-        matrix.set_mass(compiled, motions);
-        matrix.factor()?;
-        let mut x = [impulses, rates].concat();
-        refine::solve(model, motions, matrix, &mut x, memory)?;
-        let impulses = x.split_off(self.n_q);
-        Ok([x, impulses])
     }
 
     /// ż at the state that was [placed](Self::place), into `out`, shape (n_z).

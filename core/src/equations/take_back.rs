@@ -14,6 +14,7 @@
 
 use super::augmented::Augmented;
 use super::kinematics::Motions;
+use super::loans::Addition;
 use super::{constraints, mass};
 use crate::math::Real;
 use crate::model::Model;
@@ -24,15 +25,6 @@ const LITTLE_INERTIA: f64 = 0.5;
 const MASSLESS: f64 = 1e-22;
 /// Product of all 1 / (1 - g) above which rounding errors of x grow too much.
 const AMPLIFIED: f64 = 100.0;
-
-/// Mass or moment of inertia that is added at one coordinate.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Addition {
-    /// Its place among the coordinates.
-    pub column: usize,
-    /// κ, kg or kg·m².
-    pub weight: f64,
-}
 
 /// The motion by which an addition is taken back.
 #[derive(Clone, Debug)]
