@@ -3,9 +3,9 @@
 use crate::fault::problem;
 use crate::loaded::Loaded;
 use kempe::analyses::dynamics::{Prepared, Reason as NoMotion};
-use kempe::analyses::equilibrium::{equilibrium, Options as AtRest, Reason as NoRest};
+use kempe::analyses::equilibrium::{self, Reason as NoRest};
 use kempe::analyses::kinematics::{kinematics, recorded, Reason as NotDriven};
-use kempe::analyses::linearization::{linearize, Failure as NotLinear};
+use kempe::analyses::linearization::{self, Failure as NotLinear};
 use kempe::model::{Definition, Entry};
 use kempe::{assemble, Flow, Model, Options, Problem, State};
 use serde_json::{json, Value};
@@ -122,21 +122,19 @@ impl Obstacles<'_> {
         }
     }
 
-    /// What is missing for the first step of the search of a rest position.
+    /// What prevents the search of a position of rest.
     fn of_equilibrium(&self) -> Option<Problem> {
-        let options = AtRest::default();
-        let reason = equilibrium(self.model, self.state, &options, |_| Flow::Stop).err()?;
+        let reason = equilibrium::begins(self.model, self.state).err()?;
         let message = reason.to_string();
         match &reason {
-            NoRest::Stopped => None,
             NoRest::Singular { name, .. } | NoRest::State { name } => self.at(name, message, ""),
             _ => self.at("", message, ""),
         }
     }
 
-    /// What is missing for the linear equations, whose eigenvalues are the modes.
+    /// What prevents the linear equations, whose eigenvalues are the modes.
     fn of_modes(&self) -> Option<Problem> {
-        let failure = linearize(self.model, self.state, &[], &[]).err()?;
+        let failure = linearization::begins(self.model, self.state).err()?;
         let message = failure.to_string();
         match failure {
             NotLinear::Singular { name, .. } | NotLinear::Open { name, .. } => {

@@ -2,7 +2,7 @@
 import { displayed } from "../draw/display";
 import { withUnit } from "../draw/numbers";
 import { dashOf } from "../draw/surface";
-import { looked } from "../modes/plotting";
+import { looked, stretched } from "../modes/plotting";
 import { time } from "../modes/read";
 import type { Curve } from "../plot/curve";
 import type { Plot } from "../plot/plot";
@@ -67,7 +67,7 @@ function Entry({ of, plot, curve, beside }: EntryProps) {
 
 /** The value at the time under the pointer, or that is shown. */
 function Now({ plot, curve }: { plot: Plot; curve: Curve }) {
-  return (
-    <output class="now">{plot.curves.includes(curve) ? plot.write(curve, looked.value ?? time.value) : ""}</output>
-  );
+  stretched.value; // the plot may have other curves or units
+  const text = plot.curves.includes(curve) ? plot.write(curve, looked.value ?? time.value) : "";
+  return <output class="now">{text}</output>;
 }

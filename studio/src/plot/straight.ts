@@ -13,7 +13,8 @@ export function straight(given: Given): Curve {
   const at = (time: number) => {
     const { low, high, share } = placeIn(t, time);
     const [a, b] = [values[low]!, values[high]!];
-    return shown(share === 0 ? a : a + share * (b - a));
+    if (share === 0 || share === 1) return shown(share ? b : a); // a value beside a gap is one
+    return shown(a + share * (b - a));
   };
   return { ...given, smooth: false, at, shown };
 }
