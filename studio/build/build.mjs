@@ -84,4 +84,5 @@ mkdirSync(join(HERE, "dist"), { recursive: true });
 writeFileSync(join(HERE, "dist", "index.html"), page);
 const size = gzipSync(page, { level: 9 }).length;
 console.log(`dist/index.html: ${(page.length / 1000).toFixed(0)} kB, ${(size / 1000).toFixed(0)} kB compressed`);
-if (!process.env.KEMPE_PLAIN && size > MOST) throw new Error(`the page has ${size} bytes compressed; the limit is ${MOST}`);
+if (!process.env.KEMPE_PLAIN && size > MOST)
+  throw new Error(`the page has ${size} bytes compressed; the limit is ${MOST}`);

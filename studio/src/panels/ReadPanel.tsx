@@ -43,10 +43,10 @@ export function ReadPanel() {
                 <Button label={words.npzHint} kind="small" onClick={() => void saveNpz()}>
                   {words.npz}
                 </Button>
-                <Button label={words.pngHint} kind="small" onClick={() => savePlots("png")}>
+                <Button label={words.pngHint} kind="small" spoken onClick={() => savePlots("png")}>
                   {words.png}
                 </Button>
-                <Button label={words.svgHint} kind="small" onClick={() => savePlots("svg")}>
+                <Button label={words.svgHint} kind="small" spoken onClick={() => savePlots("svg")}>
                   {words.svg}
                 </Button>
               </span>
