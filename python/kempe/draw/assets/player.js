@@ -647,13 +647,16 @@ function distance([ax, ay], [bx, by]) {
 var UNIT = 1.5;
 var SPACING = 4;
 var STROKE = 5;
+function rigidPoints(rows, scale, unit) {
+  return rows.map(([x, y, px, py]) => [x * scale + px * unit, y * scale + py * unit]);
+}
+function rigidFrame(frame, poses, view) {
+  const origin = view.toScreen(placed(poses[frame.body], frame.at));
+  return { origin, angle: poses[frame.turns_with][2] + frame.turn };
+}
 function inFrameOf(frame, rows, poses, view, unit) {
   const at = (body, point) => view.toScreen(placed(poses[body], point));
-  if (frame.type === "body") {
-    const angle = poses[frame.turns_with][2] + frame.turn;
-    const local2 = rows.map(([x, y, px, py]) => [x * view.scale + px * unit, y * view.scale + py * unit]);
-    return { origin: at(frame.body, frame.at), angle, local: local2 };
-  }
+  if (frame.type === "body") return { ...rigidFrame(frame, poses, view), local: rigidPoints(rows, view.scale, unit) };
   const [i, j] = frame.bodies;
   if (frame.type === "twist") {
     const turn = frame.turn + poses[j][2] - poses[i][2];
@@ -699,16 +702,52 @@ function hatching(points, side, unit) {
 var HATCH_WIDTH = 0.7;
 function paintItems(context, view, items, poses, shown, colours2) {
   const boxes = [];
+  const frames = new Frames(context, poses, view);
   for (const item of items) {
     if (!isShown(item, shown) || !isPlaceable(item, poses)) continue;
+    if (item.kind !== "text" && item.frame.type === "body") {
+      if (frames.enter(item.frame)) paintRigid(context, item, view.scale, colours2);
+      continue;
+    }
+    frames.leave();
     const { points, angle } = placeItem(item, poses, view, UNIT);
     if (!points.every(([x, y]) => Number.isFinite(x + y))) continue;
-    const colour = tinted(colours2, item);
     if (item.kind === "text") boxes.push(paintText(context, view, item, points[0], angle, colours2));
-    else if (item.kind === "fill") paintFill(context, points, colour);
-    else paintLine(context, item, points, colour);
+    else paintShape(context, item, shapeOf(item, points), tinted(colours2, item));
   }
+  frames.leave();
   return boxes;
+}
+var Frames = class {
+  constructor(context, poses, view) {
+    this.context = context;
+    this.poses = poses;
+    this.view = view;
+  }
+  context;
+  poses;
+  view;
+  frame = null;
+  /** Paint in this frame from now on; false if it has no place. */
+  enter(frame) {
+    if (this.frame && isSame(this.frame, frame)) return true;
+    this.leave();
+    const { origin, angle } = rigidFrame(frame, this.poses, this.view);
+    if (!Number.isFinite(origin[0] + origin[1] + angle)) return false;
+    this.context.save();
+    this.context.translate(origin[0], origin[1]);
+    this.context.rotate(-angle);
+    this.frame = frame;
+    return true;
+  }
+  /** Paint on the canvas again. */
+  leave() {
+    if (this.frame) this.context.restore();
+    this.frame = null;
+  }
+};
+function isSame(a, b) {
+  return a.body === b.body && a.turns_with === b.turns_with && a.turn === b.turn && a.at[0] === b.at[0] && a.at[1] === b.at[1];
 }
 function isShown(item, shown) {
   if (item.numbered) return shown.numbers;
@@ -720,17 +759,32 @@ function tinted(colours2, { colour, tint }) {
   const full = role === "body" ? colours2.body(Number(number)) : colours2.named[role];
   return tint ? `color-mix(in srgb, ${colours2.named.panel} ${100 * tint}%, ${full})` : full;
 }
-function paintFill(context, points, colour) {
-  context.fillStyle = colour;
-  context.fill(through(points, true));
+function shapeOf(item, points) {
+  const hatch = item.kind === "line" && item.hatch ? new Line(hatching(points, item.hatch, UNIT)) : null;
+  return { path: through(points, item.kind === "fill" || item.kind === "line" && item.closed), hatching: hatch };
 }
-function paintLine(context, item, points, colour) {
+var kept = /* @__PURE__ */ new WeakMap();
+function paintRigid(context, item, scale, colours2) {
+  let found = kept.get(item);
+  if (found?.scale !== scale || found.colours !== colours2) {
+    const points = rigidPoints(item.points, scale, UNIT).map(([x, y]) => [x, -y]);
+    found = { scale, shape: shapeOf(item, points), colours: colours2, colour: tinted(colours2, item) };
+    kept.set(item, found);
+  }
+  paintShape(context, item, found.shape, found.colour);
+}
+function paintShape(context, item, { path, hatching: hatching2 }, colour) {
+  if (item.kind === "fill") {
+    context.fillStyle = colour;
+    context.fill(path);
+    return;
+  }
   context.strokeStyle = colour;
   context.lineWidth = item.width * UNIT;
-  context.stroke(through(points, item.closed));
-  if (!item.hatch) return;
+  context.stroke(path);
+  if (!hatching2) return;
   context.lineWidth = HATCH_WIDTH * UNIT;
-  context.stroke(new Line(hatching(points, item.hatch, UNIT)));
+  context.stroke(hatching2);
 }
 function paintText(context, view, item, [x, y], angle, colours2) {
   context.save();
@@ -1538,8 +1592,8 @@ function thinned(curve, first, last, place) {
   let column = [];
   const flush = () => {
     const by = (better) => column.reduce((best, one, k) => better(one[1], column[best][1]) ? k : best, 0);
-    const kept = new Set(column.length ? [0, by((a, b) => a < b), by((a, b) => a > b), column.length - 1] : []);
-    points.push(...[...kept].sort((a, b) => a - b).map((k) => column[k]));
+    const kept2 = new Set(column.length ? [0, by((a, b) => a < b), by((a, b) => a > b), column.length - 1] : []);
+    points.push(...[...kept2].sort((a, b) => a - b).map((k) => column[k]));
     column = [];
   };
   for (let k = first; k <= last; k += 1) {
@@ -1813,8 +1867,8 @@ function naturalScales(scene2) {
   const length = Math.max(size, ...scene2.bounds.map(Math.abs));
   const velocity2 = largestMotion(rates, size);
   const acceleration2 = largestMotion(accelerations, size);
-  const kept = scene2.channels.filter(({ group }) => group !== "accuracy");
-  const channels = (unit) => largest(kept.filter((one) => one.unit === unit).map(({ values }) => values));
+  const kept2 = scene2.channels.filter(({ group }) => group !== "accuracy");
+  const channels = (unit) => largest(kept2.filter((one) => one.unit === unit).map(({ values }) => values));
   const force = Math.max(largest(reactions.flat()), channels("N"), channels("N·m") / size);
   return {
     m: length,
