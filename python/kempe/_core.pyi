@@ -71,6 +71,19 @@ class Case:
     def supply(self, table: str, x: _F, y: _F) -> Case:
         """The same case with the points that the file of a table contains, if there is one."""
 
+    def over(
+        self, model: Model, over: str, t: float, q: _F, v: _F, z: _F
+    ) -> tuple[str, str, str, float]:
+        """The case in which t is the value of a driver or position quantity, as JSON.
+
+        Returns:
+            the JSON, the quantity, its SI unit, and its value at the state.
+
+        Raises:
+            ModelError: there is no such driver or quantity, or several drivers determine the
+                motion already.
+        """
+
     def model(
         self,
         overrides: str,

@@ -1,7 +1,11 @@
 //! A curve whose components are formulas in u and the parameters.
 
+#[cfg(target_arch = "wasm32")]
+use super::curve_series as series;
 use crate::expression::{switch_places, Knots, Symbol, Tape, Values};
-use crate::math::{Dual, Jet, Lift, Local, Real};
+#[cfg(not(target_arch = "wasm32"))]
+use crate::math::{Dual, Jet, Lift};
+use crate::math::{Local, Real};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// x(u) and y(u).
@@ -67,6 +71,7 @@ impl<S> Formula<S> {
 }
 
 /// u with its derivatives to third order by a variable.
+#[cfg(not(target_arch = "wasm32"))]
 type Third<S> = Jet<Dual<1, S>>;
 
 /// The names of the formulas, over a scalar `T` that contains `S`.
@@ -106,7 +111,10 @@ impl<S: Real> Formula<S> {
             FormulaNames { parameters: &self.written.parameters, values: &self.values, u, lift };
         [&self.written.x, &self.written.y].map(|tape| tape.evaluate(&named))
     }
+}
 
+#[cfg(not(target_arch = "wasm32"))]
+impl<S: Real> Formula<S> {
     /// C at u.
     pub(super) fn point(&self, u: S) -> Local<S> {
         let [x, y] = self.both(self.within(u), |x| x);
@@ -126,6 +134,36 @@ impl<S: Real> Formula<S> {
             .both(u, |x| Jet::lift(Dual::lift(x)))
             .map(|jet| [jet.value.value, jet.rate.value, jet.second.value, jet.second.slope[0]]);
         std::array::from_fn(|n| Local::new(x[n], y[n]))
+    }
+}
+
+#[cfg(target_arch = "wasm32")]
+impl<S: Real> Formula<S> {
+    /// C at u.
+    pub(super) fn point(&self, u: S) -> Local<S> {
+        self.derivatives(u)[0]
+    }
+
+    /// C and C′ at u.
+    pub(super) fn tangent(&self, u: S) -> [Local<S>; 2] {
+        let [point, first, ..] = self.derivatives(u);
+        [point, first]
+    }
+
+    /// C, C′, C″ and C‴ at u.
+    pub(super) fn derivatives(&self, u: S) -> [Local<S>; 4] {
+        let number = |x: &S| x.in_lanes()[0];
+        let u = self.within(u);
+        let value = number(&u);
+        let numbers = Formula {
+            written: Arc::clone(&self.written),
+            values: self.values.iter().map(number).collect(),
+            range: self.range.each_ref().map(number),
+            periodic: self.periodic,
+            unit: self.unit,
+        };
+        let [x, y] = numbers.both(series::variable(value), series::Series::constant);
+        series::at(&series::orders(&x, &y), u - S::constant(value))
     }
 }
 

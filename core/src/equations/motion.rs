@@ -124,10 +124,8 @@ impl<S: Real> Workspace<S> {
     /// Whether the equations of another variant of the model, over any scalar, have the same structure.
     pub fn is_like<P: Real>(&self, other: &Workspace<P>) -> bool {
         let (plan, of_other) = (self.matrix.plan(), other.matrix.plan());
-        let [own, others] = [
-            &self.compiled.lent(plan.condenses).loans,
-            &other.compiled.lent(plan.condenses).loans,
-        ];
+        let [own, others] =
+            [&self.compiled.lent(plan.condenses).loans, &other.compiled.lent(plan.condenses).loans];
         own == others && (Arc::ptr_eq(plan, of_other) || plan.is_like(of_other))
     }
 

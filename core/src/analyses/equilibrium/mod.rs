@@ -42,7 +42,9 @@ pub use path::path;
 pub use points::{EquilibriumPath, PathEnd};
 pub use result::Equilibrium;
 
+use super::mobility::mobility;
 use super::State;
+use crate::equations::balance::Balance;
 use crate::integrate::Flow;
 use crate::model::Model;
 use search::RestSearch;
@@ -63,6 +65,26 @@ pub fn equilibrium(
 ) -> Result<Equilibrium, Reason> {
     let held = holding::holding(model, start, &options.hold)?;
     from(&held, start, options, &mut watch)
+}
+
+/// What prevents the search at its start, as far as it is known without derivatives: a singular position, or a force that
+/// is not finite at rest.
+///
+/// # Errors
+/// [`Reason`].
+pub fn begins(model: &Model, start: &State) -> Result<(), Reason> {
+    let State { t, q, z, .. } = start;
+    if !mobility(model, *t, q).singular.is_empty() {
+        return Err(Reason::singular(model, *t, q));
+    }
+    let mut balance = Balance::new(model);
+    let rest = vec![0.0; q.len()];
+    balance.evaluate(model, *t, [q, &rest, &rest, z], &vec![0.0; model.layout.n_rows]);
+    let mut all = balance.forces.iter().chain(&balance.state_rates);
+    match all.all(|x| x.is_finite()) {
+        true => Ok(()),
+        false => Err(Reason::NotFinite),
+    }
 }
 
 /// The equilibrium of a model that contains its holders.

@@ -15,7 +15,7 @@ use super::names::{output, Input};
 use super::parameters::slopes_by_parameter;
 use super::response::Linear;
 use super::variation::{seeded, Slopes, StatePoint, Variation, D};
-use crate::analyses::dynamics::{Prepared, States};
+use crate::analyses::dynamics::{Accelerations, Prepared, States};
 use crate::analyses::signals::{Seen, Signal};
 use crate::analyses::State;
 use crate::equations::kinematics::Motions;
@@ -98,14 +98,30 @@ pub fn linearize(
     let State { t, q, v, z } = state;
     check_closed(model, state)?;
     let freedom = Freedoms::with_factors(model, *t, q)?;
-    let states = States { t: &[*t], q, v, z };
-    let solved = Prepared::new(model).accelerations(states, false, |_| Flow::Continue);
-    let solved = solved.map_err(Failure::Motion)?;
+    let solved = solved(model, state)?;
     let at = StatePoint { q, v, z, a: &solved.a, lam: &solved.lam };
     let variation = Variation::new(model, *t, at, true);
     let linear = Linear::new(model, [q, v], freedom, (&variation, &reactive::rows(model)));
     let linear = linear.map_err(|column| Failure::no_inertia(model, *t, column))?;
     LinearEquations { model, t: *t, at, variation, linear, outputs }.all(&inputs)
+}
+
+/// What prevents linear equations at a state, as far as it is known without derivatives: an open joint, a singular
+/// position, or accelerations that are not determined.
+///
+/// # Errors
+/// [`Failure`].
+pub fn begins(model: &Model, state: &State) -> Result<(), Failure> {
+    check_closed(model, state)?;
+    Freedoms::regular(model, state.t, &state.q)?;
+    solved(model, state).map(|_| ())
+}
+
+/// Accelerations and multipliers.
+fn solved(model: &Model, State { t, q, v, z }: &State) -> Result<Accelerations, Failure> {
+    let states = States { t: &[*t], q, v, z };
+    let solved = Prepared::new(model).accelerations(states, false, |_| Flow::Continue);
+    solved.map_err(Failure::Motion)
 }
 
 /// The equations at a state.

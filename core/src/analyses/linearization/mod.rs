@@ -25,7 +25,7 @@ mod variation;
 pub use failure::{coordinate, Failure};
 pub use freedoms::Freedoms;
 pub(super) use least_norm::LeastNorm;
-pub use linearize::{linearize, Linearization};
+pub use linearize::{begins, linearize, Linearization};
 pub use options::Options;
 pub(super) use parameters::slopes_by_parameter;
 pub(super) use variation::{StatePoint, Variation};
