@@ -138,6 +138,27 @@ fn both_ways_give_the_same_accelerations_and_jumps() {
     }
 }
 
+/// A freedom whose only inertia is that of light bodies, at every ratio of masses.
+#[test]
+fn three_light_links_between_two_pendulums() {
+    let places = [("left.angle", "-1.2"), ("right.angle", "-1.7"), ("first.angle", "-0.6")];
+    for mass in ["1e-3", "1e-5", "1e-6", "1e-7", "1e-8", "1e-10", "1e-12"] {
+        let text = SLACK.replace("LIGHT", mass);
+        let [lent, added] = [GRAVITY.to_string() + &text, allowed(&text)].map(|t| model(&t));
+        let (mut state, _) = start(&lent, &places, &[("third.angle", "-0.5")]);
+        state.v.iter_mut().enumerate().for_each(|(k, v)| *v = (k as f64).sin());
+        let [one, other] = [&lent, &added].map(|m| {
+            let mut workspace = Workspace::new(m);
+            let at = [&state.q[..], &state.v, &state.z];
+            workspace.accelerate(m, 0.0, at, Gains::default()).expect("accelerations");
+            workspace.a().to_vec()
+        });
+        let largest = other.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let apart = one.iter().zip(&other).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
+        assert!(apart < 1e-12 * largest, "{mass} kg: {apart} of {largest}");
+    }
+}
+
 const GRAVITY: &str = "gravity = [0, -9.81]\n";
 
 const SLIDER_CRANK: &str = "[bodies.ground]\npoints = { O = [0, 0] }\n\
@@ -224,6 +245,19 @@ const SIX_BAR: &str = "[bodies.ground]\npoints = { A = [0, 0], D = [4, 0], G = [
     E = { type = 'revolute', i = 'coupler.E', j = 'link.E' }\n\
     F = { type = 'revolute', i = 'link.F', j = 'output.F' }\n\
     G = { type = 'revolute', i = 'ground.G', j = 'output.G' }\n";
+
+const SLACK: &str = "[bodies.ground]\npoints = { O = [0, 0], E = [3, 0] }\n\
+    [bodies.left]\ntype = 'bar'\nmass = 1\nlength = 1\nends = ['O', 'P']\n\
+    [bodies.right]\ntype = 'bar'\nmass = 1\nlength = 1\nends = ['E', 'P']\n\
+    [bodies.first]\ntype = 'bar'\nmass = LIGHT\nlength = 1.3\nends = ['P', 'Q']\n\
+    [bodies.second]\ntype = 'bar'\nmass = LIGHT\nlength = 1.3\nends = ['P', 'Q']\n\
+    [bodies.third]\ntype = 'bar'\nmass = LIGHT\nlength = 1.3\nends = ['P', 'Q']\n\
+    [joints]\nO = { type = 'revolute', i = 'ground.O', j = 'left.O' }\n\
+    E = { type = 'revolute', i = 'ground.E', j = 'right.E' }\n\
+    a = { type = 'revolute', i = 'left.P', j = 'first.P' }\n\
+    b = { type = 'revolute', i = 'first.Q', j = 'second.P' }\n\
+    c = { type = 'revolute', i = 'second.Q', j = 'third.P' }\n\
+    d = { type = 'revolute', i = 'third.Q', j = 'right.P' }\n";
 
 /// Mechanisms, and places near which they are assembled.
 type Hints = &'static [(&'static str, &'static str)];
