@@ -79,9 +79,7 @@ def runs(n: int, floor: Path | None) -> None:
     for method, changes in METHODS.items():
         for name, measures in MEASURES.items():
             case = flagship(changes)
-            turns = [
-                (by_hand(program), spent(case, n // _TURNS, measures)) for _ in range(_TURNS)
-            ]
+            turns = [(by_hand(program), spent(case, n // _TURNS, measures)) for _ in range(_TURNS)]
             least = statistics.median(at for at, _ in turns)
             cpu = statistics.median(times[0] for _, times in turns)
             wall = statistics.median(times[1] for _, times in turns)

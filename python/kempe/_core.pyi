@@ -302,18 +302,6 @@ def linearize(
         ModelError: an unknown input or output, or a parameter that changes the geometry.
     """
 
-def mobility(model: Model, t: float, q: _F, v: _F, z: _F) -> str:
-    """The freedoms, redundancies and singular positions at a position, as JSON."""
-
-def line_at(model: Model, joint: str, body: str) -> tuple[list[str], float | None]:
-    """The pins and slides of a body besides a joint, and its line from there in its frame, rad."""
-
-def transmitting(model: Model) -> list[str]:
-    """The pins at which a link without a driver, guided by ground, is moved by another link."""
-
-def configurations(model: Model, held: str, limit: int, t: float) -> tuple[_F, _F, _F, str]:
-    """q, v and z of all configurations, one row each, with JSON: ``complete`` and ``reports``."""
-
 def limits(
     model: Model, t: float, q: _F, v: _F, z: _F, progress: Callable[[float], None] | None
 ) -> tuple[str, _F, _F]:

@@ -15,7 +15,9 @@ CASE = EXAMPLES / "four_bar.toml"
 NAMES = ["crank.angle", "coupler.angle", "rocker.angle"]
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 #: What moves with a body is drawn in its frame.
-MOVED = re.compile(rf"translate\(({NUMBER.pattern}) ({NUMBER.pattern})\)rotate\(({NUMBER.pattern})\)")
+MOVED = re.compile(
+    rf"translate\(({NUMBER.pattern}) ({NUMBER.pattern})\)rotate\(({NUMBER.pattern})\)"
+)
 
 
 @pytest.fixture(scope="module")

@@ -154,9 +154,7 @@ def stored_words(one: Studio) -> int:
     return sum("stored" in entry for entry in entries)
 
 
-def test_a_stored_run_over_an_angle_is_not_drawn_over_the_time(
-    one: Studio, tmp_path: Path
-) -> None:
+def test_a_stored_run_over_an_angle_is_not_drawn_over_the_time(one: Studio, tmp_path: Path) -> None:
     solution = machine(one, tmp_path, TURN).run()["turn"]
     path = tmp_path / "turn.npz"
     solution.save(path)

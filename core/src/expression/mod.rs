@@ -20,10 +20,10 @@
 //! is a parameter or varies, its derivatives exist for x > 0 only.
 //!
 //! ```
-//! use kempe::expression::{Expression, Scope};
+//! use kempe::expression::{Expression, FormulaValues};
 //! let law = Expression::parse("-k*(x - L0)^3")?;
 //! let tape = law.compile(&["k", "x", "L0"])?;
-//! let values = Scope { parameters: &[2.0, 1.5, 1.0], time: 0.0, variables: &[] };
+//! let values = FormulaValues { parameters: &[2.0, 1.5, 1.0], time: 0.0, variables: &[] };
 //! assert_eq!(tape.evaluate(&values), -0.25);
 //! # Ok::<(), kempe::expression::ExpressionError>(())
 //! ```

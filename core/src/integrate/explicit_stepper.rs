@@ -7,11 +7,11 @@ use super::explicit_work::{Accepted, InterpolantLevel, Work};
 use super::failure::Cause;
 use super::fixed_step::Grid;
 use super::hermite_birkhoff::HermiteBirkhoff;
+#[cfg(not(target_arch = "wasm32"))]
+use super::lane_steps::SideBySide;
 use super::ode::Ode;
 use super::right_hand_side::RightHandSide;
 use super::runge_kutta::RungeKutta;
-#[cfg(not(target_arch = "wasm32"))]
-use super::side_by_side::SideBySide;
 use super::stages::{combine, row_mut, rows_mut};
 use super::statistics::StepCounts;
 use super::step::Step;

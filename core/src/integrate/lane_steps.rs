@@ -8,7 +8,6 @@
 
 use super::right_hand_side::all_finite;
 use super::runge_kutta::{RungeKutta, TrialStages};
-use super::side_by_side::{LaneEnd, LaneStart, SideBySide};
 use super::stages::{combine, row, Block};
 use super::tolerances::LaneTolerances;
 use crate::math::{Lanes, Real};
@@ -21,7 +20,7 @@ const WIDTH: usize = Lanes::WIDTH;
 pub type Mask = [bool; WIDTH];
 
 /// Systems y′ = f(t, y) of one structure, one in each lane.
-pub trait LaneSystem {
+pub trait LaneOde {
     /// Number of components of y.
     fn components(&self) -> usize;
 
@@ -49,6 +48,44 @@ pub enum Taken {
     Rejected,
     /// Nothing was done: the stepper has to take its step alone.
     Alone,
+}
+
+/// A stepper that can take ordinary steps beside others. [`LaneSteps`] calls its methods.
+pub trait SideBySide {
+    /// Its method.
+    #[doc(hidden)]
+    fn method(&self) -> &'static dyn LaneMethod;
+
+    /// Begins a trial: fills its lane, and returns the times t and t_new. None if it has to take the step alone.
+    #[doc(hidden)]
+    fn propose(&mut self, at: LaneStart<'_>) -> Option<[f64; 2]>;
+
+    /// Returns whether the error norm allows the trial; if not, the next one is shorter.
+    #[doc(hidden)]
+    fn judge(&mut self, norm: f64, evaluations: usize) -> bool;
+
+    /// Accepts the trial.
+    #[doc(hidden)]
+    fn accept(&mut self, norm: f64, end: LaneEnd<'_>);
+}
+
+/// The lane of a trial, to be filled with the state at its start, the derivative there, and the tolerances.
+#[doc(hidden)]
+pub struct LaneStart<'a> {
+    pub lane: usize,
+    pub y: &'a mut [Block],
+    pub dy: &'a mut [Block],
+    pub tolerances: &'a mut LaneTolerances,
+}
+
+/// The state at the end of a trial, in a lane, and the derivative there.
+#[doc(hidden)]
+pub struct LaneEnd<'a> {
+    pub lane: usize,
+    pub y: &'a [Block],
+    pub dy: &'a [Block],
+    pub projected: bool,
+    pub evaluations: usize,
 }
 
 /// An explicit method over lanes.
@@ -86,7 +123,7 @@ impl<P: RungeKutta> LaneMethod for OverLanes<P> {
 /// A trial step in each lane.
 #[doc(hidden)]
 pub struct LaneTrial<'a> {
-    system: &'a mut dyn LaneSystem,
+    system: &'a mut dyn LaneOde,
     t: Lanes,
     t_new: Lanes,
     h: Lanes,
@@ -163,13 +200,7 @@ impl Registers {
 
     /// dy = f(t, y); whether it is ordinary.
     #[inline(never)] // once for all stages
-    fn rates(
-        &mut self,
-        system: &mut dyn LaneSystem,
-        t: Lanes,
-        y: &[Block],
-        dy: &mut [Block],
-    ) -> bool {
+    fn rates(&mut self, system: &mut dyn LaneOde, t: Lanes, y: &[Block], dy: &mut [Block]) -> bool {
         self.put(y);
         self.dy.resize(y.len(), Lanes::zero());
         let ordinary = system.rates(t, &self.y, &mut self.dy);
@@ -206,7 +237,7 @@ impl LaneSteps {
     pub fn step(
         &mut self,
         steppers: &mut Steppers<'_, '_>,
-        system: &mut dyn LaneSystem,
+        system: &mut dyn LaneOde,
     ) -> [Taken; WIDTH] {
         let mut taken = [Taken::Alone; WIDTH];
         let Some(method) = steppers.iter().flatten().next().map(|first| first.method()) else {
@@ -285,7 +316,7 @@ impl LaneSteps {
         &mut self,
         method: &dyn LaneMethod,
         times: &Times,
-        system: &mut dyn LaneSystem,
+        system: &mut dyn LaneOde,
     ) -> Option<Block> {
         let Self { y, y_new, argument, k, tolerances, registers, .. } = self;
         let [t, t_new] = [times.t, times.t_new].map(Lanes::new);
@@ -302,7 +333,7 @@ impl LaneSteps {
         last_in_error: bool,
         times: &Times,
         accepted: Mask,
-        system: &mut dyn LaneSystem,
+        system: &mut dyn LaneOde,
     ) -> [Option<bool>; WIDTH] {
         let Self { y_new, k, dy, registers, .. } = self;
         let t = Lanes::new(times.t_new);

@@ -1,16 +1,14 @@
 //! The definition of an explicit Runge–Kutta method.
 
-use super::lane_steps::{LaneMethod, OverLanes};
 use super::stages::Block;
 use super::step_control::StepControl;
 use super::step_placement::Gap;
 use super::step_size::Control;
 use super::tolerances::Squares;
 use std::borrow::Cow;
-use std::marker::PhantomData;
 
 /// An explicit Runge–Kutta method that has the derivative at the end of a step as its last stage.
-pub(super) trait RungeKutta: Sized + 'static {
+pub(super) trait RungeKutta: 'static {
     /// Order of the error estimate.
     const ERROR_ORDER: i32;
     /// Whether the error estimate uses the last stage. If not, the stage is evaluated for accepted steps only.
@@ -32,9 +30,6 @@ pub(super) trait RungeKutta: Sized + 'static {
     const DOUBLE_QUADRATURE: &'static [f64] = &[];
     /// The table of a lesser extension, with zeros for the extra stages.
     const WITHOUT_EXTRA: &'static [f64] = Self::TABLE;
-
-    /// The method over lanes.
-    const OVER_LANES: &'static dyn LaneMethod = &OverLanes::<Self>(PhantomData);
 
     /// Tolerances and steps.
     fn control(&self) -> Cow<'_, StepControl>;

@@ -1,55 +1,17 @@
-//! Steppers that take their steps side by side, one in each lane of the vector registers (`lane_steps`).
+//! Explicit steppers take steps side by side (`lane_steps`).
 
 use super::explicit_stepper::ExplicitStepper;
 use super::explicit_work::{Accepted, InterpolantLevel, Work};
 use super::hermite_birkhoff::HermiteBirkhoff;
-use super::lane_steps::LaneMethod;
+use super::lane_steps::{LaneEnd, LaneMethod, LaneStart, OverLanes, SideBySide};
 use super::runge_kutta::RungeKutta;
 use super::stages::{chord, row_mut, Block};
 use super::step_acceptance::last_row;
-use super::tolerances::LaneTolerances;
-
-/// A stepper that can take ordinary steps beside others. [`LaneSteps`](super::LaneSteps) calls its methods.
-pub trait SideBySide {
-    /// Its method.
-    #[doc(hidden)]
-    fn method(&self) -> &'static dyn LaneMethod;
-
-    /// Begins a trial: fills its lane, and returns the times t and t_new. None if it has to take the step alone.
-    #[doc(hidden)]
-    fn propose(&mut self, at: LaneStart<'_>) -> Option<[f64; 2]>;
-
-    /// Returns whether the error norm allows the trial; if not, the next one is shorter.
-    #[doc(hidden)]
-    fn judge(&mut self, norm: f64, evaluations: usize) -> bool;
-
-    /// Accepts the trial.
-    #[doc(hidden)]
-    fn accept(&mut self, norm: f64, end: LaneEnd<'_>);
-}
-
-/// The lane of a trial, to be filled with the state at its start, the derivative there, and the tolerances.
-#[doc(hidden)]
-pub struct LaneStart<'a> {
-    pub(super) lane: usize,
-    pub(super) y: &'a mut [Block],
-    pub(super) dy: &'a mut [Block],
-    pub(super) tolerances: &'a mut LaneTolerances,
-}
-
-/// The state at the end of a trial, in a lane, and the derivative there.
-#[doc(hidden)]
-pub struct LaneEnd<'a> {
-    pub(super) lane: usize,
-    pub(super) y: &'a [Block],
-    pub(super) dy: &'a [Block],
-    pub(super) projected: bool,
-    pub(super) evaluations: usize,
-}
+use std::marker::PhantomData;
 
 impl<P: RungeKutta> SideBySide for ExplicitStepper<P> {
     fn method(&self) -> &'static dyn LaneMethod {
-        P::OVER_LANES
+        &OverLanes::<P>(PhantomData)
     }
 
     fn propose(

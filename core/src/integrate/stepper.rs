@@ -6,8 +6,8 @@
 use super::dae::Dae;
 use super::events::{self, Direction};
 use super::failure::Cause;
+use super::lane_steps::SideBySide;
 use super::ode::Ode;
-use super::side_by_side::SideBySide;
 use super::statistics::StepCounts;
 use super::step::Step;
 

@@ -2,7 +2,7 @@
 
 use super::motion_ode::{rates, MotionOde};
 use crate::equations::{Gains, Workspace};
-use crate::integrate::{LaneSystem, Mask};
+use crate::integrate::{LaneOde, Mask};
 use crate::math::Lanes;
 use crate::model::Model;
 use crate::stabilize::LaneProjector;
@@ -54,7 +54,7 @@ pub(super) struct LaneEquations<'r, 'a> {
     pub lanes: [Option<&'r mut MotionOde<'a>>; WIDTH],
 }
 
-impl LaneSystem for LaneEquations<'_, '_> {
+impl LaneOde for LaneEquations<'_, '_> {
     fn components(&self) -> usize {
         self.motion.model.layout.n_y()
     }

@@ -44,7 +44,6 @@ mod implicit_motion;
 mod initial_stiffness;
 mod interpolated_states;
 mod lane_batch;
-#[cfg(not(target_arch = "wasm32"))]
 mod lane_motion;
 mod law_fault;
 mod law_jump;
@@ -69,7 +68,6 @@ mod run_results;
 mod sampling;
 mod setting;
 mod shared_reaction;
-#[cfg(not(target_arch = "wasm32"))]
 mod side_by_side;
 mod singularity_forecast;
 mod singularity_handover;
@@ -94,7 +92,6 @@ pub use options::{most_steps, read, Options, Output, Singularity};
 pub use prepared::Prepared;
 pub use run_results::{EventStates, Passed, Run, Statistics};
 pub use setting::Setting;
-#[cfg(not(target_arch = "wasm32"))]
 pub use side_by_side::{side_by_side, RunOutcome, Trials, Variant};
 pub use stabilizations::Stabilization;
 pub use stepper::Stepper;

@@ -3,6 +3,7 @@
 use super::contact_resolution::StepChoice;
 use super::failure::{Failure, Reason};
 use super::implicit_motion::ImplicitMotion;
+use super::massless;
 use super::method_switching::MethodSwitching;
 use super::methods::Scheme;
 use super::motion_ode::MotionOde;
@@ -321,6 +322,11 @@ impl<'a> MotionStepper<'a> {
     /// A failure in terms of the mechanism.
     pub fn failure(&self, cause: Cause<Breakdown>) -> Box<Failure> {
         let (model, y) = (self.ode.model, self.y());
+        let short = matches!(cause, Cause::StepTooSmall { .. });
+        let freedom = || massless::near(model, self.t(), model.layout.split(y)[0]);
+        if let Some(failure) = short.then(freedom).flatten() {
+            return failure;
+        }
         match (&cause, self.ode.passage.undecided.or(self.ode.paradox)) {
             (Cause::NotFinite { .. }, Some((t, breakdown))) => {
                 Failure::at_state(model, t, model.layout.split(y)[0], breakdown)
