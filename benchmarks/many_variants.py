@@ -6,9 +6,9 @@
     .venv/bin/python benchmarks/many_variants.py --mujoco     # beside RK4 of MuJoCo at 1 ms
 
 The floor (``benchmarks/floor``) simulates the flagship by hand, with RK45 and Baumgarte's
-stabilization. It runs on all processors at once, as the sweep does, because processors of one machine
-differ in their load by others. Times are CPU times, so that other work on the machine counts little.
-The wall time is printed too.
+stabilization. It runs on all processors at once, as the sweep does, because others may load the
+processors of one machine differently. Times are CPU times, so that other work on the machine counts
+little. The wall time is printed too.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ def spent(case: kp.Case, n: int, measures: list[str], **options: Any) -> tuple[f
 
 
 def by_hand(program: Path) -> float:
-    """CPU time of a run of the floor, the mean of as many programs at once as there are processors, s."""
+    """CPU time of a run of the floor, s: the mean of programs on all processors at once."""
     count = len(os.sched_getaffinity(0))
     with ThreadPoolExecutor(count) as pool:
         found = list(pool.map(lambda _: told(program, 5, "runs")["runs"], range(count)))

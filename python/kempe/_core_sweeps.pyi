@@ -1,4 +1,4 @@
-"""Mobility, configurations, measures, statistics and sweeps of the compiled core, a part of the interface ``kempe._core``."""
+"""Mobility, measures and sweeps of the compiled core, a part of the interface ``kempe._core``."""
 
 from collections.abc import Callable
 

@@ -204,7 +204,7 @@ class Model(BodyMethods, ElementMethods, MeasureMethods, TreeMethods):
         return model
 
     def _written(self) -> tuple[_core.Case, dict[str, float | str]]:
-        """The model as a case of the core, and values of parameters that replace those of the case."""
+        """The model as a case of the core, and parameters that replace those of the case."""
         return self._source or (_core.Case(self.text(), "json", None), {})
 
     @property

@@ -1,4 +1,4 @@
-"""Plots: the value under the pointer, one window for all of them, keys, pictures, stored runs over another axis."""
+"""Plots: the value under the pointer, a shared window, keys, pictures, stored runs."""
 
 import re
 import xml.etree.ElementTree as ET
