@@ -10,7 +10,8 @@
 //!   the constraints and the [output step](Options::output_step).
 //! - [`Run`] holds the reported states. From them follow coordinates ([`Run::coordinate`]), reactions
 //!   ([`Run::reactions`]), accelerations and multipliers ([`Run::accelerations`]) and energies ([`Run::energies`]).
-//! - [`Problems`] and [`failures`] explain in words what is wrong with a model, or why a mechanism cannot be
+//! - [`Stepper`] is for a program that takes the steps itself: it locates events and continues from other states.
+//! - [`Problems`] and [`failures`] describe the faults of a model, or the reason for which a mechanism cannot be
 //!   assembled or simulated.
 #![forbid(unsafe_code)]
 
@@ -43,7 +44,8 @@ pub mod symbolic;
 pub use analyses::assemble::{assemble, Report, Request};
 pub use analyses::dynamics::read as read_options;
 pub use analyses::dynamics::{
-    dynamics, Options, Output, Run, Scheme, Singularity, Stabilization, Statistics, Trajectory,
+    dynamics, Options, Output, Run, Scheme, Singularity, Stabilization, Statistics, Stepper,
+    Trajectory,
 };
 pub use analyses::{mobility, Mobility, NoResult, State};
 pub use case::{Case, ModelBuilder, Start};
@@ -51,7 +53,7 @@ pub use elements::{drivers, forces, joints};
 pub use elements::{Number, Pair, Value, Written};
 pub use equations::reactions::Frame;
 pub use equations::Gains;
-pub use integrate::Flow;
+pub use integrate::{Direction, Flow};
 pub use math::{Vec2, Wrench};
 pub use model::{build, Definition, Entry, Model, Problem, Problems};
 pub use stabilize::Projection;

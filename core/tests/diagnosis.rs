@@ -2,7 +2,7 @@
 
 mod mechanisms;
 
-use kempe::analyses::diagnosis::{diagnose, Diagnosis, Grashof, Kind};
+use kempe::analyses::diagnosis::{diagnose, Diagnosis, Grashof, SingularKind};
 use kempe::model::Model;
 use mechanisms::{model, request};
 
@@ -131,7 +131,7 @@ fn a_flat_parallelogram_is_at_a_change_point() {
         assert_eq!(found.driven, driven);
         assert!(found.redundant.is_empty());
         let [(one, kind)] = &found.singular[..] else { panic!("{:?}", found.singular) };
-        assert_eq!(*kind, Kind::ChangePoint);
+        assert_eq!(*kind, SingularKind::ChangePoint);
         assert_eq!(one.joints, ["A", "B", "C", "D"]);
     }
 }
@@ -143,7 +143,7 @@ fn a_crank_at_the_end_of_its_motion_is_at_a_dead_point() {
     let m = four_bar([g, a, b, c], &format!("{DRIVER} '{out:.17}'"));
     let found = at(&m, &[("coupler.angle", "-0.71"), ("rocker.angle", "2.43")]);
     let [(one, kind)] = &found.singular[..] else { panic!("{:?}", found.singular) };
-    assert_eq!(*kind, Kind::DeadPoint);
+    assert_eq!(*kind, SingularKind::DeadPoint);
     assert!(one.joints.contains(&"motor".to_string()));
     assert!(found.locked.is_empty());
 }
@@ -162,7 +162,7 @@ fn bars_in_line_between_two_pins_have_play_of_the_first_order() {
     let found = at(&m, &[("left.angle", "0"), ("right.angle", "0")]);
     assert_eq!(found.gruebler, 0);
     let [(_, kind)] = &found.singular[..] else { panic!("{:?}", found.singular) };
-    assert_eq!(*kind, Kind::Uncertainty);
+    assert_eq!(*kind, SingularKind::Uncertainty);
 }
 
 #[test]

@@ -2,15 +2,11 @@
 
 mod mechanisms;
 
-use kempe::analyses::dynamics::{
-    dynamics, dynamics_in_phases, Auto, Event, Options, Phase, Scheme, Stepper,
-};
+use kempe::analyses::dynamics::{dynamics, Auto, Options, Scheme, Stepper};
 use kempe::analyses::State;
 use kempe::case::{read, Format};
 use kempe::equations::tangent::Tangent;
-use kempe::integrate::{
-    AlphaParameters, Direction, Dop853, Flow, GeneralizedAlpha, Radau, Rk4, Rk45,
-};
+use kempe::integrate::{AlphaParameters, Dop853, Flow, GeneralizedAlpha, Radau, Rk4, Rk45};
 use kempe::math::{Jet, Lanes, Real};
 use kempe::model::{build, FunctionLaw, Functions, Host, Model, Sampling, Value};
 use mechanisms::{close, model, run, start};
@@ -194,11 +190,9 @@ fn the_step_to_a_sample_beyond_an_event_does_not_call_the_law() {
     let (m, host) = with(|_| 4.0, Some(sampling));
     let (state, _) = start(&m, &[], &[]);
     // x = t² is 0.0625 at 0.25 s
-    let g = |_: f64, [q, _, _]: [&[f64]; 3]| q[0] - 0.0625;
-    let event = Some(Event { g: &g, direction: Direction::Rising });
-    let first = Phase { event, ..Phase::new(&m) };
-    let options = Options { output_step: None, ..options(Options::new(1.0).method, 1.0) };
-    let run = dynamics_in_phases(&[first], &state, &options, |_| Flow::Continue).unwrap();
+    let stop = Some("cart.x > 0.0625".to_string());
+    let options = Options { stop, output_step: None, ..options(Options::new(1.0).method, 1.0) };
+    let run = run(&m, &state, &options);
     close("end", *run.trajectory.t.last().unwrap(), 0.25, 1e-12);
     assert_eq!(*host.at.lock().unwrap(), [0.0, 0.1, 0.2]);
 }

@@ -2,8 +2,7 @@
 
 mod mechanisms;
 
-use kempe::analyses::linearization::{linearize, reduced_stiffness, Failure, Freedoms};
-use kempe::equations::Workspace;
+use kempe::analyses::linearization::{linearize, Failure, Linearization};
 use kempe::model::Model;
 use kempe::State;
 use mechanisms::{model, start, PENDULUM};
@@ -51,12 +50,9 @@ fn stiffness_of_hanging_and_upright_windows() {
         let weight = G * (3 * n + 1) as f64 / 2.0;
         for (angle, expected) in [(-PI / 2.0, weight), (PI / 2.0, -weight)] {
             let state = turned(&m, n, angle);
-            let mut workspace = Workspace::new(&m);
-            workspace.react(&m, 0.0, [&state.q, &state.v, &state.z]).expect("regular");
-            let freedoms = Freedoms::at(&m, 0.0, &state.q).expect("regular");
-            let lam = workspace.lam();
-            let found = reduced_stiffness(&m, 0.0, [&state.q, &state.z, lam], &freedoms);
-            assert_eq!(freedoms.coordinates, [2]);
+            let Linearization { coordinates, stiffness: found, .. } =
+                linearize(&m, &state, &[], &[]).expect("regular");
+            assert_eq!(coordinates, [2]);
             assert!((found[0] - expected).abs() < 1e-12 * weight, "{} {expected}", found[0]);
         }
     }
@@ -72,11 +68,9 @@ fn stiffness_of_a_double_pendulum() {
          [forces.spring]\ntype = 'torsion_spring'\ni = 'one'\nj = 'two'\nstiffness = 7\n"
     ));
     let state = start(&m, &[("one.angle", "-pi/2"), ("two.angle", "-pi/2")], &[]).0;
-    let mut workspace = Workspace::new(&m);
-    workspace.react(&m, 0.0, [&state.q, &state.v, &state.z]).expect("regular");
-    let freedoms = Freedoms::at(&m, 0.0, &state.q).expect("regular");
-    let found = reduced_stiffness(&m, 0.0, [&state.q, &state.z, workspace.lam()], &freedoms);
-    assert_eq!(freedoms.coordinates, [2, 5]);
+    let Linearization { coordinates, stiffness: found, .. } =
+        linearize(&m, &state, &[], &[]).expect("regular");
+    assert_eq!(coordinates, [2, 5]);
     let (weight, k) = (2.0 * G * 3.0, 7.0);
     let expected = [1.5 * weight + k, -k, -k, 0.5 * weight + k];
     for (found, expected) in found.iter().zip(expected) {

@@ -88,3 +88,14 @@ fn on_several_threads_at_once() {
 fn a_foreign_allocator_can_hold_it() {
     assert!(align_of::<Prepared<Arc<Model>>>() <= align_of::<u64>());
 }
+
+#[test]
+fn the_wall_time_is_that_of_the_given_clock() {
+    use std::sync::atomic::{AtomicU32, Ordering};
+    static CALLS: AtomicU32 = AtomicU32::new(0);
+    let clock = || 2.5 * f64::from(CALLS.fetch_add(1, Ordering::Relaxed));
+    let (m, start) = four_bar();
+    let prepared = Prepared::new(&m).with_clock(clock);
+    let run = prepared.dynamics(&start, &Options::new(0.01), |_| Flow::Continue).unwrap();
+    assert_eq!(run.statistics.seconds, 2.5);
+}

@@ -4,9 +4,9 @@ mod mechanisms;
 
 use kempe::analyses::assemble::{assemble, Request};
 use kempe::analyses::dynamics::{
-    dynamics, dynamics_in_phases, Options, Phase, Reason, Scheme, Stabilization, Stepper,
+    dynamics, Change, Options, Prepared, Reason, Scheme, Stabilization, Stepper,
 };
-use kempe::analyses::State;
+use kempe::analyses::{EventOption, State};
 use kempe::equations::Gains;
 use kempe::integrate::{Flow, Rk45};
 use kempe::model::Model;
@@ -138,7 +138,7 @@ fn a_driver_holds_at_the_time_of_the_start() {
 }
 
 #[test]
-fn steppers_and_phases_refuse_open_joints() {
+fn steppers_and_changes_refuse_open_joints() {
     let (m, state) = four_bar();
     let longer = with(FOUR_BAR, &[("L2", 27.0)]);
     let is_start = |reason: &Reason| matches!(reason, Reason::Start { .. });
@@ -151,10 +151,14 @@ fn steppers_and_phases_refuse_open_joints() {
         let mut open = stepper.state();
         open.q[0] += 30.0; // farther than the mechanism is large
         assert!(is_start(&stepper.restart(&open).unwrap_err().reason));
-        // the second phase has a coupler that does not fit by more than a hundredth of its size
-        let short = Phase { t_end: Some(0.005), ..Phase::new(&m) };
-        let phases = [short, Phase::new(&longer)];
-        let run = dynamics_in_phases(&phases, &state, &options, |_| Flow::Continue);
+        // the event gives the coupler a length that does not fit by more than a hundredth of the size
+        let events = vec![EventOption { acts: true, ..EventOption::new("change", "t > 0.005") }];
+        let options = Options { events, ..options };
+        let parameters = vec![("L2".to_string(), 27.0)];
+        let mut act = |_: &str, _: &State, _: &_| {
+            Some(Change { parameters: parameters.clone(), ..Change::default() })
+        };
+        let run = Prepared::new(&m).dynamics_with(&state, &options, |_| Flow::Continue, &mut act);
         match stabilization {
             Stabilization::None => assert!(run.is_ok(), "drift of the size is documented"),
             _ => assert!(is_start(&run.unwrap_err().reason), "{stabilization:?}"),

@@ -1,8 +1,8 @@
 //! The symbolic scalar: text of expressions, their derivatives, and records.
 
-use kempe::expression::{Expression, Scope};
+use kempe::expression::{Expression, FormulaValues};
 use kempe::math::{Dual, Jet, Real};
-use kempe::symbolic::{record, Form, Kind, Name, Record, Symbolic};
+use kempe::symbolic::{record, Form, Name, NameKind, Record, Symbolic};
 
 /// The text of a function of a, b and c.
 fn text(f: impl Fn([Symbolic; 3]) -> Symbolic) -> String {
@@ -103,12 +103,13 @@ fn derivatives_are_those_of_dual_numbers_and_jets() {
         let printed = record(|record| {
             let moving = |name: &str| {
                 let symbol = |text: &str, rate| {
-                    record.changing(Name::new(text, text, text, Kind::Coordinate), rate)
+                    record.changing(Name::new(text, text, text, NameKind::Coordinate), rate)
                 };
                 symbol(name, symbol(&format!("{name}_t"), Symbolic::zero()))
             };
             let unknowns = ["a", "b", "c"].map(moving);
-            let scope = Scope { parameters: &unknowns, time: Symbolic::zero(), variables: &[] };
+            let scope =
+                FormulaValues { parameters: &unknowns, time: Symbolic::zero(), variables: &[] };
             let found = record.differentiate(&[tape.evaluate(&scope)], &unknowns);
             let mut all = vec![found.residual[0], found.gamma[0]];
             all.extend(&found.jacobian[0]);
@@ -123,7 +124,7 @@ fn derivatives_are_those_of_dual_numbers_and_jets() {
             let mut values = [at, speed].concat();
             let value = |names: &[String], values: &[f64], text: &str| {
                 let tape = Expression::parse(text).unwrap().compile(names).unwrap();
-                tape.evaluate(&Scope { parameters: values, time: 0.0, variables: &[] })
+                tape.evaluate(&FormulaValues { parameters: values, time: 0.0, variables: &[] })
             };
             for (name, text) in &parts {
                 values.push(value(&names, &values, text));
@@ -132,9 +133,9 @@ fn derivatives_are_those_of_dual_numbers_and_jets() {
             let found: Vec<f64> = printed.iter().map(|text| value(&names, &values, text)).collect();
             let dual: [Dual<3>; 3] = std::array::from_fn(|k| Dual::variable(at[k], k));
             let jet: [Jet; 3] = std::array::from_fn(|k| Jet::new(at[k], speed[k], 0.0));
-            let scope = Scope { parameters: &dual, time: Dual::zero(), variables: &[] };
+            let scope = FormulaValues { parameters: &dual, time: Dual::zero(), variables: &[] };
             let first = tape.evaluate(&scope);
-            let scope = Scope { parameters: &jet, time: Jet::zero(), variables: &[] };
+            let scope = FormulaValues { parameters: &jet, time: Jet::zero(), variables: &[] };
             let second = tape.evaluate(&scope).second;
             let expected = [first.value, -second, first.slope[0], first.slope[1], first.slope[2]];
             for (k, (found, expected)) in found.iter().zip(expected).enumerate() {

@@ -71,6 +71,19 @@ class Case:
     def supply(self, table: str, x: _F, y: _F) -> Case:
         """The same case with the points that the file of a table contains, if there is one."""
 
+    def over(
+        self, model: Model, over: str, t: float, q: _F, v: _F, z: _F
+    ) -> tuple[str, str, str, float]:
+        """The case in which t is the value of a driver or position quantity, as JSON.
+
+        Returns:
+            the JSON, the quantity, its SI unit, and its value at the state.
+
+        Raises:
+            ModelError: there is no such driver or quantity, or several drivers determine the
+                motion already.
+        """
+
     def model(
         self,
         overrides: str,
@@ -288,18 +301,6 @@ def linearize(
         AssemblyError: the state does not meet the constraints.
         ModelError: an unknown input or output, or a parameter that changes the geometry.
     """
-
-def mobility(model: Model, t: float, q: _F, v: _F, z: _F) -> str:
-    """What a mechanism can do at a position, as JSON."""
-
-def line_at(model: Model, joint: str, body: str) -> tuple[list[str], float | None]:
-    """The pins and slides of a body besides a joint, and its line from there in its frame, rad."""
-
-def transmitting(model: Model) -> list[str]:
-    """The pins at which a link without a driver, guided by ground, is moved by another link."""
-
-def configurations(model: Model, held: str, limit: int, t: float) -> tuple[_F, _F, _F, str]:
-    """q, v and z of all configurations, one row each, with JSON: ``complete`` and ``reports``."""
 
 def limits(
     model: Model, t: float, q: _F, v: _F, z: _F, progress: Callable[[float], None] | None

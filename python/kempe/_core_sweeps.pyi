@@ -1,4 +1,4 @@
-"""Measures, statistics and sweeps of the compiled core, a part of the interface ``kempe._core``."""
+"""Mobility, measures and sweeps of the compiled core, a part of the interface ``kempe._core``."""
 
 from collections.abc import Callable
 
@@ -119,3 +119,15 @@ def measure_at(
 
 def measure_values(model: Model, text: str, t: _F, quantities: _F) -> _F:
     """Values of an expression, (n_t,), for the values of its quantities, (n_t, n)."""
+
+def mobility(model: Model, t: float, q: _F, v: _F, z: _F) -> str:
+    """The freedoms, redundancies and singular positions at a position, as JSON."""
+
+def line_at(model: Model, joint: str, body: str) -> tuple[list[str], float | None]:
+    """The pins and slides of a body besides a joint, and its line from there in its frame, rad."""
+
+def transmitting(model: Model) -> list[str]:
+    """The pins at which a link without a driver, guided by ground, is moved by another link."""
+
+def configurations(model: Model, held: str, limit: int, t: float) -> tuple[_F, _F, _F, str]:
+    """q, v and z of all configurations, one row each, with JSON: ``complete`` and ``reports``."""

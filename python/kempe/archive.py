@@ -306,7 +306,7 @@ def _projection(about: Mapping[str, Any]) -> float | None:
 
 
 def _variable(about: Mapping[str, Any]) -> Variable:
-    """What the times are; the time in files of version 0.1."""
+    """The quantity of the times; the time in files of version 0.1."""
     given = about.get("variable", [TIME.name, TIME.unit])
     if not isinstance(given, list) or [type(word) for word in given] != [str, str]:
         _refuse("its variable is damaged")

@@ -1,4 +1,4 @@
-"""The report of an assembly: its course, the assembly mode, and what was left unset."""
+"""The report of an assembly: its course, the assembly mode, and the unset coordinates."""
 
 from __future__ import annotations
 
@@ -96,7 +96,7 @@ class Choice:
 
 @dataclass(frozen=True)
 class Unset:
-    """What a request for an assembly left unset.
+    """The coordinates and rates that a request for an assembly did not set.
 
     Attributes:
         freedoms: number of degrees of freedom that neither drivers nor ``set`` hold.
@@ -143,7 +143,8 @@ class AssemblyReport:
         degrees_of_freedom: number of degrees of freedom.
         modes: the side of every dyad.
         warnings: texts of the warnings.
-        unset: what was not set, with the values chosen. Empty if the assembly began at a state.
+        unset: the coordinates and rates that were not set, with the chosen values. Empty if the
+            assembly began at a state.
     """
 
     iterations: tuple[Iteration, ...]

@@ -21,7 +21,7 @@ class Bar(Element):
         through: global coordinates of two named points, m; initial placement of the bar.
         points: further named points in the frame of the bar, m.
         curves: named curves in the frame of the bar.
-        outline: what drawings show of it.
+        outline: its shape in drawings.
     """
 
     mass: Number
@@ -56,7 +56,7 @@ class Body(Element):
         through: global coordinates of two named points, m; initial placement of the body.
         curves: named curves in the body's frame.
         shapes: homogeneous pieces, instead of mass, inertia and center.
-        outline: what drawings show of it.
+        outline: its shape in drawings.
     """
 
     mass: Number | None = None
@@ -88,7 +88,7 @@ class PointMass(Element):
     Attributes:
         mass: kg.
         at: position in the global frame when assembly starts, m.
-        outline: what drawings show of it.
+        outline: its shape in drawings.
     """
 
     mass: Number

@@ -10,7 +10,7 @@ from kempe.values import Curves, Number, Outline, Pair, Points, Shapes
 class BodyMethods:
     """The methods of ``Model`` that add a body.
 
-    The ``outline`` of a body is what drawings show of it instead of a link around its points. It
+    The ``outline`` of a body is its shape in drawings, instead of a link around its points. It
     changes no number and is one of: points ``[(x, y), …]``; ``{"circle": (x, y, r)}``;
     ``{"path": "M 0 0 L …"}`` with the path data of SVG in m, y upwards.
     """
@@ -40,7 +40,7 @@ class BodyMethods:
             through: global coordinates of two named points, m: ``{"B": (3.4, 9.4), …}``.
             points: further named points in the frame of the bar, m.
             curves: named curves in the frame of the bar, for joints on curves; see ``body``.
-            outline: what drawings show of it: points, circle or path, m.
+            outline: its shape in drawings: points, circle or path, m.
         """
         return self._add(Bar(name, mass, length, ends, through, points, curves, outline))
 
@@ -77,7 +77,7 @@ class BodyMethods:
                 "polygon", "points": [(x, y), …]}``, each with ``at`` and ``angle`` of its frame in
                 that of the body, and ``mass``, or ``density`` and ``thickness`` (of a rod:
                 ``area``). A hole has a negative mass or density.
-            outline: what drawings show of it: points, circle or path, m; by default the shapes, or
+            outline: its shape in drawings: points, circle or path, m; by default the shapes, or
                 a link around its points.
         """
         given = (mass, inertia, center, points, through, curves, shapes, outline)
@@ -92,6 +92,6 @@ class BodyMethods:
             name: name of the point mass.
             mass: kg.
             at: position in the global frame when assembly starts, m.
-            outline: what drawings show of it: points, circle or path, m.
+            outline: its shape in drawings: points, circle or path, m.
         """
         return self._add(PointMass(name, mass, at, outline))

@@ -251,7 +251,7 @@ class Case:
         """The same case with some fields of one analysis changed, as ``t_end=30``.
 
         Raises:
-            ModelError: there is no analysis of that name, or a field is not what it must be.
+            ModelError: there is no analysis of that name, or a field has an invalid value.
         """
         one_of("analysis", name, self._entries)
         given: dict[str, Any] = {}

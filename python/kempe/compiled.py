@@ -241,7 +241,7 @@ class CompiledModel:
 
     @cached_property
     def symbols(self) -> tuple[dict[str, Any], ...]:
-        """What a drawing shows for joints, drivers and forces, in their order.
+        """The symbols of joints, drivers and forces in a drawing, in their order.
 
         Each has ``element`` (its name), ``mark`` (a word of the scene's vocabulary), ``i`` and
         ``j`` (``body``: number, ``point``: place in its frame or None, ``axis``: angle) and

@@ -47,7 +47,7 @@ def display_list(
         scene: with the parts that do not depend on time.
         poses: x, y and angle of the moving bodies, (n_t, n_bodies, 3), m and rad.
         view: the scale and the edges for which names are laid out.
-        asked: what the list contains, such as ``{"mechanism": True}``.
+        asked: the requested contents of the list, such as ``{"mechanism": True}``.
     """
     static = json.dumps({key: scene[key] for key in STATIC})
     text = _core.display(static, np.ascontiguousarray(poses), view, json.dumps(asked))

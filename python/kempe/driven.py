@@ -1,10 +1,8 @@
-"""Kinematics and inverse dynamics: the motion that drivers determine, and what it requires."""
+"""Kinematics and inverse dynamics: the motion that drivers determine, and the efforts for it."""
 
 from __future__ import annotations
 
-import functools
 import json
-import re
 from collections.abc import Mapping
 from typing import Any
 
@@ -14,11 +12,10 @@ from kempe import _core
 from kempe.analyses import Progress, refuse_foreign
 from kempe.arrays import Floats
 from kempe.compiled import CompiledModel
-from kempe.errors import KempeError, ModelError, SingularityError
-from kempe.model import NAMED, Model, compiled_model
+from kempe.errors import ModelError, SingularityError
+from kempe.model import Model, compiled_model
 from kempe.option import core_options
 from kempe.options import InverseDynamics, Kinematics
-from kempe.quantities import named
 from kempe.request_cache import encode
 from kempe.solution import Solution
 from kempe.state import State
@@ -29,10 +26,8 @@ from kempe.variable import TIME, Variable
 POINTS = 361
 #: The method of a solution.
 METHOD = "continuation"
-#: Fields of joints and drivers that take laws of time.
-_LAWS = ("value", "length", "residual")
-#: The time in a formula; no parameter has this name.
-_TIME = re.compile(r"(?<![\w.])t(?![\w.(])")
+#: Sections in which a mechanism over a driven value differs.
+_DRIVEN = ("joints", "drivers", "measures")
 
 
 def kinematics(
@@ -175,81 +170,16 @@ def _times(t: float, options: Mapping[str, Any]) -> Floats:
 def driven_by(
     model: CompiledModel, over: str, start: State
 ) -> tuple[CompiledModel, float, Variable]:
-    """The model with ``over`` driven by t, the value of ``over`` at the start, and what t is now.
+    """The model with ``over`` driven by t, its value at the start, and the quantity in t.
 
     Raises:
         ModelError: there is no such driver or position quantity, or several drivers determine the
             motion already.
     """
+    case, at = model.model.core_case, (start.t, start.q, start.v, start.z)
+    text, quantity, unit, value = case.over(model.core, over, *at)
+    written: dict[str, Any] = json.loads(text)
     tree: dict[str, Any] = model.model.tree()
-    drivers: dict[str, Any] = tree.setdefault("drivers", {})
-    coordinate = drivers[over]["coordinate"] if over in drivers else over
-    for name, entry in drivers.items():
-        if entry.get("coordinate") == coordinate:
-            over = name
-    _hold_others(tree, over, start.t)
-    if over not in drivers and model.n_rows >= model.n_q and drivers:
-        if len(drivers) > 1:
-            raise ModelError(
-                f"over: the drivers {', '.join(drivers)} determine the motion already",
-                hint=f"name one of them, or remove the one that {over} replaces",
-            )
-        _forget(tree, drivers)
-        drivers.clear()  # the quantity drives in place of the only driver
-    element, _, quantity = coordinate.rpartition(".")
-    joint = tree.get("joints", {}).get(element)
-    if over in drivers:
-        drivers[over] = {"type": drivers[over]["type"], "coordinate": coordinate, "value": "t"}
-    elif joint is not None and quantity in joint:
-        joint[quantity] = "t"  # the joint holds this quantity itself
-    else:
-        drivers[_free_name(tree)] = {"type": _driver(), "coordinate": coordinate, "value": "t"}
-    try:
-        quantity = named(start, coordinate)
-        value = float(quantity.read())
-    except KempeError as error:
-        raise ModelError(f"over: {error}") from error
+    tree |= {section: written.get(section, {}) for section in _DRIVEN}
     changed = Model.from_tree(model.model.with_points(tree))
-    return changed.compile(), value, Variable(coordinate, quantity.unit)
-
-
-def _forget(tree: dict[str, Any], drivers: Mapping[str, Any]) -> None:
-    """Leave out the measures of drivers that no longer exist."""
-    gone = re.compile("|".join(rf"(?<![\w.]){re.escape(name)}\." for name in drivers))
-    measures = tree.get("measures", {})
-    for name in [name for name, text in measures.items() if gone.search(text)]:
-        del measures[name]
-
-
-@functools.cache
-def _driver() -> str:
-    """The type of the driver of a coordinate."""
-    for table in json.loads(_core.catalogue())["drivers"]:
-        if {"coordinate", "value"} <= {field["name"] for field in table["fields"]}:
-            return str(table["name"])
-    raise AssertionError("there is a driver of a coordinate")
-
-
-def _free_name(tree: Mapping[str, Any]) -> str:
-    """A name for the new driver: "over", or "over_1" and so on."""
-    taken = {name for section in NAMED for name in tree.get(section, {})}
-    names = ("over", *(f"over_{k}" for k in range(1, len(taken) + 2)))
-    return next(name for name in names if name not in taken)
-
-
-def _hold_others(tree: dict[str, Any], over: str, t: float) -> None:
-    """Replace the time in all other laws of joints and drivers by that of the start."""
-
-    def held(value: Any) -> Any:
-        if isinstance(value, str):
-            return _TIME.sub(f"({t!r})", value)
-        if isinstance(value, list):
-            return [held(one) for one in value]
-        return value
-
-    for section in ("joints", "drivers"):
-        for name, entry in tree.get(section, {}).items():
-            if name != over:
-                for key, value in entry.items():
-                    if key in _LAWS:
-                        entry[key] = held(value)
+    return changed.compile(), value, Variable(quantity, unit)

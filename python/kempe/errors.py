@@ -1,12 +1,12 @@
 """The closed set of exceptions that kempe raises.
 
-Every error says which joint or body, when, and what to do about it::
+Every error names the joint or body, the time and the remedy::
 
     try:
         sol = kp.dynamics(m, start, t_end=15)
     except kp.IntegrationError as error:
         print(error.name, error.t, error.hint)
-        sol = error.solution  # what was computed until then
+        sol = error.solution  # the results until then
 
 The compiled core raises these same classes.
 """

@@ -1,4 +1,4 @@
-"""Requests for events of a run: conditions, with what follows from them."""
+"""Requests for events of a run: conditions, with their effects."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ class Event:
         stop: whether the run ends at the first event.
         action: a function that is called with the state at the event. It returns None to change
             nothing, a mapping of parameters to their new values, or a state at the same time with
-            other positions or velocities. The run goes on from there. Only in ``kp.dynamics``.
+            other positions or velocities. The run continues from there. Only in ``kp.dynamics``.
     """
 
     condition: str

@@ -2,7 +2,7 @@
 
 The core locates the first kind. An element declares results that become negative in its own source
 file: a normal force of a roller that becomes negative is the event ``lift_off``, since the curve
-would have to pull from there on. The run goes on.
+would have to pull from there on. The run continues.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ Read = Callable[["Motion"], Floats]
 
 
 class EventWarning(UserWarning):
-    """A run had an event after which its result is no longer what the mechanism would do."""
+    """A run had an event after which its result is no longer the motion of the real mechanism."""
 
 
 @dataclass(frozen=True, repr=False)

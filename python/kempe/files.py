@@ -1,7 +1,7 @@
 """Reading and writing of files: completely or not at all; errors contain a remedy.
 
 A file is written beside its place under another name, flushed to the disk and then moved over the
-old one, so that a reader sees the old or the new content and never a part (POSIX rename).
+old one, so that a reader gets the old or the new content and never a part (POSIX rename).
 """
 
 from __future__ import annotations
@@ -131,7 +131,7 @@ def csv_cell(text: str) -> str:
 def writing(path: Path | str) -> Iterator[BinaryIO]:
     """A binary file that appears at ``path`` when the block ends well, and not otherwise.
 
-    Missing folders are made. A symbolic link stays one: what it points to is replaced. Devices and
+    Missing folders are made. A symbolic link stays one: its target is replaced. Devices and
     pipes are refused, since a rename would put a file in their place.
 
     Raises:
@@ -164,7 +164,7 @@ def writing(path: Path | str) -> Iterator[BinaryIO]:
 
 
 def _clear(target: Path) -> None:
-    """Remove what a killed process left of an earlier save of the same file."""
+    """Remove the temporary files of killed processes that saved the same file."""
     pattern = re.compile(rf"\.{re.escape(target.name)}\.(?:(\d+)\.)?[0-9a-f]{{8}}\.part")
     with suppress(OSError):
         for left in target.parent.iterdir():

@@ -1,4 +1,4 @@
-"""Mobility: what a mechanism can do at a position, and which of its constraints are superfluous."""
+"""Mobility: the freedoms of a mechanism at a position, and its redundant constraints."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 #: Largest number of redundancies or loops in a report.
 _MOST = 20
-#: What the kinds of singular positions mean.
+#: Descriptions of the kinds of singular positions.
 _KINDS = {
     "dead point": "a driver cannot move the mechanism from here",
     "change point": "motions cross here, so that the branch is not determined",
@@ -32,7 +32,9 @@ _KINDS = {
 
 @dataclass(frozen=True)
 class Remedy:
-    """What may be freed in one joint of a redundancy; ``str`` of it is such as ``B along x``.
+    """The equations that may be freed in one joint of a redundancy.
+
+    Its ``str`` is a text such as ``B along x``.
 
     Attributes:
         joint: the joint or driver.
@@ -61,7 +63,8 @@ class Redundancy:
     Attributes:
         joints: the joints and drivers that take part.
         equations: their equations that take part, such as ``C.x``. Any one of them may be removed.
-        remedies: what may be freed in each joint instead of removing it; one of them is enough.
+        remedies: the equations that may be freed in each joint instead of removing it; one
+            of them is enough.
         remove: one of them; those of all redundancies together may be removed.
         consistent: whether the rates that drivers prescribe agree with it.
         kind: "dead point", "change point" or "uncertainty" if it holds at this position only; empty
@@ -103,7 +106,7 @@ class FourBar:
 
 
 class MobilityResult(Result):
-    """What a mechanism can do at a position.
+    """The freedoms and redundant constraints of a mechanism at a position.
 
     Attributes:
         gruebler: coordinates less constraint equations, drivers included.
@@ -186,7 +189,7 @@ class MobilityResult(Result):
 
 
 def mobility(model: Model | CompiledModel, state: State) -> MobilityResult:
-    """What a mechanism can do at an assembled position.
+    """Find the freedoms and redundant constraints of a mechanism at an assembled position.
 
     Degrees of freedom by Grübler's count and by rank; redundant equations with all joints that take
     part; singular positions with their kind; locked and loose bodies; massless bodies whose motion

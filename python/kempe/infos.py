@@ -30,8 +30,8 @@ class BodyInfo:
         points: named points in the body's frame, m.
         curves: named curves, each by points along it in the body's frame, m, and whether it is
             closed.
-        drawn: what drawings show in place of a link around the points: "area", "rod" or "line", and
-            points in the body's frame, m; empty without outline and shapes.
+        drawn: the shape in drawings in place of a link around the points: "area", "rod" or
+            "line", and points in the body's frame, m; empty without outline and shapes.
         columns: slice of its coordinates in q: x, y, angle; x, y of a point mass; empty for ground.
     """
 

@@ -198,10 +198,19 @@ class Model(BodyMethods, ElementMethods, MeasureMethods, TreeMethods):
                 raise unknown("parameter", name, self._tree["parameters"])
         model = Model._of(self._tree)
         model._files = dict(self._files)
-        source, overrides = self._source or (_core.Case(self.text(), "json", None), {})
+        source, overrides = self._written()
         model._source = (source, {**overrides, **changed})
         model._tree["parameters"].update(changed)
         return model
+
+    def _written(self) -> tuple[_core.Case, dict[str, float | str]]:
+        """The model as a case of the core, and parameters that replace those of the case."""
+        return self._source or (_core.Case(self.text(), "json", None), {})
+
+    @property
+    def core_case(self) -> _core.Case:
+        """The model as a case of the core."""
+        return self._written()[0]
 
     def compile(self) -> CompiledModel:
         """The compiled model; it is kept until the model changes.
@@ -210,7 +219,7 @@ class Model(BodyMethods, ElementMethods, MeasureMethods, TreeMethods):
             ModelError: the model is invalid; ``problems`` lists all problems.
         """
         if self._compiled is None:
-            source, overrides = self._source or (_core.Case(self.text(), "json", None), {})
+            source, overrides = self._written()
             functions = Functions(self._tree)
             given = (functions.described(), functions.state) if functions.laws else ()
             core = source.model(json.dumps(overrides, allow_nan=False), *given)

@@ -33,7 +33,7 @@ class Motion:
     Attributes:
         compiled: the compiled model at the time of the computation.
         t: (n_t,), s; values of ``variable`` in a motion over a driven quantity.
-        variable: what ``t`` contains: the time, or a driven quantity with its unit.
+        variable: the quantity in ``t``: the time, or a driven quantity with its unit.
         q: (n_t, n_q) or (n_q,): x, y, angle of each moving body in order, m and rad, then the
             internal coordinates of joints; see ``model.column_names()``.
         v: their rates, per s.
@@ -43,7 +43,7 @@ class Motion:
 
     #: The phases of its rows; None if all have the compiled model.
     _phases: Phases | None = None
-    #: What ``t`` contains.
+    #: The quantity in ``t``.
     variable: Variable = TIME
     #: Whether accelerations are computed near singular positions too, as in runs that pass them.
     _passing = False

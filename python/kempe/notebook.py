@@ -1,4 +1,4 @@
-"""What a notebook shows for an object: a drawing and tables as HTML."""
+"""Objects in notebooks: a drawing and tables as HTML."""
 
 from __future__ import annotations
 

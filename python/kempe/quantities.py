@@ -136,7 +136,7 @@ def of_point(motion: Motion, body: str, point: str) -> Family:
 
 
 def of_constraint(motion: Motion, info: ConstraintInfo) -> Family:
-    """What a joint or driver leaves free, its reaction on body j, multipliers, coordinates."""
+    """A joint or driver: free motion, reaction on body j, multipliers, coordinates."""
     view = motion.constraint(info.name)
     found = _measured(motion, info) | _tension(motion, info) | _driving(motion, info)
     found |= _acting(partial(view.force, on=info.j), partial(view.torque, on=info.j))

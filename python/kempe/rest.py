@@ -52,8 +52,9 @@ class EquilibriumResult(Result):
             coordinates, ascending. It is the Hessian of the potential where forces have one. Where
             they have none, the real parts. N*m/rad for an angle, N/m for a length.
         stiffness: (f, f) or (n, f, f): the reduced stiffness.
-        effort: what a holder must apply to keep each quantity of ``hold``, and the effort of each
-            driver by its name; positive if it increases the coordinate. (n,) on a path.
+        effort: the force or torque of a holder that keeps each quantity of ``hold``, and the
+            effort of each driver by its name; positive if it increases the coordinate. (n,) on
+            a path.
         residual: the largest force that is left, relative to the largest single force.
         steps, relaxed: steps of Newton's method and of dynamic relaxation; 0 on a path.
         end: the end of a path in words, else "".

@@ -56,7 +56,7 @@ class Solution(Motion):
         model: the model of the user.
         compiled: the compiled model at the time of the run.
         t: (n_t,), s; values of ``variable`` in a motion over a driven quantity.
-        variable: what ``t`` contains: the time, or a driven quantity with its unit.
+        variable: the quantity in ``t``: the time, or a driven quantity with its unit.
         q, v: (n_t, n_q), m, rad and per s.
         z: (n_t, n_z): first-order states of force elements; empty for most models.
         status: 0 if the end was reached, 1 if an event stopped the run, -1 otherwise.

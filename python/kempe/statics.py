@@ -53,7 +53,7 @@ def equilibrium(
         model: the mechanism.
         start: an assembled state; its rates do not count.
         hold: position quantities that a holder keeps at their values of the start, such as
-            ``["crank.angle"]``; ``effort`` gives what the holder must apply.
+            ``["crank.angle"]``; ``effort`` gives the force or torque of the holder.
         over: a parameter of the model.
         range: its first and last value, in SI units and rad.
         nearest: find the equilibrium nearest to the start by plain Newton iteration, stable or not.

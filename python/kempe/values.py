@@ -293,7 +293,7 @@ def listed(value: object, path: str) -> list[Any]:
 
 
 def _listed(value: object) -> list[object] | None:
-    """The entries of a sequence; None for what is not one."""
+    """The entries of a sequence; None for any other value."""
     try:
         return list(value)  # type: ignore[call-overload,no-any-return]
     except TypeError:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Variable:
-    """What the array ``t`` of a motion contains.
+    """The quantity in the array ``t`` of a motion.
 
     Attributes:
         name: "t", or a position quantity such as "crank.angle".

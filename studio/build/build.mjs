@@ -7,13 +7,14 @@ import { gzipSync } from "node:zlib";
 import lzma from "lzma-native";
 import { bundle } from "./bundle.mjs";
 import { licences } from "./licences.mjs";
+import { pack } from "./pack.mjs";
 
 const HERE = dirname(dirname(fileURLToPath(import.meta.url)));
 const ROOT = dirname(HERE);
 /** The compiled core; bindings/web/README.md says how it is built. */
 const CORE = process.env.KEMPE_WEB ?? join(ROOT, "target", "web", "kempe_web.wasm");
-/** Largest page, bytes compressed. */
-const MOST = 1.1 * 1024 * 1024;
+/** Largest page, bytes compressed: 1 MB. */
+const MOST = 1_000_000;
 
 const OPTIONS = { minify: !process.env.KEMPE_PLAIN, format: "iife", jsx: "automatic", jsxImportSource: "preact" };
 
@@ -42,10 +43,13 @@ const made = {
   },
 };
 
-/** The core as base64 of xz, which is a third smaller than gzip. Its checksum is one that the worker's decoder knows. */
+/**
+ * The core, taken apart, as base64 of xz, which is a third smaller than gzip. Its checksum is one that the worker's
+ * decoder knows.
+ */
 async function packed() {
   const options = { preset: 9 | lzma.PRESET_EXTREME, check: lzma.CHECK_CRC32 };
-  return (await lzma.compress(readFileSync(CORE), options)).toString("base64");
+  return (await lzma.compress(pack(readFileSync(CORE)), options)).toString("base64");
 }
 
 function hash(text) {
@@ -79,5 +83,6 @@ const page = readFileSync(join(HERE, "index.html"), "utf8").replace(/\{\{(\w+)\}
 mkdirSync(join(HERE, "dist"), { recursive: true });
 writeFileSync(join(HERE, "dist", "index.html"), page);
 const size = gzipSync(page, { level: 9 }).length;
-console.log(`dist/index.html: ${(page.length / 1024).toFixed(0)} kB, ${(size / 1024).toFixed(0)} kB compressed`);
-if (size > MOST) throw new Error(`the page has ${size} bytes compressed; the limit is ${MOST}`);
+console.log(`dist/index.html: ${(page.length / 1000).toFixed(0)} kB, ${(size / 1000).toFixed(0)} kB compressed`);
+if (!process.env.KEMPE_PLAIN && size > MOST)
+  throw new Error(`the page has ${size} bytes compressed; the limit is ${MOST}`);

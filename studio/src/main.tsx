@@ -12,7 +12,6 @@ import { open } from "./store/document";
 import { connect } from "./store/session";
 import { announce } from "./store/state";
 import { texts } from "./texts";
-import "uplot/dist/uPlot.min.css";
 import "./style/colours.css";
 import "./style/page.css";
 import "./style/drawing.css";

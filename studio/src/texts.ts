@@ -2,6 +2,8 @@
 
 const article = (shape: string) => (shape === "body" ? "a body, or empty ground" : `a ${shape}`);
 
+const variable = (name: string) => (name === "t" ? "the time" : name);
+
 export const texts = {
   name: "kempe studio",
   noScript: "The studio needs JavaScript.",
@@ -225,11 +227,22 @@ export const texts = {
     compared: (file: string, n: number) => `${n} quantities of ${file} are compared.`,
     notCompared: (file: string) => `${file} is not a stored run of a mechanism with these bodies.`,
     stored: "stored",
+    otherAxis: (own: string, present: string, positions: boolean) =>
+      `The stored run is over ${variable(own)}, the plots are over ${variable(present)}. ${
+        positions ? "Only its positions are drawn." : `It is not drawn. A run over ${variable(own)} can be compared.`
+      }`,
     endComparison: (file: string) => `End the comparison with ${file}`,
     csv: "CSV",
     csvHint: "Save the plotted curves as CSV, in SI units and rad",
     npz: "NPZ",
     npzHint: "Save times, poses and plotted quantities for NumPy",
+    png: "PNG",
+    pngHint: "Save the plots as PNG",
+    svg: "SVG",
+    svgHint: "Save the plots as SVG",
+    plotOf: (names: string) => `Plot of ${names}; + and − stretch it, 0 shows all of it`,
+    log: "log",
+    logHint: "Logarithmic axis",
     arrows: "Arrows",
     reactions: "Reactions",
     velocities: "Velocities",

@@ -1,4 +1,4 @@
-"""All paths in ARCHITECTURE.md exist."""
+"""ARCHITECTURE.md has at most three pages; all paths on the pages about the code exist."""
 
 import re
 from pathlib import Path
@@ -8,6 +8,9 @@ from house.places import ROOT
 
 #: A word in backticks is a path when it has a slash or one of these endings.
 ENDINGS = (".rs", ".py", ".pyi", ".md", ".toml", ".sh", ".json", ".txt", ".html", ".js")
+
+PAGES = ("ARCHITECTURE.md", "docs/internals/analyses.md", "docs/internals/decisions.md")
+WORDS_ON_A_PAGE = 500
 
 
 def paths_in(text: str) -> list[str]:
@@ -23,10 +26,16 @@ def missing(text: str, root: Path) -> list[str]:
     ]
 
 
-def test_every_path_in_the_architecture_exists() -> None:
-    text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
-    assert paths_in(text), "ARCHITECTURE.md contains no path"
+@pytest.mark.parametrize("page", PAGES)
+def test_every_path_on_a_page_about_the_code_exists(page: str) -> None:
+    text = (ROOT / page).read_text(encoding="utf-8")
+    assert paths_in(text), f"{page} contains no path"
     assert missing(text, ROOT) == []
+
+
+def test_the_architecture_has_at_most_three_pages() -> None:
+    text = (ROOT / "ARCHITECTURE.md").read_text(encoding="utf-8")
+    assert len(text.split()) <= 3 * WORDS_ON_A_PAGE
 
 
 @pytest.mark.parametrize(

@@ -41,6 +41,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "Case": lambda: _core.Case("kempe = 1", "toml", None),
     "Case.tree": CASE.tree,
     "Case.write": lambda: CASE.write("json"),
+    "Case.over": lambda: CASE.over(MODEL, "crank.angle", T, Q, V, Z),
     "Case.model": lambda: CASE.model("{}"),
     "Case.place": lambda: CASE.place("joints.A"),
     "Case.supply": lambda: CASE.supply("lift", ROW[0], ROW[0]),

@@ -13,6 +13,11 @@ from studio.window import Studio
 EXAMPLES = Path(__file__).parents[2] / "examples"
 CASE = EXAMPLES / "four_bar.toml"
 NAMES = ["crank.angle", "coupler.angle", "rocker.angle"]
+NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
+#: What moves with a body is drawn in its frame.
+MOVED = re.compile(
+    rf"translate\(({NUMBER.pattern}) ({NUMBER.pattern})\)rotate\(({NUMBER.pattern})\)"
+)
 
 
 @pytest.fixture(scope="module")
@@ -58,7 +63,8 @@ def test_npz_has_times_poses_and_curves(one: Studio, solution: kp.Solution, tmp_
     hint = "Save times, poses and plotted quantities for NumPy"
     path = given(one, hint, tmp_path / "run.npz")
     with np.load(path) as found:
-        assert set(found) == {"t", "crank", "coupler", "rocker", *NAMES, "C.force"}
+        assert set(found) == {"t", "variable", "crank", "coupler", "rocker", *NAMES, "C.force"}
+        assert list(found["variable"]) == ["t", "s"]
         np.testing.assert_allclose(found["t"], solution.t, rtol=0, atol=1e-12)
         rocker = solution["rocker"]
         poses = np.column_stack([rocker.x, rocker.y, rocker.angle])
@@ -74,13 +80,15 @@ def test_svg_has_the_pins_where_python_has_them(one: Studio, tmp_path: Path) -> 
     space = "{http://www.w3.org/2000/svg}"
     texts = {element.text for element in root.iter(f"{space}text")}
     assert {"A", "B", "C", "D", "1", "2", "3", "spring", "g"} <= texts
-    closed = [
-        d for element in root.iter(f"{space}path") if (d := element.get("d", "")).endswith("Z")
-    ]
     centres = []
-    for d in closed:
-        numbers = np.array([float(x) for x in re.findall(r"-?\d+(?:\.\d+)?", d)]).reshape(-1, 2)
-        centres.append((numbers.min(axis=0) + numbers.max(axis=0)) / 2)
+    for element in root.iter(f"{space}path"):
+        d, moved = element.get("d", ""), element.get("transform", "")
+        if d.endswith("Z"):
+            x, y, angle = MOVED.fullmatch(moved).groups() if moved else (0, 0, 0)  # type: ignore[union-attr]
+            numbers = np.array([float(x) for x in NUMBER.findall(d)]).reshape(-1, 2)
+            middle = complex(*(numbers.min(axis=0) + numbers.max(axis=0)) / 2)
+            placed = middle * np.exp(1j * np.radians(float(angle)))
+            centres.append(np.array([placed.real + float(x), placed.imag + float(y)]))
     start = kp.load(CASE).start()
     corner = one.page.locator("#sheet").bounding_box()
     assert corner is not None

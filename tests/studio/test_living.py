@@ -156,8 +156,7 @@ def test_a_core_that_traps_is_started_again(one: Studio) -> None:
     assert one.toml() == example("four_bar")
     assert one.state()["t"] == 0
     one.page.locator("#live-play").click()
-    one.page.wait_for_timeout(300)
-    assert one.state()["t"] > 0.05
+    one.wait("kempe.state().then(({ t }) => t > 0.05)")
     assert "no motion" not in one.message()
     play(one)
     one.mode("read")

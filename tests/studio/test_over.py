@@ -120,13 +120,13 @@ def test_a_range_that_the_mechanism_cannot_pass_keeps_its_part(one: Studio, tmp_
 
 
 def labels(one: Studio) -> None:
-    """Notes what is drawn as text on the plots from now on."""
+    """Notes what is drawn as text beside the sheet, on the plots, from now on."""
     one.call(
         """() => {
           window.drawn = [];
           const write = CanvasRenderingContext2D.prototype.fillText;
           CanvasRenderingContext2D.prototype.fillText = function (text, ...where) {
-            if (this.canvas.closest(".plot")) window.drawn.push(text);
+            if (this.canvas.id !== "sheet") window.drawn.push(text);
             return write.call(this, text, ...where);
           };
         }"""

@@ -65,7 +65,7 @@ def test_the_licences_of_the_software_in_the_page(studio: Opener) -> None:
         for folder, package in lock["packages"].items()
         if folder and not package.get("dev")
     }
-    assert {"preact", "uplot"} <= shipped
+    assert {"preact", "fflate"} <= shipped
     assert [name for name in shipped if not re.search(rf"^{name} \d", shown, re.MULTILINE)] == []
     assert "kurbo" in shown  # a crate in the core
 

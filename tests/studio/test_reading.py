@@ -63,7 +63,7 @@ def test_a_stored_run_is_drawn_dashed_in_the_same_plots(one: Studio, tmp_path: P
           window.dashes = 0;
           const dash = CanvasRenderingContext2D.prototype.setLineDash;
           CanvasRenderingContext2D.prototype.setLineDash = function (lengths) {
-            if (lengths.length && this.canvas.closest(".plot")) window.dashes += 1;
+            if (lengths.length && this.canvas.id !== "sheet") window.dashes += 1;
             return dash.call(this, lengths);
           };
         }"""

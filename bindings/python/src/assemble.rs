@@ -1,11 +1,13 @@
-//! Assembly as Python sees it.
+//! Assembly, for Python.
 
 use crate::attended::attended;
 use crate::convert::{number, state, tree, Row};
 use crate::errors::{raise_plain, Failure, Kind, Problem};
 use crate::guard::guard;
 use crate::model::PyModel;
-use kempe::analyses::assemble::{self as core, Choice, Fault, Report, Request, Source, Target};
+use kempe::analyses::assemble::{
+    self as core, Choice, Fault, Report, Request, Target, ValueSource,
+};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use serde_json::{json, Value};
@@ -117,13 +119,13 @@ pub fn describe(report: &Report) -> Value {
 /// A coordinate or rate that was not set.
 fn choice(of: &Choice) -> Value {
     let (source, guess) = match of.source {
-        Source::Guess => ("guess", None),
-        Source::NearGuess(guess) => ("near guess", Some(guess)),
-        Source::Guesses => ("guesses", None),
-        Source::Drawing => ("drawing", None),
-        Source::Nothing => ("nothing", None),
-        Source::Rest => ("rest", None),
-        Source::LeastEnergy => ("least energy", None),
+        ValueSource::Guess => ("guess", None),
+        ValueSource::NearGuess(guess) => ("near guess", Some(guess)),
+        ValueSource::Guesses => ("guesses", None),
+        ValueSource::Drawing => ("drawing", None),
+        ValueSource::Nothing => ("nothing", None),
+        ValueSource::Rest => ("rest", None),
+        ValueSource::LeastEnergy => ("least energy", None),
     };
     json!({ "name": of.name, "value": of.value, "unit": of.unit, "source": source, "guess": guess })
 }

@@ -1,11 +1,12 @@
-//! A case as Python sees it: text in, text out, and the compiled model.
+//! Cases, for Python: text in, text out, and the compiled model.
 
 use crate::attended::attended;
-use crate::convert::{refuse, tree, Row};
-use crate::errors::{raise, Failure, Kind};
+use crate::convert::{refuse, state, tree, Row};
+use crate::errors::{raise, raise_plain, Failure, Kind};
 use crate::functions;
 use crate::guard::guard;
 use crate::model::PyModel;
+use kempe::analyses::kinematics::{self, Over};
 use kempe::analyses::measures;
 use kempe::case::{self, Case, Diagnostic, Document, Format, MOST_REPORTED};
 use kempe::model::{self, Value};
@@ -108,7 +109,30 @@ impl PyCase {
         })
     }
 
-    /// Raises what is wrong with start and analyses, with places in the text.
+    /// The case in which t is the value of a driver or position quantity, as JSON; the quantity, its unit, and its value
+    /// at a state.
+    #[allow(clippy::too_many_arguments)] // the state is four arguments
+    fn over(
+        &self,
+        py: Python<'_>,
+        model: &PyModel,
+        over: &str,
+        t: f64,
+        q: Row<'_>,
+        v: Row<'_>,
+        z: Row<'_>,
+    ) -> PyResult<(String, String, String, f64)> {
+        guard("Case.over", || {
+            let start = state(py, &model.model, t, [&q, &v, &z])?;
+            let found = kinematics::over(&self.case.definition, &model.model, &start, over);
+            let Over { definition, quantity, unit, value } =
+                found.map_err(|problem| raise_plain(py, Kind::Model, &[problem]))?;
+            let case = Case { definition, ..(*self.case).clone() };
+            Ok((case::write(&case, Format::Json), quantity, unit, value))
+        })
+    }
+
+    /// Raises the problems of the start and of the analyses, with their places in the text.
     fn check(&self, py: Python<'_>, model: &PyModel) -> PyResult<()> {
         guard("Case.check", || {
             let found = self.case.faults(&model.model);

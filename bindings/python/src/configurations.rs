@@ -1,4 +1,4 @@
-//! All configurations of a mechanism as Python sees them.
+//! All configurations of a mechanism, for Python.
 
 use crate::assemble::{describe, raise, targets};
 use crate::attended::attended;

@@ -1,4 +1,4 @@
-//! Forward dynamics as Python sees it: without the interpreter's lock, interruptible, with progress.
+//! Forward dynamics, for Python: without the interpreter's lock, interruptible, with progress.
 
 use crate::convert::{frozen, state, table, Row};
 use crate::errors::{raise_plain, Failure, Kind};

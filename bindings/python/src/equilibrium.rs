@@ -1,4 +1,4 @@
-//! Statics as Python sees it: without the interpreter's lock, interruptible, with progress.
+//! Statics, for Python: without the interpreter's lock, interruptible, with progress.
 
 use crate::convert::{state, Row};
 use crate::errors::{raise_plain, Failure, Kind};
@@ -7,6 +7,7 @@ use crate::model::PyModel;
 use crate::options;
 use crate::watch::Watch;
 use kempe::analyses::equilibrium as statics;
+use kempe::analyses::options::Declared;
 use kempe::analyses::State;
 use kempe::model::Model;
 use pyo3::prelude::*;
@@ -84,11 +85,11 @@ fn solved(
     let found = statics::path(model, start, options, |value| watch.look(value))?;
     let points: Vec<Value> = found.points.iter().map(point).collect();
     let (end, why) = match &found.end {
-        statics::End::Last => ("last", String::new()),
-        statics::End::First => ("first", String::new()),
-        statics::End::Lost(reason) => ("lost", reason.to_string()),
-        statics::End::Long => ("long", String::new()),
-        statics::End::Stopped => ("stopped", String::new()),
+        statics::PathEnd::Last => ("last", String::new()),
+        statics::PathEnd::First => ("first", String::new()),
+        statics::PathEnd::Lost(reason) => ("lost", reason.to_string()),
+        statics::PathEnd::Long => ("long", String::new()),
+        statics::PathEnd::Stopped => ("stopped", String::new()),
     };
     Ok(json!({
         "points": points, "values": found.values, "folds": found.folds, "branches": found.branches,

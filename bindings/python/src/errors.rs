@@ -18,7 +18,7 @@ pub enum Kind {
     Redundancy,
     /// The mechanism is in a position where the task has no unique answer.
     Singularity,
-    /// The integrator could not go on.
+    /// The integrator could not continue.
     Integration,
     /// A file cannot be read or written.
     File,
@@ -54,7 +54,7 @@ impl Kind {
 /// One of possibly many things that are wrong with a model or a file.
 #[derive(Clone, Debug, Default)]
 pub struct Problem {
-    /// What is wrong, and what to do.
+    /// Description of the fault, and the remedy.
     pub message: String,
     /// Where in the model, such as `joints.C.i`; empty where that has no meaning.
     pub path: String,
@@ -93,13 +93,13 @@ impl Failure {
         self
     }
 
-    /// What the user can do about it.
+    /// The remedy.
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());
         self
     }
 
-    /// Everything that is wrong, in the order of the file.
+    /// All faults, in the order of the file.
     pub fn problems(mut self, problems: Vec<Problem>) -> Self {
         self.problems = problems;
         self

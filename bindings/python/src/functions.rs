@@ -1,7 +1,7 @@
 //! Python functions as laws of forces: called with the interpreter's lock, during runs that go without it.
 //!
-//! The core sees a number. An exception is kept for this thread: the value is then not a number, which ends the run, and
-//! the entry point raises the exception.
+//! The core gets a number. An exception is kept for this thread: the value is then not a number, which ends the run,
+//! and the entry point raises the exception.
 
 use crate::errors::{Failure, Kind};
 use crate::guard::raised;

@@ -1,4 +1,4 @@
-//! Kinematics as Python sees it: without the interpreter's lock, interruptible, with progress.
+//! Kinematics, for Python: without the interpreter's lock, interruptible, with progress.
 
 use crate::convert::{row, state, Row};
 use crate::dynamics::PyRun;
@@ -9,6 +9,7 @@ use crate::options;
 use crate::watch::Watch;
 use kempe::analyses::dynamics::{Run, Statistics};
 use kempe::analyses::kinematics as driven;
+use kempe::analyses::options::Declared;
 use kempe::stabilize::Projection;
 use pyo3::prelude::*;
 use serde_json::json;

@@ -1,7 +1,7 @@
 //! The Python module `kempe._core`: a thin layer of arrays, errors and callbacks over the core.
 //!
 //! There is no mechanics here. Every entry point is one line, `guard("its name", || …)`, and
-//! every error leaves through [`errors::Failure`], so that Python sees the classes of
+//! every error leaves through [`errors::Failure`], so that Python gets the classes of
 //! `kempe.errors` and never a Rust panic.
 #![forbid(unsafe_code)]
 

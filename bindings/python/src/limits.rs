@@ -1,4 +1,4 @@
-//! Limits of motion as Python sees them: interruptible, with progress.
+//! Limits of motion, for Python: interruptible, with progress.
 
 use crate::convert::{state, table, Row};
 use crate::guard::guard;

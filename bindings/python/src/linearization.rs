@@ -1,4 +1,4 @@
-//! Linear equations as Python sees them.
+//! Linear equations, for Python.
 
 use crate::convert::{refuse, state, table, Row};
 use crate::errors::{raise_plain, Failure, Kind};
@@ -6,6 +6,7 @@ use crate::guard::guard;
 use crate::model::PyModel;
 use crate::options;
 use kempe::analyses::linearization as linear;
+use kempe::analyses::options::Declared;
 use kempe::model::Model;
 use numpy::ToPyArray;
 use pyo3::prelude::*;

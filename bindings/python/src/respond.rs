@@ -1,4 +1,4 @@
-//! What states answer to forces, as Python sees it: without the interpreter's lock, interruptible.
+//! Accelerations and multipliers of states, for Python: without the interpreter's lock, interruptible.
 
 use crate::active::Active;
 use crate::errors::{Failure, Kind};

@@ -6,12 +6,18 @@ use crate::guard::{caught, guard, Caught};
 use crate::model::PyModel;
 use crate::options;
 use crate::respond::Table;
-use kempe::analyses::sweep::{Outcome, Statistic, Sweep};
+use kempe::analyses::sweep::{Outcome, Statistic, Sweep, VariantRow};
+use kempe::math::Lanes;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use rayon::ThreadPoolBuilder;
 use std::sync::Arc;
+
+/// Largest number of variants that are computed together, which fit into the cache of a processor.
+const BLOCK: usize = 32;
+/// Blocks for each thread, so that all threads end at about the same time.
+const BLOCKS: usize = 4;
 
 /// Size of the stack of a thread, as that of a main thread.
 const STACK: usize = 8 << 20;
@@ -85,23 +91,20 @@ fn on_threads(
     let named = |names: &[String], values: &[f64]| -> Vec<(String, f64)> {
         names.iter().cloned().zip(values.iter().copied()).collect()
     };
-    let one = |row: &[f64]| {
-        if stop() {
-            return Ok(Outcome::Stopped);
-        }
+    let rows = rows.chunks_exact(width).map(|row| {
         let (of_parameters, of_start) = row.split_at(parameters.len());
-        caught(|| {
-            let (parameters, start) =
-                (named(parameters, of_parameters), named(coordinates, of_start));
-            sweep.variant(&parameters, &start, &stop)
-        })
-    };
+        (named(parameters, of_parameters), named(coordinates, of_start))
+    });
+    let rows: Vec<VariantRow> = rows.collect();
+    let block = (rows.len() / (BLOCKS * workers.max(1))).clamp(Lanes::WIDTH, BLOCK);
+    let run = |rows: &[VariantRow]| caught(|| sweep.variants(rows, stop));
     let pool = ThreadPoolBuilder::new().num_threads(workers).stack_size(STACK).build();
-    match pool {
-        Ok(pool) => pool.install(|| rows.par_chunks_exact(width).map(one).collect()),
+    let outcomes: Result<Vec<_>, _> = match pool {
+        Ok(pool) => pool.install(|| rows.par_chunks(block).map(run).collect()),
         // no threads can be started
-        Err(_) => rows.chunks_exact(width).map(one).collect(),
-    }
+        Err(_) => rows.chunks(block).map(run).collect(),
+    };
+    Ok(outcomes?.concat())
 }
 
 fn sorted<'py>(

@@ -6,7 +6,7 @@ use kempe::model::Value as Written;
 use kempe::{build, Definition, Entry, Model};
 use serde_json::{json, Value};
 
-/// The catalogue, the JSON Schema and the version. Joints between two points say whether they only hold the points together.
+/// The catalogue and the version. Joints between two points say whether they only hold the points together.
 pub fn catalogue() -> Value {
     let mut found = case::catalogue();
     if let Some(joints) = found["joints"].as_array_mut() {
@@ -15,8 +15,7 @@ pub fn catalogue() -> Value {
             joint["joins_points"] = json!(joins);
         }
     }
-    let schema: Value = serde_json::from_str(&case::schema()).unwrap_or_default();
-    json!({ "elements": found, "schema": schema, "version": env!("CARGO_PKG_VERSION") })
+    json!({ "elements": found, "version": env!("CARGO_PKG_VERSION") })
 }
 
 /// Whether a joint of this type between two points holds them together and nothing else: a pin.

@@ -1,10 +1,11 @@
-//! What prevents each analysis that runs here: the checks with which the core begins it, at the start of the
-//! case.
+//! What prevents each analysis of a state or motion: the checks with which the core begins it, at the start of the case.
 
 use crate::fault::problem;
 use crate::loaded::Loaded;
 use kempe::analyses::dynamics::{Prepared, Reason as NoMotion};
+use kempe::analyses::equilibrium::{self, Reason as NoRest};
 use kempe::analyses::kinematics::{kinematics, recorded, Reason as NotDriven};
+use kempe::analyses::linearization::{self, Failure as NotLinear};
 use kempe::model::{Definition, Entry};
 use kempe::{assemble, Flow, Model, Options, Problem, State};
 use serde_json::{json, Value};
@@ -25,6 +26,8 @@ pub fn readiness(loaded: &Loaded) -> Value {
         stated("dynamics", found.of_dynamics()),
         stated("kinematics", driven.clone()),
         stated("inverse_dynamics", driven.or_else(|| found.of_reactions())),
+        stated("equilibrium", found.of_equilibrium()),
+        stated("modes", found.of_modes()),
     ])
 }
 
@@ -78,7 +81,11 @@ impl Obstacles<'_> {
         let options = Options::new(self.state.t + 1.0);
         let run =
             Prepared::new(Arc::clone(self.model)).dynamics(self.state, &options, |_| Flow::Stop);
-        match run.err()?.reason {
+        self.of_motion(run.err()?.reason)
+    }
+
+    fn of_motion(&self, reason: NoMotion) -> Option<Problem> {
+        match reason {
             NoMotion::Singular { name, message, .. } => self.at(&name, message, ""),
             NoMotion::Start { name, message, hint, .. }
             | NoMotion::Redundant { name, message, hint, .. }
@@ -112,6 +119,30 @@ impl Obstacles<'_> {
             NoMotion::Redundant { name, message, hint, .. } => self.at(&name, message, hint),
             NoMotion::Singular { name, message, .. } => self.at(&name, message, ""),
             other => self.at("", other.to_string(), ""),
+        }
+    }
+
+    /// What prevents the search of a position of rest.
+    fn of_equilibrium(&self) -> Option<Problem> {
+        let reason = equilibrium::begins(self.model, self.state).err()?;
+        let message = reason.to_string();
+        match &reason {
+            NoRest::Singular { name, .. } | NoRest::State { name } => self.at(name, message, ""),
+            _ => self.at("", message, ""),
+        }
+    }
+
+    /// What prevents the linear equations, whose eigenvalues are the modes.
+    fn of_modes(&self) -> Option<Problem> {
+        let failure = linearization::begins(self.model, self.state).err()?;
+        let message = failure.to_string();
+        match failure {
+            NotLinear::Singular { name, .. } | NotLinear::Open { name, .. } => {
+                self.at(&name, message, "")
+            }
+            NotLinear::NoInertia { coordinate, .. } => self.at(&coordinate, message, ""),
+            NotLinear::Motion(failure) => self.of_motion(failure.reason),
+            _ => self.at("", message, ""),
         }
     }
 }

@@ -8,6 +8,7 @@ use crate::over::{driven_by, Variable};
 use kempe::analyses::dynamics::{read, Prepared, Run};
 use kempe::analyses::kinematics as driven;
 use kempe::analyses::kinematics::{kinematics, recorded, Motion};
+use kempe::analyses::options::Declared;
 use kempe::equations::kinematics::Motions;
 use kempe::model::{Entry, Value as Written};
 use kempe::{Flow, Model, Options, State};

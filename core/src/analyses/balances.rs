@@ -33,13 +33,13 @@ pub(super) struct EnergyBalance {
 }
 
 impl EnergyBalance {
-    /// Of a run that has not begun.
+    /// The balance of a run that has not begun.
     pub fn new() -> Self {
         let [low, high] = [[f64::INFINITY; 5], [f64::NEG_INFINITY; 5]];
         Self { start: None, low, high, present: f64::NAN }
     }
 
-    /// Goes on to a state with these energies.
+    /// Continues to a state with these energies.
     pub fn add(&mut self, energies: Energies<f64>) {
         for (k, energy) in energies.into_iter().enumerate() {
             self.low[k] = self.low[k].min(energy);
@@ -68,12 +68,12 @@ pub(super) struct ReactionBalance {
 }
 
 impl ReactionBalance {
-    /// Of a run that has not begun.
+    /// The balance of a run that has not begun.
     pub fn new() -> Self {
         Self { largest: Vec::new(), lever: 0.0, present: f64::NAN }
     }
 
-    /// Goes on to a state with these balances of the bodies.
+    /// Continues to a state with these balances of the bodies.
     pub fn add(&mut self, bodies: &[BodyBalance]) {
         self.largest.resize(bodies.len(), [0.0; 2]);
         for (largest, body) in self.largest.iter_mut().zip(bodies) {

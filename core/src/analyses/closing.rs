@@ -7,7 +7,7 @@
 use crate::equations::augmented::Augmented;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
-use crate::model::{column_scales, row_scales, size, Model};
+use crate::model::{column_scales, row_scales, Model};
 use crate::solve::newton::{Damping, Equations, Newton, Options, Outcome, Record};
 
 /// Largest scaled residual of a consistent position.
@@ -32,8 +32,6 @@ pub struct Closing<'a> {
     /// Rows that are left out; empty for none.
     left_out: Vec<bool>,
     matrix: Augmented,
-    /// Size of the mechanism, m.
-    pub size: f64,
     /// Scale of each row: the size for lengths, 1 for angles.
     scales: Vec<f64>,
     weights: Vec<f64>,
@@ -41,9 +39,8 @@ pub struct Closing<'a> {
 }
 
 impl<'a> Closing<'a> {
-    /// For a model at time `t`.
+    /// The equations of a model at time `t`.
     pub fn new(model: &'a Model, t: f64, stop: Halt<'a>) -> Self {
-        let size = size(model);
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
         let weights = column_scales(model).iter().map(|scale| 1.0 / (scale * scale)).collect();
         let matrix = Augmented::new(model);
@@ -53,14 +50,13 @@ impl<'a> Closing<'a> {
             stop,
             left_out: Vec::new(),
             matrix,
-            size,
             scales: row_scales(model),
             weights,
             solution: vec![0.0; n + m],
         }
     }
 
-    /// The same without some rows of Φ.
+    /// The equations without some rows of Φ.
     pub fn without(mut self, rows: &[usize]) -> Self {
         self.left_out = vec![false; self.model.layout.n_rows];
         rows.iter().for_each(|row| self.left_out[*row] = true);

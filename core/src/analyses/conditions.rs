@@ -1,12 +1,12 @@
 //! Conditions on quantities of a motion: a comparison, or an expression that becomes zero.
 
-use super::quantities::Quantities;
+use super::quantities::{QuantityNames, QuantityValues};
 use super::signals::{energies, Energy, Seen, Signal};
 use super::so_far::{SoFar, PLACES};
 use crate::equations::kinematics::Motions;
 use crate::equations::newton_euler::balances;
 use crate::equations::Workspace;
-use crate::expression::{Expression, ExpressionError, Inferred, Sense, Symbol, Tape, Values};
+use crate::expression::{Expression, ExpressionError, Inferred, Sense, Symbol, Tape};
 use crate::integrate::{Direction, Step};
 use crate::model::{Model, Problem};
 
@@ -15,7 +15,7 @@ use crate::model::{Model, Problem};
 pub(super) struct Condition {
     tape: Tape,
     signals: Vec<Signal>,
-    /// None for an expression.
+    /// The sense of a comparison; None for an expression.
     comparison: Option<Sense>,
     /// Whether a quantity needs accelerations or multipliers.
     pub needs_solution: bool,
@@ -27,15 +27,12 @@ impl Condition {
     /// # Errors
     /// A fault of the text, an unknown name, different dimensions, or a condition that never changes.
     pub fn read(model: &Model, released: &[String], text: &str) -> Result<Self, Problem> {
-        let nowhere: [&str; 0] = [];
-        Self::compile(model, released, text).map_err(|fault| {
-            Problem::at(&nowhere, fault.message).within(fault.span).maybe_hint(fault.hint)
-        })
+        Self::compile(model, released, text).map_err(Problem::from)
     }
 
     fn compile(model: &Model, released: &[String], text: &str) -> Result<Self, ExpressionError> {
         let (expression, comparison) = Expression::parse_condition(text)?;
-        let quantities = Quantities::of(model, released);
+        let quantities = QuantityNames::of(model, released);
         let tape = expression.compile(&quantities)?;
         let inferred = &model.blueprint.inferred;
         expression.infer(&quantities, &|symbol| match symbol {
@@ -55,7 +52,7 @@ impl Condition {
         Ok(Self { tape, signals, comparison, needs_solution })
     }
 
-    /// Has the quantities of the run so far watched that it uses.
+    /// Adds the quantities of the run so far that the condition uses to those that are watched.
     pub fn watch(&self, so_far: &mut SoFar) {
         for signal in &self.signals {
             match signal {
@@ -72,7 +69,7 @@ impl Condition {
         self.comparison.is_some()
     }
 
-    /// Of a comparison: whether it holds at zero.
+    /// Whether a comparison holds at zero; None for an expression.
     pub fn holds_at_zero(&self) -> Option<bool> {
         self.comparison.map(|sense| !sense.strict)
     }
@@ -80,8 +77,8 @@ impl Condition {
     /// Its value at a state; the event is where it changes sign. A comparison holds where it is positive.
     pub fn value(&self, model: &Model, seen: &Seen<'_>) -> f64 {
         let of = |signal: &Signal| signal.value(model, seen);
-        let variables: Vec<f64> = self.signals.iter().map(of).collect();
-        let at = At { model, t: seen.t, variables };
+        let quantities: Vec<f64> = self.signals.iter().map(of).collect();
+        let at = QuantityValues { model, t: seen.t, quantities: &quantities };
         self.comparison.map_or(1.0, |sense| sense.sign) * self.tape.evaluate(&at)
     }
 
@@ -91,26 +88,7 @@ impl Condition {
     }
 }
 
-/// The values of the names of a condition.
-struct At<'a> {
-    model: &'a Model,
-    t: f64,
-    variables: Vec<f64>,
-}
-
-impl Values<f64> for At<'_> {
-    fn parameter(&self, k: usize) -> f64 {
-        self.model.parameters[k]
-    }
-    fn time(&self) -> f64 {
-        self.t
-    }
-    fn variable(&self, k: usize) -> f64 {
-        self.variables[k]
-    }
-}
-
-/// Gives states to conditions; it solves the equations of motion where one of them needs it.
+/// Evaluates conditions at states. The equations of motion are solved if one of the conditions needs their solution.
 pub(super) struct Evaluator {
     motions: Motions,
     workspace: Option<Box<Workspace>>,
@@ -120,7 +98,7 @@ pub(super) struct Evaluator {
 }
 
 impl Evaluator {
-    /// With a copy of a workspace of the equations of motion if they have to be solved, and the run so far.
+    /// Takes a copy of a workspace of the equations of motion if `solves` is set, and the run so far.
     pub fn new(model: &Model, solves: bool, workspace: &Workspace, so_far: SoFar) -> Self {
         Self {
             motions: Motions::new(&model.layout),
@@ -130,7 +108,7 @@ impl Evaluator {
         }
     }
 
-    /// Gives the state y = (q, v, z, works) at a time of a step.
+    /// Calls `give` with the state y = (q, v, z, works) at a time of a step.
     pub fn see<R>(
         &mut self,
         model: &Model,
@@ -142,7 +120,7 @@ impl Evaluator {
         self.at(model, t, y, |seen| give(&Seen { so_far: Some(&so_far), ..*seen }))
     }
 
-    /// Goes on to the end of a step that is accepted.
+    /// Continues the run so far to the end of an accepted step.
     pub fn advance(&mut self, model: &Model, step: &Step<'_>) {
         self.so_far = self.up_to(model, step.t, step);
     }
@@ -175,7 +153,7 @@ impl Evaluator {
         so_far
     }
 
-    /// Gives a state.
+    /// Calls `give` with a state.
     fn at<R>(&mut self, model: &Model, t: f64, y: &[f64], give: impl FnOnce(&Seen<'_>) -> R) -> R {
         let [q, v, z, works] = model.layout.split(y);
         self.motions.place(&model.layout, q, v);

@@ -86,7 +86,7 @@ pub fn drag(model: &Model, t: f64, q: &[f64], grip: Grip, target: Vec2) -> Optio
             Ok(next) => place = next,
             Err(blocked) => {
                 let path = place.path(&hand).filter(|_| blocked);
-                let in_line = |path: Path| in_line(model, &place.q, &path.rates);
+                let in_line = |path: FreeDirection| in_line(model, &place.q, &path.rates);
                 dead_point = path.map(|path| DeadPoint { in_line: in_line(path) });
                 break;
             }
@@ -95,7 +95,7 @@ pub fn drag(model: &Model, t: f64, q: &[f64], grip: Grip, target: Vec2) -> Optio
     Some(Dragged { distance: place.way.norm(), q: place.q, dead_point })
 }
 
-/// What is dragged, and where to.
+/// The dragged point and its target.
 struct Hand<'a> {
     model: &'a Model,
     grip: Grip,
@@ -109,7 +109,7 @@ impl Hand<'_> {
         self.closing.product(x, x).sqrt()
     }
 
-    fn place(&mut self, q: Vec<f64>) -> Option<Place> {
+    fn place(&mut self, q: Vec<f64>) -> Option<DragState> {
         let layout = &self.model.layout;
         let motions = Motions::at_rest(layout, &q);
         let pose = motions[self.grip.body.0].pose;
@@ -124,11 +124,11 @@ impl Hand<'_> {
         let motions = self.closing.motions_under(&q, &jacobian)?;
         let g = [0, 1].map(|i| [0, 1].map(|j| dot(&jacobian[i], &motions[j])));
         let g = [g[0][0], 0.5 * (g[0][1] + g[1][0]), g[1][1]];
-        Some(Place { way: self.target - pose.point(self.grip.point), q, jacobian, motions, g })
+        Some(DragState { way: self.target - pose.point(self.grip.point), q, jacobian, motions, g })
     }
 
     /// The next place of a point that has a choice of directions, from the level of μ that worked last.
-    fn advance_softly(&mut self, place: &Place, level: &mut usize) -> Result<Place, bool> {
+    fn advance_softly(&mut self, place: &DragState, level: &mut usize) -> Result<DragState, bool> {
         for (k, soft) in SOFT.iter().enumerate().skip(*level) {
             if let Ok(next) = self.advance(place, Some(*soft), FEW) {
                 *level = k.saturating_sub(1);
@@ -138,14 +138,14 @@ impl Hand<'_> {
         Err(false)
     }
 
-    /// The place after the largest part of a step that leads nearer to the target, on the same branch; or whether a dead
-    /// point is in the way.
+    /// The state after the largest part of a step that leads nearer to the target, on the same branch; or whether a
+    /// dead point is in the way.
     fn advance(
         &mut self,
-        place: &Place,
+        place: &DragState,
         soft: Option<f64>,
         halvings: usize,
-    ) -> Result<Place, bool> {
+    ) -> Result<DragState, bool> {
         let (step, path) = (place.step(soft), place.path(self));
         let whole = self.length(&step);
         let (mut part, mut blocked) = (1.0_f64.min(LONGEST / whole), false);
@@ -155,10 +155,12 @@ impl Hand<'_> {
             if let Some(next) = self.closed(&predicted, CORRECTION * part * whole) {
                 let course = match path.as_ref().zip(next.path(self)) {
                     Some((old, new)) => old.follows(&new, &self.closing),
-                    None => Course::Ahead,
+                    None => PathRelation::Ahead,
                 };
-                blocked |= course == Course::Back;
-                if course == Course::Ahead && next.is_better(place, part * place.progress(&step)) {
+                blocked |= course == PathRelation::Back;
+                if course == PathRelation::Ahead
+                    && next.is_better(place, part * place.progress(&step))
+                {
                     return Ok(next);
                 }
             }
@@ -168,7 +170,7 @@ impl Hand<'_> {
     }
 
     /// The closed position near a predicted one; None if it is farther than `most`.
-    fn closed(&mut self, predicted: &[f64], most: f64) -> Option<Place> {
+    fn closed(&mut self, predicted: &[f64], most: f64) -> Option<DragState> {
         let mut next = predicted.to_vec();
         let (_, closed) = self.closing.close(&mut next);
         let change: Vec<f64> = next.iter().zip(predicted).map(|(a, b)| a - b).collect();
@@ -179,10 +181,10 @@ impl Hand<'_> {
     }
 }
 
-/// A position, and what forces at the point can do there.
-struct Place {
+/// A position, with the motions that forces at the dragged point cause there.
+struct DragState {
     q: Vec<f64>,
-    /// The way r from the point to the target, m.
+    /// The vector r from the point to the target, m.
     way: Vec2,
     /// J, one row for each axis.
     jacobian: [Vec<f64>; 2],
@@ -192,7 +194,7 @@ struct Place {
     g: [f64; 3],
 }
 
-impl Place {
+impl DragState {
     /// The larger eigenvalue of G, and its direction.
     fn principal(&self) -> (f64, Vec2) {
         let [xx, xy, yy] = self.g;
@@ -240,7 +242,7 @@ impl Place {
     }
 
     /// The path of a mechanism with one freedom.
-    fn path(&self, hand: &Hand<'_>) -> Option<Path> {
+    fn path(&self, hand: &Hand<'_>) -> Option<FreeDirection> {
         if hand.grip.degrees_of_freedom != 1 {
             return None;
         }
@@ -248,21 +250,21 @@ impl Place {
         let length = hand.length(&rates);
         rates.iter_mut().for_each(|x| *x /= length);
         let velocity = Vec2::new(dot(&self.jacobian[0], &rates), dot(&self.jacobian[1], &rates));
-        (length > 0.0).then_some(Path { rates, velocity })
+        (length > 0.0).then_some(FreeDirection { rates, velocity })
     }
 }
 
 /// The direction in which a mechanism with one freedom moves.
-struct Path {
-    /// Of unit length.
+struct FreeDirection {
+    /// Rates of all coordinates along the path, of unit length.
     rates: Vec<f64>,
-    /// Of the dragged point.
+    /// Velocity of the dragged point.
     velocity: Vec2,
 }
 
 /// How a path continues another one.
 #[derive(Clone, Copy, PartialEq)]
-enum Course {
+enum PathRelation {
     Ahead,
     /// The point goes back on its own path.
     Back,
@@ -270,15 +272,15 @@ enum Course {
     Aside,
 }
 
-impl Path {
-    fn follows(&self, next: &Self, closing: &Closing<'_>) -> Course {
+impl FreeDirection {
+    fn follows(&self, next: &Self, closing: &Closing<'_>) -> PathRelation {
         let cosine = closing.product(&self.rates, &next.rates);
         if cosine.abs() < TURN {
-            return Course::Aside;
+            return PathRelation::Aside;
         }
         match cosine.signum() * self.velocity.dot(next.velocity) < 0.0 {
-            true => Course::Back,
-            false => Course::Ahead,
+            true => PathRelation::Back,
+            false => PathRelation::Ahead,
         }
     }
 }

@@ -1,11 +1,11 @@
 //! Options of analyses with events: conditions, lists of events, names of drivers, values of parameters.
 
 use super::conditions::Condition;
-use super::options::{Kind, Reader};
-use crate::elements::{Default, Group, Shape};
+use super::options::{kind, Reader};
+use crate::elements::Group;
 use crate::expression::suggest::did_you_mean;
 use crate::integrate::Direction;
-use crate::model::Value as Written;
+use crate::model::{Problem, Value as Written};
 
 /// The name of the event of the option `stop`.
 pub const STOP: &str = "stop";
@@ -26,7 +26,7 @@ pub struct EventOption {
 }
 
 impl EventOption {
-    /// An event at a condition in both directions; the run goes on.
+    /// An event at a condition in both directions; the run continues.
     pub fn new(name: impl Into<String>, condition: impl Into<String>) -> Self {
         Self {
             name: name.into(),
@@ -41,29 +41,6 @@ impl EventOption {
 /// Words for the directions of an expression.
 pub const DIRECTIONS: [(&str, Direction); 3] =
     [("both", Direction::Any), ("rising", Direction::Rising), ("falling", Direction::Falling)];
-
-/// Declares a kind of option without a default.
-macro_rules! kind {
-    ($(#[doc = $doc:literal])* $kind:ident: $Value:ty, $Shape:ident, $read:expr) => {
-        $(#[doc = $doc])*
-        #[allow(non_camel_case_types)] // a type in `options!`, written like a word
-        pub enum $kind {}
-        impl Kind for $kind {
-            type Value = $Value;
-
-            fn shape() -> Shape {
-                Shape::$Shape
-            }
-            fn data(_: &$Value) -> Default {
-                Default::Absent
-            }
-            fn read(reader: &mut Reader<'_>, key: &'static str, _: &'static str) -> Option<$Value> {
-                let read: fn(&mut Reader<'_>, &str) -> Option<$Value> = $read;
-                read(reader, key)
-            }
-        }
-    };
-}
 
 kind! {
     /// A condition on quantities.
@@ -90,24 +67,15 @@ kind! {
 kind! {
     /// Names of drivers.
     drivers: Vec<String>, NameList, |reader, key| {
-        let Some(Written::List(items)) = reader.get(key) else {
-            return reader.refuse(key, "must be a list of drivers");
-        };
-        let mut names = Vec::new();
-        for item in items {
-            let Written::Text(name) = item else {
-                return reader.refuse(key, "must be a list of drivers");
-            };
-            let model = reader.model();
+        reader.names(key, "drivers", |model, name, _| {
             let known = model.constraints.iter().filter(|c| c.group == Group::Drivers);
             let known: Vec<&str> = known.map(|c| c.name.as_str()).collect();
-            if !known.contains(&name.as_str()) {
-                let hint = did_you_mean(name, &known).map_or(String::new(), |hint| format!("; {hint}"));
-                return reader.refuse(key, format!("there is no driver '{name}'{hint}"));
+            if known.contains(&name) {
+                return Ok(());
             }
-            names.push(name.clone());
-        }
-        Some(names)
+            let hint = did_you_mean(name, &known).map_or(String::new(), |hint| format!("; {hint}"));
+            Err(Problem::new(format!("there is no driver '{name}'{hint}")))
+        })
     }
 }
 

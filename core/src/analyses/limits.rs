@@ -62,9 +62,9 @@ pub struct Bound {
 }
 
 /// The end of a motion in one direction.
-enum End {
+enum DirectionEnd {
     At(Bound),
-    /// As at the start after this number of turns.
+    /// The mechanism is as at the start after this number of turns.
     Returned(usize),
     Never,
     Stopped,
@@ -87,39 +87,39 @@ pub fn limits(
     let mut walk = Walk { model, start, unit, curves: Ranges::of(model), watch: &mut watch };
     let (down, mut path) = walk.towards(-1.0)?;
     path.reverse();
-    let described = |end: &End| {
+    let described = |end: &DirectionEnd| {
         match end {
-        End::At(bound) => bound.reason.clone(),
-        End::Returned(1) => format!("{driven} turns fully: the mechanism is the same after 360°"),
-        End::Returned(n) => format!(
+        DirectionEnd::At(bound) => bound.reason.clone(),
+        DirectionEnd::Returned(1) => format!("{driven} turns fully: the mechanism is the same after 360°"),
+        DirectionEnd::Returned(n) => format!(
             "{driven} turns fully: it meets no dead point, and the mechanism is the same after {n} turns, {}°",
             360 * n
         ),
-        End::Never if unit == "rad" => {
+        DirectionEnd::Never if unit == "rad" => {
             format!("{driven} turns fully: it meets no dead point in {MOST_TURNS} turns")
         }
-        End::Never => format!("{driven} has no limit within {}", written(reach(model), unit)),
-        End::Stopped => String::new(),
+        DirectionEnd::Never => format!("{driven} has no limit within {}", written(reach(model), unit)),
+        DirectionEnd::Stopped => String::new(),
     }
     };
     found.reasons.push(described(&down));
     match down {
-        End::Returned(turns) => {
+        DirectionEnd::Returned(turns) => {
             found.turns = Some(turns);
             found.path = path;
             found.path.push((start.t, start.q.clone()));
             return Ok(found);
         }
-        End::Stopped => return Ok(found),
-        End::At(bound) => found.lower = Some(bound),
-        End::Never => {}
+        DirectionEnd::Stopped => return Ok(found),
+        DirectionEnd::At(bound) => found.lower = Some(bound),
+        DirectionEnd::Never => {}
     }
     let (up, further) = walk.towards(1.0)?;
     found.reasons.push(described(&up));
     path.push((start.t, start.q.clone()));
     path.extend(further);
     found.path = path;
-    if let End::At(bound) = up {
+    if let DirectionEnd::At(bound) = up {
         found.upper = Some(bound);
     }
     found.reasons.dedup();
@@ -131,7 +131,7 @@ fn reach(model: &Model) -> f64 {
     FARTHEST * size(model)
 }
 
-/// The motion from a start, either way.
+/// The motion from a start in both directions.
 struct Walk<'a, W> {
     model: &'a Model,
     start: &'a State,
@@ -143,8 +143,8 @@ struct Walk<'a, W> {
 type Path = Vec<(f64, Vec<f64>)>;
 
 impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
-    /// The end in a direction, and the way there without the start.
-    fn towards(&mut self, way: f64) -> Result<(End, Path), Box<Failure>> {
+    /// The end in a direction, and the positions on the way there without the start.
+    fn towards(&mut self, way: f64) -> Result<(DirectionEnd, Path), Box<Failure>> {
         let mut motion = Continuation::begin(self.model, self.start)?;
         let mut path = Path::new();
         let (turns, length) = match self.unit {
@@ -159,22 +159,22 @@ impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
                     let Reason::Limit(limit) = reason else { return Err(reason.into()) };
                     let bound = bound(*limit);
                     path.push((bound.value, bound.q.clone()));
-                    return Ok((End::At(bound), path));
+                    return Ok((DirectionEnd::At(bound), path));
                 }
                 if let Some(bound) = self.end_of_curve(&mut motion, before) {
                     path.push((bound.value, bound.q.clone()));
-                    return Ok((End::At(bound), path));
+                    return Ok((DirectionEnd::At(bound), path));
                 }
                 path.push((motion.point().t, motion.point().q.clone()));
                 if (self.watch)(motion.point().t) == Flow::Stop {
-                    return Ok((End::Stopped, path));
+                    return Ok((DirectionEnd::Stopped, path));
                 }
             }
             if self.unit == "rad" && same(self.model, &self.start.q, &motion.point().q, SAME) {
-                return Ok((End::Returned(turn), path));
+                return Ok((DirectionEnd::Returned(turn), path));
             }
         }
-        Ok((End::Never, path))
+        Ok((DirectionEnd::Never, path))
     }
 
     /// The end of a curve that a contact left in the last step, by bisection.

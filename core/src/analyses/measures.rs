@@ -5,11 +5,11 @@
 //! quantities come from the caller, which has them at all outputs.
 
 use super::dynamics::States;
-use super::quantities::Quantities;
+use super::quantities::{QuantityNames, QuantityValues};
 use super::signal_rows::{each, each_over_lanes, Rows};
 use super::signal_units::unit_of;
 use super::signals::Signal;
-use crate::expression::{unit::Unit, Expression, ExpressionError, Inferred, Symbol, Tape, Values};
+use crate::expression::{unit::Unit, Expression, ExpressionError, Inferred, Symbol, Tape};
 use crate::math::Lanes;
 use crate::model::{Model, Problem, Value};
 
@@ -33,15 +33,12 @@ impl Measure {
     /// # Errors
     /// A fault of the text, an unknown name, or dimensions that do not fit.
     pub fn read(model: &Model, text: &str) -> Result<Self, Problem> {
-        let nowhere: [&str; 0] = [];
-        Self::compile(model, text).map_err(|fault| {
-            Problem::at(&nowhere, fault.message).within(fault.span).maybe_hint(fault.hint)
-        })
+        Self::compile(model, text).map_err(Problem::from)
     }
 
     fn compile(model: &Model, text: &str) -> Result<Self, ExpressionError> {
         let expression = Expression::parse(text)?;
-        let names = Quantities::of(model, &[]);
+        let names = QuantityNames::of(model, &[]);
         let tape = expression.compile(&names)?;
         let found = names.found.borrow().clone();
         let units: Vec<_> = found.iter().map(|(name, of)| unit_of(model, name, of)).collect();
@@ -83,7 +80,7 @@ impl Measure {
         found
     }
 
-    /// The same for many states, four at once: `wide` is the lifted model.
+    /// Its values at many states, four at once: `wide` is the lifted model.
     pub(super) fn values_over_lanes(
         &self,
         (model, wide): (&Model, &Model<Lanes>),
@@ -99,7 +96,7 @@ impl Measure {
 
     /// Its value for the values of its quantities, in their order.
     pub fn value(&self, model: &Model, t: f64, quantities: &[f64]) -> f64 {
-        self.tape.evaluate(&At { model, t, quantities })
+        self.tape.evaluate(&QuantityValues { model, t, quantities })
     }
 }
 
@@ -124,26 +121,7 @@ fn written(inferred: Inferred, units: &[String]) -> String {
     }
 }
 
-/// The values of the names of a measure.
-struct At<'a> {
-    model: &'a Model,
-    t: f64,
-    quantities: &'a [f64],
-}
-
-impl Values<f64> for At<'_> {
-    fn parameter(&self, k: usize) -> f64 {
-        self.model.parameters[k]
-    }
-    fn time(&self) -> f64 {
-        self.t
-    }
-    fn variable(&self, k: usize) -> f64 {
-        self.quantities[k]
-    }
-}
-
-/// Everything that is wrong with the measures of a definition.
+/// All problems of the measures of a definition.
 pub fn check(model: &Model, measures: &[(String, Value)]) -> Vec<Problem> {
     let names: Vec<&str> = measures.iter().map(|(name, _)| name.as_str()).collect();
     let wrong = measures.iter().filter_map(|(name, value)| {

@@ -55,7 +55,7 @@ pub fn mobility(model: &Model, t: f64, q: &[f64]) -> Mobility {
     mobility_until(model, t, q, &|| false)
 }
 
-/// The same; without a meaning if `stop` became true.
+/// Mobility at an assembled position; the result has no meaning if `stop` became true.
 pub(super) fn mobility_until(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Mobility {
     let (n, m) = (model.layout.n_q, model.layout.n_rows);
     if beyond_doubt(model, t, q) {

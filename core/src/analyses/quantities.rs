@@ -2,13 +2,13 @@
 
 use super::signal_names::{names, signal};
 use super::signals::Signal;
-use crate::expression::{Names, Symbol, Table};
+use crate::expression::{Names, Symbol, Table, Values};
 use crate::model::Model;
 use std::cell::RefCell;
 use std::sync::Arc;
 
 /// The names of a formula; each quantity becomes a variable.
-pub(super) struct Quantities<'a> {
+pub(super) struct QuantityNames<'a> {
     model: &'a Model,
     released: &'a [String],
     /// The quantities that occur, with their names, in the order of their variables.
@@ -17,20 +17,20 @@ pub(super) struct Quantities<'a> {
     missed: RefCell<String>,
 }
 
-impl<'a> Quantities<'a> {
-    /// Of a model, from which the drivers `released` were removed.
+impl<'a> QuantityNames<'a> {
+    /// The names of a model from which the drivers `released` were removed.
     pub fn of(model: &'a Model, released: &'a [String]) -> Self {
         Self { model, released, found: RefCell::default(), missed: RefCell::default() }
     }
 
-    /// A released driver acts no more.
+    /// A driver that was released has the effort zero.
     fn of_released(&self, name: &str) -> Option<Signal> {
         let (owner, _) = name.rsplit_once('.')?;
         self.released.iter().any(|known| known == owner).then_some(Signal::Constant(0.0))
     }
 }
 
-impl Names for Quantities<'_> {
+impl Names for QuantityNames<'_> {
     fn resolve(&self, name: &str) -> Option<Symbol> {
         let blueprint = &self.model.blueprint;
         if let Some(k) = blueprint.parameters.iter().position(|known| known == name) {
@@ -59,5 +59,25 @@ impl Names for Quantities<'_> {
 
     fn tables(&self) -> &[Arc<Table>] {
         &self.model.blueprint.tables
+    }
+}
+
+/// The values of the names of a formula.
+pub(super) struct QuantityValues<'a> {
+    pub model: &'a Model,
+    pub t: f64,
+    /// The values of the quantities, in the order of their variables.
+    pub quantities: &'a [f64],
+}
+
+impl Values<f64> for QuantityValues<'_> {
+    fn parameter(&self, k: usize) -> f64 {
+        self.model.parameters[k]
+    }
+    fn time(&self) -> f64 {
+        self.t
+    }
+    fn variable(&self, k: usize) -> f64 {
+        self.quantities[k]
     }
 }

@@ -35,18 +35,17 @@ pub fn readable(model: &Model) -> Vec<Readable> {
 /// # Errors
 /// The model has none, or it needs the interpolants of a run.
 pub fn find(model: &Model, name: &str) -> Result<Readable, Problem> {
-    let nowhere: [&str; 0] = [];
     match signal(model, name) {
         Some(signal) if needs_interpolants(&signal) => {
             let message = format!("'{name}' cannot be read here");
-            Err(Problem::at(&nowhere, message).hint("it is a result of kempe.run"))
+            Err(Problem::new(message).hint("it is a result of kempe.run"))
         }
         Some(signal) => {
             Ok(Readable { name: name.to_string(), unit: unit_of(model, name, &signal) })
         }
         None => {
             let known = names(model, name);
-            let problem = Problem::at(&nowhere, format!("there is no quantity '{name}'"));
+            let problem = Problem::new(format!("there is no quantity '{name}'"));
             let known: Vec<&str> = known.iter().map(String::as_str).collect();
             let near = did_you_mean(name, &known, "quantities");
             Err(problem.maybe_hint(near))
@@ -102,7 +101,7 @@ fn of_states(
     names: &[&str],
     passing: bool,
 ) -> Vec<Vec<f64>> {
-    // a driver that was released acts no more
+    // a driver that was released has the effort zero
     let signals: Vec<Signal> =
         names.iter().map(|name| signal(model, name).unwrap_or(Signal::Constant(0.0))).collect();
     let solves = signals.iter().any(|signal| signal.needs_solution(model));

@@ -41,7 +41,7 @@ pub(super) fn loose(model: &Model, t: f64, q: &[f64]) -> Option<Unmet> {
     let needs = |item: &&ConstraintItem| !required(item, &motions, t).is_empty();
     let mut needing = model.constraints.iter().filter(needs).peekable();
     needing.peek()?;
-    let projection = Projection::new(model, &motions, t)?;
+    let projection = AdmissibleProjection::new(model, &motions, t)?;
     needing.find_map(|item| {
         let all = required(item, &motions, t);
         let free = gradients(model, item, &motions, t).into_iter().map(|g| projection.free(&g));
@@ -98,14 +98,14 @@ fn gradients(model: &Model, item: &ConstraintItem, motions: &[Motion], t: f64) -
 }
 
 /// The projection onto the admissible motions, Φ_q v = 0.
-struct Projection {
+struct AdmissibleProjection {
     matrix: Augmented,
     /// Squares of the scales of the coordinates.
     squares: Vec<f64>,
     rows: usize,
 }
 
-impl Projection {
+impl AdmissibleProjection {
     fn new(model: &Model, motions: &Motions, t: f64) -> Option<Self> {
         let rows = model.layout.n_rows;
         let squares: Vec<f64> = column_scales(model).iter().map(|scale| scale * scale).collect();

@@ -8,10 +8,10 @@ use super::equilibrium::Options as EquilibriumOptions;
 use super::kinematics::{InverseOptions, Options as KinematicsOptions};
 use super::limits::Options as LimitsOptions;
 use super::linearization::Options as ModesOptions;
-use super::options::{Declared, Reader};
+use super::options::Declared;
 use crate::model::{Entry, Model, Problem, Value};
 
-/// Everything that is wrong with analyses that follow each other from an assembled start at t = 0.
+/// All problems of analyses that follow each other from an assembled start at t = 0.
 pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
     let mut problems = releases(model);
     // the time at which each analysis ends, if it is known
@@ -40,14 +40,10 @@ pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
                 EquilibriumOptions::checked(model, fields, &path).map(|_| begin)
             }
             ModesOptions::NAME => ModesOptions::checked(model, fields, &path).map(|_| begin),
-            LimitsOptions::NAME => {
-                Reader::read(model, fields, &path, LimitsOptions::read).map(|_| begin)
-            }
-            MobilityOptions::NAME => {
-                Reader::read(model, fields, &path, MobilityOptions::read).map(|_| begin)
-            }
+            LimitsOptions::NAME => LimitsOptions::checked(model, fields, &path).map(|_| begin),
+            MobilityOptions::NAME => MobilityOptions::checked(model, fields, &path).map(|_| begin),
             ConfigurationsOptions::NAME => {
-                Reader::read(model, fields, &path, ConfigurationsOptions::read).map(|_| begin)
+                ConfigurationsOptions::checked(model, fields, &path).map(|_| begin)
             }
             _ => dynamics_end(model, fields, &path, begin),
         };
@@ -92,7 +88,7 @@ fn dynamics_end(
     }
 }
 
-/// Conditions of drivers that are wrong.
+/// The problems of release conditions of drivers.
 fn releases(model: &Model) -> Vec<Problem> {
     let wrong = model.constraints.iter().filter_map(|driver| {
         let problem = Condition::read(model, &[], driver.element.release()?).err()?;

@@ -1,6 +1,6 @@
 //! The names of quantities, such as `crank.B.vx`, `C.force` or `energy.kinetic`.
 
-use super::signals::{Energy, Part, Signal};
+use super::signals::{Energy, ForcePart, Signal};
 use crate::elements::{BodyId, Followed, Measured};
 use crate::equations::measured::{offered, ElementId};
 use crate::model::{Columns, Model};
@@ -117,7 +117,12 @@ fn of_constraint(model: &Model, k: usize) -> Family {
             add("power", Signal::Power(k, Box::new(rate)));
         }
     }
-    let parts = [("fx", Part::X), ("fy", Part::Y), ("force", Part::Size), ("torque", Part::Torque)];
+    let parts = [
+        ("fx", ForcePart::X),
+        ("fy", ForcePart::Y),
+        ("force", ForcePart::Size),
+        ("torque", ForcePart::Torque),
+    ];
     parts.into_iter().for_each(|(name, part)| add(name, Signal::Reaction { k, part }));
     let own = model.layout.constraints[k].own;
     for (column, name) in own.range().zip(own_names(own)) {
@@ -160,7 +165,8 @@ fn of_force(model: &Model, k: usize) -> Family {
     for (place, result) in item.element.result_quantities().iter().enumerate() {
         add(result.name, Signal::ForceResult { k, place });
     }
-    for (name, part) in [("fx", Part::X), ("fy", Part::Y), ("torque", Part::Torque)] {
+    for (name, part) in [("fx", ForcePart::X), ("fy", ForcePart::Y), ("torque", ForcePart::Torque)]
+    {
         add(name, Signal::Force { k, part });
     }
     if item.element.points().is_some() {

@@ -50,7 +50,7 @@ pub(super) fn each(
     }
 }
 
-/// The same, with four states at once over the lifted model.
+/// Gives the time and the values of all signals at each state, with four states at once over the lifted model.
 ///
 /// # Panics
 /// If the rows do not fit the model or each other.
@@ -92,7 +92,7 @@ pub(super) fn each_over_lanes(
     each(model, Rows { states, works, solved: solved.map(|two| two.map(last)) }, signals, give);
 }
 
-/// The rows of a table with so many rows from one on.
+/// The rows of a table from row `from` on; the table has `count` rows.
 fn rest(table: &[f64], (count, from): (usize, usize)) -> &[f64] {
     &table[table.len() / count * from..]
 }

@@ -1,7 +1,7 @@
 //! The SI units of quantities of a motion.
 
 use super::signal_names::COORDINATES;
-use super::signals::{Energy, Part, Signal};
+use super::signals::{Energy, ForcePart, Signal};
 use crate::equations::measured::offered;
 use crate::model::Model;
 
@@ -35,7 +35,7 @@ pub(super) fn unit_of(model: &Model, name: &str, signal: &Signal) -> String {
     }
 }
 
-/// Of a coordinate of ground, or of a driver that was released.
+/// The unit of a coordinate of ground, or of a quantity of a driver that was released.
 fn of_ground(name: &str) -> String {
     let last = name.rsplit('.').next().unwrap_or_default();
     let places = (0..3).flat_map(|order| (0..3).map(move |k| (order, k)));
@@ -61,10 +61,10 @@ fn of_state(model: &Model, place: usize) -> &'static str {
     state.map_or("1", |state| state.unit)
 }
 
-fn of_part(part: Part) -> &'static str {
+fn of_part(part: ForcePart) -> &'static str {
     match part {
-        Part::Torque => "N*m",
-        Part::X | Part::Y | Part::Size => "N",
+        ForcePart::Torque => "N*m",
+        ForcePart::X | ForcePart::Y | ForcePart::Size => "N",
     }
 }
 

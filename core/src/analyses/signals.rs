@@ -19,7 +19,7 @@ pub(super) struct Seen<'a, S = f64> {
     pub state: [&'a [S]; 3],
     /// Works up to the state, J.
     pub works: &'a [S],
-    /// The same positions and rates.
+    /// The same positions and rates as poses and twists.
     pub motions: &'a Motions<S>,
     /// Accelerations and multipliers; NaN where they are not unique.
     pub solved: [&'a [S]; 2],
@@ -48,14 +48,14 @@ pub(super) enum Energy {
 
 /// A part of a force or of a reaction.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Part {
+pub(super) enum ForcePart {
     X,
     Y,
     Size,
     Torque,
 }
 
-impl Part {
+impl ForcePart {
     fn of<S: Real>(self, w: &Wrench<S>) -> S {
         match self {
             Self::X => w.force.x,
@@ -80,7 +80,7 @@ pub(super) enum Signal {
     /// A position quantity of an element.
     Measured { id: ElementId, k: usize, order: usize },
     /// The reaction of a joint on its body j.
-    Reaction { k: usize, part: Part },
+    Reaction { k: usize, part: ForcePart },
     /// A result of a joint beside its reaction.
     Result { k: usize, place: usize },
     /// The effort of a driver.
@@ -88,7 +88,7 @@ pub(super) enum Signal {
     /// The effort of a driver times the rate of its coordinate.
     Power(usize, Box<Signal>),
     /// A force element's force or torque on its body j.
-    Force { k: usize, part: Part },
+    Force { k: usize, part: ForcePart },
     /// A force along the line of two points, > 0 pushes: of a force element on j, or of a joint with opposite sign.
     Line { id: ElementId },
     /// A result of a force element beside its wrenches.

@@ -1,11 +1,12 @@
-//! What conditions use of a run from its start up to a state: the energy that force elements have dissipated, and the
-//! balances of energies and reactions.
+//! Sums over a run from its start up to a state, for conditions: the energy that force elements have dissipated, and
+//! the balances of energies and reactions.
 //!
 //! The power is integrated on the interpolant of each step, as in reports. So the sums need no states of their own, and
 //! steps do not depend on the conditions of a run.
 //!
 //! The balances are errors of the integration. Between two steps they would show those of the interpolant. So they keep
-//! their values during a step and change at its end, and a shorter step is of no use to find their events.
+//! their values during a step and change at its end. Shorter steps would not locate their
+//! events better.
 
 use super::balances::{Energies, EnergyBalance, ReactionBalance};
 use crate::equations::forces::{self, Acting};
@@ -40,7 +41,7 @@ pub(super) struct SoFar {
 }
 
 impl SoFar {
-    /// Watches the energy that an element dissipates; a sum that exists goes on.
+    /// Watches the energy that an element dissipates; a sum that exists continues.
     pub fn watch_element(&mut self, k: usize) {
         if self.of(k).is_none() {
             self.elements.push((k, 0.0));

@@ -1,7 +1,7 @@
 //! The structure of a body.
 
 use super::fields;
-use super::report::Report;
+use super::report::ProblemList;
 use super::tree::Table;
 use crate::elements::Table as Declaration;
 use crate::expression::suggest::closest;
@@ -22,7 +22,7 @@ impl Bodies {
     }
 
     /// Checks the present table as the body of this name.
-    pub(super) fn check(&self, report: &mut Report, name: &str, table: &Table) {
+    pub(super) fn check(&self, report: &mut ProblemList, name: &str, table: &Table) {
         if let ("ground", Some(ground)) = (name, &self.ground) {
             return fields::check(report, table, ground, false);
         }
@@ -60,7 +60,7 @@ fn without_shapes(declared: &Declaration) -> Declaration {
 }
 
 /// Shapes determine mass, inertia and mass centre.
-fn of_shapes(report: &mut Report, table: &Table) {
+fn of_shapes(report: &mut ProblemList, table: &Table) {
     for key in INSTEAD_OF_SHAPES.into_iter().filter(|key| table.get(key).is_some()) {
         report.within(key, |report| {
             let hint = format!("shapes determine it; remove {key}, or remove shapes");
@@ -70,7 +70,7 @@ fn of_shapes(report: &mut Report, table: &Table) {
 }
 
 /// A bar has a length or two points.
-fn bar(report: &mut Report, table: &Table) {
+fn bar(report: &mut ProblemList, table: &Table) {
     let needed = ["length", "through"];
     let meant = |key: &str| needed.contains(&key) || closest(key, needed).is_some();
     if !table.entries.iter().any(|(key, _)| meant(key)) {

@@ -75,7 +75,7 @@ extended!(Ground, Bar, General);
 macro_rules! drawn {
     ($($Type:ident),+) => {
         $(impl BodyBuilder<'_, $Type> {
-            /// What drawings show: a list of points, or a table with the key `circle` or `path`.
+            /// The outline in drawings: a list of points, or a table with the key `circle` or `path`.
             pub fn outline(self, outline: impl Into<Value>) -> Self {
                 self.with("outline", outline)
             }

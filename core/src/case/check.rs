@@ -2,7 +2,7 @@
 
 use super::bodies::Bodies;
 use super::names::{self, Namespace};
-use super::report::Report;
+use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
 use super::values::{number, pair, word, wrong};
 use super::{fields, start, sweep, tables, Case, Format, FORMAT_VERSION};
@@ -37,7 +37,7 @@ pub(super) fn case(root: &Table, format: Format) -> (Case, (Vec<Problem>, usize)
     if let Some(problem) = newer(root) {
         return (Case::default(), (vec![problem], 0));
     }
-    let mut report = Report::new(format);
+    let mut report = ProblemList::new(format);
     version(&mut report, root);
     for problem in refused(root, format).0 {
         report.add(problem);
@@ -51,7 +51,7 @@ pub(super) fn case(root: &Table, format: Format) -> (Case, (Vec<Problem>, usize)
 }
 
 fn section(
-    report: &mut Report,
+    report: &mut ProblemList,
     (key, node): (&str, &Node),
     root: &Table,
     case: &mut Case,
@@ -119,7 +119,7 @@ fn newer(root: &Table) -> Option<Problem> {
     }
 }
 
-fn version(report: &mut Report, root: &Table) {
+fn version(report: &mut ProblemList, root: &Table) {
     let first = [format!("kempe = {FORMAT_VERSION}"), format!("\"kempe\": {FORMAT_VERSION}")];
     let hint = format!("write `{}` as the first line", report.example(&first[0], &first[1]));
     report.within("kempe", |report| match root.get("kempe").map(|node| (&node.data, node)) {
@@ -137,18 +137,18 @@ fn version(report: &mut Report, root: &Table) {
 
 /// All values that no case may hold.
 pub(super) fn refused(root: &Table, format: Format) -> (Vec<Problem>, usize) {
-    let mut report = Report::new(format);
+    let mut report = ProblemList::new(format);
     refused_in(&mut report, root);
     report.finish()
 }
 
-fn refused_in(report: &mut Report, table: &Table) {
+fn refused_in(report: &mut ProblemList, table: &Table) {
     for (key, node) in &table.entries {
         report.within(key, |report| refused_at(report, node));
     }
 }
 
-fn refused_at(report: &mut Report, node: &Node) {
+fn refused_at(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::Refused(reason) => report.say(reason.clone()),
         Data::Table(table) => refused_in(report, table),
@@ -161,7 +161,7 @@ fn refused_at(report: &mut Report, node: &Node) {
     }
 }
 
-fn parameters(report: &mut Report, node: &Node) -> Vec<(String, Value)> {
+fn parameters(report: &mut ProblemList, node: &Node) -> Vec<(String, Value)> {
     let Data::Table(table) = &node.data else {
         wrong(report, node, "a table of names and numbers");
         return Vec::new();
@@ -175,7 +175,11 @@ fn parameters(report: &mut Report, node: &Node) -> Vec<(String, Value)> {
     table.values()
 }
 
-fn measures(report: &mut Report, node: &Node, namespace: &mut Namespace) -> Vec<(String, Value)> {
+fn measures(
+    report: &mut ProblemList,
+    node: &Node,
+    namespace: &mut Namespace,
+) -> Vec<(String, Value)> {
     let Data::Table(table) = &node.data else {
         wrong(report, node, "a table of names and expressions");
         return Vec::new();
@@ -193,9 +197,9 @@ fn measures(report: &mut Report, node: &Node, namespace: &mut Namespace) -> Vec<
 
 /// Named tables, each checked.
 fn entries(
-    report: &mut Report,
+    report: &mut ProblemList,
     node: &Node,
-    mut check: impl FnMut(&mut Report, &str, &Table),
+    mut check: impl FnMut(&mut ProblemList, &str, &Table),
 ) -> Vec<Entry> {
     let Data::Table(section) = &node.data else {
         let problem = report.here(format!("{}; must be a table of named tables", node.noun()));
@@ -222,7 +226,7 @@ fn entries(
 }
 
 fn elements(
-    report: &mut Report,
+    report: &mut ProblemList,
     node: &Node,
     group: Group,
     namespace: &mut Namespace,
@@ -238,7 +242,7 @@ fn elements(
     })
 }
 
-fn analyses(report: &mut Report, node: &Node) -> Vec<Entry> {
+fn analyses(report: &mut ProblemList, node: &Node) -> Vec<Entry> {
     let mut earlier: Vec<String> = vec!["start".to_string()];
     entries(report, node, |report, name, table| {
         match name {
@@ -252,7 +256,7 @@ fn analyses(report: &mut Report, node: &Node) -> Vec<Entry> {
 }
 
 /// `from` must name the start or an earlier analysis.
-fn from(report: &mut Report, table: &Table, earlier: &[String]) {
+fn from(report: &mut ProblemList, table: &Table, earlier: &[String]) {
     let Some(Node { data: Data::Text(name), .. }) = table.get("from") else { return };
     if !earlier.contains(name) {
         let hint = did_you_mean(name, earlier)

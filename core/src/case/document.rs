@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::diagnostic::Diagnostic;
-use super::fault::{Fault, Faults};
+use super::fault::{Faults, TextFault};
 use super::tree::{Data, Node, Table};
 use super::{json, toml, Format, MOST_BYTES};
 use crate::model::{Problem, Value};
@@ -120,7 +120,7 @@ fn dotted<'n>(node: &'n Node, key: &str) -> Option<&'n Node> {
     node.child(inner).or_else(|| dotted(node, inner))
 }
 
-fn of_fault(text: &str, fault: Fault) -> Diagnostic {
+fn of_fault(text: &str, fault: TextFault) -> Diagnostic {
     let mut found = Diagnostic::new(text, fault.place, fault.message);
     found.hint = fault.earlier.and_then(|earlier| {
         let line = Diagnostic::new(text, earlier, String::new()).line;

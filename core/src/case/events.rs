@@ -1,7 +1,7 @@
 //! Checks of the events of an analysis.
 
 use super::names;
-use super::report::Report;
+use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
 use super::values::{word, wrong};
 use crate::analyses::DIRECTIONS;
@@ -10,7 +10,7 @@ use crate::analyses::DIRECTIONS;
 pub(super) const FIELDS: [&str; 3] = ["condition", "direction", "stop"];
 
 /// Events by name: conditions, or tables with one.
-pub(super) fn events(report: &mut Report, node: &Node) {
+pub(super) fn events(report: &mut ProblemList, node: &Node) {
     let form = report
         .example("{ hit = \"rocker.angle > 270*deg\" }", "{ \"hit\": \"rocker.angle > 270*deg\" }");
     let Data::Table(table) = &node.data else {
@@ -28,7 +28,7 @@ pub(super) fn events(report: &mut Report, node: &Node) {
     }
 }
 
-fn event(report: &mut Report, table: &Table) {
+fn event(report: &mut ProblemList, table: &Table) {
     if table.get("condition").is_none() {
         report.within("condition", |report| report.say("missing; an event needs a condition"));
     }

@@ -4,14 +4,14 @@ use std::ops::Range;
 
 /// A fault of the text itself, which has no path yet.
 #[derive(Debug)]
-pub(super) struct Fault {
+pub(super) struct TextFault {
     pub place: Range<usize>,
     pub message: String,
     /// The earlier place of the same key, for a key that occurs twice; such a fault leaves the tree complete.
     pub earlier: Option<Range<usize>>,
 }
 
-impl Fault {
+impl TextFault {
     /// A key that occurs a second time.
     pub(super) fn twice(key: &str, place: Range<usize>, earlier: Range<usize>) -> Self {
         let message = format!("key '{}' is given twice", super::shown(key));
@@ -21,14 +21,14 @@ impl Fault {
 
 /// The faults found so far; those beyond [`MOST_REPORTED`](super::MOST_REPORTED) are only counted.
 #[derive(Debug, Default)]
-pub(super) struct Faults(pub Vec<Fault>, pub usize);
+pub(super) struct Faults(pub Vec<TextFault>, pub usize);
 
 impl Faults {
     /// A fault of syntax.
     pub(super) fn push(&mut self, place: Range<usize>, message: impl Into<String>) {
-        self.add(Fault { place, message: message.into(), earlier: None });
+        self.add(TextFault { place, message: message.into(), earlier: None });
     }
-    pub(super) fn add(&mut self, fault: Fault) {
+    pub(super) fn add(&mut self, fault: TextFault) {
         match self.0.len() < super::MOST_REPORTED {
             true => self.0.push(fault),
             false => self.1 += 1,

@@ -5,7 +5,8 @@ use crate::analyses::{self, assemble, measures};
 use crate::model::{Model, Problem, Value};
 
 impl Case {
-    /// Everything that is wrong with the measures, the start, the analyses and the sweep, and is known without an assembly or a run.
+    /// All faults of the measures, the start, the analyses and the sweep that can be found without an assembly or a
+    /// run.
     pub fn faults(&self, model: &Model) -> Vec<Problem> {
         let start = [("set", &self.start.set), ("guess", &self.start.guess)];
         let start = start.into_iter().flat_map(|(section, targets)| {

@@ -1,7 +1,7 @@
 //! The fields of an element, body, analysis or set of options against its declaration.
 
 use super::events::events;
-use super::report::{among, Report};
+use super::report::{among, ProblemList};
 use super::tree::{Data, Node, Table};
 use super::values::{
     corners, count, curves, names, number, numbers, outline, pair, plain_numbers, points,
@@ -15,7 +15,7 @@ use crate::model::{body_tables, shape_tables};
 
 /// The declaration that the `type` of the present table names.
 pub(super) fn declared<'d>(
-    report: &mut Report,
+    report: &mut ProblemList,
     table: &Table,
     known: &[&'d Declaration],
     noun: &str,
@@ -56,7 +56,7 @@ pub(super) fn declared<'d>(
 }
 
 /// The right section for a type in the wrong section.
-fn belongs(report: &Report, name: &str) -> Option<String> {
+fn belongs(report: &ProblemList, name: &str) -> Option<String> {
     let elements = catalogue().into_iter().map(|(group, table)| (group.section(), table.name));
     let bodies = body_tables().into_iter().map(|table| ("bodies", table.name));
     let analyses = declarations().iter().map(|declared| ("analyses", declared.table.name));
@@ -66,7 +66,7 @@ fn belongs(report: &Report, name: &str) -> Option<String> {
 }
 
 /// Checks that the fields of the present table are known, of the right shape and complete.
-pub(super) fn check(report: &mut Report, table: &Table, declared: &Declaration, typed: bool) {
+pub(super) fn check(report: &mut ProblemList, table: &Table, declared: &Declaration, typed: bool) {
     let mut known: Vec<&str> = declared.fields.iter().map(|f| f.name).collect();
     if typed {
         known.push("type");
@@ -94,7 +94,7 @@ pub(super) fn check(report: &mut Report, table: &Table, declared: &Declaration, 
 }
 
 /// Checks the present value.
-pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
+pub(super) fn shape(report: &mut ProblemList, node: &Node, shape: Shape) {
     match (shape, &node.data) {
         (_, Data::Refused(_)) => {}
         (Shape::Number | Shape::Law, _) => number(report, node),
@@ -138,7 +138,7 @@ pub(super) fn shape(report: &mut Report, node: &Node, shape: Shape) {
 }
 
 /// Shapes of a body; the model checks which fields of each go together.
-fn shapes(report: &mut Report, node: &Node) {
+fn shapes(report: &mut ProblemList, node: &Node) {
     let form = report.example(
         "{ type = \"disc\", radius = 0.1, mass = 1 }",
         "{ \"type\": \"disc\", \"radius\": 0.1, \"mass\": 1 }",
@@ -166,7 +166,7 @@ fn shapes(report: &mut Report, node: &Node) {
 }
 
 /// Checks the present value as a set of options of a family.
-fn chosen(report: &mut Report, node: &Node, family: &str) {
+fn chosen(report: &mut ProblemList, node: &Node, family: &str) {
     let Some(family) = option_families().iter().find(|f| f.name == family) else { return };
     match &node.data {
         Data::Table(table) => options(report, table, &family.options, family.name),
@@ -180,7 +180,7 @@ fn chosen(report: &mut Report, node: &Node, family: &str) {
 }
 
 /// Checks the present table as one of some sets of options.
-pub(super) fn options(report: &mut Report, table: &Table, known: &[Options], noun: &str) {
+pub(super) fn options(report: &mut ProblemList, table: &Table, known: &[Options], noun: &str) {
     let tables: Vec<&Declaration> = known.iter().map(|options| &options.table).collect();
     let Some(declared) = declared(report, table, &tables, noun, None) else { return };
     check(report, table, declared, true);

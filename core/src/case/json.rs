@@ -21,7 +21,7 @@ pub(super) fn parse(text: &str, faults: &mut Faults) -> Table {
     Table::default()
 }
 
-type Fault = (Range<usize>, String);
+type TextFault = (Range<usize>, String);
 
 struct Reader<'t, 'f> {
     text: &'t str,
@@ -35,7 +35,7 @@ impl<'t> Reader<'t, '_> {
         start..start + raw.len()
     }
 
-    fn data(&mut self, raw: &'t str, depth: usize) -> Result<Data, Fault> {
+    fn data(&mut self, raw: &'t str, depth: usize) -> Result<Data, TextFault> {
         self.values += 1;
         if self.values > MOST_VALUES {
             return Err((self.place(raw), too_many()));
@@ -47,7 +47,7 @@ impl<'t> Reader<'t, '_> {
             b'{' => Data::Table(self.table(raw, depth)?),
             b'[' => {
                 let item = |raw| self.node(raw, raw, depth);
-                Data::List(Parts::of(raw).map(item).collect::<Result<_, Fault>>()?)
+                Data::List(Parts::of(raw).map(item).collect::<Result<_, TextFault>>()?)
             }
             b'"' => Data::Text(self.string(raw)?),
             b't' | b'f' => Data::Flag(raw == "true"),
@@ -56,11 +56,11 @@ impl<'t> Reader<'t, '_> {
         })
     }
 
-    fn node(&mut self, key: &str, raw: &'t str, depth: usize) -> Result<Node, Fault> {
+    fn node(&mut self, key: &str, raw: &'t str, depth: usize) -> Result<Node, TextFault> {
         Ok(Node { key: self.place(key), span: self.place(raw), data: self.data(raw, depth + 1)? })
     }
 
-    fn table(&mut self, raw: &'t str, depth: usize) -> Result<Table, Fault> {
+    fn table(&mut self, raw: &'t str, depth: usize) -> Result<Table, TextFault> {
         let mut table = Table::default();
         let mut parts = Parts::of(raw);
         while let (Some(key), Some(value)) = (parts.next(), parts.next()) {
@@ -73,7 +73,7 @@ impl<'t> Reader<'t, '_> {
     }
 
     /// A text without its escapes; half of a surrogate pair is found only here.
-    fn string(&self, raw: &str) -> Result<String, Fault> {
+    fn string(&self, raw: &str) -> Result<String, TextFault> {
         from_str(raw).map_err(|error| (self.place(raw), words(&error)))
     }
 }
@@ -106,7 +106,7 @@ fn words(error: &Error) -> String {
 }
 
 /// A fault of syntax: its place, and advice for frequent mistakes.
-fn fault(text: &str, error: &Error) -> Fault {
+fn fault(text: &str, error: &Error) -> TextFault {
     let before: usize = text.split_inclusive('\n').take(error.line() - 1).map(str::len).sum();
     let mut message = words(error);
     // serde_json names the last byte that it accepted before a control character

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::diagnostic::is_hidden;
-use super::report::Report;
+use super::report::ProblemList;
 
 /// Words that mean something else in formulas and references.
 pub const RESERVED: [&str; 4] = ["t", "pi", "deg", "ground"];
@@ -37,14 +37,14 @@ fn fault(name: &str) -> Option<String> {
 }
 
 /// Checks a name which is the present key.
-pub(super) fn key(report: &mut Report, name: &str) {
+pub(super) fn key(report: &mut ProblemList, name: &str) {
     if let Some(message) = fault(name) {
         report.say_of_key(message);
     }
 }
 
 /// Checks a name which is the present value.
-pub(super) fn value(report: &mut Report, name: &str) {
+pub(super) fn value(report: &mut ProblemList, name: &str) {
     if let Some(message) = fault(name) {
         report.say(message);
     }
@@ -54,7 +54,7 @@ pub(super) fn value(report: &mut Report, name: &str) {
 const NOT_IN_FOLDERS: [char; 9] = ['/', '\\', ':', '*', '?', '"', '<', '>', '|'];
 
 /// Checks the present key as the name of an analysis, whose results go to a folder of this name.
-pub(super) fn folder(report: &mut Report, name: &str, earlier: &[String]) {
+pub(super) fn folder(report: &mut ProblemList, name: &str, earlier: &[String]) {
     key(report, name);
     let hint = "its results go to a folder of this name";
     let mut wrong = |message: String| report.add(report.here(message).at_key().hint(hint));
@@ -80,7 +80,7 @@ fn alike(one: &str, other: &str) -> bool {
 }
 
 /// Checks the present key as the name of a parameter or an element.
-pub(super) fn unreserved_key(report: &mut Report, name: &str) {
+pub(super) fn unreserved_key(report: &mut ProblemList, name: &str) {
     if RESERVED.contains(&name) {
         let problem = report.here(format!("'{name}' is reserved and cannot be a name"));
         report.add(problem.at_key().hint("t pi deg ground mean something else; take another name"));
@@ -95,7 +95,7 @@ pub(super) struct Namespace(HashMap<String, &'static str>);
 
 impl Namespace {
     /// Checks the present key, the name of a `singular`, and adds it to the namespace.
-    pub(super) fn take(&mut self, report: &mut Report, name: &str, singular: &'static str) {
+    pub(super) fn take(&mut self, report: &mut ProblemList, name: &str, singular: &'static str) {
         if singular == "body" && name == "ground" {
             return;
         }

@@ -5,7 +5,7 @@ use crate::expression::suggest::did_you_mean;
 use crate::model::Problem;
 
 /// Collects problems during one walk through a tree.
-pub(super) struct Report {
+pub(super) struct ProblemList {
     format: Format,
     path: Vec<String>,
     problems: Vec<Problem>,
@@ -13,7 +13,7 @@ pub(super) struct Report {
     dropped: usize,
 }
 
-impl Report {
+impl ProblemList {
     /// Without problems, of a text in a format.
     pub(super) fn new(format: Format) -> Self {
         Self { format, path: Vec::new(), problems: Vec::new(), dropped: 0 }

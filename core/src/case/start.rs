@@ -1,6 +1,6 @@
 //! The section `[start]`: set and guessed coordinates, and states of elements.
 
-use super::report::Report;
+use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
 use super::values::{number, wrong};
 use super::Start;
@@ -8,7 +8,7 @@ use crate::elements::{Coordinate, Group};
 use crate::model::Value;
 
 /// Reads the present value as the section of the case with this root.
-pub(super) fn read(report: &mut Report, node: &Node, root: &Table) -> Start {
+pub(super) fn read(report: &mut ProblemList, node: &Node, root: &Table) -> Start {
     let mut start = Start::default();
     let Data::Table(table) = &node.data else {
         wrong(report, node, "a table with set and guess");
@@ -29,7 +29,7 @@ pub(super) fn read(report: &mut Report, node: &Node, root: &Table) -> Start {
 
 /// `{ "crank.angle" = 1 }` or `{ crank = { angle = 1 } }`, the meaning of a dotted key; `{ crank = { B = { x = 1 } } }`
 /// for a point.
-fn coordinates(report: &mut Report, node: &Node, root: &Table) -> Vec<(String, Value)> {
+fn coordinates(report: &mut ProblemList, node: &Node, root: &Table) -> Vec<(String, Value)> {
     let mut found: Vec<(String, Value)> = Vec::new();
     let Data::Table(table) = &node.data else {
         let form = report.example("{ \"crank.angle\" = 0 }", "{ \"crank.angle\": 0 }");
@@ -37,7 +37,7 @@ fn coordinates(report: &mut Report, node: &Node, root: &Table) -> Vec<(String, V
         return found;
     };
     let mut seen = std::collections::HashSet::new();
-    let mut take = |report: &mut Report, key: String, node: &Node| {
+    let mut take = |report: &mut ProblemList, key: String, node: &Node| {
         number(report, node);
         match seen.insert(key.clone()) {
             true => found.push((key, node.value())),
@@ -50,11 +50,11 @@ fn coordinates(report: &mut Report, node: &Node, root: &Table) -> Vec<(String, V
 
 /// Takes the coordinates of a table, whose keys continue the name `owner`.
 fn each(
-    report: &mut Report,
+    report: &mut ProblemList,
     entries: &[(String, Node)],
     root: &Table,
     owner: &str,
-    take: &mut dyn FnMut(&mut Report, String, &Node),
+    take: &mut dyn FnMut(&mut ProblemList, String, &Node),
 ) {
     for (key, node) in entries {
         report.within(key, |report| {
@@ -82,7 +82,7 @@ fn goes_on(owner: &str, key: &str) -> bool {
 }
 
 /// Checks the name of a coordinate. The states of elements are in the model only.
-fn coordinate(report: &mut Report, root: &Table, (owner, name): (&str, &str)) {
+fn coordinate(report: &mut ProblemList, root: &Table, (owner, name): (&str, &str)) {
     if Coordinate::named(name).is_none() && !is_element(root, owner) {
         let known = Coordinate::ALL.map(Coordinate::name);
         report.unknown_key(format!("unknown coordinate '{}'", super::shown(name)), name, &known);

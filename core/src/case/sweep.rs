@@ -1,6 +1,6 @@
 //! The section `[sweep]`: variables with their values, measures, and the design.
 
-use super::report::Report;
+use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
 use super::values::{word, wrong};
 use crate::analyses::sweep;
@@ -15,7 +15,7 @@ pub(super) const DESIGNS: [&str; 5] = ["grid", "paired", "random", "latin", "sob
 pub(super) const SCALES: [&str; 2] = ["linear", "log"];
 
 /// Checks the structure of the section.
-pub(super) fn read(report: &mut Report, node: &Node, root: &Table) -> Vec<(String, Value)> {
+pub(super) fn read(report: &mut ProblemList, node: &Node, root: &Table) -> Vec<(String, Value)> {
     let Data::Table(table) = &node.data else {
         wrong(report, node, "a table with variables and measures");
         return Vec::new();
@@ -40,7 +40,7 @@ pub(super) fn read(report: &mut Report, node: &Node, root: &Table) -> Vec<(Strin
     table.values()
 }
 
-fn variables(report: &mut Report, node: &Node) {
+fn variables(report: &mut ProblemList, node: &Node) {
     let Data::Table(table) = &node.data else {
         return wrong(report, node, "a table of names and values");
     };
@@ -50,7 +50,7 @@ fn variables(report: &mut Report, node: &Node) {
 }
 
 /// A list of numbers, a range or a distribution.
-fn values(report: &mut Report, node: &Node) {
+fn values(report: &mut ProblemList, node: &Node) {
     let table = match &node.data {
         Data::List(_) => return numbers(report, node, None),
         Data::Table(table) => table,
@@ -84,13 +84,13 @@ fn values(report: &mut Report, node: &Node) {
 }
 
 /// A number, not a formula.
-fn plain(report: &mut Report, node: &Node) {
+fn plain(report: &mut ProblemList, node: &Node) {
     if !matches!(node.data, Data::Number(_)) {
         wrong(report, node, "a number, in SI units and rad");
     }
 }
 
-fn numbers(report: &mut Report, node: &Node, count: Option<usize>) {
+fn numbers(report: &mut ProblemList, node: &Node, count: Option<usize>) {
     let Data::List(items) = &node.data else {
         return wrong(report, node, "a list of numbers");
     };
@@ -103,7 +103,7 @@ fn numbers(report: &mut Report, node: &Node, count: Option<usize>) {
     }
 }
 
-fn texts(report: &mut Report, node: &Node) {
+fn texts(report: &mut ProblemList, node: &Node) {
     let Data::List(items) = &node.data else {
         return wrong(report, node, "a list of measures [\"C.force.max\"]");
     };
@@ -119,7 +119,7 @@ fn texts(report: &mut Report, node: &Node) {
     }
 }
 
-fn whole(report: &mut Report, node: &Node, least: f64) {
+fn whole(report: &mut ProblemList, node: &Node, least: f64) {
     match &node.data {
         Data::Number(x) if x.fract() == 0.0 && *x >= least => {}
         Data::Number(x) => report.say(format!("{x}; must be a whole number from {least}")),
@@ -127,7 +127,7 @@ fn whole(report: &mut Report, node: &Node, least: f64) {
     }
 }
 
-fn analysis(report: &mut Report, node: &Node, root: &Table) {
+fn analysis(report: &mut ProblemList, node: &Node, root: &Table) {
     let Data::Text(name) = &node.data else { return wrong(report, node, "a name") };
     let known: Vec<&str> = match root.get("analyses").map(|node| &node.data) {
         Some(Data::Table(table)) => table.entries.iter().map(|(known, _)| known.as_str()).collect(),

@@ -1,7 +1,7 @@
 //! The structure of a table, and the points that are read from its file.
 
 use super::fields;
-use super::report::Report;
+use super::report::ProblemList;
 use super::tree;
 use super::Case;
 use crate::elements::Table as Declaration;
@@ -10,7 +10,7 @@ use crate::model::Value;
 
 /// Checks the present table as the one of this name in the case with this root.
 pub(super) fn check(
-    report: &mut Report,
+    report: &mut ProblemList,
     name: &str,
     (table, declared): (&tree::Table, &Declaration),
     root: &tree::Table,

@@ -1,4 +1,4 @@
-//! TOML → [`Table`] with places. Syntax is read by `toml_parser`, which goes on after an error.
+//! TOML → [`Table`] with places. Syntax is read by `toml_parser`, which continues after an error.
 //!
 //! `DeTable::parse_recoverable` of the crate `toml` would replace this file and `toml_tables`, but it loses the values
 //! and faults behind an unclosed header, the place of the first of two equal keys, and any bound on the number of

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::fault::{Fault, Faults};
+use super::fault::{Faults, TextFault};
 use super::tree::{too_deep, too_many, Data, Node, Origin, Table, MOST_DEPTH, MOST_VALUES};
 
 type Key = (String, Range<usize>);
@@ -130,19 +130,29 @@ impl Builder {
     }
 }
 
-fn put(table: &mut Table, mut keys: Vec<Key>, span: Range<usize>, data: Data) -> Result<(), Fault> {
+fn put(
+    table: &mut Table,
+    mut keys: Vec<Key>,
+    span: Range<usize>,
+    data: Data,
+) -> Result<(), TextFault> {
     let Some((name, key)) = keys.pop() else { return Ok(()) };
     let table = descend(table, &keys, Origin::Dotted)?;
     match keys.last() {
         // a table with a header of its own is not extended by dotted keys
         Some((outer, place)) if table.origin == Origin::Header => {
-            Err(Fault::twice(outer, place.clone(), place.clone()))
+            Err(TextFault::twice(outer, place.clone(), place.clone()))
         }
         _ => table.insert(name, Node { key, span, data }),
     }
 }
 
-fn make(root: &mut Table, path: &[Key], span: Range<usize>, of_list: bool) -> Result<(), Fault> {
+fn make(
+    root: &mut Table,
+    path: &[Key],
+    span: Range<usize>,
+    of_list: bool,
+) -> Result<(), TextFault> {
     let Some((last, outer)) = path.split_last() else { return Ok(()) };
     let table = descend(root, outer, Origin::Implied)?;
     let (name, key) = last.clone();
@@ -163,7 +173,7 @@ fn make(root: &mut Table, path: &[Key], span: Range<usize>, of_list: bool) -> Re
                 items.push(Node { key, span, data: fresh() });
                 Ok(())
             }
-            _ => Err(Fault::twice(&name, key, old.key.clone())),
+            _ => Err(TextFault::twice(&name, key, old.key.clone())),
         },
     }
 }
@@ -173,12 +183,16 @@ fn by_header(item: &Node) -> bool {
 }
 
 /// The table at a path, made where it is absent; the last one of a list of tables.
-fn descend<'t>(mut table: &'t mut Table, path: &[Key], by: Origin) -> Result<&'t mut Table, Fault> {
+fn descend<'t>(
+    mut table: &'t mut Table,
+    path: &[Key],
+    by: Origin,
+) -> Result<&'t mut Table, TextFault> {
     for (name, key) in path {
         let absent =
             || Node { key: key.clone(), span: key.clone(), data: Data::Table(Table::of(by)) };
         let node = table.get_or_insert(name, absent);
-        let fault = || Fault::twice(name, key.clone(), node.key.clone());
+        let fault = || TextFault::twice(name, key.clone(), node.key.clone());
         table = match &mut node.data {
             Data::Table(next) if next.origin != Origin::Inline => next,
             Data::List(items) if by == Origin::Implied => match items.last_mut() {

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
-use super::fault::Fault;
+use super::fault::TextFault;
 use crate::model::Value;
 
 /// Deepest nesting of values that is read.
@@ -55,7 +55,7 @@ pub(super) enum Origin {
     /// Written in braces.
     #[default]
     Inline,
-    /// By a header `[a.b]`, of `a`.
+    /// Implicitly, by a header such as `[a.b]` of `a`.
     Implied,
     /// By its own header.
     Header,
@@ -74,9 +74,9 @@ impl Table {
         self.index.get(key).map(|&k| &mut self.entries[k].1)
     }
     /// Adds an entry, unless there is one already.
-    pub(super) fn insert(&mut self, key: String, node: Node) -> Result<(), Fault> {
+    pub(super) fn insert(&mut self, key: String, node: Node) -> Result<(), TextFault> {
         if let Some(earlier) = self.get(&key) {
-            return Err(Fault::twice(&key, node.key, earlier.key.clone()));
+            return Err(TextFault::twice(&key, node.key, earlier.key.clone()));
         }
         self.index.insert(key.clone(), self.entries.len());
         self.entries.push((key, node));

@@ -1,27 +1,27 @@
 //! Checks of the values of a file against the allowed shapes.
 
 use super::names;
-use super::report::{among, Report};
+use super::report::{among, ProblemList};
 use super::tree::{Data, Node};
 use crate::elements::{CURVE_FORMS, TOLERANCES, UNITS_OF_EQUATIONS};
 use crate::expression::suggest::did_you_mean;
 
 /// Reports a value of the wrong shape.
-pub(super) fn wrong(report: &mut Report, node: &Node, expected: &str) {
+pub(super) fn wrong(report: &mut ProblemList, node: &Node, expected: &str) {
     if !matches!(node.data, Data::Refused(_)) {
         report.say(format!("{}; must be {expected}", node.noun()));
     }
 }
 
 /// A number or a formula.
-pub(super) fn number(report: &mut Report, node: &Node) {
+pub(super) fn number(report: &mut ProblemList, node: &Node) {
     if !matches!(node.data, Data::Number(_) | Data::Text(_)) {
         wrong(report, node, "a number or a formula");
     }
 }
 
 /// Two numbers.
-pub(super) fn pair(report: &mut Report, node: &Node) {
+pub(super) fn pair(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::List(items) if items.len() == 2 => {
             for (k, item) in items.iter().enumerate() {
@@ -36,7 +36,7 @@ pub(super) fn pair(report: &mut Report, node: &Node) {
 }
 
 /// Three numbers or formulas.
-pub(super) fn triple(report: &mut Report, node: &Node) {
+pub(super) fn triple(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::List(items) if items.len() == 3 => numbers(report, node),
         Data::List(items) => {
@@ -47,7 +47,7 @@ pub(super) fn triple(report: &mut Report, node: &Node) {
 }
 
 /// Any number of numbers or formulas, at least one.
-pub(super) fn numbers(report: &mut Report, node: &Node) {
+pub(super) fn numbers(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::List(items) if !items.is_empty() => {
             for (k, item) in items.iter().enumerate() {
@@ -64,7 +64,7 @@ pub(super) const TERMS: [&str; 2] =
     ["{ \"A.angle\" = 2, \"B.angle\" = -1 }", "{ \"A.angle\": 2, \"B.angle\": -1 }"];
 
 /// Names with numbers or formulas, at least one; an example of the table in TOML and in JSON.
-pub(super) fn terms(report: &mut Report, node: &Node, [toml, json]: [&str; 2]) {
+pub(super) fn terms(report: &mut ProblemList, node: &Node, [toml, json]: [&str; 2]) {
     let form = report.example(toml, json);
     match &node.data {
         Data::Table(table) if !table.entries.is_empty() => {
@@ -78,7 +78,7 @@ pub(super) fn terms(report: &mut Report, node: &Node, [toml, json]: [&str; 2]) {
 }
 
 /// Units of equations.
-pub(super) fn units(report: &mut Report, node: &Node) {
+pub(super) fn units(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::List(items) => {
             for (k, item) in items.iter().enumerate() {
@@ -90,7 +90,7 @@ pub(super) fn units(report: &mut Report, node: &Node) {
 }
 
 /// Named points.
-pub(super) fn points(report: &mut Report, node: &Node) {
+pub(super) fn points(report: &mut ProblemList, node: &Node) {
     let Data::Table(table) = &node.data else {
         let form = report.example("{ P = [x, y] }", "{ \"P\": [x, y] }");
         return wrong(report, node, &format!("a table of points {form}"));
@@ -104,7 +104,7 @@ pub(super) fn points(report: &mut Report, node: &Node) {
 }
 
 /// Named curves; the model checks the values of each.
-pub(super) fn curves(report: &mut Report, node: &Node) {
+pub(super) fn curves(report: &mut ProblemList, node: &Node) {
     let form = report.example("{ circle = [x, y, radius] }", "{ \"circle\": [x, y, radius] }");
     let Data::Table(table) = &node.data else {
         return wrong(report, node, &format!("a table of curves such as rim = {form}"));
@@ -127,7 +127,7 @@ pub(super) fn curves(report: &mut Report, node: &Node) {
 }
 
 /// Points without names, at least three.
-pub(super) fn corners(report: &mut Report, node: &Node) {
+pub(super) fn corners(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::List(items) if items.len() >= 3 => {
             for (k, item) in items.iter().enumerate() {
@@ -145,7 +145,7 @@ pub(super) fn corners(report: &mut Report, node: &Node) {
 }
 
 /// Points, a circle or a path; the model checks the text of a path.
-pub(super) fn outline(report: &mut Report, node: &Node) {
+pub(super) fn outline(report: &mut ProblemList, node: &Node) {
     let Data::Table(table) = &node.data else {
         if let Data::List(_) = node.data {
             return corners(report, node);
@@ -171,7 +171,7 @@ pub(super) fn outline(report: &mut Report, node: &Node) {
 }
 
 /// Two different names.
-pub(super) fn two_names(report: &mut Report, node: &Node) {
+pub(super) fn two_names(report: &mut ProblemList, node: &Node) {
     let Data::List(items) = &node.data else {
         return wrong(report, node, "a list of two names [\"A\", \"B\"]");
     };
@@ -192,7 +192,7 @@ pub(super) fn two_names(report: &mut Report, node: &Node) {
 }
 
 /// Any number of names.
-pub(super) fn names(report: &mut Report, node: &Node) {
+pub(super) fn names(report: &mut ProblemList, node: &Node) {
     let Data::List(items) = &node.data else {
         return wrong(report, node, "a list of names [\"crank_drive\"]");
     };
@@ -205,7 +205,7 @@ pub(super) fn names(report: &mut Report, node: &Node) {
 }
 
 /// Any number of quantities.
-pub(super) fn quantities(report: &mut Report, node: &Node) {
+pub(super) fn quantities(report: &mut ProblemList, node: &Node) {
     let Data::List(items) = &node.data else {
         return wrong(report, node, "a list of quantities [\"crank.angle\"]");
     };
@@ -218,7 +218,7 @@ pub(super) fn quantities(report: &mut Report, node: &Node) {
 }
 
 /// Numbers, not formulas.
-pub(super) fn plain_numbers(report: &mut Report, node: &Node) {
+pub(super) fn plain_numbers(report: &mut ProblemList, node: &Node) {
     let Data::List(items) = &node.data else { return wrong(report, node, "a list of numbers") };
     for (k, item) in items.iter().enumerate() {
         report.within(&k.to_string(), |report| match &item.data {
@@ -233,7 +233,7 @@ pub(super) fn plain_numbers(report: &mut Report, node: &Node) {
 }
 
 /// Two different names of columns, of any characters.
-pub(super) fn two_columns(report: &mut Report, node: &Node) {
+pub(super) fn two_columns(report: &mut ProblemList, node: &Node) {
     let texts = match &node.data {
         Data::List(items) => items.iter().map(|item| match &item.data {
             Data::Text(text) => Some(text),
@@ -248,7 +248,7 @@ pub(super) fn two_columns(report: &mut Report, node: &Node) {
 }
 
 /// A whole number from 1, or a formula.
-pub(super) fn count(report: &mut Report, node: &Node) {
+pub(super) fn count(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::Number(x) if x.fract() != 0.0 || *x < 1.0 => {
             report.say(format!("{x}; must be a whole number from 1"));
@@ -258,7 +258,7 @@ pub(super) fn count(report: &mut Report, node: &Node) {
 }
 
 /// A number, or one for each of some kinds.
-pub(super) fn tolerance(report: &mut Report, node: &Node) {
+pub(super) fn tolerance(report: &mut ProblemList, node: &Node) {
     let Data::Table(table) = &node.data else {
         if !matches!(node.data, Data::Number(_) | Data::Text(_)) {
             wrong(report, node, "a number, or a table such as { length = 1e-9, angle = 1e-9 }");
@@ -277,7 +277,7 @@ pub(super) fn tolerance(report: &mut Report, node: &Node) {
 }
 
 /// One of some words.
-pub(super) fn word(report: &mut Report, node: &Node, words: &[&str]) {
+pub(super) fn word(report: &mut ProblemList, node: &Node, words: &[&str]) {
     match &node.data {
         Data::Text(text) if words.contains(&text.as_str()) => {}
         Data::Text(text) => {

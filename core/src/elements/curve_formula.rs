@@ -1,13 +1,17 @@
 //! A curve whose components are formulas in u and the parameters.
 
+#[cfg(target_arch = "wasm32")]
+use super::curve_series as series;
 use crate::expression::{switch_places, Knots, Symbol, Tape, Values};
-use crate::math::{Dual, Jet, Lift, Local, Real};
+#[cfg(not(target_arch = "wasm32"))]
+use crate::math::{Dual, Jet, Lift};
+use crate::math::{Local, Real};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// x(u) and y(u).
 #[derive(Clone, Debug)]
 pub struct Formula<S = f64> {
-    written: Arc<Written>,
+    written: Arc<FormulaPair>,
     /// Values of the parameters that the formulas use.
     values: Vec<S>,
     /// The ends of u.
@@ -23,7 +27,7 @@ type Found = (Vec<f64>, Option<Arc<Knots>>);
 
 /// The formulas, and the indices of the parameters that they use.
 #[derive(Debug)]
-struct Written {
+struct FormulaPair {
     x: Tape,
     y: Tape,
     parameters: Vec<usize>,
@@ -32,14 +36,14 @@ struct Written {
 }
 
 impl Formula<Tape> {
-    /// From formulas in u, the only variable, which has no unit, and in parameters of a model.
+    /// A curve from formulas in u, the only variable, which has no unit, and in parameters of a model.
     pub fn new(x: Tape, y: Tape, range: [Tape; 2], periodic: bool) -> Self {
         let mut parameters: Vec<usize> = x.parameters().chain(y.parameters()).collect();
         parameters.sort_unstable();
         parameters.dedup();
         let values = parameters.iter().map(|k| Tape::of(Symbol::Parameter(*k))).collect();
         Self {
-            written: Arc::new(Written { x, y, parameters, breaks: Mutex::default() }),
+            written: Arc::new(FormulaPair { x, y, parameters, breaks: Mutex::default() }),
             values,
             range,
             periodic,
@@ -47,7 +51,7 @@ impl Formula<Tape> {
         }
     }
 
-    /// The same with u as the polar angle.
+    /// A curve from a formula of the radius, with u as the polar angle.
     pub fn polar(self) -> Self {
         Self { unit: "rad", ..self }
     }
@@ -67,17 +71,18 @@ impl<S> Formula<S> {
 }
 
 /// u with its derivatives to third order by a variable.
+#[cfg(not(target_arch = "wasm32"))]
 type Third<S> = Jet<Dual<1, S>>;
 
 /// The names of the formulas, over a scalar `T` that contains `S`.
-struct Named<'a, S, T> {
+struct FormulaNames<'a, S, T> {
     parameters: &'a [usize],
     values: &'a [S],
     u: T,
     lift: fn(S) -> T,
 }
 
-impl<S: Real, T: Real> Values<T> for Named<'_, S, T> {
+impl<S: Real, T: Real> Values<T> for FormulaNames<'_, S, T> {
     fn parameter(&self, k: usize) -> T {
         let place = self.parameters.binary_search(&k).expect("a parameter of the formula");
         (self.lift)(self.values[place])
@@ -102,10 +107,14 @@ impl<S: Real> Formula<S> {
 
     /// x and y over a scalar that contains `S`.
     fn both<T: Real>(&self, u: T, lift: fn(S) -> T) -> [T; 2] {
-        let named = Named { parameters: &self.written.parameters, values: &self.values, u, lift };
+        let named =
+            FormulaNames { parameters: &self.written.parameters, values: &self.values, u, lift };
         [&self.written.x, &self.written.y].map(|tape| tape.evaluate(&named))
     }
+}
 
+#[cfg(not(target_arch = "wasm32"))]
+impl<S: Real> Formula<S> {
     /// C at u.
     pub(super) fn point(&self, u: S) -> Local<S> {
         let [x, y] = self.both(self.within(u), |x| x);
@@ -125,6 +134,36 @@ impl<S: Real> Formula<S> {
             .both(u, |x| Jet::lift(Dual::lift(x)))
             .map(|jet| [jet.value.value, jet.rate.value, jet.second.value, jet.second.slope[0]]);
         std::array::from_fn(|n| Local::new(x[n], y[n]))
+    }
+}
+
+#[cfg(target_arch = "wasm32")]
+impl<S: Real> Formula<S> {
+    /// C at u.
+    pub(super) fn point(&self, u: S) -> Local<S> {
+        self.derivatives(u)[0]
+    }
+
+    /// C and C′ at u.
+    pub(super) fn tangent(&self, u: S) -> [Local<S>; 2] {
+        let [point, first, ..] = self.derivatives(u);
+        [point, first]
+    }
+
+    /// C, C′, C″ and C‴ at u.
+    pub(super) fn derivatives(&self, u: S) -> [Local<S>; 4] {
+        let number = |x: &S| x.in_lanes()[0];
+        let u = self.within(u);
+        let value = number(&u);
+        let numbers = Formula {
+            written: Arc::clone(&self.written),
+            values: self.values.iter().map(number).collect(),
+            range: self.range.each_ref().map(number),
+            periodic: self.periodic,
+            unit: self.unit,
+        };
+        let [x, y] = numbers.both(series::variable(value), series::Series::constant);
+        series::at(&series::orders(&x, &y), u - S::constant(value))
     }
 }
 

@@ -50,7 +50,7 @@ impl Coordinate {
     pub fn unit(self) -> &'static str {
         ["m", "m", "rad", "m/s", "m/s", "rad/s"][self as usize]
     }
-    /// From its name.
+    /// The coordinate with this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|c| c.name() == name)
     }

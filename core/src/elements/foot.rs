@@ -9,7 +9,7 @@
 
 use super::field::{Field, Shape};
 use super::kinds::{self, CurveOn, Kind, Side, Source};
-use super::nearest::{Along, Search};
+use super::nearest::{AlongCurve, CurveSearch};
 use super::plane_curve::Curve;
 use crate::expression::Tape;
 use crate::math::{Local, Real};
@@ -18,19 +18,19 @@ use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 /// Searches that are kept for each element.
 const MOST_KNOWN: usize = 8;
 
-/// A curve of a body, and what a search needs of it.
+/// A curve of a body, with the data for searches.
 #[derive(Clone, Debug)]
 pub struct Rim<S = f64> {
     /// The curve.
     pub on: CurveOn<S>,
     /// One search, or one for each lane.
-    searches: OnceLock<Vec<Arc<Search>>>,
+    searches: OnceLock<Vec<Arc<CurveSearch>>>,
     /// The latest searches of this element over any scalar and for any parameters.
-    known: Arc<Mutex<Vec<Arc<Search>>>>,
+    known: Arc<Mutex<Vec<Arc<CurveSearch>>>>,
 }
 
 impl<S> Rim<S> {
-    /// Of a curve.
+    /// Makes the search for a curve.
     pub fn new(on: CurveOn<S>) -> Self {
         Self { on, searches: OnceLock::new(), known: Arc::default() }
     }
@@ -83,7 +83,7 @@ impl<S: Real> Rim<S> {
         }
     }
 
-    fn searches(&self) -> &[Arc<Search>] {
+    fn searches(&self) -> &[Arc<CurveSearch>] {
         self.searches.get_or_init(|| {
             let numbers = |lane: usize| self.numbers(lane);
             let first = numbers(0);
@@ -95,7 +95,7 @@ impl<S: Real> Rim<S> {
                     return Arc::clone(same);
                 }
                 let curve = self.on.curve.map(&mut |x: &S| x.in_lanes()[lane]);
-                let found = Arc::new(Search::new(curve, numbers));
+                let found = Arc::new(CurveSearch::new(curve, numbers));
                 known.truncate(MOST_KNOWN - 1);
                 known.insert(0, Arc::clone(&found));
                 found
@@ -126,9 +126,9 @@ impl<S: Real> Rim<S> {
             } else {
                 let search = &searches[lane.min(searches.len() - 1)];
                 match search.nearest(Local::new(x[lane], y[lane])) {
-                    Along::Within(u) => (u, 0.0),
-                    Along::First(u) => (u, -1.0),
-                    Along::Last(u) => (u, 1.0),
+                    AlongCurve::Within(u) => (u, 0.0),
+                    AlongCurve::First(u) => (u, -1.0),
+                    AlongCurve::Last(u) => (u, 1.0),
                 }
             };
         }

@@ -96,13 +96,13 @@ pub enum Fixes<S> {
 /// A quantity that the other joints of the mechanism must hold.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Required<S> {
-    /// What it is, as in "the distance of the centres is 0.31 m".
+    /// Its description, as in "the distance of the centres is 0.31 m".
     pub what: &'static str,
     /// Its value, m.
     pub is: S,
     /// The value that it must have; None for any value that stays the same and is not zero.
     pub must: Option<S>,
-    /// What to do if it has another value or is not held.
+    /// The remedy if it has another value or is not held.
     pub remedy: &'static str,
 }
 

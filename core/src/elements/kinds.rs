@@ -22,7 +22,7 @@ pub struct PointOn<S = f64> {
 pub struct CurveOn<S = f64> {
     /// The body.
     pub body: BodyId,
-    /// In the frame of the body.
+    /// The curve in the frame of the body.
     pub curve: Curve<S>,
 }
 
@@ -293,11 +293,11 @@ words! {
 words! {
     /// The frame of the components of a vector.
     frame: Frame {
-        /// That of ground.
+        /// The frame of ground.
         Global = "global",
-        /// That of body i.
+        /// The frame of body i.
         I = "i",
-        /// That of body j.
+        /// The frame of body j.
         J = "j",
     }
 }

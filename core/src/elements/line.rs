@@ -19,7 +19,7 @@ pub(super) struct Line<S> {
 }
 
 impl<S: Real> Line<S> {
-    /// Of points on body i and body j.
+    /// The line through points on body i and body j.
     pub fn new(at: &Situation<'_, S>, i: &PointOn<S>, j: &PointOn<S>) -> Self {
         let d = at.j().pose.point(j.s) - at.i().pose.point(i.s);
         let (squared, zero) = (d.dot(d), S::zero());

@@ -11,6 +11,9 @@ pub(crate) mod contact;
 mod corner;
 mod curve_forms;
 mod curve_formula;
+mod curve_points;
+#[cfg(any(test, target_arch = "wasm32"))]
+mod curve_series;
 mod declare;
 pub(crate) mod derive;
 mod dispatch;
@@ -113,6 +116,7 @@ pub use attachment::Attachment;
 
 pub use curve_forms::{CurveForm, CURVE_FORMS};
 pub use curve_formula::Formula as CurveFormula;
+pub use curve_points::CurvePoints;
 use declare::join;
 #[doc(hidden)]
 pub use declare::plain;
@@ -137,7 +141,7 @@ pub use kinds::{
 pub use measured::Measured;
 pub use mode::{Behaviour, Mode};
 pub use plain_bearing::Bearing;
-pub use plane_curve::{Curve, Points as CurvePoints};
+pub use plane_curve::Curve;
 pub use pool::{Place, Pooled, VisitForces, VisitJoints};
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 #[cfg(feature = "test-elements")]

@@ -26,10 +26,10 @@ struct Circle {
 
 /// Where the nearest point lies along a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Along {
+pub(super) enum AlongCurve {
     /// Between the ends, at this u.
     Within(f64),
-    /// At the first end; the curve goes on in the direction away from p.
+    /// At the first end; the curve continues in the direction away from p.
     First(f64),
     /// At the last end.
     Last(f64),
@@ -37,7 +37,7 @@ pub(super) enum Along {
 
 /// A curve that is ready to be searched.
 #[derive(Debug)]
-pub(super) struct Search {
+pub(super) struct CurveSearch {
     curve: Curve,
     /// The numbers of the curve, which determine it.
     pub numbers: Vec<f64>,
@@ -70,8 +70,8 @@ fn around(a: Circle, b: Circle) -> Circle {
     Circle { center: between(a.center, b.center, (radius - a.radius) / distance), radius }
 }
 
-impl Search {
-    /// Of a curve without a fault.
+impl CurveSearch {
+    /// Prepares a curve without a fault.
     pub fn new(curve: Curve, numbers: Vec<f64>) -> Self {
         let count = match &curve {
             Curve::Points(own) => OF_POINT * own.points.len(),
@@ -99,9 +99,9 @@ impl Search {
     }
 
     /// The nearest point to p, in the frame of the curve.
-    pub fn nearest(&self, p: Local) -> Along {
+    pub fn nearest(&self, p: Local) -> AlongCurve {
         if !(p.x.is_finite() && p.y.is_finite()) {
-            return Along::Within(f64::NAN);
+            return AlongCurve::Within(f64::NAN);
         }
         self.refined(p, self.start(p))
     }
@@ -137,7 +137,7 @@ impl Search {
     }
 
     /// Newton's method from u.
-    fn refined(&self, p: Local, mut u: f64) -> Along {
+    fn refined(&self, p: Local, mut u: f64) -> AlongCurve {
         let [a, b] = self.range;
         let piece = (b - a) / (self.points.len() - 1) as f64;
         let periodic = self.curve.periodic();
@@ -158,9 +158,9 @@ impl Search {
             }
         }
         match () {
-            () if out < 0.0 => Along::First(u),
-            () if out > 0.0 => Along::Last(u),
-            () => Along::Within(u),
+            () if out < 0.0 => AlongCurve::First(u),
+            () if out > 0.0 => AlongCurve::Last(u),
+            () => AlongCurve::Within(u),
         }
     }
 }

@@ -15,7 +15,7 @@ pub struct Bearing<S = f64> {
     pub holds_angle: bool,
     /// The joint frames on bodies i and j.
     pub ends: [Attachment<S>; 2],
-    /// The angle or displacement of body j, as body i sees it.
+    /// The angle or displacement of body j relative to body i.
     pub coordinate: Arc<QuantityOf<Tape>>,
 }
 

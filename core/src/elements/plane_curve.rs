@@ -5,9 +5,10 @@
 //! contain C′, so that γ needs C‴. They take these four from one evaluation: [`Curve::near`].
 
 use super::curve_formula::Formula;
+use super::curve_points::CurvePoints;
 use crate::expression::Knots;
-use crate::math::{Interpolation, Local, Real, Spline};
-use std::sync::{Arc, OnceLock};
+use crate::math::{Interpolation, Local, Real};
+use std::sync::Arc;
 
 /// A curve.
 #[derive(Clone, Debug)]
@@ -15,7 +16,7 @@ pub enum Curve<S = f64> {
     /// x(u) and y(u) as formulas.
     Formula(Formula<S>),
     /// A spline over the accumulated chord length of its points.
-    Points(Points<S>),
+    Points(CurvePoints<S>),
     /// A circle; u is the angle, counter-clockwise.
     Circle {
         /// Its centre, m.
@@ -37,45 +38,6 @@ pub enum Curve<S = f64> {
         /// C, C′, C″, C‴.
         terms: [Local<S>; 4],
     },
-}
-
-/// A spline through points.
-#[derive(Clone, Debug)]
-pub struct Points<S = f64> {
-    /// The points, m.
-    pub points: Vec<Local<S>>,
-    /// How they are joined.
-    pub kind: Interpolation,
-    /// Whether the last point is joined to the first.
-    pub periodic: bool,
-    solved: OnceLock<Box<[Spline<S>; 2]>>,
-}
-
-impl<S> Points<S> {
-    /// A spline that is solved at its first use.
-    pub fn new(points: Vec<Local<S>>, kind: Interpolation, periodic: bool) -> Self {
-        Self { points, kind, periodic, solved: OnceLock::new() }
-    }
-}
-
-impl<S: Real> Points<S> {
-    /// x and y over the chord length.
-    fn splines(&self) -> &[Spline<S>; 2] {
-        self.solved.get_or_init(|| {
-            let closing = self.points.first().filter(|_| self.periodic);
-            let all: Vec<Local<S>> = self.points.iter().chain(closing).copied().collect();
-            let mut chord = vec![S::zero()];
-            for pair in all.windows(2) {
-                let step = Local::new(pair[1].x - pair[0].x, pair[1].y - pair[0].y).norm();
-                chord.push(chord[chord.len() - 1] + step);
-            }
-            let along = |component: fn(&Local<S>) -> S| {
-                let values: Vec<S> = all.iter().map(component).collect();
-                Spline::new(self.kind, self.periodic, &chord, &values)
-            };
-            Box::new([along(|s| s.x), along(|s| s.y)])
-        })
-    }
 }
 
 impl<S> Curve<S> {
@@ -103,14 +65,7 @@ impl<S> Curve<S> {
         let mut local = |s: &Local<S>| Local { x: f(&s.x), y: f(&s.y) };
         match self {
             Self::Formula(formula) => Curve::Formula(formula.map(f)),
-            Self::Points(own) => {
-                let points = own.points.iter().map(local).collect();
-                let mut curve = Points::new(points, own.kind, own.periodic);
-                if let Some([x, y]) = own.solved.get().map(|solved| &**solved) {
-                    curve.solved = Box::new([x.map(f), y.map(f)]).into();
-                }
-                Curve::Points(curve)
-            }
+            Self::Points(points) => Curve::Points(points.map(f)),
             Self::Circle { center, radius } => {
                 let center = local(center);
                 Curve::Circle { center, radius: f(radius) }
@@ -129,10 +84,7 @@ impl<S: Real> Curve<S> {
     pub fn range(&self) -> [S; 2] {
         match self {
             Self::Formula(formula) => formula.range,
-            Self::Points(points) => {
-                let knots = points.splines()[0].knots();
-                [knots[0], knots[knots.len() - 1]]
-            }
+            Self::Points(points) => points.range(),
             Self::Circle { .. } => [S::zero(), S::constant(std::f64::consts::TAU)],
             Self::Line { from, to } => [S::zero(), apart(*from, *to).norm()],
             Self::Near { at, .. } => [*at, *at],
@@ -143,10 +95,7 @@ impl<S: Real> Curve<S> {
     pub fn derivatives(&self, u: S) -> [Local<S>; 4] {
         match self {
             Self::Formula(formula) => formula.derivatives(u),
-            Self::Points(points) => {
-                let [x, y] = points.splines().each_ref().map(|s| s.derivatives::<S, 4>(u, |c| c));
-                std::array::from_fn(|n| Local::new(x[n], y[n]))
-            }
+            Self::Points(points) => points.derivatives(u),
             Self::Circle { center, radius } => {
                 let (sin, cos) = u.sin_cos();
                 let arm = Local::new(*radius * cos, *radius * sin);
@@ -169,8 +118,7 @@ impl<S: Real> Curve<S> {
         match self {
             Self::Formula(formula) => formula.breaks(),
             Self::Points(own) if own.kind == Interpolation::Monotone => {
-                let knots = own.splines()[0].knots().iter().map(|u| u.in_lanes()[0]);
-                let mut knots: Vec<f64> = knots.collect();
+                let mut knots = own.knots();
                 let last = if own.periodic { knots.pop() } else { None };
                 let period = last.map(|last| last - knots[0]);
                 Some(Arc::new(Knots::new(knots, period)))

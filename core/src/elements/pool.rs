@@ -26,7 +26,7 @@ pub struct Place {
 }
 
 impl Place {
-    /// From the place among the constraints or forces, the bodies, and the first row.
+    /// The place of an element among the constraints or forces, with its bodies and its first row.
     ///
     /// # Panics
     /// If a number exceeds 32 bits.
@@ -36,7 +36,7 @@ impl Place {
         Self { item: index(item), bodies: [body(0), body(1)], row: index(row), slot: 0 }
     }
 
-    /// The same with a place in a list of the room that uses the pool.
+    /// The same element, with its place in the list of the module that uses the pool.
     pub fn with_slot(self, slot: usize) -> Self {
         Self { slot: u32::try_from(slot).expect("fewer than 2^32 items"), ..self }
     }

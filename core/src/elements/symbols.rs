@@ -21,7 +21,7 @@ pub enum Mark {
     Rod,
     /// A cylinder on i with a piston rod to j: a force along the line.
     Cylinder,
-    /// The same for a prescribed length.
+    /// The cylinder of a driver, which prescribes a length.
     DriveCylinder,
     /// A rubber sleeve around the point of j in the eye of i.
     Sleeve,
@@ -174,7 +174,7 @@ impl SymbolEnd {
 /// A symbol of the scene between the bodies i and j.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SceneSymbol {
-    /// What is drawn.
+    /// The shape that is drawn.
     pub mark: Mark,
     /// Where on body i.
     pub i: SymbolEnd,

@@ -29,7 +29,7 @@ pub(super) fn rolled<S: Real>(d: Vec2<S>, [r_i, r_j]: [S; 2], sigma: f64, at: &A
     r_i * (at.i().angle - theta) + S::constant(sigma) * r_j * (at.j().angle - theta)
 }
 
-/// What a whole turn of θ changes, 2π `radius`.
+/// The change of the equation by a whole turn of θ, 2π `radius`.
 pub(super) fn whole_turn<S: Real>(radius: S) -> S {
     S::constant(std::f64::consts::TAU) * radius
 }

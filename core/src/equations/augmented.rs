@@ -243,4 +243,9 @@ impl<S: Real> Augmented<S> {
     pub fn cancellation(&self) -> Option<(usize, f64)> {
         self.saddle.cancellation(&self.plan.pattern)
     }
+
+    /// The ratio of [`cancellation`](Self::cancellation) in each lane.
+    pub fn cancellations(&self) -> S {
+        self.saddle.cancellations(&self.plan.pattern)
+    }
 }

@@ -13,7 +13,7 @@ use crate::elements::derive::{
 use crate::elements::{At, BodyId, Constraint, Coordinate, Joint, Linearized, Moving};
 use crate::expression::Tape;
 use crate::math::{Jet, Real, Twist};
-use crate::model::{Block, ConstraintItem, Model, Slots, StateLayout};
+use crate::model::{Block, ConstraintItem, Model, Slots};
 
 /// Φ(q, t), shape (m).
 pub fn residual<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, out: &mut [S]) {
@@ -157,9 +157,9 @@ impl<S: Real> Stabilized<S> {
 
 /// The rows of Φ_q of a constraint, as its blocks take them.
 pub(super) enum ByBlock<'a, S> {
-    /// By participant of the element.
+    /// One for each participant of the element.
     Participants(&'a [BodyId], &'a [[S; 3]]),
-    /// By block: a law may touch more bodies than the element.
+    /// One for each block: a law may touch more bodies than the element.
     Blocks(&'a [[S; 3]]),
 }
 
@@ -260,7 +260,7 @@ pub(super) fn linearize_one<S: Real, R>(
 pub(super) fn store<S: Real>(rows: ByBlock<'_, S>, slots: &Slots, entries: &mut [S]) {
     let m = slots.rows.len();
     for (b, block) in slots.blocks.iter().enumerate() {
-        let out = &mut entries[block.first..][..3 * m];
+        let out = &mut entries[block.entries(m)];
         match rows {
             ByBlock::Blocks(rows) => out.copy_from_slice(rows[b * m..][..m].as_flattened()),
             ByBlock::Participants(bodies, rows) => {
@@ -365,7 +365,7 @@ pub fn add_transposed<S: Real>(model: &Model<S>, entries: &[S], lam: &[S], y: &m
     for slots in &model.layout.constraints {
         for block in &slots.blocks {
             for (r, row) in slots.rows.clone().enumerate() {
-                let entries = &entries[StateLayout::entries(block, r)];
+                let entries = &entries[block.row(r)];
                 let y = &mut y[block.columns.range()];
                 y.iter_mut().zip(entries).for_each(|(y, e)| *y += *e * lam[row]);
             }
@@ -379,7 +379,7 @@ pub fn times<S: Real>(model: &Model<S>, k: usize, entries: &[S], x: &[S], out: &
     for block in &model.layout.constraints[k].blocks {
         let [x, y, angle] = block.columns.of(x);
         for (r, out) in out.iter_mut().enumerate() {
-            let entries = &entries[StateLayout::entries(block, r)];
+            let entries = &entries[block.row(r)];
             *out += entries[0] * x + entries[1] * y + entries[2] * angle;
         }
     }

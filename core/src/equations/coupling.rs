@@ -175,7 +175,7 @@ fn changes(
     }
     linearize_one(lifted, k, &motions, D::lift(0.7), |_, rows| store(rows, slots, columns));
     for (to, coupled) in slots.blocks.iter().zip(coupled) {
-        let entries = &columns[to.first..][..3 * slots.rows.len()];
+        let entries = &columns[to.entries(slots.rows.len())];
         *coupled |= entries.iter().any(|e| e.slope != [0.0; 3]);
     }
 }

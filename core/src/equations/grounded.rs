@@ -70,7 +70,7 @@ fn held<S>(item: &ConstraintItem<S>, slots: &Slots) -> Option<BodyId> {
 }
 
 impl<S: Real> Grounded<S> {
-    /// With the bodies at rest in the origin.
+    /// The grounded bodies, at rest in the origin.
     fn new(
         (model, motions): (&Model<S>, &Motions<S>),
         body: BodyId,

@@ -116,6 +116,19 @@ impl<S: Real> Workspace<S> {
         }
     }
 
+    /// Whether one elimination solves the equations.
+    pub fn solves_directly(&self) -> bool {
+        !self.modified && self.matrix.additions().is_empty()
+    }
+
+    /// Whether the equations of another variant of the model, over any scalar, have the same structure.
+    pub fn is_like<P: Real>(&self, other: &Workspace<P>) -> bool {
+        let (plan, of_other) = (self.matrix.plan(), other.matrix.plan());
+        let [own, others] =
+            [&self.compiled.lent(plan.condenses).loans, &other.compiled.lent(plan.condenses).loans];
+        own == others && (Arc::ptr_eq(plan, of_other) || plan.is_like(of_other))
+    }
+
     /// Whether one elimination solves the equations without damped rows.
     pub(super) fn set_direct(&mut self) {
         self.modified = self.depends;
@@ -183,6 +196,12 @@ impl<S: Real> Workspace<S> {
             }
         }
         self.solve_and_refine(model, t, gains)
+    }
+
+    /// [`respond`](Self::respond) where one elimination solves the equations. Returns false elsewhere, over lanes where
+    /// one lane needs more.
+    pub fn respond_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> bool {
+        self.solves_directly() && self.solve_directly(model, t, gains).is_ok()
     }
 
     /// q̈ and λ if the matrix is that of the equations: each joint is put into it when it is evaluated.

@@ -35,13 +35,13 @@ pub struct BodyBalance {
 
 /// The forces on one body while they are added.
 #[derive(Clone, Copy, Default)]
-struct Sum {
+struct ForceSum {
     force: [f64; 2],
     moment: f64,
     of: BodyBalance,
 }
 
-impl Sum {
+impl ForceSum {
     /// Adds a force at an arm from the mass centre, and a torque.
     fn add(&mut self, arm: Vec2, force: Vec2, torque: f64) {
         let moment = torque + arm.cross(force);
@@ -61,7 +61,7 @@ pub fn balances(
     a: &[f64],
     acting: Acting<'_, f64>,
 ) -> Vec<BodyBalance> {
-    let mut sums = vec![Sum::default(); model.bodies.len()];
+    let mut sums = vec![ForceSum::default(); model.bodies.len()];
     let center = |body: usize| motions[body].pose.point(model.bodies[body].center);
     add_reactions(model, motions, acting, &center, &mut sums);
     for k in 0..model.forces.len() {
@@ -69,7 +69,7 @@ pub fn balances(
             sums[body].add(motions[body].pose.r - center(body), w.force, w.torque);
         });
     }
-    let balance = |(k, mut sum): (usize, Sum)| {
+    let balance = |(k, mut sum): (usize, ForceSum)| {
         let body = &model.bodies[k];
         sum.add(Vec2::zero(), model.gravity.scale(body.mass), 0.0);
         let [x, y] = measured::point(model, BodyId(k), body.center, motions, a);
@@ -87,7 +87,7 @@ fn add_reactions(
     motions: &Motions,
     acting: Acting<'_, f64>,
     center: &impl Fn(usize) -> Vec2,
-    sums: &mut [Sum],
+    sums: &mut [ForceSum],
 ) {
     let lam = acting.lam.unwrap_or_default();
     for (k, slots) in model.layout.constraints.iter().enumerate() {

@@ -36,6 +36,12 @@ impl Plan {
         Self::with(model, true)
     }
 
+    /// Whether another variant of the model has the same plan: the numbers decide which bodies are condensed and coupled.
+    pub(super) fn is_like(&self, other: &Self) -> bool {
+        let coupled = [self, other].map(|plan| plan.pattern.coupled());
+        self.condensed == other.condensed && coupled[0] == coupled[1]
+    }
+
     /// Whether redundant constraints are accepted.
     pub(super) fn accepts_redundancy<S: Real>(&self, model: &Model<S>) -> bool {
         model.allow_redundancy && !self.condenses
@@ -83,7 +89,7 @@ pub(super) fn row_blocks(layout: &StateLayout) -> (Vec<RowBlock>, Vec<usize>) {
     let (mut row_blocks, mut owners) = (Vec::new(), Vec::new());
     for (k, Slots { rows, blocks, .. }) in layout.constraints.iter().enumerate() {
         for skipped in (0..rows.len()).step_by(ROWS) {
-            let touch = |block: &Block| (block.owner, StateLayout::entries(block, skipped).start);
+            let touch = |block: &Block| (block.owner, block.row(skipped).start);
             let signs = blocks.iter().map(|block| block.sign).filter(|sign| *sign != 0.0);
             owners.push(k);
             row_blocks.push(RowBlock {

@@ -1,7 +1,7 @@
 //! Derivatives of forces by the multipliers on which they depend, by dual numbers.
 //!
-//! A force sees the reaction of one joint, which is linear in the multipliers of that joint. Friction that follows
-//! another one also depends on the multiplier and on the limit of the other.
+//! A force depends on the reaction of one joint, which is linear in the multipliers of that joint. Friction that
+//! follows another one also depends on the multiplier and on the limit of the other.
 
 use super::forces::{self, Acting};
 use super::kinematics::Motions;

@@ -13,9 +13,9 @@ use crate::model::Model;
 pub enum Frame {
     /// Global.
     Global,
-    /// Of the body that the reaction acts on.
+    /// The frame of the body that the reaction acts on.
     Body,
-    /// Of the joint, fixed in that body: C of (6.6.8).
+    /// The frame of the joint, fixed in that body: C of (6.6.8).
     Joint,
 }
 

@@ -68,7 +68,7 @@ pub(super) trait Response<S> {
 /// Returns whether there is a solution that follows from the multipliers without these forces.
 ///
 /// # Errors
-/// Those of the linear equations.
+/// The errors of the linear equations.
 pub(super) fn solve<S: Real, R: Response<S>>(
     rows: &[usize],
     lam: &mut [S],

@@ -16,7 +16,6 @@ pub struct Residuals<S = f64> {
     pub per_scale: Vec<f64>,
     /// The row with the largest Φ of those that are left out, and this number scaled; NaN is kept.
     pub omitted: (usize, f64),
-    compiled: Compiled<S>,
 }
 
 impl<S: Real> Residuals<S> {
@@ -26,7 +25,6 @@ impl<S: Real> Residuals<S> {
             rows: std::array::from_fn(|_| vec![S::zero(); model.layout.n_rows]),
             per_scale: row_scales(model).into_iter().map(|scale| 1.0 / scale).collect(),
             omitted: (0, 0.0),
-            compiled: Compiled::new(model),
         }
     }
 
@@ -34,14 +32,14 @@ impl<S: Real> Residuals<S> {
     /// scaled, over all lanes, or NaN if one is NaN.
     pub fn look(
         &mut self,
-        model: &Model<S>,
+        (model, compiled): (&Model<S>, &Compiled<S>),
         motions: &Motions<S>,
         t: S,
         omitted: &[usize],
     ) -> [f64; 2] {
         let mut look = Look { model, motions, t, rows: &mut self.rows };
-        self.compiled.joints.visit(&mut look);
-        for &k in &self.compiled.joints_with_laws {
+        compiled.joints.visit(&mut look);
+        for &k in &compiled.joints_with_laws {
             look.one(k);
         }
         self.omitted = (0, 0.0);

@@ -28,7 +28,7 @@ const AMPLIFIED: f64 = 100.0;
 
 /// The motion by which an addition is taken back.
 #[derive(Clone, Debug)]
-struct Direction<S> {
+struct AddedMotion<S> {
     /// Its column.
     column: usize,
     /// y: coordinates, padding, multipliers.
@@ -40,7 +40,7 @@ struct Direction<S> {
 /// The directions of all additions at one state.
 #[derive(Clone, Debug)]
 pub(super) struct Directions<S> {
-    all: Vec<Direction<S>>,
+    all: Vec<AddedMotion<S>>,
     /// Φ_q y.
     rows: Vec<S>,
 }
@@ -69,7 +69,7 @@ impl<S: Real> Directions<S> {
         matrix: &Augmented<S>,
     ) -> Doubts {
         let additions = matrix.additions();
-        let none = || Direction { column: 0, y: Vec::new(), factor: S::zero() };
+        let none = || AddedMotion { column: 0, y: Vec::new(), factor: S::zero() };
         self.all.resize_with(additions.len(), none);
         let (mut doubts, mut growth) = (Doubts::default(), S::one());
         for (k, Addition { column, weight }) in additions.iter().enumerate() {
@@ -111,7 +111,7 @@ impl<S: Real> Directions<S> {
     }
 }
 
-impl<S: Real> Direction<S> {
+impl<S: Real> AddedMotion<S> {
     fn apply(&self, a: &mut [S], lam: &mut [S]) {
         let part = a[self.column] * self.factor;
         let (moved, multipliers) = self.y.split_at(self.y.len() - lam.len());

@@ -183,7 +183,7 @@ impl Tangent {
             let (lifted, columns, rate) = (&self.lifted, &mut self.columns, &mut self.rate);
             constraints::linearize_one(lifted, k, &self.motions, D::lift(t), |terms, rows| {
                 for (r, slope) in terms.rate.iter().enumerate() {
-                    rate[block.first + 3 * r..][..3].copy_from_slice(&slope.slope);
+                    rate[block.row(r)].copy_from_slice(&slope.slope);
                 }
                 constraints::store(rows, slots, columns);
             });
@@ -191,14 +191,14 @@ impl Tangent {
             self.unseed(block, slots, motions);
             for (to, pair) in slots.blocks.iter().zip(&self.by_constraint[k][seed]) {
                 let Some(pair) = *pair else { continue };
-                let entries = self.columns[to.first..][..3 * m].chunks_exact(3);
-                for (entries, lam) in entries.zip(lam) {
+                for (r, lam) in lam.iter().enumerate() {
+                    let entries = &self.columns[to.row(r)];
                     add(&mut self.stiffness[pair], [&entries[0], &entries[1], &entries[2]], *lam);
                 }
             }
         }
         for block in &slots.blocks {
-            let range = block.first..block.first + 3 * m;
+            let range = block.entries(m);
             let values = self.columns[range.clone()].iter();
             self.jacobian[range].iter_mut().zip(values).for_each(|(e, d)| *e = d.value);
         }
@@ -348,13 +348,13 @@ impl Tangent {
 /// The variable by which a force is differentiated.
 #[derive(Clone, Copy)]
 enum Variable {
-    /// By the pose of the body, or the internal coordinates, with this place among the participants.
+    /// The pose of the body, or the internal coordinates, with this place among the participants.
     Position(usize),
-    /// By its twist.
+    /// The twist of the body.
     Velocity(usize),
-    /// By the state with this place in z.
+    /// The state with this place in z.
     State(usize),
-    /// By the multiplier of this row.
+    /// The multiplier of this row.
     Multiplier(usize),
 }
 

@@ -7,8 +7,8 @@ use super::points::TABLE_ENDS;
 use super::suggest::did_you_mean;
 use super::switch::Piecewise;
 use super::table::Table;
-use super::tape::{Instruction, Scope};
-use super::tree::{Kind, Node};
+use super::tape::{FormulaValues, Instruction};
+use super::tree::{Node, NodeKind};
 use super::{ExpressionError, Names, Symbol, Tape, MAX_OPERANDS};
 use crate::math::Real;
 use std::ops::Range;
@@ -48,30 +48,30 @@ impl Compiler<'_> {
     fn node<N: Names + ?Sized>(&mut self, node: &Node, names: &N) -> Result<(), ExpressionError> {
         use super::operation::Binary;
         let instruction = match &node.kind {
-            Kind::Number(value) => Instruction::Constant(*value),
-            Kind::Name(name) => match self.name(name, node.span.clone(), names)? {
+            NodeKind::Number(value) => Instruction::Constant(*value),
+            NodeKind::Name(name) => match self.name(name, node.span.clone(), names)? {
                 Meaning::One(instruction) => instruction,
                 Meaning::Formula(tape) => return self.insert(&tape, &node.span),
             },
-            Kind::Unary(operation) => match Piecewise::unary(*operation) {
+            NodeKind::Unary(operation) => match Piecewise::unary(*operation) {
                 Some(piecewise) => Instruction::Piecewise(piecewise),
                 None => Instruction::Unary(*operation),
             },
-            Kind::Binary(Binary::Power) => self.power(),
-            Kind::Binary(operation) => match Piecewise::binary(*operation) {
+            NodeKind::Binary(Binary::Power) => self.power(),
+            NodeKind::Binary(operation) => match Piecewise::binary(*operation) {
                 Some(piecewise) => Instruction::Piecewise(piecewise),
                 None => Instruction::Binary(*operation),
             },
-            Kind::Compare(relation) => {
+            NodeKind::Compare(relation) => {
                 self.conditions.push(*relation);
                 Instruction::Binary(Binary::Subtract)
             }
-            Kind::If => match self.conditions.pop() {
+            NodeKind::If => match self.conditions.pop() {
                 Some(relation) => Instruction::Piecewise(Piecewise::Choose(relation)),
                 None => unreachable!("the parser lets no `if` pass without a condition"),
             },
-            Kind::Step5 => Instruction::Piecewise(Piecewise::Step5),
-            Kind::Call(name, count) => self.table(name, *count, node.span.clone(), names)?,
+            NodeKind::Step5 => Instruction::Piecewise(Piecewise::Step5),
+            NodeKind::Call(name, count) => self.table(name, *count, node.span.clone(), names)?,
         };
         self.emit(instruction, &node.span)
     }
@@ -216,7 +216,7 @@ fn fold(code: &[Instruction], tables: &[Arc<Table>]) -> f64 {
         tables: tables.to_vec(),
         ..Tape::default()
     };
-    tape.evaluate(&Scope { parameters: &[], time: f64::NAN, variables: &[] })
+    tape.evaluate(&FormulaValues { parameters: &[], time: f64::NAN, variables: &[] })
 }
 
 fn too_many_operands(span: &Range<usize>) -> ExpressionError {

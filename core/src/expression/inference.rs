@@ -6,7 +6,7 @@
 use super::names::constant;
 use super::operation::{Binary, Unary};
 use super::table::Table;
-use super::tree::{Kind, Node};
+use super::tree::{Node, NodeKind};
 use super::unit::Dimension;
 use super::{ExpressionError, Names, Symbol};
 use std::fmt;
@@ -25,7 +25,7 @@ pub enum Inferred {
 
 const ANGLE: Dimension = Dimension::new(0, 0, 0);
 
-/// With the unit that people use: `N (kg*m*s^-2)`.
+/// The dimension with the usual unit: `N (kg*m*s^-2)`.
 impl fmt::Display for Inferred {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
@@ -61,23 +61,25 @@ pub(super) fn infer<N: Names + ?Sized>(
         let parts = stack.split_off(first);
         let inference = Inference { text, parts: &parts };
         let (inferred, value) = match &node.kind {
-            Kind::Number(value) => (Inferred::Number, Some(*value)),
-            Kind::Name(name) if constant(name).is_some() => (Inferred::Number, None),
-            Kind::Name(name) => (names.resolve(name).map_or(Inferred::Open, of), None),
-            Kind::Unary(operation) => inference.unary(*operation)?,
-            Kind::Binary(operation) => inference.binary(*operation)?,
-            Kind::Compare(_) => (inference.alike(0, 1)?, None),
-            Kind::If => (inference.alike(1, 2)?, None),
-            Kind::Step5 => {
+            NodeKind::Number(value) => (Inferred::Number, Some(*value)),
+            NodeKind::Name(name) if constant(name).is_some() => (Inferred::Number, None),
+            NodeKind::Name(name) => (names.resolve(name).map_or(Inferred::Open, of), None),
+            NodeKind::Unary(operation) => inference.unary(*operation)?,
+            NodeKind::Binary(operation) => inference.binary(*operation)?,
+            NodeKind::Compare(_) => (inference.alike(0, 1)?, None),
+            NodeKind::If => (inference.alike(1, 2)?, None),
+            NodeKind::Step5 => {
                 inference.alike(0, 1)?;
                 inference.alike(1, 3)?;
                 inference.alike(0, 3)?;
                 (inference.alike(2, 4)?, None)
             }
-            Kind::Call(name, _) => match names.tables().iter().find(|table| table.name() == name) {
-                Some(table) => (inference.read(table)?, None),
-                None => (Inferred::Open, None),
-            },
+            NodeKind::Call(name, _) => {
+                match names.tables().iter().find(|table| table.name() == name) {
+                    Some(table) => (inference.read(table)?, None),
+                    None => (Inferred::Open, None),
+                }
+            }
         };
         stack.push(Part { of: inferred, value, span: node.span.clone() });
     }

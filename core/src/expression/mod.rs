@@ -20,10 +20,10 @@
 //! is a parameter or varies, its derivatives exist for x > 0 only.
 //!
 //! ```
-//! use kempe::expression::{Expression, Scope};
+//! use kempe::expression::{Expression, FormulaValues};
 //! let law = Expression::parse("-k*(x - L0)^3")?;
 //! let tape = law.compile(&["k", "x", "L0"])?;
-//! let values = Scope { parameters: &[2.0, 1.5, 1.0], time: 0.0, variables: &[] };
+//! let values = FormulaValues { parameters: &[2.0, 1.5, 1.0], time: 0.0, variables: &[] };
 //! assert_eq!(tape.evaluate(&values), -0.25);
 //! # Ok::<(), kempe::expression::ExpressionError>(())
 //! ```
@@ -66,5 +66,5 @@ pub use switch::Boundaries;
 pub use switch_times::{pieces_at, switch_places, switch_times, TooManySwitches};
 pub use symbol::Symbol;
 pub use table::{Kink, Table};
-pub use tape::{Scope, Switch, Tape, Values};
+pub use tape::{FormulaSwitch, FormulaValues, Tape, Values};
 pub use text::{Expression, Sense};

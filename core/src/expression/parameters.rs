@@ -1,8 +1,8 @@
 //! Parameters that refer to other parameters: the order in which they can be evaluated.
 
 use super::{
-    is_identifier, is_reserved, Expression, ExpressionError, Inferred, Names, Scope, Symbol, Table,
-    Tape, FUNCTIONS,
+    is_identifier, is_reserved, Expression, ExpressionError, FormulaValues, Inferred, Names,
+    Symbol, Table, Tape, FUNCTIONS,
 };
 use crate::math::Real;
 use std::collections::HashMap;
@@ -16,7 +16,7 @@ pub struct ParameterError {
     pub parameter: usize,
     /// Its name.
     pub name: String,
-    /// What is wrong; the span is in the text of its expression, and covers all of it where the
+    /// Description of the fault; the span is in the text of its expression, and covers all of it where the
     /// name is at fault.
     pub error: ExpressionError,
 }
@@ -38,21 +38,12 @@ pub struct Parameters {
 }
 
 impl Parameters {
-    /// Compiles definitions, each a name and an expression in the other parameters.
+    /// Compiles definitions, each a name and an expression in the other parameters, which may call tables.
     ///
     /// # Errors
-    /// A name that is reserved, not an identifier or used twice; an expression that does not
-    /// compile (the time and the state have no meaning here); definitions in a circle; a sum of different
-    /// dimensions.
-    pub fn compile<N: AsRef<str>>(definitions: &[(N, Expression)]) -> Result<Self, ParameterError> {
-        Self::with_tables(definitions, &[])
-    }
-
-    /// The same with tables that the expressions may call.
-    ///
-    /// # Errors
-    /// As [`compile`](Self::compile); a table with the name of a parameter.
-    pub fn with_tables<N: AsRef<str>>(
+    /// A name that is reserved, not an identifier, that of a table or used twice; an expression that does not compile
+    /// (the time and the state have no meaning here); definitions in a circle; a sum of different dimensions.
+    pub fn compile<N: AsRef<str>>(
         definitions: &[(N, Expression)],
         tables: &[Arc<Table>],
     ) -> Result<Self, ParameterError> {
@@ -83,11 +74,6 @@ impl Parameters {
         &self.inferred
     }
 
-    /// Indices of the definitions: each after those that it refers to, otherwise as written.
-    pub fn order(&self) -> &[usize] {
-        &self.order
-    }
-
     /// The values of all parameters, in the order of the definitions.
     ///
     /// Where `given(k)` has a value it replaces definition `k`, and what refers to it follows: a
@@ -95,21 +81,11 @@ impl Parameters {
     pub fn evaluate<S: Real>(&self, given: impl Fn(usize) -> Option<S>) -> Vec<S> {
         let mut values = vec![S::zero(); self.tapes.len()];
         for &k in &self.order {
-            let scope = Scope { parameters: &values, time: S::zero(), variables: &[] };
+            let scope = FormulaValues { parameters: &values, time: S::zero(), variables: &[] };
             values[k] = given(k).unwrap_or_else(|| self.tapes[k].evaluate(&scope));
         }
         values
     }
-}
-
-/// The order of evaluation alone: see [`Parameters::compile`], which also fails for the same reasons.
-///
-/// # Errors
-/// As [`Parameters::compile`].
-pub fn resolve<N: AsRef<str>>(
-    definitions: &[(N, Expression)],
-) -> Result<Vec<usize>, ParameterError> {
-    Parameters::compile(definitions).map(|parameters| parameters.order)
 }
 
 /// The names of the definitions.
@@ -166,32 +142,32 @@ fn index<'a, N: AsRef<str>>(
 /// Depth-first order; a circle comes back as the indices along it, the first one not repeated.
 fn order(tapes: &[Tape]) -> Result<Vec<usize>, Vec<usize>> {
     #[derive(Clone, Copy, PartialEq)]
-    enum Mark {
+    enum Visit {
         New,
         Open,
         Done,
     }
     let needs: Vec<Vec<usize>> = tapes.iter().map(|tape| tape.parameters().collect()).collect();
-    let mut marks = vec![Mark::New; tapes.len()];
+    let mut marks = vec![Visit::New; tapes.len()];
     let mut order = Vec::with_capacity(tapes.len());
     for root in 0..tapes.len() {
         // the open parameters, each with how many of its needs are looked at: no recursion, because
         // a chain may be as long as the list
-        let mut path = if marks[root] == Mark::New { vec![(root, 0)] } else { Vec::new() };
+        let mut path = if marks[root] == Visit::New { vec![(root, 0)] } else { Vec::new() };
         while let Some((k, looked_at)) = path.last_mut() {
-            marks[*k] = Mark::Open;
+            marks[*k] = Visit::Open;
             match needs[*k].get(*looked_at) {
                 None => {
-                    marks[*k] = Mark::Done;
+                    marks[*k] = Visit::Done;
                     order.push(*k);
                     path.pop();
                 }
                 Some(&next) => {
                     *looked_at += 1;
                     match marks[next] {
-                        Mark::Done => {}
-                        Mark::New => path.push((next, 0)),
-                        Mark::Open => {
+                        Visit::Done => {}
+                        Visit::New => path.push((next, 0)),
+                        Visit::Open => {
                             let circle = path.iter().map(|(k, _)| *k);
                             return Err(circle.skip_while(|k| *k != next).collect());
                         }

@@ -3,7 +3,7 @@
 use super::lexer::{Lexer, Token, TokenKind};
 use super::names::constant;
 use super::operation::{Binary, Call, Function, Relation, Unary};
-use super::tree::{Kind, Node};
+use super::tree::{Node, NodeKind};
 use super::unit::Unit;
 use super::{ExpressionError, MAX_DEPTH};
 use std::ops::Range;
@@ -19,8 +19,8 @@ pub(super) fn parse(text: &str) -> Parsed<Vec<Node>> {
 pub(super) fn parse_condition(text: &str) -> Parsed<(Vec<Node>, Option<Relation>)> {
     let mut nodes = read(text, |parser| parser.comparison())?;
     let Some(Node { kind, .. }) = nodes.last_mut() else { return Ok((nodes, None)) };
-    let Kind::Compare(relation) = *kind else { return Ok((nodes, None)) };
-    *kind = Kind::Binary(Binary::Subtract);
+    let NodeKind::Compare(relation) = *kind else { return Ok((nodes, None)) };
+    *kind = NodeKind::Binary(Binary::Subtract);
     Ok((nodes, Some(relation)))
 }
 
@@ -61,7 +61,7 @@ impl Parser<'_> {
         self.token.kind == TokenKind::Mark(mark)
     }
 
-    fn push(&mut self, kind: Kind, span: Range<usize>) -> Range<usize> {
+    fn push(&mut self, kind: NodeKind, span: Range<usize>) -> Range<usize> {
         self.nodes.push(Node { kind, span: span.clone() });
         span
     }
@@ -83,7 +83,7 @@ impl Parser<'_> {
     fn value(&mut self) -> Parsed<Range<usize>> {
         let span = self.comparison()?;
         match self.nodes.last() {
-            Some(Node { kind: Kind::Compare(_), .. }) => Err(misplaced_comparison(span)),
+            Some(Node { kind: NodeKind::Compare(_), .. }) => Err(misplaced_comparison(span)),
             _ => Ok(span),
         }
     }
@@ -102,13 +102,15 @@ impl Parser<'_> {
             )
             .hint("nest one if inside another".to_string()));
         }
-        Ok(self.push(Kind::Compare(relation), left.start..right.end))
+        Ok(self.push(NodeKind::Compare(relation), left.start..right.end))
     }
 
     /// The subtree read last is an operand; a comparison in parentheses cannot be.
     fn require_number(&self, span: &Range<usize>) -> Parsed<()> {
         match self.nodes.last() {
-            Some(Node { kind: Kind::Compare(_), .. }) => Err(misplaced_comparison(span.clone())),
+            Some(Node { kind: NodeKind::Compare(_), .. }) => {
+                Err(misplaced_comparison(span.clone()))
+            }
             _ => Ok(()),
         }
     }
@@ -125,7 +127,7 @@ impl Parser<'_> {
             self.advance()?;
             let right = operand(self)?;
             self.require_number(&right)?;
-            left = self.push(Kind::Binary(operation), left.start..right.end);
+            left = self.push(NodeKind::Binary(operation), left.start..right.end);
         }
         Ok(left)
     }
@@ -147,7 +149,7 @@ impl Parser<'_> {
         let operand = self.nested(Self::unary)?;
         self.require_number(&operand)?;
         let span = sign.start..operand.end;
-        Ok(if negative { self.push(Kind::Unary(Unary::Negate), span) } else { span })
+        Ok(if negative { self.push(NodeKind::Unary(Unary::Negate), span) } else { span })
     }
 
     fn power(&mut self) -> Parsed<Range<usize>> {
@@ -159,13 +161,13 @@ impl Parser<'_> {
         self.advance()?;
         let exponent = self.nested(Self::unary)?;
         self.require_number(&exponent)?;
-        Ok(self.push(Kind::Binary(Binary::Power), base.start..exponent.end))
+        Ok(self.push(NodeKind::Binary(Binary::Power), base.start..exponent.end))
     }
 
     fn primary(&mut self) -> Parsed<Range<usize>> {
         match &self.token.kind {
             TokenKind::Number(value) => {
-                let kind = Kind::Number(*value);
+                let kind = NodeKind::Number(*value);
                 let span = self.advance()?.span;
                 Ok(self.push(kind, span))
             }
@@ -212,7 +214,7 @@ impl Parser<'_> {
             None if self.at('(') => return self.nested(|parser| parser.call(&name, None, span)),
             None => {}
         }
-        Ok(self.push(Kind::Name(name), span))
+        Ok(self.push(NodeKind::Name(name), span))
     }
 
     /// A call of a function of the language, or of a table, which the compiler looks up.
@@ -234,15 +236,15 @@ impl Parser<'_> {
         }
         let span = span.start..self.close(&open)?.end;
         let kind = match function {
-            None => Kind::Call(name.to_string(), count),
+            None => NodeKind::Call(name.to_string(), count),
             Some(function) if count != function.arguments.len() => {
                 return Err(wrong_count(name, function.arguments, count, span));
             }
             Some(function) => match function.call {
-                Call::Unary(operation) => Kind::Unary(operation),
-                Call::Binary(operation) => Kind::Binary(operation),
-                Call::If => Kind::If,
-                Call::Step5 => Kind::Step5,
+                Call::Unary(operation) => NodeKind::Unary(operation),
+                Call::Binary(operation) => NodeKind::Binary(operation),
+                Call::If => NodeKind::If,
+                Call::Step5 => NodeKind::Step5,
             },
         };
         Ok(self.push(kind, span))
@@ -254,7 +256,7 @@ impl Parser<'_> {
         }
         let span = self.comparison()?;
         match self.nodes.last() {
-            Some(Node { kind: Kind::Compare(_), .. }) => Ok(()),
+            Some(Node { kind: NodeKind::Compare(_), .. }) => Ok(()),
             _ => Err(ExpressionError::new(span, "the first argument of if must be a condition")
                 .hint("such as x > 0; conditions are <, <=, > and >=".to_string())),
         }
@@ -286,7 +288,7 @@ impl Parser<'_> {
     fn number_before(&self, end: usize) -> Option<(f64, Range<usize>)> {
         let end = self.text[..end].trim_end().len();
         self.nodes.iter().rev().find_map(|node| match node.kind {
-            Kind::Number(value) if node.span.end == end => Some((value, node.span.clone())),
+            NodeKind::Number(value) if node.span.end == end => Some((value, node.span.clone())),
             _ => None,
         })
     }

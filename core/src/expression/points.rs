@@ -11,7 +11,7 @@ pub(super) const SI: Unit =
 pub enum Outside {
     /// None: a law that reads it there has no value.
     Refuse,
-    /// That of the nearest end.
+    /// The value at the nearest end.
     Hold,
     /// The tangent at the nearest end.
     Linear,
@@ -22,7 +22,7 @@ impl Outside {
     pub const ALL: [(Self, &'static str); 3] =
         [(Self::Refuse, "refuse"), (Self::Hold, "hold"), (Self::Linear, "linear")];
 
-    /// From its name in a file.
+    /// The value with this name in a file.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|(_, known)| *known == name).map(|(outside, _)| outside)
     }
@@ -58,7 +58,7 @@ pub struct TableError {
     pub field: &'static str,
     /// The number in a list at fault, from 0.
     pub entry: Option<usize>,
-    /// What is wrong.
+    /// Description of the fault.
     pub message: String,
     /// Remedy.
     pub hint: Option<String>,

@@ -4,7 +4,7 @@
 //! tree was read from, and always readable again.
 
 use super::operation::{Binary, Call, Unary};
-use super::tree::{Kind, Node};
+use super::tree::{Node, NodeKind};
 
 /// How tightly the outermost operation of a text binds, after the rules of the grammar.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -49,24 +49,26 @@ pub(super) fn print(text: &str, nodes: &[Node]) -> String {
 
 fn piece(node: &Node, written: &str, operands: Vec<Piece>) -> Piece {
     match &node.kind {
-        Kind::Number(_) | Kind::Name(_) => Piece::new(written.to_string(), Binding::Primary),
-        Kind::Unary(Unary::Negate) => {
+        NodeKind::Number(_) | NodeKind::Name(_) => {
+            Piece::new(written.to_string(), Binding::Primary)
+        }
+        NodeKind::Unary(Unary::Negate) => {
             Piece::new(join("-", operands, &[Binding::Unary]), Binding::Unary)
         }
-        Kind::Unary(operation) => call(Call::Unary(*operation).name(), operands),
-        Kind::Binary(operation) => match infix(*operation) {
+        NodeKind::Unary(operation) => call(Call::Unary(*operation).name(), operands),
+        NodeKind::Binary(operation) => match infix(*operation) {
             Some((own, left, right)) => {
                 Piece::new(join(operation.mark(), operands, &[left, right]), own)
             }
             None => call(Call::Binary(*operation).name(), operands),
         },
-        Kind::Compare(relation) => {
+        NodeKind::Compare(relation) => {
             let text = join(relation.mark(), operands, &[Binding::Sum, Binding::Sum]);
             Piece::new(text, Binding::Comparison)
         }
-        Kind::If => call(Call::If.name(), operands),
-        Kind::Step5 => call(Call::Step5.name(), operands),
-        Kind::Call(name, _) => call(name, operands),
+        NodeKind::If => call(Call::If.name(), operands),
+        NodeKind::Step5 => call(Call::Step5.name(), operands),
+        NodeKind::Call(name, _) => call(name, operands),
     }
 }
 

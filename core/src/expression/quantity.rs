@@ -2,7 +2,7 @@
 
 use super::lexer::{Lexer, TokenKind};
 use super::names::is_name_part;
-use super::tree::{Kind, Node};
+use super::tree::{Node, NodeKind};
 use super::unit::{atom, meant, Unit};
 use super::ExpressionError;
 
@@ -21,7 +21,7 @@ pub(super) fn read(text: &str) -> Result<Option<(Node, Unit)>, ExpressionError> 
         Ok(unit) => match unit.scale(value) {
             Some(si) => {
                 let span = 0..text.trim_end().len();
-                Ok(Some((Node { kind: Kind::Number(si), span }, unit)))
+                Ok(Some((Node { kind: NodeKind::Number(si), span }, unit)))
             }
             None => Err(ExpressionError::new(
                 0..text.len(),

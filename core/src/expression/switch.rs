@@ -55,8 +55,8 @@ impl Piecewise {
         }
     }
 
-    /// Whether the value is C² where the piece changes. The error estimate of a step sees it then, but may miss a short
-    /// pulse.
+    /// Whether the value is C² where the piece changes. The error estimate of a step then includes it, but may miss a
+    /// short pulse.
     pub fn is_smooth(self) -> bool {
         match self {
             Self::Unary(Unary::Motion(law)) => law != MotionLaw::Harmonic,

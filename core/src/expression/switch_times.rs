@@ -10,7 +10,7 @@
 //! runs between their times, where they hold one piece.
 
 use super::tape::Values;
-use super::{Switch, Tape};
+use super::{FormulaSwitch, Tape};
 use crate::math::{Dual, Interval, Lift, Real};
 
 /// Largest number of times.
@@ -40,7 +40,7 @@ pub fn switch_times(
     search(tape, &tape.switches(), parameters, span, out)
 }
 
-/// The same for an expression of one variable, such as a curve, over this variable in place of the time.
+/// The switches of an expression of one variable, such as a curve, over this variable in place of the time.
 ///
 /// # Errors
 /// As [`switch_times`].
@@ -50,14 +50,14 @@ pub fn switch_places(
     span: [f64; 2],
     out: &mut Vec<f64>,
 ) -> Result<(), TooManySwitches> {
-    let varies = |s: Switch| Switch { time: s.time || s.state, state: false, ..s };
-    let switches: Vec<Switch> = tape.switches().into_iter().map(varies).collect();
+    let varies = |s: FormulaSwitch| FormulaSwitch { time: s.time || s.state, state: false, ..s };
+    let switches: Vec<FormulaSwitch> = tape.switches().into_iter().map(varies).collect();
     search(tape, &switches, parameters, span, out)
 }
 
 fn search(
     tape: &Tape,
-    switches: &[Switch],
+    switches: &[FormulaSwitch],
     parameters: &[f64],
     span: [f64; 2],
     out: &mut Vec<f64>,
@@ -70,7 +70,7 @@ fn search(
         for cut in cuts.windows(2) {
             let mut pieces = natural(tape, switches, parameters, middle(cut[0], cut[1]));
             pieces.truncate(k);
-            let search = Search { tape, parameters, k, pieces, switch };
+            let search = SwitchSearch { tape, parameters, k, pieces, switch };
             search.run([cut[0], cut[1]], span, &mut found)?;
         }
         times.append(&mut found);
@@ -100,9 +100,9 @@ pub fn pieces_at(tape: &Tape, parameters: &[f64], t: f64) -> Vec<f64> {
     natural(tape, &tape.switches(), parameters, t)
 }
 
-fn natural(tape: &Tape, switches: &[Switch], parameters: &[f64], t: f64) -> Vec<f64> {
+fn natural(tape: &Tape, switches: &[FormulaSwitch], parameters: &[f64], t: f64) -> Vec<f64> {
     let mut pieces = Vec::with_capacity(switches.len());
-    let values = At { tape, parameters, t, pieces: &[] };
+    let values = PieceValues { tape, parameters, t, pieces: &[] };
     tape.switch_functions(&values, |_, sigma| {
         let switch = &switches[pieces.len()];
         let state = switch.state;
@@ -117,7 +117,7 @@ fn middle(a: f64, b: f64) -> f64 {
 
 /// Values at a time, or at all times of an interval. A switch that depends on the time alone uses no variable, and an
 /// expression of one variable has it as its time.
-struct At<'a, T> {
+struct PieceValues<'a, T> {
     tape: &'a Tape,
     parameters: &'a [f64],
     t: T,
@@ -125,7 +125,7 @@ struct At<'a, T> {
     pieces: &'a [f64],
 }
 
-impl<T: Real> Values<T> for At<'_, T> {
+impl<T: Real> Values<T> for PieceValues<'_, T> {
     fn parameter(&self, k: usize) -> T {
         T::constant(self.parameters[k])
     }
@@ -142,19 +142,19 @@ impl<T: Real> Values<T> for At<'_, T> {
 }
 
 /// The search for the times of one switch, while those before it hold their pieces.
-struct Search<'a> {
+struct SwitchSearch<'a> {
     tape: &'a Tape,
     parameters: &'a [f64],
     k: usize,
     pieces: Vec<f64>,
-    switch: &'a Switch,
+    switch: &'a FormulaSwitch,
 }
 
-impl Search<'_> {
+impl SwitchSearch<'_> {
     fn sigma<T: Real>(&self, t: T) -> T {
         let Self { tape, parameters, pieces, .. } = self;
         let (mut at, mut sigma) = (0, T::zero());
-        tape.switch_functions(&At { tape, parameters, t, pieces }, |_, x| {
+        tape.switch_functions(&PieceValues { tape, parameters, t, pieces }, |_, x| {
             if at == self.k {
                 sigma = x;
             }

@@ -78,7 +78,7 @@ impl<S, V: Values<S>> Values<S> for Free<'_, V> {
 /// Values in slices: `parameters[k]` for [`Symbol::Parameter`], `variables[k]` for
 /// [`Symbol::Variable`]. An index outside its slice panics.
 #[derive(Clone, Copy, Debug)]
-pub struct Scope<'a, S> {
+pub struct FormulaValues<'a, S> {
     /// Values of the parameters.
     pub parameters: &'a [S],
     /// The time, s.
@@ -87,7 +87,7 @@ pub struct Scope<'a, S> {
     pub variables: &'a [S],
 }
 
-impl<S: Real> Values<S> for Scope<'_, S> {
+impl<S: Real> Values<S> for FormulaValues<'_, S> {
     fn parameter(&self, k: usize) -> S {
         self.parameters[k]
     }
@@ -113,8 +113,8 @@ pub struct Tape {
     pub(super) first_switch: usize,
 }
 
-/// What an observer of an evaluation sees.
-enum Seen<'a, S> {
+/// A value that the observer of an evaluation receives.
+enum Visited<'a, S> {
     /// The function of the switch with this index.
     Switch(usize, S),
     /// A table, and the place at which it is read.
@@ -123,7 +123,7 @@ enum Seen<'a, S> {
 
 /// A switch of an expression.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Switch {
+pub struct FormulaSwitch {
     /// The boundaries of its pieces.
     pub boundaries: Boundaries,
     /// Whether its function depends on the time.
@@ -159,8 +159,8 @@ impl Tape {
         mut take: impl FnMut(usize, S),
     ) {
         if self.switches > 0 {
-            self.run_shared(values, &mut |seen: Seen<'_, S>| {
-                if let Seen::Switch(k, sigma) = seen {
+            self.run_shared(values, &mut |seen: Visited<'_, S>| {
+                if let Visited::Switch(k, sigma) = seen {
                     take(k, sigma);
                 }
             });
@@ -169,7 +169,11 @@ impl Tape {
 
     /// One copy for all kinds of values and observers, because there are many of them for each scalar.
     #[inline(never)]
-    fn run_shared<S: Real>(&self, values: &dyn Values<S>, look: &mut dyn FnMut(Seen<'_, S>)) -> S {
+    fn run_shared<S: Real>(
+        &self,
+        values: &dyn Values<S>,
+        look: &mut dyn FnMut(Visited<'_, S>),
+    ) -> S {
         // a large stack of large scalars costs more to clear than a short expression to evaluate
         if self.operands <= SHORT {
             self.run::<S, _, SHORT>(values, look)
@@ -182,7 +186,7 @@ impl Tape {
     fn run<S: Real, V: Values<S> + ?Sized, const DEPTH: usize>(
         &self,
         values: &V,
-        look: &mut dyn FnMut(Seen<'_, S>),
+        look: &mut dyn FnMut(Visited<'_, S>),
     ) -> S {
         let mut stack = [S::zero(); DEPTH];
         let mut top = 0; // first free place
@@ -202,7 +206,7 @@ impl Tape {
                 }
                 Instruction::Piecewise(operation) => {
                     let (operands, piece) = (&stack[first..top], values.piece(switch));
-                    look(Seen::Switch(switch, operation.function(operands)));
+                    look(Visited::Switch(switch, operation.function(operands)));
                     switch += 1;
                     match piece.is_nan() {
                         true => operation.value(operands),
@@ -211,10 +215,10 @@ impl Tape {
                 }
                 Instruction::Table(k) => {
                     let (table, x) = (&self.tables[k], stack[first]);
-                    look(Seen::Table(table, x));
+                    look(Visited::Table(table, x));
                     if table.knots().is_some() {
                         let piece = values.piece(switch);
-                        look(Seen::Switch(switch, x));
+                        look(Visited::Switch(switch, x));
                         switch += 1;
                         match piece.is_nan() {
                             true => table.value(x),
@@ -250,7 +254,7 @@ impl Tape {
     }
 
     /// The switches of the expression, in the order of their indices.
-    pub fn switches(&self) -> Vec<Switch> {
+    pub fn switches(&self) -> Vec<FormulaSwitch> {
         let mut stack: Vec<[bool; 3]> = Vec::new(); // time, state, table
         let mut switches = Vec::with_capacity(self.switches);
         let any = |all: &[[bool; 3]]| -> [bool; 3] {
@@ -260,7 +264,7 @@ impl Tape {
             let operands = stack.split_off(stack.len() - instruction.operands());
             if let Some((boundaries, arguments, smooth)) = self.switch_of(instruction) {
                 let [time, state, table] = any(&operands[..arguments]);
-                switches.push(Switch { boundaries, time, state, table, smooth });
+                switches.push(FormulaSwitch { boundaries, time, state, table, smooth });
             }
             stack.push(match instruction {
                 Instruction::Load(Symbol::Time) => [true, false, false],
@@ -312,8 +316,8 @@ impl Tape {
     /// Why the expression has no value, if a table is read outside its range.
     pub fn refusal(&self, values: &impl Values<f64>) -> Option<String> {
         let mut reason = None;
-        self.run_shared(values, &mut |seen: Seen<'_, f64>| {
-            if let Seen::Table(table, x) = seen {
+        self.run_shared(values, &mut |seen: Visited<'_, f64>| {
+            if let Visited::Table(table, x) = seen {
                 reason = reason.take().or_else(|| table.refusal(x));
             }
         });

@@ -9,13 +9,13 @@ use std::ops::Range;
 /// One node, with the bytes of the text that it and its operands were read from.
 #[derive(Clone, Debug)]
 pub(super) struct Node {
-    pub kind: Kind,
+    pub kind: NodeKind,
     pub span: Range<usize>,
 }
 
 /// The kind of a node; an operation takes as many of the preceding subtrees as it has operands.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Kind {
+pub(super) enum NodeKind {
     /// A number, SI.
     Number(f64),
     /// A name without its backticks.
@@ -34,7 +34,7 @@ pub(super) enum Kind {
     Call(String, usize),
 }
 
-impl Kind {
+impl NodeKind {
     /// The number of subtrees that it takes.
     pub fn operands(&self) -> usize {
         match self {

@@ -138,7 +138,7 @@ const fn electric(numerator: f64, denominator: f64, [m, kg, s, a]: [i8; 4]) -> U
 }
 
 /// The units that products are made of. `t` is the time, not the tonne; `Hz` is left out because
-/// it does not say whether cycles or radians are meant.
+/// it leaves open whether cycles or radians are counted.
 pub const UNITS: &[(&str, Unit)] = &[
     // length
     ("m", unit(1.0, 1.0, 1, 0, 0)),
@@ -302,7 +302,7 @@ fn product(word: &str, most: usize) -> Option<String> {
         _ if most == 1 => return None,
         _ => {}
     }
-    // in `Nms` the metre and the second are meant, not the millisecond
+    // `Nms` contains the metre and the second, not the millisecond
     if let Some(first) = word.strip_suffix("ms").filter(|first| atom(first).is_some()) {
         return Some(format!("{first}*m*s"));
     }

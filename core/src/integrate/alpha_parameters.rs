@@ -1,4 +1,4 @@
-//! Parameters of the generalized-α method and what follows from them.
+//! Parameters of the generalized-α method, and the coefficients that follow from them.
 //!
 //! ```text
 //! q₁ = q₀ + h v₀ + h² ((½ - β) a₀ + β a₁)          v₁ = v₀ + h ((1 - γ) a₀ + γ a₁)
@@ -13,13 +13,13 @@
 /// α_m, α_f, β and γ; β and γ are those of order 2 with the largest damping of high frequencies.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AlphaParameters {
-    /// Of the accelerations.
+    /// Shift of the accelerations.
     pub alpha_m: f64,
-    /// Of the forces.
+    /// Shift of the forces.
     pub alpha_f: f64,
-    /// Newmark's.
+    /// Newmark's parameter.
     pub beta: f64,
-    /// Newmark's.
+    /// Newmark's parameter.
     pub gamma: f64,
 }
 
@@ -41,9 +41,10 @@ impl AlphaParameters {
         Self::of_order_two(0.0, -alpha)
     }
 
-    /// Those of first-order states z with the same spectral radius ρ = (1 - x) / (1 + x), x = α_f - α_m, where z and
-    /// z′ take the places of v and v̇ (Jansen, Whiting and Hulbert, *A generalized-α method for integrating the filtered
-    /// Navier–Stokes equations with a stabilized finite element method*, Comput. Methods Appl. Mech. Eng. 190 (2000) 305).
+    /// The parameters for first-order states z with the same spectral radius ρ = (1 - x) / (1 + x), x = α_f - α_m,
+    /// where z and z′ take the places of v and v̇ (Jansen, Whiting and Hulbert, *A generalized-α method for
+    /// integrating the filtered Navier–Stokes equations with a stabilized finite element method*, Comput. Methods
+    /// Appl. Mech. Eng. 190 (2000) 305).
     pub fn of_states(&self) -> Self {
         let x = self.alpha_f - self.alpha_m;
         Self::of_order_two(0.5 - x, 0.5 * (1.0 - x))
@@ -54,12 +55,12 @@ impl AlphaParameters {
         self.alpha_m - self.alpha_f
     }
 
-    /// Of the local error of q, C h³ v̈: C = 1/6 - β - Δ/2.
+    /// Coefficient C of the local error of q, C h³ v̈: C = 1/6 - β - Δ/2.
     pub fn position_error(&self) -> f64 {
         1.0 / 6.0 - self.beta - 0.5 * self.shift()
     }
 
-    /// Of the local error of v, C h³ v⃛. With a = v̇(t + Δ h) + κ h² v⃛, where κ follows from the last of
+    /// Coefficient C of the local error of v, C h³ v⃛. With a = v̇(t + Δ h) + κ h² v⃛, where κ follows from the last of
     /// the equations above, C = 1/6 - (Δ² + 2 Δ γ + γ)/2 - κ.
     pub fn velocity_error(&self) -> f64 {
         let (shift, gamma) = (self.shift(), self.gamma);

@@ -80,13 +80,13 @@ impl Carried {
 /// State and memory of a run.
 pub(super) struct AlphaStep {
     pub parameters: AlphaParameters,
-    /// Those of first-order states.
+    /// The parameters for first-order states.
     pub of_states: AlphaParameters,
     /// The beginning: q, v on the constraints, a = v̇.
     pub start: ImplicitState,
     /// The end: q, v of the method, a = v̇.
     pub end: ImplicitState,
-    /// Of v, and of z.
+    /// The carried derivatives of v and of z.
     pub carried: [Carried; 2],
     /// (v of the method - v) / h² at the beginning.
     pub normal: Vec<f64>,

@@ -95,7 +95,7 @@ fn together(step: &Step<'_>) -> f64 {
     TOGETHER * f64::EPSILON * step.t.abs().max(step.t_old.abs())
 }
 
-/// By time, and at one time by function.
+/// Sorts by time, and at one time by function.
 fn sort(step: &Step<'_>, crossings: &mut [Crossing]) {
     let sign = (step.t - step.t_old).signum();
     crossings.sort_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)));
@@ -111,14 +111,14 @@ type Sample = (f64, Vec<f64>);
 
 /// A change of sign between two times.
 #[derive(Clone, Copy, Debug)]
-struct Change {
+struct SignChange {
     index: usize,
     old: Point,
     new: Point,
     rising: bool,
 }
 
-impl Change {
+impl SignChange {
     /// Whether the function has changed at a value between the two times.
     fn is_past(&self, value: f64) -> bool {
         if self.rising {
@@ -219,9 +219,9 @@ impl<'a, 'b> Sampled<'a, 'b> {
         points: &[Point],
         direction: Direction,
         most: usize,
-    ) -> Vec<Change> {
+    ) -> Vec<SignChange> {
         let between = |old: Point, new: Point| {
-            direction.counts(old.1, new.1).map(|rising| Change { index, old, new, rising })
+            direction.counts(old.1, new.1).map(|rising| SignChange { index, old, new, rising })
         };
         let mut found = Vec::new();
         for k in 1..points.len() {
@@ -246,8 +246,8 @@ impl<'a, 'b> Sampled<'a, 'b> {
     }
 
     /// The time just past a change.
-    fn close(&mut self, change: &Change) -> Crossing {
-        let Change { index, old, new, .. } = *change;
+    fn close(&mut self, change: &SignChange) -> Crossing {
+        let SignChange { index, old, new, .. } = *change;
         if new.1 == 0.0 {
             return change.at(new.0);
         }
@@ -257,9 +257,12 @@ impl<'a, 'b> Sampled<'a, 'b> {
         change.at(bracket.close(4.0 * spacing, |t| sign * self.at(t)[index]))
     }
 
-    /// Samples just before and just past the earliest change. A change is closed in only if it comes before those found
+    /// Samples just before and just past the earliest change. A change is located only if it comes before those found
     /// so far, which few of many changes do unless they are simultaneous up to rounding errors.
-    fn earliest<'c>(&mut self, changes: impl Iterator<Item = &'c Change>) -> Option<[Sample; 2]> {
+    fn earliest<'c>(
+        &mut self,
+        changes: impl Iterator<Item = &'c SignChange>,
+    ) -> Option<[Sample; 2]> {
         let sign = (self.step.t - self.step.t_old).signum();
         let mut around: Option<[Sample; 2]> = None;
         for change in changes {
@@ -278,7 +281,7 @@ impl<'a, 'b> Sampled<'a, 'b> {
     /// The changes that come first, without those of a function after `until` of its index.
     fn first(
         &mut self,
-        mut changes: Vec<Change>,
+        mut changes: Vec<SignChange>,
         until: &dyn Fn(usize) -> Option<f64>,
     ) -> Vec<Crossing> {
         let mut limit: Option<Sample> = None;
@@ -294,7 +297,7 @@ impl<'a, 'b> Sampled<'a, 'b> {
     }
 
     /// The changes up to the earliest one that ends the step, and shortly after it.
-    fn up_to(&mut self, [before, first]: &[Sample; 2], changes: &[Change]) -> Vec<Crossing> {
+    fn up_to(&mut self, [before, first]: &[Sample; 2], changes: &[SignChange]) -> Vec<Crossing> {
         let sign = (self.step.t - self.step.t_old).signum();
         let after = self.sample(first.0 + sign * NEAR * together(self.step));
         let mut found = Vec::new();
@@ -310,7 +313,7 @@ impl<'a, 'b> Sampled<'a, 'b> {
     }
 
     /// Whether a function has changed at a sample.
-    fn has_changed(&self, change: &Change, (t, row): &Sample) -> bool {
+    fn has_changed(&self, change: &SignChange, (t, row): &Sample) -> bool {
         let sign = (self.step.t - self.step.t_old).signum();
         let (from, to) = (sign * change.old.0, sign * change.new.0);
         sign * t > from && (sign * t >= to || change.is_past(row[change.index]))

@@ -14,11 +14,11 @@ use crate::math::Complex;
 /// Lengths of the parts of a DAE.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct DaeLengths {
-    /// Of q, v and v′.
+    /// Number of components of q, v and v′.
     pub coordinates: usize,
-    /// Of λ.
+    /// Number of components of λ.
     pub multipliers: usize,
-    /// Of z.
+    /// Number of components of z.
     pub states: usize,
     /// Number of quadratures.
     pub quadratures: usize,
@@ -104,21 +104,21 @@ pub struct DaeRates<'a> {
 /// with K and D the derivatives of the balance of forces by q and v, and B that of Φ_q v + Φ_t by q.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewtonCoefficients<F = f64> {
-    /// Of M.
+    /// Factor of M.
     pub mass: F,
-    /// Of D.
+    /// Factor of D.
     pub damping: F,
-    /// Of K.
+    /// Factor of K.
     pub stiffness: F,
-    /// Of B.
+    /// Factor of B.
     pub rate: F,
-    /// Of Q_z.
+    /// Factor of Q_z.
     pub state_force: F,
-    /// Of f_v.
+    /// Factor of f_v.
     pub state_velocity: F,
-    /// Of f_q.
+    /// Factor of f_q.
     pub state_position: F,
-    /// Of f_z.
+    /// Factor of f_z.
     pub state_rate: F,
 }
 
@@ -151,7 +151,7 @@ pub trait Dae {
     /// Factorises the matrix with the last tangent. Returns false if it is singular; a shorter step may help.
     fn factor(&mut self, coefficients: NewtonCoefficients) -> bool;
 
-    /// The same with complex coefficients; both factors are kept.
+    /// Factorises the matrix with complex coefficients; both factors are kept.
     fn factor_complex(&mut self, coefficients: NewtonCoefficients<Complex>) -> bool;
 
     /// Solves with the real factors, in place; (q part, z part, λ part).

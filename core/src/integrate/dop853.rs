@@ -13,15 +13,12 @@
 //! without: one evaluation less than scipy's for every step that is rejected.
 
 use super::dop853_coefficients::*;
-use super::failure::Cause;
-use super::ode::Ode;
-use super::runge_kutta::RungeKutta;
+use super::runge_kutta::{RungeKutta, TrialStages};
 use super::stages::{rows, rows_mut, sum_at, Block};
 use super::step_control::StepControl;
 use super::step_placement::Gap;
 use super::step_size::Control;
-use super::tolerances::Tolerances;
-use super::trial::Trial;
+use super::tolerances::Squares;
 use std::borrow::Cow;
 
 /// DOP853 with its options.
@@ -32,7 +29,7 @@ pub struct Dop853 {
 }
 
 impl Dop853 {
-    /// With the given tolerances and no bounds.
+    /// The method with these tolerances and no bounds on steps.
     pub fn new(rtol: f64, atol: f64) -> Self {
         Self { control: StepControl::new(rtol, atol) }
     }
@@ -46,7 +43,7 @@ const DEGREE: usize = 7;
 
 /// Coefficients of θ … θ⁷ of each stage, and of the jump of a projection.
 const TABLE: [f64; (ALL + 1) * DEGREE] = table(true);
-/// The same with three of the seven parts: the cubic Hermite polynomial.
+/// The interpolant with three of its seven parts: the cubic Hermite polynomial.
 const HERMITE: [f64; (ALL + 1) * DEGREE] = table(false);
 
 /// The parts of the extension, θ, θ (1-θ), θ² (1-θ), θ² (1-θ)² …, by powers of θ.
@@ -115,12 +112,12 @@ impl RungeKutta for Dop853 {
         Cow::Borrowed(&self.control)
     }
 
-    fn advance<Y: Ode>(
-        trial: &mut Trial<'_, '_, Y>,
+    fn advance<T: TrialStages>(
+        trial: &mut T,
         k: &mut [Block],
         y_new: &mut [Block],
-    ) -> Result<(), Cause<Y::Stop>> {
-        let [k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12] = rows_mut(k, trial.y.len());
+    ) -> Result<(), T::Stop> {
+        let [k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12] = rows_mut(k, trial.width());
         trial.stage(C[0], A2, [k1], k2)?;
         trial.stage(C[1], A3, [k1, k2], k3)?;
         trial.stage(C[2], A4, [k1, k3], k4)?;
@@ -132,11 +129,11 @@ impl RungeKutta for Dop853 {
         trial.stage(C[8], A10, [k1, k4, k5, k6, k7, k8, k9], k10)?;
         trial.stage(C[9], A11, [k1, k4, k5, k6, k7, k8, k9, k10], k11)?;
         trial.stage(C[10], A12, [k1, k4, k5, k6, k7, k8, k9, k10, k11], k12)?;
-        trial.end(B, [k1, k6, k7, k8, k9, k10, k11, k12], y_new)
+        trial.end(1.0, B, [k1, k6, k7, k8, k9, k10, k11, k12], y_new)
     }
 
-    fn extend<Y: Ode>(trial: &mut Trial<'_, '_, Y>, k: &mut [Block]) -> Result<(), Cause<Y::Stop>> {
-        let rows = rows_mut(k, trial.y.len());
+    fn extend<T: TrialStages>(trial: &mut T, k: &mut [Block]) -> Result<(), T::Stop> {
+        let rows = rows_mut(k, trial.width());
         let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12, k13, k14, k15, k16] = rows;
         trial.stage(C_EXTRA[0], A14, [k1, k7, k8, k9, k10, k11, k12, k13], k14)?;
         trial.stage(C_EXTRA[1], A15, [k1, k6, k7, k8, k11, k12, k13, k14], k15)?;
@@ -144,19 +141,16 @@ impl RungeKutta for Dop853 {
         trial.finite(k16)
     }
 
-    fn error_norm(
-        h: f64,
-        k: &[Block],
-        states: (&[Block], &[Block]),
-        tolerances: &Tolerances,
-    ) -> f64 {
-        let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12] = rows(k, states.0.len());
+    fn error_squares<N: Squares>(k: &[Block], states: [&[Block]; 2], norm: &N) -> [N::Sum; 2] {
+        let [k1, _, _, _, _, k6, k7, k8, k9, k10, k11, k12] = rows(k, states[0].len());
         let k = [k1, k6, k7, k8, k9, k10, k11, k12];
-        let [fifth, third] = tolerances.squares(states, |i| [sum_at(i, E5, k), sum_at(i, E3, k)]);
+        norm.squares(states, |i| [sum_at(i, E5, k), sum_at(i, E3, k)])
+    }
+
+    fn error_norm(h: f64, [fifth, third]: [f64; 2], components: f64) -> f64 {
         if fifth == 0.0 && third == 0.0 {
             return 0.0;
         }
-        let controlled = tolerances.controlled as f64;
-        h.abs() * fifth / ((fifth + 0.01 * third) * controlled).sqrt()
+        h.abs() * fifth / ((fifth + 0.01 * third) * components).sqrt()
     }
 }

@@ -6,7 +6,7 @@ use super::failure::Cause;
 use super::implicit_state::ImplicitState;
 use super::implicit_steps::ImplicitSteps;
 use super::right_hand_side::all_finite;
-use super::statistics::Statistics;
+use super::statistics::StepCounts;
 use super::step_control::StepControl;
 use super::step_size::{initial_step, probing_step};
 use crate::math::Complex;
@@ -14,7 +14,7 @@ use crate::math::Complex;
 /// A DAE with the counts of its evaluations.
 pub(super) struct CountedDae<'a, Y> {
     pub system: &'a mut Y,
-    pub counts: Statistics,
+    pub counts: StepCounts,
 }
 
 impl<Y: Dae> CountedDae<'_, Y> {
@@ -25,7 +25,7 @@ impl<Y: Dae> CountedDae<'_, Y> {
         self.system.accelerate(t, at, out).map_err(|error| Cause::Equations { t, error })
     }
 
-    /// The same where it has to be finite.
+    /// The derivative of a state, which must be finite.
     pub fn begin(&mut self, t: f64, state: &mut ImplicitState) -> Result<(), Cause<Y::Stop>> {
         self.accelerate(t, state)?;
         match [&state.a, &state.lam, &state.dz].into_iter().all(|x| all_finite(x)) {

@@ -1,6 +1,6 @@
 //! Where a function of the state changes sign within a step.
 //!
-//! The root is bracketed by the ends of the step and closed in by the method of Chandrupatla (*A new
+//! The root is bracketed by the ends of the step and located by the method of Chandrupatla (*A new
 //! hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function without using
 //! derivatives*, Adv. Eng. Softw. 28 (1997) 145): inverse quadratic where that is safe, else bisection.
 
@@ -34,7 +34,7 @@ impl Direction {
 /// Time within `step` at which g(t, y) changes sign, just past the change: g has its new sign (or is
 /// zero) there, and the change is at most `tolerance` before. `None` if g has the same sign at both ends
 /// or begins at zero (that root belongs to the step before); of several changes one is found, and an
-/// even number of them goes unseen.
+/// even number of them is missed.
 ///
 /// `y` is scratch, as long as the state, and afterwards holds the state at the time found. `tolerance`
 /// is absolute, in units of t, and never below four spacings of numbers.
@@ -95,7 +95,7 @@ pub(super) struct Bracket {
 }
 
 impl Bracket {
-    /// Closes in until the sides are `tolerance` apart; returns the new side.
+    /// Shortens the bracket to `tolerance`; returns its new side.
     pub fn close(mut self, tolerance: f64, mut g: impl FnMut(f64) -> f64) -> f64 {
         let mut part = 0.5;
         let (mut a, mut b) = (self.new, self.old);
@@ -111,7 +111,7 @@ impl Bracket {
             let kept = if old_side { self.new } else { self.old };
             *(if old_side { &mut self.old } else { &mut self.new }) = latest;
             (a, b) = (latest, kept);
-            // half the tolerance past an estimate, so that both sides close in on the root
+            // half the tolerance past an estimate, so that both sides approach the root
             let least = 0.5 * tolerance / (b.0 - a.0).abs();
             part = inverse_quadratic(a, b, replaced).unwrap_or(0.5).max(least).min(1.0 - least);
         }

@@ -3,22 +3,24 @@
 //! With the elementary control it takes the same steps as `scipy.integrate.solve_ivp`, so that counts of steps can be
 //! compared.
 
+use super::explicit_work::{Accepted, InterpolantLevel, Work};
 use super::failure::Cause;
 use super::fixed_step::Grid;
 use super::hermite_birkhoff::HermiteBirkhoff;
+#[cfg(not(target_arch = "wasm32"))]
+use super::lane_steps::SideBySide;
 use super::ode::Ode;
 use super::right_hand_side::RightHandSide;
 use super::runge_kutta::RungeKutta;
-use super::stages::{combine, room, row_mut, rows_mut, width, Block};
-use super::statistics::Statistics;
+use super::stages::{combine, row_mut, rows_mut};
+use super::statistics::StepCounts;
 use super::step::Step;
 use super::step_control::StepControl;
 use super::step_placement::StepPlacement;
 use super::step_size::{initial_step, least_step, probing_step, StepSize};
 use super::stepper::{BoxedStepper, ExplicitMethod, Stepper};
-use super::tolerances::Tolerances;
 use super::trial::Trial;
-use crate::math::Lanes;
+use crate::math::{Lanes, Real};
 use std::marker::PhantomData;
 
 /// Number of rejected steps that ends a run; half of max_steps if that is more.
@@ -27,80 +29,30 @@ const MANY: usize = 10_000;
 /// Relative error of a step beyond which projection is not trusted to remove it.
 const FAR: f64 = 1e-1;
 
-/// Memory of a stepper.
-pub(super) struct Work {
-    /// Blocks in a row.
-    pub width: usize,
-    /// Stages, extra ones, the jump of a projection over h, the derivative after a projection if it is not
-    /// the last stage.
-    pub k: Vec<Block>,
-    /// The state at the beginning of the step.
-    pub y: Vec<Block>,
-    /// The state at its end.
-    pub y_new: Vec<Block>,
-    /// Arguments of stages; the state before a projection.
-    pub trial: Vec<Block>,
-    /// Tangent parts of the stages.
-    tangential: Vec<Block>,
-    tolerances: Tolerances,
-    /// The interpolant of systems of second order, for methods whose own takes extra stages.
-    pub hermite_birkhoff: Option<HermiteBirkhoff>,
-}
-
-impl Work {
-    fn new<P: RungeKutta>(system: &impl Ode, control: &StepControl, initial: &[f64]) -> Self {
-        let (n, structure) = (system.len(), system.structure());
-        assert_eq!(structure.total(), n, "the structure of all components");
-        let second_order = structure.positions > 0 && !P::DOUBLE_QUADRATURE.is_empty();
-        let mut y = room(1, n);
-        y.as_flattened_mut()[..n].copy_from_slice(initial);
-        Self {
-            width: width(n),
-            k: room(P::STAGES + P::EXTRA + 2, n),
-            y,
-            y_new: room(1, n),
-            trial: room(1, n),
-            tangential: Vec::new(),
-            tolerances: Tolerances::new(control.rtol, &control.atol, structure.controlled()),
-            hermite_birkhoff: second_order.then(|| HermiteBirkhoff::new(structure)),
-        }
-    }
-}
-
-/// The last accepted step.
+/// A trial step: its end, and whether the end of the run shortens it.
 #[derive(Clone, Copy)]
-pub(super) struct Accepted {
-    pub t: f64,
-    pub projected: bool,
-    pub interpolant: Prepared,
-}
-
-/// How far the interpolant of a step is prepared.
-#[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Prepared {
-    /// By the stages of the step alone.
-    Plain,
-    /// With the extra stages of the method.
-    Extended,
-    /// By one evaluation inside the step.
-    HermiteBirkhoff,
+pub(super) struct Proposal {
+    pub t_new: f64,
+    pub shortened: bool,
 }
 
 /// The state of an integration by the method `P`.
 pub(super) struct ExplicitStepper<P> {
-    control: StepControl,
+    pub(super) control: StepControl,
     /// The ends of constant steps.
-    grid: Option<Grid>,
-    pub n: usize,
+    pub(super) grid: Option<Grid>,
+    pub(super) n: usize,
     /// The beginning of the step.
-    pub t: f64,
-    t_end: f64,
+    pub(super) t: f64,
+    pub(super) t_end: f64,
     /// The step to try next, once the first derivative was evaluated.
-    size: Option<StepSize>,
-    pub accepted: Option<Accepted>,
-    counts: Statistics,
-    placement: StepPlacement,
-    pub work: Work,
+    pub(super) size: Option<StepSize>,
+    pub(super) accepted: Option<Accepted>,
+    pub(super) counts: StepCounts,
+    pub(super) placement: StepPlacement,
+    /// Whether the last trial was rejected, so that the next one belongs to the same step.
+    pub(super) rejected_before: bool,
+    pub(super) work: Work,
     method: PhantomData<P>,
 }
 
@@ -122,8 +74,9 @@ impl<P: RungeKutta> ExplicitMethod for P {
             t_end,
             size: None,
             accepted: None,
-            counts: Statistics::default(),
+            counts: StepCounts::default(),
             placement: StepPlacement::default(),
+            rejected_before: false,
             method: PhantomData,
         }))
     }
@@ -172,13 +125,19 @@ impl<P: RungeKutta, Y: Ode> Stepper<Y, Y::Stop> for ExplicitStepper<P> {
         }
         (self.t, self.size, self.accepted) = (t, None, None);
         self.placement = StepPlacement::default();
+        self.rejected_before = false;
         self.work.y.as_flattened_mut()[..self.n].copy_from_slice(y);
         self.work.hermite_birkhoff.iter_mut().for_each(HermiteBirkhoff::forget);
         Ok(())
     }
 
-    fn statistics(&self) -> Statistics {
+    fn statistics(&self) -> StepCounts {
         self.counts
+    }
+
+    #[cfg(not(target_arch = "wasm32"))]
+    fn side_by_side(&mut self) -> Option<&mut dyn SideBySide> {
+        Some(self)
     }
 }
 
@@ -200,7 +159,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         self.size = Some(size);
         let (t, projected) = taken?;
         self.counts.steps += 1;
-        let accepted = Accepted { t, projected, interpolant: Prepared::Plain };
+        let accepted = Accepted { t, projected, interpolant: InterpolantLevel::Plain };
         self.measure(accepted);
         self.accepted = Some(accepted);
         Ok(())
@@ -221,9 +180,9 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         Ok(StepSize::new(first, P::ERROR_ORDER, P::CONTROL))
     }
 
-    fn check_counts<E>(&self, size: &StepSize) -> Result<(), Cause<E>> {
+    pub(super) fn check_counts<E>(&self, size: &StepSize) -> Result<(), Cause<E>> {
         let Some(most) = self.control.max_steps else { return Ok(()) };
-        let Statistics { steps, rejected, .. } = self.counts;
+        let StepCounts { steps, rejected, .. } = self.counts;
         if steps >= most {
             return Err(Cause::MaxSteps { steps });
         }
@@ -260,7 +219,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         let d0 = tolerances.norm(y, |i| Lanes::new(y[i]));
         let d1 = tolerances.norm(y, |i| Lanes::new(f0[i]));
         let h0 = probing_step(d0, d1, interval);
-        combine(y, h0 * direction, [1.0], [f0], trial);
+        combine(y, Lanes::constant(h0 * direction), [1.0], [f0], trial);
         match rhs.at(self.t + h0 * direction, trial, f1) {
             Ok(()) => {}
             // the probe left the domain: begin with it as a step, which rejection shortens
@@ -277,22 +236,13 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         rhs: &mut RightHandSide<'_, Y>,
         size: &mut StepSize,
     ) -> Result<(f64, bool), Cause<Y::Stop>> {
-        let (t, direction) = (self.t, self.direction());
-        let least = least_step(t, direction);
-        size.begin(least, self.control.max_step);
-        self.placement.begin();
-        size.control = self.placement.control(P::CONTROL);
+        self.begin_trials(size);
         let mut refusal = None;
         loop {
-            if size.size < least {
-                return Err(refusal.unwrap_or(Cause::StepTooSmall { t, h: size.size }));
-            }
-            let mut t_new = t + size.size * direction;
-            let shortened = direction * (t_new - self.t_end) > 0.0;
-            if shortened {
-                t_new = self.t_end;
-            }
-            let h = t_new - t;
+            let Some(Proposal { t_new, shortened }) = self.proposal(size) else {
+                return Err(refusal.unwrap_or(Cause::StepTooSmall { t: self.t, h: size.size }));
+            };
+            let h = t_new - self.t;
             let trial = self.attempt(rhs, t_new).map(|norm| self.tangential(rhs, norm, h));
             let norm = trial.as_ref().map_or(f64::NAN, |norm| *norm);
             let at_best = self.placement.at_best(norm, self.control.rtol);
@@ -302,9 +252,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
                 _ if placed.is_some() => size.size = placed.unwrap_or(size.size),
                 Ok(norm) if norm < 1.0 || at_best => match self.settle(rhs, t_new)? {
                     Ok(projected) => {
-                        let wanted = if shortened { size.size } else { 0.0 };
-                        size.accept(h.abs(), norm);
-                        size.size = self.placement.resume(size.size).max(wanted);
+                        self.resize(size, Proposal { t_new, shortened }, norm);
                         return Ok((t_new, projected));
                     }
                     Err(cause) => {
@@ -328,6 +276,38 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         }
     }
 
+    /// Prepares the step size for the trials of a step.
+    pub(super) fn begin_trials(&mut self, size: &mut StepSize) {
+        if !std::mem::take(&mut self.rejected_before) {
+            size.begin(least_step(self.t, self.direction()), self.control.max_step);
+            self.placement.begin();
+            size.control = self.placement.control(P::CONTROL);
+        }
+    }
+
+    /// The trial step of the present size; None if it is too small.
+    pub(super) fn proposal(&self, size: &StepSize) -> Option<Proposal> {
+        let direction = self.direction();
+        if size.size < least_step(self.t, direction) {
+            return None;
+        }
+        let t_new = self.t + size.size * direction;
+        let shortened = direction * (t_new - self.t_end) > 0.0;
+        Some(Proposal { t_new: if shortened { self.t_end } else { t_new }, shortened })
+    }
+
+    /// The size of the next step after an accepted one.
+    pub(super) fn resize(
+        &self,
+        size: &mut StepSize,
+        Proposal { t_new, shortened }: Proposal,
+        norm: f64,
+    ) {
+        let wanted = if shortened { size.size } else { 0.0 };
+        size.accept((t_new - self.t).abs(), norm);
+        size.size = self.placement.resume(size.size).max(wanted);
+    }
+
     /// The step to try instead of that to `t_new`, so that no stage is near a time to avoid.
     fn placed<Y: Ode>(&mut self, rhs: &mut RightHandSide<'_, Y>, t_new: f64) -> Option<f64> {
         let avoid = rhs.system.times_to_avoid()?.next(t_new)?;
@@ -344,7 +324,8 @@ impl<P: RungeKutta> ExplicitStepper<P> {
     ) -> Result<f64, Cause<Y::Stop>> {
         self.advance(rhs, t_new)?;
         let Work { k, y, y_new, tolerances, .. } = &self.work;
-        let norm = P::error_norm(t_new - self.t, k, (y, y_new), tolerances);
+        let squares = P::error_squares(k, [y, y_new], tolerances);
+        let norm = P::error_norm(t_new - self.t, squares, tolerances.components());
         Ok(self.placement.strictness() * norm)
     }
 
@@ -383,7 +364,8 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         if !rows.all(|dy| manifold.project_error(&mut dy.as_flattened_mut()[..self.n])) {
             return norm;
         }
-        let left = P::error_norm(h, tangential, (y, y_new), tolerances);
+        let squares = P::error_squares(tangential, [y, y_new], tolerances);
+        let left = P::error_norm(h, squares, tolerances.components());
         norm.min(self.placement.strictness() * left)
     }
 }

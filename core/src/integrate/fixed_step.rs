@@ -7,7 +7,7 @@ use super::failure::Cause;
 pub(super) struct Grid {
     t0: f64,
     t_end: f64,
-    /// With the sign of the direction.
+    /// The step, with the sign of the direction.
     step: f64,
     /// Number of steps.
     count: usize,

@@ -37,12 +37,12 @@ pub struct GeneralizedAlpha {
 }
 
 impl GeneralizedAlpha {
-    /// With step control and no bounds on steps.
+    /// The method with step control and no bounds on steps.
     pub fn new(parameters: AlphaParameters, rtol: f64, atol: f64) -> Self {
         Self { parameters, control: StepControl::new(rtol, atol) }
     }
 
-    /// With a constant step, and Newton's iteration to `rtol` and `atol`.
+    /// The method with a constant step, and Newton's iteration to `rtol` and `atol`.
     pub fn constant(parameters: AlphaParameters, step: f64, rtol: f64, atol: f64) -> Self {
         let control = StepControl { step: Some(step), ..StepControl::new(rtol, atol) };
         Self { parameters, control }
@@ -57,7 +57,7 @@ impl GeneralizedAlpha {
 }
 
 /// The state between the steps.
-struct State {
+struct AlphaProgress {
     step: AlphaStep,
     /// The step to try, once the derivative at the start is known.
     size: Option<StepSize>,
@@ -72,12 +72,12 @@ impl ImplicitMethod for GeneralizedAlpha {
     ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>> {
         self.check()?;
         let lengths = system.lengths();
-        let state = State { step: AlphaStep::new(self.parameters, lengths), size: None };
+        let state = AlphaProgress { step: AlphaStep::new(self.parameters, lengths), size: None };
         ImplicitStepper::start(self.control.clone(), lengths, span, y, state)
     }
 }
 
-impl ImplicitScheme for State {
+impl ImplicitScheme for AlphaProgress {
     const ROWS: usize = 3;
     const DEGREE: usize = 4;
 
@@ -107,7 +107,7 @@ impl ImplicitScheme for State {
     }
 }
 
-type AlphaStepper = ImplicitStepper<State>;
+type AlphaStepper = ImplicitStepper<AlphaProgress>;
 
 impl AlphaStepper {
     /// The derivative at the start, the first step, and the initial deviations that order 2 needs.
@@ -244,7 +244,7 @@ impl AlphaStepper {
     ) -> Result<(), Cause<Y::Stop>> {
         let h = t_new - self.steps.t;
         self.method.step.project(dae, (self.steps.t, h))?;
-        let Self { method: State { step, .. }, steps, lengths, .. } = self;
+        let Self { method: AlphaProgress { step, .. }, steps, lengths, .. } = self;
         let ImplicitSteps { y, y_new, dy, rows, .. } = steps;
         if !step.finite() {
             return Err(Cause::NotFinite { t: t_new });

@@ -40,7 +40,7 @@ pub(super) struct Ends<'a> {
 }
 
 impl<'a> Ends<'a> {
-    /// Of `n` components, from states and derivatives at the beginning and at the end.
+    /// The data of `n` components: states and derivatives at the beginning and at the end.
     pub fn new(
         h: f64,
         y: [&'a [stages::Block]; 2],
@@ -135,7 +135,7 @@ impl HermiteBirkhoff {
         }
     }
 
-    /// Goes on to the next step.
+    /// Continues to the next step.
     pub fn remember(&mut self, ends: Ends<'_>) {
         self.h_before = ends.h;
         self.rates.copy_from_slice(&ends.y_old[self.positions..]);

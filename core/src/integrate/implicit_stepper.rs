@@ -6,7 +6,7 @@ use super::evaluation_counter::CountedDae;
 use super::failure::Cause;
 use super::fixed_step::Grid;
 use super::implicit_steps::ImplicitSteps;
-use super::statistics::Statistics;
+use super::statistics::StepCounts;
 use super::step::Step;
 use super::step_control::StepControl;
 use super::stepper::{BoxedStepper, Stepper};
@@ -17,7 +17,7 @@ pub(super) struct ImplicitStepper<M> {
     /// The ends of constant steps.
     pub grid: Option<Grid>,
     pub lengths: DaeLengths,
-    counts: Statistics,
+    counts: StepCounts,
     pub steps: ImplicitSteps,
     pub scale: ErrorWeights,
     pub method: M,
@@ -55,7 +55,7 @@ impl<M: ImplicitScheme> ImplicitStepper<M> {
         Ok(Box::new(Self {
             grid: control.begin(span, (y, lengths.total()), lengths.controlled())?,
             lengths,
-            counts: Statistics::default(),
+            counts: StepCounts::default(),
             steps: ImplicitSteps::new(span, y, M::ROWS),
             scale: ErrorWeights::new(&control, lengths.controlled()),
             control,
@@ -104,7 +104,7 @@ impl<M: ImplicitScheme, Y: Dae> Stepper<Y, Y::Stop> for ImplicitStepper<M> {
         Ok(())
     }
 
-    fn statistics(&self) -> Statistics {
+    fn statistics(&self) -> StepCounts {
         self.counts
     }
 }

@@ -19,7 +19,7 @@ pub(super) struct ImplicitSteps {
 }
 
 impl ImplicitSteps {
-    /// From `y` at `t0`, with so many rows of the interpolant.
+    /// Begins with `y` at `t0`; the interpolant has so many rows.
     pub fn new((t0, t_end): (f64, f64), y: &[f64], rows: usize) -> Self {
         let len = y.len();
         Self {
@@ -51,7 +51,7 @@ impl ImplicitSteps {
         assert!(self.t != self.t_end, "a step beyond t_end");
     }
 
-    /// Goes on from another state.
+    /// Continues from another state.
     pub fn restart(&mut self, t: f64, y: &[f64]) {
         (self.t, self.accepted) = (t, None);
         self.y.copy_from_slice(y);

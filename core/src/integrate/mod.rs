@@ -25,7 +25,9 @@
 //! | `step_control`, `step_size`, `fixed_step` | options of steps; choice of the step from the error; constant steps |
 //! | `events`, `crossings` | where a function of the state changes sign; several functions and changes |
 //! | `interpolant`, `hermite_birkhoff` | the state between the ends of a step; that of systems of second order |
-//! | `explicit_stepper`, `step_acceptance`, `step_placement` | the stepper of explicit methods; the end of a step; steps that avoid a time |
+//! | `explicit_stepper`, `explicit_work` | the stepper of explicit methods; its memory |
+//! | `step_acceptance`, `step_placement` | the end of a step; steps that avoid a time |
+//! | `side_by_side`, `lane_steps` | explicit steppers beside others; their steps, one in each lane |
 //! | `runge_kutta`, `rk45`, `dop853`, `rk4` | the definition of an explicit method, and three of them |
 //! | `right_hand_side`, `stages`, `tolerances` | evaluations of f, sums over stages, error norm |
 //! | `implicit_stepper` | the stepper of implicit methods |
@@ -45,6 +47,7 @@ mod error_weights;
 mod evaluation_counter;
 mod events;
 mod explicit_stepper;
+mod explicit_work;
 mod failure;
 mod fixed_step;
 mod generalized_alpha;
@@ -53,6 +56,7 @@ mod implicit_state;
 mod implicit_stepper;
 mod implicit_steps;
 mod interpolant;
+mod lane_steps;
 mod ode;
 mod radau;
 mod radau_coefficients;
@@ -61,6 +65,7 @@ mod right_hand_side;
 mod rk4;
 mod rk45;
 mod runge_kutta;
+mod side_by_side;
 mod stages;
 mod statistics;
 mod step;
@@ -83,12 +88,13 @@ pub use events::{locate, Direction};
 pub use failure::Cause;
 pub use generalized_alpha::GeneralizedAlpha;
 pub use interpolant::Interpolant;
+pub use lane_steps::{LaneOde, LaneSteps, Mask, SideBySide, Steppers, Taken};
 pub use ode::{Manifold, Ode, Structure, TimesToAvoid, TrialChanges};
 pub use radau::Radau;
 pub(crate) use right_hand_side::all_finite;
 pub use rk4::Rk4;
 pub use rk45::Rk45;
-pub use statistics::Statistics;
+pub use statistics::StepCounts;
 pub use step::{Flow, Step};
 pub use step_control::{Atol, StepControl};
 pub use stepper::{BoxedStepper, ExplicitMethod, ImplicitMethod, Stepper};

@@ -56,7 +56,7 @@ pub struct Structure {
 }
 
 impl Structure {
-    /// Of a system of `n` equations of first order.
+    /// A system of `n` equations of first order.
     pub fn first_order(n: usize) -> Self {
         Self { states: n, ..Self::default() }
     }

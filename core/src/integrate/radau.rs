@@ -45,19 +45,19 @@ pub struct Radau {
 }
 
 impl Radau {
-    /// With the given tolerances and no bounds on steps.
+    /// The method with these tolerances and no bounds on steps.
     pub fn new(rtol: f64, atol: f64) -> Self {
         Self { control: StepControl::new(rtol, atol) }
     }
 
-    /// With a constant step, and Newton's iteration to `rtol` and `atol`.
+    /// The method with a constant step, and Newton's iteration to `rtol` and `atol`.
     pub fn constant(step: f64, rtol: f64, atol: f64) -> Self {
         Self { control: StepControl { step: Some(step), ..StepControl::new(rtol, atol) } }
     }
 }
 
 /// The state between the steps.
-struct State {
+struct RadauProgress {
     step: RadauStep,
     /// Magnitude of the step to try, once the derivative at the start is known.
     size: Option<f64>,
@@ -76,12 +76,12 @@ impl ImplicitMethod for Radau {
     ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>> {
         let lengths = system.lengths();
         let step = RadauStep::new(lengths);
-        let state = State { step, size: None, keep_tangent: false, before: None };
+        let state = RadauProgress { step, size: None, keep_tangent: false, before: None };
         ImplicitStepper::start(self.control.usable(), lengths, span, y, state)
     }
 }
 
-impl ImplicitScheme for State {
+impl ImplicitScheme for RadauProgress {
     const ROWS: usize = ROWS;
     const DEGREE: usize = DEGREE;
 
@@ -112,7 +112,7 @@ impl ImplicitScheme for State {
     }
 }
 
-type RadauStepper = ImplicitStepper<State>;
+type RadauStepper = ImplicitStepper<RadauProgress>;
 
 impl RadauStepper {
     /// The derivative at the start, and the first step.
@@ -215,7 +215,7 @@ impl RadauStepper {
         span: (f64, f64),
         rejected: bool,
     ) -> Result<f64, Cause<Y::Stop>> {
-        let Self { method: State { step, .. }, scale, .. } = self;
+        let Self { method: RadauProgress { step, .. }, scale, .. } = self;
         let mut norm = step.error(dae, span, scale, false)?;
         if norm >= 1.0 && (rejected || self.method.before.is_none()) {
             norm = step.error(dae, span, scale, true)?;
@@ -251,7 +251,7 @@ impl RadauStepper {
         dae: &mut CountedDae<'_, Y>,
         t_new: f64,
     ) -> Result<(), Cause<Y::Stop>> {
-        let Self { method: State { step, .. }, steps, lengths, .. } = self;
+        let Self { method: RadauProgress { step, .. }, steps, lengths, .. } = self;
         let ImplicitSteps { t, y, y_new, dy, rows, .. } = steps;
         let (h, n, len) = (t_new - *t, lengths.coordinates, lengths.total());
         step.evaluate(dae, (*t, h)); // for the powers

@@ -45,8 +45,8 @@ pub(super) const T_INVERSE: [[f64; 3]; 3] = [
     [0.502_872_634_945_786_8, -2.571_926_949_855_605, 0.596_039_204_828_224_9],
 ];
 
-/// Of the error estimate, the difference from an embedded method of order 3: factors of the stages
-/// beside h f(y₀) over the real eigenvalue.
+/// Factors of the stages in the error estimate, beside h f(y₀) over the real eigenvalue. The estimate is the difference
+/// from an embedded method of order 3.
 pub(super) const ERROR: [f64; 3] =
     [(-13.0 - 7.0 * ROOT) / (3.0 * REAL), (-13.0 + 7.0 * ROOT) / (3.0 * REAL), -1.0 / (3.0 * REAL)];
 

@@ -52,7 +52,7 @@ pub(super) struct RadauStep {
     pub stages: [ImplicitState; 3],
     /// (v - v₀, z - z₀) at the stages.
     increments: [Vec<f64>; 3],
-    /// Those of the step before, for the prediction, and its length.
+    /// Increments of the step before, for the prediction.
     increments_before: [Vec<f64>; 3],
     lam_before: [Vec<f64>; 3],
     h_before: Option<f64>,
@@ -371,7 +371,7 @@ impl RadauStep {
     }
 }
 
-/// Of the matrix for an eigenvalue, `step` being h over it.
+/// Coefficients of the matrix for an eigenvalue; `step` is h over the eigenvalue.
 fn coefficients<F: Field>(step: F) -> NewtonCoefficients<F> {
     NewtonCoefficients {
         mass: F::one(),

@@ -1,15 +1,13 @@
 //! The classical Runge–Kutta method of order 4 with a constant step (Kutta, *Z. Math. Phys.* 46 (1901)
 //! 435); between steps the cubic Hermite polynomial, of order 3.
 
-use super::failure::Cause;
-use super::ode::Ode;
-use super::runge_kutta::RungeKutta;
+use super::runge_kutta::{RungeKutta, TrialStages};
 use super::stages::{rows_mut, Block};
 use super::step_control::StepControl;
 use super::step_placement::Gap;
 use super::step_size::Control;
-use super::tolerances::Tolerances;
-use super::trial::Trial;
+use super::tolerances::Squares;
+use crate::math::{Lanes, Real};
 use std::borrow::Cow;
 
 /// Classical Runge–Kutta 4 with its options.
@@ -22,7 +20,7 @@ pub struct Rk4 {
 }
 
 impl Rk4 {
-    /// With the given step and no bound on their number.
+    /// The method with this step and no bound on the number of steps.
     pub fn new(step: f64) -> Self {
         Self { control: StepControl::constant(step) }
     }
@@ -58,21 +56,25 @@ impl RungeKutta for Rk4 {
         Cow::Owned(StepControl { step, ..self.control.clone() })
     }
 
-    fn advance<Y: Ode>(
-        trial: &mut Trial<'_, '_, Y>,
+    fn advance<T: TrialStages>(
+        trial: &mut T,
         k: &mut [Block],
         y_new: &mut [Block],
-    ) -> Result<(), Cause<Y::Stop>> {
-        let [k1, k2, k3, k4] = rows_mut(k, trial.y.len());
+    ) -> Result<(), T::Stop> {
+        let [k1, k2, k3, k4] = rows_mut(k, trial.width());
         trial.stage(0.5, [0.5], [k1], k2)?;
         trial.stage(0.5, [0.5], [k2], k3)?;
         trial.stage(1.0, [1.0], [k3], k4)?;
         // by sixths, which are exact
-        trial.end_by_parts(6.0, [1.0, 2.0, 2.0, 1.0], [k1, k2, k3, k4], y_new)
+        trial.end(6.0, [1.0, 2.0, 2.0, 1.0], [k1, k2, k3, k4], y_new)
     }
 
     /// There is none: the step is constant.
-    fn error_norm(_: f64, _: &[Block], _: (&[Block], &[Block]), _: &Tolerances) -> f64 {
+    fn error_squares<N: Squares>(_: &[Block], states: [&[Block]; 2], norm: &N) -> [N::Sum; 2] {
+        norm.squares(states, |_| [Lanes::zero(); 2])
+    }
+
+    fn error_norm(_: f64, _: [f64; 2], _: f64) -> f64 {
         0.0
     }
 }

@@ -4,15 +4,12 @@
 //! (1980) 19. Extension: Shampine, *Some practical Runge–Kutta formulas*, Math. Comp. 46 (1986) 135,
 //! with the optimal c₆. Control: that of `scipy.integrate.RK45`.
 
-use super::failure::Cause;
-use super::ode::Ode;
-use super::runge_kutta::RungeKutta;
+use super::runge_kutta::{RungeKutta, TrialStages};
 use super::stages::{rows, rows_mut, sum_at, Block};
 use super::step_control::StepControl;
 use super::step_placement::Gap;
 use super::step_size::Control;
-use super::tolerances::Tolerances;
-use super::trial::Trial;
+use super::tolerances::Squares;
 use std::borrow::Cow;
 
 /// Dormand–Prince 5(4) with its options.
@@ -23,7 +20,7 @@ pub struct Rk45 {
 }
 
 impl Rk45 {
-    /// With the given tolerances and no bounds.
+    /// The method with these tolerances and no bounds on steps.
     pub fn new(rtol: f64, atol: f64) -> Self {
         Self { control: StepControl::new(rtol, atol) }
     }
@@ -74,30 +71,29 @@ impl RungeKutta for Rk45 {
         Cow::Borrowed(&self.control)
     }
 
-    fn advance<Y: Ode>(
-        trial: &mut Trial<'_, '_, Y>,
+    fn advance<T: TrialStages>(
+        trial: &mut T,
         k: &mut [Block],
         y_new: &mut [Block],
-    ) -> Result<(), Cause<Y::Stop>> {
-        let [k1, k2, k3, k4, k5, k6, k7] = rows_mut(k, trial.y.len());
+    ) -> Result<(), T::Stop> {
+        let [k1, k2, k3, k4, k5, k6, k7] = rows_mut(k, trial.width());
         trial.stage(C[0], A2, [k1], k2)?;
         trial.stage(C[1], A3, [k1, k2], k3)?;
         trial.stage(C[2], A4, [k1, k2, k3], k4)?;
         trial.stage(C[3], A5, [k1, k2, k3, k4], k5)?;
         trial.stage(C[4], A6, [k1, k2, k3, k4, k5], k6)?;
-        trial.end(B, [k1, k3, k4, k5, k6], y_new)?;
+        trial.end(1.0, B, [k1, k3, k4, k5, k6], y_new)?;
         trial.rate_at_end(y_new, k7)
     }
 
-    fn error_norm(
-        h: f64,
-        k: &[Block],
-        states: (&[Block], &[Block]),
-        tolerances: &Tolerances,
-    ) -> f64 {
-        let [k1, _, k3, k4, k5, k6, k7] = rows(k, states.0.len());
+    fn error_squares<N: Squares>(k: &[Block], states: [&[Block]; 2], norm: &N) -> [N::Sum; 2] {
+        let [k1, _, k3, k4, k5, k6, k7] = rows(k, states[0].len());
         let k = [k1, k3, k4, k5, k6, k7];
-        let [sum] = tolerances.squares(states, |i| [sum_at(i, E, k)]);
-        h.abs() * tolerances.mean(sum).sqrt()
+        let [sum] = norm.squares(states, |i| [sum_at(i, E, k)]);
+        [sum, sum]
+    }
+
+    fn error_norm(h: f64, [sum, _]: [f64; 2], components: f64) -> f64 {
+        h.abs() * (sum / components).sqrt()
     }
 }

@@ -1,13 +1,10 @@
 //! The definition of an explicit Runge–Kutta method.
 
-use super::failure::Cause;
-use super::ode::Ode;
 use super::stages::Block;
 use super::step_control::StepControl;
 use super::step_placement::Gap;
 use super::step_size::Control;
-use super::tolerances::Tolerances;
-use super::trial::Trial;
+use super::tolerances::Squares;
 use std::borrow::Cow;
 
 /// An explicit Runge–Kutta method that has the derivative at the end of a step as its last stage.
@@ -39,22 +36,66 @@ pub(super) trait RungeKutta: 'static {
 
     /// The stages after the first, which is given, in rows of `k`, the last one only if it is
     /// [`LAST_IN_ERROR`](Self::LAST_IN_ERROR); the state at the end into `y_new`.
-    fn advance<Y: Ode>(
-        trial: &mut Trial<'_, '_, Y>,
+    fn advance<T: TrialStages>(
+        trial: &mut T,
         k: &mut [Block],
         y_new: &mut [Block],
-    ) -> Result<(), Cause<Y::Stop>>;
+    ) -> Result<(), T::Stop>;
 
     /// The extra stages of an accepted step, in the rows of `k` after the others.
-    fn extend<Y: Ode>(_: &mut Trial<'_, '_, Y>, _k: &mut [Block]) -> Result<(), Cause<Y::Stop>> {
+    fn extend<T: TrialStages>(_: &mut T, _k: &mut [Block]) -> Result<(), T::Stop> {
         Ok(())
     }
 
-    /// √(mean (errorᵢ / scaleᵢ)²) over the components that count; `states` are y and y_new.
-    fn error_norm(
-        h: f64,
-        k: &[Block],
-        states: (&[Block], &[Block]),
-        tolerances: &Tolerances,
-    ) -> f64;
+    /// The sums of squares of which [`error_norm`](Self::error_norm) is made; `states` are y and y_new.
+    fn error_squares<N: Squares>(k: &[Block], states: [&[Block]; 2], norm: &N) -> [N::Sum; 2];
+
+    /// √(mean (errorᵢ / scaleᵢ)²) over the components that count, from the sums of their squares.
+    fn error_norm(h: f64, squares: [f64; 2], components: f64) -> f64;
+}
+
+/// The evaluations of a trial step, of one state or of one in each lane.
+pub(super) trait TrialStages {
+    /// The reason for which a trial ends early.
+    type Stop;
+
+    /// Blocks in a row.
+    fn width(&self) -> usize;
+
+    /// out = f(t + c h, y + h Σₛ aₛ kₛ). The result is checked to be finite only in the sums that use it: the last of
+    /// the stages k must be the one before, with a weight that is not zero.
+    ///
+    /// # Errors
+    /// Those of f, and a sum that is not finite.
+    fn stage<const S: usize>(
+        &mut self,
+        c: f64,
+        a: [f64; S],
+        k: [&[Block]; S],
+        out: &mut [Block],
+    ) -> Result<(), Self::Stop>;
+
+    /// out = y + (h / divisor) Σₛ aₛ kₛ, all finite; with k as there.
+    ///
+    /// # Errors
+    /// A sum that is not finite.
+    fn end<const S: usize>(
+        &mut self,
+        divisor: f64,
+        a: [f64; S],
+        k: [&[Block]; S],
+        out: &mut [Block],
+    ) -> Result<(), Self::Stop>;
+
+    /// dy = f at the end of the step.
+    ///
+    /// # Errors
+    /// Those of f, and a derivative that is not finite.
+    fn rate_at_end(&mut self, y_new: &[Block], dy: &mut [Block]) -> Result<(), Self::Stop>;
+
+    /// Refuses the last stage if it is not finite.
+    ///
+    /// # Errors
+    /// A stage that is not finite.
+    fn finite(&self, stage: &[Block]) -> Result<(), Self::Stop>;
 }

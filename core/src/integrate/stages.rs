@@ -18,11 +18,11 @@ pub(super) fn width(n: usize) -> usize {
     n.div_ceil(Lanes::WIDTH).max(1)
 }
 
-/// out = y + h Σₛ aₛ kₛ; whether that is finite, which is known here without loading it again.
+/// out = y + h Σₛ aₛ kₛ, with h for each number of a block; whether that is finite, which is known here without loading it again.
 #[inline(always)]
 pub(super) fn combine<const S: usize>(
     y: &[Block],
-    h: f64,
+    h: Lanes,
     a: [f64; S],
     mut k: [&[Block]; S],
     out: &mut [Block],
@@ -33,7 +33,7 @@ pub(super) fn combine<const S: usize>(
     for k in &mut k {
         *k = &k[..n];
     }
-    let (h, zero) = (Lanes::constant(h), Lanes::zero());
+    let zero = Lanes::zero();
     // 0 x is zero for finite x and NaN otherwise
     let mut none = zero;
     for i in 0..n {
@@ -68,7 +68,7 @@ pub(super) fn rows<const S: usize>(k: &[Block], width: usize) -> [&[Block]; S] {
     std::array::from_fn(|s| row(k, width, s))
 }
 
-/// The same, to be written.
+/// The same components, mutable.
 #[inline(always)]
 pub(super) fn rows_mut<const S: usize>(k: &mut [Block], width: usize) -> [&mut [Block]; S] {
     // not in chunks, which begin with a division
@@ -86,7 +86,7 @@ pub(super) fn row(k: &[Block], width: usize, s: usize) -> &[Block] {
     &k[s * width..][..width]
 }
 
-/// The same, to be written.
+/// The same components, mutable.
 #[inline(always)]
 pub(super) fn row_mut(k: &mut [Block], width: usize, s: usize) -> &mut [Block] {
     &mut k[s * width..][..width]
@@ -106,7 +106,7 @@ mod tests {
             };
             let (y, k, mut out) = (rows(1.0), [rows(2.0), rows(-3.0)], room(1, n));
             let sum = |y: &[Block], k: &[Vec<Block>; 2], out: &mut [Block]| {
-                combine(y, 0.5, [4.0, 1.0], [&k[0], &k[1]], out)
+                combine(y, Lanes::constant(0.5), [4.0, 1.0], [&k[0], &k[1]], out)
             };
             assert!(sum(&y, &k, &mut out));
             assert_eq!(out.as_flattened()[..n], vec![3.5; n]);

@@ -2,7 +2,7 @@
 
 /// Counts of an integration.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Statistics {
+pub struct StepCounts {
     /// Accepted steps.
     pub steps: usize,
     /// Rejected steps.
@@ -17,7 +17,7 @@ pub struct Statistics {
     pub iterations: u32,
 }
 
-impl Statistics {
+impl StepCounts {
     /// The counts of two integrations together.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {

@@ -2,10 +2,10 @@
 
 use super::interpolant::Interpolant;
 
-/// Whether to go on after a step.
+/// Whether a run continues after a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow {
-    /// Go on.
+    /// The run continues.
     Continue,
     /// End here; a normal outcome.
     Stop,

@@ -1,9 +1,10 @@
 //! The end of an accepted step: it is projected, its derivative is evaluated, and its interpolant is prepared.
 
-use super::explicit_stepper::{Accepted, ExplicitStepper, Prepared, Work};
+use super::explicit_stepper::ExplicitStepper;
+use super::explicit_work::{Accepted, InterpolantLevel, Work};
 use super::failure::Cause;
 use super::hermite_birkhoff::{Ends, INSIDE};
-use super::interpolant::Interpolant;
+use super::interpolant::{Interpolant, HERMITE};
 use super::ode::Ode;
 use super::right_hand_side::{all_finite, RightHandSide};
 use super::runge_kutta::RungeKutta;
@@ -61,8 +62,12 @@ impl<P: RungeKutta> ExplicitStepper<P> {
             Interpolant::new(stages, Lanes::WIDTH * *width, table, P::DEGREE)
         };
         let interpolant = match (accepted.interpolant, hermite_birkhoff) {
-            (Prepared::HermiteBirkhoff, Some(it)) => it.interpolant(),
-            (Prepared::Extended, _) => table(P::TABLE),
+            (InterpolantLevel::HermiteBirkhoff, Some(it)) => it.interpolant(),
+            (InterpolantLevel::Extended, _) => table(P::TABLE),
+            (InterpolantLevel::Ends, _) => {
+                let rows = k[..3 * *width].as_flattened();
+                Interpolant::new(rows, Lanes::WIDTH * *width, &HERMITE, 4)
+            }
             _ => table(P::WITHOUT_EXTRA),
         };
         let derivatives = [0, last_row::<P>(accepted.projected)].map(|s| row(k, *width, s));
@@ -87,7 +92,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         rhs: &mut RightHandSide<'_, Y>,
     ) -> Result<(), Cause<Y::Stop>> {
         let (true, Some(accepted)) = (P::EXTRA > 0, &mut self.accepted) else { return Ok(()) };
-        if accepted.interpolant != Prepared::Plain {
+        if accepted.interpolant != InterpolantLevel::Plain {
             return Ok(());
         }
         let Work { width, k, y, y_new, trial, hermite_birkhoff, .. } = &mut self.work;
@@ -102,12 +107,12 @@ impl<P: RungeKutta> ExplicitStepper<P> {
                 let outcome = rhs.at(self.t + INSIDE * h, trial, inside);
                 outcome.map(|()| {
                     hermite_birkhoff.complete(ends, &inside.as_flattened()[..n]);
-                    Prepared::HermiteBirkhoff
+                    InterpolantLevel::HermiteBirkhoff
                 })
             }
             None => {
                 let trial = &mut Trial::new(rhs, (self.t, accepted.t), y, trial);
-                P::extend(trial, k).map(|()| Prepared::Extended)
+                P::extend(trial, k).map(|()| InterpolantLevel::Extended)
             }
         };
         match outcome {
@@ -141,7 +146,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
 
 /// The row of the derivative at the end of a step: the last stage, or behind the jump where the last stage belongs
 /// to the state before a projection.
-fn last_row<P: RungeKutta>(projected: bool) -> usize {
+pub(super) fn last_row<P: RungeKutta>(projected: bool) -> usize {
     match projected && P::LAST_IN_ERROR {
         false => P::STAGES - 1,
         true => P::STAGES + P::EXTRA + 1,

@@ -7,7 +7,7 @@ use super::fixed_step::{affordable, Grid};
 /// Absolute tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Atol {
-    /// The same for every component.
+    /// One number for every component.
     Scalar(f64),
     /// One for each controlled component.
     Each(Vec<f64>),
@@ -37,13 +37,13 @@ pub struct StepControl {
 
 /// Default tolerances (rtol, atol); atol is a part of the scale of each component.
 impl StepControl {
-    /// Of RK45, DOP853 and Radau.
+    /// Tolerances of RK45, DOP853 and Radau.
     pub const USUAL: (f64, f64) = (1e-6, 1e-9);
-    /// Of generalized-α, whose order is 2.
+    /// Tolerances of generalized-α, whose order is 2.
     pub const LOW_ORDER: (f64, f64) = (1e-4, 1e-7);
-    /// Of the automatic choice of the method.
+    /// Tolerances of the automatic choice of the method.
     pub const AUTO: (f64, f64) = (1e-8, 1e-11);
-    /// Of Newton's iteration with a constant step.
+    /// Tolerances of Newton's iteration with a constant step.
     pub const NEWTON: (f64, f64) = (1e-10, 1e-12);
 }
 
@@ -55,7 +55,7 @@ impl Default for StepControl {
 }
 
 impl StepControl {
-    /// With the given tolerances and no bounds.
+    /// Step control with these tolerances and no bounds.
     pub fn new(rtol: f64, atol: f64) -> Self {
         Self {
             rtol,
@@ -67,12 +67,12 @@ impl StepControl {
         }
     }
 
-    /// With a pair of default tolerances.
+    /// Step control with a pair of default tolerances.
     pub fn with((rtol, atol): (f64, f64)) -> Self {
         Self { atol: Atol::Scaled(atol), ..Self::new(rtol, atol) }
     }
 
-    /// With a constant step.
+    /// A constant step.
     pub fn constant(step: f64) -> Self {
         Self { step: Some(step), ..Self::with(Self::NEWTON) }
     }
@@ -101,7 +101,8 @@ impl StepControl {
         }
     }
 
-    /// The same for a stepper that continues from another state; a first step that was an option is not checked again.
+    /// Checks the options of a stepper that continues from another state. A first step that was an option is not
+    /// checked again.
     pub(super) fn restart<E>(
         &self,
         span: (f64, f64),
@@ -111,7 +112,7 @@ impl StepControl {
         Self { first_step: None, ..self.clone() }.begin(span, state, controlled)
     }
 
-    /// The same checks without a system.
+    /// Checks the options without a system.
     ///
     /// # Errors
     /// An impossible option or time; more steps than allowed.

@@ -38,7 +38,7 @@ pub(super) struct Gap {
 }
 
 /// Obstacles of a run, and the placement of the current step.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct StepPlacement {
     met: bool,
     tried: usize,
@@ -51,6 +51,11 @@ pub(super) struct StepPlacement {
 }
 
 impl StepPlacement {
+    /// Whether no obstacle was met or is being passed.
+    pub fn is_idle(&self) -> bool {
+        *self == Self::default()
+    }
+
     /// Before the first trial of a step.
     pub fn begin(&mut self) {
         let least = self.least.filter(|_| self.tried > 0);

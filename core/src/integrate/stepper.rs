@@ -6,8 +6,9 @@
 use super::dae::Dae;
 use super::events::{self, Direction};
 use super::failure::Cause;
+use super::lane_steps::SideBySide;
 use super::ode::Ode;
-use super::statistics::Statistics;
+use super::statistics::StepCounts;
 use super::step::Step;
 
 /// Advances a system `Y`, whose own errors are `E`, by one accepted step at a time.
@@ -40,7 +41,7 @@ pub trait Stepper<Y, E> {
     /// State reached.
     fn y(&self) -> &[f64];
 
-    /// Goes on from a state `y` at a time `t` within the last step, for instance after an event that changes the
+    /// Continues from a state `y` at a time `t` within the last step, for instance after an event that changes the
     /// velocities. The stepper then has two states at one time: the end of the last step and `y`.
     ///
     /// # Errors
@@ -49,14 +50,19 @@ pub trait Stepper<Y, E> {
         self.restart_until(t, y, self.t_end())
     }
 
-    /// The same, with another end of the steps.
+    /// Continues from another state, with another end of the steps.
     ///
     /// # Errors
     /// As [`restart`](Self::restart).
     fn restart_until(&mut self, t: f64, y: &[f64], t_end: f64) -> Result<(), Cause<E>>;
 
     /// Counts of all steps so far.
-    fn statistics(&self) -> Statistics;
+    fn statistics(&self) -> StepCounts;
+
+    /// The stepper as one of several that take their steps [side by side](super::LaneSteps), if its method can.
+    fn side_by_side(&mut self) -> Option<&mut dyn SideBySide> {
+        None
+    }
 
     /// Time within the last step at which g(t, y) changes sign, with the state there; see
     /// [`locate`](fn@super::locate). None if the signs at both ends are equal.

@@ -7,9 +7,9 @@ use crate::math::{Lanes, Real};
 /// Tolerances of every component.
 pub(super) struct Tolerances {
     rtol: f64,
-    /// Of the components that count; infinite behind the last.
+    /// Absolute tolerances of the components that count; infinite behind the last one.
     atol: Vec<Block>,
-    /// How many components count.
+    /// Number of components that count.
     pub controlled: usize,
 }
 
@@ -27,11 +27,39 @@ impl Tolerances {
         Self { rtol, atol: blocks, controlled }
     }
 
-    /// Σ (xᵢ / scaleᵢ)², of blocks xᵢ of several quantities; one pass over the components.
-    #[inline(always)]
-    pub fn squares<const Q: usize>(
+    /// √(Σ (xᵢ / scaleᵢ)² / n) at one state; 0 without components that count.
+    pub fn norm(&self, y: &[Block], x: impl Fn(usize) -> Lanes) -> f64 {
+        let [sum] = self.squares([y, y], |i| [x(i)]);
+        (sum / self.components()).sqrt()
+    }
+
+    /// The number of components that count, at least 1.
+    pub fn components(&self) -> f64 {
+        self.controlled.max(1) as f64
+    }
+}
+
+/// Sums of squares over the components that count.
+pub(super) trait Squares {
+    /// A sum, or one for each lane.
+    type Sum: Copy;
+
+    /// Σ (xᵢ / scaleᵢ)², of blocks xᵢ of several quantities, with the scale of the states y and y_new.
+    fn squares<const Q: usize>(
         &self,
-        (y, y_new): (&[Block], &[Block]),
+        states: [&[Block]; 2],
+        x: impl Fn(usize) -> [Lanes; Q],
+    ) -> [Self::Sum; Q];
+}
+
+impl Squares for Tolerances {
+    type Sum = f64;
+
+    /// One pass over the components, four at once.
+    #[inline(always)]
+    fn squares<const Q: usize>(
+        &self,
+        [y, y_new]: [&[Block]; 2],
         x: impl Fn(usize) -> [Lanes; Q],
     ) -> [f64; Q] {
         let n = self.atol.len();
@@ -39,27 +67,78 @@ impl Tolerances {
         let rtol = Lanes::constant(self.rtol);
         let mut sums = [Lanes::zero(); Q];
         for i in 0..n {
-            let [y, y_new] = [y[i], y_new[i]].map(|y| Lanes::new(y).abs());
-            let scale = Lanes::new(self.atol[i]).plus_product(rtol, y.max(y_new));
-            for (sum, x) in sums.iter_mut().zip(x(i)) {
-                let scaled = x / scale;
-                *sum = sum.plus_product(scaled, scaled);
-            }
+            let scale = scale([y[i], y_new[i]], (Lanes::new(self.atol[i]), rtol));
+            add_squares(&mut sums, x(i), scale);
         }
         sums.map(|sum| {
             let [a, b, c, d] = sum.to_array();
             (a + b) + (c + d)
         })
     }
+}
 
-    /// √(Σ (xᵢ / scaleᵢ)² / n) at one state; 0 without components that count.
-    pub fn norm(&self, y: &[Block], x: impl Fn(usize) -> Lanes) -> f64 {
-        let [sum] = self.squares((y, y), |i| [x(i)]);
-        self.mean(sum).sqrt()
+/// atol + rtol max(|y|, |y_new|).
+#[inline(always)]
+fn scale(states: [Block; 2], (atol, rtol): (Lanes, Lanes)) -> Lanes {
+    let [y, y_new] = states.map(|y| Lanes::new(y).abs());
+    atol.plus_product(rtol, y.max(y_new))
+}
+
+#[inline(always)]
+fn add_squares<const Q: usize>(sums: &mut [Lanes; Q], x: [Lanes; Q], scale: Lanes) {
+    for (sum, x) in sums.iter_mut().zip(x) {
+        let scaled = x / scale;
+        *sum = sum.plus_product(scaled, scaled);
+    }
+}
+
+/// The tolerances of one integration in each lane; a block contains a component of all of them.
+#[derive(Clone, Debug, Default)]
+pub struct LaneTolerances {
+    rtol: Block,
+    /// One for each component that counts.
+    atol: Vec<Block>,
+}
+
+impl LaneTolerances {
+    /// Sets those of a lane.
+    pub(super) fn set(&mut self, lane: usize, of: &Tolerances) {
+        self.rtol[lane] = of.rtol;
+        self.atol.resize(of.controlled, [f64::INFINITY; Lanes::WIDTH]);
+        for (to, atol) in self.atol.iter_mut().zip(of.atol.as_flattened()) {
+            to[lane] = *atol;
+        }
     }
 
-    /// The mean over the components that count, from the sum; 0 without them.
-    pub fn mean(&self, sum: f64) -> f64 {
-        sum / self.controlled.max(1) as f64
+    /// Copies those of a lane to another one.
+    pub fn repeat(&mut self, from: usize, to: usize) {
+        let blocks = self.atol.iter_mut().chain([&mut self.rtol]);
+        blocks.for_each(|block| block[to] = block[from]);
+    }
+
+    /// The number of components that count, at least 1.
+    pub fn components(&self) -> f64 {
+        self.atol.len().max(1) as f64
+    }
+}
+
+impl Squares for LaneTolerances {
+    type Sum = Block;
+
+    /// The same sums as for each integration alone, to the last bit: the components are added in the same order.
+    #[inline(always)]
+    fn squares<const Q: usize>(
+        &self,
+        [y, y_new]: [&[Block]; 2],
+        x: impl Fn(usize) -> [Lanes; Q],
+    ) -> [Block; Q] {
+        let rtol = Lanes::new(self.rtol);
+        let mut sums = [[Lanes::zero(); Q]; Lanes::WIDTH];
+        for (i, atol) in self.atol.iter().enumerate() {
+            let scale = scale([y[i], y_new[i]], (Lanes::new(*atol), rtol));
+            add_squares(&mut sums[i % Lanes::WIDTH], x(i), scale);
+        }
+        let [a, b, c, d] = sums;
+        std::array::from_fn(|q| ((a[q] + b[q]) + (c[q] + d[q])).to_array())
     }
 }

@@ -3,7 +3,9 @@
 use super::failure::Cause;
 use super::ode::Ode;
 use super::right_hand_side::RightHandSide;
+use super::runge_kutta::TrialStages;
 use super::stages::{combine, Block};
+use crate::math::{Lanes, Real};
 
 /// A step that is tried.
 pub(super) struct Trial<'r, 's, Y> {
@@ -20,7 +22,7 @@ pub(super) struct Trial<'r, 's, Y> {
 }
 
 impl<'r, 's, Y: Ode> Trial<'r, 's, Y> {
-    /// From y at t to t_new; `work` is scratch as long as y.
+    /// A trial from y at t to t_new; `work` is scratch memory of the length of y.
     #[inline(always)]
     pub fn new(
         rhs: &'r mut RightHandSide<'s, Y>,
@@ -30,63 +32,53 @@ impl<'r, 's, Y: Ode> Trial<'r, 's, Y> {
     ) -> Self {
         Self { rhs, t, t_new, h: t_new - t, y, work, last: t }
     }
+}
 
-    /// out = f(t + c h, y + h Σₛ aₛ kₛ). The result is checked to be finite only in the sums that use it: the last of
-    /// the stages k must be the one before, with a weight that is not zero.
+impl<Y: Ode> TrialStages for Trial<'_, '_, Y> {
+    type Stop = Cause<Y::Stop>;
+
     #[inline(always)]
-    pub fn stage<const S: usize>(
+    fn width(&self) -> usize {
+        self.y.len()
+    }
+
+    #[inline(always)]
+    fn stage<const S: usize>(
         &mut self,
         c: f64,
         a: [f64; S],
         k: [&[Block]; S],
         out: &mut [Block],
-    ) -> Result<(), Cause<Y::Stop>> {
+    ) -> Result<(), Self::Stop> {
         debug_assert!(a[S - 1] != 0.0, "what the stage before is like shows here alone");
-        if !combine(self.y, self.h, a, k, self.work) {
+        if !combine(self.y, Lanes::constant(self.h), a, k, self.work) {
             return Err(Cause::NotFinite { t: self.last });
         }
         self.last = self.t + c * self.h;
         self.rhs.unchecked(self.last, self.work, out)
     }
 
-    /// out = y + h Σₛ aₛ kₛ, all finite; with k as there.
     #[inline(always)]
-    pub fn end<const S: usize>(
-        &mut self,
-        a: [f64; S],
-        k: [&[Block]; S],
-        out: &mut [Block],
-    ) -> Result<(), Cause<Y::Stop>> {
-        match combine(self.y, self.h, a, k, out) {
-            true => Ok(()),
-            false => Err(Cause::NotFinite { t: self.last }),
-        }
-    }
-
-    /// out = y + (h / divisor) Σₛ aₛ kₛ, all finite.
-    #[inline(always)]
-    pub fn end_by_parts<const S: usize>(
+    fn end<const S: usize>(
         &mut self,
         divisor: f64,
         a: [f64; S],
         k: [&[Block]; S],
         out: &mut [Block],
-    ) -> Result<(), Cause<Y::Stop>> {
-        match combine(self.y, self.h / divisor, a, k, out) {
+    ) -> Result<(), Self::Stop> {
+        match combine(self.y, Lanes::constant(self.h / divisor), a, k, out) {
             true => Ok(()),
-            false => Err(Cause::NotFinite { t: self.t_new }),
+            false => Err(Cause::NotFinite { t: self.last }),
         }
     }
 
-    /// dy = f at the end of the step.
     #[inline(always)]
-    pub fn rate_at_end(&mut self, y_new: &[Block], dy: &mut [Block]) -> Result<(), Cause<Y::Stop>> {
+    fn rate_at_end(&mut self, y_new: &[Block], dy: &mut [Block]) -> Result<(), Self::Stop> {
         self.rhs.at(self.t_new, y_new, dy)
     }
 
-    /// Refuses the last stage if it is not finite.
     #[inline(always)]
-    pub fn finite(&self, stage: &[Block]) -> Result<(), Cause<Y::Stop>> {
+    fn finite(&self, stage: &[Block]) -> Result<(), Self::Stop> {
         self.rhs.finite(self.last, stage)
     }
 }

@@ -34,7 +34,7 @@ struct Reader<'a> {
 }
 
 /// A named point as two formulas, as text.
-struct Written {
+struct WrittenPoint {
     name: String,
     x: String,
     y: String,
@@ -166,7 +166,7 @@ impl Reader<'_> {
         body
     }
 
-    fn ends(&mut self, through: &[Written]) -> Vec<String> {
+    fn ends(&mut self, through: &[WrittenPoint]) -> Vec<String> {
         match self.entry.get("ends") {
             Some(Value::List(items)) => {
                 let names: Vec<String> = items.iter().filter_map(text).collect();
@@ -194,7 +194,7 @@ impl Reader<'_> {
 
     /// Puts a body where it was drawn: origin midway between the first two points, x axis from the
     /// first to the second; every point drawn becomes a point of the body.
-    fn place(&mut self, body: &mut Body<Tape>, through: &[Written]) {
+    fn place(&mut self, body: &mut Body<Tape>, through: &[WrittenPoint]) {
         let [a, b, ..] = through else {
             self.report("through", "needs at least two points");
             body.points.push((String::new(), Local { x: Tape::from(1.0), y: Tape::from(0.0) }));
@@ -219,15 +219,15 @@ impl Reader<'_> {
     /// The points as formulas.
     fn points(&mut self) -> Vec<(String, Local<Tape>)> {
         let written = self.written("points");
-        let local = |w: Written, this: &mut Self| {
+        let local = |w: WrittenPoint, this: &mut Self| {
             let (x, y) = (this.compose(&w.x), this.compose(&w.y));
             (w.name, Local { x, y })
         };
         written.into_iter().map(|w| local(w, self)).collect()
     }
 
-    /// A table of points as text; checked, so that composed formulas cannot fail for its sake.
-    fn written(&mut self, key: &str) -> Vec<Written> {
+    /// A table of points as text; it is checked here, so that formulas composed of it cannot fail.
+    fn written(&mut self, key: &str) -> Vec<WrittenPoint> {
         let mut points = Vec::new();
         let items = match self.entry.get(key) {
             None => return points,
@@ -245,7 +245,7 @@ impl Reader<'_> {
                 // a stand-in, apart from the others
                 _ => (points.len().to_string(), "0".to_string()),
             };
-            points.push(Written { name: name.clone(), x, y });
+            points.push(WrittenPoint { name: name.clone(), x, y });
         }
         points
     }
@@ -312,6 +312,6 @@ fn term(value: &Value) -> String {
     }
 }
 
-fn distance(a: &Written, b: &Written) -> String {
+fn distance(a: &WrittenPoint, b: &WrittenPoint) -> String {
     format!("hypot({}-{},{}-{})", b.x, a.x, b.y, a.y)
 }

@@ -189,7 +189,7 @@ impl<S: Real> BodyShape<S> {
         Weighed { mass, center: self.place(center), inertia: mass * gyration }
     }
 
-    /// Of all pieces together.
+    /// Mass, centre and inertia of all pieces together.
     pub fn together(shapes: &[Self]) -> Weighed<S> {
         let zero = S::zero();
         let pieces: Vec<Weighed<S>> = shapes.iter().map(Self::weighed).collect();

@@ -1,4 +1,4 @@
-//! Numbers of a model that cannot be right.
+//! Checks of the numbers of a model.
 
 use super::items::Body;
 use super::model::Model;
@@ -6,7 +6,7 @@ use super::outline::Outline;
 use super::problem::Problem;
 use super::shape_checks;
 use crate::elements::Curve;
-use crate::expression::{Scope as Values, Tape};
+use crate::expression::{FormulaValues as Values, Tape};
 
 /// Longer lengths, m, have powers that overflow where positions are solved for.
 const LONGEST: f64 = 1e60;

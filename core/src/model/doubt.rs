@@ -18,7 +18,7 @@ pub struct Doubt {
 }
 
 impl Doubt {
-    /// The doubt about a value as written; None if it has no unit rad, or if it looks like rad.
+    /// The warning about a value as written; None if its unit is not rad, or if it looks like rad.
     pub fn of(value: &Value, path: &[String], unit: &str) -> Option<Self> {
         let value = match value {
             Value::Number(x) => *x,

@@ -1,4 +1,4 @@
-//! What is drawn of a body in place of a link around its points.
+//! The drawing of a body in place of a link around its points.
 
 use super::body_shape::{BodyShape, Form};
 use super::items::Body;
@@ -6,7 +6,7 @@ use super::outline::{circle, Drawn, DrawnForm};
 use crate::math::Local;
 
 impl Body {
-    /// What is drawn in place of a link: the outline, else the shapes, else nothing.
+    /// The drawing of the body in place of a link: its outline, otherwise its shapes, otherwise nothing.
     pub fn drawn(&self) -> Vec<Drawn> {
         match &self.outline {
             Some(outline) => outline.drawn(),

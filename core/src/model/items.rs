@@ -26,7 +26,7 @@ pub struct Body<S = f64> {
     pub curves: Curves<S>,
     /// The homogeneous pieces that give its mass, mass centre and inertia; none if these are given.
     pub shapes: Vec<BodyShape<S>>,
-    /// What is drawn of it; none for a link around its points, or its shapes.
+    /// Its outline; None if a link around its points, or its shapes, are drawn.
     pub outline: Option<Outline<S>>,
     /// Where it was drawn: x, y, angle; a guess for assembly.
     pub drawn: Option<[S; 3]>,
@@ -57,7 +57,7 @@ impl<S> Body<S> {
         }
     }
 
-    /// The same with the mass, mass centre and inertia of its shapes, if it has any.
+    /// The body with the mass, mass centre and inertia of its shapes, if it has any.
     pub(super) fn weighed(self) -> Self
     where
         S: Real,

@@ -62,6 +62,18 @@ pub struct Block {
     pub sign: f64,
 }
 
+impl Block {
+    /// The places of the stored entries of a row.
+    pub fn row(&self, row: usize) -> Range<usize> {
+        self.first + 3 * row..self.first + 3 * row + 3
+    }
+
+    /// The places of the stored entries of all rows; their number is that of the equations.
+    pub fn entries(&self, rows: usize) -> Range<usize> {
+        self.first..self.first + 3 * rows
+    }
+}
+
 /// The owners of coordinates of a constraint.
 #[derive(Clone, Debug)]
 pub(super) struct Touched {
@@ -214,18 +226,13 @@ impl StateLayout {
         lengths
     }
 
-    /// The place of the stored entries of row r of a block.
-    pub fn entries(block: &Block, row: usize) -> Range<usize> {
-        block.first + 3 * row..block.first + 3 * row + 3
-    }
-
     /// Position (row, column) and place of every entry of Φ_q that is not padding, in storage order.
     pub fn positions(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
         self.constraints.iter().flat_map(|slots| {
             slots.blocks.iter().flat_map(|block| {
                 let rows = slots.rows.clone().enumerate();
                 rows.flat_map(|(r, row)| {
-                    let places = Self::entries(block, r);
+                    let places = block.row(r);
                     block.columns.range().zip(places).map(move |(column, at)| (row, column, at))
                 })
             })

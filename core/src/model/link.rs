@@ -269,7 +269,7 @@ impl<'a> Linker<'a> {
     }
 }
 
-/// "did you mean …", or the list of what there is.
+/// "did you mean …", or the list of all names.
 pub fn did_you_mean(word: &str, known: &[&str], plural: &str) -> Option<String> {
     match suggest::closest(word, known.iter().copied()) {
         Some(best) => Some(format!("did you mean '{best}'?")),

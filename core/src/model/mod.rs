@@ -59,7 +59,7 @@ pub(crate) use quantity::{quantity_of, Offered};
 pub use scope::{Reach, Scope};
 pub use shape_fields::shape_tables;
 pub use size::{column_scales, row_scales, size};
-pub use switch::{Owner, Switch};
+pub use switch::{Switch, SwitchOwner};
 pub use tables::table_fields;
 pub(crate) use unit_check::ANY_UNIT;
 pub use variable::{Dependence, Variable};

@@ -5,7 +5,7 @@ use super::functions::Functions;
 use super::items::{Body, ConstraintItem, ForceItem};
 use super::layout::{StateLayout, Touched};
 use super::modes;
-use super::switch::{Owner, Switch};
+use super::switch::{Switch, SwitchOwner};
 use super::variable::Dependence;
 use crate::elements::{BodyId, Group, Mode};
 use crate::expression::{Tape, Values};
@@ -15,7 +15,7 @@ use std::sync::Arc;
 /// A planar mechanism, ready to be evaluated. Immutable.
 #[derive(Clone, Debug)]
 pub struct Model<S = f64> {
-    /// Where it came from; gives the same model over other parameters.
+    /// The linked definition, from which a model with other parameters is made.
     pub blueprint: Arc<Blueprint>,
     /// Values of the parameters.
     pub parameters: Vec<S>,
@@ -83,7 +83,7 @@ impl<S: Real> Model<S> {
                 bodies,
                 element: formula.map(value),
                 law: depends.any().then(|| {
-                    let owner = Owner::Constraint(constraints.len());
+                    let owner = SwitchOwner::Constraint(constraints.len());
                     Box::new(formula.map(&mut |tape| Switch::number(tape, owner, &mut switches)))
                 }),
                 measures_from_ground: !depends.bodies.is_empty(),
@@ -135,7 +135,7 @@ fn curve_switches<S: Real>(constraints: &mut [ConstraintItem<S>], switches: &mut
     for (k, item) in constraints.iter_mut().enumerate() {
         let breaks = item.element.curve().and_then(|on| on.curve.breaks());
         item.curve_switch = breaks.map(|breaks| {
-            switches.push(Switch::of_curve(Owner::Constraint(k), breaks));
+            switches.push(Switch::of_curve(SwitchOwner::Constraint(k), breaks));
             switches.len() - 1
         });
     }
@@ -150,7 +150,7 @@ fn forces<S: Real>(
     let items = blueprint.forces.iter().enumerate().map(|(k, (name, states, formula))| {
         let mut depends = Dependence::default();
         formula.map(&mut |tape| depends.add(tape));
-        let owner = Owner::Force(k);
+        let owner = SwitchOwner::Force(k);
         let law = depends
             .any()
             .then(|| Box::new(formula.map(&mut |tape| Switch::number(tape, owner, switches))));
@@ -179,6 +179,10 @@ impl<S> Model<S> {
     /// A joint or driver by name.
     pub fn constraint(&self, name: &str) -> Option<usize> {
         self.constraints.iter().position(|c| c.name == name)
+    }
+    /// The names of joints and drivers, by their places.
+    pub fn names_of<'a>(&self, places: impl IntoIterator<Item = &'a usize>) -> Vec<&str> {
+        places.into_iter().map(|k| self.constraints[*k].name.as_str()).collect()
     }
     /// The name of an equation, such as `C.x`; that of its joint if it has only one.
     pub fn equation_name(&self, row: usize) -> String {

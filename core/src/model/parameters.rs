@@ -49,20 +49,15 @@ pub fn values(
 }
 
 fn formula(value: &Value) -> Result<Expression, Problem> {
-    let nowhere: [&str; 0] = [];
     match value {
         Value::Number(x) if x.is_finite() => {
-            Expression::number(*x).map_err(|fault| Problem::at(&nowhere, fault.message))
+            Expression::number(*x).map_err(|fault| Problem::new(fault.message))
         }
-        Value::Number(x) => {
-            Err(Problem::at(&nowhere, format!("{x} is not a number to compute with")))
-        }
-        Value::Text(text) => Expression::parse(text).map_err(|fault| {
-            Problem::at(&nowhere, fault.message).within(fault.span).maybe_hint(fault.hint)
-        }),
+        Value::Number(x) => Err(Problem::new(format!("{x} is not a number to compute with"))),
+        Value::Text(text) => Expression::parse(text).map_err(Problem::from),
         other => {
             let message = format!("must be a number or a formula, not {}", other.noun());
-            Err(Problem::at(&nowhere, message))
+            Err(Problem::new(message))
         }
     }
 }
@@ -75,7 +70,7 @@ pub fn evaluate(
 ) -> Evaluated {
     let written: Vec<(&str, Expression)> =
         formulas.iter().map(|(name, e)| (name.as_str(), e.clone())).collect();
-    let compiled = match Parameters::with_tables(&written, tables) {
+    let compiled = match Parameters::compile(&written, tables) {
         Ok(compiled) => compiled,
         Err(fault) => {
             let at = Problem::at(&["parameters", fault.name.as_str()], fault.error.message);

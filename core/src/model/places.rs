@@ -7,7 +7,7 @@ use std::collections::HashMap;
 
 /// The places of the names of each kind.
 #[derive(Clone, Debug, Default)]
-pub(super) struct Places {
+pub(super) struct NameIndex {
     pub parameters: HashMap<String, usize>,
     pub bodies: HashMap<String, usize>,
     pub states: HashMap<String, usize>,

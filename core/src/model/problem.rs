@@ -1,5 +1,6 @@
 //! A fault of a definition, with its place and remedy.
 
+use crate::expression::ExpressionError;
 use std::fmt;
 use std::ops::Range;
 
@@ -19,22 +20,22 @@ pub struct Problem {
 }
 
 impl Problem {
+    /// A fault whose place the caller adds.
+    pub fn new(message: impl Into<String>) -> Self {
+        let message = message.into();
+        Self { path: Vec::new(), message, hint: None, within: None, at_key: false }
+    }
     /// A fault of the value at `path`.
     pub fn at<P: AsRef<str>>(path: &[P], message: impl Into<String>) -> Self {
-        Self {
-            path: path.iter().map(|p| p.as_ref().to_string()).collect(),
-            message: message.into(),
-            hint: None,
-            within: None,
-            at_key: false,
-        }
+        let path = path.iter().map(|p| p.as_ref().to_string()).collect();
+        Self { path, ..Self::new(message) }
     }
-    /// With advice.
+    /// Adds a hint.
     pub fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());
         self
     }
-    /// With advice, if there is any.
+    /// Adds a hint, if there is one.
     pub fn maybe_hint(mut self, hint: Option<String>) -> Self {
         self.hint = self.hint.or(hint);
         self
@@ -48,6 +49,13 @@ impl Problem {
     pub fn at_key(mut self) -> Self {
         self.at_key = true;
         self
+    }
+}
+
+impl From<ExpressionError> for Problem {
+    /// The fault of a formula, with the faulty bytes and the remedy.
+    fn from(fault: ExpressionError) -> Self {
+        Self::new(fault.message).within(fault.span).maybe_hint(fault.hint)
     }
 }
 

@@ -7,7 +7,7 @@ use super::blueprint::Blueprint;
 use super::definition::{Definition, Entry, Value};
 use super::items::Body;
 use super::link::Linker;
-use super::quantity_owner::{place, Formulas, Owner};
+use super::quantity_owner::{place, FormulaModel, QuantityOwner};
 use super::scope::{Quantities, Scope};
 use crate::elements::{BodyId, Constraint, Followed, ForceElement, Group, Measured, PointOn};
 use crate::expression::Tape;
@@ -21,24 +21,24 @@ pub struct Elements<'a> {
     definition: &'a Definition,
     scope: &'a Scope,
     bodies: &'a [Body<Tape>],
-    formulas: Formulas,
+    formulas: FormulaModel,
     depth: Cell<u32>,
 }
 
 impl<'a> Elements<'a> {
-    /// Of a definition with linked bodies.
+    /// The quantities of a definition with linked bodies.
     pub fn new(definition: &'a Definition, scope: &'a Scope, bodies: &'a [Body<Tape>]) -> Self {
         let turns = scope.bodies.iter().map(|(_, turns)| *turns).collect();
-        let formulas = Formulas { parameters: scope.parameters.len(), turns };
+        let formulas = FormulaModel { parameters: scope.parameters.len(), turns };
         Self { definition, scope, bodies, formulas, depth: Cell::new(0) }
     }
 
     /// The owner with this name; fields with laws are zero in it.
-    fn owner(&self, name: &str) -> Option<Owner<Tape>> {
+    fn owner(&self, name: &str) -> Option<QuantityOwner<Tape>> {
         if let Some((body, point)) = name.rsplit_once('.') {
             let body = self.scope.body(body)?;
             let s = self.bodies[body].point(point)?.clone();
-            return Some(Owner::Point(PointOn { body: BodyId(body), s }));
+            return Some(QuantityOwner::Point(PointOn { body: BodyId(body), s }));
         }
         let (group, entry) = self.entry(name)?;
         let Some(Value::Text(kind)) = entry.get("type") else { return None };
@@ -50,8 +50,8 @@ impl<'a> Elements<'a> {
         let mut fields =
             Linker::of_numbers(group, entry, self.scope, self.bodies, self, &mut faults);
         let owner = match group {
-            Group::Forces => ForceElement::read(kind, &mut fields)?.map(Owner::Force),
-            _ => Constraint::read(group, kind, &mut fields)?.map(Owner::Constraint),
+            Group::Forces => ForceElement::read(kind, &mut fields)?.map(QuantityOwner::Force),
+            _ => Constraint::read(group, kind, &mut fields)?.map(QuantityOwner::Constraint),
         };
         self.depth.set(self.depth.get() - 1);
         owner
@@ -73,7 +73,7 @@ impl<'a> Elements<'a> {
 impl Quantities for Elements<'_> {
     fn formula(&self, name: &str, rates: bool) -> Option<Tape> {
         let (owner, word) = name.rsplit_once('.')?;
-        let owner = self.owner(owner).filter(Owner::has_formulas)?;
+        let owner = self.owner(owner).filter(QuantityOwner::has_formulas)?;
         let (k, order) = place(owner.measured(), word)?;
         let highest = usize::from(rates);
         (order <= highest).then(|| self.formulas.compile(&owner, k, order).0)
@@ -81,7 +81,7 @@ impl Quantities for Elements<'_> {
 
     fn followed(&self, name: &str) -> Option<Followed<Tape>> {
         let (owner, word) = name.rsplit_once('.')?;
-        let owner = self.owner(owner).filter(Owner::has_formulas)?;
+        let owner = self.owner(owner).filter(QuantityOwner::has_formulas)?;
         let (k, order) = place(owner.measured(), word)?;
         if order > 0 {
             return None;
@@ -91,7 +91,7 @@ impl Quantities for Elements<'_> {
 
     fn gradient(&self, name: &str) -> Option<[[Tape; 3]; 2]> {
         let (owner, word) = name.rsplit_once('.')?;
-        let owner = self.owner(owner).filter(Owner::has_formulas)?;
+        let owner = self.owner(owner).filter(QuantityOwner::has_formulas)?;
         let (k, _) = place(owner.measured(), word)?;
         Some(self.formulas.gradient_of(&owner, k))
     }
@@ -138,7 +138,7 @@ pub enum Offered {
 
 /// The quantity `owner.word` of a linked model; None if no point or element has the name.
 pub fn quantity_of(blueprint: &Blueprint, owner: &str, word: &str) -> Option<Offered> {
-    let formulas = Formulas {
+    let formulas = FormulaModel {
         parameters: blueprint.parameters.len(),
         turns: blueprint.bodies.iter().map(|body| body.turns).collect(),
     };
@@ -154,11 +154,11 @@ pub fn quantity_of(blueprint: &Blueprint, owner: &str, word: &str) -> Option<Off
 }
 
 /// The owner with this name; its laws, which no quantity contains, are zero.
-fn linked(blueprint: &Blueprint, name: &str) -> Option<Owner<Tape>> {
+fn linked(blueprint: &Blueprint, name: &str) -> Option<QuantityOwner<Tape>> {
     if let Some((body, point)) = name.split_once('.') {
         let body = blueprint.body(body)?;
         let s = blueprint.bodies[body.0].point(point)?.clone();
-        return Some(Owner::Point(PointOn { body, s }));
+        return Some(QuantityOwner::Point(PointOn { body, s }));
     }
     let fixed = &mut |tape: &Tape| match tape.uses_time() || tape.uses_state() {
         true => Tape::from(0.0),
@@ -166,9 +166,9 @@ fn linked(blueprint: &Blueprint, name: &str) -> Option<Owner<Tape>> {
     };
     let mut constraints = blueprint.constraints.iter();
     if let Some((.., element)) = constraints.find(|(known, ..)| known == name) {
-        return Some(Owner::Constraint(element.map(fixed)));
+        return Some(QuantityOwner::Constraint(element.map(fixed)));
     }
     let mut forces = blueprint.forces.iter();
     let (.., element) = forces.find(|(known, ..)| known == name)?;
-    Some(Owner::Force(if element.follows() { element.clone() } else { element.map(fixed) }))
+    Some(QuantityOwner::Force(if element.follows() { element.clone() } else { element.map(fixed) }))
 }

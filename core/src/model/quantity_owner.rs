@@ -11,7 +11,7 @@ use crate::math::{Dual, Jet, Lift, Local, Pose, Real, Rotation, Twist, Vec2};
 use crate::symbolic::{record, Name, Record, Symbolic};
 
 /// An owner of quantities.
-pub(super) enum Owner<S> {
+pub(super) enum QuantityOwner<S> {
     /// A point of a body; its component x or y is measured.
     Point(PointOn<S>),
     Constraint(Constraint<S>),
@@ -24,15 +24,15 @@ const OF_POINT: [Measured; 2] = [
     Measured { names: ["y", "vy", "ay"], unit: "m" },
 ];
 
-impl<S> Owner<S> {
-    fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Owner<T> {
+impl<S> QuantityOwner<S> {
+    fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> QuantityOwner<T> {
         match self {
             Self::Point(on) => {
                 let s = Local { x: f(&on.s.x), y: f(&on.s.y) };
-                Owner::Point(PointOn { body: on.body, s })
+                QuantityOwner::Point(PointOn { body: on.body, s })
             }
-            Self::Constraint(element) => Owner::Constraint(element.map(f)),
-            Self::Force(element) => Owner::Force(element.map(f)),
+            Self::Constraint(element) => QuantityOwner::Constraint(element.map(f)),
+            Self::Force(element) => QuantityOwner::Force(element.map(f)),
         }
     }
 
@@ -61,7 +61,7 @@ impl<S> Owner<S> {
     }
 }
 
-impl<S: Real> Owner<S> {
+impl<S: Real> QuantityOwner<S> {
     /// The values of all its quantities.
     fn measure(&self, at: &At<'_, S>) -> Vec<S> {
         let mut values = vec![S::zero(); self.measured().len()];
@@ -91,13 +91,13 @@ impl<S: Real> Owner<S> {
 }
 
 /// Parameters, and the coordinates of the bodies of an owner; other laws in its fields are not read.
-struct Known<'a, S, T> {
+struct KnownValues<'a, S, T> {
     parameters: &'a [S],
     bodies: &'a [BodyId],
     poses: &'a [Pose<T>],
 }
 
-impl<S: Real, T: Lift<S>> Values<T> for Known<'_, S, T> {
+impl<S: Real, T: Lift<S>> Values<T> for KnownValues<'_, S, T> {
     fn parameter(&self, k: usize) -> T {
         T::lift(self.parameters[k])
     }
@@ -114,34 +114,34 @@ impl<S: Real, T: Lift<S>> Values<T> for Known<'_, S, T> {
 }
 
 /// An owner as symbols.
-struct Recorded<'a> {
-    owner: &'a Owner<Tape>,
+struct OwnerSymbols<'a> {
+    owner: &'a QuantityOwner<Tape>,
     parameters: Vec<Symbolic>,
     bodies: Vec<BodyId>,
     poses: Vec<Pose<Jet<Symbolic>>>,
 }
 
-impl Recorded<'_> {
+impl OwnerSymbols<'_> {
     /// Over a scalar, for poses of its bodies.
-    fn over<T: Lift<Symbolic>>(&self, poses: &[Pose<T>]) -> Owner<T> {
-        let known = Known { parameters: &self.parameters, bodies: &self.bodies, poses };
+    fn over<T: Lift<Symbolic>>(&self, poses: &[Pose<T>]) -> QuantityOwner<T> {
+        let known = KnownValues { parameters: &self.parameters, bodies: &self.bodies, poses };
         self.owner.map(&mut |tape| tape.evaluate(&known))
     }
 }
 
 /// The model in which the quantities are formulas.
-pub(super) struct Formulas {
+pub(super) struct FormulaModel {
     /// Number of its parameters.
     pub parameters: usize,
     /// Whether each body has an angle, ground first.
     pub turns: Vec<bool>,
 }
 
-impl Formulas {
+impl FormulaModel {
     /// The quantity of an owner at a place, or its rate, as a formula; and the frames of its ends.
     pub fn compile(
         &self,
-        owner: &Owner<Tape>,
+        owner: &QuantityOwner<Tape>,
         k: usize,
         order: usize,
     ) -> (Tape, [Attachment<Tape>; 2]) {
@@ -161,8 +161,8 @@ impl Formulas {
     /// Gives an owner as symbols, and the way from a symbol to a formula.
     fn recorded<R>(
         &self,
-        owner: &Owner<Tape>,
-        f: impl FnOnce(&Recorded<'_>, &dyn Fn(Symbolic) -> Tape) -> R,
+        owner: &QuantityOwner<Tape>,
+        f: impl FnOnce(&OwnerSymbols<'_>, &dyn Fn(Symbolic) -> Tape) -> R,
     ) -> R {
         record(|record| {
             let mut symbols = Vec::new();
@@ -179,13 +179,13 @@ impl Formulas {
                 .iter()
                 .map(|body| self.pose(*body, &mut |meaning| symbol(record, None, meaning)))
                 .collect();
-            let own = Recorded { owner, parameters, bodies, poses };
+            let own = OwnerSymbols { owner, parameters, bodies, poses };
             f(&own, &|x| record.tape(x, &symbols))
         })
     }
 
     /// The derivatives of the quantity of an owner at a place by x, y and angle of its bodies i and j.
-    pub fn gradient_of(&self, owner: &Owner<Tape>, k: usize) -> [[Tape; 3]; 2] {
+    pub fn gradient_of(&self, owner: &QuantityOwner<Tape>, k: usize) -> [[Tape; 3]; 2] {
         self.recorded(owner, |own, tape| {
             [0, 1].map(|seed| {
                 let pose = |(body, pose): (usize, &Pose<Jet<Symbolic>>)| {
@@ -232,11 +232,12 @@ impl Formulas {
     }
 
     /// The position quantity of an owner at a place, with the bodies between which it is measured.
-    pub fn followed(&self, owner: &Owner<Tape>, k: usize, name: &str) -> Followed<Tape> {
+    pub fn followed(&self, owner: &QuantityOwner<Tape>, k: usize, name: &str) -> Followed<Tape> {
         let (value, ends) = self.compile(owner, k, 0);
         let measured = owner.measured()[k];
         let bodies = owner.bodies();
-        if let (Owner::Point(on), Some(coordinate)) = (owner, Coordinate::named(measured.names[0]))
+        if let (QuantityOwner::Point(on), Some(coordinate)) =
+            (owner, Coordinate::named(measured.names[0]))
         {
             let zero = |s: &Tape| s.constant() == Some(0.0);
             if zero(&on.s.x) && zero(&on.s.y) {

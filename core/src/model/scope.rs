@@ -5,7 +5,7 @@ use super::definition::{Definition, Entry, Value};
 use super::doubt::Doubt;
 use super::functions::Functions;
 use super::law_faults::{ambiguity, without_formula};
-use super::places::{internals, places, Places};
+use super::places::{internals, places, NameIndex};
 use super::problem::Problem;
 use super::problems::MOST_REPORTED;
 use super::unit_check::check_unit;
@@ -35,7 +35,7 @@ pub struct Scope {
     pub units: RefCell<Vec<(usize, String)>>,
     /// Angles that were read so far and look like degrees.
     pub doubts: RefCell<Vec<Doubt>>,
-    places: Places,
+    places: NameIndex,
 }
 
 /// The first-order states of a force as written.
@@ -45,7 +45,7 @@ pub(super) fn states(entry: &Entry) -> &'static [OwnState] {
     states_of(kind, &given)
 }
 
-/// How much a formula may depend on.
+/// The quantities on which a formula may depend.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Reach {
     /// Parameters only.
@@ -216,11 +216,11 @@ impl Scope {
         bodies: Vec<(String, bool)>,
         states: Vec<String>,
     ) -> Self {
-        let places = Places {
+        let places = NameIndex {
             parameters: places(parameters.iter()),
             bodies: places(bodies.iter().map(|(name, _)| name)),
             states: places(states.iter()),
-            ..Places::default()
+            ..NameIndex::default()
         };
         Self { parameters, inferred, bodies, states, places, ..Self::default() }
     }
@@ -263,7 +263,7 @@ impl Scope {
         self.law(value, path, unit, (reach, None), problems)
     }
 
-    /// The same at a place where quantities may be used.
+    /// A formula at a place where quantities may be used.
     pub fn law(
         &self,
         value: &Value,

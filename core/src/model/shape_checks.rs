@@ -1,4 +1,4 @@
-//! Sizes and masses of shapes that cannot be right.
+//! Checks of the sizes and masses of shapes.
 
 use super::body_shape::{BodyShape, Form, Matter};
 use super::items::Body;

@@ -24,41 +24,41 @@ pub(super) struct Subpath {
 
 /// A faulty place of a path.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Fault {
+pub(super) struct PathFault {
     /// The faulty bytes of the text.
     pub span: Range<usize>,
-    /// What is wrong there.
+    /// Description of the fault.
     pub message: String,
 }
 
 /// The parts of a path as polylines.
-pub(super) fn parse(text: &str) -> Result<Vec<Subpath>, Fault> {
+pub(super) fn parse(text: &str) -> Result<Vec<Subpath>, PathFault> {
     let mut pen = Pen { lifted: true, ..Pen::default() };
     for segment in PathParser::from(text) {
         pen.follow(segment.map_err(|error| fault(text, &error))?);
     }
     let found: Vec<Subpath> = pen.parts.into_iter().filter(|part| part.points.len() > 1).collect();
     match found.is_empty() {
-        true => Err(Fault { span: 0..text.len(), message: "draws nothing".to_string() }),
+        true => Err(PathFault { span: 0..text.len(), message: "draws nothing".to_string() }),
         false => Ok(found),
     }
 }
 
-/// The place of an error, and what is wrong there.
-fn fault(text: &str, error: &Error) -> Fault {
+/// The place of an error, and its description.
+fn fault(text: &str, error: &Error) -> PathFault {
     let place = match error {
         Error::UnexpectedData(place) | Error::InvalidNumber(place) => place - 1,
         _ => usize::MAX,
     };
     let Some((start, found)) = text.char_indices().nth(place) else {
         let message = "ends before its last command has all numbers".to_string();
-        return Fault { span: text.len()..text.len(), message };
+        return PathFault { span: text.len()..text.len(), message };
     };
     if matches!(error, Error::InvalidNumber(_)) {
         let separates = |c: char| c == ',' || c.is_ascii_whitespace();
         let shown = text[start..].split(separates).next().unwrap_or_default();
         let message = format!("'{shown}' is not a number");
-        return Fault { span: start..start + shown.len(), message };
+        return PathFault { span: start..start + shown.len(), message };
     }
     let before = PathParser::from(&text[..start]).last();
     let message = match before {
@@ -68,7 +68,7 @@ fn fault(text: &str, error: &Error) -> Fault {
         }
         _ => format!("'{found}' is not a command; must be one of M L H V C S Q T A Z"),
     };
-    Fault { span: start..start + found.len_utf8(), message }
+    PathFault { span: start..start + found.len_utf8(), message }
 }
 
 /// Draws the parts.

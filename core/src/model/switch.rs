@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 /// The element to which a switch belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Owner {
+pub enum SwitchOwner {
     /// A joint or driver, by its place.
     Constraint(usize),
     /// A force, by its place.
@@ -16,7 +16,7 @@ pub enum Owner {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Switch {
     /// Its element.
-    pub owner: Owner,
+    pub owner: SwitchOwner,
     /// The boundaries of its pieces.
     pub boundaries: Boundaries,
     /// Whether its function depends on the time.
@@ -30,8 +30,8 @@ pub struct Switch {
 }
 
 impl Switch {
-    /// Of an element itself: it may depend on everything.
-    pub(super) fn of_element(owner: Owner) -> Self {
+    /// The switch of an element itself; it may depend on everything.
+    pub(super) fn of_element(owner: SwitchOwner) -> Self {
         Self {
             owner,
             boundaries: Boundaries::Zero,
@@ -42,17 +42,17 @@ impl Switch {
         }
     }
 
-    /// Of the curve of a joint, at its breaks.
-    pub(super) fn of_curve(owner: Owner, breaks: Arc<Knots>) -> Self {
+    /// The switch at the breaks of the curve of a joint.
+    pub(super) fn of_curve(owner: SwitchOwner, breaks: Arc<Knots>) -> Self {
         let boundaries = Boundaries::Knots(breaks);
         Self { owner, boundaries, time: false, state: true, law: false, smooth: false }
     }
 
     /// Adds the switches of a law to the list; returns the law with their indices.
-    pub(super) fn number(tape: &Tape, owner: Owner, switches: &mut Vec<Self>) -> Tape {
+    pub(super) fn number(tape: &Tape, owner: SwitchOwner, switches: &mut Vec<Self>) -> Tape {
         let numbered = tape.with_first_switch(switches.len());
         switches.extend(tape.switches().into_iter().map(|switch| {
-            let crate::expression::Switch { boundaries, time, state, smooth, .. } = switch;
+            let crate::expression::FormulaSwitch { boundaries, time, state, smooth, .. } = switch;
             Self { owner, boundaries, time, state, law: true, smooth }
         }));
         numbered

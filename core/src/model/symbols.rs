@@ -5,9 +5,9 @@ use crate::elements::SceneSymbol;
 use crate::expression::{Symbol, Tape, Values};
 
 /// Values of the parameters; a formula that uses more than these is not evaluated.
-struct Parameters<'a>(&'a [f64]);
+struct ParameterValues<'a>(&'a [f64]);
 
-impl Values<f64> for Parameters<'_> {
+impl Values<f64> for ParameterValues<'_> {
     fn parameter(&self, k: usize) -> f64 {
         self.0[k]
     }
@@ -24,7 +24,7 @@ impl Model {
     pub fn symbols(&self) -> Vec<(&str, Vec<SceneSymbol>)> {
         let known = |symbol: &Symbol| matches!(symbol, Symbol::Parameter(_));
         let value = &mut |tape: &Tape| match tape.symbols().iter().all(known) {
-            true => tape.evaluate(&Parameters(&self.parameters)),
+            true => tape.evaluate(&ParameterValues(&self.parameters)),
             false => f64::NAN,
         };
         let blueprint = &self.blueprint;

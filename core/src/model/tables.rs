@@ -18,7 +18,7 @@ pub fn table_fields() -> elements::Table {
               file."
             .to_string(),
         fields: vec![
-            field("x", Shape::Numbers, "Places, increasing."),
+            field("x", Shape::Numbers, "NameIndex, increasing."),
             field("y", Shape::Numbers, "Values, one for each x."),
             field(
                 "file",

@@ -32,7 +32,7 @@ impl Variable {
         }
     }
 
-    /// From the index in a formula.
+    /// The variable with this index in a formula.
     pub fn at(index: usize) -> Self {
         match index % 2 {
             0 => Self::Coordinate(BodyId(index / 12), Coordinate::ALL[index / 2 % 6]),

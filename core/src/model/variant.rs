@@ -13,7 +13,7 @@ impl Model {
     /// The same model with other values of some parameters; formulas in them follow.
     ///
     /// # Errors
-    /// Every number that cannot be right.
+    /// All numbers with impossible values.
     pub fn with_values(&self, changes: &[(String, f64)]) -> Result<Self, Vec<Problem>> {
         let (mut problems, mut blueprint) = (Vec::new(), Blueprint::clone(&self.blueprint));
         for (name, x) in changes {
@@ -35,7 +35,7 @@ impl Model {
         }
     }
 
-    /// The same model without some drivers, which other names are not.
+    /// The same model without the drivers of these names; other names are ignored.
     pub fn without(&self, drivers: &[String]) -> Self {
         let mut blueprint = Blueprint::clone(&self.blueprint);
         blueprint.constraints.retain(|(name, ..)| !drivers.contains(name));
@@ -59,7 +59,8 @@ impl Model {
 }
 
 impl Model {
-    /// The same with the modes only: multipliers of forces that hold follow the rows of the model, for reports.
+    /// The same model with the modes only, for reports: the multipliers of forces that hold follow those of the rows
+    /// of the model.
     pub fn marked(&self, modes: &[ForceMode]) -> Self {
         let blueprint = Blueprint { modes: modes.to_vec(), ..(*self.blueprint).clone() };
         Self::new(&Arc::new(blueprint), &self.parameters)

@@ -187,6 +187,19 @@ impl<S: Real> Saddle<S> {
         worst.map(|(row, lost)| (row, 1.0 / lost))
     }
 
+    /// The same ratio in each lane; 1 without rows.
+    pub fn cancellations(&self, pattern: &Pattern) -> S {
+        let mut worst = S::one();
+        for row in &pattern.program.rows {
+            let size = usize::from(row.size);
+            let (inverse, rest) = self.factors[row.diagonal as usize..].split_at(size);
+            for (inverse, magnitude) in inverse.iter().zip(rest) {
+                worst = worst.max((*inverse * *magnitude).abs());
+            }
+        }
+        S::one() / worst
+    }
+
     /// Row by row; with `RHS` the right side as well. The error is the row that depends on others.
     #[inline(never)] // with few pointers, most of them stay in registers
     fn eliminate<const RHS: bool>(&mut self, pattern: &Pattern, g: &mut [S]) -> Result<(), usize> {

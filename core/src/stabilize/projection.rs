@@ -20,16 +20,16 @@ use crate::model::{column_scales, Model};
 use crate::solve::Breakdown;
 
 /// Largest number of iterations for positions, and for velocities.
-const MOST: usize = 12;
+pub(super) const MOST: usize = 12;
 /// The same for reported states. Beside a singular position Newton's method converges linearly: each iteration divides
 /// the residual by about 4. A step would be taken anew instead, which a reported state cannot be.
 const MOST_REPORTED: usize = 60;
 /// If a chord iteration reduces the residual by less, the matrix is factorised anew.
-const SLOW: f64 = 1e-2;
+pub(super) const SLOW: f64 = 1e-2;
 /// Remainder of a step for velocities with the factor of the same state, since Φ̇ is linear in the velocities.
 const LINEAR: f64 = 1e-10;
 /// Safety factor on the measured convergence for a step that is not checked.
-const MARGIN: f64 = 10.0;
+pub(super) const MARGIN: f64 = 10.0;
 /// A residual up to this factor of the tolerance counts as rounding if Newton's step does not reduce it.
 const ROUNDING: f64 = 1e3;
 
@@ -37,7 +37,7 @@ const ROUNDING: f64 = 1e3;
 const SHARP: f64 = 1e-3;
 
 /// A larger residual never counts as rounding, even for large coordinates: the joint is open.
-const CLOSED: f64 = 1e-8;
+pub(super) const CLOSED: f64 = 1e-8;
 
 /// The options of projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,6 +113,11 @@ impl<'a, S: Real> Projector<'a, S> {
             correction: vec![S::zero(); unknowns],
             factorisations: 0,
         }
+    }
+
+    /// Its options.
+    pub fn options(&self) -> Projection {
+        Projection { tolerance: self.tolerance }
     }
 
     /// For reported states, from which no step starts. Their tolerance is relative to the fastest rate of all states:
@@ -314,8 +319,9 @@ impl<'a, S: Real> Projector<'a, S> {
             return;
         }
         self.move_bodies(&mut workspace.motions, place);
-        let omitted = workspace.matrix.omitted();
-        self.gaps = self.residuals.look(self.model, &workspace.motions, t, omitted);
+        let Workspace { motions, compiled, matrix, .. } = workspace;
+        let of = (self.model, &**compiled);
+        self.gaps = self.residuals.look(of, motions, t, matrix.omitted());
         self.known = Known::All;
     }
 

@@ -50,7 +50,7 @@ pub(super) enum Rate {
     Along(Id, Id),
     /// The derivative of its definition.
     Inline,
-    /// The same under this name, if it is a sum.
+    /// The same expression under this name, if it is a sum.
     Named(Box<Name>),
 }
 

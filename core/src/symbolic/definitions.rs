@@ -2,7 +2,7 @@
 
 use super::arena::{Arena, Id, Node, Pair, Rate};
 use super::function::Function;
-use super::name::{Axis, Kind};
+use super::name::{Axis, NameKind};
 use super::style::Form;
 
 impl Arena {
@@ -23,7 +23,7 @@ impl Arena {
     /// Parts that are made of no other part first, and the components of a vector side by side.
     pub fn definition_key(&mut self, id: Id) -> (usize, bool, String) {
         let rate = self.symbol_of(id).is_some_and(|symbol| {
-            symbol.name.kind == Kind::Part && matches!(symbol.rate, Rate::Inline)
+            symbol.name.kind == NameKind::Part && matches!(symbol.rate, Rate::Inline)
         });
         (self.depth(id), rate, self.write(id, Form::Expression))
     }

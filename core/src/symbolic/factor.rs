@@ -2,7 +2,7 @@
 
 use super::algebra::List;
 use super::arena::{Arena, Id, Node, ONE};
-use super::name::Kind;
+use super::name::NameKind;
 use super::style::Form;
 
 /// Sums are not multiplied out beyond this number of terms.
@@ -124,7 +124,7 @@ impl Arena {
     fn is_scalar(&self, (base, e): (Id, f64)) -> bool {
         let kind = self.symbol_of(base).map(|symbol| symbol.name.kind);
         e < 0.0
-            || matches!(kind, Some(Kind::Rate | Kind::Field | Kind::Time))
+            || matches!(kind, Some(NameKind::Rate | NameKind::Field | NameKind::Time))
             || matches!(self.node(base), Node::Select(_))
     }
 }

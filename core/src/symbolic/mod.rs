@@ -37,6 +37,6 @@ mod style;
 mod tape;
 
 pub(crate) use name::upright;
-pub use name::{Axis, Kind, Name};
+pub use name::{Axis, Name, NameKind};
 pub use record::{record, Differentiated, Record, Symbolic};
 pub use style::Form;

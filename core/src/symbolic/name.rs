@@ -2,7 +2,7 @@
 
 /// The kind of a name: it decides its place in a product and the order of common factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Kind {
+pub enum NameKind {
     /// A velocity.
     Rate,
     /// A constant or a given function of time.
@@ -45,7 +45,7 @@ pub struct Name {
     /// In LaTeX.
     pub latex: String,
     /// Its kind.
-    pub kind: Kind,
+    pub kind: NameKind,
     /// The component, if it is one of a vector.
     pub axis: Option<Axis>,
     /// The body that it belongs to, by position; terms of one body are written side by side.
@@ -55,16 +55,16 @@ pub struct Name {
 impl Name {
     /// A constant, written in the same way in every form.
     pub fn field(text: &str) -> Self {
-        Self::new(text, text, &upright(text), Kind::Field)
+        Self::new(text, text, &upright(text), NameKind::Field)
     }
 
     /// Time.
     pub fn time() -> Self {
-        Self::new("t", "t", "t", Kind::Time)
+        Self::new("t", "t", "t", NameKind::Time)
     }
 
     /// A name that is no component and belongs to no body.
-    pub fn new(text: &str, unicode: &str, latex: &str, kind: Kind) -> Self {
+    pub fn new(text: &str, unicode: &str, latex: &str, kind: NameKind) -> Self {
         Self {
             text: text.to_string(),
             unicode: unicode.to_string(),

@@ -2,7 +2,7 @@
 
 use super::arena::{Arena, Id, Node, Rate, Symbol};
 use super::function::Function::{self, Cos, Sin};
-use super::name::{Axis, Kind, Name};
+use super::name::{Axis, Name, NameKind};
 use std::collections::{HashMap, HashSet};
 
 /// Letters of named vectors, of a unit vector and of others.
@@ -13,28 +13,28 @@ impl Arena {
     /// The expressions with their parts named. A sum gets a name if it is a component of a vector
     /// and part of a product, a power or a function.
     pub fn name_parts(&mut self, roots: &[Id]) -> Vec<Id> {
-        let mut found = Found::default();
+        let mut found = PartsToName::default();
         for root in roots {
             found.visit(self, *root, false);
         }
         for (k, angle) in found.angles.iter().enumerate() {
             for (function, axis) in [(Cos, Axis::X), (Sin, Axis::Y)] {
                 let id = self.add(Node::Call(function, vec![*angle]));
-                self.abbreviate(id, letter(self, DIRECTION, k), axis, Kind::Direction);
+                self.abbreviate(id, letter(self, DIRECTION, k), axis, NameKind::Direction);
             }
         }
         for (axis, components) in [(Axis::X, found.x), (Axis::Y, found.y)] {
             for (k, id) in components.into_iter().enumerate() {
-                self.abbreviate(id, letter(self, VECTOR, k), axis, Kind::Part);
+                self.abbreviate(id, letter(self, VECTOR, k), axis, NameKind::Part);
             }
         }
         let mut rebuilt = HashMap::new();
         roots.iter().map(|root| self.rebuilt(*root, &mut rebuilt)).collect()
     }
 
-    fn abbreviate(&mut self, id: Id, letter: String, axis: Axis, kind: Kind) {
+    fn abbreviate(&mut self, id: Id, letter: String, axis: Axis, kind: NameKind) {
         let rate = match kind {
-            Kind::Direction => Rate::Inline,
+            NameKind::Direction => Rate::Inline,
             _ => Rate::Named(Box::new(component(&letter, axis, kind, true))),
         };
         let name = component(&letter, axis, kind, false);
@@ -72,14 +72,14 @@ impl Arena {
 
 /// Parts that are to be named, in the order of their appearance.
 #[derive(Default)]
-struct Found {
+struct PartsToName {
     seen: HashSet<Id>,
     angles: Vec<Id>,
     x: Vec<Id>,
     y: Vec<Id>,
 }
 
-impl Found {
+impl PartsToName {
     /// Goes through an expression; `nested` if it is part of a product, a power or a function.
     fn visit(&mut self, arena: &Arena, id: Id, nested: bool) {
         if nested && !self.seen.insert(id) {
@@ -109,7 +109,7 @@ impl Arena {
     /// Whether a coordinate or a turned vector is in an expression.
     fn moves(&self, id: Id) -> bool {
         match self.symbol_of(id) {
-            Some(symbol) => symbol.name.kind == Kind::Coordinate,
+            Some(symbol) => symbol.name.kind == NameKind::Coordinate,
             None => {
                 matches!(self.node(id), Node::Turned { .. })
                     || self.parts(id).into_iter().any(|part| self.moves(part))
@@ -152,7 +152,7 @@ fn letter(arena: &Arena, first: &str, k: usize) -> String {
 }
 
 /// The name of a component of a vector, or of its rate.
-fn component(letter: &str, axis: Axis, kind: Kind, rate: bool) -> Name {
+fn component(letter: &str, axis: Axis, kind: NameKind, rate: bool) -> Name {
     let (v, dot) = if rate { ("v", "\u{307}") } else { ("", "") };
     let axis_text = axis.text();
     let (first, index) = letter.split_once('_').unwrap_or((letter, ""));

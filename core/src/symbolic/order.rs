@@ -2,7 +2,7 @@
 
 use super::algebra::List;
 use super::arena::{Arena, Id, Node};
-use super::name::{Axis, Kind};
+use super::name::{Axis, NameKind};
 
 impl Arena {
     /// The terms of a sum: those of one body side by side, bodies with a positive first term first.
@@ -41,7 +41,7 @@ impl Arena {
     /// Named parts first, then body by body, what belongs to no body last.
     fn group(&self, id: Id) -> usize {
         let part = |id: Id| {
-            self.symbol_of(id).is_some_and(|symbol| matches!(symbol.name.kind, Kind::Part))
+            self.symbol_of(id).is_some_and(|symbol| matches!(symbol.name.kind, NameKind::Part))
         };
         match self.owner(id) {
             Some(owner) => owner + 1,
@@ -60,7 +60,7 @@ impl Arena {
         let axis = factors.iter().find_map(|(base, _)| self.component(*base));
         let axis = axis.map_or(2, |axis| axis as u8);
         let rank = |base: &Id| match self.symbol_of(*base).map(|symbol| symbol.name.kind) {
-            Some(Kind::Field) => u8::MAX,
+            Some(NameKind::Field) => u8::MAX,
             _ => self.rank(*base),
         };
         let rank = factors.iter().map(|(base, _)| rank(base)).max().unwrap_or(0);

@@ -178,7 +178,7 @@ impl Arena {
             &format!("{text}{number}.{axis_text}"),
             &format!("{unicode}{number}.{axis_text}"),
             &format!("a_{{{latex}{number},{axis_text}}}"),
-            super::name::Kind::Part,
+            super::name::NameKind::Part,
         );
         name.axis = Some(axis);
         name

@@ -4,7 +4,7 @@ use crate::mechanisms::{close, Random};
 use crate::samples::{constraints, terms, Participants};
 use kempe::elements::{catalogue, Constraint, Group, Shape};
 use kempe::equations::formulas::{of_element, of_type, Formulas};
-use kempe::expression::{Expression, Scope};
+use kempe::expression::{Expression, FormulaValues};
 use kempe::symbolic::Form;
 
 /// Names with their values; definitions may use those before them.
@@ -18,7 +18,7 @@ impl Table {
         let expression = Expression::parse(text).unwrap_or_else(|e| panic!("{text}: {e:?}"));
         let tape = expression.compile(self.names.as_slice());
         let tape = tape.unwrap_or_else(|e| panic!("{text}: {e:?}"));
-        tape.evaluate(&Scope { parameters: &self.values, time: f64::NAN, variables: &[] })
+        tape.evaluate(&FormulaValues { parameters: &self.values, time: f64::NAN, variables: &[] })
     }
 
     fn put(&mut self, name: &str, value: f64) {

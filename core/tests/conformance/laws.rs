@@ -5,7 +5,7 @@ use kempe::elements::BodyId;
 use kempe::equations::constraints::{jacobian, residual, velocity_terms};
 use kempe::equations::kinematics::Motions;
 use kempe::equations::reactions::{reaction, Frame};
-use kempe::model::{Model, StateLayout};
+use kempe::model::Model;
 
 /// Laws of positions and time in joints and drivers; the formulas of `rows` and the law of `free` also name positions
 /// from ground, all others relative positions only.
@@ -106,7 +106,7 @@ fn columns_are_differences() {
                     };
                     let (up, down) = (at(h), at(-h));
                     for (r, row) in slots.rows.clone().enumerate() {
-                        let stated = entries[StateLayout::entries(block, r)][c];
+                        let stated = entries[block.row(r)][c];
                         close("Φ_q", stated, (up[row] - down[row]) / (2.0 * h), 2e-8);
                     }
                 }

@@ -135,7 +135,7 @@ fn residuals_are_those_of_the_constraints() {
             .expect("a regular state");
         let motions = &workspace.motions;
         let mut residuals = Residuals::new(&model);
-        let gaps = residuals.look(&model, motions, 0.2, &[]);
+        let gaps = residuals.look((&model, &workspace.compiled), motions, 0.2, &[]);
         let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
         constraints::velocity_terms(&model, motions, 0.2, &mut phi, &mut rate, &mut gamma);
         for ((rows, expected), gap) in residuals.rows.iter().zip([&phi, &rate]).zip(gaps) {

@@ -16,7 +16,7 @@ use kempe::elements::{
     catalogue, At, BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveFormula, CurveOn,
     CurvePoints, ForceElement, Frame, Group, JointId, Linearized, Moving, Only, PointOn, Side,
 };
-use kempe::expression::{Expression, Names, Scope, Symbol, Tape};
+use kempe::expression::{Expression, FormulaValues, Names, Symbol, Tape};
 use kempe::math::{Interpolation, Local, Motion, Pose, Real, Twist, Vec2};
 
 pub fn on(body: usize, x: f64, y: f64) -> PointOn {
@@ -47,7 +47,7 @@ pub fn formula(xy: [&str; 2], range: [f64; 2], periodic: bool, values: &[f64]) -
     let names = WithU(&["a", "b"]);
     let [x, y] = xy.map(|text| Expression::parse(text).unwrap().compile(&names).unwrap());
     let curve = Curve::Formula(CurveFormula::new(x, y, range.map(Tape::from), periodic));
-    let values = Scope { parameters: values, time: f64::NAN, variables: &[] };
+    let values = FormulaValues { parameters: values, time: f64::NAN, variables: &[] };
     curve.map(&mut |tape: &Tape| tape.evaluate(&values))
 }
 

@@ -1,7 +1,7 @@
 //! Paths of equilibria over a parameter, with folds in closed form.
 
 use super::mechanisms::{close, column, model, start, Random};
-use kempe::analyses::equilibrium::{path, End, Options, Path};
+use kempe::analyses::equilibrium::{path, EquilibriumPath, Options, PathEnd};
 use kempe::analyses::State;
 use kempe::integrate::Flow;
 use kempe::model::Model;
@@ -24,7 +24,7 @@ fn over(name: &str, range: [f64; 2]) -> Options {
     Options { over: Some(name.to_string()), range: Some(range), ..Options::new() }
 }
 
-fn follow(model: &Model, start: &State, options: &Options) -> Path {
+fn follow(model: &Model, start: &State, options: &Options) -> EquilibriumPath {
     path(model, start, options, |_| Flow::Continue).unwrap_or_else(|reason| panic!("{reason}"))
 }
 
@@ -42,11 +42,11 @@ fn a_von_mises_truss_snaps_through() {
         let load = |a: f64| 2.0 * k * a.sin() * (l0 - b / a.cos());
         let top = load(angle);
         let back = follow(&m, &state, &over("load", [0.0, 1.5 * top]));
-        assert_eq!((back.end, back.folds.len()), (End::First, 1));
+        assert_eq!((back.end, back.folds.len()), (PathEnd::First, 1));
         close("the flat truss", *back.values.last().expect("an end"), 0.0, 0.0);
         close("the flat truss", back.points.last().expect("an end").state.q[1], 0.0, 1e-12);
         let found = follow(&m, &state, &over("load", [-1.5 * top, 1.5 * top]));
-        assert_eq!(found.end, End::Last);
+        assert_eq!(found.end, PathEnd::Last);
         assert_eq!(found.folds.len(), 2, "{:?}", found.values);
         let y = column(&m, "apex", 1);
         for (k, sign) in found.folds.iter().zip([1.0, -1.0]) {

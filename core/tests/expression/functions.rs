@@ -1,7 +1,7 @@
 //! Every function on every scalar: derivatives against central differences, lanes against scalars.
 
 use super::Model;
-use kempe::expression::{Expression, Scope, Tape, FUNCTIONS};
+use kempe::expression::{Expression, FormulaValues, Tape, FUNCTIONS};
 use kempe::math::{Dual, Jet, Lanes, Real};
 
 /// Texts in `a` and `b`, each with points (a, b) inside its smooth domain.
@@ -52,7 +52,7 @@ fn tape(text: &str) -> Tape {
 }
 
 fn at<S: Real>(tape: &Tape, a: S, b: S) -> S {
-    tape.evaluate(&Scope { parameters: &[a, b], time: S::zero(), variables: &[] })
+    tape.evaluate(&FormulaValues { parameters: &[a, b], time: S::zero(), variables: &[] })
 }
 
 fn assert_close(text: &str, what: &str, found: f64, expected: f64, tolerance: f64) {

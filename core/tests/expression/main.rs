@@ -10,7 +10,7 @@ mod tables;
 mod trees;
 mod units;
 
-use kempe::expression::{Expression, ExpressionError, Names, Scope, Symbol};
+use kempe::expression::{Expression, ExpressionError, FormulaValues, Names, Symbol};
 
 /// Parameters a b c d, the time, and the variables crank.x, crank.angle, crank.omega, my body.vx.
 struct Model;
@@ -34,8 +34,11 @@ impl Names for Model {
 }
 
 /// a = 2, b = 3, c = -1.5, d = 0.25; t = 0.75; crank.x = 10, angle = 20, omega = 30; vx = 40.
-const SCOPE: Scope<f64> =
-    Scope { parameters: &[2.0, 3.0, -1.5, 0.25], time: 0.75, variables: &[10.0, 20.0, 30.0, 40.0] };
+const SCOPE: FormulaValues<f64> = FormulaValues {
+    parameters: &[2.0, 3.0, -1.5, 0.25],
+    time: 0.75,
+    variables: &[10.0, 20.0, 30.0, 40.0],
+};
 
 fn value(text: &str) -> f64 {
     let expression = Expression::parse(text).unwrap_or_else(|error| panic!("{text}: {error}"));

@@ -1,6 +1,6 @@
 //! Motion laws against their accelerations, which are integrated here, and against the peaks of the literature.
 
-use kempe::expression::{Expression, MotionLaw, Scope};
+use kempe::expression::{Expression, FormulaValues, MotionLaw};
 use kempe::math::{Jet, Real};
 use std::f64::consts::PI;
 
@@ -17,7 +17,8 @@ const LAWS: [(&str, MotionLaw); 6] = [
 fn jet(text: &str, s: f64) -> [f64; 3] {
     let tape = Expression::parse(text).unwrap().compile(&["s"]).unwrap();
     let s = [Jet::new(s, 1.0, 0.0)];
-    let found: Jet = tape.evaluate(&Scope { parameters: &s, time: Jet::zero(), variables: &[] });
+    let found: Jet =
+        tape.evaluate(&FormulaValues { parameters: &s, time: Jet::zero(), variables: &[] });
     [found.value, found.rate, found.second]
 }
 

@@ -1,4 +1,4 @@
-use kempe::expression::parameters::{resolve, ParameterError, Parameters};
+use kempe::expression::parameters::{ParameterError, Parameters};
 use kempe::expression::Expression;
 use kempe::math::{Dual, Lanes};
 
@@ -7,22 +7,23 @@ fn definitions(list: &[(&str, &str)]) -> Vec<(String, Expression)> {
 }
 
 fn failure(list: &[(&str, &str)]) -> ParameterError {
-    resolve(&definitions(list)).unwrap_err()
+    Parameters::compile(&definitions(list), &[]).unwrap_err()
 }
 
 #[test]
 fn definitions_are_evaluated_after_what_they_need() {
     let list = definitions(&[("area", "w*h"), ("w", "2"), ("h", "w + 1"), ("z", "90 deg")]);
-    assert_eq!(resolve(&list).unwrap(), [1, 2, 0, 3]);
-    let values: Vec<f64> = Parameters::compile(&list).unwrap().evaluate(|_| None);
+    let values: Vec<f64> = Parameters::compile(&list, &[]).unwrap().evaluate(|_| None);
     assert_eq!(values, [6.0, 2.0, 3.0, 90.0 * (std::f64::consts::PI / 180.0)]);
-    assert!(resolve::<String>(&[]).unwrap().is_empty());
+    let none: [(String, Expression); 0] = [];
+    assert!(Parameters::compile(&none, &[]).unwrap().evaluate::<f64>(|_| None).is_empty());
 }
 
 #[test]
 fn what_depends_on_a_given_value_follows_it() {
     let parameters =
-        Parameters::compile(&definitions(&[("area", "w*h"), ("w", "2"), ("h", "w + 1")])).unwrap();
+        Parameters::compile(&definitions(&[("area", "w*h"), ("w", "2"), ("h", "w + 1")]), &[])
+            .unwrap();
     let sweep = parameters.evaluate(|k| (k == 1).then_some(Lanes::new([2.0, 3.0, -1.0, 0.0])));
     assert_eq!(sweep[0], Lanes::new([6.0, 12.0, 0.0, 0.0]));
     let slope = parameters.evaluate(|k| (k == 1).then_some(Dual::<1>::variable(2.0, 0)));
@@ -73,6 +74,6 @@ fn a_long_chain_does_not_overflow() {
             (format!("p{k}"), Expression::parse(&text).unwrap())
         })
         .collect();
-    let values: Vec<f64> = Parameters::compile(&list).unwrap().evaluate(|_| None);
+    let values: Vec<f64> = Parameters::compile(&list, &[]).unwrap().evaluate(|_| None);
     assert_eq!(values[0], count as f64);
 }

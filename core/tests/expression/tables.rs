@@ -3,7 +3,8 @@
 use super::PARAMETERS;
 use kempe::expression::unit::Dimension;
 use kempe::expression::{
-    Expression, ExpressionError, Inferred, Names, Outside, Points, Scope, Symbol, Table, TableError,
+    Expression, ExpressionError, FormulaValues, Inferred, Names, Outside, Points, Symbol, Table,
+    TableError,
 };
 use kempe::math::{Dual, Interpolation, Jet, Lanes};
 use kempe::symbolic::{record, Form};
@@ -245,7 +246,7 @@ fn formulas_call_tables() {
     let e = Expression::parse("2*gain(a - t) + lift( 1.3*deg )/gain(a)").unwrap();
     assert_eq!(e.to_string(), "2*gain(a-t)+lift(1.3*deg)/gain(a)");
     let tape = e.compile(&names).unwrap();
-    let scope = Scope { parameters: &[2.0, 0.0, 0.0, 0.0], time: 0.75, variables: &[] };
+    let scope = FormulaValues { parameters: &[2.0, 0.0, 0.0, 0.0], time: 0.75, variables: &[] };
     let expected = 2.0 * gain.value(1.25) + lift.value(1.3_f64.to_radians()) / gain.value(2.0);
     close(tape.evaluate(&scope), expected, 1e-15, "value");
     // at a place that varies, gain is read once; a constant is folded
@@ -255,7 +256,7 @@ fn formulas_call_tables() {
         Some(gain.value(0.9))
     );
     let tape = Expression::parse("lift(t)").unwrap().compile(&names).unwrap();
-    let late = Scope { parameters: &[], time: 1.0, variables: &[] };
+    let late = FormulaValues { parameters: &[], time: 1.0, variables: &[] };
     let refusal = "table 'lift' is read at x = 57.29577951 deg, outside its range from 0 to 3 deg";
     assert_eq!(tape.refusal(&late).as_deref(), Some(refusal));
 }

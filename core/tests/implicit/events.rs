@@ -2,11 +2,10 @@
 //! extension.
 
 use crate::mechanisms::{column, four_bar, model, start, worst, PENDULUM};
-use kempe::analyses::dynamics::{dynamics_by_steps, Options, Scheme, Stabilization};
+use kempe::analyses::dynamics::{Options, Scheme, Stabilization, Stepper};
 use kempe::analyses::State;
 use kempe::integrate::{
-    locate, AlphaParameters, Direction, Dop853, Flow, GeneralizedAlpha, Radau, Rk4, Rk45,
-    StepControl,
+    AlphaParameters, Direction, Dop853, GeneralizedAlpha, Radau, Rk4, Rk45, StepControl,
 };
 use kempe::model::Model;
 use kempe::stabilize::Projection;
@@ -16,19 +15,20 @@ fn options(t_end: f64, scheme: Scheme) -> Options {
     Options { method: scheme, stabilization, dense_output: false, ..Options::classical(t_end) }
 }
 
-/// Where component `k` of y passes a level: the times in a run.
+/// Where component `k` of (q, v) passes a level: the times within the steps of a method.
 fn times(m: &Model, from: &State, options: &Options, (k, level): (usize, f64)) -> Vec<f64> {
+    let value = |q: &[f64], v: &[f64]| if k < q.len() { q[k] } else { v[k - q.len()] } - level;
     let mut found = Vec::new();
-    let mut y = vec![0.0; 2 * m.layout.n_q + 3];
-    let run = dynamics_by_steps(m, from, options, |step| {
-        let g = |_: f64, y: &[f64]| y[k] - level;
-        if let Some(t) = locate(step, &mut y, g, Direction::Any, 1e-15) {
-            assert!((y[k] - level).abs() < 1e-12, "{:.1e}", y[k] - level);
-            found.push(t);
+    let mut stepper = Stepper::new(m, from, options).expect("a start");
+    while !stepper.is_at_end() {
+        stepper.step().unwrap_or_else(|failure| panic!("{}", failure.reason));
+        let g = |_: f64, [q, v, _]: [&[f64]; 3]| value(q, v);
+        if let Some(event) = stepper.locate(g, Direction::Any).expect("an interpolant") {
+            let off = value(&event.q, &event.v);
+            assert!(off.abs() < 1e-12, "{off:.1e}");
+            found.push(event.t);
         }
-        Flow::Continue
-    });
-    assert!(run.unwrap_or_else(|failure| panic!("{}", failure.reason)).reached);
+    }
     found
 }
 
@@ -147,22 +147,4 @@ fn controlled_steps_find_the_same_events() {
     let back = times(&m, &from, &options(-3.0, radau), (angle, -1.5));
     assert!(worst(&back, &exact(&m, &from, -3.0, (angle, -1.5))) < 1e-8);
     assert!(back.windows(2).all(|pair| pair[1] < pair[0]));
-}
-
-/// A stop by the observer ends the run at the observed step.
-#[test]
-fn an_event_may_end_a_run() {
-    let ((m, from), [turn, _]) = crank();
-    let mut y = vec![0.0; 2 * m.layout.n_q + 3];
-    let mut last = None;
-    let radau = options(1.0, Scheme::Radau(Radau::new(1e-8, 1e-11)));
-    let run = dynamics_by_steps(&m, &from, &radau, |step| {
-        last = locate(step, &mut y, |_, y| y[turn] - 2.0, Direction::Falling, 1e-12);
-        last.map_or(Flow::Continue, |_| Flow::Stop)
-    });
-    let run = run.unwrap_or_else(|failure| panic!("{}", failure.reason));
-    let first = exact(&m, &from, 1.0, (turn, 2.0))[1]; // after it rose past 2 rad
-    assert!(!run.reached && (last.expect("an event") - first).abs() < 1e-9);
-    let t = &run.trajectory.t;
-    assert!(t[t.len() - 2] < first && first <= t[t.len() - 1]);
 }

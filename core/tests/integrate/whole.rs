@@ -1,7 +1,7 @@
 //! A whole integration as a loop over a stepper, with an observer of its steps.
 
 use kempe::integrate::{
-    BoxedStepper, Cause, Dae, ExplicitMethod, Flow, ImplicitMethod, Ode, Statistics, Step,
+    BoxedStepper, Cause, Dae, ExplicitMethod, Flow, ImplicitMethod, Ode, Step, StepCounts,
 };
 use std::ops::Deref;
 
@@ -34,14 +34,14 @@ pub enum Ended {
 /// An integration that did not fail.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Done {
-    pub statistics: Statistics,
+    pub statistics: StepCounts,
     pub ended: Ended,
     pub t: f64,
 }
 
 impl Deref for Done {
-    type Target = Statistics;
-    fn deref(&self) -> &Statistics {
+    type Target = StepCounts;
+    fn deref(&self) -> &StepCounts {
         &self.statistics
     }
 }
@@ -52,7 +52,7 @@ pub struct Failure<E> {
     pub cause: Cause<E>,
     pub t: f64,
     pub y: Box<[f64]>,
-    pub statistics: Statistics,
+    pub statistics: StepCounts,
 }
 
 /// From the beginning to the end, with the state in `y`.
@@ -65,7 +65,7 @@ fn whole<Y, E>(
 ) -> Result<Done, Failure<E>> {
     let failure =
         |cause, t, y: &[f64], statistics| Failure { cause, t, y: Box::from(y), statistics };
-    let mut stepper = started.map_err(|cause| failure(cause, t0, y, Statistics::default()))?;
+    let mut stepper = started.map_err(|cause| failure(cause, t0, y, StepCounts::default()))?;
     let mut steps = || {
         while stepper.t() != stepper.t_end() {
             let t_old = stepper.t();

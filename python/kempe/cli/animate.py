@@ -46,7 +46,7 @@ EXAMPLES = """Examples:
 
 
 class Form(str, Enum):
-    """What an animation can be; must agree with ``kempe.draw.animate.FORMATS``."""
+    """Formats of animations; must agree with ``kempe.draw.animate.FORMATS``."""
 
     html = "html"
     mp4 = "mp4"

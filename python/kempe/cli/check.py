@@ -76,7 +76,7 @@ def check(  # noqa: PLR0917 - typer distinguishes options by their annotations
 
 
 def _refuse_undetermined(case: Case, state: State, freedom: MobilityResult) -> None:
-    """Refuse what the run of a case refuses before its first step.
+    """Refuse a case that a run would refuse before its first step.
 
     Raises:
         SingularityError: dynamics starts with a massless body whose motion is not determined.

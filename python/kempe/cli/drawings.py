@@ -17,7 +17,7 @@ FIRST, LAST = "first_frame.png", "last_frame.png"
 
 
 def write_drawings(solution: Solution, folder: Path, drawing: Drawing) -> list[Path]:
-    """The page that plays the motion, its first and last frame, and a video, as far as wanted.
+    """The page that plays the motion, its first and last frame, and a video, if requested.
 
     Raises:
         FileError: a file cannot be written, or there is no ffmpeg for an MP4.

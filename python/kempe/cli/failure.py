@@ -47,7 +47,7 @@ def print_error(error: errors.KempeError) -> None:
 def document(as_json: bool) -> Iterator[dict[str, Any]]:
     """The JSON document of a command, printed when the block ends.
 
-    An error is part of the document, under ``error``, and goes on.
+    An error is part of the document, under ``error``, and is raised again.
 
     Args:
         as_json: whether to print it.

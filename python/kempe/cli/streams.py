@@ -99,7 +99,7 @@ def _guard(stream: TextIO | None) -> Any:
 
 
 def _discard_the_rest(streams: tuple[TextIO, TextIO]) -> None:
-    """Send what is still in the buffer of a broken stream to nowhere.
+    """Discard the rest of the buffer of a broken stream.
 
     Python writes the buffers at its end and would report the error again.
     """

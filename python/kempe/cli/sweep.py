@@ -154,7 +154,7 @@ def _told(title: str) -> Iterator[Callable[[int, int, int, float], None]]:
 
 
 def _keep(found: SweepResult | None, folder: Path) -> None:
-    """Write what is finished after an interruption."""
+    """Write the finished rows after an interruption."""
     if found is None:
         return
     from kempe.sweeps.table import UNFINISHED
@@ -174,7 +174,7 @@ def _show(console: Console, found: SweepResult) -> None:
     rows = []
     for text in found.measures:
         good = found[text][found.succeeded]
-        good = good[good == good]  # noqa: PLR0124 - without what does not settle
+        good = good[good == good]  # noqa: PLR0124 - without rows that do not settle
         cells = (
             [figure(float(x)) for x in (good.min(), good.mean(), good.max())]
             if len(good)

@@ -1,4 +1,4 @@
-"""What a designer reads from a motion: curves, angles, ratios, motors, flywheels, pin loads.
+"""Results of a motion for designers: curves, angles, ratios, motors, flywheels, pin loads.
 
 All functions take a ``Solution`` of ``kinematics``, ``inverse_dynamics`` or ``dynamics``. They
 return plain results with arrays in SI units and rad. Their figures are in ``kp.plot``.

@@ -33,7 +33,7 @@ class CouplerCurve:
 
     Attributes:
         point: name of the point.
-        variable: what ``t`` contains.
+        variable: the quantity in ``t``.
         t: instants close enough for a smooth curve, (n,), s.
         position: the path at these instants, (n, 2), m.
         length: length of the path, m, to about 1e-12 of itself for smooth paths.

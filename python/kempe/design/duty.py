@@ -1,4 +1,4 @@
-"""What a drive must deliver over a motion: efforts, powers, work, and the flywheel that helps.
+"""The demand on a drive over a motion: efforts, powers, work, and the flywheel that evens it out.
 
 Work ∫ P dt, root mean square √(∫ T² dt / ∫ dt). At the flywheel, the energy E(θ) = ∫ (T - T_m) dθ
 with the mean T_m over the cycle has the range ΔE; a flywheel of the inertia J = ΔE / (C_s ω²) keeps
@@ -29,11 +29,11 @@ Read = Callable[[Motion], Floats]
 
 @dataclass(frozen=True, repr=False)
 class Duty:
-    """What a driver or motor delivers over a motion.
+    """The effort and power of a driver or motor over a motion.
 
     Attributes:
         name: the driver or force element.
-        variable: what ``t`` contains. Over a driven quantity its rate is 1, and so are the powers
+        variable: the quantity in ``t``. Over a driven quantity its rate is 1, and so are the powers
             those at this rate.
         unit: of the effort, "N*m" or "N".
         t: instants close enough for a smooth curve, (n,), s.
@@ -180,7 +180,7 @@ class Flywheel:
         mean_torque: mean over the angle of the cycle, which the motor then delivers, N·m.
         slowest, fastest: instants of the least and the largest speed, s, or values of the driven
             quantity.
-        variable, t: what the instants are, and some close enough for a smooth curve, (n,).
+        variable, t: the quantity in t, and instants close enough for a smooth curve, (n,).
         torque: torque on the shaft without a flywheel, (n,), N·m.
         stored: energy that the flywheel has taken up since the first instant, (n,), J.
     """

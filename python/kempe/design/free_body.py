@@ -38,8 +38,8 @@ class FreeBody:
 
     Attributes:
         body: the body.
-        name: name of the load case, such as "A_max"; empty for an instant of one's own choice.
-        variable, t: what the instant is, and its value, s.
+        name: name of the load case, such as "A_max"; empty for an instant of the caller.
+        variable, t: the quantity that defines the instant, and its value, s.
         state: the whole mechanism at the instant.
         loads: the forces of joints, drivers and elements, and the weight, in global axes.
         inertia: m a and J α.

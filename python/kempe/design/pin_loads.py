@@ -38,7 +38,7 @@ class PinLoad:
     Attributes:
         joint: the joint or driver.
         on: the body.
-        variable: what ``t`` contains.
+        variable: the quantity in ``t``.
         t: instants close enough for a smooth curve, (n,), s.
         force: (n, 2), N, in the axes of the body.
         moment: about the joint point, (n,), N·m.

@@ -66,7 +66,7 @@ class Polygon:
     Attributes:
         kind: "velocity" or "acceleration".
         unit: "m/s" or "m/s²".
-        variable, t: what the instant is, and its value, s.
+        variable, t: the quantity that defines the instant, and its value, s.
         images: the image of each point by name, (2,), seen from the pole; "o" is the pole.
         sides: the vectors, absolute ones first.
         state: the mechanism at the instant.

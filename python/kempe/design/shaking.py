@@ -1,4 +1,4 @@
-"""Shaking force and shaking moment: what the moving masses exert on the foundation.
+"""Shaking force and shaking moment, which the moving masses exert on the foundation.
 
 The force of all joints, drivers and force elements on ground is Σ m g - Σ m a. Without the weight
 it is the shaking force, -Σ m a = -dp/dt of the momentum; the shaking moment about a point of ground
@@ -29,7 +29,7 @@ class Shaking:
 
     Attributes:
         about: the point of ground to which moments refer, m.
-        variable: what ``t`` contains.
+        variable: the quantity in ``t``.
         t: the instants, (n,), s.
         force: shaking force, (n, 2), N.
         moment: shaking moment about the point, (n,), N·m.
@@ -65,7 +65,7 @@ def shaking(
 ) -> Shaking:
     """Shaking force and moment of a mechanism on ground.
 
-    They are summed over what acts on ground, so that they contain all reactions.
+    They are summed over all forces on ground, so that they contain all reactions.
 
     Args:
         motion: a solution, or the motion at some times.

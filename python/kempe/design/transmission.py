@@ -39,7 +39,7 @@ class TransmissionAngle:
 
     Attributes:
         joint: the joint.
-        variable: what ``t`` contains.
+        variable: the quantity in ``t``.
         t: instants close enough for a smooth curve, (n,), s.
         angle: angle between the links, from 0 to π, (n,), rad.
         limits: the least and the largest ``angle``, found on the interpolant.

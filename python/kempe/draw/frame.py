@@ -187,7 +187,7 @@ class Frame:
     def pixels(self, k: int) -> Picture:
         """Frame k as RGBA, (height, width, 4), valid until the next one is drawn.
 
-        What does not move is drawn once and copied.
+        The parts that do not move are drawn once and copied.
         """
         from kempe.draw.painter import any_character
 

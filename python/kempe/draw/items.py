@@ -1,6 +1,6 @@
 """The items of a display list: lines, fills and texts that follow the bodies.
 
-An item is plain data. Its ``frame`` says what it follows; each of its ``points`` is a row
+An item is plain data. Its ``frame`` names the body that it follows; each of its ``points`` is a row
 ``[x, y, px, py]``: lengths of the mechanism and lengths of print, which stay the same whatever the
 scale. There are four frames:
 

@@ -115,7 +115,7 @@ def _events(drawn: Solution | State, motion: Motion) -> list[dict[str, Any]]:
 
 
 def _variable(of: Variable) -> dict[str, Any]:
-    """What ``t`` of the frames is, and the unit in which drawings write it."""
+    """The quantity in ``t`` of the frames, and its unit in drawings."""
     shown = display(of.unit, "deg") if of.unit == "rad" else display(of.unit)
     return {"name": of.name, "unit": of.unit, "shown": shown.symbol, "divisor": shown.divisor}
 

@@ -96,7 +96,7 @@ def _bodies(subject: Subject) -> Table:
 
 
 def _forms(subject: Subject) -> Iterator[str]:
-    """What the types of bodies mean that determine their inertia themselves."""
+    """Descriptions of the types of bodies that determine their own inertia."""
     kinds = dict.fromkeys(info.type for info in subject.model.bodies.values())
     return (f"{kind}: {about('bodies', kind)}" for kind in kinds if kind != "body")
 

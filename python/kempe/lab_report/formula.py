@@ -10,7 +10,7 @@ from kempe.lab_report.blocks import Formula
 #: Formulas with more signs than this do not fit on a page.
 LONGEST = 420
 _FUNCTIONS = re.compile(r"(<mi>(?:sin|cos|tan|sinh|cosh|tanh|exp|ln|max|min)</mi>)")
-#: What opens and closes a group in LaTeX, within which a line does not break.
+#: Openings and closings of groups in LaTeX, within which a line does not break.
 _GROUPS = re.compile(r"\\left|\\right|\\begin|\\end|[{}]")
 _TEXT = re.compile(r"\\text\{((?:\\.|[^{}])*)\}")
 

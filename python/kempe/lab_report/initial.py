@@ -25,7 +25,7 @@ _ACCELERATIONS = (("ax", "m/s^2"), ("ay", "m/s^2"), ("alpha", "rad/s^2"))
 
 
 def initial(subject: Subject) -> Section:
-    """What was requested, where the bodies are, and the equations there."""
+    """The request, the positions of the bodies, and the equations there."""
     start = subject.start
     return Section(
         f"Initial configuration, {_instant(start)}",

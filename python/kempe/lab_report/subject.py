@@ -29,7 +29,7 @@ _UNNAMED = "motion"
 
 @dataclass(frozen=True)
 class Subject:
-    """What a report describes.
+    """The subject of a report: model, start and results.
 
     Attributes:
         tree: the case as nested mappings.

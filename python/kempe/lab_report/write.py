@@ -69,7 +69,7 @@ def write_report(
 
 
 def checked(path: Path | str) -> Path:
-    """The path of a report; what makes it impossible is reported before an analysis is run.
+    """The path of a report; an unusable path is reported before an analysis is run.
 
     Raises:
         FileError: the ending is another one, or there is no browser for a PDF.

@@ -52,7 +52,7 @@ ROUNDING = 1e-13
 class Labelled:
     """A matrix or a column with names; ``print`` shows it aligned.
 
-    What is written has the display units (``kp.units``): of the numbers in a column, and of the
+    Printed numbers have the display units (``kp.units``): of the numbers in a column, and of the
     quantities that a matrix connects. In other units than SI, the names have their units.
 
     Attributes:

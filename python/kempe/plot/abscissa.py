@@ -1,4 +1,4 @@
-"""What design figures show on their horizontal axis: the angle of a crank where there is one."""
+"""The horizontal axis of design figures: the angle of a crank, or else the time."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class Abscissa:
     """A horizontal axis.
 
     Attributes:
-        variable: what it shows.
+        variable: its quantity.
         t: instants close enough for smooth curves, (n,), s.
         values: the variable at the instants, (n,), SI units.
         unit: unit of the numbers on the axis.

@@ -61,7 +61,7 @@ class Panel:
         legend: whether to write one, above the panel to the right.
         degrees: whether an axis to the right gives an angle in degrees.
         turning_points: whether extreme values at the first and the last time stay unmarked.
-        variable: what the horizontal axis shows.
+        variable: the quantity on the horizontal axis.
     """
 
     symbol: str

@@ -76,8 +76,8 @@ def gaps(study: Study, ax: Axes) -> None:
 def joint_gaps(state: State) -> tuple[Floats, Floats]:
     """Points of the joints on body i, and from there to the points on body j, (n, 2) each, m.
 
-    Along a slide the points may be apart; only what the joint forbids counts as its gap, from the
-    point of the rail beside that of body j.
+    Along a slide the points may be apart; only the motion that the joint forbids counts as its gap,
+    from the point of the rail beside that of body j.
     """
     begin, along = [], []
     for info in state.compiled.joints.values():

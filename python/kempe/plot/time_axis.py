@@ -39,7 +39,7 @@ class TimeAxis:
         first, last: its ends, s.
         unit: unit of the numbers on it.
         cut: time after which it is compressed, s; never when None.
-        variable: what it shows.
+        variable: its quantity.
     """
 
     first: float

@@ -115,7 +115,7 @@ def _client_of(scheduler: Any, workers: int | None) -> Iterator[Any]:
             f"scheduler: {scheduler!r}; must be a client of Dask or 'dask'",
             hint="distributed.Client(address) makes a client",
         )
-    # a process for each worker, with one thread: Python's lock then stops nobody
+    # a process for each worker, with one thread: Python's lock then delays no other worker
     with (
         distributed.LocalCluster(n_workers=workers, threads_per_worker=1) as cluster,
         distributed.Client(cluster) as client,

@@ -21,7 +21,7 @@ def contributions(result: SweepResult, measure: str) -> dict[str, float]:
     """The share of each variable in the variance of a measure: its correlation ratio.
 
     The ratio is the variance of the mean at one value of the variable over the whole variance (the
-    first-order index of Sobol). What is missing to 1 is due to several variables together. Values
+    first-order index of Sobol). The rest to 1 is due to several variables together. Values
     of a distribution are taken in groups. Only variants that succeeded count.
 
     Raises:

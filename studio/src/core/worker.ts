@@ -1,15 +1,16 @@
 // The worker: it holds the core and answers one request after the other.
 import { XzReadableStream } from "xz-decompress";
 import { type Core, instantiate } from "./memory";
+import { unpacked } from "./unpack";
 
 let core: Core | null = null;
 
 type Incoming = { packed: Uint8Array<ArrayBuffer> } | { number: number; request: string };
 
-/** Start the core from its module, which is compressed as xz. */
+/** Start the core from its module, which is taken apart and compressed as xz. */
 async function start(packed: Uint8Array<ArrayBuffer>): Promise<void> {
-  const module = new XzReadableStream(new Blob([packed]).stream());
-  core = await instantiate(await new Response(module).arrayBuffer());
+  const parts = new XzReadableStream(new Blob([packed]).stream());
+  core = await instantiate(unpacked(new Uint8Array(await new Response(parts).arrayBuffer())));
   postMessage({ ready: true });
 }
 

@@ -24,6 +24,16 @@ export function through(points: readonly Point[], closed: boolean): Line {
   return line;
 }
 
+/** Lines through points, with a gap at each place that is missing. */
+export function broken(points: readonly (Point | null)[]): Line {
+  const starts = (k: number) => !points[k - 1];
+  const line = new Line(() => points.map((at, k) => (at ? `${starts(k) ? "M" : "L"}${at[0]} ${at[1]}` : "")).join(""));
+  points.forEach((at, k) => {
+    if (at) starts(k) ? line.moveTo(...at) : line.lineTo(...at);
+  });
+  return line;
+}
+
 export function circle([x, y]: Point, radius: number): Line {
   return new Line(
     `M${x - radius} ${y}a${radius} ${radius} 0 1 0 ${2 * radius} 0a${radius} ${radius} 0 1 0 ${-2 * radius} 0z`,

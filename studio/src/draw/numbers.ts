@@ -21,7 +21,8 @@ export function readable(unit: string): string {
 /** By what to divide values up to `peak`, and the unit that they have then. */
 export function scaled(peak: number, unit: string): { factor: number; unit: string } {
   const power = powerOf(peak);
-  if (!power || (unit.startsWith("°") && Math.abs(power) <= 3)) return { factor: 1, unit };
+  const isPlain = unit.startsWith("°") || unit === "rpm";
+  if (!power || (isPlain && Math.abs(power) <= 3)) return { factor: 1, unit };
   const prefix = WITH_PREFIX[unit]?.includes(power);
   return { factor: 10 ** power, unit: prefix ? PREFIXES[power] + unit : `${powerOfTen(power)} ${unit}` };
 }

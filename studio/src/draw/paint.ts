@@ -4,7 +4,7 @@ import type { View } from "../plane/view";
 import type { Item } from "./items";
 import { Line, through } from "./line";
 import { shortened } from "./numbers";
-import { hatching, isPlaceable, placeItem, UNIT } from "./place";
+import { type BodyFrame, hatching, isPlaceable, placeItem, rigidFrame, rigidPoints, UNIT } from "./place";
 import { type ColourName, type Colours, font, rimmed } from "./surface";
 
 const HATCH_WIDTH = 0.7;
@@ -27,16 +27,61 @@ export function paintItems(
   colours: Colours,
 ): Box[] {
   const boxes: Box[] = [];
+  const frames = new Frames(context, poses, view);
   for (const item of items) {
     if (!isShown(item, shown) || !isPlaceable(item, poses)) continue;
+    if (item.kind !== "text" && item.frame.type === "body") {
+      if (frames.enter(item.frame)) paintRigid(context, item, view.scale, colours);
+      continue;
+    }
+    frames.leave();
     const { points, angle } = placeItem(item, poses, view, UNIT);
     if (!points.every(([x, y]) => Number.isFinite(x + y))) continue;
-    const colour = tinted(colours, item);
     if (item.kind === "text") boxes.push(paintText(context, view, item, points[0]!, angle, colours));
-    else if (item.kind === "fill") paintFill(context, points, colour);
-    else paintLine(context, item, points, colour);
+    else paintShape(context, item, shapeOf(item, points), tinted(colours, item));
   }
+  frames.leave();
   return boxes;
+}
+
+/** The frame in which a context paints: items that follow each other in the frame of one body share it. */
+class Frames {
+  private frame: BodyFrame | null = null;
+
+  constructor(
+    private readonly context: CanvasRenderingContext2D,
+    private readonly poses: readonly Placement[],
+    private readonly view: View,
+  ) {}
+
+  /** Paint in this frame from now on; false if it has no place. */
+  enter(frame: BodyFrame): boolean {
+    if (this.frame && isSame(this.frame, frame)) return true;
+    this.leave();
+    const { origin, angle } = rigidFrame(frame, this.poses, this.view);
+    if (!Number.isFinite(origin[0] + origin[1] + angle)) return false;
+    this.context.save();
+    this.context.translate(origin[0], origin[1]);
+    this.context.rotate(-angle);
+    this.frame = frame;
+    return true;
+  }
+
+  /** Paint on the canvas again. */
+  leave(): void {
+    if (this.frame) this.context.restore();
+    this.frame = null;
+  }
+}
+
+function isSame(a: BodyFrame, b: BodyFrame): boolean {
+  return (
+    a.body === b.body &&
+    a.turns_with === b.turns_with &&
+    a.turn === b.turn &&
+    a.at[0] === b.at[0] &&
+    a.at[1] === b.at[1]
+  );
 }
 
 /** Names and numbers can be switched off; the circle of a number goes with it. */
@@ -53,23 +98,53 @@ function tinted(colours: Colours, { colour, tint }: Item): string {
   return tint ? `color-mix(in srgb, ${colours.named.panel} ${100 * tint}%, ${full})` : full;
 }
 
-function paintFill(context: CanvasRenderingContext2D, points: Point[], colour: string): void {
-  context.fillStyle = colour;
-  context.fill(through(points, true));
+/** A line or an area, and the strokes of its hatching, px. */
+interface Shape {
+  path: Line;
+  hatching: Line | null;
 }
 
-function paintLine(
-  context: CanvasRenderingContext2D,
-  item: Item & { kind: "line" },
-  points: Point[],
-  colour: string,
-): void {
+function shapeOf(item: Item, points: Point[]): Shape {
+  const hatch = item.kind === "line" && item.hatch ? new Line(hatching(points, item.hatch, UNIT)) : null;
+  return { path: through(points, item.kind === "fill" || (item.kind === "line" && item.closed)), hatching: hatch };
+}
+
+type Drawn = Item & { kind: "line" | "fill" };
+
+/** What stays of an item from one picture to the next: its shape at a scale, and its colour. */
+interface Kept {
+  scale: number;
+  shape: Shape;
+  colours: Colours;
+  colour: string;
+}
+
+const kept = new WeakMap<Item, Kept>();
+
+/** An item in the frame of its body: its shape is made once for a scale. */
+function paintRigid(context: CanvasRenderingContext2D, item: Drawn, scale: number, colours: Colours): void {
+  let found = kept.get(item);
+  if (found?.scale !== scale || found.colours !== colours) {
+    // upwards in the plane is downwards on the canvas
+    const points = rigidPoints(item.points, scale, UNIT).map(([x, y]): Point => [x, -y]);
+    found = { scale, shape: shapeOf(item, points), colours, colour: tinted(colours, item) };
+    kept.set(item, found);
+  }
+  paintShape(context, item, found.shape, found.colour);
+}
+
+function paintShape(context: CanvasRenderingContext2D, item: Drawn, { path, hatching }: Shape, colour: string): void {
+  if (item.kind === "fill") {
+    context.fillStyle = colour;
+    context.fill(path);
+    return;
+  }
   context.strokeStyle = colour;
   context.lineWidth = item.width * UNIT;
-  context.stroke(through(points, item.closed));
-  if (!item.hatch) return;
+  context.stroke(path);
+  if (!hatching) return;
   context.lineWidth = HATCH_WIDTH * UNIT;
-  context.stroke(new Line(hatching(points, item.hatch, UNIT)));
+  context.stroke(hatching);
 }
 
 function paintText(

@@ -9,16 +9,28 @@ const SPACING = 4;
 const STROKE = 5;
 
 type Rows = Item["points"];
+export type BodyFrame = Extract<Frame, { type: "body" }>;
 type Local = { origin: Point; angle: number; local: Point[] };
+
+/** The local places of rows that move with a body, px: they change with the scale alone. */
+export function rigidPoints(rows: Rows, scale: number, unit: number): Point[] {
+  return rows.map(([x, y, px, py]): Point => [x * scale + px * unit, y * scale + py * unit]);
+}
+
+/** Where the frame of a body is on the canvas, px, and its angle, counter-clockwise. */
+export function rigidFrame(
+  frame: BodyFrame,
+  poses: readonly Placement[],
+  view: View,
+): { origin: Point; angle: number } {
+  const origin = view.toScreen(placed(poses[frame.body]!, frame.at));
+  return { origin, angle: poses[frame.turns_with]![2] + frame.turn };
+}
 
 /** Origin, angle and local places (px) of rows in the frame of an item; `unit` is px for each point of print. */
 function inFrameOf(frame: Frame, rows: Rows, poses: readonly Placement[], view: View, unit: number): Local {
   const at = (body: number, point: Point) => view.toScreen(placed(poses[body]!, point));
-  if (frame.type === "body") {
-    const angle = poses[frame.turns_with]![2] + frame.turn;
-    const local = rows.map(([x, y, px, py]): Point => [x * view.scale + px * unit, y * view.scale + py * unit]);
-    return { origin: at(frame.body, frame.at), angle, local };
-  }
+  if (frame.type === "body") return { ...rigidFrame(frame, poses, view), local: rigidPoints(rows, view.scale, unit) };
   const [i, j] = frame.bodies;
   if (frame.type === "twist") {
     const turn = frame.turn + poses[j]![2] - poses[i]![2];

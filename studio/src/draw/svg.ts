@@ -11,6 +11,7 @@ interface State {
   textBaseline: CanvasTextBaseline;
   dash: number[];
   transform: string;
+  clipped: string;
 }
 
 const ANCHORS: Record<string, string> = { center: "middle", right: "end" };
@@ -28,6 +29,9 @@ export class SvgContext {
   lineJoin = "round";
   private dash: number[] = [];
   private transform = "";
+  private clipped = "";
+  private box = "";
+  private clips = 0;
   private readonly stack: State[] = [];
   private readonly parts: string[] = [];
 
@@ -40,8 +44,10 @@ export class SvgContext {
   }
 
   save(): void {
-    const { globalAlpha, lineWidth, strokeStyle, fillStyle, font, textAlign, textBaseline, dash, transform } = this;
-    this.stack.push({ globalAlpha, lineWidth, strokeStyle, fillStyle, font, textAlign, textBaseline, dash, transform });
+    const { globalAlpha, lineWidth, strokeStyle, fillStyle, font, textAlign, textBaseline } = this;
+    const { dash, transform, clipped } = this;
+    const pen = { globalAlpha, lineWidth, strokeStyle, fillStyle, font, textAlign, textBaseline };
+    this.stack.push({ ...pen, dash, transform, clipped });
   }
 
   restore(): void {
@@ -54,6 +60,21 @@ export class SvgContext {
 
   rotate(angle: number): void {
     this.transform += `rotate(${tidy((angle * 180) / Math.PI)})`;
+  }
+
+  beginPath(): void {
+    this.box = "";
+  }
+
+  /** A rectangle, to which `clip` keeps what follows. */
+  rect(x: number, y: number, width: number, height: number): void {
+    this.box = `x="${tidy(x)}" y="${tidy(y)}" width="${tidy(width)}" height="${tidy(height)}"`;
+  }
+
+  clip(): void {
+    this.clips += 1;
+    this.clipped = ` clip-path="url(#clip${this.clips})"`;
+    this.parts.push(`<clipPath id="clip${this.clips}"><rect ${this.box}/></clipPath>`);
   }
 
   setLineDash(dash: number[]): void {
@@ -112,7 +133,7 @@ ${this.parts.join("\n")}
 
   private placed(): string {
     const alpha = this.globalAlpha < 1 ? ` opacity="${tidy(this.globalAlpha)}"` : "";
-    return this.transform ? `${alpha} transform="${this.transform}"` : alpha;
+    return (this.transform ? `${alpha} transform="${this.transform}"` : alpha) + this.clipped;
   }
 }
 

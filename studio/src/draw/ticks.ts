@@ -25,6 +25,16 @@ export function ticks(low: number, high: number, count: number): Ticks {
   };
 }
 
+/** Steps of angles in degrees that people know. */
+const DEGREES = [2, 5, 10, 15, 30, 45, 90, 180, 360];
+
+/** Ticks of angles in degrees: steps such as 15°, 45° and 90° where those of numbers would be 20°, 50° and 100°. */
+export function angleTicks(low: number, high: number, count: number): Ticks {
+  const step = DEGREES.find((one) => (high - low) / one <= 1.5 * count);
+  if (!step || high - low < 2 * count) return ticks(low, high, count);
+  return { values: multiples(low, high, step), write: (value) => minus(value.toFixed(0)) };
+}
+
 /** Powers of ten within a range of exponents, at most about `count` of them. */
 export function decades(low: number, high: number, count: number): Ticks {
   const step = Math.max(1, Math.ceil((high - low) / Math.max(1, count)));

@@ -6,7 +6,7 @@ import { announce, mechanism, title } from "../store/state";
 import { texts } from "../texts";
 import { choose } from "./choose";
 import { download, nameOf } from "./download";
-import { type NumbersOf, npz, readNpz } from "./npz";
+import { type Contents, type NumbersOf, npz, readNpz } from "./npz";
 import { storedRun } from "./stored";
 import { csv } from "./table";
 
@@ -27,7 +27,7 @@ export async function saveCsv(): Promise<void> {
   }
 }
 
-/** Times or the values in their place, the poses of the bodies by name, and the plotted quantities. */
+/** Times or the values in their place, which `variable` names, the poses of the bodies by name, and the plotted quantities. */
 export async function saveNpz(): Promise<void> {
   const run = course.value;
   if (!run) return;
@@ -47,7 +47,8 @@ export async function saveNpz(): Promise<void> {
     names.forEach((name, k) => {
       arrays[name] = { shape: [n], values: rows[k]! };
     });
-    download(nameOf(title.value, ".npz"), npz(arrays) as BlobPart, "application/zip");
+    const { name, unit } = variable.value;
+    download(nameOf(title.value, ".npz"), npz(arrays, { variable: [name, unit] }) as BlobPart, "application/zip");
   } catch (error) {
     report(error);
   }
@@ -64,10 +65,10 @@ export function openStored(): void {
   });
 }
 
-function tryRead(bytes: Uint8Array): Record<string, NumbersOf> {
+function tryRead(bytes: Uint8Array): Contents {
   try {
     return readNpz(bytes);
   } catch {
-    return {};
+    return { arrays: {}, texts: {} };
   }
 }

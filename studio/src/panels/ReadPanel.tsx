@@ -1,7 +1,9 @@
 // Reading: run an analysis, plots, arrows, files.
 import { useState } from "preact/hooks";
+import { savePlots } from "../give/plots";
 import { openStored, saveCsv, saveNpz } from "../give/results";
 import { OVER, TIME } from "../modes/over";
+import { hasOtherAxis } from "../modes/plotting";
 import { analyses, analysis, chosen, course, quantities, run, running, variable } from "../modes/read";
 import { arrows, KINDS, type Kind } from "../page/motionOverlay";
 import { plots, stored } from "../store/plots";
@@ -9,7 +11,7 @@ import { degrees } from "../store/state";
 import { texts } from "../texts";
 import { Measures } from "./Measures";
 import { OverFields } from "./OverFields";
-import { Plot } from "./Plot";
+import { PlotCard } from "./Plot";
 import { Button, Check, Section } from "./parts";
 
 export function ReadPanel() {
@@ -41,25 +43,21 @@ export function ReadPanel() {
                 <Button label={words.npzHint} kind="small" onClick={() => void saveNpz()}>
                   {words.npz}
                 </Button>
+                <Button label={words.pngHint} kind="small" spoken onClick={() => savePlots("png")}>
+                  {words.png}
+                </Button>
+                <Button label={words.svgHint} kind="small" spoken onClick={() => savePlots("svg")}>
+                  {words.svg}
+                </Button>
               </span>
             }
           >
-            {stored.value ? (
-              <p class="stored">
-                <bdi>{`${words.stored}: ${stored.value.file}`}</bdi>
-                <Button
-                  label={words.endComparison(stored.value.file)}
-                  icon="close"
-                  kind="small"
-                  onClick={() => (stored.value = null)}
-                />
-              </p>
-            ) : null}
+            <Compared />
             {variable.value === TIME ? null : (
               <p class="doc">{words.atUnitRate(variable.value.name, variable.value.unit)}</p>
             )}
             {plots.value.map((one) => (
-              <Plot key={one.key} plot={one} />
+              <PlotCard key={one.key} plot={one} />
             ))}
             <Add />
           </Section>
@@ -69,6 +67,31 @@ export function ReadPanel() {
         <p class="doc">{running.value ? words.running : words.none}</p>
       )}
     </div>
+  );
+}
+
+/** The stored run that is compared, and which of its curves have no place in the plots. */
+function Compared() {
+  const found = stored.value;
+  if (!found) return null;
+  const words = texts.read;
+  return (
+    <>
+      <p class="stored">
+        <bdi>{`${words.stored}: ${found.file}`}</bdi>
+        <Button
+          label={words.endComparison(found.file)}
+          icon="close"
+          kind="small"
+          onClick={() => (stored.value = null)}
+        />
+      </p>
+      {hasOtherAxis.value ? (
+        <p class="doc" id="other-axis">
+          {words.otherAxis(found.variable.name, variable.value.name, found.rows.has(variable.value.name))}
+        </p>
+      ) : null}
+    </>
   );
 }
 

@@ -1,9 +1,10 @@
 // The canvas with its tools.
 import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { soon } from "../draw/soon";
 import { cleared, palette, sharpen } from "../draw/surface";
 import { cancelGif, making, saveGif } from "../give/gif";
-import { saveDrawing, saveSvg } from "../give/pictures";
+import { saveDrawing, saveDrawingSvg } from "../give/pictures";
 import { handler } from "../modes/modes";
 import { drawing, finish, restart } from "../modes/place";
 import { listenToPointer } from "../modes/pointer";
@@ -53,7 +54,7 @@ export function Sheet() {
           <Button label={words.pngHint} onClick={saveDrawing}>
             {words.png}
           </Button>
-          <Button label={words.svgHint} onClick={saveSvg}>
+          <Button label={words.svgHint} onClick={saveDrawingSvg}>
             {words.svg}
           </Button>
           <Gif />
@@ -122,22 +123,15 @@ function ToolBox() {
 
 /** Paint whenever something that is shown changes, once for each frame of the screen. */
 function connect(canvas: HTMLCanvasElement): () => void {
-  let waiting = false;
   let colours = palette();
-  const paint = () => {
-    waiting = false;
+  const paint = soon(() => {
     sharpen(canvas);
     paintSheet(cleared(canvas), colours);
     if (items.peek().length && !performance.getEntriesByName(FIRST).length) performance.mark(FIRST);
-  };
-  const soon = () => {
-    if (waiting) return;
-    waiting = true;
-    requestAnimationFrame(paint);
-  };
+  });
   const stop = effect(() => {
     follow();
-    soon();
+    paint();
   });
   listenToPointer(canvas, view, handler, viewChanged);
   const observer = new ResizeObserver(() => {

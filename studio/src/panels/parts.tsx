@@ -36,17 +36,19 @@ interface ButtonProps {
   kind?: string;
   children?: ComponentChildren;
   id?: string;
+  /** The label is read aloud in place of the word: another button has the same. */
+  spoken?: boolean;
 }
 
 /** A button with a word, or with an icon whose word is read aloud. */
-export function Button({ label, hint, icon, onClick, disabled, pressed, kind, children, id }: ButtonProps) {
+export function Button({ label, hint, icon, onClick, disabled, pressed, kind, children, id, spoken }: ButtonProps) {
   return (
     <button
       type="button"
       id={id}
       class={kind ?? ""}
       title={hint ?? label}
-      aria-label={icon ? label : undefined}
+      aria-label={icon || spoken ? label : undefined}
       aria-pressed={pressed}
       disabled={disabled}
       onClick={onClick}

@@ -1,12 +1,12 @@
 // A plot with its choices and its legend.
 import { shortened } from "../draw/numbers";
 import { type Colours, colourOf, dashOf } from "../draw/surface";
-import type { Curve } from "./curve";
+import { Plot } from "../plot/plot";
+import type { TimeSpan } from "../plot/timespan";
+import type { SceneCurve } from "./curve";
 import type { Motion } from "./motion";
-import { Plot } from "./plot";
 import { choices, type Quantity } from "./quantities";
 import { texts } from "./texts";
-import type { TimeSpan } from "./timespan";
 
 export interface Templates {
   card: HTMLTemplateElement;
@@ -15,7 +15,7 @@ export interface Templates {
 
 /** A curve in the legend: its line, and its value as text. */
 interface Entry {
-  curve: Curve;
+  curve: SceneCurve;
   entry: Element;
   line: Element;
   value: HTMLElement;
@@ -29,6 +29,7 @@ export class Card {
   readonly canvas: HTMLCanvasElement;
   readonly plot: Plot;
   name = "";
+  curves: SceneCurve[] = [];
   entries: Entry[] = [];
   private readonly subject: HTMLSelectElement;
   private readonly log: HTMLInputElement;
@@ -49,7 +50,7 @@ export class Card {
     this.legend = find("legend");
     this.canvas = find("curves");
     this.removal = find("remove");
-    this.plot = new Plot(this.canvas, motion, span);
+    this.plot = new Plot(this.canvas, span, motion.variable);
     fillGroups(this.quantity, all);
     this.quantity.addEventListener("change", () => this.choose(Number(this.quantity.value), 0));
     this.subject.addEventListener("change", () => this.choose(Number(this.quantity.value), Number(this.subject.value)));
@@ -64,7 +65,8 @@ export class Card {
     this.subject.replaceChildren(...subjects.map(({ name }, k) => option(name, k)));
     this.quantity.value = String(which);
     this.subject.value = String(whose);
-    this.plot.show(chosen.curves, quantity.symbol);
+    this.curves = chosen.curves;
+    this.plot.show(this.curves, quantity.symbol);
     this.name = `${quantity.name}, ${chosen.name}`;
     this.canvas.setAttribute("aria-label", texts.plotOf(this.name));
     this.showLegend();
@@ -78,7 +80,7 @@ export class Card {
   }
 
   private showLegend(): void {
-    this.entries = this.plot.curves.map((curve) => {
+    this.entries = this.curves.map((curve) => {
       const entry = copied(this.templates.entry);
       const [line, name] = [entry.querySelector("line")!, entry.querySelector<HTMLElement>(".name")!];
       line.setAttribute("stroke-dasharray", dashOf(curve.number).join(" "));

@@ -1,4 +1,5 @@
 // A quantity over time.
+import type { Curve } from "../plot/curve";
 import type { Motion } from "./motion";
 
 /** Whose quantity it is, its key and unit, its number among those of the same kind, and its value at each frame. */
@@ -10,12 +11,13 @@ export interface Source {
   number: number;
   sample(k: number): number;
   /** The derivative, if it is a quantity too. */
-  rate?: Curve | undefined;
+  rate?: SceneCurve | undefined;
 }
 
 /** Values of a quantity at the frames and between them, computed on first use. */
-export class Curve {
+export class SceneCurve implements Curve {
   readonly name: string;
+  readonly stored = false;
   /** Numbers below this are rounding errors. */
   noise = 0;
   private kept: number[] | null = null;
@@ -30,6 +32,14 @@ export class Curve {
 
   get subject(): string {
     return this.source.subject;
+  }
+
+  get t(): number[] {
+    return this.motion.t;
+  }
+
+  get smooth(): boolean {
+    return this.motion.smooth;
   }
 
   get unit(): string {

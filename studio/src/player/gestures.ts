@@ -1,4 +1,4 @@
-// Pointer and wheel: moving and zooming the drawing, going to a time in the plot.
+// Pointer and wheel: moving and zooming the drawing.
 import { placeOn, spreadOf, turned } from "../plane/gestures";
 import type { Point } from "../plane/points";
 import type { View } from "../plane/view";
@@ -35,38 +35,4 @@ export function movable(canvas: HTMLCanvasElement, view: View, changed: () => vo
     view.fit();
     changed();
   });
-}
-
-/** What gestures in a plot do; places are px from its left edge. */
-export interface Seeking {
-  timeAt(px: number): number;
-  seek(t: number): void;
-  look(at: Point | null): void;
-  stretch(factor: number, px: number): void;
-  showAll(): void;
-}
-
-/**
- * Click or drag in a plot to go to a time, move to look at one, ctrl and wheel (or two fingers on a
- * touchpad) to stretch it, double click to show all of it.
- */
-export function seekable(canvas: HTMLCanvasElement, { timeAt, seek, look, stretch, showAll }: Seeking): void {
-  const go = (event: PointerEvent) => seek(timeAt(placeOn(canvas, event)[0]));
-  canvas.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
-    canvas.setPointerCapture(event.pointerId);
-    go(event);
-  });
-  canvas.addEventListener("pointermove", (event) => {
-    if (canvas.hasPointerCapture(event.pointerId)) go(event);
-    if (event.pointerType !== "touch") look(placeOn(canvas, event));
-  });
-  canvas.addEventListener("pointerleave", () => look(null));
-  const zoom = (event: WheelEvent) => {
-    if (!event.ctrlKey) return; // the wheel alone scrolls the list of plots
-    event.preventDefault();
-    stretch(1 / turned(event), placeOn(canvas, event)[0]);
-  };
-  canvas.addEventListener("wheel", zoom, { passive: false });
-  canvas.addEventListener("dblclick", showAll);
 }

@@ -1,13 +1,15 @@
 // Puts the page together.
 import { ARROW_KINDS } from "../draw/arrows";
-import { palette, paperPalette } from "../draw/surface";
+import { soon } from "../draw/soon";
+import { palette } from "../draw/surface";
 import { timeDecimals } from "../draw/ticks";
 import { download, nameOf } from "../give/download";
+import type { Head } from "../give/picture";
 import { Clock } from "./clock";
 import { Controls } from "./controls";
 import { Drawing } from "./drawing";
 import { byId } from "./elements";
-import { drawingPicture, type Head, plotsPicture, table } from "./export";
+import { saveDrawing, savePlots, table } from "./export";
 import { movable } from "./gestures";
 import { showSampling, showTitle } from "./heading";
 import { listen } from "./keyboard";
@@ -32,18 +34,14 @@ const plots = new Plots(byId("plots"), templates, scene, motion, {
   },
 });
 const controls = new Controls(clock, motion, decimals, scene.events);
+const painting = soon(paint);
 let colours = palette();
-let waiting = false;
 
-/** Paint before the screen is next drawn, once, however many things changed. */
 function repaint(): void {
-  if (waiting) return;
-  waiting = true;
-  requestAnimationFrame(paint);
+  painting();
 }
 
 function paint(): void {
-  waiting = false;
   drawing.paint(clock.t, colours);
   plots.paint(clock.t, colours);
   controls.paint();
@@ -69,12 +67,8 @@ function head(): Head {
   return { title, t: clock.t, instant: motion.named(clock.t, decimals) };
 }
 
-function saveCanvas(canvas: HTMLCanvasElement, what: string): void {
-  canvas.toBlob((blob) => blob && download(nameOf(title, what), blob, "image/png"), "image/png");
-}
-
 function saveValues(): void {
-  const curves = plots.cards.flatMap(({ plot }) => plot.curves);
+  const curves = plots.cards.flatMap(({ curves }) => curves);
   download(nameOf(title, "_values.csv"), table(motion, curves), "text/csv;charset=utf-8");
 }
 
@@ -117,8 +111,8 @@ function connectButtons(): void {
     shorter: () => magnifyArrows(1 / 1.5),
     help: toggleKeys,
     "add-plot": addPlot,
-    "save-drawing": () => saveCanvas(drawingPicture(drawing, head(), paperPalette()), "_drawing.png"),
-    "save-plots": () => saveCanvas(plotsPicture(plots.cards, head(), paperPalette()), "_plots.png"),
+    "save-drawing": () => saveDrawing(drawing, head()),
+    "save-plots": () => savePlots(plots.cards, head()),
     "save-values": saveValues,
   };
   for (const [id, press] of Object.entries(presses)) byId(id).addEventListener("click", () => press());

@@ -1,12 +1,12 @@
 // All plots of the page: they share the time, its window and the units of angles.
 import type { Colours } from "../draw/surface";
+import { type Seeking, seekable } from "../plot/gestures";
+import type { Plot } from "../plot/plot";
+import { TimeSpan } from "../plot/timespan";
 import { Card, type Templates } from "./card";
-import { type Seeking, seekable } from "./gestures";
 import type { Motion } from "./motion";
-import type { Plot } from "./plot";
 import { type Quantity, quantities } from "./quantities";
 import type { Scene } from "./scene";
-import { TimeSpan } from "./timespan";
 
 const MOST = 6;
 

@@ -1,6 +1,6 @@
 // The quantities that can be plotted: those that follow from the frames, and the channels of the scene.
 import { type Point, placed } from "../plane/points";
-import { Curve, type Source } from "./curve";
+import { SceneCurve, type Source } from "./curve";
 import { acceleration, type Instant, type Motion, velocity } from "./motion";
 import { naturalScales } from "./scales";
 import type { Channel, Scene } from "./scene";
@@ -12,9 +12,9 @@ export interface Quantity {
   group: string;
   name: string;
   symbol: string;
-  curves: Curve[];
+  curves: SceneCurve[];
   /** Names of choices of several curves; all of them together by default. */
-  sets?: [string, Curve[]][];
+  sets?: [string, SceneCurve[]][];
 }
 
 const ORIGIN: Point = [0, 0];
@@ -65,11 +65,11 @@ export function quantities(scene: Scene, motion: Motion): Quantity[] {
 
 function ofBodies(scene: Scene, motion: Motion): Quantity[] {
   const turning = scene.bodies.filter(({ number, kind }) => number > 0 && kind !== "point_mass");
-  let rates: Curve[] = [];
+  let rates: SceneCurve[] = [];
   const made = [...TURNING].reverse().map(({ key, symbol, unit, rows }): Quantity => {
     const curves = turning.map(({ name, number }, k) => {
       const sample = (frame: number) => scene.frames[rows][frame]![number - 1]![2];
-      return new Curve(motion, { subject: name, key, unit, number: number - 1, sample, rate: rates[k] });
+      return new SceneCurve(motion, { subject: name, key, unit, number: number - 1, sample, rate: rates[k] });
     });
     rates = curves;
     return { key, group: texts.groups.bodies, name: texts.turning[key], symbol, curves };
@@ -96,18 +96,25 @@ function movingPoints({ bodies }: Scene): [Moving[], Moving[]] {
 
 function ofPoints(scene: Scene, motion: Motion): Quantity[] {
   const [origins, named] = movingPoints(scene);
-  const made = new Map<string, Curve>();
+  const made = new Map<string, SceneCurve>();
   const quantity = ({ key, symbol, unit, order, component, rate }: (typeof MOVING)[number]): Quantity => {
     const curves = [...origins, ...named].map(({ name, body, at, number }) => {
       const sample = (k: number) => {
         const value = DERIVATIVES[order]!(motion.frame(k), body, at);
         return component === null ? Math.hypot(...value) : value[component];
       };
-      const curve = new Curve(motion, { subject: name, key, unit, number, sample, rate: made.get(`${name}.${rate}`) });
+      const curve = new SceneCurve(motion, {
+        subject: name,
+        key,
+        unit,
+        number,
+        sample,
+        rate: made.get(`${name}.${rate}`),
+      });
       made.set(curve.name, curve);
       return curve;
     });
-    const sets: [string, Curve[]][] = [
+    const sets: [string, SceneCurve[]][] = [
       [texts.allBodies, curves.slice(0, origins.length)],
       [texts.allPoints, curves.slice(origins.length)],
     ];
@@ -134,7 +141,7 @@ function ofElements(scene: Scene, motion: Motion, group: "reactions" | "forces")
     const channels = scene.channels.filter((channel) => channel.group === group && channel.quantity === key);
     sources.push(...channels.map((channel, k) => ofChannel(channel, joints.length + k)));
     const name = texts.acting[group](texts.parts[key as keyof typeof ACTING]);
-    const curves = sources.map((source) => new Curve(motion, source));
+    const curves = sources.map((source) => new SceneCurve(motion, source));
     return { key: `${group}.${key}`, group: texts.groups[group], name, symbol, curves };
   });
 }
@@ -145,7 +152,7 @@ function ofScene(scene: Scene, motion: Motion, group: keyof typeof OF_SCENE): Qu
   const units = [...new Set(channels.map(({ unit }) => unit))];
   return units.map((unit) => {
     const listed = channels.filter((channel) => channel.unit === unit);
-    const curves = listed.map((channel, k) => new Curve(motion, ofChannel(channel, k)));
+    const curves = listed.map((channel, k) => new SceneCurve(motion, ofChannel(channel, k)));
     const name = units.length > 1 ? `${texts.channels[group]} / ${unit}` : texts.channels[group];
     return { key: `${group}.${unit}`, group: texts.groups[group], name, symbol: OF_SCENE[group], curves };
   });
@@ -156,11 +163,11 @@ function ofChannel({ name, of, quantity, unit, values }: Channel, number: number
 }
 
 /** The choices of a quantity: all curves together, and each one alone. */
-export function choices({ curves, sets = [[texts.all, curves]] }: Quantity): { name: string; curves: Curve[] }[] {
+export function choices({ curves, sets = [[texts.all, curves]] }: Quantity): { name: string; curves: SceneCurve[] }[] {
   const subjects = new Set(curves.map(({ subject }) => subject));
   const together = sets
     .filter(([, members]) => members.length > 1)
     .map(([name, members]) => ({ name, curves: members }));
-  const name = (curve: Curve) => (subjects.size === curves.length ? curve.subject : curve.name);
+  const name = (curve: SceneCurve) => (subjects.size === curves.length ? curve.subject : curve.name);
   return [...together, ...curves.map((curve) => ({ name: name(curve), curves: [curve] }))];
 }

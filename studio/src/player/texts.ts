@@ -5,7 +5,6 @@ export const texts = {
   theLinkage: "the linkage",
   drawingOf: (title: string) => `Drawing of ${title}`,
   plotOf: (name: string) => `Plot over time: ${name}`,
-  timeAxis: "t / s",
   on: (body: string) => `on ${body}`,
   of: (end: string) => `of ${end}`,
   play: "Play",

@@ -15,10 +15,16 @@ export const plots = signal<PlotOf[]>([]);
 
 let opening = 0;
 
-/** Another case has plots of its own, from when the core has read it: until then runs may be those of the case before. */
+/**
+ * Another case has plots of its own and is compared with nothing, from when the core has read it: until then runs may be
+ * those of the case before.
+ */
 effect(() => {
   loads.value;
-  if (openings.peek() !== opening) plots.value = [];
+  if (openings.peek() !== opening) {
+    plots.value = [];
+    stored.value = null;
+  }
   opening = openings.peek();
 });
 

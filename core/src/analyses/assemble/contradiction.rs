@@ -36,7 +36,7 @@ struct Contradiction {
     /// The one that then does not hold.
     missed: usize,
     by: f64,
-    /// The derivative in time that is meant: 0, 1 or 2.
+    /// Order of the derivative in time: 0 for positions, 1 for rates, 2 for accelerations.
     order: usize,
 }
 

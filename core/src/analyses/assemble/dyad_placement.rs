@@ -2,7 +2,7 @@
 
 use super::dyad::{close, Closure};
 use super::legs::Leg;
-use super::placement::{Dyad, Gap};
+use super::placement::{Dyad, DyadGap};
 use super::placer::{direction, Placer, ON_LINE};
 use super::slider_placement::{Rail, Slide};
 use super::targets::nearest_turn;
@@ -70,7 +70,7 @@ impl Placer<'_> {
     }
 
     fn note_gap(&mut self, bodies: [usize; 2], joint: usize, missing: Option<f64>, choices: usize) {
-        let gap = missing.map(|missing| Gap { bodies, joint, missing, choices });
+        let gap = missing.map(|missing| DyadGap { bodies, joint, missing, choices });
         self.result.gaps.extend(gap);
     }
 

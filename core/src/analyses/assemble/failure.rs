@@ -1,6 +1,6 @@
 //! Failures of assembly, in terms of the mechanism.
 
-use super::placement::Gap;
+use super::placement::DyadGap;
 use super::request::Request;
 use super::target::{of_motion, of_rates, trimmed, Target};
 use crate::analyses::closing::Closing;
@@ -57,7 +57,7 @@ pub(super) fn open(
     request: &Request,
     closing: &Closing<'_>,
     q: &[f64],
-    gap: Option<&Gap>,
+    gap: Option<&DyadGap>,
 ) -> Failure {
     match gap {
         Some(gap) => dyad_open(model, request, gap),
@@ -121,7 +121,7 @@ pub(super) fn off_the_curve((name, message): (String, String)) -> Failure {
     Failure { fault: Fault::Open, name, gap: 0.0, message, hint, places: Vec::new() }
 }
 
-fn dyad_open(model: &Model, request: &Request, gap: &Gap) -> Failure {
+fn dyad_open(model: &Model, request: &Request, gap: &DyadGap) -> Failure {
     let joint = &model.constraints[gap.joint].name;
     let [a, b] = gap.bodies.map(|k| model.bodies[k].name.as_str());
     let missing = gap.missing.abs();
@@ -185,7 +185,7 @@ fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
     Failure { fault: Fault::Open, name, gap, message, hint: hint.to_string(), places: Vec::new() }
 }
 
-/// "with crank.angle = 70° ", or nothing.
+/// The text "with crank.angle = 70° ", or nothing.
 fn asked<'a>(model: &Model, set: impl Iterator<Item = &'a Target>) -> String {
     let all: Vec<String> = set.map(|target| target.written(model)).collect();
     match all.is_empty() {
@@ -239,7 +239,7 @@ pub(super) fn loop_through(model: &Model, joint: usize) -> Option<String> {
     if loop_.len() > 2 && loop_[1] > loop_[loop_.len() - 1] {
         loop_[1..].reverse();
     }
-    let names: Vec<&str> = loop_.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+    let names = model.names_of(&loop_);
     // a long loop is shortened in its middle
     Some(match names.len() {
         0..=MOST_IN_LOOP => names.join("-"),
@@ -299,7 +299,7 @@ pub(super) fn redundant(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -
     let mut all: Vec<usize> = equations.iter().flat_map(|one| one.group.clone()).collect();
     all.sort_unstable();
     all.dedup();
-    let names: Vec<&str> = all.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+    let names = model.names_of(&all);
     let last = group.last().map_or("", |k| model.constraints[*k].name.as_str());
     let whole = twin(model, &group, mobility);
     let freed = match whole {

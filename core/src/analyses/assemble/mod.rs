@@ -42,15 +42,15 @@ pub use failure::{Failure, Fault};
 pub use holding::holding;
 pub use named::position;
 pub use open_placement::open_placement;
-pub use placement::{Dyad, Gap, Placement};
+pub use placement::{Dyad, DyadGap, Placement};
 pub(super) use placements::following;
 pub use placer::place;
-pub use report::{Mode, Report};
+pub use report::{DyadMode, Report};
 pub use request::{doubts, targets, Request};
 pub(super) use target::trimmed;
 pub use target::{CoordinateTarget, QuantityTarget, Target};
 pub use targets::Targets;
-pub use unset::{Choice, Source, Unset};
+pub use unset::{Choice, Unset, ValueSource};
 
 use super::closing::Halt;
 use super::curves;
@@ -209,7 +209,7 @@ fn close(
 }
 
 /// Why the mechanism does not close; `q` is the position with the smallest gap that was found.
-fn unclosed(request: &Request, closing: &Closing<'_>, q: &[f64], gap: Option<&Gap>) -> Failure {
+fn unclosed(request: &Request, closing: &Closing<'_>, q: &[f64], gap: Option<&DyadGap>) -> Failure {
     let model = closing.model();
     let undefined = failure::undefined(model, request.t, q);
     undefined

@@ -60,13 +60,13 @@ impl Named {
 }
 
 /// The moving bodies and the forces of a model by name.
-pub(super) struct Names<'a> {
+pub(super) struct NamedTargets<'a> {
     model: &'a Model,
     bodies: HashMap<&'a str, usize>,
     forces: HashMap<&'a str, usize>,
 }
 
-impl<'a> Names<'a> {
+impl<'a> NamedTargets<'a> {
     pub fn of(model: &'a Model) -> Self {
         let bodies = model.bodies.iter().enumerate().skip(1);
         Self {
@@ -78,7 +78,7 @@ impl<'a> Names<'a> {
 }
 
 /// A first-order state such as `motor.current`.
-fn state(names: &Names<'_>, key: &str) -> Option<Named> {
+fn state(names: &NamedTargets<'_>, key: &str) -> Option<Named> {
     let (element, name) = key.rsplit_once('.')?;
     let (model, k) = (names.model, *names.forces.get(element)?);
     let sampled = model.blueprint.functions.iter().flat_map(Functions::sampled);
@@ -143,7 +143,7 @@ fn refused(owner: &str, word: &str, measured: &[Measured]) -> (String, String) {
 
 /// The quantity with this name; a fault is reported at `path`.
 pub(super) fn named(
-    names: &Names<'_>,
+    names: &NamedTargets<'_>,
     key: &str,
     path: &[String],
     problems: &mut Vec<Problem>,
@@ -176,7 +176,7 @@ pub(super) fn named(
 /// There is no quantity of this name, or it is not the position of a moving body.
 pub fn position(model: &Model, name: &str) -> Result<Followed<Tape>, Problem> {
     let mut problems = Vec::new();
-    let found = named(&Names::of(model), name, &[name.to_string()], &mut problems);
+    let found = named(&NamedTargets::of(model), name, &[name.to_string()], &mut problems);
     let target = found.map(|found| found.with(0.0)).filter(|target| !target.is_rate());
     match (target.and_then(|target| target.followed()), problems.pop()) {
         (Some((of, _)), _) => Ok(of),
@@ -190,7 +190,7 @@ pub fn position(model: &Model, name: &str) -> Result<Followed<Tape>, Problem> {
 }
 
 fn of_body(
-    names: &Names<'_>,
+    names: &NamedTargets<'_>,
     (body, coordinate): (&str, &str),
     fault: impl Fn(String, Option<String>) -> Problem,
     problems: &mut Vec<Problem>,

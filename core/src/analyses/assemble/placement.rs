@@ -22,7 +22,7 @@ pub struct Dyad {
 
 /// A dyad whose circles do not meet.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Gap {
+pub struct DyadGap {
     /// The two bodies.
     pub bodies: [usize; 2],
     /// The joint between them.
@@ -41,7 +41,7 @@ pub struct Placement {
     /// Dyads, in the order of their closing.
     pub dyads: Vec<Dyad>,
     /// Dyads that did not close.
-    pub gaps: Vec<Gap>,
+    pub gaps: Vec<DyadGap>,
     /// Number of options of each undecided choice.
     pub options: Vec<usize>,
     /// Whether a body was placed by an assumption or by a search, so that other choices may give more positions.

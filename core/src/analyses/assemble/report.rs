@@ -10,7 +10,7 @@ use crate::solve::newton::Record;
 
 /// The closure of a dyad or of two rods, one of two.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Mode {
+pub struct DyadMode {
     /// The two bodies, or the one that two rods hold.
     pub bodies: Vec<String>,
     /// The joint between them, or the body that two rods hold.
@@ -35,17 +35,17 @@ pub struct Report {
     /// Degrees of freedom of the model, drivers counted as constraints.
     pub degrees_of_freedom: usize,
     /// The assembly mode: the closure of each dyad.
-    pub modes: Vec<Mode>,
+    pub modes: Vec<DyadMode>,
     /// Number of other combinations of closures, reachable or not; None if it is too large for the type.
     pub alternatives: Option<usize>,
     /// Warnings for the user.
     pub warnings: Vec<String>,
-    /// What was left unset.
+    /// The coordinates and rates that were not set.
     pub unset: Unset,
 }
 
 /// The closures of dyads at a position.
-pub(super) fn modes(model: &Model, dyads: &[Dyad], q: &[f64]) -> Vec<Mode> {
+pub(super) fn modes(model: &Model, dyads: &[Dyad], q: &[f64]) -> Vec<DyadMode> {
     let motions = Motions::at_rest(&model.layout, q);
     let name = |k: usize| model.constraints[k].name.clone();
     let of = |dyad: &Dyad| {
@@ -69,7 +69,7 @@ pub(super) fn modes(model: &Model, dyads: &[Dyad], q: &[f64]) -> Vec<Mode> {
         let side = |at: Vec2| (p2 - p1).cross(at - p1);
         let pin = dyad.opposite.map(|k| side(point(model, &motions, k)));
         let pin = pin.filter(|side| side.abs() > ON_LINE * (p2 - p1).dot(p2 - p1));
-        Mode {
+        DyadMode {
             bodies: dyad.bodies.map(body).to_vec(),
             joint: name(dyad.joint),
             anchors: dyad.anchors.map(name),
@@ -87,7 +87,7 @@ fn on_rods(
     body: String,
     rods: [&str; 2],
     (model, motions): (&Model, &[Motion]),
-) -> Mode {
+) -> DyadMode {
     let ends = dyad.anchors.map(|k| {
         let item = &model.constraints[k];
         let own = usize::from(item.bodies[1].0 == dyad.bodies[0]);
@@ -95,7 +95,7 @@ fn on_rods(
             .map(|end| motions[item.bodies[end].0].pose.point(item.element.attachment(end).s))
     });
     let [first, second] = ends.map(|[own, far]| own - far);
-    Mode {
+    DyadMode {
         bodies: vec![body.clone()],
         joint: body,
         anchors: rods.map(str::to_string),
@@ -121,8 +121,7 @@ pub(super) fn folded(model: &Model, dyads: &[Dyad]) -> Vec<String> {
 /// A warning for each group of constraints that depend on each other at this position only.
 pub(super) fn singular(model: &Model, groups: &[Vec<usize>]) -> Vec<String> {
     let one = |group: &Vec<usize>| {
-        let names: Vec<&str> = group.iter().map(|k| model.constraints[*k].name.as_str()).collect();
-        let names = listed(&names);
+        let names = listed(&model.names_of(group));
         format!("this is a singular position: the constraints {names} depend on each other here")
     };
     let mut warnings: Vec<String> = groups.iter().take(MOST_REPORTED).map(one).collect();

@@ -1,6 +1,6 @@
 //! The request for an assembly.
 
-use super::named::{named, Names};
+use super::named::{named, NamedTargets};
 use super::target::Target;
 use crate::analyses::State;
 use crate::equations::at;
@@ -43,7 +43,7 @@ pub fn targets(
 ) -> Result<Vec<Target>, Vec<Problem>> {
     let mut problems = Vec::new();
     let mut found = Vec::new();
-    let names = Names::of(model);
+    let names = NamedTargets::of(model);
     let b = &model.blueprint;
     let scope = Scope::of_parameters(&b.parameters, &b.inferred, &b.tables);
     for (key, value) in written {
@@ -79,7 +79,7 @@ pub fn doubts(model: &Model, written: &[(String, Value)]) -> Vec<Doubt> {
     if doubted.is_empty() {
         return doubted;
     }
-    let names = Names::of(model);
+    let names = NamedTargets::of(model);
     let angle = |doubt: &Doubt| {
         let found = named(&names, &doubt.place, &[], &mut Vec::new());
         found.is_some_and(|named| named.unit == "rad")

@@ -22,11 +22,11 @@ pub struct QuantityTarget {
     pub name: String,
     /// The position quantity.
     pub of: Followed<Tape>,
-    /// Whether its rate is meant.
+    /// Whether the value is that of the rate.
     pub rate: bool,
     /// SI unit.
     pub unit: String,
-    /// In its unit.
+    /// The value in its unit.
     pub value: f64,
 }
 
@@ -39,28 +39,28 @@ impl PartialEq for QuantityTarget {
 /// A value given for the start.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Target {
-    /// Of a body.
+    /// A coordinate or rate of a body.
     Coordinate(CoordinateTarget),
-    /// Of a point or an element.
+    /// A quantity of a point or an element.
     Quantity(QuantityTarget),
-    /// Of an internal coordinate of a joint; a guess.
+    /// The guess of an internal coordinate of a joint.
     Internal {
         /// Its column.
         column: usize,
         /// m or rad.
         value: f64,
     },
-    /// Of a first-order state of an element.
+    /// A first-order state of an element.
     State {
         /// Its place in z.
         place: usize,
-        /// In its unit.
+        /// The value in its unit.
         value: f64,
     },
 }
 
 impl Target {
-    /// The position quantity, its value or that of its rate; None of other targets.
+    /// The position quantity, with its value or the value of its rate; None for other targets.
     pub(super) fn followed(&self) -> Option<(Followed<Tape>, f64)> {
         match self {
             Self::Coordinate(CoordinateTarget { body, coordinate, value }) => {
@@ -81,7 +81,7 @@ impl Target {
         }
     }
 
-    /// The quantity as written; empty of other targets.
+    /// The quantity as written; empty for other targets.
     pub(super) fn name(&self, model: &Model) -> String {
         match self {
             Self::Coordinate(target) => {

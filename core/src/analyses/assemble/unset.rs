@@ -21,16 +21,16 @@ const MOST_NAMED: usize = 120;
 /// Largest difference, relative to the size of the mechanism, of a value that equals its guess.
 const EQUAL: f64 = 1e-9;
 
-/// Where the value of a coordinate or rate came from that was not set.
+/// The source of the value of a coordinate or rate that was not set.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Source {
-    /// From its guess.
+pub enum ValueSource {
+    /// Its guess.
     Guess,
-    /// As near to its guess, in m, rad or per s, as the joints allow.
+    /// The value nearest to its guess that the joints allow; the number is the difference in m, rad or per s.
     NearGuess(f64),
     /// Quantities other than coordinates were guessed.
     Guesses,
-    /// From the drawn position of the body.
+    /// The drawn position of the body.
     Drawing,
     /// Nothing was given.
     Nothing,
@@ -49,11 +49,11 @@ pub struct Choice {
     pub value: f64,
     /// SI unit.
     pub unit: &'static str,
-    /// Where the value came from.
-    pub source: Source,
+    /// The source of the value.
+    pub source: ValueSource,
 }
 
-/// What was left unset.
+/// The coordinates and rates that were not set.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Unset {
     /// Number of freedoms, and of rates.
@@ -67,8 +67,8 @@ pub struct Unset {
 /// A candidate: its column, and the index of its body with the coordinate.
 type Candidate = (usize, usize, Coordinate);
 
-/// What a request left unset, at its result; `extended` is the model with the positions that are set. Nothing if a state
-/// was given.
+/// The coordinates and rates that a request did not set, with their values in the result; `extended` is the model
+/// with the positions that are set. Nothing if a state was given.
 pub(super) fn unset(
     [model, extended]: [&Model; 2],
     request: &Request,
@@ -117,8 +117,8 @@ pub(super) fn unset(
         let of = guesses.iter().find(|of| of.body.0 == body && of.coordinate == rate);
         let source = match of {
             Some(of) => near(model, coordinate, of.value, v[column]),
-            None if still => Source::Rest,
-            None => Source::LeastEnergy,
+            None if still => ValueSource::Rest,
+            None => ValueSource::LeastEnergy,
         };
         choice(model, (column, body, rate), v, source)
     };
@@ -137,7 +137,7 @@ fn met_first(
 ) -> Vec<CoordinateTarget> {
     guesses.sort_by_key(|of| {
         let place = model.layout.bodies[of.body.0].first + of.coordinate.column();
-        near(model, of.coordinate, of.value, values[place]) != Source::Guess
+        near(model, of.coordinate, of.value, values[place]) != ValueSource::Guess
     });
     guesses
 }
@@ -171,30 +171,30 @@ fn named(
     found.independent.into_iter().map(|k| candidates[k]).collect()
 }
 
-/// Where the value of a coordinate came from.
+/// The source of the value of a coordinate.
 fn source(
     model: &Model,
     request: &Request,
     asked: &Targets,
     (column, body, coordinate): Candidate,
     q: &[f64],
-) -> Source {
+) -> ValueSource {
     let mut guesses = of_bodies(&request.guess);
     let guess = guesses.find(|of| of.body.0 == body && of.coordinate == coordinate);
     match (guess, asked.soft[body][coordinate.column()]) {
         (Some(guess), _) => near(model, coordinate, guess.value, q[column]),
-        (None, Some(_)) => Source::Drawing,
-        (None, None) if of_quantities(&request.guess).next().is_some() => Source::Guesses,
-        (None, None) => Source::Nothing,
+        (None, Some(_)) => ValueSource::Drawing,
+        (None, None) if of_quantities(&request.guess).next().is_some() => ValueSource::Guesses,
+        (None, None) => ValueSource::Nothing,
     }
 }
 
 /// Whether a value is that of its guess.
-fn near(model: &Model, coordinate: Coordinate, guess: f64, value: f64) -> Source {
+fn near(model: &Model, coordinate: Coordinate, guess: f64, value: f64) -> ValueSource {
     let unit = if coordinate.column() == 2 { 1.0 } else { size(model) };
     match (value - guess).abs() <= EQUAL * unit.max(value.abs()) {
-        true => Source::Guess,
-        false => Source::NearGuess(guess),
+        true => ValueSource::Guess,
+        false => ValueSource::NearGuess(guess),
     }
 }
 
@@ -202,7 +202,7 @@ fn choice(
     model: &Model,
     (column, body, coordinate): Candidate,
     values: &[f64],
-    source: Source,
+    source: ValueSource,
 ) -> Choice {
     Choice {
         name: format!("{}.{}", model.bodies[body].name, coordinate.name()),

@@ -3,7 +3,7 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Bodies that wait, the first of the file first; each waits once.
+/// A queue of bodies, in the order of the file; each is in it once.
 #[derive(Clone, Debug)]
 pub(super) struct Queue {
     heap: BinaryHeap<Reverse<usize>>,
@@ -28,23 +28,24 @@ impl Queue {
     }
 }
 
-/// The waiting bodies, by what may place them.
+/// The queues, one for each way to place a body.
 #[derive(Clone, Debug)]
 pub(super) struct Worklist {
-    /// By their joints to placed bodies.
+    /// Bodies that joints to placed bodies may place.
     pub follow: Queue,
-    /// As one of two bodies of a dyad: those with a pin on a placed body.
+    /// Bodies with a pin on a placed body, which may be one of two bodies of a dyad.
     pub dyads: Queue,
-    /// With one freedom left, by an equation.
+    /// Bodies with one freedom left, which an equation may place.
     pub equations: Queue,
-    /// On a slide, by a link.
+    /// Bodies on a slide, which a link may place.
     pub slides: Queue,
-    /// By assumption: with a pin and a known angle, with known coordinates, with a pin, any.
+    /// Bodies that may be placed by assumption: with a pin and a known angle, with known coordinates, with a pin, and
+    /// any.
     pub assumed: [Queue; 4],
 }
 
 impl Worklist {
-    /// For `n` bodies, of which index 0 is ground; nobody waits except for an assumption.
+    /// The queues for `n` bodies, of which index 0 is ground. At first all bodies are in the queue of assumptions only.
     pub fn new(n: usize, posed: impl Iterator<Item = usize>) -> Self {
         let none = Queue::new(n);
         let mut list = Self {

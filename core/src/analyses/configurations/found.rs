@@ -7,7 +7,7 @@ use crate::model::Model;
 const SAME: f64 = 1e-5;
 
 /// The positions found so far.
-pub(super) struct Found<'a> {
+pub(super) struct Positions<'a> {
     model: &'a Model,
     limit: usize,
     pub positions: Vec<Vec<f64>>,
@@ -15,7 +15,7 @@ pub(super) struct Found<'a> {
     pub dropped: usize,
 }
 
-impl<'a> Found<'a> {
+impl<'a> Positions<'a> {
     pub fn new(model: &'a Model, limit: usize) -> Self {
         Self { model, limit, positions: Vec::new(), dropped: 0 }
     }

@@ -24,7 +24,7 @@ use super::assemble::{assemble_until, holding, Failure as AssemblyFailure, Repor
 use super::mobility::mobility;
 use super::State;
 use crate::model::Model;
-use found::Found;
+use found::Positions;
 
 /// The positions in which a mechanism closes.
 #[derive(Clone, Debug, Default)]
@@ -58,9 +58,9 @@ pub fn configurations(
     stop: &dyn Fn() -> bool,
 ) -> Result<Configurations, Failure> {
     let held = holding(model, request);
-    let mut found = Found::new(&held, limit);
+    let mut found = Positions::new(&held, limit);
     let mut complete = walk::walk(&held, request.t, &mut found, stop);
-    let free = |found: &Found<'_>| {
+    let free = |found: &Positions<'_>| {
         let q = found.positions.first()?;
         let left = mobility(&held, request.t, q);
         let n = left.degrees_of_freedom;

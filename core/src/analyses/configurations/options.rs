@@ -1,29 +1,15 @@
 //! Options of the list of configurations.
 
 use crate::analyses::assemble::{targets, Target};
-use crate::analyses::options::{count, name, options, Kind, Reader};
-use crate::elements::{Default, Shape};
+use crate::analyses::options::{count, kind, name, options};
 use crate::model::Value;
 
 /// Largest number of configurations, if none is given.
 const LIMIT: usize = 100;
 
-/// Values of coordinates and other position quantities by name.
-#[allow(non_camel_case_types)] // a type in `options!`
-#[derive(Clone, Copy, Debug)]
-pub enum coordinates {}
-
-impl Kind for coordinates {
-    type Value = Vec<Target>;
-    fn shape() -> Shape {
-        Shape::Values
-    }
-
-    fn data(_: &Self::Value) -> Default {
-        Default::Absent
-    }
-
-    fn read(reader: &mut Reader<'_>, key: &'static str, _: &'static str) -> Option<Self::Value> {
+kind! {
+    /// Values of coordinates and other position quantities by name.
+    coordinates: Vec<Target>, Values, |reader, key| {
         let Some(Value::Table(fields)) = reader.get(key) else {
             return reader.refuse(key, "must be a table such as { \"crank.angle\" = \"70 deg\" }");
         };

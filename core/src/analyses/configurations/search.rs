@@ -1,6 +1,6 @@
 //! Starts of Newton's method, and circuits through the positions found.
 
-use super::found::Found;
+use super::found::Positions;
 use crate::analyses::assemble::{following, place, wind, Targets};
 use crate::analyses::closing::{Closing, Halt};
 use crate::analyses::kinematics::circuit;
@@ -19,10 +19,10 @@ const STARTS: usize = 300;
 const IDLE: usize = 60;
 
 /// Adds the positions that starts and circuits reach.
-pub(super) fn search(model: &Model, t: f64, found: &mut Found<'_>, stop: Halt<'_>) {
+pub(super) fn search(model: &Model, t: f64, found: &mut Positions<'_>, stop: Halt<'_>) {
     let mut closing = Closing::new(model, t, stop);
     let mut next = found.positions.len();
-    let mut try_from = |mut q: Vec<f64>, found: &mut Found<'_>| {
+    let mut try_from = |mut q: Vec<f64>, found: &mut Positions<'_>| {
         wind(model, t, &mut q);
         let closes = q.iter().all(|x| x.is_finite()) && closing.close(&mut q).1;
         closes && found.add(q)
@@ -61,7 +61,7 @@ fn arbitrary(start: usize, body: usize) -> f64 {
 }
 
 /// Follows the circuits of all positions from the given one on.
-fn follow_new(model: &Model, t: f64, found: &mut Found<'_>, next: &mut usize, stop: Halt<'_>) {
+fn follow_new(model: &Model, t: f64, found: &mut Positions<'_>, next: &mut usize, stop: Halt<'_>) {
     let mut closing = Closing::new(model, t, stop);
     while *next < found.positions.len() {
         let q = found.positions[*next].clone();

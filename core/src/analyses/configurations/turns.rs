@@ -3,7 +3,7 @@
 //! A coupling of angles, such as 1:2, counts whole turns: where a body may have turned once more in the same position,
 //! the bodies coupled to it are elsewhere.
 
-use super::found::Found;
+use super::found::Positions;
 use crate::analyses::assemble::Targets;
 use crate::analyses::closing::{Closing, Halt};
 use crate::elements::Group;
@@ -70,7 +70,7 @@ fn solved(model: &Model, closing: &Closing<'_>, targets: &Targets, row: usize) -
 }
 
 /// Adds the positions that whole turns of each such body lead to, from all positions found.
-pub(super) fn turn(model: &Model, t: f64, found: &mut Found<'_>, stop: Halt<'_>) {
+pub(super) fn turn(model: &Model, t: f64, found: &mut Positions<'_>, stop: Halt<'_>) {
     let mut closing = Closing::new(model, t, stop);
     let angles = counted(model);
     let mut next = 0;

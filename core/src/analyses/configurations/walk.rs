@@ -1,6 +1,6 @@
 //! All closures of dyads, rods and meshed wheels.
 
-use super::found::Found;
+use super::found::Positions;
 use super::turns;
 use crate::analyses::assemble::{following, place, Targets};
 use crate::analyses::closing::{Closing, Halt};
@@ -12,7 +12,7 @@ const MOST: usize = 20_000;
 const CLOSED: f64 = 1e-7;
 
 /// Adds the positions of all combinations of closures and meshes; returns whether there are no others.
-pub(super) fn walk(model: &Model, t: f64, found: &mut Found<'_>, stop: Halt<'_>) -> bool {
+pub(super) fn walk(model: &Model, t: f64, found: &mut Positions<'_>, stop: Halt<'_>) -> bool {
     let mut targets = Targets::of(model, t);
     targets.soft.fill([None; 3]);
     targets.every_solution = true;

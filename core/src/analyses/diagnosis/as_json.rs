@@ -3,7 +3,7 @@
 use super::{Diagnosis, FourBar, Redundancy, Remedy};
 use serde_json::{json, Value};
 
-/// What a mechanism can do at a position: counts, and lists of redundancies, singular positions, bodies and four-bar loops.
+/// The diagnosis of a position: counts, and lists of redundancies, singular positions, bodies and four-bar loops.
 pub fn json(found: &Diagnosis) -> Value {
     let singular = found.singular.iter().map(|(one, kind)| {
         let mut one = redundancy(one);

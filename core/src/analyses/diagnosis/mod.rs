@@ -1,5 +1,5 @@
-//! What a mechanism can do at a position: freedoms, redundant equations and singular positions with their kinds, bodies
-//! that are locked or loose, and four-bar loops.
+//! The diagnosis of a mechanism at a position: freedoms, redundant equations and singular positions with their kinds,
+//! bodies that are locked or loose, and four-bar loops.
 //!
 //! | file | concept |
 //! |---|---|
@@ -17,8 +17,8 @@ mod remedies;
 
 pub use as_json::json as as_json;
 pub use four_bars::{FourBar, Grashof};
-pub use passing::Kind;
-pub use remedies::{remedies, Along, Remedy};
+pub use passing::SingularKind;
+pub use remedies::{remedies, JointDirection, Remedy};
 
 use super::dependence;
 use super::freedoms::NEARLY;
@@ -41,7 +41,7 @@ options! {
     }
 }
 
-/// What a mechanism can do at a position.
+/// The freedoms, redundancies and singular positions of a mechanism at a position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnosis {
     /// Coordinates less constraint equations, drivers included; negative if there are more equations.
@@ -53,7 +53,7 @@ pub struct Diagnosis {
     /// Redundant equations.
     pub redundant: Vec<Redundancy>,
     /// Equations that depend on others at this position only, and the kind of position.
-    pub singular: Vec<(Redundancy, Kind)>,
+    pub singular: Vec<(Redundancy, SingularKind)>,
     /// Bodies (names) that cannot move even if the drivers are released.
     pub locked: Vec<String>,
     /// Bodies (names) that no chain of joints connects with ground.
@@ -72,7 +72,7 @@ pub struct Redundancy {
     pub joints: Vec<String>,
     /// Their equations that take part, such as `C.x`: any single one may be removed.
     pub equations: Vec<String>,
-    /// What may be freed in each joint; one of them is enough.
+    /// The equations that may be freed in each joint; one joint is enough.
     pub remedies: Vec<Remedy>,
     /// One of the equations, such that the equations of this name in all redundancies may be removed together.
     pub remove: String,

@@ -18,7 +18,7 @@ const ZERO: f64 = 1e-7;
 
 /// The kind of a singular position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub enum SingularKind {
     /// A driver cannot move the mechanism.
     DeadPoint,
     /// Motions cross, or touch: the branch is not determined by the position.
@@ -27,7 +27,7 @@ pub enum Kind {
     Uncertainty,
 }
 
-impl fmt::Display for Kind {
+impl fmt::Display for SingularKind {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::DeadPoint => "dead point",
@@ -38,7 +38,7 @@ impl fmt::Display for Kind {
 }
 
 /// The kind for each of the equations that are dependent at this position only.
-pub(super) fn kinds(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -> Vec<Kind> {
+pub(super) fn kinds(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -> Vec<SingularKind> {
     let driven = |one: &Dependent| one.group.iter().any(|k| model.constraints[*k].driven);
     let equations = &mobility.singular_equations;
     if equations.is_empty() {
@@ -48,7 +48,13 @@ pub(super) fn kinds(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -> Ve
     let kind = of_joints.first().map(|_| crossing(model, t, q, &of_joints));
     equations
         .iter()
-        .map(|one| if driven(one) { Kind::DeadPoint } else { kind.unwrap_or(Kind::ChangePoint) })
+        .map(|one| {
+            if driven(one) {
+                SingularKind::DeadPoint
+            } else {
+                kind.unwrap_or(SingularKind::ChangePoint)
+            }
+        })
         .collect()
 }
 
@@ -58,8 +64,8 @@ pub(super) fn freedoms(model: &Model, t: f64, q: &[f64]) -> Option<Vec<Vec<f64>>
 }
 
 /// The kind of a position at which equations of joints depend on each other.
-fn crossing(model: &Model, t: f64, q: &[f64], equations: &[&Dependent]) -> Kind {
-    let Some(freedoms) = freedoms(model, t, q) else { return Kind::ChangePoint };
+fn crossing(model: &Model, t: f64, q: &[f64], equations: &[&Dependent]) -> SingularKind {
+    let Some(freedoms) = freedoms(model, t, q) else { return SingularKind::ChangePoint };
     let forms = independent(forms(model, t, q, equations, &freedoms));
     let definite = |form: &Vec<f64>| {
         let [least, most] = signs(form, freedoms.len());
@@ -67,8 +73,8 @@ fn crossing(model: &Model, t: f64, q: &[f64], equations: &[&Dependent]) -> Kind 
     };
     // a form with one sign excludes every motion
     match forms.iter().any(definite) {
-        true => Kind::Uncertainty,
-        false => Kind::ChangePoint,
+        true => SingularKind::Uncertainty,
+        false => SingularKind::ChangePoint,
     }
 }
 

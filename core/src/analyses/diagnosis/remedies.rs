@@ -17,7 +17,7 @@ use std::fmt;
 /// Angle up to which two directions are the same, rad.
 const SAME: f64 = 1e-7;
 
-/// What may be freed in one joint.
+/// The equations that may be freed in one joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Remedy {
     /// The joint or driver.
@@ -26,13 +26,13 @@ pub struct Remedy {
     pub equations: Vec<String>,
     /// Whether the joint has other equations.
     pub is_part: bool,
-    /// Of a pin: the direction that may be freed.
-    pub along: Option<Along>,
+    /// The direction that may be freed, if the joint is a pin.
+    pub along: Option<JointDirection>,
 }
 
 /// A direction at a joint.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Along {
+pub struct JointDirection {
     /// The body with which it turns; None if there is none, so that the direction is that of the position.
     pub body: Option<String>,
     /// Angle from the x axis of this body, or of ground, in (-π/2, π/2], rad.
@@ -41,7 +41,7 @@ pub struct Along {
 
 impl fmt::Display for Remedy {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Some(Along { body, axis }) = &self.along else {
+        let Some(JointDirection { body, axis }) = &self.along else {
             return f.write_str(&self.equations.join(" or "));
         };
         write!(f, "{} along ", self.joint)?;
@@ -100,10 +100,11 @@ fn remedy(model: &Model, k: usize, here: At<'_>, moved: Option<At<'_>>, moves: b
             None => !moves,
         };
         match candidates.find(stays) {
-            Some(body) => {
-                Along { body: Some(model.bodies[body].name.clone()), axis: axis(here, angle, body) }
-            }
-            None => Along { body: None, axis: turned(angle) },
+            Some(body) => JointDirection {
+                body: Some(model.bodies[body].name.clone()),
+                axis: axis(here, angle, body),
+            },
+            None => JointDirection { body: None, axis: turned(angle) },
         }
     });
     let equations = taking.map(|(row, _)| model.equation_name(*row)).collect();

@@ -1,7 +1,7 @@
 //! Absolute tolerances of a mechanism. One number cannot serve metres and radians at every size, so there is one for
 //! each kind of component: lengths, angles, and first-order states. Rates have the number of their coordinate, per s.
 
-use crate::analyses::options::{not_negative, Kind, Reader};
+use crate::analyses::options::{not_negative, OptionKind, Reader};
 use crate::elements::{Default, Shape, TOLERANCES};
 use crate::integrate::Atol;
 use crate::model::{size, Model, Value};
@@ -9,7 +9,7 @@ use crate::model::{size, Model, Value};
 /// An absolute tolerance as written.
 #[derive(Clone, Debug, PartialEq)]
 pub enum AbsoluteTolerance {
-    /// The same number for every component, in its unit.
+    /// One number for every component, in the unit of the component.
     Uniform(f64),
     /// For each component of (q, v, z) the number of its kind, if there is one, and its scale.
     ByKind(Vec<(Option<f64>, f64)>),
@@ -56,7 +56,7 @@ pub(super) fn for_model(model: &Model, atol: &Atol) -> Atol {
 #[allow(non_camel_case_types)] // a type in `options!`, written like a word
 pub enum absolute_tolerance {}
 
-impl Kind for absolute_tolerance {
+impl OptionKind for absolute_tolerance {
     type Value = AbsoluteTolerance;
 
     fn shape() -> Shape {

@@ -147,7 +147,7 @@ struct Many<'a> {
 }
 
 impl<'a> Many<'a> {
-    /// With the plan of elimination of `one`.
+    /// Uses the plan of elimination of `one`.
     fn new(wide: Wide<'a>, one: &Workspace) -> Self {
         let model = wide.model();
         let mut workspace = Workspace::like(model, one);

@@ -15,7 +15,7 @@ use crate::solve::Breakdown;
 /// Largest opening of a joint: lengths relative to the size of the mechanism, angles in rad. The classical gains at
 /// their smallest, α = 1, β = 20 at rtol 1e-3, open the flagship by 6e-4.
 pub(super) const APART: f64 = 1e-2;
-/// The same without stabilization.
+/// Largest opening of a joint without stabilization.
 pub(super) const ADRIFT: f64 = 1.0;
 
 /// Checks states for joints that opened too far.
@@ -26,7 +26,7 @@ pub(super) struct ViolationCheck<S = f64> {
 }
 
 impl<S: Real> ViolationCheck<S> {
-    /// For runs without projection.
+    /// The check for runs without projection.
     pub fn new(model: &Model<S>, options: &Options) -> Option<Self> {
         let most = match options.stabilization {
             Stabilization::Projection(_) => return None,

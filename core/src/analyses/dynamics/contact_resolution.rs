@@ -6,11 +6,11 @@
 //! force begins and ends like tⁿ, without higher derivatives, and estimates of the error are too small there: the first and
 //! the last steps are graded.
 
-use super::modes::Place;
+use super::modes::StateAt;
 use super::motion_ode::MotionOde;
 use crate::elements::Behaviour;
 use crate::math::Jet;
-use crate::model::{Model, Owner};
+use crate::model::{Model, SwitchOwner};
 use crate::solve::Breakdown;
 
 /// Least number of constant steps in a contact.
@@ -20,18 +20,18 @@ const DURATION: f64 = 3.0;
 /// Ends of the first steps, as parts of the time in contact, and of the last ones, as parts of one step.
 const GRADED: [f64; 4] = [0.25, 0.05, 0.01, 0.002];
 
-/// The steps of a method.
+/// How a method chooses its steps.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Steps {
-    /// Of constant length, of an explicit method.
+pub(super) enum StepChoice {
+    /// Constant steps of an explicit method.
     Constant(f64),
-    /// The same of an implicit method.
+    /// Constant steps of an implicit method.
     Implicit,
-    /// Chosen by the error.
+    /// Steps chosen by the error.
     Chosen,
 }
 
-impl Steps {
+impl StepChoice {
     /// Whether contacts with this exponent change the steps.
     fn depend_on(self, exponent: f64) -> bool {
         match self {
@@ -58,7 +58,7 @@ pub(super) fn ends(
     ode: &mut MotionOde<'_>,
     at: (f64, &[f64]),
     changes: &[(usize, f64)],
-    (steps, sign): (Steps, f64),
+    (steps, sign): (StepChoice, f64),
 ) -> Result<Option<Vec<f64>>, Breakdown> {
     let Some(onset) = Onset::find(ode, at, changes, steps)? else { return Ok(None) };
     Ok(Some(onset.ends(steps)?.into_iter().map(|after| at.0 + sign * after).collect()))
@@ -70,17 +70,17 @@ pub(super) fn before_release(
     model: &Model,
     changes: &[(usize, f64)],
     (from, to): (f64, f64),
-    steps: Steps,
+    steps: StepChoice,
 ) -> Vec<f64> {
     let is_released = |(switch, piece): &(usize, f64)| match model.switches[*switch].owner {
-        Owner::Force(force) if *piece < 0.0 => {
+        SwitchOwner::Force(force) if *piece < 0.0 => {
             let behaviour = model.forces[force].element.behaviour();
             matches!(behaviour, Some(Behaviour::Compliant { exponent, .. }) if exponent.fract() != 0.0)
         }
         _ => false,
     };
     match steps {
-        Steps::Chosen if changes.iter().any(is_released) => {
+        StepChoice::Chosen if changes.iter().any(is_released) => {
             GRADED.iter().rev().map(|part| to - part * (to - from)).collect()
         }
         _ => Vec::new(),
@@ -93,18 +93,18 @@ impl Onset {
         ode: &mut MotionOde<'_>,
         at: (f64, &[f64]),
         changes: &[(usize, f64)],
-        steps: Steps,
+        steps: StepChoice,
     ) -> Result<Option<Self>, Breakdown> {
         let model = ode.model;
         let begun = changes.iter().filter(|(_, piece)| *piece > 0.0);
         let compliant = begun.filter_map(|(switch, _)| match model.switches[*switch].owner {
-            Owner::Force(force) => match model.forces[force].element.behaviour()? {
+            SwitchOwner::Force(force) => match model.forces[force].element.behaviour()? {
                 Behaviour::Compliant { stiffness, exponent } if steps.depend_on(exponent) => {
                     Some((force, stiffness, exponent))
                 }
                 _ => None,
             },
-            Owner::Constraint(_) => None,
+            SwitchOwner::Constraint(_) => None,
         });
         let (mut found, mut lifted): (Option<Self>, Option<Model<Jet>>) = (None, None);
         for contact in compliant {
@@ -123,7 +123,7 @@ impl Onset {
     ) -> Result<Option<Self>, Breakdown> {
         let model = ode.model;
         let mut y = y.to_vec();
-        let speed = -Place { t, y: &mut y }.gap_rate(lifted, force);
+        let speed = -StateAt { t, y: &mut y }.gap_rate(lifted, force);
         let gradient = gradient(lifted, (t, &mut y.clone()), force);
         let response =
             ode.workspace.velocity_jump(model, t, model.layout.split(&y)[0], &gradient)?;
@@ -135,13 +135,13 @@ impl Onset {
     }
 
     /// The times after its beginning at which the first steps end, last ones first.
-    fn ends(&self, steps: Steps) -> Result<Vec<f64>, Breakdown> {
+    fn ends(&self, steps: StepChoice) -> Result<Vec<f64>, Breakdown> {
         let Self { force, lasts } = *self;
         match steps {
-            Steps::Constant(step) if STEPS * step > lasts => {
+            StepChoice::Constant(step) if STEPS * step > lasts => {
                 Err(Breakdown::Unresolved { force, lasts, step })
             }
-            Steps::Chosen => Ok(GRADED.iter().map(|part| part * lasts).collect()),
+            StepChoice::Chosen => Ok(GRADED.iter().map(|part| part * lasts).collect()),
             _ => Ok(Vec::new()),
         }
     }
@@ -155,7 +155,7 @@ fn gradient(model: &Model<Jet>, (t, y): (f64, &mut [f64]), force: usize) -> Vec<
         if let Some(k) = one {
             v[k] = 1.0;
         }
-        Place { t, y }.gap_rate(model, force)
+        StateAt { t, y }.gap_rate(model, force)
     };
     let still = rate(None);
     let mut gradient = vec![0.0; model.layout.n_q];

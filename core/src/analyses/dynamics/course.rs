@@ -4,13 +4,13 @@
 //! and where the caller acts; the next one begins there, with a model of its own.
 
 use super::clock::Clock;
-use super::event_list::{Function, Watched};
+use super::event_list::{EventFunction, Watched};
 use super::failure::{Failure, Reason};
 use super::model_cache::ModelCache;
-use super::modes::{self, watched_mode, Place};
+use super::modes::{self, watched_mode, StateAt};
 use super::option_checks::check_lengths;
 use super::options::Options;
-use super::run::{run_phase, At, Phase, PhaseEnd, Watcher};
+use super::run::{run_phase, Phase, PhaseEnd, Progress};
 use super::run_results::{EventStates, Run};
 use super::setting::Setting;
 use super::start_check::StartCheck;
@@ -33,10 +33,10 @@ pub struct Change {
 /// Called with the name of an event, the state there, and the setting until then; None ends the run.
 pub type Act<'a> = &'a mut dyn FnMut(&str, &State, &Setting) -> Option<Change>;
 
-/// What follows from an event.
+/// The effect of an event.
 #[derive(Clone, PartialEq)]
 enum Effect {
-    /// It is listed.
+    /// The event is listed, and nothing else.
     None,
     /// The run ends.
     Stop,
@@ -116,7 +116,7 @@ impl Own {
     }
 }
 
-/// Numbers that cannot be right.
+/// The failure of parameters with impossible values.
 fn impossible(problems: &[Problem], t: f64) -> Box<Failure> {
     let all: Vec<String> = problems.iter().map(ToString::to_string).collect();
     let message = format!("the parameters at t = {t:.6} s: {}", all.join("; "));
@@ -124,12 +124,12 @@ fn impossible(problems: &[Problem], t: f64) -> Box<Failure> {
 }
 
 /// Runs a model through its phases.
-pub(super) fn run<W: FnMut(f64) -> Flow>(
+pub(super) fn run(
     base: (&Model, &ModelCache),
     start: &State,
     options: &Options,
     clock: Clock,
-    mut watcher: Watcher<'_, W>,
+    mut watch: impl FnMut(f64) -> Flow,
     mut act: Option<Act<'_>>,
 ) -> Result<Run, Box<Failure>> {
     let began = clock();
@@ -139,7 +139,7 @@ pub(super) fn run<W: FnMut(f64) -> Flow>(
     let mut run = Run { events: events.iter().map(named).collect(), ..Run::default() };
     let mut own = Own::of(base.0, &setting, start.t)?;
     options.check(own.as_ref().map_or(base.0, |own| &own.model), start)?;
-    let mut at = At::begin(base.0, start, options, &mut run);
+    let mut at = Progress::begin(base.0, start, options, &mut run);
     let mut stall = Stall::default();
     if modes::has_modes(base.0) {
         check_modes(own.as_ref().map_or(base.0, |own| &own.model), start, options, &mut at)?;
@@ -151,8 +151,8 @@ pub(super) fn run<W: FnMut(f64) -> Flow>(
         let conditions = conditions(model, &setting, &events)?;
         let watched = watched(model, &events, &conditions, &setting.released);
         run.settings.push(setting.clone());
-        let phase = Phase { project_velocities: holds(&setting), ..Phase::new(model) };
-        let outcome = run_phase((&phase, cache), watched, &mut at, options, &mut run, &mut watcher);
+        let phase = Phase { model, cache, project_velocities: holds(&setting) };
+        let outcome = run_phase(phase, watched, &mut at, options, &mut run, &mut watch);
         run.statistics.seconds = clock() - began;
         let ended = outcome.and_then(|ended| match ended {
             PhaseEnd::Reached => {
@@ -190,24 +190,24 @@ fn check_modes(
     model: &Model,
     start: &State,
     options: &Options,
-    at: &mut At,
+    at: &mut Progress,
 ) -> Result<(), Box<Failure>> {
     StartCheck::of_run(options).check(model, at.t, [&start.q, &start.v, &start.z])?;
-    modes::check(model, &Place { t: at.t, y: &mut at.y })
+    modes::check(model, &StateAt { t: at.t, y: &mut at.y })
 }
 
 /// The model of the next phase, which must meet its constraints where it begins.
 fn changed(
     base: &Model,
     setting: &Setting,
-    at: &At,
+    at: &Progress,
     options: &Options,
 ) -> Result<Option<Box<Own>>, Box<Failure>> {
     let own = Own::of(base, setting, at.t)?;
     let model = own.as_ref().map_or(base, |own| &own.model);
     let [q, v, z, _] = model.layout.split(&at.y);
     let check = StartCheck::of_change(options);
-    // what begins to hold has a small speed, which the phase removes
+    // a force that begins to hold has a small speed, which the projection at the start of the phase removes
     let check = if holds(setting) { check.of_positions() } else { check };
     check.check(model, at.t, [q, v, z])?;
     Ok(own)
@@ -242,12 +242,17 @@ fn watched<'c>(
         if let Effect::Mode { force, place } = event.effect {
             let (function, direction) = watched_mode(model, force, place);
             let ends = modes::has_mode(model, force);
-            return Watched { function: Function::Mode(function), direction, ends, listed: !ends };
+            return Watched {
+                function: EventFunction::Mode(function),
+                direction,
+                ends,
+                listed: !ends,
+            };
         }
         let done = matches!(&event.effect, Effect::Release(driver) if released.contains(driver));
         let condition = condition.as_ref().filter(|_| !done);
         Watched {
-            function: condition.map_or(Function::Given(&never), Function::Condition),
+            function: condition.map_or(EventFunction::Never, EventFunction::Condition),
             direction: condition.map_or(event.direction, |c| c.direction(event.direction)),
             ends: event.effect != Effect::None,
             listed: true,
@@ -296,7 +301,7 @@ fn holds(setting: &Setting) -> bool {
 /// Decides the modes of the next phase; velocities jump where contacts hit.
 fn settle(
     events: &[Planned],
-    at: &mut At,
+    at: &mut Progress,
     (base, setting): (&Model, &mut Setting),
     run: &mut Run,
 ) -> Result<(), Box<Failure>> {
@@ -307,7 +312,7 @@ fn settle(
     };
     let fired: Vec<usize> = at.fired.iter().filter_map(of_force).collect();
     let (t, before) = (at.t, at.y.clone());
-    let mut place = Place { t, y: &mut at.y };
+    let mut place = StateAt { t, y: &mut at.y };
     let settled = modes::settle(&open, &mut place, &setting.modes, &fired)?;
     let index = |force: usize, of: usize| {
         let wanted = Effect::Mode { force, place: of };
@@ -325,15 +330,10 @@ fn settle(
     Ok(())
 }
 
-/// The function of an event that does not happen any more.
-fn never(_: f64, _: [&[f64]; 3]) -> f64 {
-    1.0
-}
-
-/// Carries out the events that ended a phase, in their order. Returns whether the run goes on.
+/// Carries out the events that ended a phase, in their order. Returns whether the run continues.
 fn take_effect(
     events: &[Planned],
-    at: &mut At,
+    at: &mut Progress,
     (base, setting): (&Model, &mut Setting),
     options: &Options,
     act: &mut Option<Act<'_>>,
@@ -367,7 +367,7 @@ fn put(
     base: &Model,
     setting: &Setting,
     options: &Options,
-    at: &mut At,
+    at: &mut Progress,
     state: &State,
 ) -> Result<(), Box<Failure>> {
     check_lengths(base, state)?;

@@ -33,21 +33,21 @@ fn parts(model: &Model, step: &Step<'_>) -> usize {
 
 /// A function of the state.
 #[derive(Clone, Copy)]
-pub(super) enum Function<'a> {
-    /// Of a condition in a case.
+pub(super) enum EventFunction<'a> {
+    /// The function of a condition in a case.
     Condition(&'a Condition),
-    /// Of a force with modes; positive while its mode lasts.
+    /// The function of a force with modes; it is positive while the mode lasts.
     Mode(ModeFunction),
-    /// g(t, q, v, z) of a caller.
-    Given(&'a dyn Fn(f64, [&[f64]; 3]) -> f64),
+    /// An event that does not happen any more.
+    Never,
 }
 
-impl Function<'_> {
+impl EventFunction<'_> {
     fn value(&self, model: &Model, seen: &Seen<'_>) -> f64 {
         match self {
             Self::Condition(condition) => condition.value(model, seen),
             Self::Mode(of) => of.value(model, seen),
-            Self::Given(g) => g(seen.t, seen.state),
+            Self::Never => 1.0,
         }
     }
 
@@ -55,7 +55,7 @@ impl Function<'_> {
     fn at_zero(&self) -> f64 {
         let holds = match self {
             Self::Condition(condition) => condition.holds_at_zero(),
-            Self::Mode(_) | Self::Given(_) => None,
+            Self::Mode(_) | Self::Never => None,
         };
         holds.map_or(0.0, |holds| if holds { f64::MIN_POSITIVE } else { -f64::MIN_POSITIVE })
     }
@@ -64,19 +64,20 @@ impl Function<'_> {
 /// An event of a phase.
 #[derive(Clone, Copy)]
 pub(super) struct Watched<'a> {
-    pub function: Function<'a>,
+    pub function: EventFunction<'a>,
     pub direction: Direction,
     /// Whether the phase ends at it.
     pub ends: bool,
-    /// Whether it is listed where its function changes sign; otherwise what follows decides.
+    /// Whether the event is listed where its function changes sign. The events of modes are listed later, when the new
+    /// modes are known.
     pub listed: bool,
 }
 
-/// What follows a step.
-pub(super) enum Found {
-    /// These events are in it.
+/// The events in a step, and how the phase continues.
+pub(super) enum StepEvents {
+    /// These events are in the step, and the phase continues.
     Events(Vec<Crossing>),
-    /// The same, and the phase ends with the step, also if none is at its end.
+    /// These events are in the step, and the phase ends with it, even if no event is at its end.
     End(Vec<Crossing>),
     /// The step is taken again, to end at this time.
     Again(f64),
@@ -94,7 +95,8 @@ pub(super) struct EventList<'a> {
 }
 
 impl<'a> EventList<'a> {
-    /// Of a phase that begins at `t`, with the events that ended the one before and the run up to there.
+    /// The events of a phase that begins at `t`. `fired` are the events that ended the phase before; `so_far` is the
+    /// run up to `t`. Returns None if there are no events.
     pub fn new(
         ode: &MotionOde<'_>,
         watched: Vec<Watched<'a>>,
@@ -106,12 +108,12 @@ impl<'a> EventList<'a> {
             return None;
         }
         let solves = watched.iter().any(|event| match event.function {
-            Function::Condition(condition) => condition.needs_solution,
-            Function::Mode(of) => of.needs_solution(),
-            Function::Given(_) => false,
+            EventFunction::Condition(condition) => condition.needs_solution,
+            EventFunction::Mode(of) => of.needs_solution(),
+            EventFunction::Never => false,
         });
         for event in &watched {
-            if let Function::Condition(condition) = event.function {
+            if let EventFunction::Condition(condition) = event.function {
                 condition.watch(&mut so_far);
             }
         }
@@ -130,7 +132,7 @@ impl<'a> EventList<'a> {
     }
 
     /// The events in a step of a phase that ends at `t_end` at the latest. The interpolant is prepared.
-    pub fn look(&mut self, model: &Model, step: &Step<'_>, t_end: f64) -> Found {
+    pub fn look(&mut self, model: &Model, step: &Step<'_>, t_end: f64) -> StepEvents {
         let found = self.scan(model, step);
         let spacing = CLOSE * f64::EPSILON * step.t.abs().max(step.t_old.abs());
         let together = |a: f64, b: f64| (a - b).abs() <= spacing;
@@ -144,13 +146,17 @@ impl<'a> EventList<'a> {
         let Some((t, index)) = end else {
             self.evaluator.advance(model, step);
             // the phase ends where the event was expected, and the next one continues
-            return if arrived.is_some() { Found::End(found) } else { Found::Events(found) };
+            return if arrived.is_some() {
+                StepEvents::End(found)
+            } else {
+                StepEvents::Events(found)
+            };
         };
         let done = together(t, step.t) || self.tries >= AGAIN && arrived.is_some();
         if !done {
             self.tries += 1;
             self.awaited = Some((t, index));
-            return Found::Again(t);
+            return StepEvents::Again(t);
         }
         (self.awaited, self.tries) = (None, 0);
         self.evaluator.advance(model, step);
@@ -167,7 +173,7 @@ impl<'a> EventList<'a> {
         }
         let sign = (step.t - step.t_old).signum();
         found.sort_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)).then(a.index.cmp(&b.index)));
-        Found::End(found)
+        StepEvents::End(found)
     }
 
     fn scan(&mut self, model: &Model, step: &Step<'_>) -> Vec<Crossing> {
@@ -181,7 +187,8 @@ impl<'a> EventList<'a> {
             if t == began.0 {
                 began.1.iter().for_each(|index| out[*index] = 0.0);
                 // the mode may end again within a time that is short beside the steps
-                let of_mode = |event: &Watched<'_>| matches!(event.function, Function::Mode(_));
+                let of_mode =
+                    |event: &Watched<'_>| matches!(event.function, EventFunction::Mode(_));
                 let modes =
                     watched.iter().zip(out).filter(|(event, _)| of_mode(event) && event.ends);
                 modes.for_each(|(_, out)| *out = out.max(f64::MIN_POSITIVE));
@@ -195,8 +202,8 @@ impl<'a> EventList<'a> {
         crossings(step, parts(model, step), &directions, &mut functions, &ends)
     }
 
-    /// The time of an event that is expected at the end of a step and lies slightly later; None if the interpolant had it
-    /// there wrongly.
+    /// The time of an event that is expected at the end of a step and lies slightly later. None if there is no event:
+    /// the interpolant was wrong.
     fn later(&mut self, model: &Model, step: &Step<'_>, index: usize, t_end: f64) -> Option<f64> {
         let function = self.watched[index].function;
         let h = SLOPE * (step.t - step.t_old);
@@ -206,7 +213,7 @@ impl<'a> EventList<'a> {
         let [mut old, before, at] = states.map(|state| {
             self.evaluator.see(model, state, step, |seen| function.value(model, seen))
         });
-        if step.t_old == self.began.0 && matches!(function, Function::Mode(_)) {
+        if step.t_old == self.began.0 && matches!(function, EventFunction::Mode(_)) {
             old = old.max(f64::MIN_POSITIVE); // the mode has just begun
         }
         let by = -at * h / (at - before);

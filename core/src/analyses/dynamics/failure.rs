@@ -1,7 +1,7 @@
 //! Failures of forward dynamics, in terms of the mechanism.
 
 use super::law_fault::{undefined_law, LawFault};
-use super::law_jump::{owner_name, Jump, SMOOTH};
+use super::law_jump::{owner_name, LawJump, SMOOTH};
 use super::no_mass;
 use super::run_results::Run;
 use crate::analyses::mobility::dependent;
@@ -238,7 +238,7 @@ fn at_switch(model: &Model, t: f64, breakdown: Breakdown) -> Box<Failure> {
     let switch = match breakdown {
         Breakdown::Sliding(switch) => switch,
         Breakdown::Jump { constraint, position, values } => {
-            let message = Jump { constraint, position, values }.describe(model, t);
+            let message = LawJump { constraint, position, values }.describe(model, t);
             return Reason::Integration { t, message, hint: SMOOTH }.into();
         }
         Breakdown::Unresolved { force, lasts, step } => {
@@ -314,9 +314,8 @@ const MOST_BODIES: usize = 4;
 
 /// The joints that depend on each other, and the positions of the bodies.
 fn place(model: &Model, t: f64, q: &[f64], row: usize) -> String {
-    let joints = dependent(model, t, q, row);
-    let joints: Vec<&str> = joints.iter().map(|k| model.constraints[*k].name.as_str()).collect();
-    format!(" (joints {}; {})", joints.join(", "), positions(model, q))
+    let joints = model.names_of(&dependent(model, t, q, row)).join(", ");
+    format!(" (joints {joints}; {})", positions(model, q))
 }
 
 /// Two motions that pass each other without meeting.

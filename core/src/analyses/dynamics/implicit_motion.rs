@@ -3,7 +3,7 @@
 use super::motion_dae::MotionDae;
 use super::motion_ode::MotionOde;
 use super::options::Options;
-use crate::integrate::{BoxedStepper, Cause, ImplicitMethod, Statistics, Step, Stepper};
+use crate::integrate::{BoxedStepper, Cause, ImplicitMethod, Step, StepCounts, Stepper};
 use crate::solve::Breakdown;
 
 /// The stepper of an implicit method, with its form of the equations.
@@ -66,7 +66,7 @@ impl<'a> Stepper<MotionOde<'a>, Breakdown> for ImplicitMotion<'a> {
         self.stepper.restart_until(t, y, t_end)
     }
 
-    fn statistics(&self) -> Statistics {
+    fn statistics(&self) -> StepCounts {
         self.stepper.statistics()
     }
 }

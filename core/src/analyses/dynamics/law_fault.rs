@@ -1,4 +1,4 @@
-//! The law without a value, where a run fails because the motion is not finite.
+//! Finds the law without a value if a run fails because the motion is not finite.
 
 use crate::elements::{catalogue, Group};
 use crate::equations::held;
@@ -41,7 +41,7 @@ fn undefined_at(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Option<LawFaul
     let values = held(&model.parameters, &motions, z, t);
     // None where a law has a value; else why it has none, if that is known
     let without = |tape: &Tape| {
-        // the states of elements are unknown where only the position is
+        // the states of elements are unknown if only the position is known
         let known = |k: &usize| match Variable::at(*k) {
             Variable::State(k) => k < z.len(),
             Variable::Coordinate(..) | Variable::Internal { .. } => true,

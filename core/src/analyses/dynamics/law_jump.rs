@@ -4,7 +4,7 @@ use crate::equations::kinematics::Motions;
 use crate::equations::switches::law_values;
 use crate::expression::Tape;
 use crate::math::Jet;
-use crate::model::{row_scales, Model, Owner};
+use crate::model::{row_scales, Model, SwitchOwner};
 
 /// Largest jump of the law of a joint or driver, and of its rate: relative to the size of the mechanism, or in rad, and to
 /// the value or rate.
@@ -12,7 +12,7 @@ const CONTINUOUS: f64 = 1e-8;
 
 /// A jump of the law of a joint or driver.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Jump {
+pub(super) struct LawJump {
     pub constraint: usize,
     /// Whether the value jumps, not the rate.
     pub position: bool,
@@ -20,7 +20,7 @@ pub(super) struct Jump {
     pub values: [f64; 2],
 }
 
-impl Jump {
+impl LawJump {
     /// The jump of a law of constraint `k` from the pieces `before` to those of `motions`, if it is not continuous with
     /// its rate. `which` selects formulas.
     pub fn of(
@@ -50,7 +50,7 @@ impl Jump {
         })
     }
 
-    /// In the words of a message.
+    /// The message about this jump.
     pub fn describe(self, model: &Model, t: f64) -> String {
         let item = &model.constraints[self.constraint];
         let what = item.group.singular();
@@ -71,9 +71,9 @@ pub(super) const SMOOTH: &str =
                                  motion law";
 
 /// The name of the element to which a switch belongs.
-pub(super) fn owner_name(model: &Model, owner: Owner) -> &str {
+pub(super) fn owner_name(model: &Model, owner: SwitchOwner) -> &str {
     match owner {
-        Owner::Constraint(k) => &model.constraints[k].name,
-        Owner::Force(k) => &model.forces[k].name,
+        SwitchOwner::Constraint(k) => &model.constraints[k].name,
+        SwitchOwner::Force(k) => &model.forces[k].name,
     }
 }

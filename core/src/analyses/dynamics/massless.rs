@@ -11,6 +11,9 @@ use crate::equations::kinematics::Motions;
 use crate::model::Model;
 use crate::solve::{SparseRank, SparseRow, RANK_TOLERANCE};
 
+/// Tolerance of the rank next to a position in which a freedom appears.
+const NEAR: f64 = 1e-5;
+
 /// Checks the massless bodies at a position.
 ///
 /// A body with mass but without inertia is accepted: an angle on which no torque acts does not accelerate.
@@ -27,7 +30,27 @@ pub(super) fn check(model: &Model, t: f64, q: &[f64]) -> Result<(), Box<Failure>
 /// The massless bodies, or joints with internal coordinates, whose motion is not determined at a position, each with a
 /// message about one of its coordinates.
 pub(in crate::analyses) fn undetermined(model: &Model, t: f64, q: &[f64]) -> Vec<(String, String)> {
-    let massless = columns(model);
+    within(RANK_TOLERANCE, columns(model), model, t, q)
+}
+
+/// A massless body of which a freedom of its own appears next to a position, where the steps of a run end.
+pub(super) fn near(model: &Model, t: f64, q: &[f64]) -> Option<Box<Failure>> {
+    let bodies = model.bodies.iter().zip(&model.layout.bodies).skip(1);
+    let turning = bodies.filter(|(body, _)| body.turns && body.mass > 0.0 && body.inertia == 0.0);
+    let angles = turning.map(|(_, columns)| columns.first + 2);
+    let massless = angles.chain(columns(model)).collect();
+    let (name, message) = within(NEAR, massless, model, t, q).into_iter().next()?;
+    Some(Reason::Singular { t, name, message }.into())
+}
+
+/// The same of these coordinates, with the tolerance of a rank.
+fn within(
+    tolerance: f64,
+    massless: Vec<usize>,
+    model: &Model,
+    t: f64,
+    q: &[f64],
+) -> Vec<(String, String)> {
     if massless.is_empty() {
         return Vec::new();
     }
@@ -45,7 +68,7 @@ pub(in crate::analyses) fn undetermined(model: &Model, t: f64, q: &[f64]) -> Vec
         entries
     };
     let rows: Vec<SparseRow> = massless.iter().map(normal).collect();
-    let found = SparseRank::new(&rows, model.layout.n_rows, RANK_TOLERANCE, &|| false);
+    let found = SparseRank::new(&rows, model.layout.n_rows, tolerance, &|| false);
     let dependent = found.map(|found| found.dependent).unwrap_or_default();
     let mut messages: Vec<(String, String)> = Vec::new();
     for k in dependent {

@@ -8,17 +8,18 @@ use super::options::Options;
 use super::singularity_handover::{Method, SingularityHandover};
 use super::stiffness_detection::{MethodChoice, StiffnessDetector, LIMIT, TRIAL, WORTH};
 use crate::integrate::{
-    BoxedStepper, Cause, Dop853, ExplicitMethod, Radau, Statistics, Step, StepControl, Stepper,
+    BoxedStepper, Cause, Dop853, ExplicitMethod, Radau, SideBySide, Step, StepControl, StepCounts,
+    Stepper,
 };
 use crate::solve::Breakdown;
 
 /// The stepper of one method.
-enum Piece<'a> {
+enum SwitchedStepper<'a> {
     Explicit(BoxedStepper<MotionOde<'a>, Breakdown>),
     Implicit(Box<SingularityHandover<'a>>),
 }
 
-impl<'a> Piece<'a> {
+impl<'a> SwitchedStepper<'a> {
     fn get(&self) -> &dyn Stepper<MotionOde<'a>, Breakdown> {
         match self {
             Self::Explicit(stepper) => &**stepper,
@@ -51,14 +52,14 @@ pub(super) struct MethodSwitching<'a> {
     control: StepControl,
     detector: StiffnessDetector<'a>,
     initial: InitialStiffness,
-    piece: Piece<'a>,
+    piece: SwitchedStepper<'a>,
     /// Whether the other method takes the next step.
     due: bool,
     /// Length of the last step of the last method.
     step: Option<f64>,
-    /// Statistics of the earlier pieces.
-    total: Statistics,
-    /// Factorisations of the earlier pieces that the statistics do not contain.
+    /// Counts of the earlier steppers.
+    total: StepCounts,
+    /// Factorisations of the earlier steppers that the counts do not contain.
     factorisations: usize,
     /// Time at which Radau began, its number of steps since then, and the time of the last comparison.
     tried: (f64, usize, f64),
@@ -76,7 +77,9 @@ impl<'a> MethodSwitching<'a> {
     ) -> Result<Self, Cause<Breakdown>> {
         let span = (t, options.t_end);
         // invalid options are an error before the first evaluation
-        let piece = Piece::Explicit(Dop853 { control: auto.control.clone() }.start(ode, span, y)?);
+        let piece = SwitchedStepper::Explicit(
+            Dop853 { control: auto.control.clone() }.start(ode, span, y)?,
+        );
         let mut detector = StiffnessDetector::new(ode.model, &ode.workspace, t);
         let initial = InitialStiffness::new(ode.model, &mut detector, auto, span, y);
         let mut switching = Self {
@@ -88,7 +91,7 @@ impl<'a> MethodSwitching<'a> {
             piece,
             due: false,
             step: None,
-            total: Statistics::default(),
+            total: StepCounts::default(),
             factorisations: 0,
             tried: (t, 0, t),
             choice: MethodChoice { method: "dop853", why: String::new() },
@@ -111,7 +114,7 @@ impl<'a> MethodSwitching<'a> {
         }
     }
 
-    /// Tolerances and steps of a piece that begins at `t`.
+    /// Tolerances and steps of a stepper that begins at `t`.
     fn control_from(&self, t: f64) -> StepControl {
         let max_steps = self.control.max_steps.map(|most| most - self.total.steps.min(most));
         let first_step = self.step.map(|h| h.min((self.t_end - t).abs()));
@@ -126,24 +129,26 @@ impl<'a> MethodSwitching<'a> {
         self.factorisations = self.factorisations();
         let (control, span) = (self.control_from(t), (t, self.t_end));
         self.piece = match &self.piece {
-            Piece::Explicit(_) => {
+            SwitchedStepper::Explicit(_) => {
                 self.tried = (t, 0, t);
                 let method = Radau { control };
                 let stepper = ImplicitMotion::new(&method, ode, &self.options, span, &y)?;
                 let method = (Method::Implicit(stepper), &self.control);
-                Piece::Implicit(Box::new(SingularityHandover::new(method.0, method.1, span)))
+                SwitchedStepper::Implicit(Box::new(SingularityHandover::new(
+                    method.0, method.1, span,
+                )))
             }
-            Piece::Implicit(_) => {
+            SwitchedStepper::Implicit(_) => {
                 self.detector.resume(t);
-                Piece::Explicit(Dop853 { control }.start(ode, span, &y)?)
+                SwitchedStepper::Explicit(Dop853 { control }.start(ode, span, &y)?)
             }
         };
         Ok(())
     }
 
     /// Whether the explicit method should end after this step, for stiffness.
-    fn judge_explicit(&mut self, ode: &MotionOde<'a>) {
-        let Piece::Explicit(stepper) = &self.piece else { return };
+    pub fn judge_explicit(&mut self, ode: &MotionOde<'a>) {
+        let SwitchedStepper::Explicit(stepper) = &self.piece else { return };
         if ode.passage.in_reach() {
             return; // the singular position limits the steps
         }
@@ -170,7 +175,7 @@ impl<'a> MethodSwitching<'a> {
 
     /// Whether the implicit method should end after this step, because its steps are not much longer.
     fn judge_implicit(&mut self) {
-        let Piece::Implicit(stepper) = &self.piece else { return };
+        let SwitchedStepper::Implicit(stepper) = &self.piece else { return };
         if stepper.crossing() {
             return;
         }
@@ -259,7 +264,14 @@ impl<'a> Stepper<MotionOde<'a>, Breakdown> for MethodSwitching<'a> {
         Ok(())
     }
 
-    fn statistics(&self) -> Statistics {
+    fn statistics(&self) -> StepCounts {
         self.total.plus(self.piece.get().statistics())
+    }
+    /// While the explicit method takes the steps.
+    fn side_by_side(&mut self) -> Option<&mut dyn SideBySide> {
+        match &mut self.piece {
+            SwitchedStepper::Explicit(stepper) if !self.due => stepper.side_by_side(),
+            _ => None,
+        }
     }
 }

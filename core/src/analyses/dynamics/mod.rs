@@ -1,7 +1,7 @@
 //! Forward dynamics: the motion of a mechanism under forces, from a consistent state.
 //!
-//! [`Stepper`] advances a model step by step. A run ([`dynamics`]) is a sequence of [`Phase`]s, each with its own active
-//! constraints, over such a stepper, and records states at chosen times.
+//! A run ([`dynamics`]) is a sequence of phases, each with its own active constraints, and records states at chosen
+//! times. A program that takes the steps itself uses a [`Stepper`].
 //!
 //! | file | concept |
 //! |---|---|
@@ -10,8 +10,9 @@
 //! | `massless`, `no_mass` | massless bodies whose motion is not determined |
 //! | `shared_reaction` | forces that depend on a reaction which is not unique |
 //! | `start_check` | states from which a run may start |
-//! | `run`, `run_results`, `stepper` | a run through its phases, and its outcome; a stepper for callers |
-//! | `course`, `setting`, `event_list` | phases that follow from events, their models, and the events of a phase |
+//! | `course`, `setting` | the phases of a run, which follow from its events, and their models |
+//! | `run`, `event_list`, `run_results` | one phase, its events, and the outcome of a run |
+//! | `stepper` | a stepper for callers |
 //! | `motion_stepper`, `method_switching` | the stepper of a method on a model; that of the automatic choice |
 //! | `motion_ode`, `motion_dae` | the equations of motion for explicit and for implicit methods |
 //! | `implicit_motion` | an implicit method, with the interface of explicit ones |
@@ -43,6 +44,7 @@ mod implicit_motion;
 mod initial_stiffness;
 mod interpolated_states;
 mod lane_batch;
+mod lane_motion;
 mod law_fault;
 mod law_jump;
 mod massless;
@@ -66,6 +68,7 @@ mod run_results;
 mod sampling;
 mod setting;
 mod shared_reaction;
+mod side_by_side;
 mod singularity_forecast;
 mod singularity_handover;
 mod singularity_passage;
@@ -87,19 +90,17 @@ pub(in crate::analyses) use massless::undetermined;
 pub use methods::{Auto, Scheme};
 pub use options::{most_steps, read, Options, Output, Singularity};
 pub use prepared::Prepared;
-pub use run::{Event, Phase};
 pub use run_results::{EventStates, Passed, Run, Statistics};
 pub use setting::Setting;
+pub use side_by_side::{side_by_side, RunOutcome, Trials, Variant};
 pub use stabilizations::Stabilization;
 pub use stepper::Stepper;
 pub use stiffness_detection::MethodChoice;
 pub use trajectory::{PiecewiseInterpolant, States, Steps, Trajectory};
 
 use super::State;
-use crate::integrate::{Flow, Step};
+use crate::integrate::Flow;
 use crate::model::Model;
-use model_cache::ModelCache;
-use run::{simulate, Watcher};
 
 /// Integrates the equations of motion from `start` to `options.t_end`.
 ///
@@ -114,36 +115,4 @@ pub fn dynamics(
     watch: impl FnMut(f64) -> Flow,
 ) -> Result<Run, Box<Failure>> {
     Prepared::new(model).dynamics(start, options, watch)
-}
-
-/// The same, but `look` is called with every accepted step and its interpolant, after states in it are reported, and
-/// may stop the run; [`locate`](crate::integrate::locate) finds events in it. Both ends of y = (q, v, z, works) are as
-/// the stabilization leaves them; states between the ends are those of the interpolant.
-///
-/// # Errors
-/// As [`dynamics`].
-pub fn dynamics_by_steps(
-    model: &Model,
-    start: &State,
-    options: &Options,
-    mut look: impl FnMut(&Step<'_>) -> Flow,
-) -> Result<Run, Box<Failure>> {
-    let watcher = Watcher { watch: |_| Flow::Continue, look: Some(&mut look) };
-    course::run((model, &ModelCache::default()), start, options, system_clock, watcher, None)
-}
-
-/// Integrates through a sequence of phases. Each phase begins with the state at the end of the phase before and has
-/// its own constraints. Reactions and redundancy are those of the model of the phase; see [`Run::states_of`].
-///
-/// # Errors
-/// As [`dynamics`].
-pub fn dynamics_in_phases(
-    phases: &[Phase<'_>],
-    start: &State,
-    options: &Options,
-    watch: impl FnMut(f64) -> Flow,
-) -> Result<Run, Box<Failure>> {
-    let caches: Vec<ModelCache> = phases.iter().map(|_| ModelCache::default()).collect();
-    let phases: Vec<_> = phases.iter().copied().zip(&caches).collect();
-    simulate(&phases, start, options, system_clock, Watcher { watch, look: None })
 }

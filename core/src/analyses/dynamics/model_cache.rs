@@ -9,7 +9,7 @@ use std::sync::{Arc, OnceLock};
 #[derive(Debug, Default)]
 pub(super) struct ModelCache {
     plan: OnceLock<Arc<Plan>>,
-    /// That for redundant constraints.
+    /// The symbolic factorisation for redundant constraints.
     redundant: OnceLock<Arc<Plan>>,
     wide: WideCell,
 }

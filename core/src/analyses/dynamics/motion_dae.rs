@@ -24,7 +24,7 @@ pub(super) struct MotionDae<'a> {
     tangent: Tangent,
     places: Places,
     real: BlockLu<f64>,
-    /// Of the augmented matrix.
+    /// Right side and solution of the augmented matrix.
     solution: Vec<f64>,
     /// Made for the first complex matrix.
     complex: Option<BlockLu<Complex>>,

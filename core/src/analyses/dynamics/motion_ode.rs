@@ -9,6 +9,7 @@ use crate::analyses::mobility;
 use crate::equations::augmented::NearSingular;
 use crate::equations::{constraints, Gains, Workspace};
 use crate::integrate::{all_finite, Manifold, Ode, Structure, TimesToAvoid, TrialChanges};
+use crate::math::Real;
 use crate::model::{size, Model};
 use crate::solve::Breakdown;
 use crate::stabilize::{Projection, Projector, StepwiseBaumgarte};
@@ -50,6 +51,11 @@ impl<'a> MotionOde<'a> {
         };
         let (gains, paradox) = (options.gains(), None);
         Self { model, workspace, gains, stepwise, projector, passing, passage, paradox }
+    }
+
+    /// The options of projection, if it is an option of the run.
+    pub fn projection(&self) -> Option<Projection> {
+        self.projector.as_ref().map(Projector::options)
     }
 
     /// Factorisations in addition to those of evaluations.
@@ -146,12 +152,7 @@ impl<'a> MotionOde<'a> {
             dy.fill(f64::NAN); // a shorter step may avoid it
             return Ok(());
         }
-        let powers = self.workspace.powers(self.model, v);
-        let [dq, dv, dz, works] = self.model.layout.split_mut(dy);
-        dq.copy_from_slice(v);
-        dv.copy_from_slice(self.workspace.a());
-        self.workspace.state_rates(self.model, t, dz);
-        works.copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
+        rates(self.model, &self.workspace, t, v, dy);
         Ok(())
     }
 
@@ -198,6 +199,23 @@ impl<'a> MotionOde<'a> {
         let [q, v, ..] = self.model.layout.split_mut(y);
         projector.project(&mut self.workspace, t, (q, v), factored)
     }
+}
+
+/// y′ at the state at which the accelerations of a workspace were computed.
+#[inline(always)]
+pub(super) fn rates<S: Real>(
+    model: &Model<S>,
+    workspace: &Workspace<S>,
+    t: S,
+    v: &[S],
+    dy: &mut [S],
+) {
+    let powers = workspace.powers(model, v);
+    let [dq, dv, dz, works] = model.layout.split_mut(dy);
+    dq.copy_from_slice(v);
+    dv.copy_from_slice(workspace.a());
+    workspace.state_rates(model, t, dz);
+    works.copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
 }
 
 impl Ode for MotionOde<'_> {

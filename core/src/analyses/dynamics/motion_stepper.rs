@@ -1,8 +1,9 @@
 //! The stepper of any method on the equations of motion of a model.
 
-use super::contact_resolution::Steps;
+use super::contact_resolution::StepChoice;
 use super::failure::{Failure, Reason};
 use super::implicit_motion::ImplicitMotion;
+use super::massless;
 use super::method_switching::MethodSwitching;
 use super::methods::Scheme;
 use super::motion_ode::MotionOde;
@@ -15,20 +16,21 @@ use super::switch_schedule::Schedule;
 use super::switching::{After, Switching};
 use crate::analyses::mobility::dependent;
 use crate::integrate::{
-    BoxedStepper, Cause, Direction, ExplicitMethod, Statistics, Step, StepControl, Stepper,
+    BoxedStepper, Cause, Direction, ExplicitMethod, SideBySide, Step, StepControl, StepCounts,
+    Stepper,
 };
 use crate::solve::Breakdown;
 use crate::stabilize::Projector;
 
 /// The stepper of a method.
-enum Kind<'a> {
+enum MethodStepper<'a> {
     Explicit(BoxedStepper<MotionOde<'a>, Breakdown>),
-    /// Of an implicit method, or of a constant step.
+    /// An implicit method, or a constant step.
     HandingOver(Box<SingularityHandover<'a>>),
     Auto(Box<MethodSwitching<'a>>),
 }
 
-impl<'a> Kind<'a> {
+impl<'a> MethodStepper<'a> {
     fn get(&self) -> &dyn Stepper<MotionOde<'a>, Breakdown> {
         match self {
             Self::Explicit(stepper) => &**stepper,
@@ -45,7 +47,7 @@ impl<'a> Kind<'a> {
         }
     }
 
-    /// Of an explicit method that was started.
+    /// The stepper of an explicit method that was started.
     fn explicit(
         stepper: BoxedStepper<MotionOde<'a>, Breakdown>,
         (ode, control, span): (&MotionOde<'a>, &StepControl, (f64, f64)),
@@ -64,7 +66,7 @@ impl<'a> Kind<'a> {
 /// The stepper of a model.
 pub(super) struct MotionStepper<'a> {
     pub ode: MotionOde<'a>,
-    kind: Kind<'a>,
+    kind: MethodStepper<'a>,
     /// None for a model without switches.
     switching: Option<Box<Switching>>,
     /// The last sample of sampled laws.
@@ -92,30 +94,30 @@ impl<'a> MotionStepper<'a> {
         let control = method.control();
         let implicit = |stepper| {
             let method = Method::Implicit(stepper);
-            Kind::HandingOver(Box::new(SingularityHandover::new(method, control, span)))
+            MethodStepper::HandingOver(Box::new(SingularityHandover::new(method, control, span)))
         };
         let kind = match &method {
             Scheme::Rk45(method) => {
-                Kind::explicit(method.start(&ode, span, y)?, (&ode, control, span))
+                MethodStepper::explicit(method.start(&ode, span, y)?, (&ode, control, span))
             }
             Scheme::Dop853(method) => {
-                Kind::explicit(method.start(&ode, span, y)?, (&ode, control, span))
+                MethodStepper::explicit(method.start(&ode, span, y)?, (&ode, control, span))
             }
             Scheme::Rk4(method) => {
-                Kind::explicit(method.start(&ode, span, y)?, (&ode, control, span))
+                MethodStepper::explicit(method.start(&ode, span, y)?, (&ode, control, span))
             }
             Scheme::GeneralizedAlpha(method) => {
                 implicit(ImplicitMotion::new(method, &ode, options, span, y)?)
             }
             Scheme::Radau(method) => implicit(ImplicitMotion::new(method, &ode, options, span, y)?),
             Scheme::Auto(auto) => {
-                Kind::Auto(Box::new(MethodSwitching::new(&ode, options, auto, t, y)?))
+                MethodStepper::Auto(Box::new(MethodSwitching::new(&ode, options, auto, t, y)?))
             }
         };
         let steps = match (&method, control.step) {
-            (_, None) => Steps::Chosen,
-            (Scheme::Radau(_) | Scheme::GeneralizedAlpha(_), _) => Steps::Implicit,
-            (_, Some(step)) => Steps::Constant(step),
+            (_, None) => StepChoice::Chosen,
+            (Scheme::Radau(_) | Scheme::GeneralizedAlpha(_), _) => StepChoice::Implicit,
+            (_, Some(step)) => StepChoice::Constant(step),
         };
         let switching = Switching::new(&mut ode, (schedule, steps), t, options.t_end, y);
         let switching = switching.map(Box::new);
@@ -185,13 +187,13 @@ impl<'a> MotionStepper<'a> {
         }
     }
 
-    /// Goes on from a state with the pieces of the switches, to the next one.
+    /// Continues from a state with the held pieces, up to the next switch.
     fn hold(&mut self, switching: &Switching, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
         self.ode.workspace.motions.pieces.clone_from(&switching.pieces);
         self.kind.get_mut().restart_until(t, y, switching.end())
     }
 
-    /// The same with the switches of this stepper.
+    /// Continues from a state with the switches of this stepper, if there are any.
     fn go_on_from(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
         let Some(switching) = self.switching.take() else { return Ok(()) };
         let outcome = self.hold(&switching, t, y);
@@ -227,6 +229,23 @@ impl<'a> MotionStepper<'a> {
         self.passed.push(Passed { t: at, names, slope, residual });
     }
 
+    /// The stepper as one of several that take steps side by side, with the equations of motion; None if the next step
+    /// has to be taken alone.
+    pub fn side_by_side(&mut self) -> Option<(&mut MotionOde<'a>, &mut dyn SideBySide)> {
+        let ordinary = self.switching.is_none()
+            && self.ode.passage.is_clear()
+            && self.ode.workspace.matrix.omitted().is_empty();
+        let stepper = self.kind.get_mut().side_by_side().filter(|_| ordinary)?;
+        Some((&mut self.ode, stepper))
+    }
+
+    /// Has to be called after a step that was taken beside others.
+    pub fn after_step_beside_others(&mut self) {
+        if let MethodStepper::Auto(stepper) = &mut self.kind {
+            stepper.judge_explicit(&self.ode);
+        }
+    }
+
     /// Computes the data that only the interpolant needs.
     pub fn prepare_interpolant(&mut self) -> Result<(), Cause<Breakdown>> {
         self.kind.get_mut().prepare_interpolant(&mut self.ode)
@@ -244,7 +263,7 @@ impl<'a> MotionStepper<'a> {
         self.kind.get().y()
     }
 
-    /// Goes on from a state `y` at a time `t` within the last step.
+    /// Continues from a state `y` at a time `t` within the last step.
     pub fn restart(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
         self.sample = None;
         if let Some(switching) = &mut self.switching {
@@ -270,7 +289,7 @@ impl<'a> MotionStepper<'a> {
     }
 
     /// Counts of all steps so far; those that were taken again count as rejected.
-    pub fn statistics(&self) -> Statistics {
+    pub fn statistics(&self) -> StepCounts {
         let mut counts = self.kind.get().statistics();
         counts.steps -= self.taken_again;
         counts.rejected += self.taken_again;
@@ -303,6 +322,11 @@ impl<'a> MotionStepper<'a> {
     /// A failure in terms of the mechanism.
     pub fn failure(&self, cause: Cause<Breakdown>) -> Box<Failure> {
         let (model, y) = (self.ode.model, self.y());
+        let short = matches!(cause, Cause::StepTooSmall { .. });
+        let freedom = || massless::near(model, self.t(), model.layout.split(y)[0]);
+        if let Some(failure) = short.then(freedom).flatten() {
+            return failure;
+        }
         match (&cause, self.ode.passage.undecided.or(self.ode.paradox)) {
             (Cause::NotFinite { .. }, Some((t, breakdown))) => {
                 Failure::at_state(model, t, model.layout.split(y)[0], breakdown)
@@ -323,9 +347,9 @@ impl<'a> MotionStepper<'a> {
     pub fn factorisations(&self) -> usize {
         let counted = self.statistics().factorisations as usize;
         let others = match &self.kind {
-            Kind::Explicit(stepper) => stepper.statistics().evaluations,
-            Kind::HandingOver(stepper) => stepper.factorisations(),
-            Kind::Auto(stepper) => stepper.factorisations(),
+            MethodStepper::Explicit(stepper) => stepper.statistics().evaluations,
+            MethodStepper::HandingOver(stepper) => stepper.factorisations(),
+            MethodStepper::Auto(stepper) => stepper.factorisations(),
         };
         counted + others + self.ode.factorisations()
     }
@@ -333,7 +357,7 @@ impl<'a> MotionStepper<'a> {
     /// The method of the automatic choice.
     pub fn choice(&self) -> Option<MethodChoice> {
         match &self.kind {
-            Kind::Auto(stepper) => Some(stepper.choice()),
+            MethodStepper::Auto(stepper) => Some(stepper.choice()),
             _ => None,
         }
     }

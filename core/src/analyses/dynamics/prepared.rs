@@ -9,7 +9,6 @@ use super::failure::Failure;
 use super::interpolated_states;
 use super::model_cache::ModelCache;
 use super::options::Options;
-use super::run::Watcher;
 use super::run_results::Run;
 use super::trajectory::States;
 use super::wide::Wide;
@@ -48,7 +47,7 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         Self { model, cache: ModelCache::default(), clock: system_clock }
     }
 
-    /// The same with another clock for the wall time of runs.
+    /// Takes the wall time of runs from another clock.
     pub fn with_clock(self, clock: Clock) -> Self {
         Self { clock, ..self }
     }
@@ -56,6 +55,11 @@ impl<M: Deref<Target = Model>> Prepared<M> {
     /// The model.
     pub fn model(&self) -> &M {
         &self.model
+    }
+
+    /// The data that its runs share.
+    pub(super) fn cache(&self) -> &ModelCache {
+        &self.cache
     }
 
     /// The model over lanes for so many states, if they are enough for it.
@@ -73,11 +77,11 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         options: &Options,
         watch: impl FnMut(f64) -> Flow,
     ) -> Result<Run, Box<Failure>> {
-        let watcher = Watcher { watch, look: None };
-        course::run((&self.model, &self.cache), start, options, self.clock, watcher, None)
+        course::run((&self.model, &self.cache), start, options, self.clock, watch, None)
     }
 
-    /// The same; `act` is called at each event that [acts](crate::analyses::EventOption::acts).
+    /// Integrates the equations of motion; `act` is called at each event that
+    /// [acts](crate::analyses::EventOption::acts).
     ///
     /// # Errors
     /// As [`dynamics`](Self::dynamics), and for a change that does not meet the constraints.
@@ -88,8 +92,7 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         watch: impl FnMut(f64) -> Flow,
         act: Act<'_>,
     ) -> Result<Run, Box<Failure>> {
-        let watcher = Watcher { watch, look: None };
-        course::run((&self.model, &self.cache), start, options, self.clock, watcher, Some(act))
+        course::run((&self.model, &self.cache), start, options, self.clock, watch, Some(act))
     }
 
     /// Solves the equations of motion at states. With `passing`, also near singular positions, as runs with projection

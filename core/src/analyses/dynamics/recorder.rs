@@ -21,7 +21,7 @@ const IN_A_STEP: usize = 4;
 /// then open over many steps, and each check costs two fifths of the instructions of an evaluation.
 const UNREPORTED: usize = 4;
 
-/// The same for a scheme: an unstable constant step opens joints within few steps.
+/// The number of these steps for a scheme: an unstable constant step opens joints within few steps.
 fn unreported(scheme: &Scheme) -> usize {
     let constant = match scheme {
         Scheme::GeneralizedAlpha(_) | Scheme::Radau(_) | Scheme::Auto(_) => None,
@@ -69,21 +69,21 @@ pub(super) struct Recorder<'a> {
     y: Vec<f64>,
     pub trajectory: Trajectory,
     pub dense: Option<PiecewiseInterpolant>,
-    /// Of the continuous extension of the last step.
+    /// Coefficients of the interpolant of the last step.
     coefficients: Vec<f64>,
     /// Projects reported states onto the constraints.
     one: ReportProjection<'a>,
-    /// The same for the states of a grid, if they are many.
+    /// Projects the states of a grid, if there are many.
     many: Option<LaneBatch<'a>>,
     /// The sample at the end of the last step; states reported there have its values.
     pub sample: Option<Sample>,
-    /// The breakdown that stops it, and its time.
+    /// The breakdown that stops the recording, and its time.
     pub breakdown: Option<(f64, Breakdown)>,
 }
 
 impl<'a> Recorder<'a> {
-    /// For a phase that begins at `t` of a run that began at `t0`, with the records of the phases before. It uses the
-    /// model over lanes if there are many states to report.
+    /// Makes the recorder of a phase that begins at `t`, in a run that began at `t0`. The tables contain the records of
+    /// the phases before. The model over lanes is used if there are many states to report.
     pub fn new(
         system: &MotionOde<'a>,
         wide: Option<Wide<'a>>,
@@ -120,7 +120,7 @@ impl<'a> Recorder<'a> {
         self.one.factorisations() + Lanes::WIDTH * many
     }
 
-    /// Leaves out the rows that the equations of motion leave out; returns whether to go on.
+    /// Leaves out the rows that the equations of motion leave out; returns whether the run may continue.
     pub fn follow(&mut self, workspace: &Workspace) -> Flow {
         let omitted = workspace.matrix.omitted();
         if self.one.omitted() == omitted {
@@ -149,8 +149,12 @@ impl<'a> Recorder<'a> {
         self.keep(t, y, violation.map_or(Ok(()), Err))
     }
 
-    /// Reports the state of a step at a time between its ends; a failure may appear later, when it is projected.
-    fn report_between(&mut self, step: &Step<'_>, t: f64) -> Flow {
+    /// Reports the state of a step at a time of the grid. The end of a step meets the constraints already; a failure
+    /// between the ends may appear later, when the state is projected.
+    fn report_in(&mut self, step: &Step<'_>, t: f64) -> Flow {
+        if t == step.t {
+            return self.report(t, step.y);
+        }
         if self.sample.as_ref().is_some_and(|sample| sample.reaches(t)) {
             let flow = self.flush();
             step.interpolate(t, &mut self.y);
@@ -236,7 +240,7 @@ impl<'a> Recorder<'a> {
         while let (Flow::Continue, Some(t)) = (flow, self.due(step.t)) {
             self.latest = t;
             self.go_on();
-            flow = self.report_between(step, t);
+            flow = self.report_in(step, t);
             flow = if flow == Flow::Continue { watch(t) } else { flow };
         }
         if flow == Flow::Continue && step.t == self.t_end && self.latest != step.t {

@@ -124,8 +124,8 @@ impl ReportProjection<'_> {
         apart.is_some_and(|apart| apart < branch_averaging::BESIDE)
     }
 
-    /// The same. If it ends on another branch beside a singular position, the state is computed from neighbouring
-    /// states, if this changes the rates less.
+    /// Projects a reported state. If it ends on another branch beside a singular position, the state is computed from
+    /// neighbouring states, if this changes the rates less.
     ///
     /// # Errors
     /// [`Breakdown`].

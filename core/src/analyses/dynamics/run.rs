@@ -1,7 +1,6 @@
-//! A run: a sequence of phases, each with its own active constraints.
+//! One phase of a run, with its own active constraints. `course` makes the sequence of phases.
 
-use super::clock::Clock;
-use super::event_list::{EventList, Found, Function, Watched};
+use super::event_list::{EventList, StepEvents, Watched};
 use super::failure::Failure;
 use super::model_cache::ModelCache;
 use super::motion_ode::MotionOde;
@@ -10,110 +9,29 @@ use super::options::Options;
 use super::recorder::{self, Recorder};
 use super::redundant_rows::workspace_at;
 use super::run_results::Run;
-use super::stabilizations::Stabilization;
 use super::start_check::StartCheck;
 use super::switch_schedule::Schedule;
 use crate::analyses::curves::Ranges;
 use crate::analyses::so_far::SoFar;
 use crate::analyses::State;
-use crate::integrate::{Cause, Direction, Flow, Step};
+use crate::integrate::{Cause, Flow};
 use crate::model::Model;
 use crate::solve::Breakdown;
 
-/// A function of the state whose change of sign ends a phase.
-#[derive(Clone, Copy)]
-pub struct Event<'a> {
-    /// g(t, q, v, z).
-    pub g: &'a dyn Fn(f64, [&[f64]; 3]) -> f64,
-    /// The changes of sign that count.
-    pub direction: Direction,
-}
-
-/// A part of a run with its own active constraints.
-#[derive(Clone, Copy)]
-pub struct Phase<'a> {
-    /// Bodies, constraints and forces. The models of all phases have the same bodies and states.
-    pub model: &'a Model,
-    /// Time at which the phase ends, s; None for the end of the run.
-    pub t_end: Option<f64>,
-    /// An event that ends the phase before.
-    pub event: Option<Event<'a>>,
-    /// Whether the velocities at its start are projected onto its constraints, in the metric of the mass matrix.
-    /// Otherwise they should meet the constraints already.
-    pub project_velocities: bool,
-}
-
-impl<'a> Phase<'a> {
-    /// A phase to the end of the run.
-    pub fn new(model: &'a Model) -> Self {
-        Self { model, t_end: None, event: None, project_velocities: false }
-    }
-}
-
-/// The functions of the caller that observe a run.
-pub(super) struct Watcher<'l, W> {
-    /// Called with the time after each step and each reported state.
-    pub watch: W,
-    /// Called with each step.
-    pub look: Option<&'l mut dyn FnMut(&Step<'_>) -> Flow>,
-}
-
-/// The phases of a run, each with the cache of its model.
-pub(super) type Phases<'p, 'm> = &'p [(Phase<'m>, &'m ModelCache)];
-
-/// Integrates through all phases.
-pub(super) fn simulate<W: FnMut(f64) -> Flow>(
-    phases: Phases<'_, '_>,
-    start: &State,
-    options: &Options,
-    clock: Clock,
-    mut watcher: Watcher<'_, W>,
-) -> Result<Run, Box<Failure>> {
-    let began = clock();
-    for (phase, _) in phases {
-        options.check(phase.model, start)?;
-    }
-    let mut run = Run::default();
-    let mut at = At { t0: start.t, t: start.t, ..At::default() };
-    for (k, (phase, cache)) in phases.iter().enumerate() {
-        if k == 0 {
-            at = At::begin(phase.model, start, options, &mut run);
-        }
-        let t_end = phase.t_end.unwrap_or(options.t_end);
-        let options = Options { t_end, ..options.clone() };
-        let given = phase.event.iter().map(|event| Watched {
-            function: Function::Given(event.g),
-            direction: event.direction,
-            ends: true,
-            listed: true,
-        });
-        let watched = given.collect();
-        let outcome = run_phase((phase, cache), watched, &mut at, &options, &mut run, &mut watcher);
-        run.statistics.seconds = clock() - began;
-        match outcome {
-            Ok(PhaseEnd::Reached | PhaseEnd::Event) => {}
-            Ok(PhaseEnd::Stopped) => return Ok(run),
-            Err(failure) => return Err(Box::new(Failure { run, ..*failure })),
-        }
-    }
-    run.reached = true;
-    Ok(run)
-}
-
-/// The place of a run in its phases.
+/// The progress of a run through its phases.
 #[derive(Default)]
-pub(super) struct At {
+pub(super) struct Progress {
     /// The start of the run.
     t0: f64,
     pub t: f64,
     pub y: Vec<f64>,
     /// The events that ended the last phase.
     pub fired: Vec<usize>,
-    /// What conditions know of the run.
+    /// The course of the run that conditions refer to.
     pub so_far: SoFar,
 }
 
-impl At {
+impl Progress {
     /// At the start of a run; makes its tables.
     pub fn begin(model: &Model, start: &State, options: &Options, run: &mut Run) -> Self {
         let t0 = options.t_start.unwrap_or(start.t);
@@ -126,28 +44,65 @@ impl At {
 
 /// How a phase ended.
 pub(super) enum PhaseEnd {
-    /// At its end time.
+    /// The phase reached its end time.
     Reached,
-    /// By the caller.
+    /// The caller ended the phase.
     Stopped,
-    /// At events, which are in [`At::fired`].
+    /// The phase ended at events, which are in [`Progress::fired`].
     Event,
 }
 
-/// Integrates one phase; updates `at` and `run`.
-pub(super) fn run_phase<W: FnMut(f64) -> Flow>(
-    (phase, cache): (&Phase<'_>, &ModelCache),
+/// The bodies, constraints and forces of a phase.
+#[derive(Clone, Copy)]
+pub(super) struct Phase<'a> {
+    pub model: &'a Model,
+    pub cache: &'a ModelCache,
+    /// Whether the velocities at its start are projected onto its constraints, in the metric of the mass matrix.
+    /// Otherwise they should meet the constraints already.
+    pub project_velocities: bool,
+}
+
+/// Integrates one phase; updates `at` and `run`. `watch` is called with the time after each step and each reported
+/// state.
+pub(super) fn run_phase(
+    phase: Phase<'_>,
     watched: Vec<Watched<'_>>,
-    at: &mut At,
+    at: &mut Progress,
     options: &Options,
     run: &mut Run,
-    watcher: &mut Watcher<'_, W>,
+    watch: &mut impl FnMut(f64) -> Flow,
 ) -> Result<PhaseEnd, Box<Failure>> {
-    let model = phase.model;
+    let (begun, mut recorder) = begin_phase(phase, watched, at, options, run)?;
+    let outcome = begun.and_then(|steps| {
+        let Some(mut steps) = steps else { return Ok(PhaseEnd::Stopped) };
+        let outcome = loop {
+            match steps.step((&mut recorder, watch), run) {
+                Ok(None) => {}
+                Ok(Some(end)) => break Ok(end),
+                Err(failure) => break Err(failure),
+            }
+        };
+        steps.end(at, run);
+        outcome
+    });
+    end_phase(phase.model, recorder, at, outcome, run)
+}
+
+/// The steps of a phase, None if it is stopped at its start, and their recorder, which has the tables of the run.
+type Begun<'a> = (Result<Option<PhaseSteps<'a>>, Box<Failure>>, Recorder<'a>);
+
+/// Begins a phase; updates `at` and `run`.
+pub(super) fn begin_phase<'a>(
+    Phase { model, cache, project_velocities }: Phase<'a>,
+    watched: Vec<Watched<'a>>,
+    at: &mut Progress,
+    options: &Options,
+    run: &mut Run,
+) -> Result<Begun<'a>, Box<Failure>> {
     let first = run.phases.is_empty();
     let check =
         if first { StartCheck::of_run(options) } else { StartCheck::of_continuation(options) };
-    let check = if phase.project_velocities { check.of_positions() } else { check };
+    let check = if project_velocities { check.of_positions() } else { check };
     let [q, v, z, _] = model.layout.split(&at.y);
     check.check(model, at.t, [q, v, z])?;
     let schedule = Schedule::new(model, (at.t, options.t_end))?;
@@ -155,29 +110,37 @@ pub(super) fn run_phase<W: FnMut(f64) -> Flow>(
     let mut ode = MotionOde::new(model, options, workspace);
     run.phases.push(run.trajectory.t.len());
     run.passing = ode.passing;
-    run.projection = match options.stabilization {
-        Stabilization::Projection(projection) => Some(projection),
-        _ => None,
-    };
+    run.projection = ode.projection();
     let wide = cache.wide(model, recorder::grid_steps(options, at.t) as usize);
     let tables = (std::mem::take(&mut run.trajectory), run.dense.take());
     let mut recorder = Recorder::new(&ode, wide, options, (at.t0, at.t), tables);
     let q = model.layout.split(&at.y)[0].to_vec();
-    let started = ode.begin_phase(at.t, &mut at.y, phase.project_velocities, true);
-    let outcome = match started {
+    let begun = match ode.begin_phase(at.t, &mut at.y, project_velocities, true) {
         Err(breakdown) => Err(Failure::at_state(model, at.t, &q, breakdown)),
-        Ok(()) if recorder.begin(at.t, &at.y) == Flow::Stop => Ok(PhaseEnd::Stopped),
+        Ok(()) if recorder.begin(at.t, &at.y) == Flow::Stop => Ok(None),
         Ok(()) => {
             let so_far = std::mem::take(&mut at.so_far);
             let events = EventList::new(&ode, watched, at.t, &at.fired, so_far);
-            step_through(ode, events, at, options, (&mut recorder, watcher), schedule, run)
+            PhaseSteps::new(ode, events, at, options, schedule).map(Some)
         }
     };
+    Ok((begun, recorder))
+}
+
+/// Ends a phase that [began](begin_phase): returns the tables to the run.
+pub(super) fn end_phase(
+    model: &Model,
+    mut recorder: Recorder<'_>,
+    at: &Progress,
+    outcome: Result<PhaseEnd, Box<Failure>>,
+    run: &mut Run,
+) -> Result<PhaseEnd, Box<Failure>> {
     recorder.flush();
     run.statistics.factorisations += recorder.factorisations();
     let Recorder { trajectory, dense, breakdown, .. } = recorder;
     (run.trajectory, run.dense) = (trajectory, dense);
-    let last = run.trajectory.q.rchunks(model.layout.n_q.max(1)).next().unwrap_or(&q);
+    let reached = model.layout.split(&at.y)[0];
+    let last = run.trajectory.q.rchunks(model.layout.n_q.max(1)).next().unwrap_or(reached);
     match breakdown {
         Some((t, breakdown)) if outcome.is_ok() => {
             Err(Failure::at_state(model, t, last, breakdown))
@@ -186,49 +149,97 @@ pub(super) fn run_phase<W: FnMut(f64) -> Flow>(
     }
 }
 
-/// Takes the steps of a phase.
-fn step_through<W: FnMut(f64) -> Flow>(
-    ode: MotionOde<'_>,
-    mut events: Option<EventList<'_>>,
-    at: &mut At,
-    options: &Options,
-    (recorder, watcher): (&mut Recorder<'_>, &mut Watcher<'_, W>),
-    schedule: Schedule,
-    run: &mut Run,
-) -> Result<PhaseEnd, Box<Failure>> {
-    let model = ode.model;
-    let failed = |cause, t, y: &[f64]| Failure::of_integrator(model, cause, t, y);
-    let mut stepper = MotionStepper::new(ode, options, schedule, at.t, &at.y)
-        .map_err(|cause| failed(cause, at.t, &at.y))?;
-    let ranges = Ranges::of(model);
-    at.fired.clear();
-    let outcome = loop {
-        if stepper.t() == recorder.t_end {
-            let ended = at.fired.is_empty() && recorder.t_end == options.t_end;
-            break Ok(if ended { PhaseEnd::Reached } else { PhaseEnd::Event });
+/// The steps of a phase.
+pub(super) struct PhaseSteps<'a> {
+    pub stepper: MotionStepper<'a>,
+    events: Option<EventList<'a>>,
+    ranges: Ranges,
+    /// The start of the phase, for messages.
+    start: (f64, Vec<f64>),
+    /// The end of the run.
+    t_end: f64,
+    /// The events that end the phase.
+    fired: Vec<usize>,
+}
+
+impl<'a> PhaseSteps<'a> {
+    fn new(
+        ode: MotionOde<'a>,
+        events: Option<EventList<'a>>,
+        at: &Progress,
+        options: &Options,
+        schedule: Schedule,
+    ) -> Result<Self, Box<Failure>> {
+        let model = ode.model;
+        let stepper = MotionStepper::new(ode, options, schedule, at.t, &at.y)
+            .map_err(|cause| Failure::of_integrator(model, cause, at.t, &at.y))?;
+        let start = (at.t, at.y.clone());
+        let (ranges, t_end, fired) = (Ranges::of(model), options.t_end, Vec::new());
+        Ok(Self { stepper, events, ranges, start, t_end, fired })
+    }
+
+    /// How the phase ended, if its last step was taken.
+    pub fn reached(&self, recorder: &Recorder<'_>) -> Option<PhaseEnd> {
+        if self.stepper.t() != recorder.t_end {
+            return None;
         }
-        match next_step(&mut stepper, &mut events, (recorder, watcher), run, &mut at.fired) {
+        let ended = self.fired.is_empty() && recorder.t_end == self.t_end;
+        Some(if ended { PhaseEnd::Reached } else { PhaseEnd::Event })
+    }
+
+    /// Takes a step. Returns how the phase ended, if it did.
+    pub fn step(
+        &mut self,
+        observers: (&mut Recorder<'_>, &mut impl FnMut(f64) -> Flow),
+        run: &mut Run,
+    ) -> Result<Option<PhaseEnd>, Box<Failure>> {
+        if let Some(end) = self.reached(observers.0) {
+            return Ok(Some(end));
+        }
+        match self.stepper.step() {
+            Ok(()) => self.follow(observers, run),
+            Err(cause) => Err(self.stepper.failure(cause)),
+        }
+    }
+
+    /// Passes the step that was taken to the observers. Returns how the phase ended, if they end it.
+    pub fn follow(
+        &mut self,
+        observers: (&mut Recorder<'_>, &mut impl FnMut(f64) -> Flow),
+        run: &mut Run,
+    ) -> Result<Option<PhaseEnd>, Box<Failure>> {
+        let model = self.stepper.ode.model;
+        let Self { stepper, events, fired, .. } = self;
+        match observe(stepper, events, observers, run, fired) {
             Ok(Next::Step(Flow::Continue)) => {
-                let q = model.layout.split(stepper.y())[0];
-                if let Some((_, message)) = ranges.beyond(model, q) {
-                    break Err(Failure::off_the_curve(stepper.t(), &message));
-                }
+                let q = model.layout.split(self.stepper.y())[0];
+                let beyond = self.ranges.beyond(model, q);
+                let failure =
+                    |(_, message): (_, String)| Failure::off_the_curve(self.stepper.t(), &message);
+                beyond.map(failure).map_or(Ok(None), Err)
             }
-            Ok(Next::Step(Flow::Stop)) => break Ok(PhaseEnd::Stopped),
+            Ok(Next::Step(Flow::Stop)) => Ok(Some(PhaseEnd::Stopped)),
             // the step is taken again, to end at the event
             Ok(Next::Event(t)) => {
-                stepper.end_within_step(t).map_err(|cause| failed(cause, at.t, &at.y))?;
+                let (t_start, y_start) = (self.start.0, &self.start.1);
+                let again = self.stepper.end_within_step(t);
+                again.map_err(|cause| Failure::of_integrator(model, cause, t_start, y_start))?;
+                Ok(None)
             }
-            Err(cause) => break Err(stepper.failure(cause)),
+            Err(cause) => Err(self.stepper.failure(cause)),
         }
-    };
-    run.statistics.add(stepper.statistics(), stepper.factorisations());
-    run.choice = stepper.choice();
-    run.passed.append(&mut stepper.passed);
-    at.t = stepper.t();
-    at.y.copy_from_slice(stepper.y());
-    at.so_far = events.map(EventList::so_far).unwrap_or_default();
-    outcome
+    }
+
+    /// Ends the steps; updates `at` and `run`.
+    pub fn end(mut self, at: &mut Progress, run: &mut Run) {
+        run.statistics.add(self.stepper.statistics(), self.stepper.factorisations());
+        run.choice = self.stepper.choice();
+        run.passed.append(&mut self.stepper.passed);
+        at.t = self.stepper.t();
+        at.y.copy_from_slice(self.stepper.y());
+        at.fired = self.fired;
+        at.so_far = self.events.map(EventList::so_far).unwrap_or_default();
+    }
 }
 
 /// The outcome of a step.
@@ -238,32 +249,30 @@ enum Next {
     Event(f64),
 }
 
-/// Takes a step and passes it to the recorder and to the caller. Events in it are added to the run; those that end the
-/// phase are also put into `fired`.
-fn next_step<W: FnMut(f64) -> Flow>(
+/// Passes the last step to the recorder and to the caller. Events in it are added to the run; those that end the phase
+/// are also put into `fired`.
+fn observe(
     stepper: &mut MotionStepper<'_>,
     events: &mut Option<EventList<'_>>,
-    (recorder, watcher): (&mut Recorder<'_>, &mut Watcher<'_, W>),
+    (recorder, watch): (&mut Recorder<'_>, &mut impl FnMut(f64) -> Flow),
     run: &mut Run,
     fired: &mut Vec<usize>,
 ) -> Result<Next, Cause<Breakdown>> {
-    stepper.step()?;
     let model = stepper.ode.model;
-    let Watcher { watch, look } = watcher;
-    if events.is_some() || look.is_some() || recorder.looks_inside(stepper.t()) {
+    if events.is_some() || recorder.looks_inside(stepper.t()) {
         stepper.prepare_interpolant()?;
     }
     let step = stepper.last_step().expect("a step was taken");
     let found = events.as_mut().map(|events| events.look(model, &step, recorder.t_end));
     let happened = match found {
-        Some(Found::Again(t)) => return Ok(Next::Event(t)),
-        Some(Found::End(happened)) => {
+        Some(StepEvents::Again(t)) => return Ok(Next::Event(t)),
+        Some(StepEvents::End(happened)) => {
             recorder.t_end = step.t;
             let ending = happened.iter().filter(|event| event.t == step.t);
             fired.extend(ending.map(|event| event.index));
             happened
         }
-        Some(Found::Events(happened)) => happened,
+        Some(StepEvents::Events(happened)) => happened,
         None => Vec::new(),
     };
     // a step that is taken again has no sample
@@ -281,9 +290,5 @@ fn next_step<W: FnMut(f64) -> Flow>(
     if flow == Flow::Continue {
         flow = watch(step.t);
     }
-    let flow = match look {
-        Some(look) if flow == Flow::Continue => look(&step),
-        _ => flow,
-    };
     Ok(Next::Step(flow))
 }

@@ -29,7 +29,7 @@ pub struct Statistics {
 
 impl Statistics {
     /// Adds the counts of a stepper and the factorisations that belong to it.
-    pub(super) fn add(&mut self, counts: integrate::Statistics, factorisations: usize) {
+    pub(super) fn add(&mut self, counts: integrate::StepCounts, factorisations: usize) {
         self.steps += counts.steps;
         self.rejected += counts.rejected;
         self.evaluations += counts.evaluations;
@@ -101,11 +101,6 @@ impl Run {
         if let Some(event) = self.events.get_mut(index) {
             event.states.add(layout, t, y);
         }
-    }
-
-    /// The phase of a row of the trajectory.
-    pub fn phase_of(&self, row: usize) -> usize {
-        self.phases.partition_point(|first| *first <= row).saturating_sub(1)
     }
 
     /// The reported states of a phase.

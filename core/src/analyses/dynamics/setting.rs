@@ -15,7 +15,7 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// Of the start of a run; the modes of forces are not decided.
+    /// The setting at the start of a run; the modes of forces are not decided yet.
     pub(super) fn of(options: &Options) -> Self {
         let (parameters, released) = (options.parameters.clone(), options.release.clone());
         Self { parameters, released, modes: Vec::new() }
@@ -29,13 +29,13 @@ impl Setting {
     /// The model with these parameters, without these drivers, and with forces in these modes.
     ///
     /// # Errors
-    /// Every number that cannot be right.
+    /// All parameters and numbers with an impossible value.
     pub fn model(&self, model: &Model) -> Result<Model, Vec<Problem>> {
         let open = self.open(model)?;
         Ok(if self.modes.is_empty() { open } else { open.in_modes(&self.modes) })
     }
 
-    /// The same with forces as their state says.
+    /// The model with these parameters and without these drivers. The modes of forces follow from the state.
     ///
     /// # Errors
     /// As [`model`](Self::model).

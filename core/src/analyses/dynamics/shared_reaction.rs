@@ -19,7 +19,7 @@ pub(super) fn check(model: &Model, t: f64, q: &[f64]) -> Result<(), Box<Failure>
         };
         let name = &model.constraints[joint].name;
         let others = shared.iter().filter(|k| **k != joint);
-        let others: Vec<&str> = others.map(|k| model.constraints[*k].name.as_str()).collect();
+        let others = model.names_of(others);
         let message = format!(
             "{} '{}' depends on the reaction of joint {name}, which is not unique: {name} and {} carry the same load",
             item.element.kind(),

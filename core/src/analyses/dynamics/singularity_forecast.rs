@@ -55,6 +55,11 @@ impl SingularityForecast {
         self.stages.push(stage);
     }
 
+    /// Whether the end of a trial shows that no singular position is within two steps from its start.
+    pub fn is_clear(&self, end: Sample) -> bool {
+        self.stages.is_empty() && self.start.is_none_or(|start| NEARER * end.1 > start.1)
+    }
+
     /// Ends a trial; returns the time of a singular position within two steps from its start.
     pub fn foresee(&mut self, end: Sample) -> Option<f64> {
         let stages = std::mem::take(&mut self.stages);

@@ -10,7 +10,7 @@ use super::motion_ode::MotionOde;
 use super::singularity_forecast::SingularityForecast;
 use crate::equations::Gains;
 use crate::integrate::{
-    Atol, BoxedStepper, Cause, Dop853, ExplicitMethod, Statistics, Step, StepControl, Stepper,
+    Atol, BoxedStepper, Cause, Dop853, ExplicitMethod, Step, StepControl, StepCounts, Stepper,
 };
 use crate::solve::Breakdown;
 
@@ -34,7 +34,7 @@ const ROUNDING: f64 = 1e-6;
 
 /// The method between singular positions.
 pub(super) enum Method<'a> {
-    /// With a constant step.
+    /// An explicit method with a constant step.
     Explicit(BoxedStepper<MotionOde<'a>, Breakdown>),
     Implicit(ImplicitMotion<'a>),
 }
@@ -55,17 +55,17 @@ impl<'a> Method<'a> {
     }
 }
 
-/// The stepper whose turn it is.
+/// The stepper that takes the next step.
 #[derive(Clone, Copy, PartialEq)]
 enum Turn {
-    /// That of the method.
+    /// The method.
     Method,
-    /// That of the method took the last step; DOP853 takes the next.
+    /// DOP853; the method took the last step.
     HandOver,
     Dop853,
-    /// DOP853 ends at this time of the grid of a constant step.
+    /// DOP853, whose step ends at this time of the grid of a constant step.
     ToGrid(f64),
-    /// DOP853 took the last step; the method takes the next.
+    /// The method; DOP853 took the last step.
     HandBack,
 }
 
@@ -93,7 +93,7 @@ pub(super) struct SingularityHandover<'a> {
 }
 
 impl<'a> SingularityHandover<'a> {
-    /// Of a method that begins a span, with its tolerances and steps.
+    /// Wraps a method that begins a span, with its tolerances and steps.
     pub fn new(method: Method<'a>, control: &StepControl, (t, t_end): (f64, f64)) -> Self {
         Self {
             method,
@@ -356,7 +356,7 @@ impl<'a> Stepper<MotionOde<'a>, Breakdown> for SingularityHandover<'a> {
         Ok(())
     }
 
-    fn statistics(&self) -> Statistics {
+    fn statistics(&self) -> StepCounts {
         let mut counts = self.method.get().statistics();
         counts.steps -= self.taken_again;
         counts.rejected += self.taken_again;

@@ -21,7 +21,7 @@ use crate::solve::Breakdown;
 /// Branches cannot be distinguished if the ratio of a pivot to its largest summand is below this: a part of 1e-3 of
 /// the mechanism's size.
 const INDISTINCT: f64 = 1e-6;
-/// The same part: a mechanism counts as at rest within this distance of its turning point.
+/// Part of the size of the mechanism: a mechanism counts as at rest within this distance of its turning point.
 const REST: f64 = 1e-3;
 /// Part of γ that may remain; the error of a trial state leaves far less.
 const REMAINDER: f64 = 0.05;
@@ -91,7 +91,7 @@ impl SingularityPassage {
         checked.is_ok()
     }
 
-    /// The same near a singular position.
+    /// Checks the accelerations near a singular position.
     #[cold]
     fn check(
         &mut self,
@@ -144,12 +144,36 @@ impl SingularityPassage {
     /// Accepts the trial of the last forecast; the workspace belongs to its end.
     pub fn accept(&mut self, t: f64, work: &Workspace) {
         if self.passing {
-            self.least = f64::INFINITY;
-            let end = work.matrix.cancellation();
-            let passed = self.approach.accept(end.map(|(_, ratio)| (t, ratio)));
-            if let (Some((at, slope)), Some((row, _))) = (passed, end) {
-                self.passed = Some((at, slope, row));
-            }
+            self.accept_at(t, work.matrix.cancellation());
+        }
+    }
+
+    fn accept_at(&mut self, t: f64, end: Option<(usize, f64)>) {
+        self.least = f64::INFINITY;
+        let passed = self.approach.accept(end.map(|(_, ratio)| (t, ratio)));
+        if let (Some((at, slope)), Some((row, _))) = (passed, end) {
+            self.passed = Some((at, slope, row));
+        }
+    }
+
+    /// Whether no singular position is near or in reach.
+    pub fn is_clear(&self) -> bool {
+        !self.near && !self.in_reach()
+    }
+
+    /// Ends a trial with the loss of digits at its end, if no singular position is in reach; otherwise returns false.
+    pub fn clears(&mut self, t: f64, ratio: f64) -> bool {
+        let clear = !self.passing || self.approach.is_clear((t, ratio));
+        if self.passing && clear {
+            self.approach.foresee((t, ratio));
+        }
+        clear
+    }
+
+    /// Accepts a trial that was clear, with the loss of digits at its end.
+    pub fn accept_clear(&mut self, t: f64, ratio: f64) {
+        if self.passing {
+            self.accept_at(t, Some((0, ratio)));
         }
     }
 

@@ -26,7 +26,7 @@ const CLASSICAL: Gains = Gains { alpha: 10.0, beta: 200.0 };
 /// Gains without numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum AutomaticGains {
-    /// From the step.
+    /// Gains from the step.
     Step,
 }
 

@@ -34,22 +34,22 @@ const NEAR: f64 = 1e-6;
 pub(super) struct StartCheck {
     closed: f64,
     rounded: f64,
-    /// None if velocities are projected.
+    /// Largest rate of opening; None if velocities are projected.
     rate: Option<f64>,
     near: f64,
     hint: &'static str,
 }
 
 /// Rows of Φ, or of its rate, with the largest allowed number of each.
-struct Level<'a> {
+struct ConstraintRows<'a> {
     rows: &'a [f64],
     most: Vec<f64>,
-    /// After the unit of a row.
+    /// The text behind the unit of a row: nothing, or per second.
     per: &'static str,
 }
 
 impl StartCheck {
-    /// Of the start of a run.
+    /// The check of the start of a run.
     pub fn of_run(options: &Options) -> Self {
         let tolerance = match options.stabilization {
             Stabilization::Projection(projection) => projection.tolerance,
@@ -66,7 +66,7 @@ impl StartCheck {
         }
     }
 
-    /// Of a state that a run reached: it meets the constraints up to the errors of integration.
+    /// The check of a state that a run reached, which meets the constraints up to the errors of integration.
     pub fn of_continuation(options: &Options) -> Self {
         let most = match options.stabilization {
             Stabilization::None => ADRIFT,
@@ -81,7 +81,7 @@ impl StartCheck {
         }
     }
 
-    /// Of a state or a mechanism that an event changes: the state is that of the run, with its errors.
+    /// The check after an event that changes the state or the mechanism. The state has the errors of the run.
     pub fn of_change(options: &Options) -> Self {
         let base = match options.stabilization {
             Stabilization::Projection(_) => Self::of_run(options),
@@ -92,7 +92,7 @@ impl StartCheck {
         Self { hint, ..base }
     }
 
-    /// The same without a limit of the velocities.
+    /// The same check without a limit of the velocities.
     pub fn of_positions(self) -> Self {
         Self { rate: None, ..self }
     }
@@ -111,7 +111,7 @@ impl StartCheck {
         let rows = row_scales(model);
         let level = |found, most: f64, per| {
             let most = rows.iter().map(|scale| most * scale).collect();
-            Level { rows: found, most, per }
+            ConstraintRows { rows: found, most, per }
         };
         let closed =
             (ROUNDING * largest(model, q)).clamp(self.closed, self.closed.max(self.rounded));
@@ -131,7 +131,7 @@ impl StartCheck {
     }
 }
 
-impl Level<'_> {
+impl ConstraintRows<'_> {
     fn check(&self, model: &Model, t: f64, hint: &'static str) -> Result<(), Box<Failure>> {
         // NaN counts as open
         let over = self.rows.iter().zip(&self.most).map(|(gap, most)| gap.abs() / most);

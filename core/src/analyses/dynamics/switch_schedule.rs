@@ -1,11 +1,11 @@
 //! The switches that depend on the time alone, found before a run, and the jumps of drivers and joint laws at them.
 
 use super::failure::{Failure, Reason};
-use super::law_jump::{owner_name, Jump, SMOOTH};
+use super::law_jump::{owner_name, LawJump, SMOOTH};
 use super::sampling;
 use crate::equations::kinematics::Motions;
 use crate::expression::{pieces_at, switch_times, Tape};
-use crate::model::{Model, Owner};
+use crate::model::{Model, SwitchOwner};
 
 /// Distance below which two switches count as one, relative to the largest time of a run.
 const TOGETHER: f64 = 1e-14;
@@ -16,7 +16,7 @@ pub(super) struct Schedule {
     pub start: Vec<f64>,
     /// The times in the order of the run, each with the switches that change and their new pieces.
     pub times: Vec<(f64, Vec<(usize, f64)>)>,
-    /// Those at which sampled laws are computed.
+    /// The times at which sampled laws are computed.
     pub samples: Vec<f64>,
 }
 
@@ -115,7 +115,7 @@ impl Schedule {
             changes.iter().for_each(|(switch, piece)| motions.pieces[*switch] = *piece);
             for k in changed_constraints(model, changes) {
                 let stateless = |tape: &Tape| !tape.uses_state();
-                if let Some(jump) = Jump::of(model, k, &mut motions, *t, &before, &stateless) {
+                if let Some(jump) = LawJump::of(model, k, &mut motions, *t, &before, &stateless) {
                     let name = model.constraints[jump.constraint].name.clone();
                     let message = jump.describe(model, *t);
                     return Err(Reason::Law { t: *t, name, message, hint: SMOOTH }.into());
@@ -129,8 +129,8 @@ impl Schedule {
 /// The joints and drivers to which switches belong, each once.
 pub(super) fn changed_constraints(model: &Model, changes: &[(usize, f64)]) -> Vec<usize> {
     let owners = changes.iter().filter_map(|(switch, _)| match model.switches[*switch].owner {
-        Owner::Constraint(k) => Some(k),
-        Owner::Force(_) => None,
+        SwitchOwner::Constraint(k) => Some(k),
+        SwitchOwner::Force(_) => None,
     });
     let mut all: Vec<usize> = owners.collect();
     all.dedup();

@@ -13,15 +13,15 @@ mod curve_break;
 mod narrow;
 mod sliding;
 
-use super::contact_resolution::{self, Steps};
-use super::law_jump::Jump;
+use super::contact_resolution::{self, StepChoice};
+use super::law_jump::LawJump;
 use super::motion_ode::MotionOde;
 use super::switch_schedule::{changed_constraints, Schedule};
 use crate::equations::forces::Acting;
 use crate::equations::kinematics::Motions;
 use crate::equations::{switches, Gains, Workspace};
 use crate::integrate::{scan, Cause, Direction, Scan, Step};
-use crate::model::{Model, Owner};
+use crate::model::{Model, SwitchOwner};
 use crate::solve::Breakdown;
 
 /// Changes of one switch within [`SHORT`] of the run after which it counts as stuck.
@@ -52,9 +52,9 @@ struct Due {
     tries: usize,
 }
 
-/// What follows a step.
+/// How a run continues after a step.
 pub(super) enum After {
-    /// The step is good.
+    /// The step is accepted.
     Accept,
     /// The step is taken again, to the switch that is now due.
     Again,
@@ -79,7 +79,7 @@ pub(super) struct Switching {
     due: Option<Due>,
     /// Evaluates the functions of switches.
     workspace: Option<Box<Workspace>>,
-    steps: Steps,
+    steps: StepChoice,
     /// Ends of the first steps of a contact, last ones first.
     graded: Vec<f64>,
     motions: Motions,
@@ -89,10 +89,10 @@ pub(super) struct Switching {
 }
 
 impl Switching {
-    /// Of a run that begins with `y` at `t`; None without switches.
+    /// The switches of a run that begins with `y` at `t`; None if the model has none.
     pub fn new(
         ode: &mut MotionOde<'_>,
-        (schedule, steps): (Schedule, Steps),
+        (schedule, steps): (Schedule, StepChoice),
         t: f64,
         t_end: f64,
         y: &[f64],
@@ -105,8 +105,8 @@ impl Switching {
             return None;
         }
         let reactive = on_state.iter().any(|k| match model.switches[*k].owner {
-            Owner::Force(f) => model.forces[f].reaction.is_some(),
-            Owner::Constraint(_) => false,
+            SwitchOwner::Force(f) => model.forces[f].reaction.is_some(),
+            SwitchOwner::Constraint(_) => false,
         });
         let calm = (f64::NAN, 0);
         let mut switching = Self {
@@ -237,8 +237,8 @@ impl Switching {
         self.motions.place(&model.layout, q, v);
         self.motions.pieces.clone_from(&self.pieces);
         for k in changed_constraints(model, changes) {
-            let jump = Jump::of(model, k, &mut self.motions, t, &before, &|_| true);
-            if let Some(Jump { constraint, position, values }) = jump {
+            let jump = LawJump::of(model, k, &mut self.motions, t, &before, &|_| true);
+            if let Some(LawJump { constraint, position, values }) = jump {
                 let error = Breakdown::Jump { constraint, position, values };
                 return Err(Cause::Equations { t, error });
             }
@@ -266,7 +266,7 @@ impl Switching {
     fn follow_reactions(&mut self, model: &Model, t: f64, y: &[f64]) {
         self.evaluate(model, t, y);
         for k in &self.on_state {
-            let Owner::Force(f) = model.switches[*k].owner else { continue };
+            let SwitchOwner::Force(f) = model.switches[*k].owner else { continue };
             let piece = model.switches[*k].boundaries.piece(self.sigma[*k]);
             if model.forces[f].reaction.is_some() && !self.pieces[*k].is_nan() && !piece.is_nan() {
                 self.pieces[*k] = piece;

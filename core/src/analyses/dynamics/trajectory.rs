@@ -68,7 +68,7 @@ pub struct PiecewiseInterpolant {
     pub y: Vec<f64>,
     /// Coefficients of θ … θᵈ, for each step n_y rows of d.
     pub c: Vec<f64>,
-    /// d.
+    /// The degree d.
     pub degree: usize,
 }
 
@@ -145,7 +145,7 @@ pub struct Steps<'a> {
     pub c: &'a [f64],
     /// Numbers in y.
     pub n_y: usize,
-    /// d.
+    /// The degree d.
     pub degree: usize,
 }
 

@@ -40,7 +40,8 @@ impl<'a> Wide<'a> {
 /// A model over lanes that is made at its first use.
 #[derive(Debug, Default)]
 pub(super) struct WideCell {
-    /// In a box: it has the alignment of vector registers, which allocators of other languages do not provide.
+    /// The model is in a box, because it has the alignment of vector registers, which allocators of other languages
+    /// do not provide.
     #[cfg(not(target_arch = "wasm32"))]
     made: std::sync::OnceLock<Box<Model<Lanes>>>,
 }

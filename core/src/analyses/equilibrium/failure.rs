@@ -63,7 +63,7 @@ impl Reason {
         let found = mobility(model, t, q);
         let group = found.singular.iter().chain(&found.redundant).next();
         let group = group.cloned().unwrap_or_default();
-        let names: Vec<&str> = group.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+        let names = model.names_of(&group);
         let message = match names.is_empty() {
             true => "the position is singular".to_string(),
             false => format!("the position is singular: {} depend on each other", names.join(", ")),

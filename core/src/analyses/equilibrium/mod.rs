@@ -39,13 +39,15 @@ pub use compliance::compliance;
 pub use failure::Reason;
 pub use options::Options;
 pub use path::path;
-pub use points::{End, Path};
+pub use points::{EquilibriumPath, PathEnd};
 pub use result::Equilibrium;
 
+use super::mobility::mobility;
 use super::State;
+use crate::equations::balance::Balance;
 use crate::integrate::Flow;
 use crate::model::Model;
-use search::Search;
+use search::RestSearch;
 use statics::Statics;
 
 /// The position in which a mechanism comes to rest from `start`, whose rates do not count.
@@ -65,7 +67,27 @@ pub fn equilibrium(
     from(&held, start, options, &mut watch)
 }
 
-/// The same for a model with its holders.
+/// What prevents the search at its start, as far as it is known without derivatives: a singular position, or a force that
+/// is not finite at rest.
+///
+/// # Errors
+/// [`Reason`].
+pub fn begins(model: &Model, start: &State) -> Result<(), Reason> {
+    let State { t, q, z, .. } = start;
+    if !mobility(model, *t, q).singular.is_empty() {
+        return Err(Reason::singular(model, *t, q));
+    }
+    let mut balance = Balance::new(model);
+    let rest = vec![0.0; q.len()];
+    balance.evaluate(model, *t, [q, &rest, &rest, z], &vec![0.0; model.layout.n_rows]);
+    let mut all = balance.forces.iter().chain(&balance.state_rates);
+    match all.all(|x| x.is_finite()) {
+        true => Ok(()),
+        false => Err(Reason::NotFinite),
+    }
+}
+
+/// The equilibrium of a model that contains its holders.
 fn from(
     held: &Model,
     start: &State,
@@ -74,7 +96,7 @@ fn from(
 ) -> Result<Equilibrium, Reason> {
     let mut statics = Statics::new(held, start.t);
     let place = statics.place(&start.q, &start.z)?;
-    let found = Search::new(&mut statics, options.nearest, watch).run(place)?;
+    let found = RestSearch::new(&mut statics, options.nearest, watch).run(place)?;
     let result = Equilibrium::at(&statics, &found.place, options.hold.len())?;
     Ok(Equilibrium { steps: found.steps, relaxed: found.relaxed, ..result })
 }

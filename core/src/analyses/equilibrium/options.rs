@@ -1,45 +1,20 @@
 //! Options of equilibrium.
 
 use crate::analyses::assemble::position;
-use crate::analyses::options::{flag, interval, name, options, Declared, Kind, Reader};
-use crate::elements::{Default, Shape};
+use crate::analyses::options::{flag, interval, kind, name, options};
 use crate::expression::suggest::did_you_mean;
-use crate::model::{Model, Problem, Value};
+use crate::model::{Model, Problem};
 
-/// Names of position quantities.
-#[allow(non_camel_case_types)] // a type in `options!`, written like a word
-pub enum positions {}
-
-impl Kind for positions {
-    type Value = Vec<String>;
-
-    fn shape() -> Shape {
-        Shape::Quantities
-    }
-
-    fn data(_: &Vec<String>) -> Default {
-        Default::Absent
-    }
-
-    fn read(reader: &mut Reader<'_>, key: &'static str, _: &'static str) -> Option<Vec<String>> {
-        let Some(Value::List(items)) = reader.get(key) else {
-            return reader
-                .refuse(key, "must be a list of position quantities, such as [\"crank.angle\"]");
-        };
-        let mut names: Vec<String> = Vec::new();
-        for item in items {
-            let Value::Text(name) = item else {
-                return reader.refuse(key, "must be a list of position quantities");
-            };
-            if let Err(problem) = position(reader.model(), name) {
-                return reader.report(key, problem);
+kind! {
+    /// Names of position quantities.
+    positions: Vec<String>, Quantities, |reader, key| {
+        let what = "position quantities, such as [\"crank.angle\"]";
+        reader.names(key, what, |model, name, before| {
+            if before.iter().any(|known| known == name) {
+                return Err(Problem::new(format!("{name} is listed twice")));
             }
-            if names.contains(name) {
-                return reader.refuse(key, format!("{name} is listed twice"));
-            }
-            names.push(name.clone());
-        }
-        Some(names)
+            position(model, name).map(|_| ())
+        })
     }
 }
 
@@ -59,43 +34,25 @@ options! {
         /// absent, the end of the analysis before it.
         from: Option<name> = None,
     }
+    conflict conflict;
 }
 
-impl Options {
-    /// Reads the fields of an analysis of this type; `path` is its path in the file.
-    ///
-    /// # Errors
-    /// Every faulty value, with its path.
-    pub fn checked(
-        model: &Model,
-        fields: &[(String, Value)],
-        path: &[String],
-    ) -> Result<Self, Vec<Problem>> {
-        let read = Reader::read(model, fields, path, Self::read)?;
-        let fault = |key: &str, message: String| {
-            let path: Vec<&str> = path.iter().map(String::as_str).chain([key]).collect();
-            Err(vec![Problem::at(&path, message)])
-        };
-        match (&read.over, read.range) {
-            (Some(_), None) => {
-                fault("range", "missing; over needs it: range = [first, last]".to_string())
-            }
-            (None, Some(_)) => {
-                fault("over", "missing; range needs it: over = \"load\"".to_string())
-            }
-            (Some(over), Some([first, last])) => {
-                let known = &model.blueprint.parameters;
-                if !known.contains(over) {
-                    let hint =
-                        did_you_mean(over, known).map_or(String::new(), |h| format!("; {h}"));
-                    return fault("over", format!("there is no parameter '{over}'{hint}"));
-                }
-                if first == last {
-                    return fault("range", "has no length; give two different values".to_string());
-                }
-                Ok(read)
-            }
-            (None, None) => Ok(read),
+/// A path needs a parameter and its range.
+fn conflict(options: &Options, model: &Model) -> Option<(&'static str, String)> {
+    match (&options.over, options.range) {
+        (Some(_), None) => {
+            Some(("range", "missing; over needs it: range = [first, last]".to_string()))
         }
+        (None, Some(_)) => Some(("over", "missing; range needs it: over = \"load\"".to_string())),
+        (Some(over), Some([first, last])) => {
+            let known = &model.blueprint.parameters;
+            if !known.contains(over) {
+                let hint = did_you_mean(over, known).map_or(String::new(), |h| format!("; {h}"));
+                return Some(("over", format!("there is no parameter '{over}'{hint}")));
+            }
+            let empty = "has no length; give two different values".to_string();
+            (first == last).then_some(("range", empty))
+        }
+        (None, None) => None,
     }
 }

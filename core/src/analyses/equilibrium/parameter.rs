@@ -1,7 +1,7 @@
 //! The model at a value of a parameter, and the derivatives of the equations at rest by it.
 
 use super::failure::Reason;
-use super::statics::{Place, Statics};
+use super::statics::{StaticState, Statics};
 use crate::analyses::linearization::{slopes_by_parameter, LeastNorm, StatePoint, Variation};
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
@@ -25,7 +25,7 @@ pub(super) struct ByParameter {
 }
 
 impl ByParameter {
-    pub fn new(statics: &Statics<'_>, place: &Place, over: &str) -> Result<Self, Reason> {
+    pub fn new(statics: &Statics<'_>, place: &StaticState, over: &str) -> Result<Self, Reason> {
         let (model, t) = (statics.model, statics.t);
         let rest = vec![0.0; place.q.len()];
         let at = StatePoint { q: &place.q, v: &rest, z: &place.z, a: &rest, lam: &place.lam };

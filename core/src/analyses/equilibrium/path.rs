@@ -5,8 +5,8 @@ use super::failure::Reason;
 use super::holding;
 use super::options::Options;
 use super::parameter;
-use super::points::{End, Path};
-use super::spot::{Course, Direction, Step};
+use super::points::{EquilibriumPath, PathEnd};
+use super::spot::{ParameterPath, PathDirection, PathStep};
 use super::stride::advance;
 use super::turning;
 use crate::analyses::State;
@@ -35,7 +35,7 @@ pub fn path(
     start: &State,
     options: &Options,
     mut watch: impl FnMut(f64) -> Flow,
-) -> Result<Path, Reason> {
+) -> Result<EquilibriumPath, Reason> {
     let (Some(over), Some(range)) = (&options.over, options.range) else {
         return Err(Reason::Option(Vec::new()));
     };
@@ -45,40 +45,40 @@ pub fn path(
     let n = start.q.len() as f64;
     let weights = column_scales(&first).iter().map(|s| 1.0 / (s * s * n)).collect();
     let (holders, t, unit) = (options.hold.len(), start.t, (range[1] - range[0]).abs());
-    let course = Course { model: &held, holders, t, over, unit, weights };
+    let course = ParameterPath { model: &held, holders, t, over, unit, weights };
     let spot = course.spot(range[0], &begin.state.q, &begin.state.z)?;
     let onward =
-        Direction { q: vec![0.0; start.q.len()], p: (range[1] - range[0]).signum() * unit };
+        PathDirection { q: vec![0.0; start.q.len()], p: (range[1] - range[0]).signum() * unit };
     let Some(tangent) = course.tangent(&spot, &onward) else {
         return Err(Reason::singular(&first, t, &begin.state.q));
     };
-    let mut path = Path {
+    let mut path = EquilibriumPath {
         values: vec![range[0]],
         points: vec![begin],
         folds: Vec::new(),
         branches: Vec::new(),
-        end: End::Long,
+        end: PathEnd::Long,
     };
     path.end =
-        follow(&course, Step { spot, tangent, iterations: 0 }, range, &mut path, &mut watch)?;
+        follow(&course, PathStep { spot, tangent, iterations: 0 }, range, &mut path, &mut watch)?;
     Ok(path)
 }
 
 fn follow(
-    course: &Course<'_>,
-    mut at: Step,
+    course: &ParameterPath<'_>,
+    mut at: PathStep,
     range: [f64; 2],
-    path: &mut Path,
+    path: &mut EquilibriumPath,
     watch: &mut dyn FnMut(f64) -> Flow,
-) -> Result<End, Reason> {
+) -> Result<PathEnd, Reason> {
     let mut ds = FIRST;
     while path.values.len() < POINTS {
         if watch(at.spot.value) == Flow::Stop {
-            return Ok(End::Stopped);
+            return Ok(PathEnd::Stopped);
         }
         let next = match advance(course, &at, ds) {
             Ok(next) => next,
-            Err(reason) if ds < SHORTEST => return Ok(End::Lost(reason)),
+            Err(reason) if ds < SHORTEST => return Ok(PathEnd::Lost(reason)),
             Err(_) => {
                 ds *= 0.5;
                 continue;
@@ -95,5 +95,5 @@ fn follow(
         }
         at = next;
     }
-    Ok(End::Long)
+    Ok(PathEnd::Long)
 }

@@ -2,11 +2,11 @@
 
 use super::failure::Reason;
 use super::result::Equilibrium;
-use super::spot::{Course, Spot};
+use super::spot::{ParameterPath, Spot};
 
 /// The end of a path.
 #[derive(Clone, Debug, PartialEq)]
-pub enum End {
+pub enum PathEnd {
     /// It reached the last value of the range.
     Last,
     /// It turned and came back to the first value.
@@ -21,7 +21,7 @@ pub enum End {
 
 /// A path of equilibria.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Path {
+pub struct EquilibriumPath {
     /// The values of the parameter; a path may turn back.
     pub values: Vec<f64>,
     /// The equilibrium at each value.
@@ -31,12 +31,12 @@ pub struct Path {
     /// Places of points where the stability changes without a fold: other paths cross there.
     pub branches: Vec<usize>,
     /// The end.
-    pub end: End,
+    pub end: PathEnd,
 }
 
-impl Path {
+impl EquilibriumPath {
     /// Adds a point; returns its place.
-    pub(super) fn add(&mut self, course: &Course<'_>, spot: &Spot) -> Result<usize, Reason> {
+    pub(super) fn add(&mut self, course: &ParameterPath<'_>, spot: &Spot) -> Result<usize, Reason> {
         self.points.push(course.equilibrium(spot)?);
         self.values.push(spot.value);
         Ok(self.values.len() - 1)

@@ -3,14 +3,14 @@
 //! has passed a peak. It needs no stiffness, so that kinks and jumps of forces do not stop it.
 
 use super::failure::Reason;
-use super::statics::{Place, Statics};
+use super::statics::{StaticState, Statics};
 use crate::integrate::Flow;
 
 /// Largest number of steps.
 const STEPS: usize = 4000;
 /// Longest step of a scaled coordinate.
 const LONGEST: f64 = 0.05;
-/// Force, relative to the largest single force, at which Newton's method goes on.
+/// Force, relative to the largest single force, at which Newton's method continues.
 const ENOUGH: f64 = 1e-5;
 /// Smallest number of steps, for a position where Newton's method has just failed.
 const LEAST: usize = 60;
@@ -18,9 +18,9 @@ const LEAST: usize = 60;
 /// Moves a place towards rest; returns the place and the number of steps.
 pub(super) fn relax(
     statics: &mut Statics<'_>,
-    mut place: Place,
+    mut place: StaticState,
     watch: &mut dyn FnMut(usize) -> Flow,
-) -> Result<(Place, usize), Reason> {
+) -> Result<(StaticState, usize), Reason> {
     let mut mass = mass(statics, &place);
     let mut v = vec![0.0; place.q.len()];
     let mut last = 0.0;
@@ -60,7 +60,7 @@ pub(super) fn relax(
 }
 
 /// The fictitious mass with which a step of unit time is stable, J.
-fn mass(statics: &Statics<'_>, place: &Place) -> f64 {
+fn mass(statics: &Statics<'_>, place: &StaticState) -> f64 {
     let stiffness = statics.local(place).map(|local| local.stiffness).unwrap_or_default();
     let largest = stiffness.iter().fold(place.scale, |most, x| most.max(x.abs()));
     largest.max(f64::MIN_POSITIVE)

@@ -2,7 +2,7 @@
 
 use super::failure::Reason;
 use super::search::{relative, zero};
-use super::statics::{Place, Statics};
+use super::statics::{StaticState, Statics};
 use crate::analyses::linearization::coordinate;
 use crate::analyses::State;
 use crate::elements::Behaviour;
@@ -21,7 +21,7 @@ pub struct Equilibrium {
     pub state: State,
     /// Multipliers of joints and drivers: Φ_qᵀ λ = Q with the loads of joints, shape (n_rows).
     pub lam: Vec<f64>,
-    /// What each holder applies, positive if it increases its quantity, N or N·m.
+    /// The effort of each holder, positive if it increases its quantity, N or N·m.
     pub holders: Vec<f64>,
     /// The effort of each driver by its name.
     pub efforts: Vec<(String, f64)>,
@@ -43,7 +43,11 @@ pub struct Equilibrium {
 
 impl Equilibrium {
     /// At a place of a model whose last `holders` rows are those of holders.
-    pub(super) fn at(statics: &Statics<'_>, place: &Place, holders: usize) -> Result<Self, Reason> {
+    pub(super) fn at(
+        statics: &Statics<'_>,
+        place: &StaticState,
+        holders: usize,
+    ) -> Result<Self, Reason> {
         let model = statics.model;
         not_beyond_a_stop(model, statics.t, place)?;
         let local = statics.local(place)?;
@@ -77,7 +81,7 @@ impl Equilibrium {
 }
 
 /// Refuses a place beyond a stop or contact with restitution: it has no force there.
-fn not_beyond_a_stop(model: &Model, t: f64, place: &Place) -> Result<(), Reason> {
+fn not_beyond_a_stop(model: &Model, t: f64, place: &StaticState) -> Result<(), Reason> {
     let motions = Motions::at_rest(&model.layout, &place.q);
     let acting = Acting { z: &place.z, lam: None, t };
     let beyond = |k: &usize| {

@@ -2,12 +2,12 @@
 //!
 //! Newton's method on the freedoms, with the exact stiffness. Where the stiffness is not positive, the step uses the
 //! magnitudes of its eigenvalues (Gill, Murray and Wright, *Practical Optimization*, 1981, 4.4), so that it goes down
-//! the potential and leaves maxima and saddles. Steps are bounded, and shortened until the energy falls. If that fails, as
-//! where forces have kinks, dynamic relaxation goes on.
+//! the potential and leaves maxima and saddles. Steps are bounded, and shortened until the energy falls. If that
+//! fails, as where forces have kinks, dynamic relaxation continues.
 
 use super::failure::Reason;
 use super::relaxation;
-use super::statics::{Local, Place, Statics};
+use super::statics::{LocalForces, StaticState, Statics};
 use crate::integrate::Flow;
 use crate::solve::{is_positive, solve_dense, Eigen};
 
@@ -34,8 +34,8 @@ const PUSHES: usize = 12;
 const FAR: f64 = 40.0;
 
 /// A rest position.
-pub(super) struct Found {
-    pub place: Place,
+pub(super) struct RestPosition {
+    pub place: StaticState,
     /// Steps of Newton's method.
     pub steps: usize,
     /// Steps of dynamic relaxation.
@@ -43,7 +43,7 @@ pub(super) struct Found {
 }
 
 /// The search from one start.
-pub(super) struct Search<'s, 'a> {
+pub(super) struct RestSearch<'s, 'a> {
     pub statics: &'s mut Statics<'a>,
     /// Whether the nearest equilibrium is sought, stable or not.
     pub nearest: bool,
@@ -52,7 +52,7 @@ pub(super) struct Search<'s, 'a> {
     relaxed: usize,
 }
 
-impl<'s, 'a> Search<'s, 'a> {
+impl<'s, 'a> RestSearch<'s, 'a> {
     pub fn new(
         statics: &'s mut Statics<'a>,
         nearest: bool,
@@ -62,14 +62,14 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// The rest position that a start leads to.
-    pub fn run(mut self, start: Place) -> Result<Found, Reason> {
+    pub fn run(mut self, start: StaticState) -> Result<RestPosition, Reason> {
         let first = start.clone();
         let mut place = start;
         for round in 0..ROUNDS {
             let (reached, rests) = self.descend(place)?;
             place = reached;
             if rests {
-                return Ok(Found { place, steps: self.steps, relaxed: self.relaxed });
+                return Ok(RestPosition { place, steps: self.steps, relaxed: self.relaxed });
             }
             if self.nearest || round + 1 == ROUNDS || self.far(&first, &place) {
                 break;
@@ -92,13 +92,13 @@ impl<'s, 'a> Search<'s, 'a> {
         Err(Reason::of_search(self.statics.model, way, left, &own))
     }
 
-    fn far(&self, first: &Place, place: &Place) -> bool {
+    fn far(&self, first: &StaticState, place: &StaticState) -> bool {
         let way: Vec<f64> = place.q.iter().zip(&first.q).map(|(b, a)| b - a).collect();
         self.statics.largest(&way) > FAR
     }
 
     /// Goes down until the forces vanish; returns the place, and whether they do.
-    fn descend(&mut self, mut place: Place) -> Result<(Place, bool), Reason> {
+    fn descend(&mut self, mut place: StaticState) -> Result<(StaticState, bool), Reason> {
         let (mut radius, mut pushes, begin) = (FIRST, 0, self.steps);
         let mut local = self.statics.local(&place)?;
         let mut at_start = self.steps == 0 && self.relaxed == 0;
@@ -133,10 +133,10 @@ impl<'s, 'a> Search<'s, 'a> {
     /// One step that lowers the energy; None if there is none.
     fn step(
         &mut self,
-        place: &Place,
-        local: &Local,
+        place: &StaticState,
+        local: &LocalForces,
         radius: &mut f64,
-    ) -> Result<Option<(Place, Local)>, Reason> {
+    ) -> Result<Option<(StaticState, LocalForces)>, Reason> {
         let newton = solved(&local.stiffness, &local.gradient);
         let full = match &newton {
             Some(p) if self.nearest || self.good(local, p) => p.clone(),
@@ -159,7 +159,7 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// Whether Newton's step goes down to a minimum.
-    fn good(&self, local: &Local, p: &[f64]) -> bool {
+    fn good(&self, local: &LocalForces, p: &[f64]) -> bool {
         let f = p.len();
         let transposed = |k: usize| local.stiffness[(k % f) * f + k / f];
         let symmetric: Vec<f64> =
@@ -170,10 +170,10 @@ impl<'s, 'a> Search<'s, 'a> {
     /// The place after a step, if it is better.
     fn tried(
         &mut self,
-        place: &Place,
-        local: &Local,
+        place: &StaticState,
+        local: &LocalForces,
         p: &[f64],
-    ) -> Result<Option<(Place, Local)>, Reason> {
+    ) -> Result<Option<(StaticState, LocalForces)>, Reason> {
         let dq = local.basis.extend(p);
         let Some(next) = self.moved(place, &dq) else { return Ok(None) };
         let Ok(there) = self.statics.local(&next) else { return Ok(None) };
@@ -191,7 +191,7 @@ impl<'s, 'a> Search<'s, 'a> {
     }
 
     /// The closed place near q + dq, unless closing leads elsewhere.
-    fn moved(&mut self, place: &Place, dq: &[f64]) -> Option<Place> {
+    fn moved(&mut self, place: &StaticState, dq: &[f64]) -> Option<StaticState> {
         let q: Vec<f64> = place.q.iter().zip(dq).map(|(q, dq)| q + dq).collect();
         let next = self.statics.place(&q, &place.z).ok()?;
         let closing: Vec<f64> = next.q.iter().zip(&q).map(|(b, a)| b - a).collect();
@@ -199,8 +199,12 @@ impl<'s, 'a> Search<'s, 'a> {
         near.then_some(next)
     }
 
-    /// The same place with the forces reduced to rounding.
-    fn polished(&mut self, mut place: Place, mut local: Local) -> Result<(Place, Local), Reason> {
+    /// The same state with the forces reduced to rounding errors.
+    fn polished(
+        &mut self,
+        mut place: StaticState,
+        mut local: LocalForces,
+    ) -> Result<(StaticState, LocalForces), Reason> {
         for _ in 0..8 {
             let before = relative(&local, &place);
             let Some(p) = solved(&local.stiffness, &local.gradient) else { break };
@@ -224,10 +228,10 @@ impl<'s, 'a> Search<'s, 'a> {
     /// A place beside an unstable one with less energy.
     fn pushed(
         &mut self,
-        place: &Place,
-        local: &Local,
+        place: &StaticState,
+        local: &LocalForces,
         direction: &[f64],
-    ) -> Result<Option<(Place, Local)>, Reason> {
+    ) -> Result<Option<(StaticState, LocalForces)>, Reason> {
         let dq = local.basis.extend(direction);
         let length = self.statics.largest(&dq);
         for way in [PUSH, -PUSH] {
@@ -244,7 +248,7 @@ impl<'s, 'a> Search<'s, 'a> {
 }
 
 /// The force along the freedoms, relative to the largest single force.
-pub(super) fn relative(local: &Local, place: &Place) -> f64 {
+pub(super) fn relative(local: &LocalForces, place: &StaticState) -> f64 {
     let size = dot(&local.gradient, &local.gradient).sqrt();
     if size == 0.0 {
         0.0
@@ -263,7 +267,7 @@ pub(super) fn zero(stiffness: &[f64], scale: f64) -> f64 {
 }
 
 /// The direction in which the potential falls most from a rest position; None if it is a minimum.
-fn down(local: &Local, place: &Place) -> Option<Vec<f64>> {
+fn down(local: &LocalForces, place: &StaticState) -> Option<Vec<f64>> {
     let eigen = Eigen::of(&local.stiffness, local.gradient.len());
     let least = *eigen.values.first()?;
     (least < -zero(&local.stiffness, place.scale) && is_symmetric(&local.stiffness))
@@ -286,7 +290,7 @@ fn solved(stiffness: &[f64], gradient: &[f64]) -> Option<Vec<f64>> {
 }
 
 /// The step with the magnitudes of the eigenvalues.
-fn modified(local: &Local, scale: f64) -> Vec<f64> {
+fn modified(local: &LocalForces, scale: f64) -> Vec<f64> {
     let f = local.gradient.len();
     let eigen = Eigen::of(&local.stiffness, f);
     let largest = eigen.values.iter().fold(scale, |most, x| most.max(x.abs()));

@@ -8,12 +8,12 @@ use super::failure::Reason;
 use super::parameter::{self, ByParameter};
 use super::result::Equilibrium;
 use super::search::zero;
-use super::statics::{Local, Place, Statics};
+use super::statics::{LocalForces, StaticState, Statics};
 use crate::model::Model;
 use crate::solve::{solve_dense, Eigen};
 
 /// A path over a parameter.
-pub(super) struct Course<'m> {
+pub(super) struct ParameterPath<'m> {
     /// The model with its holders.
     pub model: &'m Model,
     /// Number of holders.
@@ -29,7 +29,7 @@ pub(super) struct Course<'m> {
 
 /// A direction (dq, dp).
 #[derive(Clone, Debug)]
-pub(super) struct Direction {
+pub(super) struct PathDirection {
     pub q: Vec<f64>,
     pub p: f64,
 }
@@ -37,22 +37,22 @@ pub(super) struct Direction {
 /// A closed position at a value, not necessarily at rest.
 pub(super) struct Spot {
     pub value: f64,
-    pub place: Place,
-    local: Local,
+    pub place: StaticState,
+    local: LocalForces,
     by: ByParameter,
     /// Derivative of the reduced forces by the parameter.
     reduced: Vec<f64>,
 }
 
 /// A point of the path.
-pub(super) struct Step {
+pub(super) struct PathStep {
     pub spot: Spot,
-    pub tangent: Direction,
+    pub tangent: PathDirection,
     /// Iterations that found it.
     pub iterations: usize,
 }
 
-impl Course<'_> {
+impl ParameterPath<'_> {
     /// The position near `q` at a value.
     pub fn spot(&self, value: f64, q: &[f64], z: &[f64]) -> Result<Spot, Reason> {
         let model = parameter::at(self.model, self.over, value)?;
@@ -79,13 +79,19 @@ impl Course<'_> {
     }
 
     /// The product of two directions.
-    pub fn along(&self, a: &Direction, b: &Direction) -> f64 {
+    pub fn along(&self, a: &PathDirection, b: &PathDirection) -> f64 {
         self.product(&a.q, &b.q) + a.p * b.p / (self.unit * self.unit)
     }
 
     /// Solves K u + k dp = `right`, and the direction along `row` = `last`.
-    fn solved(&self, spot: &Spot, row: &Direction, right: &[f64], last: f64) -> Option<Direction> {
-        let Local { basis, stiffness, .. } = &spot.local;
+    fn solved(
+        &self,
+        spot: &Spot,
+        row: &PathDirection,
+        right: &[f64],
+        last: f64,
+    ) -> Option<PathDirection> {
+        let LocalForces { basis, stiffness, .. } = &spot.local;
         let f = spot.reduced.len();
         let n = f + 1;
         let mut matrix = vec![0.0; n * n];
@@ -111,11 +117,11 @@ impl Course<'_> {
             q = vec![0.0; spot.place.q.len()];
         }
         q.iter_mut().zip(&spot.by.motion).for_each(|(q, motion)| *q += motion * x[f]);
-        Some(Direction { q, p: x[f] })
+        Some(PathDirection { q, p: x[f] })
     }
 
     /// The unit tangent at a point of the path, in the sense of `before`.
-    pub fn tangent(&self, spot: &Spot, before: &Direction) -> Option<Direction> {
+    pub fn tangent(&self, spot: &Spot, before: &PathDirection) -> Option<PathDirection> {
         let none = vec![0.0; spot.reduced.len()];
         let mut tangent = self.solved(spot, before, &none, 1.0)?;
         let length = self.along(&tangent, &tangent).sqrt();
@@ -125,7 +131,12 @@ impl Course<'_> {
     }
 
     /// The correction of a spot, normal to `tangent` through the prediction.
-    pub fn correction(&self, spot: &Spot, tangent: &Direction, ahead: f64) -> Option<Direction> {
+    pub fn correction(
+        &self,
+        spot: &Spot,
+        tangent: &PathDirection,
+        ahead: f64,
+    ) -> Option<PathDirection> {
         let right: Vec<f64> = spot.local.gradient.iter().map(|g| -g).collect();
         self.solved(spot, tangent, &right, -ahead)
     }

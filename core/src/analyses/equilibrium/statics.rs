@@ -21,7 +21,7 @@ const SINGULAR: f64 = 1e-6;
 
 /// A closed position with its forces at rest.
 #[derive(Clone, Debug)]
-pub(super) struct Place {
+pub(super) struct StaticState {
     /// Coordinates, shape (n_q).
     pub q: Vec<f64>,
     /// States of elements with ż = 0, shape (n_z).
@@ -35,7 +35,7 @@ pub(super) struct Place {
 }
 
 /// The forces and stiffness along the freedoms of a place.
-pub(super) struct Local {
+pub(super) struct LocalForces {
     /// The freedoms; the basis is orthonormal in the scaled coordinates.
     pub basis: Freedoms,
     /// The forces missing along the basis, J.
@@ -88,7 +88,7 @@ impl<'a> Statics<'a> {
     ///
     /// # Errors
     /// A reason that concerns this position; another one may be better.
-    pub fn place(&mut self, q: &[f64], z: &[f64]) -> Result<Place, Reason> {
+    pub fn place(&mut self, q: &[f64], z: &[f64]) -> Result<StaticState, Reason> {
         let mut q = q.to_vec();
         if !self.closing.close(&mut q).1 || q.iter().any(|x| !x.is_finite()) {
             return Err(Reason::Open);
@@ -110,7 +110,7 @@ impl<'a> Statics<'a> {
             return Err(Reason::NotFinite);
         }
         let scale = self.force_scale(&z, &lam);
-        Ok(Place { q, z, lam, missing, scale })
+        Ok(StaticState { q, z, lam, missing, scale })
     }
 
     /// Q with forces that depend on the reactions λ.
@@ -154,7 +154,7 @@ impl<'a> Statics<'a> {
 
     /// The multipliers with the [loads](crate::elements::Joint::load) of joints, which do no work. They depend on
     /// multipliers that they do not change.
-    pub fn with_loads(&self, place: &Place) -> Result<Vec<f64>, Reason> {
+    pub fn with_loads(&self, place: &StaticState) -> Result<Vec<f64>, Reason> {
         let motions = Motions::at_rest(&self.model.layout, &place.q);
         let mut loads = vec![0.0; place.q.len()];
         reactions::add_loads(self.model, &motions, self.t, &place.lam, &mut loads);
@@ -168,29 +168,29 @@ impl<'a> Statics<'a> {
     }
 
     /// The joint whose equations nearly depend on others at a place.
-    pub fn near_singular(&self, place: &Place) -> Option<String> {
+    pub fn near_singular(&self, place: &StaticState) -> Option<String> {
         let factors = LeastNorm::new(self.model, self.t, &place.q, self.redundant).ok()?;
         let (row, _) = factors.cancellation().filter(|(_, kept)| *kept < SINGULAR)?;
         Some(self.model.constraints[self.model.layout.owner(row).0].name.clone())
     }
 
     /// The freedoms at a place.
-    pub fn freedoms(&self, place: &Place) -> Result<Freedoms, Reason> {
+    pub fn freedoms(&self, place: &StaticState) -> Result<Freedoms, Reason> {
         Freedoms::at(self.model, self.t, &place.q)
             .map_err(|_| Reason::singular(self.model, self.t, &place.q))
     }
 
     /// Forces and stiffness along the freedoms of a place.
-    pub fn local(&self, place: &Place) -> Result<Local, Reason> {
+    pub fn local(&self, place: &StaticState) -> Result<LocalForces, Reason> {
         let mut basis = self.freedoms(place)?;
         orthonormalize(&mut basis.basis, &self.columns);
         let gradient = basis.reduce(&place.missing);
         let stiffness = self.stiffness(place, &basis)?;
-        Ok(Local { basis, gradient, stiffness })
+        Ok(LocalForces { basis, gradient, stiffness })
     }
 
     /// The reduced stiffness on a basis, shape (f, f); the states of elements follow at ż = 0.
-    pub fn stiffness(&self, place: &Place, basis: &Freedoms) -> Result<Vec<f64>, Reason> {
+    pub fn stiffness(&self, place: &StaticState, basis: &Freedoms) -> Result<Vec<f64>, Reason> {
         let directions: Vec<&[f64]> = basis.basis.iter().map(Vec::as_slice).collect();
         let slopes = self.slopes(place, &directions)?;
         let f = basis.basis.len();
@@ -208,7 +208,11 @@ impl<'a> Statics<'a> {
 
     /// The derivatives of Φ_qᵀ λ - Q along directions of q, at constant λ, each of shape (n_q); the states of elements
     /// follow at ż = 0.
-    pub fn slopes(&self, place: &Place, directions: &[&[f64]]) -> Result<Vec<Vec<f64>>, Reason> {
+    pub fn slopes(
+        &self,
+        place: &StaticState,
+        directions: &[&[f64]],
+    ) -> Result<Vec<Vec<f64>>, Reason> {
         let at =
             StatePoint { q: &place.q, v: &self.rest, z: &place.z, a: &self.rest, lam: &place.lam };
         let variation = Variation::new(self.model, self.t, at, false);
@@ -223,7 +227,7 @@ impl<'a> Statics<'a> {
     /// The change of Φ_qᵀ λ - Q with that of ż, where the states of elements keep ż = 0.
     pub fn followed(
         &self,
-        ByStates { rates, forces: columns }: &ByStates,
+        SlopesByStates { rates, forces: columns }: &SlopesByStates,
         mut forces: Vec<f64>,
         change: &[f64],
     ) -> Result<Vec<f64>, Reason> {
@@ -238,9 +242,9 @@ impl<'a> Statics<'a> {
     }
 
     /// Derivatives by the states of elements.
-    pub fn by_states(&self, variation: &Variation<'_>, n_z: usize) -> ByStates {
+    pub fn by_states(&self, variation: &Variation<'_>, n_z: usize) -> SlopesByStates {
         let n = self.states.len();
-        let mut found = ByStates { rates: vec![0.0; n * n], forces: Vec::new() };
+        let mut found = SlopesByStates { rates: vec![0.0; n * n], forces: Vec::new() };
         for (column, at) in self.states.iter().enumerate() {
             let mut unit = vec![0.0; n_z];
             unit[*at] = 1.0;
@@ -255,7 +259,7 @@ impl<'a> Statics<'a> {
 
     /// Energy of `to` less that of `from`: of the potential if all forces have one and the difference is not lost in
     /// rounding, else by the work of the forces on the way (trapezoidal).
-    pub fn energy_change(&self, from: &Place, to: &Place) -> f64 {
+    pub fn energy_change(&self, from: &StaticState, to: &StaticState) -> f64 {
         let both = from.missing.iter().zip(&to.missing);
         let way = to.q.iter().zip(&from.q).map(|(b, a)| b - a);
         let work: f64 = both.zip(way).map(|((a, b), dq)| 0.5 * (a + b) * dq).sum();
@@ -297,10 +301,10 @@ impl<'a> Statics<'a> {
 }
 
 /// Derivatives by the states of elements.
-pub(super) struct ByStates {
-    /// Of ż, shape (n, n).
+pub(super) struct SlopesByStates {
+    /// Derivatives of ż, shape (n, n).
     rates: Vec<f64>,
-    /// Of Φ_qᵀ λ - Q, one column for each state.
+    /// Derivatives of Φ_qᵀ λ - Q, one column for each state.
     forces: Vec<Vec<f64>>,
 }
 

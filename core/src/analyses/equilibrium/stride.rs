@@ -1,7 +1,7 @@
 //! One step along a path: prediction along the tangent, and Newton's method normal to it.
 
 use super::failure::Reason;
-use super::spot::{Course, Direction, Spot, Step};
+use super::spot::{ParameterPath, PathDirection, PathStep, Spot};
 
 /// Least cosine between neighbouring tangents.
 const ALONG: f64 = 0.97;
@@ -13,8 +13,12 @@ const FOUND: f64 = 1e-13;
 const ROUNDING: f64 = 1e-9;
 
 /// The point of the path at the distance `ds` along the tangent.
-pub(super) fn advance(course: &Course<'_>, from: &Step, ds: f64) -> Result<Step, Reason> {
-    let Step { spot: Spot { place, value, .. }, tangent, .. } = from;
+pub(super) fn advance(
+    course: &ParameterPath<'_>,
+    from: &PathStep,
+    ds: f64,
+) -> Result<PathStep, Reason> {
+    let PathStep { spot: Spot { place, value, .. }, tangent, .. } = from;
     let ahead: Vec<f64> = place.q.iter().zip(&tangent.q).map(|(q, dq)| q + ds * dq).collect();
     let goal = value + ds * tangent.p;
     let mut spot = course.spot(goal, &ahead, &place.z)?;
@@ -22,14 +26,14 @@ pub(super) fn advance(course: &Course<'_>, from: &Step, ds: f64) -> Result<Step,
     let mut last = f64::INFINITY;
     for iterations in 1..=ITERATIONS {
         let q: Vec<f64> = spot.place.q.iter().zip(&ahead).map(|(q, goal)| q - goal).collect();
-        let beside = course.along(&Direction { q, p: spot.value - goal }, tangent);
+        let beside = course.along(&PathDirection { q, p: spot.value - goal }, tangent);
         let step = course.correction(&spot, tangent, beside).ok_or_else(lost)?;
         let size = course.along(&step, &step).sqrt();
         let done = size <= FOUND || (size <= ROUNDING && size >= 0.3 * last);
         if done {
             let after = course.tangent(&spot, tangent).ok_or_else(lost)?;
             return match course.along(&after, tangent) >= ALONG {
-                true => Ok(Step { spot, tangent: after, iterations }),
+                true => Ok(PathStep { spot, tangent: after, iterations }),
                 false => Err(lost()),
             };
         }

@@ -1,8 +1,8 @@
 //! Special points between two points of a path: folds, crossings of other paths, and the ends of the range.
 
 use super::failure::Reason;
-use super::points::{End, Path};
-use super::spot::{Course, Step};
+use super::points::{EquilibriumPath, PathEnd};
+use super::spot::{ParameterPath, PathStep};
 use super::stride::advance;
 
 /// Length of the path to which a point is located.
@@ -14,12 +14,12 @@ const CROSSED: f64 = 1e-9;
 
 /// Adds the fold, or the crossing of another path, between two points.
 pub(super) fn between(
-    course: &Course<'_>,
-    from: &Step,
-    to: &Step,
+    course: &ParameterPath<'_>,
+    from: &PathStep,
+    to: &PathStep,
     ds: f64,
     range: [f64; 2],
-    path: &mut Path,
+    path: &mut EquilibriumPath,
 ) -> Result<(), Reason> {
     let inside = |value: f64| (value - range[0]) * (value - range[1]) <= 0.0;
     if from.tangent.p * to.tangent.p < 0.0 {
@@ -53,14 +53,14 @@ pub(super) fn between(
 
 /// The end of the path, if it leaves the range before `to`, with its last point.
 pub(super) fn outside(
-    course: &Course<'_>,
-    from: &Step,
-    to: &Step,
+    course: &ParameterPath<'_>,
+    from: &PathStep,
+    to: &PathStep,
     ds: f64,
     range: [f64; 2],
-) -> Option<(End, Step)> {
+) -> Option<(PathEnd, PathStep)> {
     let way = (range[1] - range[0]).signum();
-    for (end, bound, beyond) in [(End::Last, range[1], way), (End::First, range[0], -way)] {
+    for (end, bound, beyond) in [(PathEnd::Last, range[1], way), (PathEnd::First, range[0], -way)] {
         if beyond * (to.spot.value - bound) >= 0.0 && beyond * (from.spot.value - bound) < 0.0 {
             let mut last = zero(course, from, to, ds, |step| step.spot.value - bound)?;
             last.spot.value = bound;
@@ -72,15 +72,15 @@ pub(super) fn outside(
 
 /// The point between two where a function of points is zero: regula falsi, and bisection in every third trial.
 fn zero(
-    course: &Course<'_>,
-    from: &Step,
-    to: &Step,
+    course: &ParameterPath<'_>,
+    from: &PathStep,
+    to: &PathStep,
     ds: f64,
-    of: impl Fn(&Step) -> f64,
-) -> Option<Step> {
+    of: impl Fn(&PathStep) -> f64,
+) -> Option<PathStep> {
     let (mut low, mut high) = (0.0, ds);
     let mut ends = [of(from), of(to)];
-    let mut best: Option<Step> = None;
+    let mut best: Option<PathStep> = None;
     for trial in 0..TRIALS {
         let share = if trial % 3 == 2 { 0.5 } else { ends[0] / (ends[0] - ends[1]) };
         let middle = low + share.clamp(1e-6, 1.0 - 1e-6) * (high - low);

@@ -1,6 +1,6 @@
 //! A circuit: the path of a position by its length, through all limits, until it returns.
 
-use super::path::{Path, Place};
+use super::path::{DrivenPath, PathPoint};
 use super::solution::Solver;
 use crate::elements::BodyId;
 use crate::model::{size, Model};
@@ -55,7 +55,7 @@ fn follow(
     let Some(start) = solver.point(t, q.to_vec()) else { return true };
     let pace = solver.norm(&start.v);
     let unit = if pace > 0.0 { 1.0 / pace } else { 1.0 };
-    let mut path = Path { solver: &mut solver, unit };
+    let mut path = DrivenPath { solver: &mut solver, unit };
     let Some(mut place) = path.begin(&start, sign) else { return true };
     let period = if turns { TAU } else { f64::INFINITY };
     let farthest = if turns { MOST_TURNS * TAU } else { FARTHEST * size(model) };
@@ -97,9 +97,9 @@ fn crossed(a: f64, b: f64, period: f64) -> Option<f64> {
 
 /// The position between two places at which t has a value.
 fn at_level(
-    path: &mut Path<'_, '_>,
-    from: &Place,
-    to: &Place,
+    path: &mut DrivenPath<'_, '_>,
+    from: &PathPoint,
+    to: &PathPoint,
     (level, ds): (f64, f64),
 ) -> Option<Vec<f64>> {
     let n = from.q.len();

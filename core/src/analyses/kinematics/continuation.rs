@@ -43,7 +43,7 @@ pub(in crate::analyses) struct Continuation<'a> {
 }
 
 impl<'a> Continuation<'a> {
-    /// From a state, whose velocities are replaced by those of the drivers.
+    /// Begins at a state, whose velocities are replaced by those of the drivers.
     pub fn begin(model: &'a Model, start: &State) -> Result<Self, Box<Failure>> {
         let mut solver = Solver::new(model);
         let State { t, q, .. } = start;

@@ -22,7 +22,7 @@ pub struct Limit {
     pub t: f64,
     /// The position, shape (n_q).
     pub q: Vec<f64>,
-    /// The driver that cannot go on.
+    /// The driver that cannot move further.
     pub driver: String,
     /// What it drives, such as `crank` for the angle of this body, or `slide.displacement`.
     pub driven: String,
@@ -42,7 +42,7 @@ impl Limit {
         let motions = Motions::at(&model.layout, &q, rates);
         let item = driver(model);
         let (driven, unit) = driven(model);
-        let moving = Moving { model, motions: &motions, least: least(model, rates) };
+        let moving = LockedDriver { model, motions: &motions, least: least(model, rates) };
         Self {
             t,
             driver: item.map(|item| item.name.clone()).unwrap_or_default(),
@@ -71,7 +71,7 @@ impl fmt::Display for Limit {
 /// of its pins are at rest.
 pub(in crate::analyses) fn in_line(model: &Model, q: &[f64], rates: &[f64]) -> Option<[String; 2]> {
     let motions = Motions::at(&model.layout, q, rates);
-    Moving { model, motions: &motions, least: least(model, rates) }.in_line()
+    LockedDriver { model, motions: &motions, least: least(model, rates) }.in_line()
 }
 
 /// A value with its unit, angles in degrees.
@@ -129,13 +129,13 @@ fn least(model: &Model, rates: &[f64]) -> f64 {
 }
 
 /// A mechanism that moves although its driver rests.
-struct Moving<'m> {
+struct LockedDriver<'m> {
     model: &'m Model,
     motions: &'m Motions,
     least: f64,
 }
 
-impl Moving<'_> {
+impl LockedDriver<'_> {
     /// The two bodies of each joint that fixes points, with its number.
     fn pins(&self) -> impl Iterator<Item = (usize, [BodyId; 2])> + '_ {
         let joints = self.model.constraints.iter().enumerate();

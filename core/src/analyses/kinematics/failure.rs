@@ -69,7 +69,7 @@ impl Reason {
     pub(super) fn singular_start(model: &Model, t: f64, q: &[f64], freedom: &Mobility) -> Self {
         let group = freedom.singular.iter().chain(&freedom.redundant).next();
         let group = group.cloned().unwrap_or_default();
-        let names: Vec<&str> = group.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+        let names = model.names_of(&group);
         let line =
             in_line(model, q).map(|[a, b]| format!(": {a} and {b} in line")).unwrap_or_default();
         let message = match names.is_empty() {

@@ -2,7 +2,7 @@
 
 use super::dead_point::Limit;
 use super::failure::{self, Reason};
-use super::path::{Path, Place};
+use super::path::{DrivenPath, PathPoint};
 use super::solution::Point;
 use crate::model::Model;
 
@@ -12,9 +12,14 @@ const LOCATED: f64 = 1e-9;
 const MOST: usize = 60;
 
 /// The limit between a place and the one `ds` further on, where t goes back.
-pub(super) fn locate(path: &mut Path<'_, '_>, from: &Place, ds: f64, sign: f64) -> Reason {
+pub(super) fn locate(
+    path: &mut DrivenPath<'_, '_>,
+    from: &PathPoint,
+    ds: f64,
+    sign: f64,
+) -> Reason {
     let n = from.q.len();
-    let forward = |place: &Place| sign * place.tangent[n];
+    let forward = |place: &PathPoint| sign * place.tangent[n];
     let (mut low, mut high) = (0.0, ds);
     let mut best = from.clone();
     let mut values = [forward(from), -1.0];
@@ -36,7 +41,7 @@ pub(super) fn locate(path: &mut Path<'_, '_>, from: &Place, ds: f64, sign: f64) 
             (high, values[1]) = (middle, value);
         }
     }
-    let Place { t, q, tangent } = best;
+    let PathPoint { t, q, tangent } = best;
     let rates: Vec<f64> =
         tangent.iter().zip(&path.solver.columns).map(|(x, scale)| x * scale).collect();
     Reason::Limit(Box::new(Limit::new(path.solver.model, t, q, &rates)))

@@ -2,7 +2,7 @@
 //!
 //! At each time the positions solve Φ(q, t) = 0, the velocities Φ_q v = ν and the accelerations Φ_q a = γ (Haug 3.6).
 //! The motion is followed from the start by short steps, so that it stays on its branch. Where it
-//! cannot go on because the driven value has reached an extreme, this limit is found exactly.
+//! cannot continue because the driven value has reached an extreme, this limit is found exactly.
 //!
 //! | file | concept |
 //! |---|---|
@@ -12,6 +12,7 @@
 //! | `passage`, `path`, `limit` | change points and limits; the branch by its length, and the extreme of t on it |
 //! | `circuit` | the path of a position until it returns |
 //! | `motion` | the result |
+//! | `over` | the value of a quantity in place of the time |
 //! | `quintic` | polynomials between two points |
 //! | `works` | works over the motion, by quadrature, and the record for solutions |
 //! | `options` | options of kinematics and of inverse dynamics |
@@ -24,6 +25,7 @@ mod failure;
 mod limit;
 mod motion;
 mod options;
+mod over;
 mod passage;
 mod path;
 mod quintic;
@@ -37,6 +39,7 @@ pub(in crate::analyses) use dead_point::{driven, in_line, written};
 pub use failure::{Failure, Reason};
 pub use motion::Motion;
 pub use options::{InverseOptions, Options};
+pub use over::{over, Over};
 pub use solution::Point;
 pub use works::{recorded, Recorded};
 

@@ -1,7 +1,6 @@
 //! Options of kinematics and of inverse dynamics, which are the same.
 
-use crate::analyses::options::{count, interval, name, number, options, positive, Reader};
-use crate::model::{Model, Problem, Value};
+use crate::analyses::options::{count, interval, name, number, options, positive};
 
 /// Number of values over a range, if none is given: one for each degree of a turn.
 const VALUES: usize = 361;
@@ -27,35 +26,16 @@ macro_rules! driven_motion {
                 from: Option<name> = None,
             }
             excludes { over: t_end, output_step; }
-        }
-
-        impl $Name {
-            /// Reads the fields of an analysis of this type; `path` is its path in the file.
-            ///
-            /// # Errors
-            /// Every faulty value, with its path.
-            pub fn checked(
-                model: &Model,
-                fields: &[(String, Value)],
-                path: &[String],
-            ) -> Result<Self, Vec<Problem>> {
-                use crate::analyses::options::Declared;
-                let read = Reader::read(model, fields, path, Self::read)?;
-                let missing = match (&read.over, read.range, read.t_end) {
-                    (Some(_), None, _) => Some(("range", "missing; over needs it: range = [first, last]")),
-                    (None, Some(_), _) => Some(("over", "missing; range needs it: over = \"crank.angle\"")),
-                    (None, None, None) => Some(("t_end", "missing; give t_end, or over and range")),
-                    _ if read.n < 2 => Some(("n", "1; must be a whole number from 2")),
-                    _ => None,
+            conflict |options, _| {
+                let (key, message) = match (&options.over, options.range, options.t_end) {
+                    (Some(_), None, _) => ("range", "missing; over needs it: range = [first, last]"),
+                    (None, Some(_), _) => ("over", "missing; range needs it: over = \"crank.angle\""),
+                    (None, None, None) => ("t_end", "missing; give t_end, or over and range"),
+                    _ if options.n < 2 => ("n", "1; must be a whole number from 2"),
+                    _ => return None,
                 };
-                match missing {
-                    None => Ok(read),
-                    Some((key, message)) => {
-                        let path: Vec<&str> = path.iter().map(String::as_str).chain([key]).collect();
-                        Err(vec![Problem::at(&path, message)])
-                    }
-                }
-            }
+                Some((key, message.to_string()))
+            };
         }
     };
 }

@@ -2,7 +2,7 @@
 
 use super::failure::Reason;
 use super::limit;
-use super::path::{Path, Place};
+use super::path::{DrivenPath, PathPoint};
 use super::solution::{Point, Solver};
 
 /// Longest step of the path, scaled.
@@ -12,13 +12,13 @@ const SHORTEST: f64 = 1e-9;
 /// Largest number of steps around a position where Φ_q is nearly singular.
 const MOST: usize = 2000;
 
-/// Passes a position near which the steps in t are too short: a change point, where the motion goes on, or a limit, where
-/// it ends.
+/// Passes a position near which the steps in t are too short: a change point, where the motion continues, or a limit,
+/// where it ends.
 pub(super) fn around(solver: &mut Solver<'_>, from: &Point, goal: f64) -> Result<Point, Reason> {
     let sign = (goal - from.t).signum();
     let pace = solver.norm(&from.v);
     let unit = if pace > 0.0 { 1.0 / pace } else { (goal - from.t).abs() };
-    let mut path = Path { solver, unit };
+    let mut path = DrivenPath { solver, unit };
     let Some(mut place) = path.begin(from, sign) else {
         return Err(limit::lost(path.solver.model, from));
     };
@@ -37,7 +37,7 @@ pub(super) fn around(solver: &mut Solver<'_>, from: &Point, goal: f64) -> Result
         }
         if sign * (next.t - goal) >= 0.0 {
             // the path passes the goal: only this last part is too steep
-            let Place { t, q, .. } = &place;
+            let PathPoint { t, q, .. } = &place;
             let share = (goal - t) / (next.t - t);
             let guess = q.iter().zip(&next.q).map(|(a, b)| a + share * (b - a)).collect();
             return path

@@ -14,7 +14,7 @@ const ITERATIONS: usize = 8;
 
 /// A point of the path.
 #[derive(Clone, Debug)]
-pub(super) struct Place {
+pub(super) struct PathPoint {
     pub t: f64,
     pub q: Vec<f64>,
     /// The unit tangent (q′, t′), scaled.
@@ -22,25 +22,25 @@ pub(super) struct Place {
 }
 
 /// The path from a regular point.
-pub(super) struct Path<'s, 'a> {
+pub(super) struct DrivenPath<'s, 'a> {
     pub solver: &'s mut Solver<'a>,
     /// Scale of t.
     pub unit: f64,
 }
 
-impl Path<'_, '_> {
+impl DrivenPath<'_, '_> {
     /// The place of a regular point, with its tangent in the direction of t.
-    pub fn begin(&mut self, from: &Point, sign: f64) -> Option<Place> {
+    pub fn begin(&mut self, from: &Point, sign: f64) -> Option<PathPoint> {
         let columns = &self.solver.columns;
         let mut tangent: Vec<f64> =
             from.v.iter().zip(columns).map(|(v, scale)| sign * v * self.unit / scale).collect();
         tangent.push(sign);
         normalize(&mut tangent);
-        Some(Place { t: from.t, q: from.q.clone(), tangent })
+        Some(PathPoint { t: from.t, q: from.q.clone(), tangent })
     }
 
     /// The place at the distance `ds` along the tangent, if Newton's method finds it.
-    pub fn advance(&mut self, from: &Place, ds: f64) -> Option<Place> {
+    pub fn advance(&mut self, from: &PathPoint, ds: f64) -> Option<PathPoint> {
         let n = from.q.len();
         let columns = self.solver.columns.clone();
         let (mut q, mut t) = (from.q.clone(), from.t);
@@ -72,7 +72,7 @@ impl Path<'_, '_> {
                 let mut tangent = step;
                 normalize(&mut tangent);
                 let cosine: f64 = tangent.iter().zip(&from.tangent).map(|(a, b)| a * b).sum();
-                return (cosine >= ALONG).then_some(Place { t, q, tangent });
+                return (cosine >= ALONG).then_some(PathPoint { t, q, tangent });
             }
             let size = step.iter().map(|x| x * x).sum::<f64>().sqrt();
             if size >= 0.5 * last && size > 1e-14 {

@@ -35,13 +35,13 @@ impl<'p> Quintic<'p> {
         ]
     }
 
-    /// The same of its rate.
+    /// Coefficients of the first derivative of component `k`.
     pub fn rate(&self, k: usize) -> [f64; DEGREE] {
         let [_, c2, c3, c4, c5] = self.position(k);
         [2.0 * c2, 3.0 * c3, 4.0 * c4, 5.0 * c5, 0.0].map(|c| c / self.h)
     }
 
-    /// The same of its acceleration.
+    /// Coefficients of the second derivative of component `k`.
     fn acceleration(&self, k: usize) -> [f64; DEGREE] {
         let [_, c2, c3, c4, c5] = self.rate(k).map(|c| c / self.h);
         [2.0 * c2, 3.0 * c3, 4.0 * c4, 5.0 * c5, 0.0]

@@ -18,7 +18,7 @@ const CONTRACTS: f64 = 0.25;
 const REDUNDANT: f64 = 1e-12;
 /// Part of a pivot that remains where Φ_q counts as regular; less if the mechanism begins with less.
 const REGULAR: f64 = 1e-9;
-/// The same, as a part of that at the first position.
+/// Part of the pivot at the first position that remains where Φ_q counts as regular.
 const OF_FIRST: f64 = 1e-4;
 /// Part of a pivot that remains where no singular position is near, so that no other branch is.
 const CLEAR: f64 = 0.01;
@@ -105,12 +105,12 @@ impl<'a> Solver<'a> {
         self.mean(x.iter().copied())
     }
 
-    /// The same of a - b.
+    /// The root mean square of a - b, scaled.
     pub fn apart(&self, a: &[f64], b: &[f64]) -> f64 {
         self.mean(a.iter().zip(b).map(|(a, b)| a - b))
     }
 
-    /// The same of v - (v₀ + h a₀): the change of the velocity that a constant acceleration leaves out.
+    /// The root mean square of v - (v₀ + h a₀): the change of the velocity that a constant acceleration leaves out.
     pub fn turned(&self, from: &Point, to: &Point) -> f64 {
         let h = to.t - from.t;
         let all = from.v.iter().zip(&from.a).zip(&to.v);

@@ -52,7 +52,7 @@ impl Failure {
     /// The groups of constraints depend on each other at this position only.
     pub(super) fn singular(model: &Model, t: f64, groups: &[Vec<usize>]) -> Self {
         let group = groups.first().cloned().unwrap_or_default();
-        let names: Vec<&str> = group.iter().map(|k| model.constraints[*k].name.as_str()).collect();
+        let names = model.names_of(&group);
         let name = names.first().map_or_else(String::new, |name| (*name).to_string());
         let message = format!(
             "the position at t = {t:.6} s is singular: {} depend on each other here, so that the mechanism has other \

@@ -7,7 +7,7 @@
 
 use super::failure::Failure;
 use super::least_norm::LeastNorm;
-use crate::analyses::mobility::mobility;
+use crate::analyses::mobility::{mobility, Mobility};
 use crate::model::Model;
 
 /// Part of the largest entry with which a coordinate is taken before later ones.
@@ -31,15 +31,21 @@ impl Freedoms {
         Self::with_factors(model, t, q).map(|(freedoms, _)| freedoms)
     }
 
+    /// The mobility at a position that is not singular.
+    pub(super) fn regular(model: &Model, t: f64, q: &[f64]) -> Result<Mobility, Failure> {
+        let found = mobility(model, t, q);
+        match found.singular.is_empty() {
+            true => Ok(found),
+            false => Err(Failure::singular(model, t, &found.singular)),
+        }
+    }
+
     pub(super) fn with_factors<'a>(
         model: &'a Model,
         t: f64,
         q: &[f64],
     ) -> Result<(Self, LeastNorm<'a>), Failure> {
-        let found = mobility(model, t, q);
-        if !found.singular.is_empty() {
-            return Err(Failure::singular(model, t, &found.singular));
-        }
+        let found = Self::regular(model, t, q)?;
         let factors = LeastNorm::new(model, t, q, !found.redundant.is_empty())
             .map_err(|breakdown| Failure::breakdown(model, t, breakdown))?;
         let free = orthonormal(&factors, found.degrees_of_freedom);
@@ -99,7 +105,7 @@ fn orthonormal(factors: &LeastNorm<'_>, count: usize) -> Vec<Vec<f64>> {
     let part = |k: usize| (12.9898 * (k as f64 + 1.618)).sin() * 43758.5453;
     let probe = |j: usize| (0..n).map(|k| part(j * n + k).fract() - 0.5).collect();
     let mut found: Vec<Vec<f64>> = (0..count).map(probe).collect();
-    // the second pass removes what the first has left by rounding
+    // the second pass removes the rounding errors of the first
     for _ in 0..2 {
         for column in &mut found {
             scale(column, &factors.scales, 1);

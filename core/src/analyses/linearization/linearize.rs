@@ -14,8 +14,8 @@ use super::freedoms::Freedoms;
 use super::names::{output, Input};
 use super::parameters::slopes_by_parameter;
 use super::response::Linear;
-use super::variation::{seeded, Point, Slopes, Variation, D};
-use crate::analyses::dynamics::{Prepared, States};
+use super::variation::{seeded, Slopes, StatePoint, Variation, D};
+use crate::analyses::dynamics::{Accelerations, Prepared, States};
 use crate::analyses::signals::{Seen, Signal};
 use crate::analyses::State;
 use crate::equations::kinematics::Motions;
@@ -58,7 +58,7 @@ pub struct Linearization {
 
 /// A change of the state and of the forces.
 #[derive(Debug, Default)]
-struct Direction {
+struct StateChange {
     q: Vec<f64>,
     v: Vec<f64>,
     z: Vec<f64>,
@@ -98,27 +98,43 @@ pub fn linearize(
     let State { t, q, v, z } = state;
     check_closed(model, state)?;
     let freedom = Freedoms::with_factors(model, *t, q)?;
-    let states = States { t: &[*t], q, v, z };
-    let solved = Prepared::new(model).accelerations(states, false, |_| Flow::Continue);
-    let solved = solved.map_err(Failure::Motion)?;
-    let at = Point { q, v, z, a: &solved.a, lam: &solved.lam };
+    let solved = solved(model, state)?;
+    let at = StatePoint { q, v, z, a: &solved.a, lam: &solved.lam };
     let variation = Variation::new(model, *t, at, true);
     let linear = Linear::new(model, [q, v], freedom, (&variation, &reactive::rows(model)));
     let linear = linear.map_err(|column| Failure::no_inertia(model, *t, column))?;
-    Equations { model, t: *t, at, variation, linear, outputs }.all(&inputs)
+    LinearEquations { model, t: *t, at, variation, linear, outputs }.all(&inputs)
+}
+
+/// What prevents linear equations at a state, as far as it is known without derivatives: an open joint, a singular
+/// position, or accelerations that are not determined.
+///
+/// # Errors
+/// [`Failure`].
+pub fn begins(model: &Model, state: &State) -> Result<(), Failure> {
+    check_closed(model, state)?;
+    Freedoms::regular(model, state.t, &state.q)?;
+    solved(model, state).map(|_| ())
+}
+
+/// Accelerations and multipliers.
+fn solved(model: &Model, State { t, q, v, z }: &State) -> Result<Accelerations, Failure> {
+    let states = States { t: &[*t], q, v, z };
+    let solved = Prepared::new(model).accelerations(states, false, |_| Flow::Continue);
+    solved.map_err(Failure::Motion)
 }
 
 /// The equations at a state.
-struct Equations<'a> {
+struct LinearEquations<'a> {
     model: &'a Model,
     t: f64,
-    at: Point<'a>,
+    at: StatePoint<'a>,
     variation: Variation<'a>,
     linear: Linear<'a>,
     outputs: Vec<Signal>,
 }
 
-impl Equations<'_> {
+impl LinearEquations<'_> {
     fn all(self, inputs: &[Input]) -> Result<Linearization, Failure> {
         let Self { model, ref linear, at, .. } = self;
         let held = &model.layout.held;
@@ -127,23 +143,24 @@ impl Equations<'_> {
         let f = basis.len();
         let mut of_state: Vec<Column> = Vec::with_capacity(2 * f + states.len());
         for motion in basis {
-            let moved = Point { q: motion, ..Point::default() };
+            let moved = StatePoint { q: motion, ..StatePoint::default() };
             let mut rates = self.variation.along(moved).rates;
             rates.iter_mut().for_each(|rate| *rate = -*rate);
             let v = linear.velocities(&rates);
-            of_state.push(self.column(&Direction {
+            of_state.push(self.column(&StateChange {
                 q: motion.clone(),
                 v,
-                ..Direction::default()
+                ..StateChange::default()
             })?);
         }
         for motion in basis {
-            of_state.push(self.column(&Direction { v: motion.clone(), ..Direction::default() })?);
+            of_state
+                .push(self.column(&StateChange { v: motion.clone(), ..StateChange::default() })?);
         }
         for place in &states {
             let mut z = vec![0.0; at.z.len()];
             z[*place] = 1.0;
-            of_state.push(self.column(&Direction { z, ..Direction::default() })?);
+            of_state.push(self.column(&StateChange { z, ..StateChange::default() })?);
         }
         let of_inputs = inputs.iter().map(|input| self.column(&self.direction(input)));
         let of_inputs = of_inputs.collect::<Result<Vec<_>, _>>()?;
@@ -162,7 +179,7 @@ impl Equations<'_> {
             c,
             d,
             acceleration: at.a.to_vec(),
-            values: self.observe(&self.variation, Point::default()).map(|y| y.value).collect(),
+            values: self.observe(&self.variation, StatePoint::default()).map(|y| y.value).collect(),
             coordinates: linear.freedoms.coordinates.clone(),
             basis: basis.clone(),
             states,
@@ -191,8 +208,8 @@ impl Equations<'_> {
     }
 
     /// The derivatives of accelerations, state rates and outputs along a direction.
-    fn column(&self, direction: &Direction) -> Result<Column, Failure> {
-        let Direction { q, v, z, force, parameter } = direction;
+    fn column(&self, direction: &StateChange) -> Result<Column, Failure> {
+        let StateChange { q, v, z, force, parameter } = direction;
         let of_parameter =
             parameter.map(|k| self.variation.by_parameters(&slopes_by_parameter(self.model, k)));
         let variation = of_parameter.as_ref().unwrap_or(&self.variation);
@@ -200,12 +217,12 @@ impl Equations<'_> {
             return Err(Failure::geometry(self.model, k));
         }
         let Slopes { mut forces, mut accelerations, states, .. } =
-            variation.along(Point { q, v, z, ..Point::default() });
+            variation.along(StatePoint { q, v, z, ..StatePoint::default() });
         forces.iter_mut().for_each(|x| *x = -*x);
         forces.iter_mut().zip(force).for_each(|(x, force)| *x += force);
         accelerations.iter_mut().for_each(|x| *x = -*x);
         let response = self.linear.response(&forces, &accelerations);
-        let moved = Point { q, v, z, a: &response.a, lam: &response.lam };
+        let moved = StatePoint { q, v, z, a: &response.a, lam: &response.lam };
         let outputs: Vec<f64> = self.observe(variation, moved).map(|y| y.slope[0]).collect();
         if let Some(k) = outputs.iter().position(|y| !y.is_finite()) {
             return Err(Failure::no_derivative(k));
@@ -215,10 +232,12 @@ impl Equations<'_> {
     }
 
     /// The direction of an input.
-    fn direction(&self, input: &Input) -> Direction {
+    fn direction(&self, input: &Input) -> StateChange {
         match input {
-            Input::Parameter(k) => Direction { parameter: Some(*k), ..Direction::default() },
-            Input::Quantity(of) => Direction { force: self.gradient(of), ..Direction::default() },
+            Input::Parameter(k) => StateChange { parameter: Some(*k), ..StateChange::default() },
+            Input::Quantity(of) => {
+                StateChange { force: self.gradient(of), ..StateChange::default() }
+            }
         }
     }
 
@@ -228,9 +247,11 @@ impl Equations<'_> {
         let by = |k: usize| {
             let mut q = vec![0.0; n];
             q[k] = 1.0;
-            self.see(&self.variation, Point { q: &q, ..Point::default() }, |model, seen| {
-                of.value(model, seen).slope[0]
-            })
+            self.see(
+                &self.variation,
+                StatePoint { q: &q, ..StatePoint::default() },
+                |model, seen| of.value(model, seen).slope[0],
+            )
         };
         (0..n).map(by).collect()
     }
@@ -239,7 +260,7 @@ impl Equations<'_> {
     fn observe<'s>(
         &'s self,
         variation: &'s Variation<'_>,
-        along: Point<'s>,
+        along: StatePoint<'s>,
     ) -> impl Iterator<Item = D> + 's {
         let values = self.see(variation, along, |model, seen| {
             self.outputs.iter().map(|output| output.value(model, seen)).collect::<Vec<_>>()
@@ -251,7 +272,7 @@ impl Equations<'_> {
     fn see<R>(
         &self,
         variation: &Variation<'_>,
-        along: Point<'_>,
+        along: StatePoint<'_>,
         f: impl FnOnce(&Model<D>, &Seen<'_, D>) -> R,
     ) -> R {
         let (model, at) = (variation.model(), self.at);

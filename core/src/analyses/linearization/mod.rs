@@ -10,7 +10,6 @@
 //! | `names` | inputs and outputs by name |
 //! | `linearize` | reduced mass, damping and stiffness, and the state-space matrices |
 //! | `options` | options of `modes` |
-//! | `stiffness` | the reduced stiffness at rest |
 //! | `failure` | states without linear equations |
 
 mod failure;
@@ -21,14 +20,12 @@ mod names;
 mod options;
 mod parameters;
 mod response;
-mod stiffness;
 mod variation;
 
 pub use failure::{coordinate, Failure};
 pub use freedoms::Freedoms;
 pub(super) use least_norm::LeastNorm;
-pub use linearize::{linearize, Linearization};
+pub use linearize::{begins, linearize, Linearization};
 pub use options::Options;
 pub(super) use parameters::slopes_by_parameter;
-pub use stiffness::reduced_stiffness;
-pub(super) use variation::{Point as StatePoint, Variation};
+pub(super) use variation::{StatePoint, Variation};

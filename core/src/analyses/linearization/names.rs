@@ -34,7 +34,7 @@ impl Input {
                 let message = format!("'{name}' is not a position quantity");
                 let hint = "an input is a parameter of a force, or a position quantity such as crank.angle, for its \
                             generalized force";
-                Err(problem(message).hint(hint))
+                Err(Problem::new(message).hint(hint))
             }
             None => {
                 let known = parameters.iter().cloned().chain(names(model, name));
@@ -57,20 +57,15 @@ pub(super) fn output(model: &Model, name: &str) -> Result<Signal, Problem> {
             | Signal::Drift { .. },
         ) => {
             let message = format!("'{name}' depends on the run, not on the state alone");
-            Err(problem(message).hint("remove it from the outputs"))
+            Err(Problem::new(message).hint("remove it from the outputs"))
         }
         Some(found) => Ok(found),
         None => Err(unknown("quantity", name, names(model, name).into_iter())),
     }
 }
 
-fn problem(message: String) -> Problem {
-    let nowhere: [&str; 0] = [];
-    Problem::at(&nowhere, message)
-}
-
 fn unknown(what: &str, name: &str, known: impl Iterator<Item = String>) -> Problem {
     let known: Vec<String> = known.collect();
     let known: Vec<&str> = known.iter().map(String::as_str).collect();
-    problem(format!("unknown {what} '{name}'")).maybe_hint(did_you_mean(name, &known))
+    Problem::new(format!("unknown {what} '{name}'")).maybe_hint(did_you_mean(name, &known))
 }

@@ -9,7 +9,7 @@ use crate::model::Model;
 pub(in crate::analyses) fn slopes_by_parameter(model: &Model, own: usize) -> Vec<f64> {
     let formulas: Vec<(&str, Expression)> =
         model.blueprint.formulas.iter().map(|(name, e)| (name.as_str(), e.clone())).collect();
-    let Ok(parameters) = Parameters::with_tables(&formulas, &model.blueprint.tables) else {
+    let Ok(parameters) = Parameters::compile(&formulas, &model.blueprint.tables) else {
         return vec![f64::NAN; model.parameters.len()];
     };
     let values: Vec<Dual<1>> =

@@ -10,7 +10,7 @@
 
 use super::freedoms::Freedoms;
 use super::least_norm::LeastNorm;
-use super::variation::{Point, Variation};
+use super::variation::{StatePoint, Variation};
 use crate::equations::kinematics::Motions;
 use crate::equations::mass;
 use crate::model::Model;
@@ -21,10 +21,10 @@ const MASSLESS: f64 = 1e-13;
 
 /// Changes of accelerations and multipliers.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub(super) struct Response {
-    /// Of all coordinates, shape (n_q).
+pub(super) struct LinearResponse {
+    /// Changes of the accelerations of all coordinates, shape (n_q).
     pub a: Vec<f64>,
-    /// Of the multipliers, shape (n_rows).
+    /// Changes of the multipliers, shape (n_rows).
     pub lam: Vec<f64>,
     /// The reduced force Nᵀ (f + R δλ - M p), shape (f).
     pub force: Vec<f64>,
@@ -38,12 +38,12 @@ pub(super) struct Linear<'a> {
     pub freedoms: Freedoms,
     /// Nᵀ M N, row by row.
     pub mass: Vec<f64>,
-    /// The same after elimination.
+    /// The rows after elimination.
     eliminated: Vec<f64>,
     /// Rows of multipliers on which forces depend, with the columns of R.
     reactive: Vec<(usize, Vec<f64>)>,
     /// The response to each column of R.
-    by_reaction: Vec<Response>,
+    by_reaction: Vec<LinearResponse>,
 }
 
 impl<'a> Linear<'a> {
@@ -63,7 +63,7 @@ impl<'a> Linear<'a> {
             let mut unit = vec![0.0; model.layout.n_rows];
             unit[*row] = 1.0;
             let own = factors.transposed(&unit);
-            let all = variation.along(Point { lam: &unit, ..Point::default() }).forces;
+            let all = variation.along(StatePoint { lam: &unit, ..StatePoint::default() }).forces;
             (*row, own.iter().zip(all).map(|(own, all)| own - all).collect())
         };
         let reactive: Vec<(usize, Vec<f64>)> = rows.iter().map(column).collect();
@@ -84,7 +84,7 @@ impl<'a> Linear<'a> {
     }
 
     /// The response to `f`, shape (n_q), and `g`, shape (n_rows).
-    pub fn response(&self, f: &[f64], g: &[f64]) -> Response {
+    pub fn response(&self, f: &[f64], g: &[f64]) -> LinearResponse {
         let mut found = self.plain(f, g);
         let count = self.reactive.len();
         let mut matrix = vec![0.0; count * count];
@@ -111,7 +111,7 @@ impl<'a> Linear<'a> {
     }
 
     /// The response with R = 0.
-    fn plain(&self, f: &[f64], g: &[f64]) -> Response {
+    fn plain(&self, f: &[f64], g: &[f64]) -> LinearResponse {
         let mut a = self.velocities(g);
         let mut left = f.to_vec();
         self.subtract_mass_times(&a, &mut left);
@@ -121,7 +121,7 @@ impl<'a> Linear<'a> {
         let motion = self.freedoms.extend(&alpha);
         self.subtract_mass_times(&motion, &mut left);
         a.iter_mut().zip(motion).for_each(|(a, x)| *a += x);
-        Response { a, lam: self.factors.multipliers(&left), force }
+        LinearResponse { a, lam: self.factors.multipliers(&left), force }
     }
 
     fn subtract_mass_times(&self, x: &[f64], from: &mut [f64]) {

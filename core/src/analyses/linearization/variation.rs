@@ -18,7 +18,7 @@ pub(in crate::analyses) type D = Dual<1>;
 
 /// A state with accelerations and multipliers, or a direction in their space; an empty slice is zero.
 #[derive(Clone, Copy, Debug, Default)]
-pub(in crate::analyses) struct Point<'a> {
+pub(in crate::analyses) struct StatePoint<'a> {
     pub q: &'a [f64],
     pub v: &'a [f64],
     pub z: &'a [f64],
@@ -29,13 +29,13 @@ pub(in crate::analyses) struct Point<'a> {
 /// The derivatives along a direction.
 #[derive(Clone, Debug, PartialEq)]
 pub(in crate::analyses) struct Slopes {
-    /// Of M a + Φ_qᵀ λ - Q, and of the loads, shape (n_q).
+    /// Derivative of M a + Φ_qᵀ λ - Q and of the loads, shape (n_q).
     pub forces: Vec<f64>,
-    /// Of Φ_q v + Φ_t, shape (n_rows).
+    /// Derivative of Φ_q v + Φ_t, shape (n_rows).
     pub rates: Vec<f64>,
-    /// Of Φ_q a - γ, shape (n_rows).
+    /// Derivative of Φ_q a - γ, shape (n_rows).
     pub accelerations: Vec<f64>,
-    /// Of ż, shape (n_z).
+    /// Derivative of ż, shape (n_z).
     pub states: Vec<f64>,
 }
 
@@ -55,13 +55,13 @@ pub(in crate::analyses) struct Variation<'a> {
     model: Model<D>,
     compiled: Compiled<D>,
     t: f64,
-    at: Point<'a>,
+    at: StatePoint<'a>,
     /// Whether loads of joints belong to the forces.
     loads: bool,
 }
 
 impl<'a> Variation<'a> {
-    pub fn new(model: &Model, t: f64, at: Point<'a>, loads: bool) -> Self {
+    pub fn new(model: &Model, t: f64, at: StatePoint<'a>, loads: bool) -> Self {
         let model: Model<D> = model.lift();
         Self { compiled: Compiled::new(&model), model, t, at, loads }
     }
@@ -94,7 +94,7 @@ impl<'a> Variation<'a> {
     }
 
     /// The derivatives along a direction.
-    pub fn along(&self, direction: Point<'_>) -> Slopes {
+    pub fn along(&self, direction: StatePoint<'_>) -> Slopes {
         let Self { model, compiled, at, .. } = self;
         let layout = &model.layout;
         let t = D::lift(self.t);

@@ -2,6 +2,7 @@
 
 use super::reader::Reader;
 use crate::elements::Table;
+use crate::model::{Model, Problem, Value};
 
 /// A set of options as data.
 #[derive(Clone, Debug)]
@@ -15,7 +16,7 @@ pub struct Declaration {
 }
 
 impl Declaration {
-    /// With the exclusions in the docs of the options that exclude others.
+    /// A declaration. The docs of options that exclude others get the exclusions.
     pub fn new(
         class: &'static str,
         mut table: Table,
@@ -47,6 +48,30 @@ pub trait Declared: Sized {
     fn declaration() -> Declaration;
     /// Reads all options; None if one was faulty (the reader keeps the reports).
     fn read(reader: &mut Reader<'_>) -> Option<Self>;
+
+    /// The option that does not fit the others, with a message.
+    fn conflict(&self, _: &Model) -> Option<(&'static str, String)> {
+        None
+    }
+
+    /// Reads the fields of an analysis of this type; `path` is its path in the file.
+    ///
+    /// # Errors
+    /// Every faulty value, with its path.
+    fn checked(
+        model: &Model,
+        fields: &[(String, Value)],
+        path: &[String],
+    ) -> Result<Self, Vec<Problem>> {
+        let read = Reader::read(model, fields, path, Self::read)?;
+        match read.conflict(model) {
+            None => Ok(read),
+            Some((key, message)) => {
+                let path: Vec<&str> = path.iter().map(String::as_str).chain([key]).collect();
+                Err(vec![Problem::at(&path, message)])
+            }
+        }
+    }
 }
 
 /// A value that is chosen from a family by its `type`.
@@ -55,24 +80,26 @@ pub trait Member {
     fn family() -> Family;
 }
 
-/// Declares options: required ones in parentheses, then those with defaults, then those that exclude others.
+/// Declares options: required ones in parentheses, then those with defaults, those that exclude others, and a function
+/// that finds an option which does not fit the others.
 macro_rules! options {
     ($(#[doc = $doc:literal])* $Name:ident, $name:literal, $class:literal
         ($($(#[doc = $what:literal])* $required:ident : $must:ty $([$($in:tt)*])?),*)
         {$($(#[doc = $about:literal])* $field:ident : $kind:ty $([$($unit:tt)*])? = $default:expr),* $(,)?}
         $(excludes { $($one:ident: $($other:ident),+;)+ })?
+        $(conflict $conflict:expr;)?
     ) => {
         $(#[doc = $doc])*
         #[derive(Clone, Debug, PartialEq)]
         pub struct $Name {
-            $($(#[doc = $what])* pub $required: <$must as $crate::analyses::options::Kind>::Value,)*
-            $($(#[doc = $about])* pub $field: <$kind as $crate::analyses::options::Kind>::Value,)*
+            $($(#[doc = $what])* pub $required: <$must as $crate::analyses::options::OptionKind>::Value,)*
+            $($(#[doc = $about])* pub $field: <$kind as $crate::analyses::options::OptionKind>::Value,)*
         }
 
         impl $Name {
-            /// With the defaults of all other options.
+            /// The options with the defaults of all others.
             #[allow(clippy::new_without_default)] // where nothing is required
-            pub fn new($($required: <$must as $crate::analyses::options::Kind>::Value),*) -> Self {
+            pub fn new($($required: <$must as $crate::analyses::options::OptionKind>::Value),*) -> Self {
                 Self { $($required,)* $($field: $default),* }
             }
         }
@@ -82,21 +109,21 @@ macro_rules! options {
 
             fn declaration() -> $crate::analyses::options::Declaration {
                 #[allow(unused_imports)] // where there are no options
-                use $crate::analyses::options::Kind;
+                use $crate::analyses::options::OptionKind;
                 let doc = |lines: &[&str]| lines.concat().trim().to_string();
                 let fields = vec![
                     $($crate::elements::Field {
                         name: stringify!($required),
-                        shape: <$must as Kind>::shape(),
+                        shape: <$must as OptionKind>::shape(),
                         unit: concat!($($(stringify!($in)),*)?).to_string(),
                         default: None,
                         doc: doc(&[$($what),*]),
                     },)*
                     $($crate::elements::Field {
                         name: stringify!($field),
-                        shape: <$kind as Kind>::shape(),
+                        shape: <$kind as OptionKind>::shape(),
                         unit: concat!($($(stringify!($unit)),*)?).to_string(),
-                        default: Some(<$kind as Kind>::data(&$default)),
+                        default: Some(<$kind as OptionKind>::data(&$default)),
                         doc: doc(&[$($about),*]),
                     },)*
                 ];
@@ -110,12 +137,21 @@ macro_rules! options {
             #[allow(unused_variables)] // where there are no options
             fn read(reader: &mut $crate::analyses::options::Reader<'_>) -> Option<Self> {
                 // every option is read, so that all problems are reported at once
-                $(let $required = <$must as $crate::analyses::options::Kind>::required(
+                $(let $required = <$must as $crate::analyses::options::OptionKind>::required(
                     reader, stringify!($required), concat!($($(stringify!($in)),*)?));)*
-                $(let $field = <$kind as $crate::analyses::options::Kind>::optional(
+                $(let $field = <$kind as $crate::analyses::options::OptionKind>::optional(
                     reader, stringify!($field), concat!($($(stringify!($unit)),*)?), $default);)*
                 Some(Self { $($required: $required?,)* $($field: $field?),* })
             }
+
+            $(fn conflict(
+                &self,
+                model: &$crate::model::Model,
+            ) -> Option<(&'static str, String)> {
+                let conflict: fn(&Self, &$crate::model::Model) -> Option<(&'static str, String)> =
+                    $conflict;
+                conflict(self, model)
+            })?
         }
     };
 }
@@ -138,7 +174,7 @@ macro_rules! family {
             }
         }
 
-        impl $crate::analyses::options::Kind for $Value {
+        impl $crate::analyses::options::OptionKind for $Value {
             type Value = Self;
 
             fn shape() -> $crate::elements::Shape {

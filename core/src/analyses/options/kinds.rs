@@ -5,7 +5,7 @@ use crate::elements::{Default, Shape};
 use crate::model::Value as Written;
 
 /// A kind of option.
-pub trait Kind {
+pub trait OptionKind {
     /// The value in the struct of options.
     type Value;
     /// The values that the file may hold.
@@ -42,7 +42,7 @@ pub trait Kind {
 }
 
 /// An option that may be left out; it then has no value.
-impl<K: Kind> Kind for Option<K> {
+impl<K: OptionKind> OptionKind for Option<K> {
     type Value = Option<K::Value>;
 
     fn shape() -> Shape {
@@ -77,7 +77,7 @@ macro_rules! numbers {
                 $holds
             }
         }
-        impl Kind for $kind {
+        impl OptionKind for $kind {
             type Value = f64;
 
             fn shape() -> Shape {
@@ -112,7 +112,7 @@ macro_rules! plain {
         $(#[doc = $doc])*
         #[allow(non_camel_case_types)] // a type in `options!`, written like a word
         pub enum $kind {}
-        impl Kind for $kind {
+        impl OptionKind for $kind {
             type Value = $Value;
 
             fn shape() -> Shape {
@@ -149,7 +149,7 @@ impl Bounded for count {
         x >= 1.0 && x.fract() == 0.0
     }
 }
-impl Kind for count {
+impl OptionKind for count {
     type Value = usize;
 
     fn shape() -> Shape {
@@ -167,11 +167,11 @@ impl Kind for count {
 pub trait Words: Copy + PartialEq + 'static {
     /// The words.
     const WORDS: &'static [&'static str];
-    /// What they mean, in their order.
+    /// The values, in the order of the words.
     const VALUES: &'static [Self];
 }
 
-impl<W: Words> Kind for W {
+impl<W: Words> OptionKind for W {
     type Value = W;
 
     fn shape() -> Shape {
@@ -192,26 +192,43 @@ impl<W: Words> Kind for W {
     }
 }
 
-/// Two numbers of any unit.
-#[allow(non_camel_case_types)] // a type in `options!`, written like a word
-pub enum interval {}
-impl Kind for interval {
-    type Value = [f64; 2];
+/// Declares a kind of option without a default, by its reader.
+macro_rules! kind {
+    ($(#[doc = $doc:literal])* $kind:ident: $Value:ty, $Shape:ident, $read:expr) => {
+        $(#[doc = $doc])*
+        #[allow(non_camel_case_types)] // a type in `options!`, written like a word
+        pub enum $kind {}
+        impl $crate::analyses::options::OptionKind for $kind {
+            type Value = $Value;
 
-    fn shape() -> Shape {
-        Shape::Pair
-    }
-    fn data(_: &[f64; 2]) -> Default {
-        Default::Absent
-    }
-    fn read(reader: &mut Reader<'_>, key: &'static str, _: &'static str) -> Option<[f64; 2]> {
-        match reader.get(key)? {
-            Written::List(ends) if ends.len() == 2 => {
-                let [first, last] = [&ends[0], &ends[1]].map(|end| reader.value(key, end));
-                Some([first?, last?])
+            fn shape() -> $crate::elements::Shape {
+                $crate::elements::Shape::$Shape
             }
-            _ => reader.refuse(key, "must be two numbers, [first, last]"),
+            fn data(_: &$Value) -> $crate::elements::Default {
+                $crate::elements::Default::Absent
+            }
+            fn read(
+                reader: &mut $crate::analyses::options::Reader<'_>,
+                key: &'static str,
+                _: &'static str,
+            ) -> Option<$Value> {
+                use $crate::analyses::options::Reader;
+                let read: fn(&mut Reader<'_>, &'static str) -> Option<$Value> = $read;
+                read(reader, key)
+            }
         }
+    };
+}
+pub(in crate::analyses) use kind;
+
+kind! {
+    /// Two numbers of any unit.
+    interval: [f64; 2], Pair, |reader, key| match reader.get(key)? {
+        Written::List(ends) if ends.len() == 2 => {
+            let [first, last] = [&ends[0], &ends[1]].map(|end| reader.value(key, end));
+            Some([first?, last?])
+        }
+        _ => reader.refuse(key, "must be two numbers, [first, last]"),
     }
 }
 

@@ -89,6 +89,29 @@ impl<'a> Reader<'a> {
         }
     }
 
+    /// A list of names. `check` gets each name with those before it.
+    pub fn names(
+        &mut self,
+        key: &str,
+        what: &str,
+        check: impl Fn(&Model, &str, &[String]) -> Result<(), Problem>,
+    ) -> Option<Vec<String>> {
+        let Some(Value::List(items)) = self.get(key) else {
+            return self.refuse(key, format!("must be a list of {what}"));
+        };
+        let mut names = Vec::new();
+        for item in items {
+            let Value::Text(name) = item else {
+                return self.refuse(key, format!("must be a list of {what}"));
+            };
+            if let Err(problem) = check(self.model, name, &names) {
+                return self.report(key, problem);
+            }
+            names.push(name.clone());
+        }
+        Some(names)
+    }
+
     /// The model.
     pub fn model(&self) -> &'a Model {
         self.model

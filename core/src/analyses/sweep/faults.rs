@@ -29,7 +29,6 @@ pub fn variable_fault(model: &Model, name: &str) -> Option<Problem> {
 
 /// The fault of a measure with its statistic, such as `pin.max` with the declared measure `pin`, or `C.force.max`.
 pub fn measure_fault(model: &Model, declared: &[(String, Value)], text: &str) -> Option<Problem> {
-    let nowhere: [&str; 0] = [];
     let (name, statistic) = text.rsplit_once('.').unwrap_or(("", text));
     let known: Vec<&str> =
         Statistic::ALL.iter().map(|(known, _)| *known).chain([OF_FRONT]).collect();
@@ -37,7 +36,7 @@ pub fn measure_fault(model: &Model, declared: &[(String, Value)], text: &str) ->
         let message = format!("a measure has no statistic '{statistic}'");
         let hint = did_you_mean(statistic, &known);
         let hint = hint.unwrap_or_else(|| format!("end the text with one of {}", known.join(", ")));
-        return Some(Problem::at(&nowhere, message).hint(hint));
+        return Some(Problem::new(message).hint(hint));
     }
     if declared.iter().any(|(known, _)| known == name) {
         return None;

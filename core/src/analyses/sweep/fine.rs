@@ -1,6 +1,6 @@
 //! The measures of a run at close instants.
 
-use super::readings::{Missing, Readings, Rows};
+use super::readings::{Missing, ReadRows, Readings};
 use crate::analyses::statistics::{changes, instants, row_norms, Maxima};
 use std::cell::OnceCell;
 
@@ -85,7 +85,7 @@ fn singular(readings: &Readings<'_>, t: &[f64], sizes: &[f64]) -> Maxima {
 }
 
 /// The length of the multipliers of each row.
-fn norms(rows: &Rows) -> Vec<f64> {
+fn norms(rows: &ReadRows) -> Vec<f64> {
     let count = rows.t.len();
     let lam = rows.multipliers();
     row_norms(lam, lam.len() / count.max(1), count)

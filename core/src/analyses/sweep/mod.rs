@@ -1,8 +1,8 @@
 //! Sweeps: one mechanism with many values of its parameters and start, and the statistics of measures of each run.
 //!
-//! A variant is what a single run of the changed case is: its model from the linked blueprint, assembly from the start of
-//! the case, the run, and the measures. Nothing passes from one variant to another, so that its numbers do not depend on
-//! the order, and the caller may compute variants on as many threads as it likes.
+//! A variant is what a single run of the changed case is: its model from the linked blueprint, assembly from the
+//! start of the case, the run, and the measures. Nothing passes from one variant to another, so that its numbers do
+//! not depend on the order, and the caller may compute variants on any number of threads.
 
 mod faults;
 mod fine;
@@ -15,7 +15,7 @@ pub use faults::{measure_fault, variable_fault, MOTIONS};
 pub use statistic::Statistic;
 
 use super::assemble::{self, assemble_until, Request};
-use super::dynamics::{self, Failure, Options, Prepared, Reason, Run};
+use super::dynamics::{self, side_by_side, Options, Prepared, Reason, Run, Variant};
 use super::measures::Measure;
 use super::State;
 use crate::integrate::Flow;
@@ -56,6 +56,18 @@ pub enum Outcome {
     Stopped,
 }
 
+/// The parameters and the entries of `set` that a variant changes.
+pub type VariantRow = (Vec<(String, f64)>, Vec<(String, f64)>);
+
+/// A variant before its run.
+struct Ready {
+    model: Model,
+    state: State,
+    options: Options,
+    /// The options without the outputs that no statistic reads.
+    kept: Options,
+}
+
 impl Sweep {
     /// Whether variants of a model can be computed here: no redundant joints, laws of the caller, or forces with modes.
     pub fn serves(model: &Model) -> bool {
@@ -63,33 +75,93 @@ impl Sweep {
         plain && model.n_multipliers() == model.layout.n_rows
     }
 
-    /// Runs the variant with other values of some parameters, and with other numbers for some entries of `set`.
+    /// Runs variants: each with other values of some parameters, and with other numbers for some entries of `set`. Where
+    /// it is faster, several runs take their steps side by side; their numbers are the same.
     ///
     /// `stop` is looked at now and then.
-    pub fn variant(
+    pub fn variants(&self, rows: &[VariantRow], stop: &(dyn Fn() -> bool + Sync)) -> Vec<Outcome> {
+        let ready: Vec<_> = rows.iter().map(|row| self.ready(row, stop)).collect();
+        let prepared = ready.iter().map(|ready| ready.as_ref().ok());
+        let prepared: Vec<_> =
+            prepared.map(|ready| ready.map(|ready| Prepared::new(&ready.model))).collect();
+        let together = self.together(&ready, &prepared, stop);
+        let runs = ready.iter().zip(&prepared).zip(together);
+        let outcomes = runs.map(|((ready, prepared), run)| match (ready, prepared) {
+            (Ok(ready), Some(prepared)) => self.outcome(ready, prepared, run, stop),
+            (Err(outcome), _) => outcome.clone(),
+            (Ok(_), None) => Outcome::Single,
+        });
+        outcomes.collect()
+    }
+
+    /// A variant before its run.
+    fn ready(
         &self,
-        parameters: &[(String, f64)],
-        start: &[(String, f64)],
+        (parameters, start): &VariantRow,
         stop: &dyn Fn() -> bool,
-    ) -> Outcome {
-        if !Self::serves(&self.model) {
-            return Outcome::Single;
+    ) -> Result<Ready, Outcome> {
+        if stop() {
+            return Err(Outcome::Stopped);
         }
-        let Ok(model) = self.model.with_values(parameters) else { return Outcome::Single };
-        let Some(request) = self.request(&model, start) else { return Outcome::Single };
+        if !Self::serves(&self.model) {
+            return Err(Outcome::Single);
+        }
+        let model = self.model.with_values(parameters).map_err(|_| Outcome::Single)?;
+        let request = self.request(&model, start).ok_or(Outcome::Single)?;
         let state = match assemble_until(&model, &request, stop) {
             Ok((state, _)) => state,
-            Err(_) if stop() => return Outcome::Stopped,
-            Err(failure) => return Outcome::Failed(failure.message),
+            Err(_) if stop() => return Err(Outcome::Stopped),
+            Err(failure) => return Err(Outcome::Failed(failure.message)),
         };
-        let Ok(options) = dynamics::read(&model, &self.analysis, &[]) else {
-            return Outcome::Single;
-        };
+        let options = dynamics::read(&model, &self.analysis, &[]).map_err(|_| Outcome::Single)?;
         if options.backward(state.t, &["t_end"]).is_some() {
-            return Outcome::Single;
+            return Err(Outcome::Single);
         }
-        let prepared = Prepared::new(&model);
-        let run = match self.run(&prepared, &state, &options, stop) {
+        let wanted: Vec<Statistic> = self.wanted.iter().map(|(_, statistic)| *statistic).collect();
+        let kept = kept::kept(&options, &wanted, options.t_start.unwrap_or(state.t));
+        Ok(Ready { model, state, options, kept })
+    }
+
+    /// The runs that are taken side by side; None for others.
+    fn together<'r>(
+        &self,
+        ready: &'r [Result<Ready, Outcome>],
+        prepared: &'r [Option<Prepared<&'r Model>>],
+        stop: &dyn Fn() -> bool,
+    ) -> Vec<Option<dynamics::RunOutcome>> {
+        let mut runs: Vec<_> = ready.iter().map(|_| None).collect();
+        let all = ready.iter().zip(prepared).enumerate();
+        let (places, variants): (Vec<_>, Vec<_>) = all
+            .filter_map(|(place, (ready, prepared))| {
+                let (Ok(ready), Some(prepared)) = (ready, prepared) else { return None };
+                let variant = Variant { prepared, start: &ready.state, options: &ready.kept };
+                variant.serves().then_some((place, variant))
+            })
+            .unzip();
+        let watch = || if stop() { Flow::Stop } else { Flow::Continue };
+        let (outcomes, _) = side_by_side(&variants, &watch);
+        for (place, run) in places.into_iter().zip(outcomes) {
+            runs[place] = Some(run);
+        }
+        runs
+    }
+
+    /// The outcome of a variant, which is run if there is no run of it.
+    fn outcome(
+        &self,
+        ready: &Ready,
+        prepared: &Prepared<&Model>,
+        run: Option<dynamics::RunOutcome>,
+        stop: &dyn Fn() -> bool,
+    ) -> Outcome {
+        let watch = |_| if stop() { Flow::Stop } else { Flow::Continue };
+        let Ready { state, options, kept, .. } = ready;
+        let run = match run.unwrap_or_else(|| prepared.dynamics(state, kept, watch)) {
+            // the reason is that of the run with all outputs: the fault may be found at one of them
+            Err(_) if kept != options => prepared.dynamics(state, options, watch),
+            run => run,
+        };
+        let run = match run {
             _ if stop() => return Outcome::Stopped,
             Ok(run) => run,
             Err(failure) => return failed(&failure.reason),
@@ -97,29 +169,10 @@ impl Sweep {
         if run.settings.iter().any(|setting| !setting.is_plain()) {
             return Outcome::Single;
         }
-        match self.numbers(&prepared, &run) {
+        match self.numbers(prepared, &run) {
             Ok(values) => Outcome::Values(values),
             Err(Missing::Failed(reason)) => failed(&reason),
             Err(Missing::Single) => Outcome::Single,
-        }
-    }
-
-    /// Runs a variant, without the outputs that no statistic reads.
-    fn run(
-        &self,
-        prepared: &Prepared<&Model>,
-        state: &State,
-        options: &Options,
-        stop: &dyn Fn() -> bool,
-    ) -> Result<Run, Box<Failure>> {
-        let watch = |_| if stop() { Flow::Stop } else { Flow::Continue };
-        let wanted: Vec<Statistic> = self.wanted.iter().map(|(_, statistic)| *statistic).collect();
-        let kept = kept::kept(options, &wanted, options.t_start.unwrap_or(state.t));
-        let run = prepared.dynamics(state, &kept, watch);
-        match run {
-            // the reason is that of the run with all outputs: the fault may be found at one of them
-            Err(_) if kept != *options => prepared.dynamics(state, options, watch),
-            run => run,
         }
     }
 

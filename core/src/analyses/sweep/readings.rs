@@ -16,7 +16,7 @@ pub enum Missing {
 }
 
 /// Rows of states at times, with accelerations and multipliers.
-pub struct Rows {
+pub struct ReadRows {
     pub t: Vec<f64>,
     q: Vec<f64>,
     v: Vec<f64>,
@@ -24,7 +24,7 @@ pub struct Rows {
     solved: Option<Accelerations>,
 }
 
-impl Rows {
+impl ReadRows {
     fn states(&self) -> States<'_> {
         States { t: &self.t, q: &self.q, v: &self.v, z: &self.z }
     }
@@ -83,7 +83,7 @@ impl<'a> Readings<'a> {
     }
 
     /// The motion at times between the outputs; None where it has none.
-    pub fn at(&self, times: &[f64], solve: bool) -> Option<Rows> {
+    pub fn at(&self, times: &[f64], solve: bool) -> Option<ReadRows> {
         let (layout, dense) = (&self.model().layout, self.run.dense.as_ref()?);
         let (y, width, n, n_z) = (dense.at(times), layout.n_y(), layout.n_q, layout.n_z);
         let room = |width: usize| Vec::with_capacity(width * times.len());
@@ -93,7 +93,7 @@ impl<'a> Readings<'a> {
             v.extend_from_slice(&row[n..2 * n]);
             z.extend_from_slice(&row[2 * n..2 * n + n_z]);
         }
-        let mut rows = Rows { t, q, v, z, solved: None };
+        let mut rows = ReadRows { t, q, v, z, solved: None };
         if let Some(projection) = self.run.projection {
             let [q, v] = self.prepared.project(rows.states(), projection).ok()?;
             (rows.q, rows.v) = (q, v);
@@ -112,7 +112,7 @@ impl<'a> Readings<'a> {
     }
 
     /// The values at states between the outputs; None where one is not finite.
-    pub fn values(&self, of: &Measure, rows: &Rows) -> Option<Vec<f64>> {
+    pub fn values(&self, of: &Measure, rows: &ReadRows) -> Option<Vec<f64>> {
         let values = self.values_of(of, rows.states(), rows.solved.as_ref());
         values.iter().all(|x| x.is_finite()).then_some(values)
     }

@@ -76,7 +76,7 @@ fn near<S: Real>(
 }
 
 /// Bodies at the nearest place of the curve, in the global frame.
-struct Touch<S> {
+struct TouchPoint<S> {
     gap: S,
     gap_rate: S,
     /// The velocity along growing u.
@@ -88,7 +88,7 @@ struct Touch<S> {
     arms: [Vec2<S>; 2],
 }
 
-impl<S: Real> Touch<S> {
+impl<S: Real> TouchPoint<S> {
     fn new(e: &Contact<S>, at: &Situation<'_, S>) -> Self {
         let (i, j) = (at.i(), at.j());
         let Near { distance, away, place } = near((&e.i, &e.curve, e.side), &i.pose, &j.pose);
@@ -134,7 +134,11 @@ fn law<S: Real>(e: &Contact<S>) -> Option<Hertz<S>> {
 }
 
 /// The normal force; None where there is none.
-fn normal<S: Real>(e: &Contact<S>, at: &Situation<'_, S>, touch: &Touch<S>) -> Option<Normal<S>> {
+fn normal<S: Real>(
+    e: &Contact<S>,
+    at: &Situation<'_, S>,
+    touch: &TouchPoint<S>,
+) -> Option<Normal<S>> {
     match law(e) {
         Some(law) => law.normal(at, 0, touch.depth()),
         None if at.mode.holds() => Some(Normal { elastic: -at.multiplier, damping: S::zero() }),
@@ -143,7 +147,7 @@ fn normal<S: Real>(e: &Contact<S>, at: &Situation<'_, S>, touch: &Touch<S>) -> O
 }
 
 /// The friction on body j along growing u.
-fn friction<S: Real>(e: &Contact<S>, touch: &Touch<S>, normal: S) -> Option<S> {
+fn friction<S: Real>(e: &Contact<S>, touch: &TouchPoint<S>, normal: S) -> Option<S> {
     let part = (touch.sliding / e.velocity?).tanh();
     Some(e.friction * normal * part)
 }
@@ -180,7 +184,7 @@ impl Force for Contact {
         if is_free(e, at) {
             return;
         }
-        let touch = Touch::new(e, at);
+        let touch = TouchPoint::new(e, at);
         let Some(normal) = normal(e, at, &touch) else { return };
         let mut put = |part: usize, force: Vec2<S>| {
             for (body, wrench) in touch.wrenches(force).into_iter().enumerate() {
@@ -204,7 +208,7 @@ impl Force for Contact {
 
     fn switches<S: Real>(e: &Contact<S>, at: &Situation<'_, S>, out: &mut [S]) {
         if let Some(law) = law(e) {
-            law.switches(Touch::new(e, at).depth(), out);
+            law.switches(TouchPoint::new(e, at).depth(), out);
         }
     }
 
@@ -225,7 +229,7 @@ impl Force for Contact {
     /// N, and the friction on body j along growing u.
     fn results<S: Real>(e: &Contact<S>, at: &Situation<'_, S>, out: &mut [S]) {
         out.fill(S::zero());
-        let touch = Touch::new(e, at);
+        let touch = TouchPoint::new(e, at);
         if let Some(normal) = normal(e, at, &touch).map(Normal::sum) {
             out[0] = normal;
             out[1] = friction(e, &touch, normal).unwrap_or(S::zero());

@@ -59,7 +59,7 @@ struct Circuit<S> {
 }
 
 impl<S: Real> Circuit<S> {
-    /// Of the first form.
+    /// The parameters of the voltage form; None in the other form.
     fn of(e: &Motor<S>) -> Option<Self> {
         let (voltage, resistance) = (e.voltage?, e.resistance?);
         Some(Self { voltage, resistance, torque_constant: e.torque_constant? })

@@ -51,9 +51,9 @@ const ACTS: usize = 1;
 struct Pull<S> {
     /// The elongation, or the shortening of an element that only pushes.
     beyond: S,
-    /// Of stiffness and preload.
+    /// The part of stiffness and preload.
     elastic: S,
-    /// Of damping.
+    /// The part of damping.
     damping: S,
     /// The sum, > 0 in the only sense.
     sum: S,
@@ -94,7 +94,7 @@ fn both_senses<S: Real>(
     [-elastic, -damped.scale(e.damping)]
 }
 
-/// The same of an element that only pulls or pushes.
+/// The force of an element that only pulls or pushes.
 fn one_sense<S: Real>(
     e: &SpringDamper<S>,
     only: Only,

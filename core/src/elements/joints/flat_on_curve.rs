@@ -90,7 +90,7 @@ impl Joint for FlatOnCurve {
         vec![Fixes::Contact]
     }
 
-    /// Of the places where the curve is parallel to the face, the one nearest to it.
+    /// The place nearest to the face, among those where the curve is parallel to it.
     fn own_start(e: &FlatOnCurve, bodies: &[Pose]) -> Vec<f64> {
         let curve = &e.curve.curve;
         let both = |u: f64| {

@@ -9,12 +9,12 @@ use crate::elements::{
 };
 use crate::expression::Tape;
 use crate::math::{Local, Pose};
-use crate::symbolic::{record, upright, Form, Kind, Name, Record, Symbolic};
+use crate::symbolic::{record, upright, Form, Name, NameKind, Record, Symbolic};
 
 /// The equations of a type of joint or driver; None if there is no such type. Bodies are i, j …, a
 /// point is s′ in its body, and a driven coordinate is the angle.
 pub fn of_type(group: Group, kind: &str, form: Form) -> Option<Formulas> {
-    let element = Constraint::read(group, kind, &mut Sample { bodies: 0 })??;
+    let element = Constraint::read(group, kind, &mut SampleNames { bodies: 0 })??;
     Some(of_element(&element, form))
 }
 
@@ -77,24 +77,24 @@ fn side(record: &Record, field: &str, k: usize) -> Symbolic {
         &format!("{field}_{}", body.text),
         &format!("{field}{}", body.unicode),
         &format!("{}_{{{}}}", upright(field), body.latex),
-        Kind::Field,
+        NameKind::Field,
     );
     record.symbol(Name { owner: Some(k), ..name })
 }
 
 /// An element of a type between different bodies, with all numbers zero.
-struct Sample {
+struct SampleNames {
     bodies: usize,
 }
 
-impl Sample {
+impl SampleNames {
     fn next_body(&mut self) -> BodyId {
         self.bodies += 1;
         BodyId(self.bodies)
     }
 }
 
-impl Source for Sample {
+impl Source for SampleNames {
     fn given(&mut self, _: &Field) -> bool {
         true
     }

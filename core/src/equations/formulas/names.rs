@@ -3,7 +3,7 @@
 use crate::elements::{Coordinate, Curve};
 use crate::expression::is_identifier;
 use crate::math::{Local, Pose, Real};
-use crate::symbolic::{upright, Axis, Kind, Name, Record, Symbolic};
+use crate::symbolic::{upright, Axis, Name, NameKind, Record, Symbolic};
 
 /// Letters of the bodies of an element, and as indices in Unicode.
 const LETTERS: [(&str, &str); 6] =
@@ -76,7 +76,7 @@ fn coordinate(coordinate: Coordinate, body: &BodyName, owner: usize) -> Name {
         Coordinate::Vy => ("ẏ", "\\dot{y}", Some(Axis::Y)),
         Coordinate::Omega => ("φ̇", "\\dot{\\varphi}", None),
     };
-    let kind = if coordinate.is_rate() { Kind::Rate } else { Kind::Coordinate };
+    let kind = if coordinate.is_rate() { NameKind::Rate } else { NameKind::Coordinate };
     Name {
         text: format!("{}.{}", body.text, coordinate.name()),
         unicode: format!("{unicode}{}", body.unicode),
@@ -114,7 +114,7 @@ pub(super) fn point(
                 format!("s'_{{{},{c}}}", index.latex),
             ],
         };
-        let name = Name::new(&text, &unicode, &latex, Kind::Field);
+        let name = Name::new(&text, &unicode, &latex, NameKind::Field);
         record.symbol(Name { axis: Some(axis), owner: Some(owner), ..name })
     };
     let s = Local { x: component(Axis::X, zero[0]), y: component(Axis::Y, zero[1]) };
@@ -134,7 +134,7 @@ pub(super) fn curve(record: &Record, label: Option<&str>, u: Symbolic) -> Curve<
             let text = format!("{}.{c}{derivative}", quoted.join("."));
             let unicode = format!("C{primes}.{c}");
             let latex = format!("C{}_{{{c}}}", "'".repeat(order));
-            Name::new(&text, &unicode, &latex, Kind::Field)
+            Name::new(&text, &unicode, &latex, NameKind::Field)
         };
         let third = record.symbol(named(3));
         let second = record.along(named(2), u, third);
@@ -156,7 +156,7 @@ pub(super) fn function(record: &Record, name: &str) -> Symbolic {
         };
         let text = if order.is_empty() { name.to_string() } else { format!("{name}_{order}") };
         let latex = if dots.is_empty() { latex.clone() } else { format!("\\{dots}{{{latex}}}") };
-        record.changing(Name::new(&text, &unicode, &latex, Kind::Field), rate)
+        record.changing(Name::new(&text, &unicode, &latex, NameKind::Field), rate)
     };
     let second = derivative("tt", "ddot", Symbolic::zero());
     let first = derivative("t", "dot", second);
@@ -172,9 +172,9 @@ pub(super) fn internal(record: &Record, count: usize) -> Vec<Symbolic> {
         };
         let latex = [format!("u{index}"), format!("\\dot{{u}}{index}")];
         let rate_name =
-            Name::new(&format!("{text}_rate"), &format!("d{text}/dt"), &latex[1], Kind::Rate);
+            Name::new(&format!("{text}_rate"), &format!("d{text}/dt"), &latex[1], NameKind::Rate);
         let rate = record.changing(rate_name, Symbolic::zero());
-        record.changing(Name::new(&text, &text, &latex[0], Kind::Coordinate), rate)
+        record.changing(Name::new(&text, &text, &latex[0], NameKind::Coordinate), rate)
     };
     (0..count).map(one).collect()
 }

@@ -17,6 +17,19 @@ function through(points, closed) {
   if (ends) line.closePath();
   return line;
 }
+function broken(points) {
+  const starts = (k) => !points[k - 1];
+  const line = new Line(() => points.map((at, k) => at ? `${starts(k) ? "M" : "L"}${at[0]} ${at[1]}` : "").join(""));
+  points.forEach((at, k) => {
+    if (at) starts(k) ? line.moveTo(...at) : line.lineTo(...at);
+  });
+  return line;
+}
+function circle([x, y], radius) {
+  return new Line(
+    `M${x - radius} ${y}a${radius} ${radius} 0 1 0 ${2 * radius} 0a${radius} ${radius} 0 1 0 ${-2 * radius} 0z`
+  );
+}
 
 // src/draw/arrow.ts
 function paintArrow(context, [x0, y0], [x1, y1], colour, width, rim = null) {
@@ -74,7 +87,8 @@ function readable(unit) {
 }
 function scaled(peak, unit) {
   const power = powerOf(peak);
-  if (!power || unit.startsWith("°") && Math.abs(power) <= 3) return { factor: 1, unit };
+  const isPlain = unit.startsWith("°") || unit === "rpm";
+  if (!power || isPlain && Math.abs(power) <= 3) return { factor: 1, unit };
   const prefix = WITH_PREFIX[unit]?.includes(power);
   return { factor: 10 ** power, unit: prefix ? PREFIXES[power] + unit : `${powerOfTen(power)} ${unit}` };
 }
@@ -213,6 +227,12 @@ function ticks(low, high, count) {
     write: (value) => minus((Math.abs(value) < step / 2 ? 0 : value).toFixed(Math.min(decimals2, 20)))
   };
 }
+var DEGREES = [2, 5, 10, 15, 30, 45, 90, 180, 360];
+function angleTicks(low, high, count) {
+  const step = DEGREES.find((one) => (high - low) / one <= 1.5 * count);
+  if (!step || high - low < 2 * count) return ticks(low, high, count);
+  return { values: multiples(low, high, step), write: (value) => minus(value.toFixed(0)) };
+}
 function decades(low, high, count) {
   const step = Math.max(1, Math.ceil((high - low) / Math.max(1, count)));
   return { values: multiples(low, high, step), write: powerOfTen };
@@ -317,6 +337,19 @@ function paintScale(context, view, { kind, unit, pixels }, right, colours2) {
   paintArrow(context, [right - value * pixels, y], [right, y], colours2.named[kind], 2.4);
   rimmed(context, text, [right, y - 9], colours2.named.text, colours2.named.panel);
   return right - Math.max(value * pixels, context.measureText(text).width) - 16;
+}
+
+// src/draw/soon.ts
+function soon(paint2) {
+  let waiting = false;
+  return () => {
+    if (waiting) return;
+    waiting = true;
+    requestAnimationFrame(() => {
+      waiting = false;
+      paint2();
+    });
+  };
 }
 
 // src/give/download.ts
@@ -436,7 +469,6 @@ var texts = {
   theLinkage: "the linkage",
   drawingOf: (title2) => `Drawing of ${title2}`,
   plotOf: (name) => `Plot over time: ${name}`,
-  timeAxis: "t / s",
   on: (body) => `on ${body}`,
   of: (end) => `of ${end}`,
   play: "Play",
@@ -615,13 +647,16 @@ function distance([ax, ay], [bx, by]) {
 var UNIT = 1.5;
 var SPACING = 4;
 var STROKE = 5;
+function rigidPoints(rows, scale, unit) {
+  return rows.map(([x, y, px, py]) => [x * scale + px * unit, y * scale + py * unit]);
+}
+function rigidFrame(frame, poses, view) {
+  const origin = view.toScreen(placed(poses[frame.body], frame.at));
+  return { origin, angle: poses[frame.turns_with][2] + frame.turn };
+}
 function inFrameOf(frame, rows, poses, view, unit) {
   const at = (body, point) => view.toScreen(placed(poses[body], point));
-  if (frame.type === "body") {
-    const angle = poses[frame.turns_with][2] + frame.turn;
-    const local2 = rows.map(([x, y, px, py]) => [x * view.scale + px * unit, y * view.scale + py * unit]);
-    return { origin: at(frame.body, frame.at), angle, local: local2 };
-  }
+  if (frame.type === "body") return { ...rigidFrame(frame, poses, view), local: rigidPoints(rows, view.scale, unit) };
   const [i, j] = frame.bodies;
   if (frame.type === "twist") {
     const turn = frame.turn + poses[j][2] - poses[i][2];
@@ -667,16 +702,52 @@ function hatching(points, side, unit) {
 var HATCH_WIDTH = 0.7;
 function paintItems(context, view, items, poses, shown, colours2) {
   const boxes = [];
+  const frames = new Frames(context, poses, view);
   for (const item of items) {
     if (!isShown(item, shown) || !isPlaceable(item, poses)) continue;
+    if (item.kind !== "text" && item.frame.type === "body") {
+      if (frames.enter(item.frame)) paintRigid(context, item, view.scale, colours2);
+      continue;
+    }
+    frames.leave();
     const { points, angle } = placeItem(item, poses, view, UNIT);
     if (!points.every(([x, y]) => Number.isFinite(x + y))) continue;
-    const colour = tinted(colours2, item);
     if (item.kind === "text") boxes.push(paintText(context, view, item, points[0], angle, colours2));
-    else if (item.kind === "fill") paintFill(context, points, colour);
-    else paintLine(context, item, points, colour);
+    else paintShape(context, item, shapeOf(item, points), tinted(colours2, item));
   }
+  frames.leave();
   return boxes;
+}
+var Frames = class {
+  constructor(context, poses, view) {
+    this.context = context;
+    this.poses = poses;
+    this.view = view;
+  }
+  context;
+  poses;
+  view;
+  frame = null;
+  /** Paint in this frame from now on; false if it has no place. */
+  enter(frame) {
+    if (this.frame && isSame(this.frame, frame)) return true;
+    this.leave();
+    const { origin, angle } = rigidFrame(frame, this.poses, this.view);
+    if (!Number.isFinite(origin[0] + origin[1] + angle)) return false;
+    this.context.save();
+    this.context.translate(origin[0], origin[1]);
+    this.context.rotate(-angle);
+    this.frame = frame;
+    return true;
+  }
+  /** Paint on the canvas again. */
+  leave() {
+    if (this.frame) this.context.restore();
+    this.frame = null;
+  }
+};
+function isSame(a, b) {
+  return a.body === b.body && a.turns_with === b.turns_with && a.turn === b.turn && a.at[0] === b.at[0] && a.at[1] === b.at[1];
 }
 function isShown(item, shown) {
   if (item.numbered) return shown.numbers;
@@ -688,17 +759,32 @@ function tinted(colours2, { colour, tint }) {
   const full = role === "body" ? colours2.body(Number(number)) : colours2.named[role];
   return tint ? `color-mix(in srgb, ${colours2.named.panel} ${100 * tint}%, ${full})` : full;
 }
-function paintFill(context, points, colour) {
-  context.fillStyle = colour;
-  context.fill(through(points, true));
+function shapeOf(item, points) {
+  const hatch = item.kind === "line" && item.hatch ? new Line(hatching(points, item.hatch, UNIT)) : null;
+  return { path: through(points, item.kind === "fill" || item.kind === "line" && item.closed), hatching: hatch };
 }
-function paintLine(context, item, points, colour) {
+var kept = /* @__PURE__ */ new WeakMap();
+function paintRigid(context, item, scale, colours2) {
+  let found = kept.get(item);
+  if (found?.scale !== scale || found.colours !== colours2) {
+    const points = rigidPoints(item.points, scale, UNIT).map(([x, y]) => [x, -y]);
+    found = { scale, shape: shapeOf(item, points), colours: colours2, colour: tinted(colours2, item) };
+    kept.set(item, found);
+  }
+  paintShape(context, item, found.shape, found.colour);
+}
+function paintShape(context, item, { path, hatching: hatching2 }, colour) {
+  if (item.kind === "fill") {
+    context.fillStyle = colour;
+    context.fill(path);
+    return;
+  }
   context.strokeStyle = colour;
   context.lineWidth = item.width * UNIT;
-  context.stroke(through(points, item.closed));
-  if (!item.hatch) return;
+  context.stroke(path);
+  if (!hatching2) return;
   context.lineWidth = HATCH_WIDTH * UNIT;
-  context.stroke(new Line(hatching(points, item.hatch, UNIT)));
+  context.stroke(hatching2);
 }
 function paintText(context, view, item, [x, y], angle, colours2) {
   context.save();
@@ -1079,6 +1165,35 @@ var Drawing = class {
   }
 };
 
+// src/give/picture.ts
+var SHARPNESS = 2;
+var HEAD = 34;
+function paintHead(context, { title: title2, instant }, width, colours2) {
+  context.fillStyle = colours2.named.text;
+  context.textBaseline = "middle";
+  context.font = font(13);
+  context.textAlign = "right";
+  context.fillText(instant, width - 12, HEAD / 2);
+  const room = width - 40 - context.measureText(instant).width;
+  context.font = font(14, 600);
+  context.textAlign = "left";
+  context.fillText(title2, 12, HEAD / 2, room);
+}
+function savePng(name, { width, height }, paint2) {
+  const canvas = document.createElement("canvas");
+  canvas.width = Math.round(width * SHARPNESS);
+  canvas.height = Math.round(height * SHARPNESS);
+  const context = canvas.getContext("2d");
+  const colours2 = paperPalette();
+  context.scale(SHARPNESS, SHARPNESS);
+  context.fillStyle = colours2.named.panel;
+  context.fillRect(0, 0, width, height);
+  context.lineCap = "round";
+  context.lineJoin = "round";
+  paint2(context, colours2);
+  canvas.toBlob((blob) => blob && download(name, blob, "image/png"), "image/png");
+}
+
 // src/give/table.ts
 function csv(t, names, units, rows, first = { name: "t", unit: "s" }) {
   const head2 = [`${first.name} [${first.unit}]`, ...names.map((name, k) => `${name} [${units[k]}]`)].map(cell);
@@ -1091,11 +1206,54 @@ function cell(text) {
   return /[",\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
 }
 
-// src/player/export.ts
-var SHARPNESS = 2;
-var TITLE = 34;
+// src/plot/picture.ts
 var ENTRY = 20;
+var COLUMN = 260;
 var GAP = 12;
+function sizeOf(all) {
+  const width = Math.max(...all.map(({ plot }) => plot.width));
+  const height = all.reduce((sum, one) => sum + one.plot.height + ENTRY * rowsOf(one, width) + GAP, HEAD);
+  return { width, height };
+}
+function columnsOf(width) {
+  return Math.max(1, Math.floor(width / COLUMN));
+}
+function rowsOf({ entries }, width) {
+  return Math.ceil(entries.length / columnsOf(width));
+}
+function paintPlots(context, all, head2, colours2) {
+  const { width } = sizeOf(all);
+  const columns = columnsOf(width);
+  context.save();
+  paintHead(context, head2, width, colours2);
+  context.translate(0, HEAD);
+  for (const one of all) {
+    context.save();
+    one.plot.paintAll(context, head2.t, colours2);
+    context.restore();
+    context.translate(0, one.plot.height);
+    one.entries.forEach(({ curve, text }, k) => {
+      paintEntry(context, curve, text, [k % columns * (width / columns), Math.floor(k / columns)], colours2);
+    });
+    context.translate(0, ENTRY * rowsOf(one, width) + GAP);
+  }
+  context.restore();
+}
+function paintEntry(context, curve, text, [left, row], colours2) {
+  const y = ENTRY * (row + 0.5);
+  context.strokeStyle = colourOf(curve.number, colours2);
+  context.lineWidth = 2.5;
+  context.setLineDash(dashOf(curve.number));
+  context.stroke(new Line(`M${left + 12} ${y}h24`));
+  context.setLineDash([]);
+  context.font = font(12);
+  context.textAlign = "left";
+  context.textBaseline = "middle";
+  context.fillStyle = colours2.named.text;
+  context.fillText(`${curve.name}  ${text}`, left + 44, y, COLUMN - 52);
+}
+
+// src/player/export.ts
 function table(motion2, curves) {
   const distinct = [...new Map(curves.map((curve) => [curve.name, curve])).values()];
   const { name, unit } = motion2.variable;
@@ -1107,72 +1265,23 @@ function table(motion2, curves) {
 function plainUnit(unit) {
   return unit.replace("·", "*").replace("²", "^2");
 }
-function drawingPicture(drawing2, head2, colours2) {
+function saveDrawing(drawing2, head2) {
   const { width, height } = drawing2.view;
-  return picture(width, height + TITLE, colours2, (context) => {
+  savePng(nameOf(head2.title, "_drawing.png"), { width, height: height + HEAD }, (context, colours2) => {
     paintHead(context, head2, width, colours2);
-    context.translate(0, TITLE);
+    context.translate(0, HEAD);
     context.beginPath();
     context.rect(0, 0, width, height);
     context.clip();
     drawing2.paint(head2.t, colours2, context);
   });
 }
-function plotsPicture(cards, head2, colours2) {
-  const width = Math.max(...cards.map(({ plot }) => plot.width));
-  const columns = Math.max(1, Math.floor(width / 260));
-  const rows = ({ entries }) => Math.ceil(entries.length / columns);
-  const height = cards.reduce((sum, card) => sum + card.plot.height + ENTRY * rows(card) + GAP, TITLE);
-  return picture(width, height, colours2, (context) => {
-    paintHead(context, head2, width, colours2);
-    context.translate(0, TITLE);
-    for (const card of cards) {
-      context.save();
-      card.plot.paintAll(context, head2.t, colours2);
-      context.restore();
-      context.translate(0, card.plot.height);
-      card.entries.forEach((entry, k) => {
-        paintEntry(context, entry, k % columns * (width / columns), Math.floor(k / columns), colours2);
-      });
-      context.translate(0, ENTRY * rows(card) + GAP);
-    }
-  });
-}
-function picture(width, height, colours2, paint2) {
-  const canvas = document.createElement("canvas");
-  canvas.width = Math.round(width * SHARPNESS);
-  canvas.height = Math.round(height * SHARPNESS);
-  const context = canvas.getContext("2d");
-  context.scale(SHARPNESS, SHARPNESS);
-  context.fillStyle = colours2.named.panel;
-  context.fillRect(0, 0, width, height);
-  context.lineCap = "round";
-  context.lineJoin = "round";
-  paint2(context);
-  return canvas;
-}
-function paintHead(context, { title: title2, instant }, width, colours2) {
-  context.fillStyle = colours2.named.text;
-  context.textBaseline = "middle";
-  context.font = font(13);
-  context.textAlign = "right";
-  context.fillText(instant, width - 12, TITLE / 2);
-  context.font = font(14, 600);
-  context.textAlign = "left";
-  context.fillText(title2, 12, TITLE / 2, width - 40 - context.measureText(instant).width);
-}
-function paintEntry(context, { curve, value }, left, row, colours2) {
-  const y = ENTRY * (row + 0.5);
-  context.strokeStyle = colourOf(curve.number, colours2);
-  context.lineWidth = 2.5;
-  context.setLineDash(dashOf(curve.number));
-  context.stroke(new Path2D(`M${left + 12} ${y}h24`));
-  context.setLineDash([]);
-  context.font = font(12);
-  context.textAlign = "left";
-  context.textBaseline = "middle";
-  context.fillStyle = colours2.named.text;
-  context.fillText(`${curve.name}  ${value.textContent}`, left + 44, y, 208);
+function savePlots(cards, head2) {
+  const all = cards.map(({ plot, entries }) => ({
+    plot,
+    entries: entries.map(({ curve, value }) => ({ curve, text: value.textContent ?? "" }))
+  }));
+  savePng(nameOf(head2.title, "_plots.png"), sizeOf(all), (context, colours2) => paintPlots(context, all, head2, colours2));
 }
 
 // src/plane/gestures.ts
@@ -1224,26 +1333,6 @@ function movable(canvas, view, changed) {
     changed();
   });
 }
-function seekable(canvas, { timeAt, seek, look, stretch, showAll }) {
-  const go = (event) => seek(timeAt(placeOn(canvas, event)[0]));
-  canvas.addEventListener("pointerdown", (event) => {
-    if (event.button !== 0) return;
-    canvas.setPointerCapture(event.pointerId);
-    go(event);
-  });
-  canvas.addEventListener("pointermove", (event) => {
-    if (canvas.hasPointerCapture(event.pointerId)) go(event);
-    if (event.pointerType !== "touch") look(placeOn(canvas, event));
-  });
-  canvas.addEventListener("pointerleave", () => look(null));
-  const zoom2 = (event) => {
-    if (!event.ctrlKey) return;
-    event.preventDefault();
-    stretch(1 / turned(event), placeOn(canvas, event)[0]);
-  };
-  canvas.addEventListener("wheel", zoom2, { passive: false });
-  canvas.addEventListener("dblclick", showAll);
-}
 
 // src/player/heading.ts
 function showTitle({ title: title2 }, motion2, decimals2) {
@@ -1282,31 +1371,124 @@ function keepsKey(control, key) {
   return own.includes(key) || own.includes("letters") && /^[a-z]$/i.test(key);
 }
 
-// src/player/axes.ts
+// src/plot/gestures.ts
+var STEP = 1.25;
+function seekable(canvas, seeking) {
+  const { timeAt, seek, look, stretch, showAll } = seeking;
+  const fingers = /* @__PURE__ */ new Map();
+  const ending = new AbortController();
+  const on = (kind, act) => canvas.addEventListener(kind, act, { passive: false, signal: ending.signal });
+  const go = (event) => seek(timeAt(placeOn(canvas, event)[0]));
+  on("pointerdown", (event) => {
+    if (event.button !== 0) return;
+    canvas.setPointerCapture(event.pointerId);
+    fingers.set(event.pointerId, placeOn(canvas, event));
+    if (fingers.size === 1) go(event);
+  });
+  on("pointermove", (event) => {
+    if (event.pointerType !== "touch") look(placeOn(canvas, event));
+    if (!fingers.has(event.pointerId)) return;
+    const before = spreadOf(fingers);
+    fingers.set(event.pointerId, placeOn(canvas, event));
+    const after = spreadOf(fingers);
+    if (fingers.size === 1) go(event);
+    else if (before.width > 0 && after.width > 0) stretch(before.width / after.width, after.middle[0]);
+  });
+  const lift = (event) => fingers.delete(event.pointerId);
+  on("pointerup", lift);
+  on("pointercancel", lift);
+  on("pointerleave", () => look(null));
+  on("wheel", (event) => {
+    if (!event.ctrlKey) return;
+    event.preventDefault();
+    stretch(1 / turned(event), placeOn(canvas, event)[0]);
+  });
+  on("dblclick", showAll);
+  on("keydown", (event) => withKey(event, canvas.clientWidth / 2, seeking));
+  return () => ending.abort();
+}
+function withKey(event, middle, { stretch, showAll }) {
+  if (event.ctrlKey || event.altKey || event.metaKey) return;
+  if (event.key === "+" || event.key === "=") stretch(1 / STEP, middle);
+  else if (event.key === "-") stretch(STEP, middle);
+  else if (event.key === "0") showAll();
+  else return;
+  event.preventDefault();
+  event.stopPropagation();
+}
+
+// src/plot/timespan.ts
+var TimeSpan = class {
+  constructor(ends) {
+    this.ends = ends;
+    this.from = ends.begin;
+    this.to = ends.end;
+  }
+  ends;
+  from;
+  to;
+  showAll() {
+    this.from = this.ends.begin;
+    this.to = this.ends.end;
+  }
+  /** Show `factor` times as much time around t. */
+  stretch(factor, t) {
+    const { begin, end } = this.ends;
+    const [from, to] = [t + (this.from - t) * factor, t + (this.to - t) * factor];
+    if (to - from < 1e-6 * (end - begin)) return;
+    this.from = Math.max(begin, from);
+    this.to = Math.min(end, to);
+  }
+  /** Move the window so that it holds t. */
+  follow(t) {
+    if (t >= this.from && t <= this.to) return;
+    const { begin, end } = this.ends;
+    const length = this.to - this.from;
+    this.from = Math.min(Math.max(t - 0.1 * length, begin), end - length);
+    this.to = this.from + length;
+  }
+};
+
+// src/draw/display.ts
+var DEGREES2 = 180 / Math.PI;
+var RPM = 30 / Math.PI;
+function displayed(unit, degrees) {
+  if (!degrees || !/^rad(?!\w)/.test(unit)) return { factor: 1, unit };
+  if (unit === "rad/s") return { factor: RPM, unit: "rpm" };
+  return { factor: DEGREES2, unit: unit.replace("rad", "°") };
+}
+
+// src/plot/axes.ts
 var TOP = 32;
 var BOTTOM = 40;
 var RIGHT = 14;
 var TICK_TEXT = 12;
+function inUnit(unit) {
+  return unit === "°" ? angleTicks : ticks;
+}
 var Axes = class {
-  constructor(context, size, span, held) {
+  constructor(context, size, span, across, held) {
     this.size = size;
     this.span = span;
+    this.across = across;
     this.held = held;
-    const { range, log, divisor } = held;
+    const { range, log, unit } = held;
     const count = Math.max(2, Math.floor((size.height - TOP - BOTTOM) / 36));
-    this.up = log ? decades(...range, count) : ticks(...range, count);
+    this.up = log ? decades(...range, count) : inUnit(unit)(...range, count);
     context.font = font(TICK_TEXT);
     const widest = Math.max(...this.up.values.map((value) => context.measureText(this.up.write(value)).width));
     this.left = Math.ceil(Math.max(34, widest + 16));
     const most = Math.max(2, Math.floor((size.width - this.left) / 90));
-    this.across = ticks(span.from / divisor, span.to / divisor, most);
+    const { divisor, shown } = across;
+    this.along = inUnit(shown)(span.from / divisor, span.to / divisor, most);
   }
   size;
   span;
+  across;
   held;
   left;
   up;
-  across;
+  along;
   /** Where a time and a value (of the logarithm on a logarithmic axis) are, px. */
   place(t, value) {
     const { from, to } = this.span;
@@ -1338,7 +1520,7 @@ var Axes = class {
     context.fillStyle = colours2.named.text;
     context.textAlign = "center";
     context.textBaseline = "alphabetic";
-    context.fillText(texts.timeAxis, (this.left + width - RIGHT) / 2, height - 5);
+    context.fillText(axisLabel(this.across.name, this.across.shown), (this.left + width - RIGHT) / 2, height - 5);
     context.textAlign = "left";
     context.textBaseline = "top";
     context.fillText(label, 10, 7);
@@ -1349,34 +1531,82 @@ var Axes = class {
     context.textBaseline = "middle";
     for (const value of this.up.values) {
       const y = Math.round(this.place(this.span.from, value)[1]) + 0.5;
-      context.stroke(new Path2D(`M${this.left} ${y}H${this.size.width - RIGHT}`));
+      context.stroke(new Line(`M${this.left} ${y}H${this.size.width - RIGHT}`));
       context.fillText(this.up.write(value), this.left - 8, y);
     }
   }
-  /** Ticks of time; the last one is moved to the left where it would be cut. */
+  /** Ticks along the axis; the last one is moved to the left where it would be cut. */
   paintAcross(context, colours2) {
     const { width, height } = this.size;
     const base = height - BOTTOM;
     context.strokeStyle = colours2.named.edge;
     context.textAlign = "center";
     context.textBaseline = "top";
-    context.stroke(new Path2D(`M${this.left} ${base + 0.5}H${width - RIGHT}`));
-    for (const value of this.across.values) {
-      const x = Math.round(this.place(value * this.held.divisor, this.held.range[0])[0]) + 0.5;
-      const text = this.across.write(value);
+    context.stroke(new Line(`M${this.left} ${base + 0.5}H${width - RIGHT}`));
+    for (const value of this.along.values) {
+      const x = Math.round(this.place(value * this.across.divisor, this.held.range[0])[0]) + 0.5;
+      const text = this.along.write(value);
       const half = context.measureText(text).width / 2 + 2;
-      context.stroke(new Path2D(`M${x} ${base}v5`));
+      context.stroke(new Line(`M${x} ${base}v5`));
       context.fillText(text, Math.min(x, width - half), base + 8);
     }
   }
   /** A line up at t. */
   line(context, t) {
     const [x] = this.place(t, this.held.range[0]);
-    context.stroke(new Path2D(`M${x} ${TOP - 6}V${this.size.height - BOTTOM}`));
+    context.stroke(new Line(`M${x} ${TOP - 6}V${this.size.height - BOTTOM}`));
   }
 };
 
-// src/player/ranges.ts
+// src/plot/curve.ts
+function shownValues(curve) {
+  return Array.from(curve.values, (value) => curve.shown(value));
+}
+
+// src/plot/line.ts
+var PIECE = 4;
+var MOST_PIECES = 16;
+var MOST_ON_A_PIXEL = 4;
+function lineOf(curve, [from, to], width, place) {
+  const { t } = curve;
+  const [first, last] = [placeIn(t, from).low, placeIn(t, to).high];
+  const dense = last - first > MOST_ON_A_PIXEL * width;
+  return broken(dense ? thinned(curve, first, last, place) : filled(curve, first, last, width, place));
+}
+function filled(curve, first, last, width, place) {
+  const { t, values } = curve;
+  const apart = width / Math.max(1, last - first);
+  const pieces = curve.smooth ? Math.min(MOST_PIECES, Math.ceil(apart / PIECE)) : 1;
+  const points = [];
+  for (let k = first; k <= last; k += 1) {
+    points.push(place(t[k], curve.shown(values[k])));
+    for (let piece = 1; piece < pieces && k < last; piece += 1) {
+      const at = t[k] + piece / pieces * (t[k + 1] - t[k]);
+      points.push(place(at, curve.at(at)));
+    }
+  }
+  return points;
+}
+function thinned(curve, first, last, place) {
+  const points = [];
+  let column = [];
+  const flush = () => {
+    const by = (better) => column.reduce((best, one, k) => better(one[1], column[best][1]) ? k : best, 0);
+    const kept2 = new Set(column.length ? [0, by((a, b) => a < b), by((a, b) => a > b), column.length - 1] : []);
+    points.push(...[...kept2].sort((a, b) => a - b).map((k) => column[k]));
+    column = [];
+  };
+  for (let k = first; k <= last; k += 1) {
+    const at = place(curve.t[k], curve.shown(curve.values[k]));
+    if (!at || column[0] && Math.floor(at[0]) !== Math.floor(column[0][0])) flush();
+    if (at) column.push(at);
+    else points.push(null);
+  }
+  flush();
+  return points;
+}
+
+// src/plot/ranges.ts
 function widened(values, divisor) {
   let [low, high] = [Number.POSITIVE_INFINITY, Number.NEGATIVE_INFINITY];
   for (const value of values.flat()) [low, high] = [Math.min(low, value / divisor), Math.max(high, value / divisor)];
@@ -1395,20 +1625,22 @@ function exponents(values) {
   return [first, Math.max(last, first + 1)];
 }
 
-// src/player/plot.ts
-var DEGREES = 180 / Math.PI;
+// src/plot/plot.ts
+var STORED = { dash: [6, 5], width: 1.3 };
+var WIDTH = 1.8;
 var Plot = class {
-  constructor(canvas, motion2, span) {
+  constructor(canvas, span, across) {
     this.canvas = canvas;
-    this.motion = motion2;
     this.span = span;
+    this.across = across;
     this.scale();
   }
   canvas;
-  motion;
   span;
+  across;
   curves = [];
   log = false;
+  /** Angles in degrees and speeds in rpm. */
   degrees = false;
   /** Where the pointer is, px; null if it is elsewhere. */
   pointer = null;
@@ -1431,17 +1663,20 @@ var Plot = class {
     this.symbol = symbol;
     this.scale();
   }
+  /** What lies on the horizontal axis, and the part of it that is shown. */
+  over(span, across) {
+    this.span = span;
+    this.across = across;
+    this.version += 1;
+  }
   /** Choose units and ranges for the curves. */
   scale() {
-    const given = this.curves[0]?.unit ?? "";
-    const turns = this.degrees && given.startsWith("rad");
-    const factor = turns ? DEGREES : 1;
+    const { factor, unit } = displayed(readable(this.curves[0]?.unit ?? ""), this.degrees);
     const values = this.curves.map(
-      (curve) => curve.values.map((value) => factor * curve.shown(value)).filter(Number.isFinite)
+      (curve) => shownValues(curve).map((value) => factor * value).filter(Number.isFinite)
     );
     const peaks = values.map((all) => all.reduce((most, value) => Math.max(most, Math.abs(value)), 0));
     const peak = Math.max(0, ...peaks);
-    const unit = turns ? given.replace("rad", "°") : given;
     const written = this.log && peak > 0 ? { factor: 1, unit } : scaled(peak, unit);
     this.factor = factor / written.factor;
     this.peaks = peaks.map((one) => one / written.factor);
@@ -1475,12 +1710,12 @@ var Plot = class {
     return besideUnit(this.onLog ? significant(-peak) : fixed(-peak, peak), this.unit).length;
   }
   timeAt(px) {
-    return this.axes ? this.axes.timeAt(px) : this.motion.begin;
+    return this.axes ? this.axes.timeAt(px) : this.span.from;
   }
   /** Draw with the cursor at t and, if a time is looked at, a line there. */
   paint(t, looked, colours2) {
     const context = cleared(this.canvas);
-    if (!this.curves.length) return;
+    if (!this.curves.length || !this.width) return;
     context.drawImage(this.picture(colours2), 0, 0, this.width, this.height);
     this.paintLine(context, t, colours2.named.text);
     if (looked !== null) this.paintLine(context, looked, colours2.named.accent);
@@ -1492,21 +1727,21 @@ var Plot = class {
     const { width, height, canvas, span, version } = this;
     const key = JSON.stringify([width, height, canvas.width, span.from, span.to, version, colours2.named.text]);
     if (this.kept?.key !== key) {
-      const picture2 = document.createElement("canvas");
-      picture2.width = canvas.width;
-      picture2.height = canvas.height;
-      const context = picture2.getContext("2d");
-      context.scale(picture2.width / width, picture2.height / height);
+      const picture = document.createElement("canvas");
+      picture.width = canvas.width;
+      picture.height = canvas.height;
+      const context = picture.getContext("2d");
+      context.scale(picture.width / width, picture.height / height);
       context.lineCap = "round";
       context.lineJoin = "round";
       this.paintStill(context, colours2);
-      this.kept = { key, picture: picture2 };
+      this.kept = { key, picture };
     }
     return this.kept.picture;
   }
   paintStill(context, colours2) {
-    const held = { range: this.range, log: this.onLog, divisor: this.motion.variable.divisor };
-    this.axes = new Axes(context, this, this.span, held);
+    const held = { range: this.range, log: this.onLog, unit: this.unit };
+    this.axes = new Axes(context, this, this.span, this.across, held);
     this.axes.paint(context, this.label, colours2);
     context.save();
     this.axes.clip(context);
@@ -1520,51 +1755,32 @@ var Plot = class {
     this.paintDots(context, t, colours2);
   }
   /** The place of a value on the canvas; null where a logarithm has none. */
-  place(t, value) {
+  place = (t, value) => {
     if (!Number.isFinite(value) || this.onLog && value === 0) return null;
     return this.axes.place(t, this.onLog ? Math.log10(Math.abs(value)) : value);
-  }
+  };
   paintCurve(context, curve, colours2) {
+    const scaled2 = (t, value) => this.place(t, this.factor * value);
     context.strokeStyle = colourOf(curve.number, colours2);
-    context.setLineDash(dashOf(curve.number));
-    context.lineWidth = 1.8;
-    context.stroke(this.line(curve));
+    context.setLineDash(curve.stored ? STORED.dash : dashOf(curve.number));
+    context.lineWidth = curve.stored ? STORED.width : WIDTH;
+    context.stroke(lineOf(curve, [this.span.from, this.span.to], this.width, scaled2));
     context.setLineDash([]);
-  }
-  /** A curve between the edges of the window, in pieces of at most 4 px, with gaps where it has no value. */
-  line(curve) {
-    const { t } = this.motion;
-    const [{ low: first }, { high: last }] = [this.motion.place(this.span.from), this.motion.place(this.span.to)];
-    const apart = this.width / Math.max(1, last - first);
-    const pieces = this.motion.smooth ? Math.min(16, Math.ceil(apart / 4)) : 1;
-    const path = new Path2D();
-    let broken = true;
-    const visit = (at, value) => {
-      const place = this.place(at, value);
-      if (place && broken) path.moveTo(...place);
-      if (place) path.lineTo(...place);
-      broken = !place;
-    };
-    for (let k = first; k <= last; k += 1) {
-      visit(t[k], this.factor * curve.shown(curve.values[k]));
-      for (let piece = 1; piece < pieces && k < last; piece += 1) {
-        const at = t[k] + piece / pieces * (t[k + 1] - t[k]);
-        visit(at, this.shown(curve, at));
-      }
-    }
-    return path;
   }
   paintLine(context, t, colour) {
     context.strokeStyle = colour;
     context.lineWidth = 1.2;
     this.axes.line(context, t);
   }
+  /** Those curves of which t is a part. */
+  at(t) {
+    return this.curves.filter(({ t: own }) => own[0] <= t && t <= own[own.length - 1]);
+  }
   paintDots(context, t, colours2) {
-    for (const curve of this.curves) {
+    for (const curve of this.at(t)) {
       const place = this.place(t, this.shown(curve, t));
       if (!place) continue;
-      const dot = new Path2D();
-      dot.arc(...place, 4, 0, 2 * Math.PI);
+      const dot = circle(place, curve.stored ? 3 : 4);
       context.fillStyle = colourOf(curve.number, colours2);
       context.fill(dot);
       context.strokeStyle = colours2.named.panel;
@@ -1577,11 +1793,13 @@ var Plot = class {
       const place = this.place(t, this.shown(curve, t));
       return place ? Math.abs(place[1] - y) : Number.POSITIVE_INFINITY;
     };
-    return this.curves.reduce((best, curve) => away(curve) < away(best) ? curve : best);
+    const [first, ...others] = this.at(t);
+    return first ? others.reduce((best, curve) => away(curve) < away(best) ? curve : best, first) : null;
   }
-  /** Time and value of the curve nearest to the pointer, as text beside the line. */
+  /** Name and value of the curve nearest to the pointer, as text beside the line. */
   paintReading(context, t, pointer, colours2) {
     const curve = this.nearest(t, pointer);
+    if (!curve) return "";
     const text = `${curve.name} = ${this.write(curve, t)}`;
     context.font = font(12, 600);
     context.textBaseline = "top";
@@ -1595,7 +1813,7 @@ var Plot = class {
 };
 
 // src/player/curve.ts
-var Curve = class {
+var SceneCurve = class {
   constructor(motion2, source) {
     this.motion = motion2;
     this.source = source;
@@ -1604,12 +1822,19 @@ var Curve = class {
   motion;
   source;
   name;
+  stored = false;
   /** Numbers below this are rounding errors. */
   noise = 0;
   kept = null;
   keptSlopes = null;
   get subject() {
     return this.source.subject;
+  }
+  get t() {
+    return this.motion.t;
+  }
+  get smooth() {
+    return this.motion.smooth;
   }
   get unit() {
     return this.source.unit;
@@ -1642,8 +1867,8 @@ function naturalScales(scene2) {
   const length = Math.max(size, ...scene2.bounds.map(Math.abs));
   const velocity2 = largestMotion(rates, size);
   const acceleration2 = largestMotion(accelerations, size);
-  const kept = scene2.channels.filter(({ group }) => group !== "accuracy");
-  const channels = (unit) => largest(kept.filter((one) => one.unit === unit).map(({ values }) => values));
+  const kept2 = scene2.channels.filter(({ group }) => group !== "accuracy");
+  const channels = (unit) => largest(kept2.filter((one) => one.unit === unit).map(({ values }) => values));
   const force = Math.max(largest(reactions.flat()), channels("N"), channels("N·m") / size);
   return {
     m: length,
@@ -1708,7 +1933,7 @@ function ofBodies(scene2, motion2) {
   const made = [...TURNING].reverse().map(({ key, symbol, unit, rows }) => {
     const curves = turning.map(({ name, number }, k) => {
       const sample = (frame) => scene2.frames[rows][frame][number - 1][2];
-      return new Curve(motion2, { subject: name, key, unit, number: number - 1, sample, rate: rates[k] });
+      return new SceneCurve(motion2, { subject: name, key, unit, number: number - 1, sample, rate: rates[k] });
     });
     rates = curves;
     return { key, group: texts.groups.bodies, name: texts.turning[key], symbol, curves };
@@ -1732,7 +1957,14 @@ function ofPoints(scene2, motion2) {
         const value = DERIVATIVES[order](motion2.frame(k), body, at);
         return component === null ? Math.hypot(...value) : value[component];
       };
-      const curve = new Curve(motion2, { subject: name, key, unit, number, sample, rate: made.get(`${name}.${rate}`) });
+      const curve = new SceneCurve(motion2, {
+        subject: name,
+        key,
+        unit,
+        number,
+        sample,
+        rate: made.get(`${name}.${rate}`)
+      });
       made.set(curve.name, curve);
       return curve;
     });
@@ -1761,7 +1993,7 @@ function ofElements(scene2, motion2, group) {
     const channels = scene2.channels.filter((channel) => channel.group === group && channel.quantity === key);
     sources.push(...channels.map((channel, k) => ofChannel(channel, joints.length + k)));
     const name = texts.acting[group](texts.parts[key]);
-    const curves = sources.map((source) => new Curve(motion2, source));
+    const curves = sources.map((source) => new SceneCurve(motion2, source));
     return { key: `${group}.${key}`, group: texts.groups[group], name, symbol, curves };
   });
 }
@@ -1770,7 +2002,7 @@ function ofScene(scene2, motion2, group) {
   const units = [...new Set(channels.map(({ unit }) => unit))];
   return units.map((unit) => {
     const listed = channels.filter((channel) => channel.unit === unit);
-    const curves = listed.map((channel, k) => new Curve(motion2, ofChannel(channel, k)));
+    const curves = listed.map((channel, k) => new SceneCurve(motion2, ofChannel(channel, k)));
     const name = units.length > 1 ? `${texts.channels[group]} / ${unit}` : texts.channels[group];
     return { key: `${group}.${unit}`, group: texts.groups[group], name, symbol: OF_SCENE[group], curves };
   });
@@ -1799,7 +2031,7 @@ var Card = class {
     this.legend = find("legend");
     this.canvas = find("curves");
     this.removal = find("remove");
-    this.plot = new Plot(this.canvas, motion2, span);
+    this.plot = new Plot(this.canvas, span, motion2.variable);
     fillGroups(this.quantity, all);
     this.quantity.addEventListener("change", () => this.choose(Number(this.quantity.value), 0));
     this.subject.addEventListener("change", () => this.choose(Number(this.quantity.value), Number(this.subject.value)));
@@ -1814,6 +2046,7 @@ var Card = class {
   canvas;
   plot;
   name = "";
+  curves = [];
   entries = [];
   subject;
   log;
@@ -1826,7 +2059,8 @@ var Card = class {
     this.subject.replaceChildren(...subjects.map(({ name }, k) => option(name, k)));
     this.quantity.value = String(which);
     this.subject.value = String(whose);
-    this.plot.show(chosen.curves, quantity2.symbol);
+    this.curves = chosen.curves;
+    this.plot.show(this.curves, quantity2.symbol);
     this.name = `${quantity2.name}, ${chosen.name}`;
     this.canvas.setAttribute("aria-label", texts.plotOf(this.name));
     this.showLegend();
@@ -1838,7 +2072,7 @@ var Card = class {
     this.changed();
   }
   showLegend() {
-    this.entries = this.plot.curves.map((curve) => {
+    this.entries = this.curves.map((curve) => {
       const entry = copied(this.templates.entry);
       const [line, name] = [entry.querySelector("line"), entry.querySelector(".name")];
       line.setAttribute("stroke-dasharray", dashOf(curve.number).join(" "));
@@ -1881,37 +2115,6 @@ function option(name, k) {
   made.title = name;
   return made;
 }
-
-// src/player/timespan.ts
-var TimeSpan = class {
-  constructor(motion2) {
-    this.motion = motion2;
-    this.from = motion2.begin;
-    this.to = motion2.end;
-  }
-  motion;
-  from;
-  to;
-  showAll() {
-    this.from = this.motion.begin;
-    this.to = this.motion.end;
-  }
-  /** Show `factor` times as much time around t. */
-  stretch(factor, t) {
-    const { begin, end } = this.motion;
-    const [from, to] = [t + (this.from - t) * factor, t + (this.to - t) * factor];
-    if (to - from < 1e-6 * (end - begin)) return;
-    this.from = Math.max(begin, from);
-    this.to = Math.min(end, to);
-  }
-  /** Move the window so that it holds t. */
-  follow(t) {
-    if (t >= this.from && t <= this.to) return;
-    const length = this.to - this.from;
-    this.from = Math.min(Math.max(t - 0.1 * length, this.motion.begin), this.motion.end - length);
-    this.to = this.from + length;
-  }
-};
 
 // src/player/plots.ts
 var MOST = 6;
@@ -2035,15 +2238,12 @@ var plots = new Plots(byId("plots"), templates, scene, motion, {
   }
 });
 var controls = new Controls(clock, motion, decimals, scene.events);
+var painting = soon(paint);
 var colours = palette();
-var waiting = false;
 function repaint() {
-  if (waiting) return;
-  waiting = true;
-  requestAnimationFrame(paint);
+  painting();
 }
 function paint() {
-  waiting = false;
   drawing.paint(clock.t, colours);
   plots.paint(clock.t, colours);
   controls.paint();
@@ -2065,11 +2265,8 @@ function addPlot() {
 function head() {
   return { title, t: clock.t, instant: motion.named(clock.t, decimals) };
 }
-function saveCanvas(canvas, what) {
-  canvas.toBlob((blob) => blob && download(nameOf(title, what), blob, "image/png"), "image/png");
-}
 function saveValues() {
-  const curves = plots.cards.flatMap(({ plot }) => plot.curves);
+  const curves = plots.cards.flatMap(({ curves: curves2 }) => curves2);
   download(nameOf(title, "_values.csv"), table(motion, curves), "text/csv;charset=utf-8");
 }
 function zoom(factor) {
@@ -2106,8 +2303,8 @@ function connectButtons() {
     shorter: () => magnifyArrows(1 / 1.5),
     help: toggleKeys,
     "add-plot": addPlot,
-    "save-drawing": () => saveCanvas(drawingPicture(drawing, head(), paperPalette()), "_drawing.png"),
-    "save-plots": () => saveCanvas(plotsPicture(plots.cards, head(), paperPalette()), "_plots.png"),
+    "save-drawing": () => saveDrawing(drawing, head()),
+    "save-plots": () => savePlots(plots.cards, head()),
     "save-values": saveValues
   };
   for (const [id, press] of Object.entries(presses)) byId(id).addEventListener("click", () => press());

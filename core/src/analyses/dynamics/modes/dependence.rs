@@ -1,4 +1,4 @@
-//! Which friction and contacts can hold together, and what follows for the others.
+//! Decides which friction and contacts can hold together, and the modes of the others.
 //!
 //! Equations may depend on others. Where they depend on those of other friction, friction follows it. Where joints and
 //! drivers alone hold the coordinate of friction, it is idle until a driver moves it, and where its speed is zero for a
@@ -6,7 +6,7 @@
 
 use super::super::model_cache::ModelCache;
 use super::super::redundant_rows::workspace_at;
-use super::place::{largest, mode_of, Place, STILL};
+use super::place::{largest, mode_of, StateAt, STILL};
 use crate::analyses::mobility;
 use crate::elements::{Behaviour, Mode};
 use crate::equations::constraints;
@@ -21,7 +21,7 @@ const BEGINS: f64 = 1e-6;
 /// modes have the directions in which friction slides otherwise.
 pub(super) fn independent(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     free: &[ForceMode],
     candidates: &[(usize, f64)],
 ) -> Vec<ForceMode> {
@@ -66,7 +66,7 @@ pub(super) fn independent(
 }
 
 /// The value that a row of a phase holds: that of a coordinate if friction sticks, zero for a contact.
-fn value_of(phase: &Model, place: &Place<'_>, row: usize) -> f64 {
+fn value_of(phase: &Model, place: &StateAt<'_>, row: usize) -> f64 {
     let owner = phase.forces.iter().find(|item| item.held_row == Some(row));
     let Some(Behaviour::Sticks) = owner.and_then(|item| item.element.behaviour()) else {
         return 0.0;
@@ -80,7 +80,7 @@ fn value_of(phase: &Model, place: &Place<'_>, row: usize) -> f64 {
 /// The mode of a force whose equation depends on those that hold, on joints and on drivers.
 fn dependent(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     held: &[ForceMode],
     (force, free): (usize, Mode),
 ) -> ForceMode {
@@ -98,10 +98,10 @@ fn dependent(
     }
 }
 
-/// The friction that holds without which a friction would slide, and the sign of its speed then.
+/// The sticking friction that keeps another one, `force`, from sliding, and the sign of the speed if it were released.
 fn leader(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     held: &[ForceMode],
     force: usize,
 ) -> Option<(usize, f64)> {
@@ -127,11 +127,11 @@ fn leader(
     found.map(|(ratio, leader)| (leader, ratio.signum()))
 }
 
-/// Whether friction slides on that has no speed for a moment only: its speed changes its sign while the mechanism moves,
-/// or a driver begins to move it. Speed or acceleration then has the direction in which it slides.
+/// Whether friction whose speed is zero for a moment continues to slide: the speed changes its sign while the mechanism
+/// moves, or a driver begins to move it. Then the speed or the acceleration has the direction of sliding.
 fn passes(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     held: &[ForceMode],
     (force, free, begins): (usize, Mode, f64),
 ) -> bool {
@@ -139,7 +139,8 @@ fn passes(
         return false;
     };
     let jet = place.gap_jets(model, &[force], workspace.a())[0];
-    // what holds may hold the whole mechanism: its accelerations are then rounding errors of those without it
+    // the holding forces may keep the whole mechanism at rest; its accelerations are then rounding errors of the
+    // accelerations without these forces
     let free = place.solved(model).map_or(0.0, |free| largest(free.a()));
     let fastest = largest(workspace.a()).max(free);
     sign * jet.value > 0.5 * begins || sign * jet.rate > STILL * fastest

@@ -7,7 +7,7 @@
 use super::super::failure::Failure;
 use super::dependence::independent;
 use super::impacts::{self, restitution};
-use super::place::{largest, mode_of, unit, with_modes, Place, STILL};
+use super::place::{largest, mode_of, unit, with_modes, StateAt, STILL};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
@@ -32,7 +32,7 @@ const NOISE: f64 = 1e-13;
 /// before the velocities jumped, if they did.
 pub(super) fn decide(
     model: &Model,
-    place: &mut Place<'_>,
+    place: &mut StateAt<'_>,
     before: &[ForceMode],
     (touching, fired, jumped): (&[usize], &[usize], Option<f64>),
 ) -> Result<Vec<ForceMode>, Box<Failure>> {
@@ -40,7 +40,7 @@ pub(super) fn decide(
     impacts::halt(model, place, &rest)?;
     let all: Vec<usize> = with_modes(model).collect();
     let thresholds = place.thresholds(model, &all);
-    // after an impact that stops the mechanism, rounding errors are all that is left
+    // after an impact that stops the mechanism, only rounding errors of the speeds remain
     let speed = place.speed_scale(model, before).max(jumped.unwrap_or(0.0));
     let jumped = jumped.is_some();
     let mut modes: Vec<ForceMode> = Vec::new();
@@ -71,7 +71,7 @@ pub(super) fn decide(
     }
     let contact =
         |k: &usize| !matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Sticks));
-    // what was released holds only where nothing else does
+    // forces whose mode has just ended come last
     let ended = |k: &usize| fired.contains(k) && mode_of(before, *k).holds();
     candidates.sort_by_key(|k| (ended(k), !contact(k), *k));
     let ended: Vec<usize> = candidates.iter().copied().filter(ended).collect();
@@ -86,8 +86,8 @@ pub(super) fn decide(
     Ok(modes)
 }
 
-/// The slack of contacts that touch and of what holds: the rounding errors of gaps and forces.
-fn give_slack(model: &Model, place: &Place<'_>, touching: &[usize], modes: &mut [ForceMode]) {
+/// Sets the slack of contacts that touch and of forces that hold: the rounding errors of gaps and forces.
+fn give_slack(model: &Model, place: &StateAt<'_>, touching: &[usize], modes: &mut [ForceMode]) {
     let rates = place.gap_rates(model, touching);
     let gaps = place.thresholds(model, touching);
     let noise = NOISE * place.force_scale(model, &[]);
@@ -107,7 +107,7 @@ fn give_slack(model: &Model, place: &Place<'_>, touching: &[usize], modes: &mut 
 /// one rests, the flights of others may be lower.
 fn at_rest(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     before: &[ForceMode],
     touching: &[usize],
 ) -> Result<Vec<usize>, Box<Failure>> {
@@ -145,10 +145,10 @@ fn at_rest(
     }
 }
 
-/// Lets the candidates hold, without those that cannot. Those that `ended` have no reserve left.
+/// Finds the candidates that can hold. The reserve of those in `ended` is zero.
 fn hold(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     free: Vec<ForceMode>,
     (candidates, ended): (&[usize], &[usize]),
 ) -> Result<Vec<ForceMode>, Box<Failure>> {
@@ -159,7 +159,8 @@ fn hold(
     if found.as_ref().is_ok_and(|modes| fits(modes)) || candidates.len() > MOST_TRIED {
         return found;
     }
-    // what was released first may be needed later: all combinations, those that hold most first
+    // a force that was released early may have to hold after all: all combinations are tried, those in which most
+    // forces hold first
     for choice in 0..3_usize.pow(candidates.len() as u32) {
         let of = |place: usize| choice / 3_usize.pow(place as u32) % 3;
         let (mut now, mut left) = (free.clone(), Vec::new());
@@ -173,7 +174,7 @@ fn hold(
         }
         let modes = with_held(model, place, &now, &left);
         let ended = with_leaders(&modes, ended);
-        // friction in directions that do not belong together may have no solution
+        // with friction in contradictory directions there may be no solution
         if matches!(worst(&model.in_modes(&modes), place, &ended), Ok(None)) && fits(&modes) {
             return Ok(modes);
         }
@@ -184,7 +185,7 @@ fn hold(
 /// Releases the force with the largest excess until none exceeds its limit.
 fn released(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     mut now: Vec<ForceMode>,
     (all, ended): (&[(usize, f64)], &[usize]),
 ) -> Result<Vec<ForceMode>, Box<Failure>> {
@@ -206,7 +207,7 @@ fn released(
 /// The modes with some forces that hold, as far as their equations are independent.
 fn with_held(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     free: &[ForceMode],
     left: &[(usize, f64)],
 ) -> Vec<ForceMode> {
@@ -220,7 +221,7 @@ fn with_held(
 /// Whether the contacts among the candidates that are free move apart, and friction that slides moves in its direction.
 fn moves_apart(
     model: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     modes: &[ForceMode],
     candidates: &[usize],
 ) -> bool {
@@ -248,7 +249,7 @@ fn with_leaders(held: &[ForceMode], ended: &[usize]) -> Vec<usize> {
 /// The force that exceeds what it can hold most, and the direction in which friction slides then.
 fn worst(
     phase: &Model,
-    place: &Place<'_>,
+    place: &StateAt<'_>,
     ended: &[usize],
 ) -> Result<Option<(usize, Option<f64>)>, Box<Failure>> {
     let ([q, v, z], t) = (place.state(phase), place.t);

@@ -15,7 +15,7 @@
 use super::super::failure::{Failure, Reason};
 use super::super::model_cache::ModelCache;
 use super::super::redundant_rows::workspace_at;
-use super::place::{mode_of, with_modes, Place};
+use super::place::{mode_of, with_modes, StateAt};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, energy};
@@ -35,13 +35,14 @@ pub(super) struct Hits {
 }
 
 /// The contacts that touch: those that rest, and those with a closed gap.
-pub(super) fn touching(model: &Model, place: &Place<'_>, before: &[ForceMode]) -> Vec<usize> {
+pub(super) fn touching(model: &Model, place: &StateAt<'_>, before: &[ForceMode]) -> Vec<usize> {
     let impacts =
         |k: &usize| matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Impacts { .. }));
     let all: Vec<usize> = with_modes(model).filter(impacts).collect();
     let gaps = place.thresholds(model, &all);
-    let touches =
-        |(k, gap): &(usize, f64)| mode_of(before, *k).holds() || Place::is_closed(*gap, model, *k);
+    let touches = |(k, gap): &(usize, f64)| {
+        mode_of(before, *k).holds() || StateAt::is_closed(*gap, model, *k)
+    };
     all.into_iter().zip(gaps).filter(touches).map(|(k, _)| k).collect()
 }
 
@@ -56,7 +57,7 @@ pub(super) fn restitution(model: &Model, k: usize) -> (f64, f64) {
 /// Lets the touching contacts that approach hit, until none approaches.
 pub(super) fn resolve(
     model: &Model,
-    place: &mut Place<'_>,
+    place: &mut StateAt<'_>,
     touching: &[usize],
 ) -> Result<Hits, Box<Failure>> {
     let mut found = Hits::default();
@@ -93,7 +94,7 @@ pub(super) fn resolve(
 /// Takes the small rates of the gaps of contacts that come to rest.
 pub(super) fn halt(
     model: &Model,
-    place: &mut Place<'_>,
+    place: &mut StateAt<'_>,
     contacts: &[usize],
 ) -> Result<(), Box<Failure>> {
     let rates = place.gap_rates(model, contacts);
@@ -108,7 +109,7 @@ pub(super) fn halt(
 /// One round: all these contacts hit, each with the rate of its gap and with its restitution.
 fn hit(
     model: &Model,
-    place: &mut Place<'_>,
+    place: &mut StateAt<'_>,
     (approach, own): (&[(usize, f64)], Restitutions<'_>),
     impulses: &mut [f64],
 ) -> Result<(), Box<Failure>> {

@@ -15,7 +15,7 @@ mod mode_events;
 mod place;
 
 pub(super) use mode_events::{watched_mode, ModeFunction};
-pub(super) use place::{has_mode, Place};
+pub(super) use place::{has_mode, StateAt};
 
 use place::{is_contact, largest, with_modes};
 
@@ -47,7 +47,7 @@ pub(super) struct Settled {
 /// [`Failure`] where contacts hit without end, and where the equations have no solution.
 pub(super) fn settle(
     model: &Model,
-    place: &mut Place<'_>,
+    place: &mut StateAt<'_>,
     before: &[ForceMode],
     fired: &[usize],
 ) -> Result<Settled, Box<Failure>> {
@@ -72,12 +72,12 @@ pub(super) fn settle(
 ///
 /// # Errors
 /// [`Failure`] with [`Reason::Start`].
-pub(super) fn check(model: &Model, place: &Place<'_>) -> Result<(), Box<Failure>> {
+pub(super) fn check(model: &Model, place: &StateAt<'_>) -> Result<(), Box<Failure>> {
     let t = place.t;
     let all: Vec<usize> = with_modes(model).filter(|k| is_contact(model, *k)).collect();
     for (k, gap) in all.iter().zip(place.thresholds(model, &all)) {
         let name = model.forces[*k].name.clone();
-        if Place::is_closed(-gap, model, *k) {
+        if StateAt::is_closed(-gap, model, *k) {
             continue;
         }
         let message = format!("the state is beyond {name} at t = {t:.6} s: its gap is {gap:.3e}");
@@ -98,7 +98,7 @@ pub(super) fn check(model: &Model, place: &Place<'_>) -> Result<(), Box<Failure>
 }
 
 /// The driver, or the joint, that holds the coordinate of a stop.
-fn held_by(model: &Model, place: &Place<'_>, force: usize) -> Option<String> {
+fn held_by(model: &Model, place: &StateAt<'_>, force: usize) -> Option<String> {
     let [q, ..] = place.state(model);
     let at = |value: f64| {
         model.in_modes(&[ForceMode { force, mode: Mode::Holds(0.0), value, slack: 0.0 }])

@@ -18,7 +18,7 @@ pub enum ModeFunction {
         /// Added to it.
         slack: f64,
     },
-    /// What is left until friction slips or a contact separates, and the slack of the mode.
+    /// The reserve until friction slips or a contact separates, and the slack of the mode.
     Reserve {
         /// The force.
         force: usize,
@@ -32,7 +32,7 @@ pub enum ModeFunction {
         /// This speed.
         at: f64,
     },
-    /// Of a mode that does not end by itself.
+    /// The mode does not end by itself.
     Never,
 }
 

@@ -21,12 +21,12 @@ const TOUCHING: f64 = 1e-10;
 const ROUNDING: f64 = 64.0;
 
 /// A state y = (q, v, z, works) at a time.
-pub struct Place<'y> {
+pub struct StateAt<'y> {
     pub t: f64,
     pub y: &'y mut [f64],
 }
 
-impl Place<'_> {
+impl StateAt<'_> {
     /// q, v and z.
     pub fn state<S: Real>(&self, model: &Model<S>) -> [&[f64]; 3] {
         let [q, v, z, _] = model.layout.split(self.y);

@@ -6,18 +6,19 @@
 
 use super::{After, Due, Switching, AGAIN};
 use crate::integrate::Step;
-use crate::model::{Model, Owner};
+use crate::model::{Model, SwitchOwner};
 
 /// Part of a step over which the rate of u is found.
 const PART: f64 = 1e-3;
 
 impl Switching {
-    /// What follows a step to the break of a curve that the contact has not reached at its end; None of other steps.
+    /// How the run continues after a step that was to end at the break of a curve, if the contact has not reached the
+    /// break. None for other steps.
     pub(super) fn approach(&mut self, model: &Model, step: &Step<'_>) -> Option<After> {
         let due = self.due.as_ref().filter(|due| due.t == step.t)?;
         let &[(k, piece)] = &due.changes[..] else { return None };
         let switch = &model.switches[k];
-        if switch.law || !matches!(switch.owner, Owner::Constraint(_)) {
+        if switch.law || !matches!(switch.owner, SwitchOwner::Constraint(_)) {
             return None;
         }
         let tries = due.tries;

@@ -1,19 +1,23 @@
-// A plot over time with a cursor at the present, and the values under the pointer.
-import { axisLabel, besideUnit, fixed, scaled, significant } from "../draw/numbers";
+// A plot with a cursor at the present, and the value under the pointer. Curves of one unit share its axes.
+import { displayed } from "../draw/display";
+import { circle } from "../draw/line";
+import { axisLabel, besideUnit, fixed, readable, scaled, significant } from "../draw/numbers";
 import { type Colours, cleared, colourOf, dashOf, font, rimmed, sharpen } from "../draw/surface";
 import type { Point } from "../plane/points";
 import { Axes } from "./axes";
-import type { Curve } from "./curve";
-import type { Motion } from "./motion";
+import { type Across, type Curve, shownValues } from "./curve";
+import { lineOf, type Place } from "./line";
 import { exponents, widened } from "./ranges";
 import type { TimeSpan } from "./timespan";
 
-const DEGREES = 180 / Math.PI;
+const STORED = { dash: [6, 5], width: 1.3 };
+const WIDTH = 1.8;
 
 /** Plots curves of one unit on a canvas. */
 export class Plot {
-  curves: Curve[] = [];
+  curves: readonly Curve[] = [];
   log = false;
+  /** Angles in degrees and speeds in rpm. */
   degrees = false;
   /** Where the pointer is, px; null if it is elsewhere. */
   pointer: Point | null = null;
@@ -32,31 +36,37 @@ export class Plot {
   private kept: { key: string; picture: HTMLCanvasElement } | null = null;
 
   constructor(
-    private readonly canvas: HTMLCanvasElement,
-    private readonly motion: Motion,
-    private readonly span: TimeSpan,
+    readonly canvas: HTMLCanvasElement,
+    private span: TimeSpan,
+    private across: Across,
   ) {
     this.scale();
   }
 
   /** Show these curves. */
-  show(curves: Curve[], symbol: string): void {
+  show(curves: readonly Curve[], symbol: string): void {
     this.curves = curves;
     this.symbol = symbol;
     this.scale();
   }
 
+  /** What lies on the horizontal axis, and the part of it that is shown. */
+  over(span: TimeSpan, across: Across): void {
+    this.span = span;
+    this.across = across;
+    this.version += 1;
+  }
+
   /** Choose units and ranges for the curves. */
   scale(): void {
-    const given = this.curves[0]?.unit ?? "";
-    const turns = this.degrees && given.startsWith("rad");
-    const factor = turns ? DEGREES : 1;
+    const { factor, unit } = displayed(readable(this.curves[0]?.unit ?? ""), this.degrees);
     const values = this.curves.map((curve) =>
-      curve.values.map((value) => factor * curve.shown(value)).filter(Number.isFinite),
+      shownValues(curve)
+        .map((value) => factor * value)
+        .filter(Number.isFinite),
     );
     const peaks = values.map((all) => all.reduce((most, value) => Math.max(most, Math.abs(value)), 0));
     const peak = Math.max(0, ...peaks);
-    const unit = turns ? given.replace("rad", "°") : given;
     const written = this.log && peak > 0 ? { factor: 1, unit } : scaled(peak, unit);
     this.factor = factor / written.factor;
     this.peaks = peaks.map((one) => one / written.factor);
@@ -96,13 +106,13 @@ export class Plot {
   }
 
   timeAt(px: number): number {
-    return this.axes ? this.axes.timeAt(px) : this.motion.begin;
+    return this.axes ? this.axes.timeAt(px) : this.span.from;
   }
 
   /** Draw with the cursor at t and, if a time is looked at, a line there. */
   paint(t: number, looked: number | null, colours: Colours): void {
     const context = cleared(this.canvas);
-    if (!this.curves.length) return;
+    if (!this.curves.length || !this.width) return;
     context.drawImage(this.picture(colours), 0, 0, this.width, this.height);
     this.paintLine(context, t, colours.named.text);
     if (looked !== null) this.paintLine(context, looked, colours.named.accent);
@@ -129,8 +139,8 @@ export class Plot {
   }
 
   private paintStill(context: CanvasRenderingContext2D, colours: Colours): void {
-    const held = { range: this.range, log: this.onLog, divisor: this.motion.variable.divisor };
-    this.axes = new Axes(context, this, this.span, held);
+    const held = { range: this.range, log: this.onLog, unit: this.unit };
+    this.axes = new Axes(context, this, this.span, this.across, held);
     this.axes.paint(context, this.label, colours);
     context.save();
     this.axes.clip(context);
@@ -146,41 +156,18 @@ export class Plot {
   }
 
   /** The place of a value on the canvas; null where a logarithm has none. */
-  private place(t: number, value: number): Point | null {
+  private readonly place: Place = (t, value) => {
     if (!Number.isFinite(value) || (this.onLog && value === 0)) return null;
     return this.axes!.place(t, this.onLog ? Math.log10(Math.abs(value)) : value);
-  }
+  };
 
   private paintCurve(context: CanvasRenderingContext2D, curve: Curve, colours: Colours): void {
+    const scaled: Place = (t, value) => this.place(t, this.factor * value);
     context.strokeStyle = colourOf(curve.number, colours);
-    context.setLineDash(dashOf(curve.number));
-    context.lineWidth = 1.8;
-    context.stroke(this.line(curve));
+    context.setLineDash(curve.stored ? STORED.dash : dashOf(curve.number));
+    context.lineWidth = curve.stored ? STORED.width : WIDTH;
+    context.stroke(lineOf(curve, [this.span.from, this.span.to], this.width, scaled));
     context.setLineDash([]);
-  }
-
-  /** A curve between the edges of the window, in pieces of at most 4 px, with gaps where it has no value. */
-  private line(curve: Curve): Path2D {
-    const { t } = this.motion;
-    const [{ low: first }, { high: last }] = [this.motion.place(this.span.from), this.motion.place(this.span.to)];
-    const apart = this.width / Math.max(1, last - first);
-    const pieces = this.motion.smooth ? Math.min(16, Math.ceil(apart / 4)) : 1;
-    const path = new Path2D();
-    let broken = true;
-    const visit = (at: number, value: number) => {
-      const place = this.place(at, value);
-      if (place && broken) path.moveTo(...place);
-      if (place) path.lineTo(...place);
-      broken = !place;
-    };
-    for (let k = first; k <= last; k += 1) {
-      visit(t[k]!, this.factor * curve.shown(curve.values[k]!));
-      for (let piece = 1; piece < pieces && k < last; piece += 1) {
-        const at = t[k]! + (piece / pieces) * (t[k + 1]! - t[k]!);
-        visit(at, this.shown(curve, at));
-      }
-    }
-    return path;
   }
 
   private paintLine(context: CanvasRenderingContext2D, t: number, colour: string): void {
@@ -189,12 +176,16 @@ export class Plot {
     this.axes!.line(context, t);
   }
 
+  /** Those curves of which t is a part. */
+  private at(t: number): Curve[] {
+    return this.curves.filter(({ t: own }) => own[0]! <= t && t <= own[own.length - 1]!);
+  }
+
   private paintDots(context: CanvasRenderingContext2D, t: number, colours: Colours): void {
-    for (const curve of this.curves) {
+    for (const curve of this.at(t)) {
       const place = this.place(t, this.shown(curve, t));
       if (!place) continue;
-      const dot = new Path2D();
-      dot.arc(...place, 4, 0, 2 * Math.PI);
+      const dot = circle(place, curve.stored ? 3 : 4);
       context.fillStyle = colourOf(curve.number, colours);
       context.fill(dot);
       context.strokeStyle = colours.named.panel;
@@ -203,17 +194,19 @@ export class Plot {
   }
 
   /** The curve nearest to the pointer at t. */
-  private nearest(t: number, [, y]: Point): Curve {
+  private nearest(t: number, [, y]: Point): Curve | null {
     const away = (curve: Curve) => {
       const place = this.place(t, this.shown(curve, t));
       return place ? Math.abs(place[1] - y) : Number.POSITIVE_INFINITY;
     };
-    return this.curves.reduce((best, curve) => (away(curve) < away(best) ? curve : best));
+    const [first, ...others] = this.at(t);
+    return first ? others.reduce((best, curve) => (away(curve) < away(best) ? curve : best), first) : null;
   }
 
-  /** Time and value of the curve nearest to the pointer, as text beside the line. */
+  /** Name and value of the curve nearest to the pointer, as text beside the line. */
   private paintReading(context: CanvasRenderingContext2D, t: number, pointer: Point, colours: Colours): string {
     const curve = this.nearest(t, pointer);
+    if (!curve) return "";
     const text = `${curve.name} = ${this.write(curve, t)}`;
     context.font = font(12, 600);
     context.textBaseline = "top";

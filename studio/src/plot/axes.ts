@@ -1,8 +1,10 @@
 // The axes of a plot: which values they hold, where a value is, and how ticks are written.
+import { Line } from "../draw/line";
+import { axisLabel } from "../draw/numbers";
 import { type Colours, font } from "../draw/surface";
-import { decades, type Ticks, ticks } from "../draw/ticks";
+import { angleTicks, decades, type Ticks, ticks } from "../draw/ticks";
 import type { Point } from "../plane/points";
-import { texts } from "./texts";
+import type { Across } from "./curve";
 import type { TimeSpan } from "./timespan";
 
 const TOP = 32;
@@ -16,33 +18,40 @@ export interface Size {
   height: number;
 }
 
-/** What the axes hold: a range of values or exponents, and by what times are divided. */
+/** What the axis upwards holds: a range of values or exponents, and their unit. */
 export interface Held {
   range: Point;
   log: boolean;
-  divisor: number;
+  unit: string;
+}
+
+/** Ticks for values of a unit. */
+function inUnit(unit: string): typeof ticks {
+  return unit === "°" ? angleTicks : ticks;
 }
 
 /** Axes of a plot of a size over a span of time. */
 export class Axes {
   private readonly left: number;
   private readonly up: Ticks;
-  private readonly across: Ticks;
+  private readonly along: Ticks;
 
   constructor(
     context: CanvasRenderingContext2D,
     private readonly size: Size,
     private readonly span: TimeSpan,
+    private readonly across: Across,
     private readonly held: Held,
   ) {
-    const { range, log, divisor } = held;
+    const { range, log, unit } = held;
     const count = Math.max(2, Math.floor((size.height - TOP - BOTTOM) / 36));
-    this.up = log ? decades(...range, count) : ticks(...range, count);
+    this.up = log ? decades(...range, count) : inUnit(unit)(...range, count);
     context.font = font(TICK_TEXT);
     const widest = Math.max(...this.up.values.map((value) => context.measureText(this.up.write(value)).width));
     this.left = Math.ceil(Math.max(34, widest + 16));
     const most = Math.max(2, Math.floor((size.width - this.left) / 90));
-    this.across = ticks(span.from / divisor, span.to / divisor, most);
+    const { divisor, shown } = across;
+    this.along = inUnit(shown)(span.from / divisor, span.to / divisor, most);
   }
 
   /** Where a time and a value (of the logarithm on a logarithmic axis) are, px. */
@@ -79,7 +88,7 @@ export class Axes {
     context.fillStyle = colours.named.text;
     context.textAlign = "center";
     context.textBaseline = "alphabetic";
-    context.fillText(texts.timeAxis, (this.left + width - RIGHT) / 2, height - 5);
+    context.fillText(axisLabel(this.across.name, this.across.shown), (this.left + width - RIGHT) / 2, height - 5);
     context.textAlign = "left";
     context.textBaseline = "top";
     context.fillText(label, 10, 7);
@@ -91,24 +100,24 @@ export class Axes {
     context.textBaseline = "middle";
     for (const value of this.up.values) {
       const y = Math.round(this.place(this.span.from, value)[1]) + 0.5;
-      context.stroke(new Path2D(`M${this.left} ${y}H${this.size.width - RIGHT}`));
+      context.stroke(new Line(`M${this.left} ${y}H${this.size.width - RIGHT}`));
       context.fillText(this.up.write(value), this.left - 8, y);
     }
   }
 
-  /** Ticks of time; the last one is moved to the left where it would be cut. */
+  /** Ticks along the axis; the last one is moved to the left where it would be cut. */
   private paintAcross(context: CanvasRenderingContext2D, colours: Colours): void {
     const { width, height } = this.size;
     const base = height - BOTTOM;
     context.strokeStyle = colours.named.edge;
     context.textAlign = "center";
     context.textBaseline = "top";
-    context.stroke(new Path2D(`M${this.left} ${base + 0.5}H${width - RIGHT}`));
-    for (const value of this.across.values) {
-      const x = Math.round(this.place(value * this.held.divisor, this.held.range[0])[0]) + 0.5;
-      const text = this.across.write(value);
+    context.stroke(new Line(`M${this.left} ${base + 0.5}H${width - RIGHT}`));
+    for (const value of this.along.values) {
+      const x = Math.round(this.place(value * this.across.divisor, this.held.range[0])[0]) + 0.5;
+      const text = this.along.write(value);
       const half = context.measureText(text).width / 2 + 2;
-      context.stroke(new Path2D(`M${x} ${base}v5`));
+      context.stroke(new Line(`M${x} ${base}v5`));
       context.fillText(text, Math.min(x, width - half), base + 8);
     }
   }
@@ -116,6 +125,6 @@ export class Axes {
   /** A line up at t. */
   line(context: CanvasRenderingContext2D, t: number): void {
     const [x] = this.place(t, this.held.range[0]);
-    context.stroke(new Path2D(`M${x} ${TOP - 6}V${this.size.height - BOTTOM}`));
+    context.stroke(new Line(`M${x} ${TOP - 6}V${this.size.height - BOTTOM}`));
   }
 }

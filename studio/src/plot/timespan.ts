@@ -1,24 +1,28 @@
-// The part of the time that plots show.
-import type { Motion } from "./motion";
+// The part of the time, or of what takes its place, that plots show.
 
-/** A window of time within a motion; all plots share it. */
+export interface Ends {
+  readonly begin: number;
+  readonly end: number;
+}
+
+/** A window within the ends of a motion; all plots share it. */
 export class TimeSpan {
   from: number;
   to: number;
 
-  constructor(private readonly motion: Motion) {
-    this.from = motion.begin;
-    this.to = motion.end;
+  constructor(private readonly ends: Ends) {
+    this.from = ends.begin;
+    this.to = ends.end;
   }
 
   showAll(): void {
-    this.from = this.motion.begin;
-    this.to = this.motion.end;
+    this.from = this.ends.begin;
+    this.to = this.ends.end;
   }
 
   /** Show `factor` times as much time around t. */
   stretch(factor: number, t: number): void {
-    const { begin, end } = this.motion;
+    const { begin, end } = this.ends;
     const [from, to] = [t + (this.from - t) * factor, t + (this.to - t) * factor];
     if (to - from < 1e-6 * (end - begin)) return;
     this.from = Math.max(begin, from);
@@ -28,8 +32,9 @@ export class TimeSpan {
   /** Move the window so that it holds t. */
   follow(t: number): void {
     if (t >= this.from && t <= this.to) return;
+    const { begin, end } = this.ends;
     const length = this.to - this.from;
-    this.from = Math.min(Math.max(t - 0.1 * length, this.motion.begin), this.motion.end - length);
+    this.from = Math.min(Math.max(t - 0.1 * length, begin), end - length);
     this.to = this.from + length;
   }
 }

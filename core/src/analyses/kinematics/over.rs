@@ -1,0 +1,170 @@
+//! A motion over a driven value: the value of a quantity takes the place of the time.
+//!
+//! The mechanism is written anew so that its quantity is t: by its driver, by the joint that has it as a field, or by
+//! a new driver. Laws of time of all other joints and drivers keep their value at the start.
+
+use crate::analyses::{readings, State};
+use crate::elements::{self, Group};
+use crate::model::{Definition, Entry, Model, Problem, Value};
+
+/// Fields of joints and drivers that take laws of time.
+const LAWS: [&str; 3] = ["value", "length", "residual"];
+/// The name of a new driver, if no other has it.
+const NAME: &str = "over";
+
+/// A mechanism in which t is the value of a quantity.
+pub struct Over {
+    /// The mechanism, written anew.
+    pub definition: Definition,
+    /// The quantity.
+    pub quantity: String,
+    /// Its SI unit.
+    pub unit: String,
+    /// Its value at the start, which is the new t.
+    pub value: f64,
+}
+
+/// The mechanism of `definition`, whose model is `model`, with t as the value of `over`, a driver or a position quantity.
+///
+/// # Errors
+/// The model has no such driver or quantity, or several drivers determine the motion already.
+pub fn over(
+    definition: &Definition,
+    model: &Model,
+    start: &State,
+    over: &str,
+) -> Result<Over, Problem> {
+    let mut definition = definition.clone();
+    let known = definition.drivers.iter().find(|entry| entry.name == over);
+    let quantity = known.and_then(|entry| text(entry, "coordinate")).unwrap_or(over).to_string();
+    let found = readings::find(model, &quantity)
+        .map_err(|problem| Problem { path: vec!["over".to_string()], ..problem })?;
+    let value = readings::of_state(model, start, &[&quantity])[0];
+    let own = definition.drivers.iter().find(|entry| text(entry, "coordinate") == Some(&quantity));
+    let driver = own.map(|entry| entry.name.clone());
+    hold_others(&mut definition, driver.as_deref(), start.t);
+    if driver.is_none() && model.layout.n_rows >= model.layout.n_q {
+        replace_the_driver(&mut definition, over)?;
+    }
+    drive(&mut definition, driver.as_deref(), &quantity);
+    Ok(Over { definition, quantity, unit: found.unit, value })
+}
+
+fn text<'a>(entry: &'a Entry, key: &str) -> Option<&'a str> {
+    match entry.get(key) {
+        Some(Value::Text(text)) => Some(text),
+        _ => None,
+    }
+}
+
+/// Removes the only driver of a mechanism without freedom, and the measures of this driver.
+fn replace_the_driver(definition: &mut Definition, over: &str) -> Result<(), Problem> {
+    if definition.drivers.len() > 1 {
+        let names: Vec<&str> = definition.drivers.iter().map(|one| one.name.as_str()).collect();
+        let message = format!("the drivers {} determine the motion already", names.join(", "));
+        return Err(Problem::at(&["over"], message)
+            .hint(format!("name one of them, or remove the one that {over} replaces")));
+    }
+    for gone in std::mem::take(&mut definition.drivers) {
+        let stays = |value: &Value| !matches!(value, Value::Text(text) if reads(text, &gone.name));
+        definition.measures.retain(|(_, value)| stays(value));
+    }
+    Ok(())
+}
+
+/// Lets t drive a quantity: by its driver, by the joint that has it as a field, or by a new driver.
+fn drive(definition: &mut Definition, driver: Option<&str>, quantity: &str) {
+    let law = || Value::Text("t".to_string());
+    let (element, field) = quantity.rsplit_once('.').unwrap_or_default();
+    let joint = definition.joints.iter_mut().find(|entry| entry.name == element);
+    let field = joint.and_then(|entry| entry.fields.iter_mut().find(|(key, _)| key == field));
+    if let (None, Some((_, value))) = (driver, field) {
+        *value = law();
+        return;
+    }
+    let fields = |kind: String| {
+        let coordinate = Value::Text(quantity.to_string());
+        [("type", Value::Text(kind)), ("coordinate", coordinate), ("value", law())]
+            .map(|(key, value)| (key.to_string(), value))
+            .to_vec()
+    };
+    let own = definition.drivers.iter_mut().find(|entry| Some(entry.name.as_str()) == driver);
+    match own {
+        Some(entry) => entry.fields = fields(text(entry, "type").unwrap_or_default().to_string()),
+        None => {
+            let name = free_name(definition);
+            definition.drivers.push(Entry { name, fields: fields(driver_of_coordinates()) });
+        }
+    }
+}
+
+/// The type of the driver of a coordinate.
+fn driver_of_coordinates() -> String {
+    let drives = |table: &elements::Table| {
+        ["coordinate", "value"].iter().all(|key| table.fields.iter().any(|one| one.name == *key))
+    };
+    let found = elements::catalogue().into_iter();
+    let mut drivers = found.filter(|(group, table)| *group == Group::Drivers && drives(table));
+    drivers.next().map(|(_, table)| table.name.to_string()).unwrap_or_default()
+}
+
+/// A name for a new driver: "over", or "over_1" and so on.
+fn free_name(definition: &Definition) -> String {
+    let Definition { bodies, joints, drivers, forces, measures, .. } = definition;
+    let entries = [bodies, joints, drivers, forces].into_iter().flatten();
+    let taken = entries.map(|entry| &entry.name).chain(measures.iter().map(|(name, _)| name));
+    let taken: Vec<&String> = taken.collect();
+    let more = (1..=taken.len()).map(|k| format!("{NAME}_{k}"));
+    let mut names = std::iter::once(NAME.to_string()).chain(more);
+    names.find(|name| !taken.contains(&name)).expect("there are more names than entries")
+}
+
+/// Replaces the time in the laws of joints and drivers by that of the start, except in one driver.
+fn hold_others(definition: &mut Definition, driver: Option<&str>, t: f64) {
+    let others = |entry: &&mut Entry| Some(entry.name.as_str()) != driver;
+    for entry in definition.joints.iter_mut().chain(definition.drivers.iter_mut().filter(others)) {
+        let laws = entry.fields.iter_mut().filter(|(key, _)| LAWS.contains(&key.as_str()));
+        laws.for_each(|(_, value)| hold(value, t));
+    }
+}
+
+fn hold(value: &mut Value, t: f64) {
+    match value {
+        Value::Text(text) => *text = at_time(text, t),
+        Value::List(values) => values.iter_mut().for_each(|one| hold(one, t)),
+        _ => {}
+    }
+}
+
+/// A formula with a number in place of the name `t`.
+fn at_time(formula: &str, t: f64) -> String {
+    let mut held = String::new();
+    for (word, after) in words(formula) {
+        match word == "t" && !after.starts_with('(') {
+            true => held.push_str(&format!("({t:?})")),
+            false => held.push_str(word),
+        }
+    }
+    held
+}
+
+/// Whether a formula reads a quantity of an element.
+fn reads(formula: &str, element: &str) -> bool {
+    words(formula).any(|(word, _)| word.split_once('.').is_some_and(|(owner, _)| owner == element))
+}
+
+/// The names and numbers of a formula and the signs between them, each with the text behind it.
+fn words(formula: &str) -> impl Iterator<Item = (&str, &str)> {
+    let in_word = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
+    let mut rest = formula;
+    std::iter::from_fn(move || {
+        let first = rest.chars().next()?;
+        let length = match in_word(first) {
+            true => rest.find(|c| !in_word(c)).unwrap_or(rest.len()),
+            false => first.len_utf8(),
+        };
+        let (word, after) = rest.split_at(length);
+        rest = after;
+        Some((word, after))
+    })
+}

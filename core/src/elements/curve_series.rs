@@ -1,0 +1,104 @@
+//! A curve near a number u by its Taylor series there.
+//!
+//! A scalar with derivatives of order up to four differs from its value by a d with d⁵ = 0. C, C′, C″ and C‴ over such a
+//! scalar follow exactly from the derivatives of order 0 to 7 at the value, which are numbers: the formulas of a curve
+//! need not be compiled for every scalar. WebAssembly uses this, where the size of the program matters. Parameters of
+//! the curve must be constants.
+
+use crate::math::{Dual, Jet, Local, Real};
+
+/// u with its derivatives to seventh order.
+pub(super) type Series = Jet<Jet<Jet<Dual<1>>>>;
+
+/// Derivatives of order 0 to 7.
+pub(super) type Orders = [Local; 8];
+
+/// The variable u.
+pub(super) fn variable(u: f64) -> Series {
+    jet(jet(jet(Dual::variable(u, 0))))
+}
+
+fn jet<S: Real>(value: S) -> Jet<S> {
+    Jet::new(value, S::one(), S::zero())
+}
+
+/// The derivatives of a point with these components.
+pub(super) fn orders(x: &Series, y: &Series) -> Orders {
+    let (x, y) = (of(x), of(y));
+    std::array::from_fn(|n| Local::new(x[n], y[n]))
+}
+
+/// Each level of jets adds two orders, and the dual number one.
+fn of(x: &Series) -> [f64; 8] {
+    let levels = [x.value.value.value, x.value.value.second, x.value.second.second];
+    let all = [levels[0], levels[1], levels[2], x.second.second.second];
+    std::array::from_fn(|n| if n % 2 == 0 { all[n / 2].value } else { all[n / 2].slope[0] })
+}
+
+/// C, C′, C″ and C‴ at a distance d whose value is 0. An order from four on that is not finite counts as zero: few
+/// scalars use it.
+pub(super) fn at<S: Real>(orders: &Orders, d: S) -> [Local<S>; 4] {
+    let part = |n: usize, component: fn(&Local) -> f64| {
+        let term = |k: usize| {
+            let order = component(&orders[n + k]);
+            S::constant(if n + k < 4 || order.is_finite() { order } else { 0.0 })
+        };
+        (1..=4).rev().fold(S::zero(), |sum, k| d * (term(k) + sum) * S::constant(1.0 / k as f64))
+            + term(0)
+    };
+    std::array::from_fn(|n| Local::new(part(n, |s| s.x), part(n, |s| s.y)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A point with derivatives of every order.
+    fn point<S: Real>(u: S) -> [S; 2] {
+        let c = S::constant;
+        [(u * c(1.3)).sin() * u.exp(), (u * u + c(1.0)).sqrt() / (c(2.0) + u)]
+    }
+
+    /// C, C′, C″ and C‴ by jets of dual numbers over the scalar.
+    fn nested<S: Real>(u: S) -> [Local<S>; 4] {
+        let [x, y] = point::<Jet<Dual<1, S>>>(jet(Dual::variable(u, 0)));
+        let all =
+            |x: Jet<Dual<1, S>>| [x.value.value, x.rate.value, x.second.value, x.second.slope[0]];
+        let (x, y) = (all(x), all(y));
+        std::array::from_fn(|n| Local::new(x[n], y[n]))
+    }
+
+    fn series<S: Real>(u: S) -> [Local<S>; 4] {
+        let value = u.in_lanes()[0];
+        let [x, y] = point(variable(value));
+        at(&orders(&x, &y), u - S::constant(value))
+    }
+
+    #[test]
+    fn a_scalar_with_derivatives_of_fourth_order_is_exact() {
+        let inner = |x: f64, a: f64, b: f64| Jet::new(x, a, b);
+        let u: Jet<Jet> =
+            Jet::new(inner(0.7, 0.3, -0.2), inner(1.1, 0.4, 0.9), inner(-0.5, 0.8, 0.6));
+        for (a, b) in series(u).iter().zip(nested(u)) {
+            for (a, b) in [(a.x, b.x), (a.y, b.y)] {
+                let numbers = |x: Jet<Jet>| {
+                    [x.value, x.rate, x.second].map(|x| [x.value, x.rate, x.second]).concat()
+                };
+                for (a, b) in numbers(a).into_iter().zip(numbers(b)) {
+                    assert!((a - b).abs() <= 1e-11 * (1.0 + b.abs()), "{a} {b}");
+                }
+            }
+        }
+        let u = Dual { value: Dual::<3>::variable(0.4, 1), slope: [Dual::variable(0.2, 2); 3] };
+        for (a, b) in series(u).iter().zip(nested(u)) {
+            assert!((a.x.slope[0].slope[2] - b.x.slope[0].slope[2]).abs() < 1e-11);
+        }
+    }
+
+    #[test]
+    fn a_number_has_its_derivatives_where_higher_ones_are_not_finite() {
+        let x = variable(0.0).powc(3.5);
+        let at = at(&orders(&x, &x), 0.0);
+        assert!(at.iter().all(|c| c.x == 0.0), "{at:?}");
+    }
+}

@@ -1,0 +1,358 @@
+//! Steps of several integrations side by side, one in each lane of the vector registers.
+//!
+//! The integrations have one method and systems of one structure. Each has its own time, step and error. The sums of a
+//! lane are those of an integration on its own, in the same order, so that the results are equal to the last bit.
+//!
+//! Only ordinary trial steps are taken so. Where a lane needs more, such as near a singular position, its integration
+//! takes the step alone, from the same state.
+
+use super::right_hand_side::all_finite;
+use super::runge_kutta::{RungeKutta, TrialStages};
+use super::stages::{combine, row, Block};
+use super::tolerances::LaneTolerances;
+use crate::math::{Lanes, Real};
+use std::any::TypeId;
+use std::marker::PhantomData;
+
+const WIDTH: usize = Lanes::WIDTH;
+
+/// Whether something holds, for each lane.
+pub type Mask = [bool; WIDTH];
+
+/// Systems y′ = f(t, y) of one structure, one in each lane.
+pub trait LaneOde {
+    /// Number of components of y.
+    fn components(&self) -> usize;
+
+    /// dy = f(t, y) in each lane; false if a lane needs more than the ordinary evaluation.
+    fn rates(&mut self, t: Lanes, y: &[Lanes], dy: &mut [Lanes]) -> bool;
+
+    /// Called after trials of `lanes` to the times `t`, near which f was evaluated last. Returns the lanes whose trials
+    /// are ordinary.
+    fn on_trials(&mut self, t: [f64; WIDTH], lanes: Mask) -> Mask;
+
+    /// Projects the accepted states of `lanes` onto their manifolds; other lanes stay. For each lane whether the state
+    /// changed; None if a state needs more than the ordinary iteration.
+    fn project(&mut self, t: Lanes, y: &mut [Lanes], lanes: Mask) -> [Option<bool>; WIDTH];
+
+    /// Called with the ends `t` of accepted steps of `lanes`, where f was evaluated last.
+    fn on_accepted(&mut self, t: [f64; WIDTH], lanes: Mask);
+}
+
+/// The outcome of a trial step in a lane.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Taken {
+    /// The stepper made a step.
+    Accepted,
+    /// The step was too long; the next trial is shorter.
+    Rejected,
+    /// Nothing was done: the stepper has to take its step alone.
+    Alone,
+}
+
+/// A stepper that can take ordinary steps beside others. [`LaneSteps`] calls its methods.
+pub trait SideBySide {
+    /// Its method.
+    #[doc(hidden)]
+    fn method(&self) -> &'static dyn LaneMethod;
+
+    /// Begins a trial: fills its lane, and returns the times t and t_new. None if it has to take the step alone.
+    #[doc(hidden)]
+    fn propose(&mut self, at: LaneStart<'_>) -> Option<[f64; 2]>;
+
+    /// Returns whether the error norm allows the trial; if not, the next one is shorter.
+    #[doc(hidden)]
+    fn judge(&mut self, norm: f64, evaluations: usize) -> bool;
+
+    /// Accepts the trial.
+    #[doc(hidden)]
+    fn accept(&mut self, norm: f64, end: LaneEnd<'_>);
+}
+
+/// The lane of a trial, to be filled with the state at its start, the derivative there, and the tolerances.
+#[doc(hidden)]
+pub struct LaneStart<'a> {
+    pub lane: usize,
+    pub y: &'a mut [Block],
+    pub dy: &'a mut [Block],
+    pub tolerances: &'a mut LaneTolerances,
+}
+
+/// The state at the end of a trial, in a lane, and the derivative there.
+#[doc(hidden)]
+pub struct LaneEnd<'a> {
+    pub lane: usize,
+    pub y: &'a [Block],
+    pub dy: &'a [Block],
+    pub projected: bool,
+    pub evaluations: usize,
+}
+
+/// An explicit method over lanes.
+#[doc(hidden)]
+pub trait LaneMethod: Sync {
+    fn id(&self) -> TypeId;
+    /// Number of stages with the derivative at the end, and whether the error contains that derivative.
+    fn stages(&self) -> (usize, bool);
+    fn advance(&self, trial: &mut LaneTrial<'_>, k: &mut [Block], y_new: &mut [Block]) -> bool;
+    fn norms(&self, h: Block, k: &[Block], y: [&[Block]; 2], by: &LaneTolerances) -> Block;
+}
+
+/// The method `P` over lanes.
+pub(super) struct OverLanes<P>(pub PhantomData<fn() -> P>);
+
+impl<P: RungeKutta> LaneMethod for OverLanes<P> {
+    fn id(&self) -> TypeId {
+        TypeId::of::<P>()
+    }
+
+    fn stages(&self) -> (usize, bool) {
+        (P::STAGES, P::LAST_IN_ERROR)
+    }
+
+    fn advance(&self, trial: &mut LaneTrial<'_>, k: &mut [Block], y_new: &mut [Block]) -> bool {
+        P::advance(trial, k, y_new).is_ok()
+    }
+
+    fn norms(&self, h: Block, k: &[Block], y: [&[Block]; 2], by: &LaneTolerances) -> Block {
+        let [a, b] = P::error_squares(k, y, by);
+        std::array::from_fn(|lane| P::error_norm(h[lane], [a[lane], b[lane]], by.components()))
+    }
+}
+
+/// A trial step in each lane.
+#[doc(hidden)]
+pub struct LaneTrial<'a> {
+    system: &'a mut dyn LaneOde,
+    t: Lanes,
+    t_new: Lanes,
+    h: Lanes,
+    y: &'a [Block],
+    /// The argument of a stage.
+    argument: &'a mut [Block],
+    registers: &'a mut Registers,
+}
+
+/// A trial is not ordinary in one of its lanes.
+#[doc(hidden)]
+pub struct NotOrdinary;
+
+fn ordinary(holds: bool) -> Result<(), NotOrdinary> {
+    match holds {
+        true => Ok(()),
+        false => Err(NotOrdinary),
+    }
+}
+
+impl TrialStages for LaneTrial<'_> {
+    type Stop = NotOrdinary;
+
+    fn width(&self) -> usize {
+        self.y.len()
+    }
+
+    #[inline(always)]
+    fn stage<const S: usize>(
+        &mut self,
+        c: f64,
+        a: [f64; S],
+        k: [&[Block]; S],
+        out: &mut [Block],
+    ) -> Result<(), NotOrdinary> {
+        ordinary(combine(self.y, self.h, a, k, self.argument))?;
+        let t = self.t + Lanes::constant(c) * self.h;
+        ordinary(self.registers.rates(self.system, t, self.argument, out))
+    }
+
+    #[inline(always)]
+    fn end<const S: usize>(
+        &mut self,
+        divisor: f64,
+        a: [f64; S],
+        k: [&[Block]; S],
+        out: &mut [Block],
+    ) -> Result<(), NotOrdinary> {
+        ordinary(combine(self.y, self.h / Lanes::constant(divisor), a, k, out))
+    }
+
+    fn rate_at_end(&mut self, y_new: &[Block], dy: &mut [Block]) -> Result<(), NotOrdinary> {
+        ordinary(self.registers.rates(self.system, self.t_new, y_new, dy))?;
+        self.finite(dy)
+    }
+
+    fn finite(&self, stage: &[Block]) -> Result<(), NotOrdinary> {
+        ordinary(all_finite(stage.as_flattened()))
+    }
+}
+
+/// A state and its derivative as lanes.
+#[derive(Default)]
+struct Registers {
+    y: Vec<Lanes>,
+    dy: Vec<Lanes>,
+}
+
+impl Registers {
+    fn put(&mut self, y: &[Block]) {
+        self.y.clear();
+        self.y.extend(y.iter().map(|y| Lanes::new(*y)));
+    }
+
+    /// dy = f(t, y); whether it is ordinary.
+    #[inline(never)] // once for all stages
+    fn rates(&mut self, system: &mut dyn LaneOde, t: Lanes, y: &[Block], dy: &mut [Block]) -> bool {
+        self.put(y);
+        self.dy.resize(y.len(), Lanes::zero());
+        let ordinary = system.rates(t, &self.y, &mut self.dy);
+        dy.iter_mut().zip(&self.dy).for_each(|(to, dy)| *to = dy.to_array());
+        ordinary
+    }
+}
+
+/// The steppers of the lanes; some lanes may be empty.
+pub type Steppers<'a, 's> = [Option<&'a mut (dyn SideBySide + 's)>; WIDTH];
+
+/// The times of the trials, and the lanes that have one.
+struct Times {
+    t: Block,
+    t_new: Block,
+    lanes: Mask,
+}
+
+/// Takes steps of up to four integrations side by side.
+#[derive(Default)]
+pub struct LaneSteps {
+    y: Vec<Block>,
+    y_new: Vec<Block>,
+    argument: Vec<Block>,
+    k: Vec<Block>,
+    /// The derivative at the end.
+    dy: Vec<Block>,
+    tolerances: LaneTolerances,
+    registers: Registers,
+}
+
+impl LaneSteps {
+    /// A trial step of each stepper that is given; the lane of another one is reported as [`Taken::Alone`].
+    pub fn step(
+        &mut self,
+        steppers: &mut Steppers<'_, '_>,
+        system: &mut dyn LaneOde,
+    ) -> [Taken; WIDTH] {
+        let mut taken = [Taken::Alone; WIDTH];
+        let Some(method) = steppers.iter().flatten().next().map(|first| first.method()) else {
+            return taken;
+        };
+        let Some(times) = self.begin(method, steppers, system.components()) else { return taken };
+        let Some(norms) = self.advance(method, &times, system) else { return taken };
+        let plain = system.on_trials(times.t_new, times.lanes);
+        let (stages, last_in_error) = method.stages();
+        let evaluations = stages - if last_in_error { 1 } else { 2 };
+        for lane in 0..WIDTH {
+            if let (Some(stepper), true) = (&mut steppers[lane], plain[lane]) {
+                let accepted = stepper.judge(norms[lane], evaluations);
+                taken[lane] = if accepted { Taken::Accepted } else { Taken::Rejected };
+            }
+        }
+        let accepted = taken.map(|taken| taken == Taken::Accepted);
+        if !accepted.contains(&true) {
+            return taken;
+        }
+        let projected = self.settle(last_in_error, &times, accepted, system);
+        let settled: Mask = std::array::from_fn(|lane| accepted[lane] && projected[lane].is_some());
+        system.on_accepted(times.t_new, settled);
+        for lane in (0..WIDTH).filter(|lane| accepted[*lane]) {
+            match (&mut steppers[lane], projected[lane]) {
+                (Some(stepper), Some(projected)) => {
+                    let evaluations = evaluations + usize::from(projected || !last_in_error);
+                    let end =
+                        LaneEnd { lane, y: &self.y_new, dy: &self.dy, projected, evaluations };
+                    stepper.accept(norms[lane], end);
+                }
+                _ => taken[lane] = Taken::Alone,
+            }
+        }
+        taken
+    }
+
+    /// The trials of the steppers; None if fewer than two have one. Empty lanes repeat a trial.
+    fn begin(
+        &mut self,
+        method: &dyn LaneMethod,
+        steppers: &mut Steppers<'_, '_>,
+        n: usize,
+    ) -> Option<Times> {
+        let empty = [0.0; WIDTH];
+        for rows in [&mut self.y, &mut self.y_new, &mut self.argument, &mut self.dy] {
+            rows.resize(n, empty);
+        }
+        self.k.resize(method.stages().0 * n, empty);
+        let mut times = Times { t: empty, t_new: empty, lanes: [false; WIDTH] };
+        let mut first = None;
+        for (lane, stepper) in steppers.iter_mut().enumerate() {
+            let Some(stepper) = stepper.as_mut().filter(|one| one.method().id() == method.id())
+            else {
+                continue;
+            };
+            let (y, dy) = (&mut self.y, &mut self.k[..n]);
+            let start = LaneStart { lane, y, dy, tolerances: &mut self.tolerances };
+            if let Some([t, t_new]) = stepper.propose(start) {
+                (times.t[lane], times.t_new[lane], times.lanes[lane]) = (t, t_new, true);
+                first = first.or(Some(lane));
+            }
+        }
+        let first = first.filter(|_| times.lanes.iter().filter(|has| **has).count() > 1)?;
+        for lane in (0..WIDTH).filter(|lane| !times.lanes[*lane]) {
+            (times.t[lane], times.t_new[lane]) = (times.t[first], times.t_new[first]);
+            self.tolerances.repeat(first, lane);
+            let both = self.y.iter_mut().chain(&mut self.k[..n]);
+            both.for_each(|block| block[lane] = block[first]);
+        }
+        Some(times)
+    }
+
+    /// The stages of all trials, and their error norms; None if one is not ordinary.
+    fn advance(
+        &mut self,
+        method: &dyn LaneMethod,
+        times: &Times,
+        system: &mut dyn LaneOde,
+    ) -> Option<Block> {
+        let Self { y, y_new, argument, k, tolerances, registers, .. } = self;
+        let [t, t_new] = [times.t, times.t_new].map(Lanes::new);
+        let h = t_new - t;
+        let mut trial = LaneTrial { system, t, t_new, h, y, argument, registers };
+        let advanced = method.advance(&mut trial, k, y_new);
+        advanced.then(|| method.norms(h.to_array(), k, [y, y_new], tolerances))
+    }
+
+    /// Projects the accepted states and evaluates f there. For each lane whether projection changed the state; None if
+    /// its stepper has to take the step alone.
+    fn settle(
+        &mut self,
+        last_in_error: bool,
+        times: &Times,
+        accepted: Mask,
+        system: &mut dyn LaneOde,
+    ) -> [Option<bool>; WIDTH] {
+        let Self { y_new, k, dy, registers, .. } = self;
+        let t = Lanes::new(times.t_new);
+        registers.put(y_new);
+        let mut projected = system.project(t, &mut registers.y, accepted);
+        y_new.iter_mut().zip(&registers.y).for_each(|(to, y)| *to = y.to_array());
+        if !last_in_error || projected.contains(&Some(true)) {
+            let ordinary = registers.rates(system, t, y_new, dy);
+            if !ordinary || !all_finite(dy.as_flattened()) {
+                projected = [None; WIDTH];
+            }
+        }
+        if last_in_error {
+            let n = dy.len();
+            let last = row(k, n, k.len() / n.max(1) - 1);
+            for lane in (0..WIDTH).filter(|lane| projected[*lane] == Some(false)) {
+                dy.iter_mut().zip(last).for_each(|(dy, last)| dy[lane] = last[lane]);
+            }
+        }
+        projected
+    }
+}
