@@ -22,8 +22,6 @@ const TURNING: f64 = 0.1;
 const LIGHT_IMPLICIT: f64 = 1e-12;
 /// The mass that it has then.
 const FLOOR_IMPLICIT: f64 = 1e-9;
-/// The part of these numbers below which a body with loans is still light.
-pub(super) const ENOUGH: f64 = LIGHT / FLOOR;
 /// Mass of the internal coordinates of elements, relative to the heaviest body.
 const OWN: f64 = 1e-4;
 /// The same in the matrix of implicit methods.

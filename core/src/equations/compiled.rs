@@ -20,7 +20,7 @@ pub struct Compiled<S = f64> {
     pub off_center: Vec<usize>,
     /// Weight of the bodies as generalized force, shape (n_q).
     pub weight: Vec<S>,
-    /// Mass and inertia of which a part must be lent or added to light bodies. One for each moving body, zero for most.
+    /// Mass and inertia that must be lent or added to light bodies. One for each moving body, zero for most.
     pub added: Vec<Added>,
     /// Mass that is added to the internal coordinates of elements, kg.
     pub own_mass: f64,

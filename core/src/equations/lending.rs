@@ -7,7 +7,7 @@
 //! Where nobody can lend enough, as to the links of a massless dyad, inertia is added to the body that needs it at the
 //! fewest coordinates, and lending goes on from there. `equations/take_back.rs` takes the additions back.
 
-use super::added_mass::{self, number, Added, ENOUGH};
+use super::added_mass::{self, number, Added};
 use super::grounded::Hold;
 use super::inertia::{self, Inertia};
 use super::loans::{Addition, End, Loan};
@@ -19,7 +19,7 @@ use std::ops::Range;
 /// The part of its inertia that a body lends.
 const LENT: f64 = 0.5;
 /// A moment of inertia is added so many times, so that the body can lend.
-const AMPLE: f64 = 10.0;
+const AMPLE: f64 = 100.0;
 
 /// The inertia of bodies in the matrix, and how it differs from their own.
 #[derive(Clone, Debug)]
@@ -198,7 +198,7 @@ impl<'a, S: Real> Market<'a, S> {
     /// Whether a body needs mass, and a moment of inertia.
     fn needed(&self, body: usize, own: &Weighed<S>) -> [bool; 2] {
         let Added { mass, inertia } = self.added[body];
-        let short = |own: S, added: f64| !(number(own) > 0.0 && number(own) >= ENOUGH * added);
+        let short = |own: S, added: f64| !(number(own) > 0.0 && number(own) >= added);
         match &self.held[body] {
             Held::Slide => [short(own.mass, mass), false],
             Held::Pin(pin, _) => [false, short(about(own, *pin), inertia)],
