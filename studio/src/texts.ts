@@ -12,6 +12,7 @@ export const texts = {
   core: {
     trapped: "The core stopped and was started again. The text is unchanged.",
     tooLarge: "The text has more than 2 MB. It was not opened; use kempe run.",
+    replaced: "Another text was opened before this one was read.",
     tooLong: "The computation took too long and was ended. The text is unchanged.",
   },
   modes: { edit: "Edit", move: "Move", live: "Live", read: "Read" },

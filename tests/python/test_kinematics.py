@@ -144,7 +144,7 @@ def test_in_a_case(tmp_path: Path) -> None:
         ({"over": "motor", "range": (0, 1), "n": 1}, "whole number from 2"),
         ({"t_end": -1}, "lies before"),
         ({"t_end": 1, "output_step": 0}, "output_step"),
-        ({"over": "crank.mass", "range": (0, 1)}, "unknown quantity of crank .mass."),
+        ({"over": "crank.mass", "range": (0, 1)}, "over: there is no quantity .crank.mass."),
     ],
 )
 def test_impossible_options_are_refused(options: dict[str, object], message: str) -> None:

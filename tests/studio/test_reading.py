@@ -76,7 +76,7 @@ def test_a_stored_run_is_drawn_dashed_in_the_same_plots(one: Studio, tmp_path: P
         peak = solution[name][np.abs(solution[name]).argmax()] * factor
         assert shown(one, "stored", name) == pytest.approx(peak, rel=1e-3)
     one.page.locator("p.stored button").click()
-    assert "stored" not in one.page.locator(".legend").last.inner_text()
+    one.wait("![...document.querySelectorAll('.legend')].at(-1).innerText.includes('stored')")
 
 
 def test_a_file_that_is_no_run_of_the_mechanism_gives_a_message(

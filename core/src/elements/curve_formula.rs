@@ -1,7 +1,7 @@
 //! A curve whose components are formulas in u and the parameters.
 
 #[cfg(target_arch = "wasm32")]
-use super::curve_series as series;
+use super::curve_series::{self, Orders, Series, SeventhOrder, ThirdOrder};
 use crate::expression::{switch_places, Knots, Symbol, Tape, Values};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::math::{Dual, Jet, Lift};
@@ -141,20 +141,24 @@ impl<S: Real> Formula<S> {
 impl<S: Real> Formula<S> {
     /// C at u.
     pub(super) fn point(&self, u: S) -> Local<S> {
-        self.derivatives(u)[0]
+        self.near(u, 0)[0]
     }
 
     /// C and C′ at u.
     pub(super) fn tangent(&self, u: S) -> [Local<S>; 2] {
-        let [point, first, ..] = self.derivatives(u);
+        let [point, first, ..] = self.near(u, 1);
         [point, first]
     }
 
     /// C, C′, C″ and C‴ at u.
     pub(super) fn derivatives(&self, u: S) -> [Local<S>; 4] {
+        self.near(u, 3)
+    }
+
+    /// The derivatives by u up to `order` from the series of lowest order that gives them; the others are not right.
+    fn near(&self, u: S, order: usize) -> [Local<S>; 4] {
         let number = |x: &S| x.in_lanes()[0];
         let u = self.within(u);
-        let value = number(&u);
         let numbers = Formula {
             written: Arc::clone(&self.written),
             values: self.values.iter().map(number).collect(),
@@ -162,8 +166,21 @@ impl<S: Real> Formula<S> {
             periodic: self.periodic,
             unit: self.unit,
         };
-        let [x, y] = numbers.both(series::variable(value), series::Series::constant);
-        series::at(&series::orders(&x, &y), u - S::constant(value))
+        let value = number(&u);
+        let orders = match order + S::ORDER {
+            0 => numbers.orders::<f64>(value),
+            1..=3 => numbers.orders::<ThirdOrder>(value),
+            _ => numbers.orders::<SeventhOrder>(value),
+        };
+        curve_series::at(&orders, u - S::constant(value))
+    }
+}
+
+#[cfg(target_arch = "wasm32")]
+impl Formula {
+    fn orders<T: Series>(&self, u: f64) -> Orders {
+        let [x, y] = self.both(T::variable(u), T::constant);
+        curve_series::orders(x, y)
     }
 }
 

@@ -7,32 +7,56 @@
 
 use crate::math::{Dual, Jet, Local, Real};
 
-/// u with its derivatives to seventh order.
-pub(super) type Series = Jet<Jet<Jet<Dual<1>>>>;
-
-/// Derivatives of order 0 to 7.
+/// Derivatives of order 0 to 7; those that were not computed are zero.
 pub(super) type Orders = [Local; 8];
 
-/// The variable u.
-pub(super) fn variable(u: f64) -> Series {
-    jet(jet(jet(Dual::variable(u, 0))))
+/// u with its derivatives to third order.
+pub(super) type ThirdOrder = Jet<Dual<1>>;
+
+/// u with its derivatives to seventh order.
+pub(super) type SeventhOrder = Jet<Jet<ThirdOrder>>;
+
+/// A scalar with derivatives by u. A number has none and is by far the cheapest.
+pub(super) trait Series: Real {
+    /// The variable u.
+    fn variable(u: f64) -> Self;
+    /// The derivatives of order 0, 1, 2, …
+    fn orders(&self) -> [f64; 8];
 }
 
-fn jet<S: Real>(value: S) -> Jet<S> {
-    Jet::new(value, S::one(), S::zero())
+impl Series for f64 {
+    fn variable(u: f64) -> Self {
+        u
+    }
+    fn orders(&self) -> [f64; 8] {
+        [*self, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+    }
+}
+
+impl Series for Dual<1> {
+    fn variable(u: f64) -> Self {
+        Self::variable(u, 0)
+    }
+    fn orders(&self) -> [f64; 8] {
+        [self.value, self.slope[0], 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]
+    }
+}
+
+/// Each level of jets adds two orders.
+impl<S: Series> Series for Jet<S> {
+    fn variable(u: f64) -> Self {
+        Self::new(S::variable(u), S::one(), S::zero())
+    }
+    fn orders(&self) -> [f64; 8] {
+        let (first, later) = (self.value.orders(), self.second.orders());
+        std::array::from_fn(|n| if n < 2 { first[n] } else { later[n - 2] })
+    }
 }
 
 /// The derivatives of a point with these components.
-pub(super) fn orders(x: &Series, y: &Series) -> Orders {
-    let (x, y) = (of(x), of(y));
+pub(super) fn orders<T: Series>(x: T, y: T) -> Orders {
+    let (x, y) = (x.orders(), y.orders());
     std::array::from_fn(|n| Local::new(x[n], y[n]))
-}
-
-/// Each level of jets adds two orders, and the dual number one.
-fn of(x: &Series) -> [f64; 8] {
-    let levels = [x.value.value.value, x.value.value.second, x.value.second.second];
-    let all = [levels[0], levels[1], levels[2], x.second.second.second];
-    std::array::from_fn(|n| if n % 2 == 0 { all[n / 2].value } else { all[n / 2].slope[0] })
 }
 
 /// C, C′, C″ and C‴ at a distance d whose value is 0. An order from four on that is not finite counts as zero: few
@@ -61,7 +85,8 @@ mod tests {
 
     /// C, C′, C″ and C‴ by jets of dual numbers over the scalar.
     fn nested<S: Real>(u: S) -> [Local<S>; 4] {
-        let [x, y] = point::<Jet<Dual<1, S>>>(jet(Dual::variable(u, 0)));
+        let u = Jet::new(Dual::variable(u, 0), Dual::one(), Dual::zero());
+        let [x, y] = point::<Jet<Dual<1, S>>>(u);
         let all =
             |x: Jet<Dual<1, S>>| [x.value.value, x.rate.value, x.second.value, x.second.slope[0]];
         let (x, y) = (all(x), all(y));
@@ -70,8 +95,21 @@ mod tests {
 
     fn series<S: Real>(u: S) -> [Local<S>; 4] {
         let value = u.in_lanes()[0];
-        let [x, y] = point(variable(value));
-        at(&orders(&x, &y), u - S::constant(value))
+        let [x, y] = point(SeventhOrder::variable(value));
+        at(&orders(x, y), u - S::constant(value))
+    }
+
+    #[test]
+    fn a_series_of_low_order_begins_as_one_of_high_order() {
+        fn of<T: Series>() -> Vec<f64> {
+            let [x, y] = point(T::variable(0.7));
+            orders(x, y)[..=T::ORDER].iter().flat_map(|c| [c.x, c.y]).collect()
+        }
+        let (number, third, seventh) = (of::<f64>(), of::<ThirdOrder>(), of::<SeventhOrder>());
+        assert_eq!([number.len(), third.len(), seventh.len()], [2, 8, 16]);
+        for (low, high) in number.iter().chain(&third).zip(seventh[..2].iter().chain(&seventh)) {
+            assert!((low - high).abs() < 1e-13 * (1.0 + high.abs()), "{low} {high}");
+        }
     }
 
     #[test]
@@ -97,8 +135,8 @@ mod tests {
 
     #[test]
     fn a_number_has_its_derivatives_where_higher_ones_are_not_finite() {
-        let x = variable(0.0).powc(3.5);
-        let at = at(&orders(&x, &x), 0.0);
+        let x = SeventhOrder::variable(0.0).powc(3.5);
+        let at = at(&orders(x, x), 0.0);
         assert!(at.iter().all(|c| c.x == 0.0), "{at:?}");
     }
 }

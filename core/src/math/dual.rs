@@ -84,6 +84,8 @@ impl<const N: usize, S: Real> SubAssign for Dual<N, S> {
 }
 
 impl<const N: usize, S: Real> Real for Dual<N, S> {
+    const ORDER: usize = S::ORDER + 1;
+
     fn constant(x: f64) -> Self {
         Self::lift(S::constant(x))
     }

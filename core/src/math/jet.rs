@@ -91,6 +91,8 @@ impl<S: Real> SubAssign for Jet<S> {
 }
 
 impl<S: Real> Real for Jet<S> {
+    const ORDER: usize = S::ORDER + 2;
+
     fn constant(x: f64) -> Self {
         Self::lift(S::constant(x))
     }

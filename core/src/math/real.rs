@@ -20,6 +20,9 @@ pub trait Real:
     + AddAssign
     + SubAssign
 {
+    /// The highest order of the derivatives that the scalar carries; 0 for one that carries none.
+    const ORDER: usize = 0;
+
     /// A constant: no derivatives, the same in every lane.
     fn constant(x: f64) -> Self;
 

@@ -17,7 +17,11 @@ export class CoreError extends Error {
 }
 
 /** The worker was started anew: it trapped or took too long. */
-export class Restarted extends Error {}
+export class Restarted extends Error {
+  constructor(override readonly cause: "trap" | "timeout") {
+    super(cause);
+  }
+}
 
 /** Runs may take so many times as long as other requests. */
 const LONGER: Partial<Record<Do, number>> = { run: 6, configurations: 3 };

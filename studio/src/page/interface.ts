@@ -8,7 +8,6 @@ import { open } from "../store/document";
 import { send, settled } from "../store/session";
 import { view } from "../store/sheet";
 import { mode, pose, problems, text, unassembled } from "../store/state";
-import { texts } from "../texts";
 
 export interface Interface {
   load(given: string): Promise<{ problems: Loaded["problems"]; unassembled: Loaded["unassembled"] }>;
@@ -24,7 +23,8 @@ export interface Interface {
 export const kempe: Interface = {
   async load(given) {
     enter("edit");
-    if (!(await open(given))) return { problems: [{ message: texts.core.tooLarge }], unassembled: null };
+    const message = await open(given);
+    if (message !== null) return { problems: [{ message }], unassembled: null };
     return { problems: problems.value, unassembled: unassembled.value };
   },
   toml: async () => text.value,

@@ -3,7 +3,7 @@ import { signal } from "@preact/signals";
 import type { Change } from "../core/protocol";
 import { texts } from "../texts";
 import { MOST_OF_TEXT } from "./limits";
-import { edited, load, report, Superseded } from "./session";
+import { edited, load, reason, report, Superseded } from "./session";
 import { fitNext } from "./sheet";
 import { announce, held, message, openings, selection, text } from "./state";
 
@@ -17,9 +17,9 @@ export const future = signal<string[]>([]);
 export const fileName = signal("mechanism.toml");
 let typedAt = 0;
 
-/** Begin with another text; false if it is too large. */
-export async function open(given: string, name = "mechanism.toml"): Promise<boolean> {
-  if (isTooLarge(given)) return false;
+/** Begin with another text. Returns why the core could not read it at all, else null. */
+export async function open(given: string, name = "mechanism.toml"): Promise<string | null> {
+  if (isTooLarge(given)) return texts.core.tooLarge;
   openings.value += 1;
   past.value = [];
   future.value = [];
@@ -29,8 +29,13 @@ export async function open(given: string, name = "mechanism.toml"): Promise<bool
   fitNext();
   message.value = null;
   text.value = given;
-  await load(given).catch(report);
-  return true;
+  try {
+    await load(given);
+    return null;
+  } catch (error) {
+    report(error);
+    return reason(error);
+  }
 }
 
 /** Whether a text is so large that the page would become slow; a message is shown then. */

@@ -60,13 +60,20 @@ export async function settled(): Promise<void> {
   }
 }
 
+/** An error in words. */
+export function reason(error: unknown): string {
+  if (error instanceof Restarted) return error.cause === "trap" ? texts.core.trapped : texts.core.tooLong;
+  if (error instanceof Superseded) return texts.core.replaced;
+  return String((error as Error)?.message ?? error);
+}
+
 /** Show an error in the status line; those of replaced requests are none. */
 export function report(error: unknown): void {
   if (error instanceof Superseded || error instanceof Restarted) return;
   if (error instanceof CoreError) {
     const { message, hint } = error.problem;
     announce("problem", message, hint ? { hint } : {});
-  } else announce("problem", String((error as Error)?.message ?? error));
+  } else announce("problem", reason(error));
 }
 
 /** Give the core a text and show what it means. */
