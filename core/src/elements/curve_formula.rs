@@ -1,7 +1,7 @@
 //! A curve whose components are formulas in u and the parameters.
 
 #[cfg(target_arch = "wasm32")]
-use super::curve_series::{self, Orders, Series, SeventhOrder, ThirdOrder};
+use super::curve_series::{self, Orders, TaylorSeries, SeventhOrder, ThirdOrder};
 use crate::expression::{switch_places, Knots, Symbol, Tape, Values};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::math::{Dual, Jet, Lift};
@@ -178,7 +178,7 @@ impl<S: Real> Formula<S> {
 
 #[cfg(target_arch = "wasm32")]
 impl Formula {
-    fn orders<T: Series>(&self, u: f64) -> Orders {
+    fn orders<T: TaylorSeries>(&self, u: f64) -> Orders {
         let [x, y] = self.both(T::variable(u), T::constant);
         curve_series::orders(x, y)
     }

@@ -17,14 +17,14 @@ pub(super) type ThirdOrder = Jet<Dual<1>>;
 pub(super) type SeventhOrder = Jet<Jet<ThirdOrder>>;
 
 /// A scalar with derivatives by u. A number has none and is by far the cheapest.
-pub(super) trait Series: Real {
+pub(super) trait TaylorSeries: Real {
     /// The variable u.
     fn variable(u: f64) -> Self;
     /// The derivatives of order 0, 1, 2, …
     fn orders(&self) -> [f64; 8];
 }
 
-impl Series for f64 {
+impl TaylorSeries for f64 {
     fn variable(u: f64) -> Self {
         u
     }
@@ -33,7 +33,7 @@ impl Series for f64 {
     }
 }
 
-impl Series for Dual<1> {
+impl TaylorSeries for Dual<1> {
     fn variable(u: f64) -> Self {
         Self::variable(u, 0)
     }
@@ -43,7 +43,7 @@ impl Series for Dual<1> {
 }
 
 /// Each level of jets adds two orders.
-impl<S: Series> Series for Jet<S> {
+impl<S: TaylorSeries> TaylorSeries for Jet<S> {
     fn variable(u: f64) -> Self {
         Self::new(S::variable(u), S::one(), S::zero())
     }
@@ -54,7 +54,7 @@ impl<S: Series> Series for Jet<S> {
 }
 
 /// The derivatives of a point with these components.
-pub(super) fn orders<T: Series>(x: T, y: T) -> Orders {
+pub(super) fn orders<T: TaylorSeries>(x: T, y: T) -> Orders {
     let (x, y) = (x.orders(), y.orders());
     std::array::from_fn(|n| Local::new(x[n], y[n]))
 }
@@ -101,7 +101,7 @@ mod tests {
 
     #[test]
     fn a_series_of_low_order_begins_as_one_of_high_order() {
-        fn of<T: Series>() -> Vec<f64> {
+        fn of<T: TaylorSeries>() -> Vec<f64> {
             let [x, y] = point(T::variable(0.7));
             orders(x, y)[..=T::ORDER].iter().flat_map(|c| [c.x, c.y]).collect()
         }

@@ -14,7 +14,7 @@ use crate::elements::{
 use crate::expression::{Expression, Inferred, Symbol, Table, Tape};
 use std::sync::Arc;
 
-/// The linked content of a file: elements over [`Tape`].
+/// The linked content of a file: elements over [`Tape`]. A clone shares its lists until they are changed.
 #[derive(Clone, Debug)]
 pub struct Blueprint {
     /// Title.
@@ -32,11 +32,11 @@ pub struct Blueprint {
     /// Acceleration of free fall.
     pub gravity: [Tape; 2],
     /// Bodies; index 0 is ground.
-    pub bodies: Vec<Body<Tape>>,
+    pub bodies: Arc<Vec<Body<Tape>>>,
     /// Joints, then drivers.
-    pub constraints: Vec<(String, Group, Constraint<Tape>)>,
+    pub constraints: Arc<Vec<(String, Group, Constraint<Tape>)>>,
     /// Forces, with their first-order states.
-    pub forces: Vec<(String, &'static [OwnState], ForceElement<Tape>)>,
+    pub forces: Arc<Vec<(String, &'static [OwnState], ForceElement<Tape>)>>,
     /// The modes of forces in a phase of a run; those that hold have the last constraints, in this order.
     pub modes: Vec<ForceMode>,
     /// Laws that a host computes.
@@ -64,8 +64,8 @@ impl Blueprint {
         let known = if group == Group::Forces {
             ForceElement::read(kind, &mut linker).map(|e| {
                 let e = e.filter(|e| self.two_bodies(group, entry, &e.bodies(), problems));
-                let own = states(entry);
-                self.forces.extend(e.map(|e| (entry.name.clone(), own, e)));
+                let linked = e.map(|e| (entry.name.clone(), states(entry), e));
+                Arc::make_mut(&mut self.forces).extend(linked);
             })
         } else {
             Constraint::read(group, kind, &mut linker).map(|e| {
@@ -74,7 +74,8 @@ impl Blueprint {
                         && self.not_circular(entry, e, problems)
                         && has_velocity(group, entry, e, problems)
                 });
-                self.constraints.extend(e.map(|e| (entry.name.clone(), group, e)));
+                let linked = e.map(|e| (entry.name.clone(), group, e));
+                Arc::make_mut(&mut self.constraints).extend(linked);
             })
         };
         if known.is_none() {
@@ -128,18 +129,17 @@ impl Blueprint {
     /// The same mechanism with further drivers that make coordinates follow given laws: what
     /// assembly solves.
     pub fn holding(&self, held: &[(String, Followed<Tape>, Tape)]) -> Self {
-        let mut extended = self.clone();
-        for (name, coordinate, value) in held {
-            let driver = holding(coordinate.clone(), value.clone());
-            extended.constraints.push((name.clone(), Group::Drivers, driver));
-        }
-        extended
+        let drivers = held.iter().map(|(name, coordinate, value)| {
+            (name.clone(), Group::Drivers, holding(coordinate.clone(), value.clone()))
+        });
+        let constraints = self.constraints.iter().cloned().chain(drivers).collect::<Vec<_>>();
+        Self { constraints: constraints.into(), ..self.clone() }
     }
 
     /// The same mechanism with some of its constraints only, and without forces.
     pub fn keeping(&self, kept: &[usize]) -> Self {
-        let constraints = kept.iter().map(|k| self.constraints[*k].clone()).collect();
-        Self { constraints, forces: Vec::new(), ..self.clone() }
+        let constraints = kept.iter().map(|k| self.constraints[*k].clone()).collect::<Vec<_>>();
+        Self { constraints: constraints.into(), forces: Arc::default(), ..self.clone() }
     }
 
     /// A body by name.

@@ -62,7 +62,7 @@ impl<S: Real> Model<S> {
         let mut touched = Vec::new();
         let mut constraints: Vec<ConstraintItem<S>> = Vec::new();
         let mut switches = Vec::new();
-        for (name, group, formula) in &blueprint.constraints {
+        for (name, group, formula) in blueprint.constraints.iter() {
             let mut depends = Dependence::default();
             formula.map(&mut |tape| depends.add(tape));
             let (equations, mut bodies) = (formula.equations(), formula.bodies());

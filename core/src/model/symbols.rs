@@ -29,10 +29,10 @@ impl Model {
         };
         let blueprint = &self.blueprint;
         let mut found = Vec::new();
-        for (name, _, formula) in &blueprint.constraints {
+        for (name, _, formula) in blueprint.constraints.iter() {
             found.push((name.as_str(), formula.map(value).symbols()));
         }
-        for (name, _, formula) in &blueprint.forces {
+        for (name, _, formula) in blueprint.forces.iter() {
             found.push((name.as_str(), formula.map(value).symbols()));
         }
         found

@@ -38,7 +38,7 @@ impl Model {
     /// The same model without the drivers of these names; other names are ignored.
     pub fn without(&self, drivers: &[String]) -> Self {
         let mut blueprint = Blueprint::clone(&self.blueprint);
-        blueprint.constraints.retain(|(name, ..)| !drivers.contains(name));
+        Arc::make_mut(&mut blueprint.constraints).retain(|(name, ..)| !drivers.contains(name));
         Self::new(&Arc::new(blueprint), &self.parameters)
     }
 }
@@ -52,7 +52,8 @@ impl Model {
             let Mode::Holds(side) = mode else { continue };
             let equation = element.holding(*side, *value);
             let equation = equation.expect("a force that holds has an equation");
-            blueprint.constraints.push((format!("{name} (at rest)"), Group::Forces, equation));
+            let held = (format!("{name} (at rest)"), Group::Forces, equation);
+            Arc::make_mut(&mut blueprint.constraints).push(held);
         }
         Self::new(&Arc::new(blueprint), &self.parameters)
     }

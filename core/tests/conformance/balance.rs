@@ -49,7 +49,7 @@ fn with(force: &ForceElement) -> Model {
     let build = |states: &'static [OwnState]| {
         let mut blueprint = (*chain.blueprint).clone();
         let element = force.map(&mut |x| Tape::from(*x));
-        blueprint.forces.push(("sample".into(), states, element));
+        Arc::make_mut(&mut blueprint.forces).push(("sample".into(), states, element));
         Model::new(&Arc::new(blueprint), &[])
     };
     let m = build(all);

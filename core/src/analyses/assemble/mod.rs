@@ -81,17 +81,51 @@ pub fn assemble_until(
     stop: Halt<'_>,
 ) -> Result<(State, Report), Box<Failure>> {
     let outcome = complete(model, request, stop);
+    let outcome = outcome.map(|closed| closed.described(model, request, stop));
     match stop() {
         true => Err(Box::new(failure::stopped())),
         false => outcome,
     }
 }
 
-fn complete(
+/// The state of [`assemble_until`] without its report. Sweeps need no report, and it costs time.
+///
+/// # Errors
+/// As [`assemble_until`].
+pub fn state_until(
     model: &Model,
     request: &Request,
     stop: Halt<'_>,
-) -> Result<(State, Report), Box<Failure>> {
+) -> Result<State, Box<Failure>> {
+    let outcome = complete(model, request, stop);
+    match stop() {
+        true => Err(Box::new(failure::stopped())),
+        false => outcome.map(|closed| closed.state),
+    }
+}
+
+/// A closed mechanism.
+struct Complete {
+    state: State,
+    /// Without what was left unset, and without assembly modes.
+    report: Report,
+    asked: Targets,
+    /// The model with the positions that are set.
+    extended: Model,
+}
+
+impl Complete {
+    /// The state with the whole report.
+    fn described(self, model: &Model, request: &Request, stop: Halt<'_>) -> (State, Report) {
+        let Self { state, mut report, asked, extended } = self;
+        let State { q, v, .. } = &state;
+        report.unset = unset::unset([model, &extended], request, &asked, [q, v], stop);
+        describe(model, &asked, q, &mut report);
+        (state, report)
+    }
+}
+
+fn complete(model: &Model, request: &Request, stop: Halt<'_>) -> Result<Complete, Box<Failure>> {
     let asked = asked(model, request);
     let extended = holding(model, request);
     let mut closing = Closing::new(&extended, request.t, stop);
@@ -128,9 +162,8 @@ fn complete(
     report.degrees_of_freedom = mobility.degrees_of_freedom;
     report.warnings.extend(report::singular(model, &mobility.singular));
     let v = rates::consistent(model, request, &q, stop)?;
-    report.unset = unset::unset([model, &extended], request, &asked, [&q, &v], stop);
-    describe(model, &asked, &q, &mut report);
-    Ok((State { t: request.t, q, v, z: states(model, request) }, report))
+    let state = State { t: request.t, q, v, z: states(model, request) };
+    Ok(Complete { state, report, asked, extended })
 }
 
 /// First-order states: those that are set, else guessed, else given, else zero.

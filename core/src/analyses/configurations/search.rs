@@ -101,7 +101,8 @@ fn moving(model: &Model, t: f64, q: &[f64], driver: usize) -> (Model, bool) {
         Followed::Quantity(of) => of.value.evaluate(&at(&model.parameters, &motions, &[], t)),
     };
     let mut blueprint = (*model.blueprint).clone();
-    for (k, (_, _, constraint)) in blueprint.constraints.iter_mut().enumerate() {
+    for (k, (_, _, constraint)) in Arc::make_mut(&mut blueprint.constraints).iter_mut().enumerate()
+    {
         let Some(of) = constraint.drives().cloned() else { continue };
         let rate = if k == driver { 1.0 } else { 0.0 };
         let now = value(&of);

@@ -14,7 +14,7 @@ mod statistic;
 pub use faults::{measure_fault, variable_fault, MOTIONS};
 pub use statistic::Statistic;
 
-use super::assemble::{self, assemble_until, Request};
+use super::assemble::{self, state_until, Request};
 use super::dynamics::{self, side_by_side, Options, Prepared, Reason, Run, Variant};
 use super::measures::Measure;
 use super::State;
@@ -108,8 +108,8 @@ impl Sweep {
         }
         let model = self.model.with_values(parameters).map_err(|_| Outcome::Single)?;
         let request = self.request(&model, start).ok_or(Outcome::Single)?;
-        let state = match assemble_until(&model, &request, stop) {
-            Ok((state, _)) => state,
+        let state = match state_until(&model, &request, stop) {
+            Ok(state) => state,
             Err(_) if stop() => return Err(Outcome::Stopped),
             Err(failure) => return Err(Outcome::Failed(failure.message)),
         };
