@@ -1,4 +1,4 @@
-//! Linear equations of a mechanism on independent coordinates, at an equilibrium or any other state.
+//! Linear equations of a mechanism in independent coordinates, at an equilibrium or any other state.
 //!
 //! | file | concept |
 //! |---|---|
