@@ -1,4 +1,4 @@
-//! Derivatives by a name or by time.
+//! Derivatives with respect to a symbol or time.
 
 use super::arena::{Arena, Id, Node, Rate, Symbol, NAN, ONE, ZERO};
 use super::function::Function;
@@ -14,7 +14,7 @@ pub(super) enum By {
     Time,
 }
 
-/// Derivatives that are known already.
+/// A differentiation, with the derivatives that have been computed.
 #[derive(Debug)]
 pub(super) struct Derivation {
     by: By,

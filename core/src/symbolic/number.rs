@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-/// A number that can be compared and hashed by its bits; there is one zero.
+/// A number that can be compared and hashed by its bits. Positive and negative zero are equal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Bits(u64);
 

@@ -242,7 +242,7 @@ impl<'a> Statics<'a> {
         Ok(forces)
     }
 
-    /// Derivatives by the states of elements.
+    /// Derivatives with respect to the states of elements.
     pub fn by_states(&self, variation: &Variation<'_>, n_z: usize) -> SlopesByStates {
         let n = self.states.len();
         let mut found = SlopesByStates { rates: vec![0.0; n * n], forces: Vec::new() };
@@ -301,7 +301,7 @@ impl<'a> Statics<'a> {
     }
 }
 
-/// Derivatives by the states of elements.
+/// Derivatives with respect to the states of elements.
 pub(super) struct SlopesByStates {
     /// Derivatives of ż, shape (n, n).
     rates: Vec<f64>,
