@@ -100,7 +100,7 @@ impl Measure {
     }
 }
 
-/// The dimension of a unit; a name such as `m or rad` has none.
+/// The dimension of a unit. It is unknown for a name such as `m or rad`.
 fn dimension(unit: &str) -> Inferred {
     match unit {
         "1" => Inferred::Number,

@@ -101,8 +101,8 @@ heavy!(Bar, PointMass, General);
 macro_rules! moving {
     ($($Type:ident),+) => {
         $(impl BodyBuilder<'_, $Type> {
-            /// The global position of a named point of the body when assembly starts, m. Two such points place
-            /// the body; a bar with two of them needs no length and no ends.
+            /// The global position of a named point of the body when assembly starts, m. Two such points determine
+            /// the position of the body. A bar with two such points needs no length and no ends.
             pub fn through(self, name: &str, x: impl Into<Number>, y: impl Into<Number>) -> Self {
                 self.place("through", name, Pair::from((x, y)))
             }

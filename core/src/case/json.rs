@@ -1,5 +1,5 @@
 //! JSON (RFC 8259) → [`Table`] with places. `serde_json` checks the syntax; its raw values are slices of the text,
-//! whose addresses give the places of keys and values.
+//! whose addresses determine the places of keys and values.
 
 use std::ops::Range;
 

@@ -12,8 +12,8 @@
 //! | `report` | problems by path |
 //! | `names`, `values`, `fields`, `tables`, `bodies`, `start`, `check` | tree → [`Case`], with every fault of structure |
 //! | `write_value`, `write_json`, `write_toml`, `write` | [`Case`] → text |
-//! | `faults` | faults of start and analyses that only the model shows |
-//! | `schema`, `catalogue` | the JSON Schema; the declarations of all that a case may contain |
+//! | `faults` | faults of the start and the analyses that can be found only with the model |
+//! | `schema`, `catalogue` | the JSON Schema; the declarations of the possible contents of a case |
 
 mod bodies;
 mod body_builder;

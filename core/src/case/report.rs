@@ -4,7 +4,7 @@ use super::Format;
 use crate::expression::suggest::did_you_mean;
 use crate::model::Problem;
 
-/// Collects problems during one walk through a tree.
+/// Collects problems during one traversal of a tree.
 pub(super) struct ProblemList {
     format: Format,
     path: Vec<String>,

@@ -55,7 +55,7 @@ pub(super) enum Origin {
     /// Written in braces.
     #[default]
     Inline,
-    /// Implicitly, by a header such as `[a.b]` of `a`.
+    /// Implicitly, as the table `a` of a header such as `[a.b]`.
     Implied,
     /// By its own header.
     Header,

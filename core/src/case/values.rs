@@ -276,7 +276,7 @@ pub(super) fn tolerance(report: &mut ProblemList, node: &Node) {
     }
 }
 
-/// One of some words.
+/// One of the `words`.
 pub(super) fn word(report: &mut ProblemList, node: &Node, words: &[&str]) {
     match &node.data {
         Data::Text(text) if words.contains(&text.as_str()) => {}

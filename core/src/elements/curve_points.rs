@@ -13,7 +13,7 @@ type Kept<S> = S;
 #[cfg(target_arch = "wasm32")]
 type Kept<S> = <f64 as InPlaceOf<S>>::Number;
 
-/// A number in place of any scalar.
+/// A number that replaces any scalar.
 #[cfg(target_arch = "wasm32")]
 trait InPlaceOf<S> {
     type Number;

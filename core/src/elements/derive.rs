@@ -1,4 +1,4 @@
-//! Φ_q and γ from Φ alone: dual numbers over one participant at a time, and a jet in time.
+//! Φ_q and γ, derived from Φ by dual numbers over one participant at a time, and by jets in time.
 
 use super::joint_trait::{At, Joint, Linearized, Moving};
 use crate::math::{Dual, Jet, Lift, Motion, Pose, Real, Rotation, Vec2};

@@ -239,7 +239,7 @@ pub trait Force: Element {
         S::zero()
     }
 
-    /// The side at which a contact or stop touches: -1 for a lower limit, +1 for an upper one.
+    /// The side at which a contact or stop touches: -1 for a lower limit, +1 for an upper limit.
     fn side<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> f64 {
         let _ = (e, at);
         -1.0

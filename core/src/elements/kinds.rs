@@ -197,7 +197,7 @@ kind!(
     flag, Flag, S => bool, |v, _f| *v
 );
 
-/// A field of kind `K` that may be left out.
+/// A field of kind `K` that may be omitted.
 #[derive(Clone, Copy, Debug)]
 pub struct Optional<K>(std::marker::PhantomData<K>);
 

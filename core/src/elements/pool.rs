@@ -44,12 +44,12 @@ impl Place {
 
 /// Visits the joints and drivers of a model, type by type.
 pub trait VisitJoints<S> {
-    /// Takes all elements of one type.
+    /// Visits all elements of one type.
     fn visit<E: Joint>(&mut self, pool: &[Pooled<E::Over<S>>]);
 }
 
 /// Visits the forces of a model, type by type.
 pub trait VisitForces<S> {
-    /// Takes all elements of one type.
+    /// Visits all elements of one type.
     fn visit<E: Force>(&mut self, pool: &[Pooled<E::Over<S>>]);
 }

@@ -41,7 +41,7 @@ impl<E> Written<E> {
     }
 }
 
-/// Rust type of the argument for a kind of field: numbers, a flag, or else a name or word.
+/// Rust type of the argument for a kind of field: numbers, a flag, or otherwise a name or word.
 macro_rules! argument {
     (number) => {
         $crate::elements::Number
@@ -87,8 +87,8 @@ pub(crate) use argument;
 
 /// Declares an element by [`element!`](crate::element) and the methods of its [`Written`] form.
 ///
-/// Elements of this crate are declared by this macro, others by [`element!`](crate::element): only this
-/// crate can add methods to [`Written`].
+/// This macro declares the elements of this crate. Elements of other crates are declared by
+/// [`element!`](crate::element), because only this crate can add methods to [`Written`].
 macro_rules! declare {
     ($(#[doc = $doc:literal])* $Name:ident, $name:literal {
         $($(#[doc = $about:literal])* $field:ident : $kind:ident $([$($unit:tt)*])? $(= $default:expr)?),+ $(,)?

@@ -20,7 +20,7 @@ impl ExpressionError {
         Self { message: message.into(), span, hint: None }
     }
 
-    /// The same error with a hint; `None` leaves it without.
+    /// The same error with a hint, or without a hint for `None`.
     pub fn hint(self, hint: impl Into<Option<String>>) -> Self {
         Self { hint: hint.into(), ..self }
     }

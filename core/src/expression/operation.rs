@@ -158,7 +158,7 @@ pub const FUNCTIONS: &[Function] = &[
     },
 ];
 
-/// One of three values by the sign of `d`, lane by lane; NaN where `d` is NaN.
+/// One of three values, selected by the sign of `d`, lane by lane; NaN where `d` is NaN.
 fn by_sign<S: Real>(d: S, positive: S, negative: S, zero: S) -> S {
     // this value is used only where d is 0 or NaN; floor(d) is then 0 or NaN, and has no derivative
     S::select(d, positive, S::select(-d, negative, zero + d.floor()))
@@ -227,7 +227,7 @@ impl Binary {
 }
 
 impl Relation {
-    /// `a` where the difference of the two sides (left - right) satisfies the relation, else `b`.
+    /// `a` where the difference of the two sides (left - right) satisfies the relation, otherwise `b`.
     pub fn choose<S: Real>(self, difference: S, a: S, b: S) -> S {
         match self {
             Self::Less => by_sign(difference, b, a, b),

@@ -37,7 +37,7 @@ impl Piece {
     }
 }
 
-/// Writes a tree that was read from `text`; numbers and names stay as they were written.
+/// Writes a tree that was read from `text`; numbers and names keep their written form.
 pub(super) fn print(text: &str, nodes: &[Node]) -> String {
     let mut pieces: Vec<Piece> = Vec::new();
     for node in nodes {

@@ -183,7 +183,7 @@ impl Boundaries {
         self.beside(if above { high } else { low }, above)
     }
 
-    /// The boundaries from `low` to `high`: the number of the first one, and how many there are.
+    /// The boundaries from `low` to `high`: the number of the first boundary, and their count.
     pub(super) fn between(&self, low: f64, high: f64) -> (f64, f64) {
         let [first, last] = match self {
             Self::Zero if low <= 0.0 && high >= 0.0 => [0.0, 0.0],

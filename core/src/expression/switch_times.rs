@@ -16,7 +16,7 @@ use crate::math::{Dual, Interval, Lift, Real};
 
 /// Largest number of times.
 const MOST_TIMES: usize = 1_000_000;
-/// Largest number of intervals for one switch between two times of others.
+/// Largest number of intervals for one switch between two times of other switches.
 const MOST_INTERVALS: usize = 100_000;
 /// Times at which a function that contains a table is sampled.
 const SAMPLES: usize = 4096;

@@ -153,7 +153,7 @@ impl Tape {
         }
     }
 
-    /// Calls `take` with the index and the function σ of each switch, with the held pieces of the switches before.
+    /// Calls `take` with the index and the function σ of each switch, with the held pieces of the preceding switches.
     pub fn switch_functions<S: Real>(
         &self,
         values: &impl Values<S>,

@@ -137,7 +137,7 @@ impl Arena {
         if a == NAN || b == NAN {
             return NAN;
         }
-        // a number times a sum stays a sum
+        // a number times a sum remains a sum
         for (number, other) in [(a, b), (b, a)] {
             if let Some(c) = self.constant(number) {
                 return self.sum(vec![(other, c)]);

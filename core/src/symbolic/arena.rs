@@ -68,7 +68,7 @@ pub(super) struct Symbol {
 pub(super) struct Pair {
     pub x: Id,
     pub y: Id,
-    /// Such as `a_i`.
+    /// The name of the turned vector in the three forms, such as `a_i`.
     pub turned: [String; 3],
     pub owner: Option<usize>,
     /// The angles by which it is turned.

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 /// The variable of differentiation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum By {
-    /// A symbol, all others being constant.
+    /// A symbol; all other symbols are constant.
     Symbol(Id),
     /// Time, along the motion with all accelerations zero.
     Time,

@@ -80,7 +80,7 @@ struct PartsToName {
 }
 
 impl PartsToName {
-    /// Goes through an expression; `nested` if it is part of a product, a power or a function.
+    /// Visits the parts of an expression. `nested` is true if it is part of a product, a power or a function.
     fn visit(&mut self, arena: &Arena, id: Id, nested: bool) {
         if nested && !self.seen.insert(id) {
             return;

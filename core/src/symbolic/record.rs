@@ -22,8 +22,8 @@ pub struct Symbolic {
     node: Id,
 }
 
-/// Calls `body` with an arena of its own. Records may be nested; the inner one cannot see the
-/// expressions of the outer one.
+/// Calls `body` with its own arena. Records may be nested, but an inner record cannot use the expressions of an outer
+/// record.
 pub fn record<T>(body: impl FnOnce(&Record) -> T) -> T {
     /// Frees the arena, even if `body` panics.
     struct Freed;

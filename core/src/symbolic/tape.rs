@@ -63,7 +63,7 @@ impl Arena {
         }
     }
 
-    /// Positive exponents first, then a division for each negative one.
+    /// Writes the factors with positive exponents first, then a division for each negative exponent.
     fn put_product(
         &self,
         factors: &[(Id, super::number::Bits)],

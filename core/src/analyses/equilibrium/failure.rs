@@ -37,7 +37,7 @@ pub enum Reason {
     },
     /// The search ended without an equilibrium.
     Lost {
-        /// The force that is left, relative to the largest single force.
+        /// The residual force, relative to the largest single force.
         relative: f64,
         /// The independent coordinate that moved farthest, or the parameter of a path that cannot be followed
         /// further.
@@ -45,7 +45,7 @@ pub enum Reason {
     },
     /// A state is not at rest although the analysis requires it.
     Moving {
-        /// The force that is left, relative to the largest single force.
+        /// The residual force, relative to the largest single force.
         relative: f64,
     },
     /// A point moves without any stiffness.

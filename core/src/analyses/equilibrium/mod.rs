@@ -14,13 +14,13 @@
 //!
 //! | file | concept |
 //! |---|---|
-//! | `statics` | the equations at rest |
-//! | `search`, `relaxation` | Newton's method down the potential, and dynamic relaxation where it fails |
-//! | `holding` | holders of coordinates |
-//! | `result` | a position of rest with stability and efforts |
+//! | `statics` | the equilibrium equations |
+//! | `search`, `relaxation` | descent of the potential by Newton's method, and dynamic relaxation if it fails |
+//! | `holding` | drivers that hold coordinates |
+//! | `result` | an equilibrium position with its stability and efforts |
 //! | `parameter`, `spot`, `stride`, `turning`, `points`, `path` | paths over a parameter: derivatives, tangents, steps, folds |
-//! | `compliance` | the stiffness felt at a point |
-//! | `options`, `failure` | options, and reasons for which there is no result |
+//! | `compliance` | the compliance at a point |
+//! | `options`, `failure` | options, and reasons for a failed search |
 
 mod compliance;
 mod failure;

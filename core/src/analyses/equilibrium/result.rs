@@ -34,7 +34,7 @@ pub struct Equilibrium {
     pub eigenvalues: Vec<f64>,
     /// Whether all eigenvalues are positive.
     pub stable: bool,
-    /// The force that is left, relative to the largest single force.
+    /// The residual force, relative to the largest single force.
     pub residual: f64,
     /// Number of steps of Newton's method.
     pub steps: usize,

@@ -1,9 +1,9 @@
 //! The search for an equilibrium position.
 //!
-//! Newton's method on the freedoms, with the exact stiffness. Where the stiffness is not positive definite, the step
-//! uses the magnitudes of its eigenvalues (Gill, Murray and Wright, *Practical Optimization*, 1981, 4.4), so that it
-//! descends the potential and leaves maxima and saddle points. Steps are bounded, and shortened until the energy
-//! falls. If this fails, for example because a force has a kink, dynamic relaxation continues.
+//! Newton's method in the degrees of freedom, with the exact stiffness. Where the stiffness is not positive definite,
+//! the step uses the magnitudes of its eigenvalues (Gill, Murray and Wright, *Practical Optimization*, 1981, 4.4), so
+//! that it descends the potential and leaves maxima and saddle points. Steps are bounded, and shortened until the
+//! energy falls. If this fails, for example because a force has a kink, dynamic relaxation continues.
 
 use super::failure::Reason;
 use super::relaxation;
@@ -130,7 +130,7 @@ impl<'s, 'a> RestSearch<'s, 'a> {
         Ok((place, false))
     }
 
-    /// One step that lowers the energy; None if there is none.
+    /// A step that lowers the energy. None if no such step is found.
     fn step(
         &mut self,
         place: &StaticState,

@@ -26,7 +26,7 @@ pub(super) struct StaticState {
     pub q: Vec<f64>,
     /// States of elements with ż = 0, shape (n_z).
     pub z: Vec<f64>,
-    /// Multipliers that balance the forces as far as constraints can, shape (n_rows).
+    /// Multipliers that balance the forces as far as the constraints can, shape (n_rows).
     pub lam: Vec<f64>,
     /// Φ_qᵀ λ - Q, shape (n_q): the forces that are missing for equilibrium.
     pub missing: Vec<f64>,

@@ -22,8 +22,8 @@ const CORRECTION: f64 = 0.05;
 const SMALL: f64 = 1e-4;
 /// Largest deviation of the velocity from its linear prediction, as a fraction of the larger of the two velocities.
 const TURN: f64 = 0.3;
-/// Shortest step, relative to the longest step or the time to the next output. Below it, the branch is followed by
-/// arc length.
+/// Shortest step, relative to the smaller of the longest step and the time to the next output. Below it, the branch
+/// is followed by arc length.
 const SHORTEST: f64 = 1e-5;
 /// Longest step that may end at a singular position, as a fraction of the longest step.
 const SHORT: f64 = 0.2;

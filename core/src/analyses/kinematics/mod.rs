@@ -9,14 +9,14 @@
 //! | `solution` | positions, velocities and accelerations at a time |
 //! | `continuation` | steps along a branch |
 //! | `dead_point` | limits in terms of the mechanism |
-//! | `passage`, `path`, `limit` | change points and limits; the branch by its length, and the extreme of t on it |
-//! | `circuit` | the path of a position until it returns |
+//! | `passage`, `path`, `limit` | change points and limits; the branch by arc length, and the extreme of t on it |
+//! | `circuit` | the path through a position, followed until it closes |
 //! | `motion` | the result |
-//! | `over` | the value of a quantity in place of the time |
+//! | `over` | the value of a quantity as a replacement of the time |
 //! | `quintic` | polynomials between two points |
-//! | `works` | works over the motion, by quadrature, and the record for solutions |
+//! | `works` | the work done over a motion, by quadrature, and the record of the motion |
 //! | `options` | options of kinematics and of inverse dynamics |
-//! | `failure` | reasons for the end of a motion, in terms of the mechanism |
+//! | `failure` | reasons for which a motion ends early, in terms of the mechanism |
 
 mod circuit;
 mod continuation;

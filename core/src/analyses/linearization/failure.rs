@@ -85,7 +85,7 @@ impl Failure {
     }
 }
 
-/// The name of a coordinate, such as `crank.angle`, or of an internal one, such as `contact.u`.
+/// The name of a coordinate, such as `crank.angle`, or of an internal coordinate, such as `contact.u`.
 pub fn coordinate(model: &Model, column: usize) -> String {
     if let Some((body, k)) = model.layout.body_of(column) {
         return format!("{}.{}", model.bodies[body.0].name, ["x", "y", "angle"][k]);

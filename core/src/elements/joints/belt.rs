@@ -2,7 +2,7 @@
 //!
 //! θ is the direction from the centre of wheel i to the centre of wheel j. Relative to the line of centres, all
 //! points of the belt have the same speed: Φ = rᵢ (φᵢ - θ) + σ rⱼ (φⱼ - θ) - offset = 0, with σ = -1 for an open belt
-//! and σ = 1 for a crossed one. θ has a branch cut, so that Φ is taken modulo 2π (rᵢ + σ rⱼ), nearest 0; if this
+//! and σ = 1 for a crossed belt. θ has a branch cut, so that Φ is taken modulo 2π (rᵢ + σ rⱼ), nearest 0; if this
 //! modulus is 0, θ cancels. λ is the difference of the forces of the two strands. The mechanism must hold the
 //! distance of the centres at any value > 0.
 
