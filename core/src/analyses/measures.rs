@@ -1,8 +1,8 @@
 //! Measures: named expressions of quantities, evaluated after an analysis.
 //!
-//! A measure may use every quantity by name, parameters, tables and t. It uses no other measure. Its values follow from
-//! states with their accelerations and multipliers. If it uses energies of a run or checks of it, the values of its
-//! quantities come from the caller, which has them at all outputs.
+//! A measure may use quantities by name, parameters, tables and t, but no other measure. Its values are computed from
+//! the states, accelerations and multipliers. If a measure uses energies or checks of a run, the caller supplies the
+//! values of its quantities at all outputs.
 
 use super::dynamics::States;
 use super::quantities::{QuantityNames, QuantityValues};
@@ -20,10 +20,10 @@ pub const UNKNOWN_UNIT: &str = "SI";
 #[derive(Clone, Debug)]
 pub struct Measure {
     tape: Tape,
-    /// The quantities that it uses, each once.
+    /// The quantities that the measure uses, each once.
     pub quantities: Vec<String>,
     signals: Vec<Signal>,
-    /// Its SI unit, such as `N`; `1` for a number, [`UNKNOWN_UNIT`] if it cannot be known.
+    /// Its SI unit, such as `N`; `1` for a number, [`UNKNOWN_UNIT`] if it cannot be determined.
     pub unit: String,
 }
 
@@ -31,7 +31,7 @@ impl Measure {
     /// Reads a measure over a model.
     ///
     /// # Errors
-    /// A fault of the text, an unknown name, or dimensions that do not fit.
+    /// A fault of the text, an unknown name, or inconsistent dimensions.
     pub fn read(model: &Model, text: &str) -> Result<Self, Problem> {
         Self::compile(model, text).map_err(Problem::from)
     }
@@ -94,13 +94,13 @@ impl Measure {
         found
     }
 
-    /// Its value for the values of its quantities, in their order.
+    /// The value for given values of the quantities, in the order of [`quantities`](Self::quantities).
     pub fn value(&self, model: &Model, t: f64, quantities: &[f64]) -> f64 {
         self.tape.evaluate(&QuantityValues { model, t, quantities })
     }
 }
 
-/// The dimension of a unit; a name such as `m or rad` has none.
+/// The dimension of a unit. It is unknown for a name such as `m or rad`.
 fn dimension(unit: &str) -> Inferred {
     match unit {
         "1" => Inferred::Number,
@@ -108,7 +108,7 @@ fn dimension(unit: &str) -> Inferred {
     }
 }
 
-/// The unit of a dimension: that of the quantities if they have it, otherwise the usual one.
+/// The unit of a dimension: the unit of a quantity of this dimension if there is one, otherwise the usual unit.
 fn written(inferred: Inferred, units: &[String]) -> String {
     let Inferred::Of(of) = inferred else {
         let unit = if inferred == Inferred::Number { "1" } else { UNKNOWN_UNIT };
@@ -133,7 +133,7 @@ pub fn check(model: &Model, measures: &[(String, Value)]) -> Vec<Problem> {
     wrong.collect()
 }
 
-/// The hint for a measure that uses another one.
+/// Adds a hint to the problem if the measure uses another measure.
 fn of_measures(problem: Problem, text: &str, names: &[&str]) -> Problem {
     let used = problem.within.clone().and_then(|span| text.get(span));
     match used.filter(|used| names.contains(used)) {

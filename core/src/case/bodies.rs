@@ -21,7 +21,7 @@ impl Bodies {
         Self { ground: ground.into_iter().next(), typed }
     }
 
-    /// Checks the present table as the body of this name.
+    /// Checks the current table as the body with this name.
     pub(super) fn check(&self, report: &mut ProblemList, name: &str, table: &Table) {
         if let ("ground", Some(ground)) = (name, &self.ground) {
             return fields::check(report, table, ground, false);
@@ -42,7 +42,7 @@ impl Bodies {
     }
 }
 
-/// Whether a body has shapes, also with a misspelt key.
+/// Whether a body has shapes; a misspelt key counts as well.
 fn has_shapes(table: &Table) -> bool {
     let meant = |key: &str| key == "shapes" || closest(key, ["shapes"]).is_some();
     table.entries.iter().any(|(key, _)| meant(key))
@@ -59,7 +59,7 @@ fn without_shapes(declared: &Declaration) -> Declaration {
     declared
 }
 
-/// Shapes determine mass, inertia and mass centre.
+/// Rejects fields that the shapes of a body determine: mass, inertia and mass centre.
 fn of_shapes(report: &mut ProblemList, table: &Table) {
     for key in INSTEAD_OF_SHAPES.into_iter().filter(|key| table.get(key).is_some()) {
         report.within(key, |report| {

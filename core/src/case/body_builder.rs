@@ -4,7 +4,7 @@ use crate::elements::{Number, Pair, Value};
 use crate::model::Entry;
 use std::marker::PhantomData;
 
-/// Ground: points alone.
+/// The ground, which has points but no mass.
 #[derive(Clone, Copy, Debug)]
 pub enum Ground {}
 /// A uniform slender bar.
@@ -97,12 +97,12 @@ macro_rules! heavy {
 }
 heavy!(Bar, PointMass, General);
 
-/// Methods of all bodies that turn.
+/// Methods of all bodies that can rotate.
 macro_rules! moving {
     ($($Type:ident),+) => {
         $(impl BodyBuilder<'_, $Type> {
-            /// The global position of a named point of the body when assembly starts, m. Two such points place
-            /// the body; a bar with two of them needs no length and no ends.
+            /// The global position of a named point of the body when assembly starts, m. Two such points determine
+            /// the position of the body. A bar with two such points needs no length and no ends.
             pub fn through(self, name: &str, x: impl Into<Number>, y: impl Into<Number>) -> Self {
                 self.place("through", name, Pair::from((x, y)))
             }
@@ -131,8 +131,8 @@ impl BodyBuilder<'_, PointMass> {
 }
 
 impl BodyBuilder<'_, General> {
-    /// One more shape of a body without mass, inertia and center: its type, and its fields by their keys,
-    /// `[("radius", 0.1.into()), ("mass", 2.0.into())]`.
+    /// Adds a shape to a body without `mass`, `inertia` and `center`: its type and its fields by key, `[("radius",
+    /// 0.1.into()), ("mass", 2.0.into())]`.
     pub fn shape<'k>(self, kind: &str, fields: impl IntoIterator<Item = (&'k str, Value)>) -> Self {
         let fields = fields.into_iter().map(|(key, value)| (key.to_string(), value));
         let shape = std::iter::once(("type".to_string(), kind.into())).chain(fields);

@@ -8,8 +8,8 @@ use crate::model::{build, Definition, Entry, Model, Problem, Problems};
 
 /// Writes a model in Rust.
 ///
-/// The builder collects a [`Definition`], as the reader of files does, so it reports the same faults. The order
-/// matters as in a file: that of bodies is the order of q, that of joints and drivers the order of Φ.
+/// The builder collects a [`Definition`], as the reader of files does, and therefore reports the same faults. As in a
+/// file, the order of the bodies is their order in q, and the order of the joints and drivers is their order in Φ.
 ///
 /// ```
 /// use kempe::{joints::Revolute, ModelBuilder};
@@ -54,7 +54,7 @@ impl ModelBuilder {
         self
     }
 
-    /// Accepts redundant constraints; their multipliers are then the smallest that balance the loads.
+    /// Accepts redundant constraints. Their multipliers are then those of least norm that balance the loads.
     pub fn allow_redundancy(&mut self) -> &mut Self {
         self.definition.redundancy = Some("allow".to_string());
         self
@@ -142,11 +142,11 @@ impl ModelBuilder {
     }
 }
 
-/// Faults that the reader of files finds: missing fields, names that are used twice or reserved.
+/// The faults that the reader of files finds, such as missing fields and names that are used twice or reserved.
 fn structure(case: &Case) -> Result<(), Problems> {
     let mut problems = given_twice(&case.definition);
     if let Err(found) = read(&write(case, Format::Json), Format::Json) {
-        // without a path: keys that occur twice; the line of the generated text has no meaning
+        // faults without a path are keys that occur twice; their line in the generated text has no meaning
         let placed = found.into_iter().filter(|fault| !fault.path.is_empty());
         problems.extend(
             placed.map(|fault| Problem::at(&fault.path, fault.message).maybe_hint(fault.hint)),
@@ -158,7 +158,7 @@ fn structure(case: &Case) -> Result<(), Problems> {
     }
 }
 
-/// Names that a file cannot contain twice, because they are keys of one table.
+/// The problems of names that are used twice. They are keys of one table, so that a file cannot contain them twice.
 fn given_twice(definition: &Definition) -> Vec<Problem> {
     let mut problems = Vec::new();
     let mut report = |path: &[&str], names: Vec<&str>| {

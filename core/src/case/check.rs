@@ -31,8 +31,8 @@ const SECTIONS: [&str; 14] = [
     "sweep",
 ];
 
-/// The case that a tree holds, which is complete if there are no problems of its structure. The problems come with the
-/// number of those that are not kept.
+/// The case that a tree contains, with the problems of its structure and the number of further problems that are not
+/// kept. The case is complete if there are no problems.
 pub(super) fn case(root: &Table, format: Format) -> (Case, (Vec<Problem>, usize)) {
     if let Some(problem) = newer(root) {
         return (Case::default(), (vec![problem], 0));
@@ -97,7 +97,7 @@ fn section(
         "sweep" => case.sweep = sweep::read(report, node, root),
         _ => {
             let message = format!("unknown key '{}'", super::shown(key));
-            // the singular of a section, or a part of its name
+            // the key may be the singular of a section, or a part of its name
             match SECTIONS.iter().find(|s| key.len() > 2 && s.get(..3) == key.get(..3)) {
                 Some(meant) => {
                     let hint = format!("did you mean '{meant}'?");
@@ -135,7 +135,7 @@ fn version(report: &mut ProblemList, root: &Table) {
     });
 }
 
-/// All values that no case may hold.
+/// The problems of all values that a case must not contain.
 pub(super) fn refused(root: &Table, format: Format) -> (Vec<Problem>, usize) {
     let mut report = ProblemList::new(format);
     refused_in(&mut report, root);
@@ -195,7 +195,7 @@ fn measures(
     table.values()
 }
 
-/// Named tables, each checked.
+/// Reads the named tables of a section, each checked by `check`.
 fn entries(
     report: &mut ProblemList,
     node: &Node,

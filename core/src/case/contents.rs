@@ -5,7 +5,7 @@ use crate::model::{Definition, Entry, Value};
 
 /// The version of the format that is read and written: `kempe = 1`.
 pub const FORMAT_VERSION: u32 = 1;
-/// Largest text that is read, in bytes: 16 MiB.
+/// Largest size of a text, in bytes: 16 MiB.
 pub const MOST_BYTES: usize = 16 << 20;
 
 /// The format of a text.

@@ -14,7 +14,7 @@ use std::ops::Range;
 /// ```
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
-    /// Line, from 1; 0 for the number of further faults.
+    /// Line, from 1; 0 for the entry that contains the number of further faults.
     pub line: usize,
     /// Column in characters, from 1; a tab is one character.
     pub column: usize,
@@ -57,7 +57,7 @@ const BEFORE: usize = 30;
 const MOST_SHOWN: usize = 80;
 
 impl Diagnostic {
-    /// The entry after the last fault that is shown.
+    /// The last entry of a shortened list, which contains the number of further faults.
     pub fn more(faults: usize) -> Self {
         let (message, excerpt) = (more_problems(faults), String::new());
         Self { line: 0, column: 0, path: Vec::new(), message, hint: None, excerpt }
@@ -116,7 +116,7 @@ fn excerpt(line: usize, content: &str, first: usize, marked: usize) -> String {
     format!("  {number} | {shown_line}\n  {gutter} | {}{caret}", " ".repeat(indent))
 }
 
-/// Adds a character in printable form; returns its number of columns.
+/// Adds a character in printable form and returns its number of columns.
 fn push_shown(out: &mut String, c: char) -> usize {
     let before = out.chars().count();
     match c {
@@ -127,14 +127,14 @@ fn push_shown(out: &mut String, c: char) -> usize {
     out.chars().count() - before
 }
 
-/// Whether a character is invisible, or changes the direction of the text around it (Unicode controls of direction,
-/// and blanks without width).
+/// Whether a character is invisible or changes the direction of the surrounding text: control characters,
+/// bidirectional controls, and blanks of zero width.
 pub(super) fn is_hidden(c: char) -> bool {
     c.is_control()
         || matches!(c, '\u{061C}' | '\u{200B}'..='\u{200F}' | '\u{2028}'..='\u{202E}' | '\u{2060}'..='\u{206F}' | '\u{FEFF}')
 }
 
-/// A name or text for a message: on one line, not too long, with visible characters only.
+/// A name or text in the form for messages: on one line, shortened, with visible characters only.
 pub(super) fn shown(text: &str) -> String {
     let mut out = String::new();
     for c in text.chars().take(MOST_SHOWN) {

@@ -8,7 +8,7 @@ use super::tree::{Data, Node, Table};
 use super::{json, toml, Format, MOST_BYTES};
 use crate::model::{Problem, Value};
 
-/// A text after reading; it turns any later [`Problem`] into a [`Diagnostic`].
+/// A text that has been read. It converts later [`Problem`]s into [`Diagnostic`]s.
 #[derive(Debug)]
 pub struct Document {
     text: String,
@@ -16,8 +16,8 @@ pub struct Document {
 }
 
 impl Document {
-    /// Reads the syntax. Returns the document and the keys that occur twice.
-    /// Errors: all faults of syntax that the reader could tell apart, one for each line.
+    /// Reads the syntax. Returns the document and the keys that occur twice. Errors: all faults of syntax that the
+    /// reader could distinguish, one for each line.
     pub(super) fn parse(
         text: &str,
         format: Format,
@@ -67,8 +67,8 @@ impl Document {
         found
     }
 
-    /// Line and column, from 1, of the key of a path, whose names may be whole or split at their dots; None if the
-    /// text does not contain it.
+    /// Line and column, from 1, of the key at a path. Names with dots may be split into several entries of the path.
+    /// None if the text does not contain the key.
     pub fn position(&self, path: &[&str]) -> Option<(usize, usize)> {
         let node = below(&self.root, path)?;
         let found = Diagnostic::new(&self.text, node.key.clone(), String::new());
@@ -91,7 +91,8 @@ impl Document {
         }
     }
 
-    /// Some bytes of a text value, if the file contains the text without escapes; otherwise the entire value.
+    /// The bytes of a part of a text value, if the file contains the text without escapes; otherwise the bytes of the
+    /// entire value.
     fn part(&self, node: &Node, part: &Range<usize>) -> Range<usize> {
         let (Data::Text(text), Some(raw)) = (&node.data, self.text.get(node.span.clone())) else {
             return node.span.clone();
@@ -113,7 +114,7 @@ fn below<'n>(node: &'n Node, path: &[&str]) -> Option<&'n Node> {
     (1..=path.len()).find_map(|n| below(node.child(&path[..n].join("."))?, &path[n..]))
 }
 
-/// A key with dots that the file has as tables within tables.
+/// The node of a key with dots that the file contains as nested tables.
 fn dotted<'n>(node: &'n Node, key: &str) -> Option<&'n Node> {
     let (outer, inner) = key.split_once('.')?;
     let node = node.child(outer)?;

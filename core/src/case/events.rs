@@ -9,7 +9,7 @@ use crate::analyses::DIRECTIONS;
 /// The fields of an event.
 pub(super) const FIELDS: [&str; 3] = ["condition", "direction", "stop"];
 
-/// Events by name: conditions, or tables with one.
+/// Checks events by name. Each is a condition, or a table that contains a condition.
 pub(super) fn events(report: &mut ProblemList, node: &Node) {
     let form = report
         .example("{ hit = \"rocker.angle > 270*deg\" }", "{ \"hit\": \"rocker.angle > 270*deg\" }");

@@ -1,13 +1,13 @@
-//! Faults of syntax, by place in the text.
+//! Faults of syntax and their places in the text.
 
 use std::ops::Range;
 
-/// A fault of the text itself, which has no path yet.
+/// A fault of the syntax, which has no path.
 #[derive(Debug)]
 pub(super) struct TextFault {
     pub place: Range<usize>,
     pub message: String,
-    /// The earlier place of the same key, for a key that occurs twice; such a fault leaves the tree complete.
+    /// The earlier place of the same key, if a key occurs twice. The tree is complete in spite of such a fault.
     pub earlier: Option<Range<usize>>,
 }
 
@@ -19,7 +19,8 @@ impl TextFault {
     }
 }
 
-/// The faults found so far; those beyond [`MOST_REPORTED`](super::MOST_REPORTED) are only counted.
+/// The faults found so far, and the number of faults beyond [`MOST_REPORTED`](super::MOST_REPORTED), which are only
+/// counted.
 #[derive(Debug, Default)]
 pub(super) struct Faults(pub Vec<TextFault>, pub usize);
 

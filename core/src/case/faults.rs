@@ -1,4 +1,4 @@
-//! The faults of a case that only its model shows.
+//! The faults of a case that can be found only with its model.
 
 use super::{sweep, Case};
 use crate::analyses::{self, assemble, measures};

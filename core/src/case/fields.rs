@@ -1,4 +1,4 @@
-//! The fields of an element, body, analysis or set of options against its declaration.
+//! Checks the fields of an element, body, analysis or set of options against its declaration.
 
 use super::events::events;
 use super::report::{among, ProblemList};
@@ -13,7 +13,7 @@ use crate::elements::{catalogue, Field, Shape, Table as Declaration};
 use crate::expression::suggest::{closest, did_you_mean};
 use crate::model::{body_tables, shape_tables};
 
-/// The declaration that the `type` of the present table names.
+/// The declaration with the `type` of the current table.
 pub(super) fn declared<'d>(
     report: &mut ProblemList,
     table: &Table,
@@ -55,7 +55,7 @@ pub(super) fn declared<'d>(
     })
 }
 
-/// The right section for a type in the wrong section.
+/// A hint with the correct section for a type in the wrong section.
 fn belongs(report: &ProblemList, name: &str) -> Option<String> {
     let elements = catalogue().into_iter().map(|(group, table)| (group.section(), table.name));
     let bodies = body_tables().into_iter().map(|table| ("bodies", table.name));
@@ -65,7 +65,7 @@ fn belongs(report: &ProblemList, name: &str) -> Option<String> {
     (name != "ground").then(|| format!("'{name}' belongs in {place}"))
 }
 
-/// Checks that the fields of the present table are known, of the right shape and complete.
+/// Checks that the fields of the current table are known, have the declared shape and are complete.
 pub(super) fn check(report: &mut ProblemList, table: &Table, declared: &Declaration, typed: bool) {
     let mut known: Vec<&str> = declared.fields.iter().map(|f| f.name).collect();
     if typed {
@@ -93,7 +93,7 @@ pub(super) fn check(report: &mut ProblemList, table: &Table, declared: &Declarat
     }
 }
 
-/// Checks the present value.
+/// Checks the current value.
 pub(super) fn shape(report: &mut ProblemList, node: &Node, shape: Shape) {
     match (shape, &node.data) {
         (_, Data::Refused(_)) => {}
@@ -137,7 +137,7 @@ pub(super) fn shape(report: &mut ProblemList, node: &Node, shape: Shape) {
     }
 }
 
-/// Shapes of a body; the model checks which fields of each go together.
+/// Checks the shapes of a body. The model checks which fields of a shape may be combined.
 fn shapes(report: &mut ProblemList, node: &Node) {
     let form = report.example(
         "{ type = \"disc\", radius = 0.1, mass = 1 }",
@@ -165,7 +165,7 @@ fn shapes(report: &mut ProblemList, node: &Node) {
     }
 }
 
-/// Checks the present value as a set of options of a family.
+/// Checks the current value as a set of options of a family.
 fn chosen(report: &mut ProblemList, node: &Node, family: &str) {
     let Some(family) = option_families().iter().find(|f| f.name == family) else { return };
     match &node.data {
@@ -179,7 +179,7 @@ fn chosen(report: &mut ProblemList, node: &Node, family: &str) {
     }
 }
 
-/// Checks the present table as one of some sets of options.
+/// Checks the current table as one of the `known` sets of options.
 pub(super) fn options(report: &mut ProblemList, table: &Table, known: &[Options], noun: &str) {
     let tables: Vec<&Declaration> = known.iter().map(|options| &options.table).collect();
     let Some(declared) = declared(report, table, &tables, noun, None) else { return };

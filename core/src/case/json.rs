@@ -1,5 +1,5 @@
 //! JSON (RFC 8259) → [`Table`] with places. `serde_json` checks the syntax; its raw values are slices of the text,
-//! whose addresses give the places of keys and values.
+//! whose addresses determine the places of keys and values.
 
 use std::ops::Range;
 
@@ -9,7 +9,7 @@ use serde_json::{from_str, Deserializer, Error};
 use super::fault::Faults;
 use super::tree::{number, too_deep, too_many, Data, Node, Table, MOST_DEPTH, MOST_VALUES};
 
-/// Reads a text; the first fault of syntax and all keys that are given twice, or the tree.
+/// Reads a text. The faults are the first fault of syntax, or all keys that are given twice.
 pub(super) fn parse(text: &str, faults: &mut Faults) -> Table {
     let mut reader = Reader { text, values: 0, faults };
     let root = from_str::<&RawValue>(text).map_err(|error| fault(text, &error));
@@ -72,7 +72,7 @@ impl<'t> Reader<'t, '_> {
         Ok(table)
     }
 
-    /// A text without its escapes; half of a surrogate pair is found only here.
+    /// A text with its escapes replaced. An unpaired surrogate is detected only here.
     fn string(&self, raw: &str) -> Result<String, TextFault> {
         from_str(raw).map_err(|error| (self.place(raw), words(&error)))
     }
@@ -105,11 +105,11 @@ fn words(error: &Error) -> String {
     text.rsplit_once(" at line ").map_or(text.as_str(), |(words, _)| words).to_string()
 }
 
-/// A fault of syntax: its place, and advice for frequent mistakes.
+/// A fault of syntax with its place, and with advice for frequent mistakes.
 fn fault(text: &str, error: &Error) -> TextFault {
     let before: usize = text.split_inclusive('\n').take(error.line() - 1).map(str::len).sum();
     let mut message = words(error);
-    // serde_json names the last byte that it accepted before a control character
+    // before a control character, the column of serde_json is that of the last accepted byte
     let late = usize::from(!message.starts_with("control character"));
     let mut at = before + error.column().saturating_sub(late);
     if error.is_eof() {

@@ -1,8 +1,8 @@
 //! Text of a case ↔ [`Case`]: strings in, strings out, with positions and suggestions.
 //!
-//! A case is a model, a start and any number of analyses, in TOML or JSON. [`read`] reports all
-//! faults of the structure at once; faults of the mechanics come from elsewhere as
-//! [`Problem`](crate::model::Problem)s, and [`Document::diagnose`] finds their places in the text.
+//! A case is a model, a start and any number of analyses, in TOML or JSON. [`read`] reports all faults of the
+//! structure at once. Faults of the mechanics are [`Problem`](crate::model::Problem)s of the model, and
+//! [`Document::diagnose`] finds their places in the text.
 //!
 //! | file | concept |
 //! |---|---|
@@ -12,8 +12,8 @@
 //! | `report` | problems by path |
 //! | `names`, `values`, `fields`, `tables`, `bodies`, `start`, `check` | tree → [`Case`], with every fault of structure |
 //! | `write_value`, `write_json`, `write_toml`, `write` | [`Case`] → text |
-//! | `faults` | faults of start and analyses that only the model shows |
-//! | `schema`, `catalogue` | the JSON Schema; the declarations of all that a case may contain |
+//! | `faults` | faults of the start and the analyses that can be found only with the model |
+//! | `schema`, `catalogue` | the JSON Schema; the declarations of the possible contents of a case |
 
 mod bodies;
 mod body_builder;
@@ -60,9 +60,9 @@ use crate::model::Value;
 
 /// Reads a case.
 ///
-/// Errors: every fault of syntax; or else, every fault of structure: unknown or missing keys,
-/// wrong shapes, names that cannot be; sorted by place, at most [`MOST_REPORTED`]. If there are more, a last entry
-/// without a place gives their number.
+/// Errors: every fault of syntax. If there is none, every fault of structure: unknown or missing keys, wrong shapes
+/// and invalid names. The faults are sorted by place, and at most [`MOST_REPORTED`] are returned. If there are more,
+/// a last entry without a place contains their number.
 pub fn read(text: &str, format: Format) -> Result<(Case, Document), Vec<Diagnostic>> {
     let (document, mut found) = Document::parse(text, format)?;
     let (case, (problems, dropped)) = check::case(document.root(), format);
@@ -76,7 +76,7 @@ pub fn read(text: &str, format: Format) -> Result<(Case, Document), Vec<Diagnost
 
 /// The values of any text in order, without checks of their meaning.
 ///
-/// Errors: faults of syntax; values that no case may hold, such as dates and numbers not finite.
+/// Errors: faults of syntax, and values that a case must not contain, such as dates and numbers that are not finite.
 pub fn parse_tree(text: &str, format: Format) -> Result<Value, Vec<Diagnostic>> {
     let (document, mut found) = Document::parse(text, format)?;
     let (refused, dropped) = check::refused(document.root(), format);

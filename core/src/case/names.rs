@@ -1,20 +1,20 @@
-//! Which names things may have.
+//! The rules for names.
 
 use std::collections::HashMap;
 
 use super::diagnostic::is_hidden;
 use super::report::ProblemList;
 
-/// Words that mean something else in formulas and references.
+/// Words that have another meaning in formulas and references.
 pub const RESERVED: [&str; 4] = ["t", "pi", "deg", "ground"];
-/// Most characters of a name.
+/// Largest number of characters of a name.
 pub(super) const MOST_CHARACTERS: usize = 200;
-/// Characters that names must not contain, as in a set of a regular expression: controls, controls of direction,
-/// and blanks without width. Some scripts need the two joiners U+200C and U+200D.
+/// Characters that names must not contain, as a set of a regular expression: control characters, bidirectional
+/// controls, and blanks of zero width. The two joiners U+200C and U+200D are allowed because some scripts need them.
 pub(super) const HIDDEN: &str =
     r"\u0000-\u001F\u007F-\u009F\u061C\u200B\u200E\u200F\u2028-\u202E\u2060-\u206F\uFEFF";
 
-/// Why a text cannot be a name.
+/// The reason why a text cannot be a name, if there is one.
 fn fault(name: &str) -> Option<String> {
     if name.trim().is_empty() {
         return Some("a name must not be empty".to_string());
@@ -36,24 +36,24 @@ fn fault(name: &str) -> Option<String> {
         .then(|| format!("a name of {length} characters; at most {MOST_CHARACTERS} are allowed"))
 }
 
-/// Checks a name which is the present key.
+/// Checks the current key as a name.
 pub(super) fn key(report: &mut ProblemList, name: &str) {
     if let Some(message) = fault(name) {
         report.say_of_key(message);
     }
 }
 
-/// Checks a name which is the present value.
+/// Checks the current value as a name.
 pub(super) fn value(report: &mut ProblemList, name: &str) {
     if let Some(message) = fault(name) {
         report.say(message);
     }
 }
 
-/// Characters that separate folders or that some file systems do not allow.
+/// Characters that separate folders, or that some file systems do not allow.
 const NOT_IN_FOLDERS: [char; 9] = ['/', '\\', ':', '*', '?', '"', '<', '>', '|'];
 
-/// Checks the present key as the name of an analysis, whose results go to a folder of this name.
+/// Checks the current key as the name of an analysis. It must be a valid name of the folder for the results.
 pub(super) fn folder(report: &mut ProblemList, name: &str, earlier: &[String]) {
     key(report, name);
     let hint = "its results go to a folder of this name";
@@ -79,7 +79,7 @@ fn alike(one: &str, other: &str) -> bool {
     one.to_lowercase() == other.to_lowercase()
 }
 
-/// Checks the present key as the name of a parameter or an element.
+/// Checks the current key as the name of a parameter or an element.
 pub(super) fn unreserved_key(report: &mut ProblemList, name: &str) {
     if RESERVED.contains(&name) {
         let problem = report.here(format!("'{name}' is reserved and cannot be a name"));
@@ -94,7 +94,7 @@ pub(super) fn unreserved_key(report: &mut ProblemList, name: &str) {
 pub(super) struct Namespace(HashMap<String, &'static str>);
 
 impl Namespace {
-    /// Checks the present key, the name of a `singular`, and adds it to the namespace.
+    /// Checks the current key and adds it to the namespace. `singular` is the kind of the named item.
     pub(super) fn take(&mut self, report: &mut ProblemList, name: &str, singular: &'static str) {
         if singular == "body" && name == "ground" {
             return;

@@ -1,10 +1,10 @@
-//! The problems found so far, and the path of the present value.
+//! The problems found so far, and the path of the current value.
 
 use super::Format;
 use crate::expression::suggest::did_you_mean;
 use crate::model::Problem;
 
-/// Collects problems during one walk through a tree.
+/// Collects problems during one traversal of a tree.
 pub(super) struct ProblemList {
     format: Format,
     path: Vec<String>,
@@ -14,7 +14,7 @@ pub(super) struct ProblemList {
 }
 
 impl ProblemList {
-    /// Without problems, of a text in a format.
+    /// An empty list for a text in a format.
     pub(super) fn new(format: Format) -> Self {
         Self { format, path: Vec::new(), problems: Vec::new(), dropped: 0 }
     }
@@ -25,42 +25,42 @@ impl ProblemList {
             Format::Json => json.to_string(),
         }
     }
-    /// Goes to the value of a key of the present value.
+    /// Calls `look` with the value of `key` as the current value.
     pub(super) fn within<T>(&mut self, key: &str, look: impl FnOnce(&mut Self) -> T) -> T {
         self.path.push(key.to_string());
         let result = look(self);
         self.path.pop();
         result
     }
-    /// A problem of the present value, not yet reported.
+    /// A problem of the current value, not yet reported.
     pub(super) fn here(&self, message: impl Into<String>) -> Problem {
         Problem::at(&self.path, message)
     }
-    /// The key of the present value.
+    /// The key of the current value.
     pub(super) fn key(&self) -> &str {
         self.path.last().map_or("", String::as_str)
     }
-    /// Reports a problem; those beyond [`MOST_REPORTED`](super::MOST_REPORTED) are counted.
+    /// Reports a problem. Problems beyond [`MOST_REPORTED`](super::MOST_REPORTED) are only counted.
     pub(super) fn add(&mut self, problem: Problem) {
         match self.problems.len() < super::MOST_REPORTED {
             true => self.problems.push(problem),
             false => self.dropped += 1,
         }
     }
-    /// Reports a problem of the present value.
+    /// Reports a problem of the current value.
     pub(super) fn say(&mut self, message: impl Into<String>) {
         self.add(self.here(message));
     }
-    /// Reports a problem of the key of the present value.
+    /// Reports a problem of the key of the current value.
     pub(super) fn say_of_key(&mut self, message: impl Into<String>) {
         self.add(self.here(message).at_key());
     }
-    /// Reports an unknown key; suggests the nearest known key, or lists all.
+    /// Reports an unknown key. The hint suggests the closest known key, or lists all known keys.
     pub(super) fn unknown_key(&mut self, message: impl Into<String>, key: &str, known: &[&str]) {
         let hint = did_you_mean(key, known).unwrap_or_else(|| among("it may have", known));
         self.add(self.here(message).at_key().hint(hint));
     }
-    /// The problems that are kept, and the number of the others.
+    /// The kept problems, and the number of further problems.
     pub(super) fn finish(self) -> (Vec<Problem>, usize) {
         (self.problems, self.dropped)
     }

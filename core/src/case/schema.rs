@@ -31,17 +31,17 @@ fn reference(name: &str) -> Value {
     json!({ "$ref": format!("#/$defs/{name}") })
 }
 
-/// Names, except some. `(?![\s\S])` is the end of the text in every dialect of regular expressions.
+/// Names, except those in `except`. `(?![\s\S])` matches the end of the text in every dialect of regular expressions.
 fn names(except: &[&str]) -> Value {
     names_without("", except)
 }
 
-/// Names of analyses: they are names of folders, too.
+/// Names of analyses, which are also names of folders.
 fn folders() -> Value {
     names_without(r#"/\\:*?"<>|"#, &["start"])
 }
 
-/// Names without some further characters.
+/// Names that do not contain the characters `more` either.
 fn names_without(more: &str, except: &[&str]) -> Value {
     let reserved = match except {
         [] => String::new(),
@@ -127,7 +127,7 @@ fn sweep() -> Value {
     described(closed(object(fields), needed), "A sweep: many variants of the case.")
 }
 
-/// Tables by name; formulas call them, so their names are identifiers.
+/// Tables by name. Formulas call them, so that their names must be identifiers.
 fn tables() -> Value {
     let table = table_fields();
     let properties = table.fields.iter().map(|f| (f.name.to_string(), property(f))).collect();
@@ -162,10 +162,10 @@ fn by_coordinate() -> Value {
     })
 }
 
-/// An object whose `type` selects its fields; `absent` is the type of an object without one.
+/// An object whose `type` selects its fields; `absent` is the type of an object without the key `type`.
 ///
-/// `if` and `then` for each type give one error for one fault, where `oneOf` would list all types. The properties
-/// outside are for editors that complete keys without `if`.
+/// With `if` and `then` for each type, a fault causes a single error, whereas `oneOf` would list all types. The
+/// properties outside `if` are for editors that ignore `if` when they complete keys.
 fn one_of<'t>(tables: impl IntoIterator<Item = &'t Table>, absent: Option<&str>) -> Value {
     let (mut properties, mut choices, mut kinds) = (Map::new(), Vec::new(), Vec::new());
     for table in tables {
@@ -191,8 +191,8 @@ fn one_of<'t>(tables: impl IntoIterator<Item = &'t Table>, absent: Option<&str>)
     closed(properties, choice)
 }
 
-/// An object with just these properties. What it must be besides counts only if all its keys are known: an unknown
-/// key may be a misspelt one, and is then the only error.
+/// An object with exactly these properties. The schema `besides` applies only if all keys are known. An unknown key,
+/// which may be misspelt, is then the only error.
 fn closed(properties: Map<String, Value>, besides: Value) -> Value {
     let keys: Vec<&String> = properties.keys().collect();
     let known = json!({ "propertyNames": { "enum": keys } });
@@ -205,7 +205,7 @@ fn closed(properties: Map<String, Value>, besides: Value) -> Value {
     })
 }
 
-/// One of some sets of options.
+/// One of the `known` sets of options.
 fn options(known: &[Declaration]) -> Value {
     let mut found = one_of(known.iter().map(|declared| &declared.table), None);
     for (choice, declared) in found["then"]["allOf"].as_array_mut().into_iter().flatten().zip(known)
@@ -338,7 +338,7 @@ fn outline() -> Value {
     json!({ "if": { "type": "array" }, "then": reference("corners"), "else": table })
 }
 
-/// An event: a condition, or a table with one.
+/// An event: a condition, or a table that contains a condition.
 fn event() -> Value {
     let properties = json!({
         "condition": { "type": "string", "description": "A comparison, or an expression that becomes zero." },

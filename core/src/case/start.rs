@@ -7,7 +7,7 @@ use super::Start;
 use crate::elements::{Coordinate, Group};
 use crate::model::Value;
 
-/// Reads the present value as the section of the case with this root.
+/// Reads the current value as the section `[start]` of the case with this root.
 pub(super) fn read(report: &mut ProblemList, node: &Node, root: &Table) -> Start {
     let mut start = Start::default();
     let Data::Table(table) = &node.data else {
@@ -27,8 +27,8 @@ pub(super) fn read(report: &mut ProblemList, node: &Node, root: &Table) -> Start
     start
 }
 
-/// `{ "crank.angle" = 1 }` or `{ crank = { angle = 1 } }`, the meaning of a dotted key; `{ crank = { B = { x = 1 } } }`
-/// for a point.
+/// Reads `{ "crank.angle" = 1 }` or the equivalent nested table `{ crank = { angle = 1 } }`, which a dotted key
+/// yields; for a point, `{ crank = { B = { x = 1 } } }`.
 fn coordinates(report: &mut ProblemList, node: &Node, root: &Table) -> Vec<(String, Value)> {
     let mut found: Vec<(String, Value)> = Vec::new();
     let Data::Table(table) = &node.data else {
@@ -48,7 +48,7 @@ fn coordinates(report: &mut ProblemList, node: &Node, root: &Table) -> Vec<(Stri
     found
 }
 
-/// Takes the coordinates of a table, whose keys continue the name `owner`.
+/// Calls `take` for the coordinates of a table whose keys continue the name `owner`.
 fn each(
     report: &mut ProblemList,
     entries: &[(String, Node)],
@@ -75,13 +75,13 @@ fn each(
     }
 }
 
-/// Whether a table may follow: of a body, or of a point of it.
+/// Whether a nested table may follow: that of a body or of a point of a body.
 fn goes_on(owner: &str, key: &str) -> bool {
     let of_point = !owner.contains('.') && Coordinate::named(key).is_none();
     !key.contains('.') && (owner.is_empty() || of_point)
 }
 
-/// Checks the name of a coordinate. The states of elements are in the model only.
+/// Checks the name of a coordinate. States of elements are known only to the model and are not checked here.
 fn coordinate(report: &mut ProblemList, root: &Table, (owner, name): (&str, &str)) {
     if Coordinate::named(name).is_none() && !is_element(root, owner) {
         let known = Coordinate::ALL.map(Coordinate::name);

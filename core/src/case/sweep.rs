@@ -141,8 +141,8 @@ fn analysis(report: &mut ProblemList, node: &Node, root: &Table) {
     }
 }
 
-/// The faults that the model shows: names that it lacks, and faulty measures. `kinds` are names and types of the
-/// analyses.
+/// The faults that can be found with the model: names that it does not contain, and faulty measures. `kinds` contains
+/// the names and types of the analyses.
 pub(super) fn faults(
     model: &Model,
     section: &[(String, Value)],

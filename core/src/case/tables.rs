@@ -1,4 +1,4 @@
-//! The structure of a table, and the points that are read from its file.
+//! The structure of a table, and the points from its file.
 
 use super::fields;
 use super::report::ProblemList;
@@ -8,7 +8,7 @@ use crate::elements::Table as Declaration;
 use crate::expression::{is_identifier, is_reserved, FUNCTIONS};
 use crate::model::Value;
 
-/// Checks the present table as the one of this name in the case with this root.
+/// Checks the current table as the table with this name in the case with this root.
 pub(super) fn check(
     report: &mut ProblemList,
     name: &str,
@@ -38,7 +38,7 @@ pub(super) fn check(
     }
 }
 
-/// Why a formula cannot call a table by this name, and a remedy.
+/// The reason why a formula cannot call a table by this name, and a remedy.
 fn wrong_name(name: &str, root: &tree::Table) -> Option<(String, &'static str)> {
     let taken = |section: &str| root.get(section).and_then(|node| node.child(name)).is_some();
     let shown = super::shown(name);
@@ -61,9 +61,9 @@ fn wrong_name(name: &str, root: &tree::Table) -> Option<(String, &'static str)> 
 }
 
 impl Case {
-    /// Gives a table the points that its file contains; false if there is no such table.
+    /// Sets the points of a table to those of its file. Returns false if there is no such table.
     ///
-    /// The core reads no files: its caller does, and the case keeps the name of the file.
+    /// The core does not read files. The caller reads the file, and the case keeps its name.
     pub fn supply(&mut self, table: &str, x: &[f64], y: &[f64]) -> bool {
         let tables = &mut self.definition.tables;
         let Some(entry) = tables.iter_mut().find(|entry| entry.name == table) else { return false };

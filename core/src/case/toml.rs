@@ -15,7 +15,7 @@ use super::fault::Faults;
 use super::toml_tables::Builder;
 use super::tree::{number, Data, Table, MOST_DEPTH};
 
-/// Reads a text; all faults of syntax, or the tree.
+/// Reads a text, and reports all faults of syntax.
 pub(super) fn parse(text: &str, faults: &mut Faults) -> Table {
     let source = Source::new(text);
     let tokens = source.lex().into_vec();
@@ -69,7 +69,7 @@ fn word(expected: &Expected) -> String {
 struct Events<'s> {
     source: Source<'s>,
     builder: Builder,
-    /// Whether the next key continues a dotted one.
+    /// Whether the next key continues a dotted key.
     joined: bool,
 }
 

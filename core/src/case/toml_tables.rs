@@ -1,4 +1,4 @@
-//! How headers and dotted keys of TOML make tables (TOML 1.0, "Keys", "Table", "Array of Tables").
+//! The construction of tables from headers and dotted keys of TOML (TOML 1.0, "Keys", "Table", "Array of Tables").
 
 use std::ops::Range;
 
@@ -7,11 +7,11 @@ use super::tree::{too_deep, too_many, Data, Node, Origin, Table, MOST_DEPTH, MOS
 
 type Key = (String, Range<usize>);
 
-/// Collects values into tables, in the order in which the parser meets them.
+/// Collects values into tables, in the order in which the parser reads them.
 #[derive(Default)]
 pub(super) struct Builder {
     root: Table,
-    /// The table of the last header, by its path from the root; None after a faulty one.
+    /// The path of the table of the last header; None after a faulty header.
     header: Option<Vec<Key>>,
     started: bool,
     header_start: usize,
@@ -22,7 +22,7 @@ pub(super) struct Builder {
     faults: Faults,
 }
 
-/// A list or an inline table whose end is not read yet.
+/// A list or an inline table whose end has not been read.
 struct Open {
     start: usize,
     data: Data,
@@ -64,7 +64,7 @@ impl Builder {
         }
     }
 
-    /// Puts a complete value at the place that the keys before it give.
+    /// Stores a complete value under the preceding keys.
     pub(super) fn place(&mut self, span: Range<usize>, data: Data) {
         self.values += 1;
         if self.values == MOST_VALUES + 1 {
@@ -83,7 +83,7 @@ impl Builder {
         self.store(span, data);
     }
 
-    /// Keys and indices from the root to the value that is placed next.
+    /// The number of keys and indices from the root to the next value.
     fn depth(&self) -> usize {
         let inside: usize = self.open.iter().map(|open| open.keys.len().max(1)).sum();
         self.header.as_ref().map_or(0, Vec::len) + self.keys.len() + inside
@@ -110,7 +110,7 @@ impl Builder {
         }
     }
 
-    /// Makes the table of a complete header.
+    /// Creates the table of a complete header.
     pub(super) fn close_header(&mut self, end: usize, of_list: bool) {
         self.started = true;
         self.header = None;
@@ -139,7 +139,7 @@ fn put(
     let Some((name, key)) = keys.pop() else { return Ok(()) };
     let table = descend(table, &keys, Origin::Dotted)?;
     match keys.last() {
-        // a table with a header of its own is not extended by dotted keys
+        // dotted keys must not extend a table that has its own header
         Some((outer, place)) if table.origin == Origin::Header => {
             Err(TextFault::twice(outer, place.clone(), place.clone()))
         }
@@ -182,7 +182,7 @@ fn by_header(item: &Node) -> bool {
     matches!(&item.data, Data::Table(table) if table.origin == Origin::Header)
 }
 
-/// The table at a path, made where it is absent; the last one of a list of tables.
+/// The table at a path, created if it is absent. In a list of tables, it is the last table.
 fn descend<'t>(
     mut table: &'t mut Table,
     path: &[Key],

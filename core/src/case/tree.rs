@@ -6,7 +6,7 @@ use std::ops::Range;
 use super::fault::TextFault;
 use crate::model::Value;
 
-/// Deepest nesting of values that is read.
+/// Largest nesting depth of values.
 pub const MOST_DEPTH: usize = 64;
 /// Largest number of values that are read.
 pub const MOST_VALUES: usize = 1_000_000;
@@ -14,9 +14,9 @@ pub const MOST_VALUES: usize = 1_000_000;
 /// A value and its place.
 #[derive(Debug)]
 pub(super) struct Node {
-    /// Bytes of its key; those of the value in a list.
+    /// Bytes of its key; in a list, the bytes of the value.
     pub key: Range<usize>,
-    /// Bytes of the value; of a table with a header, those of the header.
+    /// Bytes of the value; for a table with a header, the bytes of the header.
     pub span: Range<usize>,
     /// The value.
     pub data: Data,
@@ -35,7 +35,7 @@ pub(super) enum Data {
     List(Vec<Node>),
     /// A table.
     Table(Table),
-    /// A value that a case must not hold, with the reason.
+    /// A value that a case must not contain, with the reason.
     Refused(String),
 }
 
@@ -45,7 +45,7 @@ pub(super) struct Table {
     /// Entries in order.
     pub entries: Vec<(String, Node)>,
     index: HashMap<String, usize>,
-    /// The way in which the file defines it.
+    /// The way in which the file defines the table.
     pub origin: Origin,
 }
 
@@ -55,7 +55,7 @@ pub(super) enum Origin {
     /// Written in braces.
     #[default]
     Inline,
-    /// Implicitly, by a header such as `[a.b]` of `a`.
+    /// Implicitly, as the table `a` of a header such as `[a.b]`.
     Implied,
     /// By its own header.
     Header,
@@ -73,7 +73,7 @@ impl Table {
     pub(super) fn get_mut(&mut self, key: &str) -> Option<&mut Node> {
         self.index.get(key).map(|&k| &mut self.entries[k].1)
     }
-    /// Adds an entry, unless there is one already.
+    /// Adds an entry, unless the key already exists.
     pub(super) fn insert(&mut self, key: String, node: Node) -> Result<(), TextFault> {
         if let Some(earlier) = self.get(&key) {
             return Err(TextFault::twice(&key, node.key, earlier.key.clone()));
@@ -82,7 +82,7 @@ impl Table {
         self.entries.push((key, node));
         Ok(())
     }
-    /// The value of a key, made if there is none.
+    /// The value of a key, created if it is absent.
     pub(super) fn get_or_insert(&mut self, key: &str, make: impl FnOnce() -> Node) -> &mut Node {
         let next = self.entries.len();
         let at = *self.index.entry(key.to_string()).or_insert(next);
@@ -133,7 +133,7 @@ impl Table {
     }
 }
 
-/// A number from the digits of a file, or the reason for its refusal.
+/// A number from the digits of a file, or the reason why it is not allowed.
 pub(super) fn number(digits: &str, whole: bool) -> Data {
     const EXACT: i64 = 1 << 53;
     let exact = || digits.parse::<i64>().is_ok_and(|n| (-EXACT..=EXACT).contains(&n));

@@ -46,7 +46,7 @@ pub(super) fn triple(report: &mut ProblemList, node: &Node) {
     }
 }
 
-/// Any number of numbers or formulas, at least one.
+/// At least one number or formula.
 pub(super) fn numbers(report: &mut ProblemList, node: &Node) {
     match &node.data {
         Data::List(items) if !items.is_empty() => {
@@ -63,7 +63,7 @@ pub(super) fn numbers(report: &mut ProblemList, node: &Node) {
 pub(super) const TERMS: [&str; 2] =
     ["{ \"A.angle\" = 2, \"B.angle\" = -1 }", "{ \"A.angle\": 2, \"B.angle\": -1 }"];
 
-/// Names with numbers or formulas, at least one; an example of the table in TOML and in JSON.
+/// At least one name with a number or formula. `toml` and `json` are examples of the table.
 pub(super) fn terms(report: &mut ProblemList, node: &Node, [toml, json]: [&str; 2]) {
     let form = report.example(toml, json);
     match &node.data {
@@ -257,7 +257,7 @@ pub(super) fn count(report: &mut ProblemList, node: &Node) {
     }
 }
 
-/// A number, or one for each of some kinds.
+/// A number, or a table with a number for each kind of quantity.
 pub(super) fn tolerance(report: &mut ProblemList, node: &Node) {
     let Data::Table(table) = &node.data else {
         if !matches!(node.data, Data::Number(_) | Data::Text(_)) {
@@ -276,7 +276,7 @@ pub(super) fn tolerance(report: &mut ProblemList, node: &Node) {
     }
 }
 
-/// One of some words.
+/// One of the `words`.
 pub(super) fn word(report: &mut ProblemList, node: &Node, words: &[&str]) {
     match &node.data {
         Data::Text(text) if words.contains(&text.as_str()) => {}

@@ -3,8 +3,8 @@
 use super::{write_json, write_toml, Case, Format, FORMAT_VERSION};
 use crate::model::{Entry, Value};
 
-/// Writes a case so that [`read`](super::read) gives the same case again: same order, same formulas,
-/// numbers with the fewest digits that give the same bits.
+/// Writes a case so that [`read`](super::read) returns the same case: the same order, the same formulas, and numbers
+/// with the fewest digits that yield the same bits.
 ///
 /// A case that [`read`](super::read) cannot return, with two entries of one name or a number that is not finite,
 /// is written unchanged; [`read`](super::read) then reports its faults.
@@ -16,7 +16,7 @@ pub fn write(case: &Case, format: Format) -> String {
     }
 }
 
-/// The case as one table, in the order in which it is written, without its empty sections.
+/// The case as one table in the written order, without empty sections.
 fn tree(case: &Case) -> Vec<(String, Value)> {
     let model = &case.definition;
     let text = |text: &Option<String>| text.clone().map(Value::Text);

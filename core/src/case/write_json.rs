@@ -16,7 +16,7 @@ fn key(name: &str) -> String {
     quoted(name) + ": "
 }
 
-/// The top and its sections always have several lines; values within them only if they are long.
+/// Writes a value. The root and its sections always have several lines, values within them only if they are long.
 fn value(out: &mut String, value: &Value, depth: usize) {
     let line = one_line(value, key);
     match value {
@@ -34,7 +34,7 @@ fn table(out: &mut String, entries: &[(String, Value)], depth: usize) {
     broken(out, ["{", "}"], depth, entries, |(name, _)| key(name), |(_, value)| value);
 }
 
-/// A list or a table with one item in a line.
+/// Writes a list or a table with one item per line.
 fn broken<T>(
     out: &mut String,
     [open, close]: [&str; 2],

@@ -3,7 +3,7 @@
 use super::write_value::{one_line, quoted};
 use crate::model::Value;
 
-/// Sections that hold named entries; the others hold values.
+/// Sections that contain named entries. The other sections contain values.
 const OF_ENTRIES: [&str; 6] = ["tables", "bodies", "joints", "drivers", "forces", "analyses"];
 
 pub(super) fn text(tree: &[(String, Value)]) -> String {
@@ -23,7 +23,7 @@ pub(super) fn text(tree: &[(String, Value)]) -> String {
     out
 }
 
-/// The fields of a table, one in a line.
+/// The fields of a table, one per line.
 fn lines(table: &Value) -> String {
     let Value::Table(fields) = table else { return String::new() };
     fields.iter().map(|(name, value)| line(name, value)).collect()
@@ -37,7 +37,7 @@ fn assigned(name: &str) -> String {
     key(name) + " = "
 }
 
-/// A key, in quotes where it needs them.
+/// A key, in quotes if necessary.
 fn key(name: &str) -> String {
     let bare = |c: char| c.is_ascii_alphanumeric() || c == '_' || c == '-';
     match !name.is_empty() && name.chars().all(bare) {

@@ -2,7 +2,7 @@
 
 use crate::model::Value;
 
-/// A value on one line; `key` writes a key of a table with the sign behind it.
+/// A value on one line. `key` writes a key of a table with the character after it.
 pub(super) fn one_line(value: &Value, key: fn(&str) -> String) -> String {
     let join = |parts: Vec<String>| parts.join(", ");
     match value {
@@ -26,8 +26,8 @@ pub(super) fn quoted(text: &str) -> String {
     serde_json::Value::from(text).to_string().replace('\u{7f}', "\\u007f")
 }
 
-/// A number with the fewest digits that give the same bits, with an exponent if that is shorter for
-/// a large or small number, or if the digits alone would read as an integer beyond 2^53.
+/// A number with the fewest digits that yield the same bits. It has an exponent if this is shorter for a large or
+/// small number, or if the digits alone would be read as an integer beyond 2^53.
 fn digits(x: f64) -> String {
     let plain = format!("{x}");
     let size = x.abs();

@@ -2,8 +2,8 @@
 
 use crate::math::Local;
 
-/// The joint frame on one body: its origin s′ and the angle of its x″ axis in the body frame; C of
-/// (6.6.8) is the rotation by that angle.
+/// The joint frame on one body: its origin s′ and the angle of its x″ axis in the body frame. C in Haug (6.6.8) is
+/// the rotation by this angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Attachment<S = f64> {
     /// Origin, m.

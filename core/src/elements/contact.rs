@@ -1,13 +1,13 @@
-//! Search along a curve: the nearest contact, and places where a curve cannot carry a joint.
+//! Searches along a curve: the nearest contact, and points at which a curve cannot carry a joint.
 
 use super::corner::{jump, Jump};
 use super::plane_curve::Curve;
 use crate::math::{Interpolation, Local};
 
-/// Number of places of u that a search looks at first.
+/// Number of values of u at which a search begins.
 const PLACES: usize = 720;
 
-/// The places of u, from one end to the other; a spline has several in each piece.
+/// The values of u at which a search begins, from one end to the other. A spline has several values in each piece.
 pub(super) fn places(curve: &Curve) -> impl Iterator<Item = f64> {
     let [a, b] = curve.range();
     let count = match curve {
@@ -17,7 +17,7 @@ pub(super) fn places(curve: &Curve) -> impl Iterator<Item = f64> {
     (0..=count).map(move |k| a + (b - a) * k as f64 / count as f64)
 }
 
-/// The u of the least value of `f`, to about the square root of the precision.
+/// The u at which `f` has its least value, to about the square root of the machine precision.
 pub(super) fn least(curve: &Curve, f: impl Fn(f64) -> f64) -> f64 {
     let finite = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
     let all: Vec<f64> = places(curve).collect();
@@ -29,7 +29,7 @@ pub(super) fn least(curve: &Curve, f: impl Fn(f64) -> f64) -> f64 {
     if !curve.periodic() {
         (a, b) = (a.max(low), b.min(high));
     }
-    // golden section: one of the two inner places stays
+    // golden-section search: one of the two inner points is kept
     let ratio = 0.5 * (5.0_f64.sqrt() - 1.0);
     let (mut left, mut right) = (b - ratio * (b - a), a + ratio * (b - a));
     let (mut at_left, mut at_right) = (finite(f(left)), finite(f(right)));
@@ -61,7 +61,7 @@ pub(super) fn place(curve: &Curve, u: f64) -> String {
 }
 
 impl Curve {
-    /// Points along the curve that show it.
+    /// Points along the curve for drawings.
     pub fn drawn(&self) -> Vec<Local> {
         let count = match self {
             Self::Line { .. } => 1,
@@ -111,7 +111,7 @@ impl Curve {
         }
     }
 
-    /// A periodic curve that does not close with its tangent.
+    /// The fault of a periodic curve that does not close, or whose tangent jumps where it closes.
     fn open_seam(&self, a: f64, b: f64) -> Option<(&'static str, String)> {
         let mut unwound = self.clone();
         if let Self::Formula(formula) = &mut unwound {
@@ -138,7 +138,8 @@ impl Curve {
     }
 }
 
-/// A place where the curve stops or turns back, C′ = 0, where it jumps or has a corner, or where C has no value.
+/// A description of a point at which the curve cannot carry a joint: a cusp with C′ = 0, a jump, a corner, or a point
+/// at which C has no value.
 pub(super) fn cusp(curve: &Curve) -> Option<String> {
     if curve.fault().is_some() {
         return None; // it is reported at the curve

@@ -1,27 +1,27 @@
-//! Corners and gaps of a curve: places of its formulas at which C or C′ jumps.
+//! Corners and gaps of a curve: points at which its formulas make C or C′ jump.
 //!
-//! The breaks of a formula are known to rounding. The values on both sides are taken a short way off and extended to the
-//! break, so that neither rounding nor curvature counts as a jump.
+//! The breaks of a formula are known up to rounding errors. The values on both sides are evaluated at a short
+//! distance and extrapolated to the break, so that neither rounding errors nor curvature count as a jump.
 
 use super::plane_curve::Curve;
 use crate::math::Local;
 
-/// The way off a break, relative to the length of u.
+/// The distance from a break, relative to the length of the range of u.
 const OFF: f64 = 1e-8;
-/// Least jumps of C and of C′ that count, relative to the largest values.
+/// Smallest jumps of C and of C′ that are detected, relative to the largest values.
 const LEAST: [f64; 2] = [1e-9, 1e-6];
 
-/// Where a curve jumps.
+/// A jump of a curve.
 pub(super) struct Jump {
     /// The break.
     pub u: f64,
-    /// The derivative that jumps, 0 or 1.
+    /// The order of the derivative that jumps, 0 or 1.
     pub order: usize,
-    /// The distance of both sides, m.
+    /// The magnitude of the jump, m.
     pub by: f64,
 }
 
-/// The first jump of a curve with the largest |C| and |C′| `largest`.
+/// The first jump of a curve. `largest` contains the largest |C| and |C′|.
 pub(super) fn jump(curve: &Curve, largest: [f64; 2]) -> Option<Jump> {
     let breaks = curve.breaks()?;
     let [low, high] = curve.range();

@@ -5,9 +5,9 @@
 pub struct CurveForm {
     /// The keys that make the form; all are required.
     pub keys: &'static [&'static str],
-    /// Further keys that it may have.
+    /// Optional keys of the form.
     pub more: &'static [&'static str],
-    /// The form in words.
+    /// The description of the form.
     pub words: &'static str,
 }
 

@@ -1,7 +1,7 @@
 //! A curve whose components are formulas in u and the parameters.
 
 #[cfg(target_arch = "wasm32")]
-use super::curve_series::{self, Orders, TaylorSeries, SeventhOrder, ThirdOrder};
+use super::curve_series::{self, Orders, SeventhOrder, TaylorSeries, ThirdOrder};
 use crate::expression::{switch_places, Knots, Symbol, Tape, Values};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::math::{Dual, Jet, Lift};
@@ -16,13 +16,13 @@ pub struct Formula<S = f64> {
     values: Vec<S>,
     /// The ends of u.
     pub range: [S; 2],
-    /// Whether it repeats itself beyond them.
+    /// Whether the curve repeats periodically beyond these ends.
     pub periodic: bool,
     /// SI unit of u.
     pub unit: &'static str,
 }
 
-/// The breaks of a curve, and the numbers for which they were found.
+/// The numbers for which the breaks of a curve were searched, and the breaks.
 type Found = (Vec<f64>, Option<Arc<Knots>>);
 
 /// The formulas, and the indices of the parameters that they use.
@@ -36,7 +36,7 @@ struct FormulaPair {
 }
 
 impl Formula<Tape> {
-    /// A curve from formulas in u, the only variable, which has no unit, and in parameters of a model.
+    /// A curve from formulas in the parameters of a model and in u, the only variable, which has no unit.
     pub fn new(x: Tape, y: Tape, range: [Tape; 2], periodic: bool) -> Self {
         let mut parameters: Vec<usize> = x.parameters().chain(y.parameters()).collect();
         parameters.sort_unstable();
@@ -74,7 +74,7 @@ impl<S> Formula<S> {
 #[cfg(not(target_arch = "wasm32"))]
 type Third<S> = Jet<Dual<1, S>>;
 
-/// The names of the formulas, over a scalar `T` that contains `S`.
+/// The values of the names in the formulas, over a scalar `T` that contains `S`.
 struct FormulaNames<'a, S, T> {
     parameters: &'a [usize],
     values: &'a [S],
@@ -96,7 +96,7 @@ impl<S: Real, T: Real> Values<T> for FormulaNames<'_, S, T> {
 }
 
 impl<S: Real> Formula<S> {
-    /// u within the range, to which the formulas of a periodic curve belong.
+    /// u, reduced to the range if the curve is periodic.
     fn within(&self, u: S) -> S {
         let [a, b] = self.range;
         match self.periodic {
@@ -155,7 +155,8 @@ impl<S: Real> Formula<S> {
         self.near(u, 3)
     }
 
-    /// The derivatives by u up to `order` from the series of lowest order that gives them; the others are not right.
+    /// The derivatives with respect to u up to `order`, from the series of lowest order that contains them. Higher
+    /// derivatives in the result are not valid.
     fn near(&self, u: S, order: usize) -> [Local<S>; 4] {
         let number = |x: &S| x.in_lanes()[0];
         let u = self.within(u);
@@ -185,8 +186,8 @@ impl Formula {
 }
 
 impl<S: Real> Formula<S> {
-    /// The places of u at which a condition of a formula changes, where its motion laws begin and end, and then the seam
-    /// of a periodic curve; of the first lane of the scalar.
+    /// The values of u at which a condition of a formula changes or a motion law begins or ends, for the first lane
+    /// of the scalar. If there are any, the seam of a periodic curve is included.
     pub(super) fn breaks(&self) -> Option<Arc<Knots>> {
         let written = &self.written;
         if written.x.switches().is_empty() && written.y.switches().is_empty() {

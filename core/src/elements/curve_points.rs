@@ -1,18 +1,19 @@
 //! A curve through points: a spline over the accumulated chord length.
 //!
-//! The points are numbers of a case. In WebAssembly, where the size of the program matters, their spline is one over
-//! numbers for every scalar: no analysis there has derivatives by a parameter. Elsewhere it is a spline over the scalar.
+//! In WebAssembly, where the size of the program matters, the spline is computed over numbers for every scalar,
+//! because no analysis there computes derivatives with respect to parameters. Elsewhere, it is a spline over the
+//! scalar.
 
 use crate::math::{Interpolation, Local, Real, Spline};
 use std::sync::OnceLock;
 
-/// The numbers of the spline of a curve over a scalar.
+/// The scalar of the spline of a curve over `S`.
 #[cfg(not(target_arch = "wasm32"))]
 type Kept<S> = S;
 #[cfg(target_arch = "wasm32")]
 type Kept<S> = <f64 as InPlaceOf<S>>::Number;
 
-/// A number in place of any scalar.
+/// A number that replaces any scalar.
 #[cfg(target_arch = "wasm32")]
 trait InPlaceOf<S> {
     type Number;
@@ -27,7 +28,7 @@ impl<S> InPlaceOf<S> for f64 {
 pub struct CurvePoints<S = f64> {
     /// The points, m.
     pub points: Vec<Local<S>>,
-    /// How they are joined.
+    /// The interpolation between the points.
     pub kind: Interpolation,
     /// Whether the last point is joined to the first.
     pub periodic: bool,

@@ -1,9 +1,9 @@
-//! A curve near a number u by its Taylor series there.
+//! A curve near a number u, by its Taylor series at u.
 //!
-//! A scalar with derivatives of order up to four differs from its value by a d with d⁵ = 0. C, C′, C″ and C‴ over such a
-//! scalar follow exactly from the derivatives of order 0 to 7 at the value, which are numbers: the formulas of a curve
-//! need not be compiled for every scalar. WebAssembly uses this, where the size of the program matters. Parameters of
-//! the curve must be constants.
+//! A scalar with derivatives of order up to four differs from its value by a d with d⁵ = 0. C, C′, C″ and C‴ over
+//! such a scalar therefore follow exactly from the derivatives of order 0 to 7 at the value, which are numbers. The
+//! formulas of a curve need not be compiled for every scalar, which reduces the size of the program in WebAssembly.
+//! The parameters of the curve must be constants.
 
 use crate::math::{Dual, Jet, Local, Real};
 
@@ -16,7 +16,7 @@ pub(super) type ThirdOrder = Jet<Dual<1>>;
 /// u with its derivatives to seventh order.
 pub(super) type SeventhOrder = Jet<Jet<ThirdOrder>>;
 
-/// A scalar with derivatives by u. A number has none and is by far the cheapest.
+/// A scalar with derivatives with respect to u. A plain number has no derivatives and is by far the cheapest scalar.
 pub(super) trait TaylorSeries: Real {
     /// The variable u.
     fn variable(u: f64) -> Self;
@@ -59,8 +59,8 @@ pub(super) fn orders<T: TaylorSeries>(x: T, y: T) -> Orders {
     std::array::from_fn(|n| Local::new(x[n], y[n]))
 }
 
-/// C, C′, C″ and C‴ at a distance d whose value is 0. An order from four on that is not finite counts as zero: few
-/// scalars use it.
+/// C, C′, C″ and C‴ at a distance d whose value is 0. A derivative of order four or higher that is not finite counts
+/// as zero, because few scalars use it.
 pub(super) fn at<S: Real>(orders: &Orders, d: S) -> [Local<S>; 4] {
     let part = |n: usize, component: fn(&Local) -> f64| {
         let term = |k: usize| {

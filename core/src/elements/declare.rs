@@ -1,5 +1,5 @@
-//! The declaration of an element: one macro emits the struct over any scalar, its `map` between
-//! scalars, its reader and its table of fields.
+//! The declaration of an element. One macro defines the struct over any scalar, its `map` between scalars, its reader
+//! and its table of fields.
 
 use super::field::Field;
 use super::kinds::Source;
@@ -24,7 +24,7 @@ pub trait Element {
     const NAME: &'static str;
     /// The declaration as data.
     fn table() -> Table;
-    /// Reads all fields; None if any was faulty (the source keeps the reports).
+    /// Reads all fields. None if a field was faulty; the source keeps the reports.
     fn read(source: &mut dyn Source) -> Option<Self::Over<Tape>>;
     /// The same element over another scalar.
     fn map<S, T>(e: &Self::Over<S>, f: &mut dyn FnMut(&S) -> T) -> Self::Over<T>;
@@ -37,7 +37,7 @@ pub(super) fn join(lines: &[&str]) -> String {
     lines.iter().map(|line| line.trim()).collect::<Vec<_>>().join("\n").trim().to_string()
 }
 
-/// The name of a field that is a word of Rust, such as `r#static`, without its mark.
+/// The name of a field without the prefix `r#` of Rust keywords, as in `r#static`.
 #[doc(hidden)]
 pub fn plain(field: &'static str) -> &'static str {
     field.strip_prefix("r#").unwrap_or(field)

@@ -1,4 +1,4 @@
-//! Φ_q and γ from Φ alone: dual numbers over one participant at a time, and a jet in time.
+//! Φ_q and γ, derived from Φ by dual numbers over one participant at a time, and by jets in time.
 
 use super::joint_trait::{At, Joint, Linearized, Moving};
 use crate::math::{Dual, Jet, Lift, Motion, Pose, Real, Rotation, Vec2};
@@ -8,7 +8,7 @@ pub(crate) type ByThree<S> = Dual<3, S>;
 
 /// A pose whose three coordinates are the seeds.
 pub(crate) fn seeded<S: Real>(pose: &Pose<S>) -> Pose<ByThree<S>> {
-    // sin and cos are known from the pose: only their slopes are new
+    // sin and cos are taken from the pose; only their slopes are computed
     let (mut cos, mut sin) = (Dual::lift(pose.rotation.cos), Dual::lift(pose.rotation.sin));
     cos.slope[2] = -pose.rotation.sin;
     sin.slope[2] = pose.rotation.cos;
@@ -19,7 +19,7 @@ pub(crate) fn seeded<S: Real>(pose: &Pose<S>) -> Pose<ByThree<S>> {
     }
 }
 
-/// A pose as a function of time with the given velocity and no acceleration.
+/// A pose as a function of time, with the given velocity and zero acceleration.
 pub(crate) fn moving<S: Real>(m: &Motion<S>) -> Pose<Jet<S>> {
     let (s, c, w) = (m.pose.rotation.sin, m.pose.rotation.cos, m.twist.omega);
     let jet = |value, rate| Jet::new(value, rate, S::zero());
@@ -33,7 +33,7 @@ pub(crate) fn moving<S: Real>(m: &Motion<S>) -> Pose<Jet<S>> {
     }
 }
 
-/// Calls `f` with n values; few values are kept on the stack.
+/// Calls `f` with n values. A small number of values is kept on the stack.
 #[inline(always)]
 pub(crate) fn with_values<T: Copy, R>(
     n: usize,
@@ -52,7 +52,7 @@ pub(crate) fn with_values<T: Copy, R>(
     }
 }
 
-/// [`Joint::linearize`] from [`Joint::residual`].
+/// Derives [`Joint::linearize`] from [`Joint::residual`].
 pub fn linearize<E: Joint + ?Sized, S: Real>(
     e: &E::Over<S>,
     at: &Moving<'_, S>,
@@ -105,8 +105,7 @@ pub(crate) fn terms<S: Real>(
     );
 }
 
-/// The rows of Φ_q in the columns of the internal coordinates, or of the bodies that `varies` selects
-/// by their places.
+/// The rows of Φ_q in the columns of the internal coordinates, or of the bodies whose indices `varies` selects.
 pub(crate) fn columns_of<S: Real>(
     at: &Moving<'_, S>,
     varies: impl Fn(usize) -> bool,

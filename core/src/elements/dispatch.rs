@@ -19,7 +19,7 @@ macro_rules! constraints {
         }
 
         impl Constraint<Tape> {
-            /// Reads an element by the name of its type; the outer None if there is no such type.
+            /// Reads an element by the name of its type. The outer option is None if there is no such type.
             pub fn read(group: Group, kind: &str, source: &mut dyn Source) -> Option<Option<Self>> {
                 $($($(#[$on])* {
                     if group == Group::$Group && kind == <$Name>::NAME {
@@ -57,11 +57,11 @@ macro_rules! constraints {
             pub fn bodies(&self) -> Vec<BodyId> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name>::bodies(e),)+)+ }
             }
-            /// The position quantities that may be measured on it.
+            /// The position quantities that can be measured on it.
             pub fn measured(&self) -> &'static [Measured] {
                 match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::MEASURED,)+)+ }
             }
-            /// Whether there may be friction in it.
+            /// Whether the element may have friction.
             pub fn rubs(&self) -> bool {
                 match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::RUBS,)+)+ }
             }
@@ -69,7 +69,7 @@ macro_rules! constraints {
             pub fn own(&self) -> usize {
                 match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::OWN,)+)+ }
             }
-            /// Results beside the reaction.
+            /// Results in addition to the reaction.
             pub fn result_quantities(&self) -> &'static [ResultQuantity] {
                 match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::RESULTS,)+)+ }
             }
@@ -77,7 +77,7 @@ macro_rules! constraints {
             pub fn curve(&self) -> Option<&CurveOn<S>> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::curve(e),)+)+ }
             }
-            /// The same, mutable.
+            /// The mutable curve along which the first internal coordinate is measured.
             pub fn curve_mut(&mut self) -> Option<&mut CurveOn<S>> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::curve_mut(e),)+)+ }
             }
@@ -107,11 +107,11 @@ macro_rules! constraints {
         }
 
         impl Constraint {
-            /// The symbols that a drawing shows for it.
+            /// The symbols of the element in a drawing.
             pub fn symbols(&self) -> Vec<SceneSymbol> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::symbols(e),)+)+ }
             }
-            /// First values of the internal coordinates for bodies at given poses.
+            /// Initial values of the internal coordinates for bodies at given poses.
             pub fn own_start(&self, bodies: &[Pose]) -> Vec<f64> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::own_start(e, bodies),)+)+ }
             }
@@ -142,7 +142,7 @@ macro_rules! constraints {
             pub fn requires(&self, at: &At<'_, S>) -> Vec<Required<S>> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::requires(e, at),)+)+ }
             }
-            /// The place where the reaction acts, in the frame of body j, if it moves.
+            /// The point at which the reaction acts, in the frame of body j, if this point moves.
             pub fn contact(&self, at: &At<'_, S>) -> Option<Local<S>> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::contact(e, at),)+)+ }
             }
@@ -154,11 +154,11 @@ macro_rules! constraints {
             pub fn has_load(&self) -> bool {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::has_load(e),)+)+ }
             }
-            /// Wrenches beside -Φ_qᵀ λ that its multipliers cause.
+            /// Wrenches that its multipliers cause in addition to -Φ_qᵀ λ.
             pub fn load(&self, at: &At<'_, S>, lam: &[S], out: &mut dyn FnMut(usize, Wrench<S>)) {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::load(e, at, lam, out),)+)+ }
             }
-            /// The joint frame on a body, given by its place in [`bodies`](Self::bodies).
+            /// The joint frame on a body, given by its index in [`bodies`](Self::bodies).
             pub fn attachment(&self, body: usize) -> Attachment<S> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::attachment(e, body),)+)+ }
             }
@@ -168,7 +168,7 @@ macro_rules! constraints {
             }
         }
 
-        /// Joints and drivers, stored together by type; only the types that occur.
+        /// Joints and drivers, grouped by type. Only types that occur have a pool.
         #[derive(Clone, Debug)]
         pub struct JointPools<S = f64>(Vec<JointPool<S>>);
 
@@ -206,7 +206,7 @@ macro_rules! constraints {
             }
         }
 
-        /// The types of joints in which there may be friction.
+        /// The types of joints that may have friction.
         pub fn types_that_rub() -> Vec<&'static str> {
             let all = [$($($(#[$on])* (<$Name>::NAME, <$Name as Joint>::RUBS),)+)+];
             all.into_iter().filter(|(_, rubs)| *rubs).map(|(name, _)| name).collect()

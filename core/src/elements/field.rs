@@ -27,7 +27,7 @@ pub enum Shape {
     Law,
     /// Two numbers.
     Pair,
-    /// Three numbers, each with a unit of its own: those of the field, with commas between them.
+    /// Three numbers, each with its own unit. The unit of the field lists them, separated by commas.
     Triple,
     /// Two laws.
     LawPair,
@@ -49,7 +49,7 @@ pub enum Shape {
     Quantities,
     /// A condition on quantities: a comparison, or an expression that becomes zero.
     Condition,
-    /// Conditions by name, each alone or in a table with a direction.
+    /// Conditions by name, each written alone or in a table with a direction.
     Events,
     /// Parameters with a value each.
     Values,
@@ -72,7 +72,7 @@ pub enum Shape {
 /// The units that an equation may have.
 pub const UNITS_OF_EQUATIONS: &[&str] = &["m", "rad"];
 
-/// The kinds of quantities with a tolerance of their own.
+/// The kinds of quantities that can have their own tolerance.
 pub const TOLERANCES: [&str; 3] = ["length", "angle", "z"];
 
 /// A default value of a field.
@@ -86,7 +86,7 @@ pub enum Default {
     Triple([f64; 3]),
     /// true or false.
     Flag(bool),
-    /// The options of this type, each with its own default.
+    /// The options of this type with their defaults.
     Type(&'static str),
     /// This body or word.
     Body(&'static str),
@@ -129,7 +129,7 @@ pub struct Field {
     pub shape: Shape,
     /// SI unit; empty for references.
     pub unit: String,
-    /// Value if absent; a field without one is required.
+    /// Value if absent. A field without a default is required.
     pub default: Option<Default>,
     /// One sentence.
     pub doc: String,

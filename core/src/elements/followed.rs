@@ -3,12 +3,12 @@
 use super::attachment::Attachment;
 use crate::math::{Local, Pose, Real, Twist};
 
-/// A body of a model: 0 is ground, moving bodies count from 1.
+/// A body of a model: 0 is ground, and moving bodies are numbered from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub struct BodyId(pub usize);
 
 impl BodyId {
-    /// The body with zero columns.
+    /// The ground, which has no columns in Φ_q.
     pub const GROUND: Self = Self(0);
 
     /// Whether this is ground.
@@ -93,7 +93,7 @@ pub struct QuantityOf<S = f64> {
     pub kind: &'static str,
     /// SI unit: `m` or `rad`.
     pub unit: &'static str,
-    /// Bodies i and j: it is the motion of j as seen from i.
+    /// Bodies i and j. The quantity is the motion of j relative to i.
     pub bodies: [BodyId; 2],
     /// The frame on each of these bodies to which forces are reduced.
     pub ends: [Attachment<S>; 2],
@@ -115,7 +115,7 @@ pub enum Followed<S = f64> {
 pub struct Acted<S = f64> {
     /// The quantity.
     pub of: Followed<S>,
-    /// Its derivatives by x, y and angle of its bodies i and j.
+    /// Its derivatives with respect to x, y and angle of its bodies i and j.
     pub gradient: [[S; 3]; 2],
 }
 
@@ -135,7 +135,7 @@ impl<S> From<CoordinateOf> for Followed<S> {
 }
 
 impl<S> Followed<S> {
-    /// Bodies i and j: the effort acts on j, the opposite on i.
+    /// Bodies i and j. The effort acts on j, and the opposite effort on i.
     pub fn bodies(&self) -> [BodyId; 2] {
         match self {
             Self::Coordinate(of) => [BodyId::GROUND, of.body],
@@ -167,7 +167,7 @@ impl<S: Real> Followed<S> {
         }
     }
 
-    /// The frame on a body, by its place among [`Followed::bodies`], to which its effort is reduced.
+    /// The frame on a body to which the effort is reduced. `body` is the index in [`Followed::bodies`].
     pub fn attachment(&self, body: usize) -> Attachment<S> {
         match self {
             Self::Coordinate(_) => Attachment { s: Local::zero(), axis: S::zero() },

@@ -1,11 +1,12 @@
-//! The curve of a contact: the place on it that is nearest to a point, with the direction away from it.
+//! The curve of a contact: its point nearest to a given point, and the direction away from the curve.
 //!
-//! Lines and circles have closed forms. Another curve is searched over `f64`, lane by lane; two steps of Newton's method
-//! over the scalar then give u its derivatives (implicit function), exact to third order.
+//! Lines and circles have closed forms. Other curves are searched over `f64`, lane by lane. Two steps of Newton's
+//! method over the scalar then yield the derivatives of u (implicit function), exact to third order.
 //!
-//! The body is on the other side of the curve. An open curve ends with a corner: on the side of the contact, the point
-//! beyond an end is as far as the corner. Behind a line, the normals at its ends bound the body, so that the gap is
-//! continuous there; behind another open curve, they do so beyond its ends only.
+//! The material of the body is on the other side of the curve. An open curve ends with a corner: on the side of the
+//! contact, the distance of a point beyond an end is the distance from the corner. Behind a line, the normals at its
+//! ends bound the body, so that the gap is continuous there. Behind other open curves, the normals bound the body
+//! only beyond the ends.
 
 use super::field::{Field, Shape};
 use super::kinds::{self, CurveOn, Kind, Side, Source};
@@ -15,7 +16,7 @@ use crate::expression::Tape;
 use crate::math::{Local, Real};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
-/// Searches that are kept for each element.
+/// Largest number of searches that are kept for each element.
 const MOST_KNOWN: usize = 8;
 
 /// A curve of a body, with the data for searches.
@@ -23,14 +24,14 @@ const MOST_KNOWN: usize = 8;
 pub struct Rim<S = f64> {
     /// The curve.
     pub on: CurveOn<S>,
-    /// One search, or one for each lane.
+    /// One search for all lanes, or one search for each lane.
     searches: OnceLock<Vec<Arc<CurveSearch>>>,
     /// The latest searches of this element over any scalar and for any parameters.
     known: Arc<Mutex<Vec<Arc<CurveSearch>>>>,
 }
 
 impl<S> Rim<S> {
-    /// Makes the search for a curve.
+    /// A curve whose search is prepared at the first use.
     pub fn new(on: CurveOn<S>) -> Self {
         Self { on, searches: OnceLock::new(), known: Arc::default() }
     }
@@ -58,7 +59,7 @@ impl Kind for rim {
     }
 }
 
-/// The nearest place of a curve, in its frame.
+/// The nearest point of a curve, in the frame of the curve.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Near<S> {
     /// The distance, > 0 on the side of the contact.
@@ -70,7 +71,7 @@ pub(super) struct Near<S> {
 }
 
 impl<S: Real> Rim<S> {
-    /// The place nearest to p, on a side.
+    /// The point nearest to p, with the distance positive on the given side.
     pub(super) fn near(&self, p: Local<S>, side: Side) -> Near<S> {
         let out = S::constant(match side {
             Side::Right => 1.0,
@@ -150,7 +151,7 @@ impl<S: Real> Rim<S> {
     }
 }
 
-/// C and C′ at the foot of p on the cubic with these derivatives; at its start where `inner` ≤ 0.
+/// C and C′ at the foot of p on the cubic with these derivatives, or at the start of the cubic where `inner` ≤ 0.
 fn at_foot<S: Real>(
     [c0, c1, c2, c3]: [Local<S>; 4],
     p: Local<S>,
@@ -167,7 +168,7 @@ fn at_foot<S: Real>(
         let (c, first, second) = at(d);
         let (arm, speed) = (c - p, first.dot(first));
         let bend = speed + arm.dot(second);
-        // at a centre of curvature the foot jumps, and has no derivatives
+        // at a centre of curvature, the foot jumps and has no derivatives
         let regular = bend * bend - S::constant(1e-12) * speed * speed;
         let step = arm.dot(first) / S::select(regular, bend, S::one());
         let moves = S::select(regular, inner, -S::one());
@@ -177,7 +178,8 @@ fn at_foot<S: Real>(
     (c, first)
 }
 
-/// Beyond an end: as far as the corner, or behind it as the normal at the end. `arm` leads from the end to p.
+/// The nearest point beyond an end: the corner on the side of the contact, the normal at the end behind the curve.
+/// `arm` is the vector from the end to p.
 fn beyond<S: Real>(end: Local<S>, on: Local<S>, normal: Local<S>, arm: Local<S>) -> Near<S> {
     let (along, up) = (on.dot(arm), normal.dot(arm));
     let squared = arm.dot(arm);
@@ -203,7 +205,7 @@ fn of_circle<S: Real>(p: Local<S>, center: Local<S>, radius: S, out: S) -> Near<
     let arm = p - center;
     let squared = arm.dot(arm);
     let from = S::select(squared, squared.sqrt(), S::zero());
-    // the centre is as far from every point
+    // the centre has the same distance from every point; the x direction is chosen
     let part = |x: S, other: S| S::select(squared, x / from, other);
     let radial = Local::new(part(arm.x, S::one()), part(arm.y, S::zero()));
     let place = center + radial.scale(radius);

@@ -11,7 +11,7 @@ macro_rules! forces {
         }
 
         impl ForceElement<Tape> {
-            /// Reads an element by the name of its type; the outer None if there is no such type.
+            /// Reads an element by the name of its type. The outer option is None if there is no such type.
             pub fn read(kind: &str, source: &mut dyn Source) -> Option<Option<Self>> {
                 $($(#[$on])* {
                     if kind == <$Name>::NAME {
@@ -59,15 +59,15 @@ macro_rules! forces {
             pub fn bodies(&self) -> Vec<BodyId> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::bodies(e),)+ }
             }
-            /// The position quantities that may be measured on it.
+            /// The position quantities that can be measured on it.
             pub fn measured(&self) -> &'static [Measured] {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::measured(e),)+ }
             }
-            /// Whether laws may use them.
+            /// Whether laws may use its position quantities.
             pub fn has_formulas(&self) -> bool {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::has_formulas(e),)+ }
             }
-            /// Whether its only formulas of the state are those of a position quantity that it follows.
+            /// Whether the only formulas of the state in the force are those of a position quantity that it follows.
             pub fn follows(&self) -> bool {
                 match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::FOLLOWS,)+ }
             }
@@ -75,25 +75,25 @@ macro_rules! forces {
             pub fn parts(&self) -> &'static [Part] {
                 match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::PARTS,)+ }
             }
-            /// Results beside the wrenches.
+            /// Results in addition to the wrenches.
             pub fn result_quantities(&self) -> &'static [ResultQuantity] {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::result_quantities(e),)+ }
             }
-            /// The joint whose reaction enters the force.
+            /// The joint on whose reaction the force depends.
             pub fn reaction(&self) -> Option<JointId> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::reaction(e),)+ }
             }
         }
 
         impl ForceElement<Tape> {
-            /// The equation by which it holds.
+            /// The equation with which the force [holds](Mode::holds).
             pub fn holding(&self, side: f64, value: f64) -> Option<Constraint<Tape>> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::holding(e, side, value),)+ }
             }
         }
 
         impl ForceElement {
-            /// The symbols that a drawing shows for it.
+            /// The symbols of the force in a drawing.
             pub fn symbols(&self) -> Vec<SceneSymbol> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::symbols(e),)+ }
             }
@@ -116,7 +116,7 @@ macro_rules! forces {
             pub fn state_rates(&self, at: &Situation<'_, S>, out: &mut [S]) {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::state_rates(e, at, out),)+ }
             }
-            /// Powers beside those of the wrenches.
+            /// Powers in addition to those of the wrenches.
             pub fn own_powers(&self, at: &Situation<'_, S>) -> OwnPowers<S> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::own_powers(e, at),)+ }
             }
@@ -140,7 +140,7 @@ macro_rules! forces {
             pub fn threshold(&self, at: &Situation<'_, S>) -> S {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::threshold(e, at),)+ }
             }
-            /// The largest effort that friction may hold.
+            /// The largest effort of sticking friction.
             pub fn limit(&self, at: &Situation<'_, S>) -> S {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::limit(e, at),)+ }
             }
@@ -152,7 +152,7 @@ macro_rules! forces {
             pub fn free_angle(&self) -> Option<S> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::free_angle(e),)+ }
             }
-            /// The points of body i and body j between which the force acts along their line.
+            /// The points of bodies i and j, if the force acts along the line between them.
             pub fn points(&self) -> Option<[Local<S>; 2]> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::points(e),)+ }
             }
@@ -166,7 +166,7 @@ macro_rules! forces {
             }
         }
 
-        /// Forces, stored together by type; only the types that occur.
+        /// Forces, grouped by type. Only types that occur have a pool.
         #[derive(Clone, Debug)]
         pub struct ForcePools<S = f64>(Vec<ForcePool<S>>);
 

@@ -1,4 +1,4 @@
-//! The physics of a force, stated once.
+//! The physics of a force.
 
 use super::declare::Element;
 use super::followed::{BodyId, JointId};
@@ -19,8 +19,8 @@ pub struct Situation<'a, S = f64> {
     pub bodies: &'a [BodyId],
     /// First-order states of the element, in the order of [`Force::states`].
     pub z: &'a [S],
-    /// Reaction of the joint that [`Force::reaction`] names, on its body j at its joint point, in the
-    /// global frame; zero without such a joint.
+    /// Reaction of the joint of [`Force::reaction`] on its body j at its joint point, in the global frame. Zero
+    /// without such a joint.
     pub reaction: Wrench<S>,
     /// Time, s.
     pub t: S,
@@ -28,8 +28,8 @@ pub struct Situation<'a, S = f64> {
     pub held: Held<'a>,
     /// The mode of the force in this phase of a run.
     pub mode: Mode,
-    /// While it [holds](Mode::holds): the multiplier of its equation, whose effort on the coordinate is its negative. Zero
-    /// where the equations are solved and the equation is one of them.
+    /// The multiplier of the equation while the force [holds](Mode::holds). The effort on the coordinate is its
+    /// negative. It is zero while the equations are being solved, because the equation is then one of them.
     pub multiplier: S,
 }
 
@@ -43,9 +43,9 @@ pub struct Held<'a> {
 }
 
 impl<S: Real> Situation<'_, S> {
-    /// `positive` where the function of a switch of the element is positive, else `otherwise`. The switch is given by
-    /// its place in [`Force::switches`]. During a step of an integrator the sign is the one at the beginning of the
-    /// step, so that both values have to be defined on both sides.
+    /// `positive` where the function of a switch of the element is positive, otherwise `otherwise`. `switch` is the
+    /// index in [`Force::switches`]. During a step of an integrator, the sign at the beginning of the step is used,
+    /// so that both values must be defined on both sides.
     #[inline(always)]
     pub fn choose(&self, switch: usize, function: S, positive: S, otherwise: S) -> S {
         match self.held.pieces.get(self.held.first + switch) {
@@ -57,17 +57,17 @@ impl<S: Real> Situation<'_, S> {
 }
 
 impl<S> Situation<'_, S> {
-    /// Motion of a body of the force, by its place in [`Force::bodies`].
+    /// Motion of a body of the force, by its index in [`Force::bodies`].
     #[inline(always)]
     pub fn body(&self, place: usize) -> &Motion<S> {
         &self.motions[self.bodies[place].0]
     }
-    /// Motion of body i, the first one.
+    /// Motion of body i, the first body.
     #[inline(always)]
     pub fn i(&self) -> &Motion<S> {
         self.body(0)
     }
-    /// Motion of body j, the second one.
+    /// Motion of body j, the second body.
     #[inline(always)]
     pub fn j(&self) -> &Motion<S> {
         self.body(1)
@@ -83,12 +83,13 @@ pub enum Nature {
     Dissipative,
     /// Work from outside.
     Applied,
-    /// An exchange between the bodies and the states of the element; the powers of the element count instead.
+    /// An exchange between the bodies and the states of the element. The [own powers](Force::own_powers) of the
+    /// element are counted instead.
     Exchanged,
 }
 
 impl Nature {
-    /// The nature of a part with a law of time or state: it has no potential.
+    /// The nature of a part with a law of time or state, which has no potential.
     pub fn under_law(self) -> Self {
         match self {
             Self::Conservative => Self::Applied,
@@ -115,19 +116,19 @@ pub struct OwnState {
     pub unit: &'static str,
 }
 
-/// Powers of an element beside those of its wrenches, W: of a circuit, for example.
+/// Powers of an element in addition to those of its wrenches, W; for example, those of a circuit.
 #[derive(Clone, Copy, Debug)]
 pub struct OwnPowers<S> {
     /// Dissipated.
     pub dissipated: S,
-    /// Put in from outside.
+    /// Supplied from outside.
     pub applied: S,
 }
 
-/// Takes the wrenches of a force.
+/// A receiver of the wrenches of a force.
 pub trait Wrenches<S> {
-    /// Takes the wrench of a part on a body about the origin of its frame. `part` is a place in [`Force::PARTS`], `body`
-    /// a place in [`Force::bodies`].
+    /// Receives the wrench of a part on a body about the origin of its frame. `part` is an index in [`Force::PARTS`],
+    /// and `body` is an index in [`Force::bodies`].
     fn put(&mut self, part: usize, body: usize, wrench: Wrench<S>);
 }
 
@@ -139,23 +140,23 @@ impl<S, F: FnMut(usize, usize, Wrench<S>)> Wrenches<S> for F {
 
 /// A force element: named parts, each with a wrench on every body.
 pub trait Force: Element {
-    /// The parts; [`Force::action`] refers to them by their places.
+    /// The parts. [`Force::action`] refers to them by their indices.
     const PARTS: &'static [Part];
 
-    /// The position quantities that may be measured on the force.
+    /// The position quantities that can be measured on the force.
     const MEASURED: &'static [Measured] = &[];
 
-    /// Whether its only formulas of the state are those of a position quantity that it follows. Its parts then keep their
-    /// nature, and its potential counts.
+    /// Whether the only formulas of the state in the force are those of a position quantity that it follows. Its
+    /// parts then keep their nature, and its potential is counted.
     const FOLLOWS: bool = false;
 
-    /// The position quantities of one element, where their units depend on it.
+    /// The position quantities of an element, for types in which their units depend on the element.
     fn measured<S>(e: &Self::Over<S>) -> &'static [Measured] {
         let _ = e;
         Self::MEASURED
     }
 
-    /// Whether laws may use its position quantities: they are formulas of the coordinates, without a search.
+    /// Whether laws may use its position quantities. They must be formulas of the coordinates that need no search.
     fn has_formulas<S>(e: &Self::Over<S>) -> bool {
         let _ = e;
         true
@@ -183,19 +184,20 @@ pub trait Force: Element {
         let _ = (e, at, out);
     }
 
-    /// Powers beside those of the wrenches.
+    /// Powers in addition to those of the wrenches.
     fn own_powers<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> OwnPowers<S> {
         let _ = (e, at);
         OwnPowers { dissipated: S::zero(), applied: S::zero() }
     }
 
-    /// The joint whose reaction enters the force, as in friction.
+    /// The joint on whose reaction the force depends, as in friction.
     fn reaction<S>(e: &Self::Over<S>) -> Option<JointId> {
         let _ = e;
         None
     }
 
-    /// Number of switches of an element: functions of its situation at whose zeros its action is not smooth.
+    /// Number of switches of an element. A switch is a function of the situation at whose zeros the action is not
+    /// smooth.
     fn switch_count<S>(e: &Self::Over<S>) -> usize {
         let _ = e;
         0
@@ -207,7 +209,7 @@ pub trait Force: Element {
         let _ = (e, at, out);
     }
 
-    /// Results beside the wrenches, in the order of [`Force::results`].
+    /// Results in addition to the wrenches, in the order of [`Force::results`].
     fn result_quantities<S>(e: &Self::Over<S>) -> &'static [ResultQuantity] {
         let _ = e;
         &[]
@@ -218,32 +220,33 @@ pub trait Force: Element {
         let _ = (e, at, out);
     }
 
-    /// The changes of mode during a run; None for a force without any.
+    /// The changes of mode during a run; None for a force without modes or events.
     fn behaviour<S: Real>(e: &Self::Over<S>) -> Option<Behaviour<S>> {
         let _ = e;
         None
     }
 
-    /// The function whose zero may change the mode: the sliding speed of friction, else the gap, > 0 apart.
+    /// The function whose zeros may change the mode: the sliding speed of friction; for other forces the gap, which
+    /// is positive if the bodies are apart.
     fn threshold<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> S {
         let _ = (e, at);
         S::one()
     }
 
-    /// The largest effort that friction may hold.
+    /// The largest effort of sticking friction.
     fn limit<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> S {
         let _ = (e, at);
         S::zero()
     }
 
-    /// The side at which a contact or stop touches: -1 for a lower limit, +1 for an upper one.
+    /// The side at which a contact or stop touches: -1 for a lower limit, +1 for an upper limit.
     fn side<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> f64 {
         let _ = (e, at);
         -1.0
     }
 
-    /// The one equation by which the force [holds](Mode::holds): friction its coordinate at `value`, a stop its
-    /// coordinate at the limit of the `side`, or at `value` for side 0, a contact its gap at zero.
+    /// The equation with which the force [holds](Mode::holds). Friction holds its coordinate at `value`. A stop holds
+    /// its coordinate at the limit of the `side`, or at `value` for side 0. A contact holds its gap at zero.
     fn holding(e: &Self::Over<Tape>, side: f64, value: f64) -> Option<Constraint<Tape>> {
         let _ = (e, side, value);
         None
@@ -256,7 +259,7 @@ pub trait Force: Element {
         None
     }
 
-    /// The points of body i and body j between which the force acts along their line.
+    /// The points of bodies i and j, if the force acts along the line between them.
     fn points<S: Real>(e: &Self::Over<S>) -> Option<[Local<S>; 2]> {
         let _ = e;
         None
@@ -274,13 +277,13 @@ pub trait Force: Element {
         S::zero()
     }
 
-    /// The symbols that a drawing shows for the element; a law that varies is NaN here.
+    /// The symbols of the element in a drawing. A varying law is NaN here.
     fn symbols(e: &Self::Over<f64>) -> Vec<SceneSymbol> {
         let _ = e;
         Vec::new()
     }
 
-    /// A field with an impossible value, and the reason; values that are not finite are refused anyway.
+    /// A field with an impossible value, and the reason. Values that are not finite are rejected elsewhere.
     fn fault(e: &Self::Over<f64>) -> Option<(&'static str, String)> {
         let _ = e;
         None

@@ -1,18 +1,18 @@
 //! The law of compliant stops and contacts: N = max(0, k δⁿ (1 + c δ̇)) with the depth δ (Hunt and Crossley 1975).
 //!
-//! The elastic part k δⁿ has the potential k δⁿ⁺¹/(n + 1). The rest of N is the damping part: it takes energy in both
-//! directions, and where 1 + c δ̇ < 0 it takes what the elastic part gives. With c in s/m and k in N/mⁿ, N is in N.
+//! The elastic part k δⁿ has the potential k δⁿ⁺¹/(n + 1). The rest of N is the damping part. It dissipates energy in
+//! both directions, and cancels the elastic part where 1 + c δ̇ < 0. With c in s/m and k in N/mⁿ, N is in N.
 
 use super::force_trait::Situation;
 use crate::math::Real;
 
-/// The switches of one contact, by their places from its first.
+/// The number of switches of one contact.
 pub(super) const SWITCHES: usize = 2;
 
 /// The default of `rest_speed`.
 const REST_SPEED: f64 = 1e-9;
 
-/// The numbers of the law.
+/// The coefficients of the law.
 #[derive(Clone, Copy)]
 pub(super) struct Hertz<S> {
     /// k, N/mⁿ.
@@ -49,7 +49,8 @@ impl<S: Real> Normal<S> {
 }
 
 impl<S: Real> Hertz<S> {
-    /// The parts of N, with the place of the first switch of the contact; None where every lane is apart.
+    /// The parts of N. `first` is the index of the first switch of the contact. None if there is no contact in any
+    /// lane.
     pub fn normal(
         &self,
         at: &Situation<'_, S>,
@@ -81,7 +82,7 @@ impl<S: Real> Hertz<S> {
         out[1] = S::select(depth.value, factor, S::one());
     }
 
-    /// k δⁿ, continued to negative depths as an odd function, so that a step may look across the release.
+    /// k δⁿ, continued to negative depths as an odd function, so that a step may extend beyond the release.
     fn elastic(&self, depth: S) -> S {
         let squared = depth * depth;
         let bend = (self.exponent - S::one()) * depth.abs().ln();
@@ -89,7 +90,7 @@ impl<S: Real> Hertz<S> {
     }
 }
 
-/// Whether a lane is in contact; during a step, whether the step began so.
+/// Whether any lane is in contact; during a step, whether it was at the beginning of the step.
 fn touches<S: Real>(at: &Situation<'_, S>, first: usize, depth: S) -> bool {
     match at.held.pieces.get(at.held.first + first) {
         Some(piece) if *piece != 0.0 => *piece > 0.0,
@@ -97,7 +98,7 @@ fn touches<S: Real>(at: &Situation<'_, S>, first: usize, depth: S) -> bool {
     }
 }
 
-/// A fault of the fields that choose between compliance and restitution.
+/// The fault of the fields that select compliance or restitution.
 pub(super) fn fault(
     stiffness: Option<f64>,
     [exponent, usual]: [f64; 2],

@@ -1,4 +1,4 @@
-//! The physics of a joint or driver, stated once.
+//! The physics of a joint or driver.
 
 use super::attachment::Attachment;
 use super::declare::Element;
@@ -30,12 +30,12 @@ pub struct At<'a, S> {
 }
 
 impl<S> At<'_, S> {
-    /// Pose of body i, the first one.
+    /// Pose of body i, the first body.
     #[inline(always)]
     pub fn i(&self) -> &Pose<S> {
         &self.bodies[0]
     }
-    /// Pose of body j, the second one.
+    /// Pose of body j, the second body.
     #[inline(always)]
     pub fn j(&self) -> &Pose<S> {
         &self.bodies[1]
@@ -69,7 +69,7 @@ pub struct Linearized<'a, S> {
     pub columns: &'a mut [[S; 3]],
 }
 
-/// The geometry that a joint fixes between its bodies i and j; assembly places bodies by it.
+/// The geometry that a joint fixes between its bodies i and j. Assembly uses it to place bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fixes<S> {
     /// The origins of both joint frames coincide.
@@ -79,13 +79,13 @@ pub enum Fixes<S> {
     /// The origin of the joint frame on body j lies at this distance to the left of the x″ axis of the joint frame on
     /// body i, m.
     Beside(S),
-    /// The angle of body j, if the pose of body i and the place of body j are known: the last equation is linear in
-    /// this angle, perhaps modulo a constant.
+    /// The angle of body j, if the pose of body i and the position of body j are known. The last equation is linear
+    /// in this angle, possibly modulo a constant.
     Turn,
-    /// The distance of the two bodies: they touch at the nearest value of the internal coordinate. The equations are
-    /// two, and the derivative of both by this coordinate is along the contact.
+    /// The distance of the two bodies, which touch at the nearest value of the internal coordinate. There are two
+    /// equations, and their derivative with respect to this coordinate is directed along the contact.
     Contact,
-    /// The x″ axes of both joint frames point the same way.
+    /// The x″ axes of both joint frames have the same direction.
     Direction,
     /// The distance of the origins of both joint frames, m.
     Distance(S),
@@ -100,39 +100,40 @@ pub struct Required<S> {
     pub what: &'static str,
     /// Its value, m.
     pub is: S,
-    /// The value that it must have; None for any value that stays the same and is not zero.
+    /// The value that it must have; None if any constant value other than zero is allowed.
     pub must: Option<S>,
-    /// The remedy if it has another value or is not held.
+    /// The remedy if the quantity has another value or is not held.
     pub remedy: &'static str,
 }
 
-/// A result of a joint beside its reaction, such as the normal force of a roller.
+/// A result of a joint in addition to its reaction, such as the normal force of a roller.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ResultQuantity {
     /// Name within the joint: `sol["cam.normal"]`.
     pub name: &'static str,
     /// SI unit.
     pub unit: &'static str,
-    /// The event of a run where it becomes negative.
+    /// The name of the event in a run at which it becomes negative.
     pub negative: Option<&'static str>,
 }
 
 /// A joint or driver: equations Φ(q, t) = 0 between any number of bodies and internal coordinates.
 pub trait Joint: Element {
-    /// Whether there are two equations whose columns of translation never change: -I for body i, +I for
-    /// body j, as in Φ = point_j - point_i (Haug 3.3.12).
+    /// Whether there are two equations whose columns of translation are constant: -I for body i, +I for body j, as in
+    /// Φ = point_j - point_i (Haug 3.3.12).
     const CONSTANT_COLUMNS: bool = false;
 
     /// Number of internal coordinates, 0 to 3.
     const OWN: usize = 0;
 
-    /// Whether its bodies slide or turn along the first of [`Joint::MEASURED`], so that there may be friction.
+    /// Whether its bodies slide or rotate along the first quantity of [`Joint::MEASURED`], so that there may be
+    /// friction.
     const RUBS: bool = false;
 
-    /// Results beside the reaction, in the order of [`Joint::results`].
+    /// Results in addition to the reaction, in the order of [`Joint::results`].
     const RESULTS: &'static [ResultQuantity] = &[];
 
-    /// The position quantities that may be measured on the joint.
+    /// The position quantities that can be measured on the joint.
     const MEASURED: &'static [Measured] = &[];
 
     /// The bodies whose poses enter Φ: i and j first.
@@ -156,10 +157,11 @@ pub trait Joint: Element {
     /// Φ, one entry for each equation.
     fn residual<S: Real>(e: &Self::Over<S>, at: &At<'_, S>, phi: &mut [S]);
 
-    /// The joint frame on a body, given by its place in [`Joint::bodies`].
+    /// The joint frame on a body, given by its index in [`Joint::bodies`].
     fn attachment<S: Real>(e: &Self::Over<S>, body: usize) -> Attachment<S>;
 
-    /// The place where the reaction acts, in the frame of body j; None if it acts at the origins of the joint frames.
+    /// The point at which the reaction acts, in the frame of body j. None if it acts at the origins of the joint
+    /// frames.
     fn contact<S: Real>(e: &Self::Over<S>, at: &At<'_, S>) -> Option<Local<S>> {
         let _ = (e, at);
         None
@@ -176,9 +178,10 @@ pub trait Joint: Element {
         false
     }
 
-    /// Wrenches beside -Φ_qᵀ λ that the multipliers `lam` of the joint cause, such as the radial force of gear teeth:
-    /// each with the place of its body in [`Joint::bodies`], about the origin of the frame of that body. They do no work
-    /// in any motion that the other joints permit, so that they change the reactions of these and nothing else.
+    /// Wrenches that the multipliers `lam` of the joint cause in addition to -Φ_qᵀ λ, such as the radial force of
+    /// gear teeth. Each is passed to `out` with the index of its body in [`Joint::bodies`], about the origin of the
+    /// frame of this body. The wrenches do no work in any motion that the other joints permit, so that they change
+    /// only the reactions of these joints.
     fn load<S: Real>(
         e: &Self::Over<S>,
         at: &At<'_, S>,
@@ -194,7 +197,7 @@ pub trait Joint: Element {
         None
     }
 
-    /// The same, mutable.
+    /// The mutable curve along which the first internal coordinate is measured.
     fn curve_mut<S>(e: &mut Self::Over<S>) -> Option<&mut CurveOn<S>> {
         let _ = e;
         None
@@ -211,7 +214,7 @@ pub trait Joint: Element {
         let _ = (e, at, out);
     }
 
-    /// First values of the internal coordinates for bodies at given poses.
+    /// Initial values of the internal coordinates for bodies at given poses.
     fn own_start(e: &Self::Over<f64>, bodies: &[Pose]) -> Vec<f64> {
         let _ = (e, bodies);
         vec![0.0; Self::OWN]
@@ -223,27 +226,27 @@ pub trait Joint: Element {
         Vec::new()
     }
 
-    /// The constant modulo which the last equation is taken, so that a body may have several angles at one place of the
-    /// others, as meshed wheels do; None if there is none.
+    /// The constant modulo which the last equation is taken, if any. A body may then have several angles for one
+    /// position of the other bodies, as meshed wheels have.
     fn modulus(e: &Self::Over<f64>) -> Option<f64> {
         let _ = e;
         None
     }
 
-    /// The symbols that a drawing shows for the element; a law that varies is NaN here.
+    /// The symbols of the element in a drawing. A varying law is NaN here.
     fn symbols(e: &Self::Over<f64>) -> Vec<SceneSymbol> {
         let _ = e;
         Vec::new()
     }
 
-    /// A field with an impossible value, and the reason; values that are not finite are refused anyway.
+    /// A field with an impossible value, and the reason. Values that are not finite are rejected elsewhere.
     fn fault(e: &Self::Over<f64>) -> Option<(&'static str, String)> {
         let _ = e;
         None
     }
 
-    /// Φ, Φ̇, γ and Φ_q for fields that do not vary with time or state; derived from
-    /// [`Joint::residual`] unless a closed form is given.
+    /// Φ, Φ̇, γ and Φ_q for fields that do not vary with time or state. They are derived from [`Joint::residual`]
+    /// unless the joint has a closed form.
     fn linearize<S: Real>(e: &Self::Over<S>, at: &Moving<'_, S>, out: Linearized<'_, S>) {
         derive::linearize::<Self, S>(e, at, out);
     }

@@ -1,4 +1,4 @@
-//! Kinds of fields: the values that an element may hold, and how each is read and converted between scalars.
+//! Kinds of fields: the values that an element may contain, and how each value is read and converted between scalars.
 
 use super::attachment::Attachment;
 use super::field::{Default, Field, Shape};
@@ -33,9 +33,9 @@ impl<S: Real> CurveOn<S> {
     }
 }
 
-/// Where fields are read from; it keeps the reports of their faults.
+/// The source from which fields are read. It keeps the reports of their faults.
 pub trait Source {
-    /// Whether the field has a value of its own.
+    /// Whether the source contains a value of the field.
     fn given(&mut self, field: &Field) -> bool;
     /// A body by name.
     fn body(&mut self, field: &Field) -> Option<BodyId>;
@@ -49,7 +49,7 @@ pub trait Source {
     fn acted(&mut self, field: &Field) -> Option<Acted<Tape>>;
     /// A joint by name.
     fn joint(&mut self, field: &Field) -> Option<JointId>;
-    /// A joint in which its bodies slide or turn, by name.
+    /// A joint whose bodies slide or rotate, by name.
     fn bearing(&mut self, field: &Field) -> Option<Bearing<Tape>>;
     /// A formula in the parameters.
     fn number(&mut self, field: &Field) -> Option<Tape>;
@@ -57,13 +57,13 @@ pub trait Source {
     fn law(&mut self, field: &Field) -> Option<Tape>;
     /// Two formulas in the parameters.
     fn pair(&mut self, field: &Field) -> Option<[Tape; 2]>;
-    /// Three formulas in the parameters, each with a unit of its own.
+    /// Three formulas in the parameters, each with its own unit.
     fn triple(&mut self, field: &Field) -> Option<[Tape; 3]>;
     /// Two formulas in the parameters, time and state.
     fn law_pair(&mut self, field: &Field) -> Option<[Tape; 2]>;
     /// Formulas in the parameters, time and state.
     fn laws(&mut self, field: &Field) -> Option<Vec<Tape>>;
-    /// Position quantities with factors in the parameters, at least one.
+    /// At least one position quantity, each with a factor in the parameters.
     fn terms(&mut self, field: &Field) -> Option<Vec<(Followed<Tape>, Tape)>>;
     /// The units of equations.
     fn units(&mut self, field: &Field) -> Option<Vec<&'static str>>;
@@ -71,21 +71,21 @@ pub trait Source {
     fn condition(&mut self, field: &Field) -> Option<String>;
     /// true or false.
     fn flag(&mut self, field: &Field) -> Option<bool>;
-    /// The place of a word among those that the field may hold.
+    /// The index of a word among the words that the field accepts.
     fn word(&mut self, field: &Field, words: &[&str]) -> Option<usize>;
 }
 
 /// A kind of field.
 pub trait Kind {
-    /// The value that the element holds over the scalar `S`.
+    /// The value in the element over the scalar `S`.
     type Over<S>;
-    /// The values that the file may hold.
+    /// The values that the file may contain.
     const SHAPE: Shape;
-    /// The default of a field that declares none; None if the field must then be given.
+    /// The default of a field that declares no default; None if such a field is required.
     const DEFAULT: Option<Default> = None;
     /// Reads one field.
     fn read(source: &mut dyn Source, field: &Field) -> Option<Self::Over<Tape>>;
-    /// Converts it to another scalar.
+    /// Converts a value to another scalar.
     fn map<S, T>(value: &Self::Over<S>, f: &mut dyn FnMut(&S) -> T) -> Self::Over<T>;
 }
 
@@ -151,7 +151,7 @@ kind!(
     joint, Joint, S => JointId, |v, _f| *v
 );
 kind!(
-    /// A joint in which its bodies slide or turn.
+    /// A joint whose bodies slide or rotate.
     bearing, Joint, S => Bearing<S>, |v, f| v.map(f)
 );
 kind!(
@@ -167,7 +167,7 @@ kind!(
     pair, Pair, S => [S; 2], |v, f| [f(&v[0]), f(&v[1])]
 );
 kind!(
-    /// Three constants, each with a unit of its own.
+    /// Three constants, each with its own unit.
     triple, Triple, S => [S; 3], |v, f| [f(&v[0]), f(&v[1]), f(&v[2])]
 );
 kind!(
@@ -197,7 +197,7 @@ kind!(
     flag, Flag, S => bool, |v, _f| *v
 );
 
-/// A field of kind `K` that may be left out.
+/// A field of kind `K` that may be omitted.
 #[derive(Clone, Copy, Debug)]
 pub struct Optional<K>(std::marker::PhantomData<K>);
 
@@ -241,7 +241,7 @@ optional! {
     optional_condition: condition,
 }
 
-/// Declares a kind of field that holds one of some words, and the enum of its values.
+/// Declares a kind of field that accepts one of several words, and the enum of its values.
 macro_rules! words {
     ($(#[$doc:meta])* $kind:ident: $Words:ident { $($(#[$about:meta])* $Word:ident = $word:literal),+ $(,)? }) => {
         $(#[$doc])*

@@ -4,15 +4,15 @@ use super::force_trait::Situation;
 use super::kinds::PointOn;
 use crate::math::{Real, Vec2, Wrench};
 
-/// The line from point i to point j. Where the points meet it has no direction.
+/// The line from point i to point j. Where the points coincide, it has no direction.
 pub(super) struct Line<S> {
     /// d = Pⱼ - Pᵢ.
     pub d: Vec2<S>,
-    /// |d|², zero where the points meet.
+    /// |d|², zero where the points coincide.
     pub squared: S,
-    /// |d|, zero with zero slopes where the points meet.
+    /// |d|, zero with zero slopes where the points coincide.
     pub length: S,
-    /// d/|d|, zero where the points meet.
+    /// d/|d|, zero where the points coincide.
     pub u: Vec2<S>,
     /// The arms of both points in the global frame.
     arms: [Vec2<S>; 2],

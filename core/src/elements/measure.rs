@@ -4,7 +4,7 @@ use super::joint_trait::At;
 use super::kinds::PointOn;
 use crate::math::{Local, Real, Rotation, Vec2};
 
-/// The angle of body j against body i.
+/// The angle of body j relative to body i.
 pub(super) fn turned<S: Real>(at: &At<'_, S>) -> S {
     at.j().angle - at.i().angle
 }
@@ -20,7 +20,7 @@ pub(super) fn along<S: Real>(at: &At<'_, S>, axis: S, i: &PointOn<S>, j: &PointO
     at.i().global(Local::new(axis.cos, axis.sin)).dot(apart(at, i, j))
 }
 
-/// |d|; zero with zero derivatives where the points meet.
+/// |d|; zero with zero derivatives where the points coincide.
 pub(super) fn length<S: Real>(at: &At<'_, S>, i: &PointOn<S>, j: &PointOn<S>) -> S {
     let d = apart(at, i, j);
     let squared = d.dot(d);

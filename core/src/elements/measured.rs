@@ -1,9 +1,9 @@
-//! Position quantities that may be measured on an element, as body j is seen from body i.
+//! Position quantities that can be measured on an element: the motion of body j relative to body i.
 
 /// A position quantity of an element and the names of its derivatives in time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Measured {
-    /// Names of the position, the rate and the acceleration; an empty name is not offered.
+    /// Names of the position, the rate and the acceleration. A quantity with an empty name is not available.
     pub names: [&'static str; 3],
     /// SI unit of the position: `m` or `rad`.
     pub unit: &'static str,
@@ -18,7 +18,7 @@ impl Measured {
     /// The distance of two points.
     pub const LENGTH: Self = Self { names: ["length", "rate", "acceleration"], unit: "m" };
 
-    /// The distance of two elements that may touch, > 0 apart.
+    /// The distance of two bodies that may touch; positive if they are apart.
     pub const GAP: Self = Self { names: ["gap", "gap_rate", ""], unit: "m" };
 
     /// SI unit of the derivative of this order.

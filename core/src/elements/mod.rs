@@ -1,9 +1,9 @@
-//! Elements: joints, drivers and forces. Each element has one file, and this file is the one list of them.
+//! Elements: joints, drivers and forces. Each element has one file, and this file contains the only list of elements.
 //!
-//! An element declares its fields once ([`element!`](crate::element)) and states its physics once ([`Joint`] or
-//! [`Force`]), generic in the scalar. The reader of files, the JSON schema, the Python class, the
-//! reference page and all derivatives follow from these two. To add an element, write its file, name it
-//! here, and give it a test sample and a page. No other source file names it.
+//! An element declares its fields once ([`element!`](crate::element)) and defines its physics once ([`Joint`] or
+//! [`Force`]), generic in the scalar. The reader of files, the JSON schema, the Python class, the reference page and
+//! all derivatives are obtained from these two definitions. To add an element, write its file, add it to the list
+//! here, and write a test sample and a page. No other source file contains its name.
 
 mod attachment;
 
@@ -79,7 +79,7 @@ pub mod drivers {
     pub use coordinate_driver::CoordinateDriver;
 }
 
-/// Forces: what acts on bodies beside joints and gravity.
+/// Forces that act on bodies in addition to joints and gravity.
 pub mod forces {
     mod actuator;
     mod bushing;
@@ -197,13 +197,13 @@ forces! {
 /// The declarations of all elements, in the order of the list.
 pub fn catalogue() -> Vec<(Group, Table)> {
     let mut tables = constraint_tables();
-    // equations by which forces hold are not written
+    // equations with which forces hold are not part of the format
     tables.retain(|(group, _)| *group != Group::Forces);
     tables.extend(force_tables());
     tables
 }
 
-/// The driver that holds a position quantity at a value: assembly holds by it what is `set`.
+/// The driver that holds a position quantity at a value. Assembly uses it for the quantities in `set`.
 pub fn holding(coordinate: Followed<Tape>, value: Tape) -> Constraint<Tape> {
     Constraint::CoordinateDriver(CoordinateDriver { coordinate, value, release: None })
 }

@@ -1,24 +1,25 @@
 //! The modes of forces that change during a run: friction slides or sticks, a contact with restitution is apart or rests.
 
-/// How a force acts in a phase of a run.
+/// The mode of a force in a phase of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Mode {
-    /// As its state says: outside of runs, and for forces without modes.
+    /// The state determines the action. This mode applies outside of runs, and to forces without modes.
     #[default]
     Open,
     /// A contact that is apart.
     Free,
     /// Friction that slides with this sign of the speed.
     Slides(f64),
-    /// One equation holds the coordinate or the contact: friction sticks, a contact rests. The number is the side of the
-    /// limit at which a stop rests: -1 lower, +1 upper.
+    /// One equation holds the coordinate or the contact: friction sticks, or a contact rests. The number is the side
+    /// at which a stop rests: -1 for the lower limit, +1 for the upper limit.
     Holds(f64),
-    /// A contact that rests where others carry its load: their equations hold it too.
+    /// A contact that rests, or friction that sticks, without its own equation, because the equations of other
+    /// elements hold it already.
     Idle,
-    /// Friction that sticks because that of the force `leader` does. It takes the same part of its limit; `sense` is the
-    /// sign of its speed for a positive speed of the leader.
+    /// Friction that sticks together with the friction of the force `leader`. Both carry the same fraction of their
+    /// limits. `sense` is the sign of its speed for a positive speed of the leader.
     Follows {
-        /// The place of the other force in the model.
+        /// The index of the other force in the model.
         leader: usize,
         /// ±1.
         sense: f64,
@@ -35,16 +36,16 @@ impl Mode {
 /// The changes of mode of a force.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Behaviour<S> {
-    /// It slides and sticks; events `stick` and `slip`.
+    /// The force slides and sticks; events `stick` and `slip`.
     Sticks,
-    /// It impacts, and may rest; events `hit` and `release`.
+    /// The contact has impacts and may rest; events `hit` and `release`.
     Impacts {
         /// Coefficient of restitution, 0 to 1.
         restitution: S,
-        /// The speed below which it rests.
+        /// The speed below which the contact rests.
         rest_speed: S,
     },
-    /// It touches and separates without a change of mode; events `hit` and `release`.
+    /// The contact touches and separates without a change of mode; events `hit` and `release`.
     Compliant {
         /// k of the force k δⁿ, N/mⁿ.
         stiffness: S,

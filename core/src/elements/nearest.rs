@@ -1,20 +1,20 @@
 //! The nearest point of a curve: a tree of circles around its pieces, then Newton's method.
 //!
-//! The curve is divided into equal pieces of u. A circle encloses each piece, and a circle each pair of circles, up to one
-//! around the whole curve. A query descends first to the circle that may be nearer, and leaves out each circle that is
-//! farther than a chord found so far: its cost is of the order of the depth of the tree. On the chord of the nearest
-//! piece, Newton's method on (C - p)·C′ = 0 begins.
+//! The curve is divided into pieces of equal length in u. A circle encloses each piece, and another circle encloses
+//! each pair of circles, up to a circle around the whole curve. A query descends first into the circle that may be
+//! closer, and skips each circle that is farther away than the nearest chord found so far. Its cost is of the order
+//! of the depth of the tree. Newton's method on (C - p)·C′ = 0 begins at the nearest point of the chords.
 
 use super::plane_curve::Curve;
 use crate::math::Local;
 
-/// The least number of pieces, a power of two.
+/// The smallest number of pieces, a power of two.
 const PIECES: usize = 512;
 
-/// Pieces of a spline for each of its points.
+/// Number of pieces of a spline for each of its points.
 const OF_POINT: usize = 12;
 
-/// Newton's method ends after so many steps.
+/// Largest number of steps of Newton's method.
 const STEPS: usize = 20;
 
 /// A circle around a part of the curve.
@@ -24,7 +24,7 @@ struct Circle {
     radius: f64,
 }
 
-/// Where the nearest point lies along a curve.
+/// The position of the nearest point along a curve.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum AlongCurve {
     /// Between the ends, at this u.
@@ -52,12 +52,12 @@ fn apart(a: Local, b: Local) -> f64 {
     (a.x - b.x).hypot(a.y - b.y)
 }
 
-/// The point at a share of the way from a to b.
+/// The point at a fraction `share` of the way from a to b.
 fn between(a: Local, b: Local, share: f64) -> Local {
     Local::new(a.x + share * (b.x - a.x), a.y + share * (b.y - a.y))
 }
 
-/// The circle around two circles.
+/// The smallest circle around two circles.
 fn around(a: Circle, b: Circle) -> Circle {
     let distance = apart(a.center, b.center);
     if distance + b.radius <= a.radius {
@@ -71,7 +71,7 @@ fn around(a: Circle, b: Circle) -> Circle {
 }
 
 impl CurveSearch {
-    /// Prepares a curve without a fault.
+    /// Prepares the search on a curve that has no fault.
     pub fn new(curve: Curve, numbers: Vec<f64>) -> Self {
         let count = match &curve {
             Curve::Points(own) => OF_POINT * own.points.len(),
@@ -84,7 +84,7 @@ impl CurveSearch {
         let piece = |k: usize| {
             let (from, to) = (points[k], points[k + 1]);
             let center = between(from, to, 0.5);
-            // twice the rise of the arc over its chord, for arcs that are not circles
+            // the rise of the arc over its chord is doubled, because the arc may not be a circle
             let radius = 0.5 * apart(from, to) + 2.0 * apart(at(k as f64 + 0.5), center);
             Circle { center, radius }
         };
@@ -146,7 +146,7 @@ impl CurveSearch {
             let [c, first, second, _] = self.curve.derivatives(u);
             let d = Local::new(c.x - p.x, c.y - p.y);
             let speed = first.dot(first);
-            // where p is beyond the centre of curvature, a step of Gauss still goes down
+            // if p is beyond the centre of curvature, the bounded denominator keeps the step a descent step
             let bend = (speed + d.dot(second)).max(0.1 * speed);
             let step = (-d.dot(first) / bend).clamp(-2.0 * piece, 2.0 * piece);
             let next = u + step;
@@ -165,7 +165,7 @@ impl CurveSearch {
     }
 }
 
-/// The distance of p from a chord, and the share of the way to its nearest point.
+/// The distance of p from a chord, and the position of the nearest point as a fraction of the chord.
 fn to_chord(p: Local, from: Local, to: Local) -> (f64, f64) {
     let (chord, arm) = (between(Local::zero(), to - from, 1.0), p - from);
     let share = (chord.dot(arm) / chord.dot(chord)).clamp(0.0, 1.0);

@@ -1,4 +1,4 @@
-//! A joint in which its bodies slide or turn along one position quantity, so that it may rub.
+//! A joint whose bodies slide or rotate along one position quantity, so that it may have friction.
 
 use super::attachment::Attachment;
 use super::followed::{BodyId, JointId, QuantityOf};
@@ -6,7 +6,7 @@ use crate::expression::Tape;
 use crate::math::{Local, Motion, Pose, Real, Rotation, Vec2};
 use std::sync::Arc;
 
-/// A joint with the frames of its bodies, and the position quantity along which they slide or turn.
+/// A joint with the frames on its bodies, and the position quantity along which they slide or rotate.
 #[derive(Clone, Debug)]
 pub struct Bearing<S = f64> {
     /// The joint.
@@ -25,7 +25,7 @@ impl<S> Bearing<S> {
         self.coordinate.bodies
     }
 
-    /// Whether its bodies turn against each other; otherwise body j slides along a line of body i.
+    /// Whether its bodies rotate relative to each other; otherwise body j slides along a line of body i.
     pub fn turns(&self) -> bool {
         self.coordinate.unit == "rad"
     }
@@ -48,7 +48,7 @@ impl<S: Real> Bearing<S> {
         i.global(Local::new(axis.cos, axis.sin))
     }
 
-    /// The global place at which bodies i and j slide on each other.
+    /// The global position of the point at which bodies i and j slide on each other.
     pub fn place(&self, j: &Pose<S>) -> Vec2<S> {
         j.point(self.ends[1].s)
     }

@@ -1,8 +1,9 @@
-//! Curves in a body: points C(u) of its frame, m, with their derivatives by the parameter u.
+//! Curves in a body: points C(u) in its frame, m, with their derivatives with respect to the parameter u.
 //!
-//! A curve is evaluated over any scalar. C, C′, C″ and C‴ are exact: a formula is evaluated over jets of dual numbers,
-//! and the polynomials of a spline are differentiated. The equations of a joint on a curve are differentiated twice and
-//! contain C′, so that γ needs C‴. They take these four from one evaluation: [`Curve::near`].
+//! A curve is evaluated over any scalar. C, C′, C″ and C‴ are exact: a formula is evaluated over jets of dual
+//! numbers, and the polynomials of a spline are differentiated. The equations of a joint on a curve are
+//! differentiated twice and contain C′, so that γ needs C‴. All four are obtained from a single evaluation by
+//! [`Curve::near`].
 
 use super::curve_formula::Formula;
 use super::curve_points::CurvePoints;
@@ -51,7 +52,7 @@ impl<S> Curve<S> {
         }
     }
 
-    /// SI unit of u: rad of an angle, m of a length, 1 of a number.
+    /// SI unit of u: rad for an angle, m for a length, 1 for a number.
     pub fn unit(&self) -> &'static str {
         match self {
             Self::Formula(formula) => formula.unit,
@@ -112,8 +113,8 @@ impl<S: Real> Curve<S> {
         }
     }
 
-    /// The places of u at which the curve is not smooth: where a condition of a formula changes or one of its motion
-    /// laws begins or ends, and the points of a spline whose curvature jumps.
+    /// The values of u at which the curve is not smooth: those at which a condition of a formula changes or a motion
+    /// law begins or ends, and the points of a spline whose curvature jumps.
     pub fn breaks(&self) -> Option<Arc<Knots>> {
         match self {
             Self::Formula(formula) => formula.breaks(),
@@ -127,7 +128,7 @@ impl<S: Real> Curve<S> {
         }
     }
 
-    /// About the largest distance from the origin, m.
+    /// The approximate largest distance from the origin, m.
     pub fn reach(&self) -> S {
         let [a, b] = self.range();
         let share = |k: u32| S::constant(f64::from(k) / 8.0);
@@ -154,7 +155,7 @@ impl<S: Real> Curve<S> {
         }
     }
 
-    /// The cubic with the derivatives of the curve at u. Derivatives of order 0 to 3 of both agree there.
+    /// The cubic Taylor polynomial of the curve at u. Its derivatives of order 0 to 3 at u equal those of the curve.
     pub fn near(&self, u: S) -> Self {
         Self::Near { at: u, terms: self.derivatives(u) }
     }
@@ -164,7 +165,7 @@ fn apart<S: Real>(from: Local<S>, to: Local<S>) -> Local<S> {
     Local::new(to.x - from.x, to.y - from.y)
 }
 
-/// The derivatives of a cubic at `d` from those at 0.
+/// The derivatives of a cubic at `d` from its derivatives at 0.
 fn taylor<S: Real>([c0, c1, c2, c3]: [Local<S>; 4], d: S) -> [Local<S>; 4] {
     let (half, sixth) = (S::constant(0.5), S::constant(1.0 / 6.0));
     let part = |c: fn(&Local<S>) -> S| {

@@ -1,9 +1,9 @@
-//! Elements of one type, stored together, and the visitors that loop over them.
+//! Pools of elements of one type, and the visitors that loop over them.
 
 use super::force_trait::Force;
 use super::joint_trait::Joint;
 
-/// An element of a pool, with all data that its loop reads.
+/// An element of a pool, with all data that the loop reads.
 #[derive(Clone, Debug)]
 pub struct Pooled<E> {
     /// The element.
@@ -15,13 +15,13 @@ pub struct Pooled<E> {
 /// The place of an element of a pool in the model.
 #[derive(Clone, Copy, Debug)]
 pub struct Place {
-    /// Its place among the constraints or forces.
+    /// Its index among the constraints or forces.
     pub item: u32,
     /// Bodies i and j; ground where there are fewer.
     pub bodies: [u32; 2],
-    /// The first of its rows of Φ; 0 for a force.
+    /// Its first row of Φ; 0 for a force.
     pub row: u32,
-    /// Its place in a list of the room that uses the pool.
+    /// Its index in a list of the module that uses the pool.
     pub slot: u32,
 }
 
@@ -36,7 +36,7 @@ impl Place {
         Self { item: index(item), bodies: [body(0), body(1)], row: index(row), slot: 0 }
     }
 
-    /// The same element, with its place in the list of the module that uses the pool.
+    /// The same place, with the index in the list of the module that uses the pool.
     pub fn with_slot(self, slot: usize) -> Self {
         Self { slot: u32::try_from(slot).expect("fewer than 2^32 items"), ..self }
     }
@@ -44,12 +44,12 @@ impl Place {
 
 /// Visits the joints and drivers of a model, type by type.
 pub trait VisitJoints<S> {
-    /// Takes all elements of one type.
+    /// Visits all elements of one type.
     fn visit<E: Joint>(&mut self, pool: &[Pooled<E::Over<S>>]);
 }
 
 /// Visits the forces of a model, type by type.
 pub trait VisitForces<S> {
-    /// Takes all elements of one type.
+    /// Visits all elements of one type.
     fn visit<E: Force>(&mut self, pool: &[Pooled<E::Over<S>>]);
 }

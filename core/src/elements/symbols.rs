@@ -68,7 +68,7 @@ pub enum Mark {
     Toothed {
         /// Radius of the pitch circle, m.
         radius: f64,
-        /// Diameter of the pitch circle for each tooth, m; none where the number of teeth is not known.
+        /// Diameter of the pitch circle divided by the number of teeth, m; None if the number of teeth is not known.
         module: Option<f64>,
         /// Whether the teeth are on the inside of a ring.
         ring: bool,
@@ -84,7 +84,7 @@ pub enum Mark {
 }
 
 impl Mark {
-    /// The word for it in a scene.
+    /// The name of the symbol in a scene.
     pub fn name(self) -> &'static str {
         match self {
             Self::Pin => "pin",
@@ -134,7 +134,7 @@ impl Mark {
         }
     }
 
-    /// Diameter of a pitch circle for each tooth, m, where the model gives it.
+    /// Diameter of the pitch circle divided by the number of teeth, m, if the model contains it.
     pub fn module(self) -> Option<f64> {
         match self {
             Self::Toothed { module, .. } => module,
@@ -143,12 +143,12 @@ impl Mark {
     }
 }
 
-/// Where a symbol is fixed on one body.
+/// The attachment of a symbol to one body.
 #[derive(Clone, Debug, PartialEq)]
 pub struct SymbolEnd {
     /// The body.
     pub body: BodyId,
-    /// s′ of a point, m; none where the symbol belongs to the body as a whole.
+    /// s′ of a point, m; None if the symbol belongs to the body as a whole.
     pub point: Option<Local>,
     /// Angle of the symbol's axis in the body frame, rad.
     pub axis: f64,
@@ -176,9 +176,9 @@ impl SymbolEnd {
 pub struct SceneSymbol {
     /// The shape that is drawn.
     pub mark: Mark,
-    /// Where on body i.
+    /// The attachment to body i.
     pub i: SymbolEnd,
-    /// Where on body j.
+    /// The attachment to body j.
     pub j: SymbolEnd,
 }
 

@@ -1,4 +1,4 @@
-//! A value as written in a file, and the arguments of typed methods that become one.
+//! A value as written in a file, and the arguments of typed methods that are converted to values.
 
 /// A value as written in a file.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,7 +13,7 @@ pub enum Value {
     List(Vec<Value>),
     /// Keys with values, in order.
     Table(Vec<(String, Value)>),
-    /// A law that a host computes, by its number; files have none.
+    /// A law that the calling program computes, by its index. Files cannot contain such a law.
     Function(usize),
 }
 
@@ -117,7 +117,7 @@ impl<X: Into<Number>, Y: Into<Number>> From<(X, Y)> for Pair {
     }
 }
 
-/// Any number of numbers or formulas: `["a + t", "2"]`.
+/// A list of numbers or formulas: `["a + t", "2"]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Numbers(Vec<Number>);
 
@@ -142,7 +142,7 @@ impl<Q: Into<String>, N: Into<Number>, const COUNT: usize> From<[(Q, N); COUNT]>
     }
 }
 
-/// Any number of words: `["m", "rad"]`.
+/// A list of words: `["m", "rad"]`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Words(Vec<String>);
 

@@ -1,9 +1,9 @@
-//! Wheels that roll on each other or on a line, for the elements that contain them.
+//! Functions of elements with wheels that roll on each other or on a line.
 
 use super::joint_trait::{At, Required, ResultQuantity};
 use crate::math::{Local, Pose, Real, Rotation, Vec2};
 
-/// Radii, r = module z/2 where the numbers of teeth z are given; NaN if neither is.
+/// The radii: r = module z/2 if the numbers of teeth z are given; NaN if neither radii nor teeth are given.
 pub(super) fn radii<S: Real>(
     radii: Option<[S; 2]>,
     teeth: Option<[S; 2]>,
@@ -16,7 +16,7 @@ pub(super) fn radii<S: Real>(
     }
 }
 
-/// The distance of the centres of two wheels, and the one that it must have.
+/// The distance of the centres of two wheels, and the required distance.
 pub(super) fn centres<S: Real>(d: Vec2<S>, must: Option<S>) -> Vec<Required<S>> {
     let remedy =
         "hold both centres by joints on the same body, such as an arm or ground, at that distance";
@@ -34,24 +34,24 @@ pub(super) fn whole_turn<S: Real>(radius: S) -> S {
     S::constant(std::f64::consts::TAU) * radius
 }
 
-/// `x` modulo 2π `radius`, nearest 0: a whole turn of θ changes nothing.
+/// `x` modulo 2π `radius`, nearest 0, so that the result does not change with a whole turn of θ.
 pub(super) fn nearest<S: Real>(x: S, radius: S) -> S {
     let turn = whole_turn(radius);
     x - turn * (x / turn + S::constant(0.5)).floor()
 }
 
-/// Along a line at an angle in a body, and to its left.
+/// The directions along a line at the angle `axis` in a body, and to its left.
 pub(super) fn directions<S: Real>(axis: S, on: &Pose<S>) -> (Vec2<S>, Vec2<S>) {
     let axis = Rotation::new(axis);
     let u = on.global(Local::new(axis.cos, axis.sin));
     (u, u.perp())
 }
 
-/// The force at the place of rolling, a multiplier.
+/// The tangential force at the rolling contact, which is a multiplier.
 pub(super) const TANGENTIAL: ResultQuantity =
     ResultQuantity { name: "tangential", unit: "N", negative: None };
 
-/// A radius that is zero or, where it has no sides, negative.
+/// The fault of a radius that is zero or, unless it is `signed`, negative.
 pub(super) fn radius_fault(
     field: &'static str,
     radius: f64,

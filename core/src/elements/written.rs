@@ -1,4 +1,4 @@
-//! Elements as written in a model: fields by name, before names are linked and formulas read.
+//! Elements as written in a model: fields by name, before names are linked and formulas are read.
 //!
 //! The declaration of an element yields its methods here, one for each field.
 
@@ -8,8 +8,8 @@ use std::marker::PhantomData;
 /// An element of type `E` as written in a model, for
 /// [`ModelBuilder::add`](crate::ModelBuilder::add).
 ///
-/// `E::written()` starts one. Each field of the element has a method of its name; fields with a default
-/// may be left out.
+/// `E::written()` creates an element without fields. Each field of the element has a method of the same name; fields
+/// with a default may be omitted.
 ///
 /// ```
 /// use kempe::forces::TorsionSpring;
@@ -28,7 +28,7 @@ impl<E> Default for Written<E> {
 }
 
 impl<E> Written<E> {
-    /// Sets a field; a second value of the same field replaces the first.
+    /// Sets a field. A second value of the same field replaces the first.
     pub(crate) fn with(mut self, field: &'static str, value: Value) -> Self {
         self.fields.retain(|(name, _)| *name != field);
         self.fields.push((field, value));
@@ -41,7 +41,7 @@ impl<E> Written<E> {
     }
 }
 
-/// Rust type of the argument for a kind of field: numbers, a flag, or else a name or word.
+/// Rust type of the argument for a kind of field: numbers, a flag, or otherwise a name or word.
 macro_rules! argument {
     (number) => {
         $crate::elements::Number
@@ -87,8 +87,8 @@ pub(crate) use argument;
 
 /// Declares an element by [`element!`](crate::element) and the methods of its [`Written`] form.
 ///
-/// Elements of this crate are declared by this macro, others by [`element!`](crate::element): only this
-/// crate can add methods to [`Written`].
+/// This macro declares the elements of this crate. Elements of other crates are declared by
+/// [`element!`](crate::element), because only this crate can add methods to [`Written`].
 macro_rules! declare {
     ($(#[doc = $doc:literal])* $Name:ident, $name:literal {
         $($(#[doc = $about:literal])* $field:ident : $kind:ident $([$($unit:tt)*])? $(= $default:expr)?),+ $(,)?

@@ -146,7 +146,7 @@ impl Compiler<'_> {
         Ok(Instruction::Table(self.place(table)))
     }
 
-    /// The place of a table among those of the tape.
+    /// The index of a table in the tape, which is added if it is new.
     fn place(&mut self, table: &Arc<Table>) -> usize {
         let tables = &mut self.tape.tables;
         tables.iter().position(|used| used.name() == table.name()).unwrap_or_else(|| {
@@ -155,8 +155,7 @@ impl Compiler<'_> {
         })
     }
 
-    /// x^p: a constant exponent is taken from the tape into the instruction, which then is
-    /// defined for x ≤ 0 as well.
+    /// x^p. A constant exponent is moved from the tape into the instruction, which is then defined for x ≤ 0 as well.
     fn power(&mut self) -> Instruction {
         match self.tape.code.last() {
             Some(&Instruction::Constant(exponent)) => {
@@ -180,8 +179,8 @@ impl Compiler<'_> {
         if self.tape.operands > MAX_OPERANDS {
             return Err(too_many_operands(span));
         }
-        // a constant operand is one instruction, so all operands are constant if and only if the
-        // instructions just before are
+        // a constant operand is a single instruction, so that all operands are constant if and only if the preceding
+        // instructions are constants
         let first = code.len() - 1 - instruction.operands();
         let operands = &code[first..code.len() - 1];
         if !operands.is_empty() && operands.iter().all(|i| matches!(i, Instruction::Constant(_))) {
@@ -208,7 +207,7 @@ impl Compiler<'_> {
     }
 }
 
-/// The value of a piece of tape without symbols, by the evaluation that it replaces.
+/// The value of a piece of tape without symbols, computed by the usual evaluation.
 fn fold(code: &[Instruction], tables: &[Arc<Table>]) -> f64 {
     let tape = Tape {
         code: code.to_vec(),

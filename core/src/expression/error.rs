@@ -8,9 +8,9 @@ use std::ops::Range;
 pub struct ExpressionError {
     /// Description, in one sentence without a full stop.
     pub message: String,
-    /// Where: bytes of the text, on character boundaries; empty at the end of the text.
+    /// The bytes of the text at fault, on character boundaries; empty at the end of the text.
     pub span: Range<usize>,
-    /// Remedy, if it can be guessed.
+    /// A suggested remedy, if there is one.
     pub hint: Option<String>,
 }
 
@@ -20,7 +20,7 @@ impl ExpressionError {
         Self { message: message.into(), span, hint: None }
     }
 
-    /// The same error with a hint; `None` leaves it without.
+    /// The same error with a hint, or without a hint for `None`.
     pub fn hint(self, hint: impl Into<Option<String>>) -> Self {
         Self { hint: hint.into(), ..self }
     }

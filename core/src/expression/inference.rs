@@ -1,7 +1,7 @@
-//! The dimension of a formula, from those of its parameters.
+//! The dimension of a formula, inferred from the dimensions of its parameters.
 //!
-//! A parameter that is written with a unit has a dimension. A plain number takes the SI unit of its
-//! place: as a factor it has no dimension, as a summand that of the other summand.
+//! A parameter that is written with a unit has a dimension. A plain number has the SI unit that its place requires:
+//! as a factor it is dimensionless, and as a summand it has the dimension of the other summand.
 
 use super::names::constant;
 use super::operation::{Binary, Unary};
@@ -15,9 +15,9 @@ use std::ops::Range;
 /// The dimension of a formula, as far as it is known.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Inferred {
-    /// Numbers only, or a ratio: fits any unit.
+    /// Numbers only, or a ratio. Compatible with any unit.
     Number,
-    /// Contains a value whose unit is not written: fits any unit.
+    /// Contains a value whose unit is not written. Compatible with any unit.
     Open,
     /// Known from the units of its parameters.
     Of(Dimension),
@@ -43,7 +43,7 @@ impl fmt::Display for Inferred {
 /// A part of a formula that was read.
 struct Part {
     of: Inferred,
-    /// Its value, if it is a literal number: exponents change dimensions.
+    /// Its value, if it is a literal number. It is needed because exponents change dimensions.
     value: Option<f64>,
     span: Range<usize>,
 }
@@ -166,7 +166,7 @@ impl Inference<'_> {
         }
     }
 
-    /// Refuses a part with a dimension where a number or an angle must be.
+    /// Rejects a part with a dimension where a number or an angle is required.
     fn pure(&self, k: usize, place: &str) -> Result<(), ExpressionError> {
         match self.parts[k].of {
             Inferred::Of(dimension) if dimension != ANGLE => {
@@ -187,7 +187,7 @@ impl Inference<'_> {
 fn product(a: Inferred, b: Inferred, power: i8) -> Inferred {
     match (a, b) {
         (Inferred::Of(a), Inferred::Of(b)) => match a.times(b, power) {
-            // lengths in a ratio leave a number
+            // the ratio of two equal dimensions is a number
             Some(ANGLE) if a != ANGLE => Inferred::Number,
             Some(dimension) => Inferred::Of(dimension),
             None => Inferred::Open,
@@ -198,7 +198,7 @@ fn product(a: Inferred, b: Inferred, power: i8) -> Inferred {
     }
 }
 
-/// The dimension of a base to a power, which is known if it is a literal number.
+/// The dimension of a base raised to a power. The power is known only if it is a literal number.
 fn raised(base: Inferred, power: Option<f64>) -> Inferred {
     match (base, power) {
         (Inferred::Of(dimension), Some(power)) => {

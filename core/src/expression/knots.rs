@@ -1,6 +1,6 @@
 //! Places on an axis at which a function is not C², numbered in ascending order.
 
-/// Places on an axis, which may repeat themselves. Place n is the lower end of stretch n.
+/// Places on an axis, which may repeat periodically. Place n is the lower end of interval n.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Knots {
     places: Vec<f64>,
@@ -8,13 +8,13 @@ pub struct Knots {
 }
 
 impl Knots {
-    /// Ascending places, at least one; the first period of them if they repeat themselves.
+    /// At least one place, in ascending order. With a period, the places are those of the first period.
     pub fn new(places: Vec<f64>, period: Option<f64>) -> Self {
         debug_assert!(!places.is_empty(), "knots without a place");
         Self { places, period }
     }
 
-    /// Place `n`, a whole number; infinite before the first and behind the last place.
+    /// Place `n`, a whole number. Without a period, it is infinite before the first and beyond the last place.
     pub(super) fn at(&self, n: f64) -> f64 {
         let count = self.places.len() as f64;
         match self.period {
@@ -35,13 +35,13 @@ impl Knots {
         (turn, ((n - turn * count) as usize).min(self.places.len() - 1))
     }
 
-    /// The places in ascending order, of one period.
+    /// The places of one period in ascending order.
     pub fn places(&self) -> &[f64] {
         &self.places
     }
 
-    /// The number of the last place that is not above x; -1 if there is none. Infinite or NaN where x is and the
-    /// places repeat themselves.
+    /// The number of the last place that is not above x; -1 if there is none. If the places are periodic and x is not
+    /// finite, the result is x.
     pub(super) fn last(&self, x: f64) -> f64 {
         let Some(period) = self.period else {
             return self.places.partition_point(|place| *place <= x) as f64 - 1.0;
@@ -52,7 +52,7 @@ impl Knots {
         let turn = ((x - self.places[0]) / period).floor();
         let within = self.places.partition_point(|place| place + turn * period <= x) as f64 - 1.0;
         let n = turn * self.places.len() as f64 + within;
-        // the rounding of the turn
+        // corrects the rounding error of the turn
         if self.at(n + 1.0) <= x {
             n + 1.0
         } else {

@@ -47,7 +47,7 @@ impl<'a> Lexer<'a> {
         self.rest().chars().next()
     }
 
-    /// Skips characters of a kind; how many bytes they were.
+    /// Skips the characters that `accepts` admits and returns their number of bytes.
     fn skip(&mut self, accepts: impl Fn(char) -> bool) -> usize {
         let rest = self.rest();
         let length = rest.len() - rest.trim_start_matches(accepts).len();
@@ -178,7 +178,7 @@ fn has_digit_above_zero(number: &str) -> bool {
     mantissa.contains(|c: char| c.is_ascii_digit() && c != '0')
 }
 
-/// A character that is not of the language.
+/// The error for a character that is not in the language.
 fn unexpected(c: char, start: usize) -> ExpressionError {
     let span = start..start + c.len_utf8();
     let hint = match c {
@@ -200,7 +200,7 @@ fn unexpected(c: char, start: usize) -> ExpressionError {
     ExpressionError::new(span, format!("unexpected {}", shown(c))).hint(hint.to_string())
 }
 
-/// A character as an error can show it: by its number if it cannot be seen.
+/// A character as printed in an error message: by its code point if it is invisible.
 fn shown(c: char) -> String {
     if c.is_control() || c.is_whitespace() || c.escape_debug().count() > 2 {
         format!("character U+{:04X}", c as u32)

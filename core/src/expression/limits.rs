@@ -1,9 +1,9 @@
 //! Limits of expressions.
 
-/// The longest text that is read, bytes. Each node of the tree takes at least one, so this bounds
-/// the tree as well.
+/// The largest length of a text, in bytes. Each node of the tree takes at least one byte, so that the size of the
+/// tree is bounded as well.
 pub const MAX_LENGTH: usize = 4096;
-/// The deepest nesting of parentheses, calls, signs and powers that is read.
+/// The largest nesting depth of parentheses, calls, signs and powers.
 pub const MAX_DEPTH: usize = 64;
-/// The largest number of operands before their operation.
+/// The largest number of operands on the stack.
 pub const MAX_OPERANDS: usize = 32;

@@ -12,12 +12,12 @@
 //! name       = part {"." part}          L1, t, pi, crank.omega, `my body`.omega
 //! ```
 //!
-//! A text that is nothing but a number may carry a unit (`30 deg`, `-5 kN`, see [`mod@unit`]); an
-//! expression never does. Everything is in SI units and radians. A parameter with a unit has a dimension,
-//! and [`Expression::infer`] gives that of a formula.
+//! A text that consists of a single number may have a unit (`30 deg`, `-5 kN`, see [`mod@unit`]); an expression never
+//! does. Everything is in SI units and radians. A parameter with a unit has a dimension, and [`Expression::infer`]
+//! infers the dimension of a formula.
 //!
-//! A power with a constant exponent (`x^2`, `x^(3/2)`) is defined as in `f64`. Where the exponent
-//! is a parameter or varies, its derivatives exist for x > 0 only.
+//! A power with a constant exponent (`x^2`, `x^(3/2)`) is defined as in `f64`. If the exponent is a parameter or
+//! varies, the derivatives exist for x > 0 only.
 //!
 //! ```
 //! use kempe::expression::{Expression, FormulaValues};

@@ -1,9 +1,9 @@
-//! Motion laws of cams: rises from 0 at s = 0 to 1 at s = 1, and the constant beyond.
+//! Motion laws of cams: they rise from 0 at s = 0 to 1 at s = 1 and are constant outside this interval.
 //!
-//! The laws are those of R. L. Norton, Cam Design and Manufacturing Handbook (2nd edition 2009, chapters 2 and 3),
-//! with the rise 1 over the interval 1. The end points belong to the rise: there, derivatives are those inside.
-//! All are symmetric: y(1 - s) = 1 - y(s). All are C² except at the ends of `harmonic`,
-//! where the acceleration jumps.
+//! The laws follow R. L. Norton, Cam Design and Manufacturing Handbook (2nd edition 2009, chapters 2 and 3), with the
+//! rise 1 over the interval 1. The end points belong to the rise, so that the derivatives there are those of the
+//! rise. All are symmetric: y(1 - s) = 1 - y(s). All are C² except at the ends of `harmonic`, where the acceleration
+//! jumps.
 
 use crate::math::Real;
 use std::f64::consts::PI;
@@ -19,16 +19,17 @@ pub enum MotionLaw {
     Poly345,
     /// The polynomial of degree 7 without velocity, acceleration and jerk at the ends.
     Poly4567,
-    /// A quick sine up to s = 1/8, a slow one up to 7/8, and a quick one.
+    /// The acceleration is a fast sine up to s = 1/8, a slow sine up to 7/8, and a fast sine up to 1.
     ModifiedSine,
-    /// A quarter of a sine, constant, half a sine, constant, a quarter of a sine.
+    /// The acceleration consists of a quarter of a sine, a constant, half a sine, a constant, and a quarter of a
+    /// sine.
     ModifiedTrapezoid,
 }
 
 impl MotionLaw {
     /// The value at s.
     pub fn apply<S: Real>(self, s: S) -> S {
-        // 0 before, 1 behind; NaN stays
+        // 0 before the rise, 1 after it; NaN is preserved
         let behind = S::select(s - c(1.0), c(1.0), self.rise(s));
         S::select(-s, S::zero(), behind)
     }
@@ -53,7 +54,7 @@ fn c<S: Real>(x: f64) -> S {
     S::constant(x)
 }
 
-/// The value of the last piece whose start is before s.
+/// The value of the last piece that begins before s.
 fn pieces<S: Real, const N: usize>(s: S, first: S, later: [(f64, S); N]) -> S {
     later.into_iter().fold(first, |value, (start, piece)| S::select(s - c(start), piece, value))
 }

@@ -10,7 +10,8 @@ use std::sync::Arc;
 pub trait Names {
     /// The meaning of `name`: `"L1"`, `"t"`, `"crank.omega"`. Backticks are already removed.
     ///
-    /// Where the time has no meaning, `"t"` is `None`. `pi` and `deg` are never passed to it.
+    /// The result for `"t"` is `None` where the time has no meaning. `pi` and `deg` are never passed to this
+    /// function.
     fn resolve(&self, name: &str) -> Option<Symbol>;
 
     /// The formula that `name` abbreviates, if it is not a symbol: `"slide.displacement"`.
@@ -22,7 +23,7 @@ pub trait Names {
     /// Every name that [`resolve`](Names::resolve) or [`formula`](Names::formula) accepts, for suggestions.
     fn known(&self) -> Vec<String>;
 
-    /// The tables that it may call.
+    /// The tables that an expression may call.
     fn tables(&self) -> &[Arc<Table>] {
         &[]
     }

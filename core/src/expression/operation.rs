@@ -158,15 +158,15 @@ pub const FUNCTIONS: &[Function] = &[
     },
 ];
 
-/// One of three values by the sign of `d`, lane by lane; NaN where `d` is NaN.
+/// One of three values, selected by the sign of `d`, lane by lane; NaN where `d` is NaN.
 fn by_sign<S: Real>(d: S, positive: S, negative: S, zero: S) -> S {
-    // floor(d) is 0 or NaN where it counts, and carries no derivative
+    // this value is used only where d is 0 or NaN; floor(d) is then 0 or NaN, and has no derivative
     S::select(d, positive, S::select(-d, negative, zero + d.floor()))
 }
 
 fn larger<S: Real>(a: S, b: S) -> S {
     let half = S::constant(0.5);
-    // not by_sign: the tie of two equal infinities is that infinity, though a - b is NaN
+    // by_sign is not used, because the larger of two equal infinities is that infinity although a - b is NaN
     S::select(a - b, a, S::select(b - a, b, half * a + half * b))
 }
 
@@ -227,7 +227,7 @@ impl Binary {
 }
 
 impl Relation {
-    /// `a` where the difference of the two sides (left - right) satisfies the relation, else `b`.
+    /// `a` where the difference of the two sides (left - right) satisfies the relation, otherwise `b`.
     pub fn choose<S: Real>(self, difference: S, a: S, b: S) -> S {
         match self {
             Self::Less => by_sign(difference, b, a, b),
@@ -237,7 +237,7 @@ impl Relation {
         }
     }
 
-    /// How it is written.
+    /// The written form.
     pub fn mark(self) -> &'static str {
         match self {
             Self::Less => "<",
@@ -254,7 +254,7 @@ impl Call {
         FUNCTIONS.iter().find(|f| f.name == name)
     }
 
-    /// The name of the function that does this.
+    /// The name of the function that performs this operation.
     pub fn name(self) -> &'static str {
         FUNCTIONS.iter().find(|f| f.call == self).map_or("", |f| f.name)
     }

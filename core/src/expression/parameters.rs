@@ -1,4 +1,4 @@
-//! Parameters that refer to other parameters: the order in which they can be evaluated.
+//! Parameters that refer to other parameters, and the order in which they can be evaluated.
 
 use super::{
     is_identifier, is_reserved, Expression, ExpressionError, FormulaValues, Inferred, Names,
@@ -16,8 +16,8 @@ pub struct ParameterError {
     pub parameter: usize,
     /// Its name.
     pub name: String,
-    /// Description of the fault; the span is in the text of its expression, and covers all of it where the
-    /// name is at fault.
+    /// Description of the fault. The span refers to the text of the expression, and covers the whole text if the name
+    /// is at fault.
     pub error: ExpressionError,
 }
 
@@ -41,8 +41,8 @@ impl Parameters {
     /// Compiles definitions, each a name and an expression in the other parameters, which may call tables.
     ///
     /// # Errors
-    /// A name that is reserved, not an identifier, that of a table or used twice; an expression that does not compile
-    /// (the time and the state have no meaning here); definitions in a circle; a sum of different dimensions.
+    /// A name that is reserved, not an identifier, the name of a table, or used twice; an expression that does not
+    /// compile (the time and the state have no meaning here); circular definitions; a sum of different dimensions.
     pub fn compile<N: AsRef<str>>(
         definitions: &[(N, Expression)],
         tables: &[Arc<Table>],
@@ -76,8 +76,8 @@ impl Parameters {
 
     /// The values of all parameters, in the order of the definitions.
     ///
-    /// Where `given(k)` has a value it replaces definition `k`, and what refers to it follows: a
-    /// sweep, or a design derivative. Domain errors give NaN.
+    /// A value of `given(k)` replaces definition `k`, also in the definitions that refer to it. This is used for
+    /// sweeps and design derivatives. Domain errors yield NaN.
     pub fn evaluate<S: Real>(&self, given: impl Fn(usize) -> Option<S>) -> Vec<S> {
         let mut values = vec![S::zero(); self.tapes.len()];
         for &k in &self.order {
@@ -139,7 +139,8 @@ fn index<'a, N: AsRef<str>>(
     Ok(Index(names, tables))
 }
 
-/// Depth-first order; a circle comes back as the indices along it, the first one not repeated.
+/// Depth-first order. For circular definitions, the error contains the indices along the cycle, without repeating the
+/// first.
 fn order(tapes: &[Tape]) -> Result<Vec<usize>, Vec<usize>> {
     #[derive(Clone, Copy, PartialEq)]
     enum Visit {
@@ -151,8 +152,8 @@ fn order(tapes: &[Tape]) -> Result<Vec<usize>, Vec<usize>> {
     let mut marks = vec![Visit::New; tapes.len()];
     let mut order = Vec::with_capacity(tapes.len());
     for root in 0..tapes.len() {
-        // the open parameters, each with how many of its needs are looked at: no recursion, because
-        // a chain may be as long as the list
+        // the open parameters, each with the number of its dependencies that were visited; no recursion is used,
+        // because a chain may be as long as the list
         let mut path = if marks[root] == Visit::New { vec![(root, 0)] } else { Vec::new() };
         while let Some((k, looked_at)) = path.last_mut() {
             marks[*k] = Visit::Open;

@@ -15,7 +15,8 @@ pub(super) fn parse(text: &str) -> Parsed<Vec<Node>> {
     read(text, |parser| parser.value())
 }
 
-/// Reads a whole text as one expression or as one comparison: the difference of its sides, with their relation.
+/// Reads a whole text as one expression or one comparison. A comparison is returned as the difference of its sides
+/// and the relation.
 pub(super) fn parse_condition(text: &str) -> Parsed<(Vec<Node>, Option<Relation>)> {
     let mut nodes = read(text, |parser| parser.comparison())?;
     let Some(Node { kind, .. }) = nodes.last_mut() else { return Ok((nodes, None)) };
@@ -66,7 +67,7 @@ impl Parser<'_> {
         span
     }
 
-    /// One level deeper; bounds the recursion of this parser.
+    /// Reads one nesting level deeper. The limit bounds the recursion of the parser.
     fn nested<T>(&mut self, read: impl FnOnce(&mut Self) -> Parsed<T>) -> Parsed<T> {
         if self.depth == MAX_DEPTH {
             let message = format!("the expression is nested more than {MAX_DEPTH} levels deep");
@@ -105,7 +106,7 @@ impl Parser<'_> {
         Ok(self.push(NodeKind::Compare(relation), left.start..right.end))
     }
 
-    /// The subtree read last is an operand; a comparison in parentheses cannot be.
+    /// Checks that the subtree read last can be an operand, which a comparison in parentheses cannot be.
     fn require_number(&self, span: &Range<usize>) -> Parsed<()> {
         match self.nodes.last() {
             Some(Node { kind: NodeKind::Compare(_), .. }) => {
@@ -188,7 +189,7 @@ impl Parser<'_> {
         Ok(open.start..close.end)
     }
 
-    /// The parenthesis that closes the one at `open`.
+    /// Reads the parenthesis that closes the parenthesis at `open`.
     fn close(&mut self, open: &Range<usize>) -> Parsed<Range<usize>> {
         match self.token.kind {
             TokenKind::Mark(')') => Ok(self.advance()?.span),
@@ -262,7 +263,7 @@ impl Parser<'_> {
         }
     }
 
-    /// The error for a token at a wrong place.
+    /// The error for a misplaced token.
     fn misplaced(&self) -> ExpressionError {
         let span = self.token.span.clone();
         let written = &self.text[span.clone()];
@@ -293,7 +294,7 @@ impl Parser<'_> {
         })
     }
 
-    /// Two operands side by side, the second at `span`; perhaps a unit.
+    /// The error for two adjacent operands. The second operand, at `span`, may be a unit.
     fn missing_operator(&self, written: &str, span: Range<usize>) -> ExpressionError {
         if let (Some((value, number)), Ok(unit)) =
             (self.number_before(span.start), Unit::parse(written))
@@ -322,7 +323,7 @@ fn misplaced_comparison(span: Range<usize>) -> ExpressionError {
         .hint("write if(a < b, 1, 0) for its value as a number".to_string())
 }
 
-/// A call with a wrong number of arguments.
+/// The error for a call with a wrong number of arguments.
 pub(super) fn wrong_count(
     name: &str,
     arguments: &[&str],

@@ -9,7 +9,7 @@ pub(super) const SI: Unit =
 /// The value of a table beyond its points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outside {
-    /// None: a law that reads it there has no value.
+    /// There is no value: a law that reads the table there has no value either.
     Refuse,
     /// The value at the nearest end.
     Hold,
@@ -28,7 +28,7 @@ impl Outside {
     }
 }
 
-/// The remedy where a table is read outside its range.
+/// The remedy for a table that is read outside its range.
 pub const TABLE_ENDS: &str =
     "give the table more points, make it periodic, or write outside = \"hold\" or \"linear\" in it";
 
@@ -39,7 +39,7 @@ pub struct Points<'a> {
     pub x: &'a [f64],
     /// Values, in `y_unit`.
     pub y: &'a [f64],
-    /// The unit of x; SI and rad without one.
+    /// The unit of x; SI and rad if it is absent.
     pub x_unit: Option<&'a str>,
     /// The unit of y.
     pub y_unit: Option<&'a str>,
@@ -56,7 +56,7 @@ pub struct Points<'a> {
 pub struct TableError {
     /// The field at fault: x, y, x_unit or y_unit.
     pub field: &'static str,
-    /// The number in a list at fault, from 0.
+    /// The index of the number at fault in the list.
     pub entry: Option<usize>,
     /// Description of the fault.
     pub message: String,
@@ -65,7 +65,7 @@ pub struct TableError {
 }
 
 impl TableError {
-    /// The curve has no numbers at a point.
+    /// The error for points from which the curve cannot be computed in floating-point arithmetic.
     pub(super) fn steep(entry: usize) -> Self {
         let message = format!("the points beside x[{entry}] are too close or too far apart");
         let hint = "remove a point, or choose units in which the numbers are moderate";
@@ -81,7 +81,8 @@ pub(super) struct Checked {
 }
 
 impl Points<'_> {
-    /// The points in SI units; the ends of a period differ at most by the part `rounding` of the largest y.
+    /// The points in SI units. The values at the ends of a period may differ by at most `rounding` times the largest
+    /// |y|.
     pub(super) fn check(&self, rounding: f64) -> Result<Checked, TableError> {
         let unit = |field, unit: Option<&str>| {
             let read = unit.map(Unit::parse).transpose();
@@ -108,7 +109,7 @@ fn fault(
     TableError { field, entry: entry.into(), message, hint: Some(hint.to_string()) }
 }
 
-/// Refuses lists that determine no curve.
+/// Checks that the lists determine a curve.
 fn checked(points: &Points) -> Result<(), TableError> {
     let (x, y) = (points.x.len(), points.y.len());
     if x != y {
@@ -143,7 +144,7 @@ fn scaled(field: &'static str, numbers: &[f64], unit: Unit) -> Result<Vec<f64>, 
     scaled.collect()
 }
 
-/// Refuses x that do not increase.
+/// Checks that the numbers x increase.
 fn increasing(written: &[f64], x: &[f64]) -> Result<(), TableError> {
     let Some(k) = (1..x.len()).find(|k| x[*k] <= x[k - 1]) else { return Ok(()) };
     let (x, before) = (written[k], written[k - 1]);
@@ -155,7 +156,7 @@ fn increasing(written: &[f64], x: &[f64]) -> Result<(), TableError> {
     Err(fault("x", k, message, hint))
 }
 
-/// Gives both ends of a period one value.
+/// Sets both ends of a period to the same value.
 fn closed(written: &[f64], y: &mut [f64], rounding: f64) -> Result<(), TableError> {
     let last = y.len() - 1;
     let size = y.iter().fold(0.0, |most: f64, y| most.max(y.abs()));

@@ -51,12 +51,12 @@ impl Postfix {
         }
     }
 
-    /// Replaces (x, a, b) by a where x > 0, else by b.
+    /// Replaces (x, a, b) by a where x > 0, and by b elsewhere.
     pub fn choose(&mut self) {
         self.push(Instruction::Guard);
     }
 
-    /// Applies a function of the language, or `^`; false if there is none of this name.
+    /// Applies a function of the language, or `^`. Returns false if there is no function of this name.
     pub fn call(&mut self, name: &str) -> bool {
         let found = FUNCTIONS.iter().find(|function| function.name == name);
         let instruction = match (found.map(|function| function.call), name) {

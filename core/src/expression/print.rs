@@ -1,12 +1,12 @@
-//! Syntax tree → the shortest text that reads as the same tree.
+//! Syntax tree → the shortest text that yields the same tree.
 //!
-//! No spaces and no needless parentheses, so the result is never longer or deeper than what the
-//! tree was read from, and always readable again.
+//! The text has no spaces and no superfluous parentheses. It is therefore never longer or more deeply nested than the
+//! original text, and can always be read again.
 
 use super::operation::{Binary, Call, Unary};
 use super::tree::{Node, NodeKind};
 
-/// How tightly the outermost operation of a text binds, after the rules of the grammar.
+/// The precedence of the outermost operation of a text, according to the grammar.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Binding {
     Comparison,
@@ -37,7 +37,7 @@ impl Piece {
     }
 }
 
-/// Writes a tree that was read from `text`; numbers and names stay as they were written.
+/// Writes a tree that was read from `text`; numbers and names keep their written form.
 pub(super) fn print(text: &str, nodes: &[Node]) -> String {
     let mut pieces: Vec<Piece> = Vec::new();
     for node in nodes {
@@ -72,7 +72,7 @@ fn piece(node: &Node, written: &str, operands: Vec<Piece>) -> Piece {
     }
 }
 
-/// Binding of an operator and of its operands; `None` for a function.
+/// The precedence of an operator and the least precedence of its operands; `None` for a function.
 fn infix(operation: Binary) -> Option<(Binding, Binding, Binding)> {
     use Binding::{Power, Primary, Product, Sum, Unary};
     match operation {
@@ -83,7 +83,7 @@ fn infix(operation: Binary) -> Option<(Binding, Binding, Binding)> {
     }
 }
 
-/// A sign before its operand, or an operator between its two.
+/// A sign before its operand, or an operator between its two operands.
 fn join(mark: &str, operands: Vec<Piece>, bindings: &[Binding]) -> String {
     let mut texts: Vec<_> =
         operands.into_iter().zip(bindings).map(|(piece, least)| piece.at_least(*least)).collect();

@@ -9,7 +9,7 @@ use super::ExpressionError;
 /// Reads `["-" | "+"] number unit`; `None` if the text is something else.
 ///
 /// A longer text that begins with a quantity (`30 deg + 1`) is an error here. For a number followed by a name that is
-/// not a unit (`2 pi`) the parser has the better error message.
+/// not a unit (`2 pi`), the error message of the parser is better.
 pub(super) fn read(text: &str) -> Result<Option<(Node, Unit)>, ExpressionError> {
     let Some((value, end)) = signed_number(text) else { return Ok(None) };
     let written = text[end..].trim();

@@ -1,13 +1,13 @@
-//! "Did you mean": the known word nearest to one that is not known.
+//! "Did you mean": the known word closest to an unknown word.
 
-/// Words beyond this length suggest nothing: the comparison is quadratic.
+/// Longer words yield no suggestion, because the cost of the comparison is quadratic.
 const LONGEST: usize = 100;
 
-/// The candidate nearest to `word`, if one is near enough to be meant.
+/// The candidate closest to `word`, if it is close enough to be intended.
 ///
-/// Nearness is the Damerau–Levenshtein distance (insertions, deletions, substitutions and swaps of
-/// neighbours) without regard to case; at most a third of the longer word may differ, so that `L4`
-/// does not suggest `L1`. The first of equally near candidates wins.
+/// Closeness is measured by the Damerau–Levenshtein distance (insertions, deletions, substitutions and swaps of
+/// neighbours), which ignores case. At most a third of the longer word may differ, so that `L4` does not suggest
+/// `L1`. Of equally close candidates, the first is returned.
 pub fn closest<T: AsRef<str>>(
     word: &str,
     candidates: impl IntoIterator<Item = T>,
@@ -23,7 +23,7 @@ pub fn closest<T: AsRef<str>>(
         let lower = candidate.to_lowercase();
         let other = lower.chars().count();
         let limit = length.max(other) / 3;
-        // the distance is at least the difference in length: spares the quadratic comparison
+        // the distance is at least the difference in length; this test avoids the quadratic comparison
         if length.abs_diff(other) > limit {
             continue;
         }
@@ -35,7 +35,7 @@ pub fn closest<T: AsRef<str>>(
     best.map(|(_, candidate)| candidate)
 }
 
-/// The hint that goes with [`closest`]: "did you mean 'crank'?".
+/// The result of [`closest`] as a hint: "did you mean 'crank'?".
 pub fn did_you_mean<T: AsRef<str>>(
     word: &str,
     candidates: impl IntoIterator<Item = T>,

@@ -1,8 +1,8 @@
-//! Operations whose value is smooth only piece by piece: conditions, |x|, steps, minima, motion laws, tables.
+//! Piecewise smooth operations: conditions, |x|, steps, minima, motion laws, tables.
 //!
-//! Each has a switch function σ and boundaries on its axis. Between two boundaries lies a *piece*, on which the operation
-//! is smooth. An integrator holds the piece of each switch during a step, so that no stage of the step sees another
-//! piece, and ends the step where σ reaches a boundary.
+//! Each has a switch function σ and boundaries on its axis. Between two boundaries lies a *piece*, on which the
+//! operation is smooth. An integrator holds the piece of each switch during a step, so that all stages of the step
+//! use the same piece, and ends the step where σ reaches a boundary.
 
 use super::knots::Knots;
 use super::motion_law::MotionLaw;
@@ -46,7 +46,7 @@ impl Piecewise {
         }
     }
 
-    /// The number of operands on which σ depends, the first ones.
+    /// The number of leading operands on which σ depends.
     pub fn arguments(self) -> usize {
         match self {
             Self::Choose(_) => 1,
@@ -55,8 +55,8 @@ impl Piecewise {
         }
     }
 
-    /// Whether the value is C² where the piece changes. The error estimate of a step then includes it, but may miss a
-    /// short pulse.
+    /// Whether the value is C² where the piece changes. The error estimate of a step then accounts for the change,
+    /// but may miss a short pulse.
     pub fn is_smooth(self) -> bool {
         match self {
             Self::Unary(Unary::Motion(law)) => law != MotionLaw::Harmonic,
@@ -85,7 +85,7 @@ impl Piecewise {
         }
     }
 
-    /// The value by the operands alone.
+    /// The value, with the piece determined by the operands.
     pub fn value<S: Real>(self, x: &[S]) -> S {
         match self {
             Self::Choose(relation) => relation.choose(x[0], x[1], x[2]),
@@ -129,7 +129,7 @@ pub enum Boundaries {
 }
 
 impl Boundaries {
-    /// The piece that contains σ; NaN on a boundary, which belongs to no piece.
+    /// The piece that contains σ. NaN on a boundary, because a boundary belongs to no piece.
     pub fn piece(&self, sigma: f64) -> f64 {
         match self {
             Self::Zero if sigma > 0.0 => 1.0,
@@ -147,7 +147,7 @@ impl Boundaries {
         }
     }
 
-    /// The piece on one side of a boundary: above it, or below it.
+    /// The piece above or below a boundary.
     pub fn beside(&self, boundary: f64, above: bool) -> f64 {
         let below = if above { 0.0 } else { 1.0 };
         match self {
@@ -183,7 +183,7 @@ impl Boundaries {
         self.beside(if above { high } else { low }, above)
     }
 
-    /// The boundaries from `low` to `high`: the number of the first one, and how many there are.
+    /// The boundaries from `low` to `high`: the number of the first boundary, and their count.
     pub(super) fn between(&self, low: f64, high: f64) -> (f64, f64) {
         let [first, last] = match self {
             Self::Zero if low <= 0.0 && high >= 0.0 => [0.0, 0.0],
@@ -197,7 +197,7 @@ impl Boundaries {
         (first, (last - first + 1.0).max(0.0))
     }
 
-    /// The boundary of a number.
+    /// The boundary with number `n`.
     pub(super) fn at(&self, n: f64) -> f64 {
         match self {
             Self::Zero => 0.0,

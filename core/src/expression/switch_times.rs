@@ -1,13 +1,14 @@
 //! The times at which switches that depend on the time alone change their piece.
 //!
-//! The function σ(t) of a switch is bounded on an interval by interval arithmetic, in the mean value form
-//! σ(c) + σ′([a, b]) ([a, b] - c). Where the bounds contain no boundary, no switch lies there. Where σ′ has one sign, each
-//! boundary between σ(a) and σ(b) is passed once, at a time found by bisection. Otherwise the interval is halved. So
-//! every switch is found, except where σ passes a boundary twice within the spacing of numbers, or where halving needs
-//! more than [`MOST_INTERVALS`] intervals; there the signs at the ends of the remaining intervals decide.
+//! The function σ(t) of a switch is bounded on an interval by interval arithmetic, in the mean value form σ(c) +
+//! σ′([a, b]) ([a, b] - c). Where the bounds contain no boundary, no switch lies there. Where σ′ has one sign, each
+//! boundary between σ(a) and σ(b) is passed once, at a time found by bisection. Otherwise the interval is halved.
+//! Every switch is therefore found, with two exceptions: σ passes a boundary twice within the spacing of
+//! floating-point numbers, or halving needs more than [`MOST_INTERVALS`] intervals. In these cases, only the signs at
+//! the ends of the remaining intervals are compared.
 //!
 //! A function that contains a table is sampled at [`SAMPLES`] times instead. σ may contain other switches. The search
-//! runs between their times, where they hold one piece.
+//! then proceeds between the times of these switches, where each of them holds one piece.
 
 use super::tape::Values;
 use super::{FormulaSwitch, Tape};
@@ -15,11 +16,11 @@ use crate::math::{Dual, Interval, Lift, Real};
 
 /// Largest number of times.
 const MOST_TIMES: usize = 1_000_000;
-/// Largest number of intervals for one switch between two times of others.
+/// Largest number of intervals for one switch between two times of other switches.
 const MOST_INTERVALS: usize = 100_000;
 /// Times at which a function that contains a table is sampled.
 const SAMPLES: usize = 4096;
-/// Slopes below this are the rounding of a constant.
+/// Slopes below this value count as rounding errors of a constant.
 const CONSTANT: f64 = 1e-280;
 
 /// More switches than an integration can step to.
@@ -40,7 +41,7 @@ pub fn switch_times(
     search(tape, &tape.switches(), parameters, span, out)
 }
 
-/// The switches of an expression of one variable, such as a curve, over this variable in place of the time.
+/// The switches of an expression of one variable, such as a curve. The variable replaces the time.
 ///
 /// # Errors
 /// As [`switch_times`].
@@ -115,13 +116,13 @@ fn middle(a: f64, b: f64) -> f64 {
     a + 0.5 * (b - a)
 }
 
-/// Values at a time, or at all times of an interval. A switch that depends on the time alone uses no variable, and an
-/// expression of one variable has it as its time.
+/// Values at a time, or at all times of an interval. A switch that depends on the time alone uses no variable. In an
+/// expression of one variable, the variable replaces the time.
 struct PieceValues<'a, T> {
     tape: &'a Tape,
     parameters: &'a [f64],
     t: T,
-    /// Held pieces of the first switches.
+    /// The pieces that are held for the first switches.
     pieces: &'a [f64],
 }
 
@@ -141,7 +142,7 @@ impl<T: Real> Values<T> for PieceValues<'_, T> {
     }
 }
 
-/// The search for the times of one switch, while those before it hold their pieces.
+/// The search for the times of one switch, while the preceding switches hold their pieces.
 struct SwitchSearch<'a> {
     tape: &'a Tape,
     parameters: &'a [f64],
@@ -170,7 +171,7 @@ impl SwitchSearch<'_> {
         out: &mut Vec<f64>,
     ) -> Result<(), TooManySwitches> {
         if self.switch.table {
-            // a table has no bounds on an interval: the signs at many times decide
+            // a table has no bounds on an interval, so that the signs at many times are compared
             let at = |k: usize| part[0] + (part[1] - part[0]) * k as f64 / SAMPLES as f64;
             return (0..SAMPLES).try_for_each(|k| self.pass([at(k), at(k + 1)], out));
         }
@@ -214,7 +215,7 @@ impl SwitchSearch<'_> {
         let sign = (at_b - at_a).signum();
         for k in 0..count as usize {
             let boundary = self.switch.boundaries.at(first + k as f64);
-            // a boundary at a belongs to the interval before
+            // a boundary at a belongs to the preceding interval
             if sign * (at_a - boundary) < 0.0 {
                 out.push(root(ends, |t| sign * (self.sigma(t) - boundary)));
             }
@@ -223,7 +224,7 @@ impl SwitchSearch<'_> {
     }
 }
 
-/// The first time at which g, below zero before and not below after, is not below zero.
+/// The first time at which g ≥ 0, given that g < 0 at the first end and g ≥ 0 at the second.
 fn root([mut a, mut b]: [f64; 2], g: impl Fn(f64) -> f64) -> f64 {
     // the secant is exact for a linear function
     let [at_a, at_b] = [a, b].map(&g);

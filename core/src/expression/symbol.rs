@@ -7,6 +7,6 @@ pub enum Symbol {
     Parameter(usize),
     /// The time `t`, s.
     Time,
-    /// The state variable with this index, such as `crank.omega`; the caller numbers them.
+    /// The state variable with this index, such as `crank.omega`. The caller numbers the variables.
     Variable(usize),
 }

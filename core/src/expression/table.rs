@@ -6,8 +6,8 @@ use super::unit::{Dimension, Unit};
 use crate::math::{Interpolation, Real, Spline};
 use std::sync::Arc;
 
-/// Values beyond the ends up to this part of the range count as the end: an angle of 360° in rad is not exactly the
-/// end of a table to 360°, and joints are closed to a tolerance.
+/// Fraction of the range by which x may exceed the ends and still count as the end. An angle of 360° in rad is not
+/// exactly the end of a table up to 360°, and joints are closed to a tolerance only.
 const ROUNDING: f64 = 1e-9;
 
 /// A place where a table is not C².
@@ -84,7 +84,7 @@ impl Table {
         }
     }
 
-    /// The value at x with the further content of the scalar: derivatives are exact. NaN where there is none.
+    /// The value at x, with exact derivatives if the scalar carries them. NaN where the table has no value.
     pub fn value<S: Real>(&self, x: S) -> S {
         if let Some(printed) = x.named_function(&self.name) {
             return printed;
@@ -115,7 +115,7 @@ impl Table {
         self.with_ends(x, inside, [low, high])
     }
 
-    /// The value between `low` and `high`, of which only the part within the range is that `inside`.
+    /// The value between `low` and `high`: `inside` within the range of the table, and its continuation outside.
     fn with_ends<S: Real>(&self, x: S, inside: S, [low, high]: [f64; 2]) -> S {
         let [first, last] = self.ends;
         let margin = match self.outside {
@@ -192,8 +192,8 @@ impl Table {
         self.spline.periodic().then_some(last - first)
     }
 
-    /// Why a table has no value at x: "table 'lift' is read at x = 370 deg, outside its range from 0 to 360 deg".
-    /// None where it has one.
+    /// The reason why the table has no value at x: "table 'lift' is read at x = 370 deg, outside its range from 0 to
+    /// 360 deg". None if it has a value.
     pub fn refusal(&self, x: f64) -> Option<String> {
         if !self.value(x).is_nan() {
             return None;
@@ -215,7 +215,8 @@ impl Table {
         self.kinks().iter().any(|kink| kink.order == 1 && inner(kink.x))
     }
 
-    /// The places where the table is not C²; in the first period of a periodic table. A run steps to them exactly.
+    /// The places where the table is not C², in the first period if the table is periodic. A run steps to them
+    /// exactly.
     pub fn kinks(&self) -> Vec<Kink> {
         let knots = self.spline.knots();
         let inner = &knots[1..knots.len() - 1];
@@ -253,7 +254,7 @@ impl Table {
     }
 }
 
-/// A number with the digits that a message needs.
+/// A number, rounded for a message.
 fn rounded(x: f64) -> f64 {
     format!("{x:.9e}").parse().unwrap_or(x)
 }

@@ -7,7 +7,7 @@ use super::{Symbol, MAX_OPERANDS};
 use crate::math::Real;
 use std::sync::Arc;
 
-/// Most operands of a short expression.
+/// Largest number of operands of a short expression.
 const SHORT: usize = 8;
 
 /// One step of an evaluation. Operands are on the stack, the last one on top.
@@ -23,12 +23,12 @@ pub(super) enum Instruction {
     Binary(Binary),
     /// Replaces x by xᵖ.
     PowerConstant(f64),
-    /// Replaces (x, a, b) by a where x > 0, else by b, without a switch: a guard in the formula of a quantity, such as
-    /// that of a length where its points meet.
+    /// Replaces (x, a, b) by a where x > 0 and by b elsewhere, without a switch. It guards the formula of a quantity,
+    /// such as a length whose points coincide.
     Guard,
     /// Replaces the operands of an operation that has a switch.
     Piecewise(Piecewise),
-    /// Replaces x by the value of a table, by its place among those of the tape.
+    /// Replaces x by the value of the table with this index in the tape.
     Table(usize),
 }
 
@@ -45,7 +45,7 @@ impl Instruction {
     }
 }
 
-/// Where the values of the symbols come from.
+/// The source of the values of symbols.
 pub trait Values<S> {
     /// The parameter with index `k`.
     fn parameter(&self, k: usize) -> S;
@@ -103,7 +103,7 @@ impl<S: Real> Values<S> for FormulaValues<'_, S> {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Tape {
     pub(super) code: Vec<Instruction>,
-    /// Most operands on the stack at a time, at most [`MAX_OPERANDS`].
+    /// Largest number of operands on the stack, at most [`MAX_OPERANDS`].
     pub(super) operands: usize,
     pub(super) symbols: Vec<Symbol>,
     pub(super) tables: Vec<Arc<Table>>,
@@ -137,10 +137,11 @@ pub struct FormulaSwitch {
 }
 
 impl Tape {
-    /// The value of the expression, with the further content of the scalar (derivatives, lanes).
+    /// The value of the expression, with derivatives or lanes if the scalar has them.
     ///
-    /// Nothing is allocated. Outside the domain of a function the value is NaN, never a panic. A switch has the piece
-    /// that is held for it. Where the held pieces have no value, as √x of x > 0 just below zero, none is held.
+    /// No memory is allocated. Outside the domain of a function, the value is NaN; there is no panic. Each switch
+    /// uses the piece that is held for it. If the value with the held pieces is not finite, such as √x with the piece
+    /// x > 0 just below zero, the expression is evaluated without held pieces.
     pub fn evaluate<S: Real>(&self, values: &impl Values<S>) -> S {
         if self.switches == 0 && self.operands <= SHORT {
             return self.run::<S, _, SHORT>(values, &mut |_| {});
@@ -152,7 +153,7 @@ impl Tape {
         }
     }
 
-    /// Calls `take` with the index and the function σ of each switch, with the held pieces of the switches before.
+    /// Calls `take` with the index and the function σ of each switch, with the held pieces of the preceding switches.
     pub fn switch_functions<S: Real>(
         &self,
         values: &impl Values<S>,
@@ -167,7 +168,8 @@ impl Tape {
         }
     }
 
-    /// One copy for all kinds of values and observers, because there are many of them for each scalar.
+    /// Dynamic dispatch yields one compiled copy for each scalar, although there are many types of values and
+    /// observers.
     #[inline(never)]
     fn run_shared<S: Real>(
         &self,
@@ -234,7 +236,7 @@ impl Tape {
         stack[0]
     }
 
-    /// The number of switches is that of the code.
+    /// Sets the number of switches from the code.
     pub(super) fn count_switches(&mut self) {
         self.switches = self.code.iter().filter(|code| self.switch_of(code).is_some()).count();
     }
@@ -313,7 +315,7 @@ impl Tape {
         found
     }
 
-    /// Why the expression has no value, if a table is read outside its range.
+    /// The reason why the expression has no value, if a table is read outside its range.
     pub fn refusal(&self, values: &impl Values<f64>) -> Option<String> {
         let mut reason = None;
         self.run_shared(values, &mut |seen: Visited<'_, f64>| {
@@ -360,14 +362,14 @@ impl Tape {
 }
 
 impl From<f64> for Tape {
-    /// A tape that is one constant.
+    /// A tape that consists of one constant.
     fn from(x: f64) -> Self {
         Self { code: vec![Instruction::Constant(x)], operands: 1, ..Self::default() }
     }
 }
 
 impl Tape {
-    /// A tape that is one symbol.
+    /// A tape that consists of one symbol.
     pub fn of(symbol: Symbol) -> Self {
         Self {
             code: vec![Instruction::Load(symbol)],

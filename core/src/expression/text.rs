@@ -11,17 +11,17 @@ use std::fmt;
 /// The sense of a comparison.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sense {
-    /// 1 if it holds where the difference of its sides is positive, -1 where it is negative.
+    /// 1 if the comparison holds for a positive difference of its sides, -1 if it holds for a negative difference.
     pub sign: f64,
-    /// Whether it does not hold where the difference is zero.
+    /// Whether the comparison fails for a difference of zero.
     pub strict: bool,
 }
 
 /// An expression: its text, and the syntax tree read from it.
 ///
-/// Equal expressions have equal trees and equal [`dimension`](Expression::dimension); spaces and
-/// superfluous parentheses do not count. `Display` writes the tree back in its shortest form, which
-/// reads as an equal expression; [`text`](Expression::text) is what was written.
+/// Equal expressions have equal trees and equal [`dimension`](Expression::dimension), regardless of spaces and
+/// superfluous parentheses. `Display` writes the tree in its shortest form, which is read as an equal expression;
+/// [`text`](Expression::text) returns the original text.
 #[derive(Clone, Debug)]
 pub struct Expression {
     text: String,
@@ -33,7 +33,7 @@ impl Expression {
     /// Reads an expression, or a number with a unit. Names are not looked up yet.
     ///
     /// # Errors
-    /// The first thing in the text that is not of the language, or a text beyond [`MAX_LENGTH`] or
+    /// The first part of the text that is not in the language, or a text that exceeds [`MAX_LENGTH`] or
     /// [`MAX_DEPTH`].
     pub fn parse(text: &str) -> Result<Self, ExpressionError> {
         check_length(text)?;
@@ -79,13 +79,13 @@ impl Expression {
         &self.text
     }
 
-    /// The dimension of the unit behind a bare number; `None` where no unit was written, and the
-    /// value is then in the SI unit of its place.
+    /// The dimension of the unit after a single number. `None` if no unit was written; the value is then in the SI
+    /// unit that its place requires.
     pub fn dimension(&self) -> Option<Dimension> {
         self.dimension
     }
 
-    /// The dimension of the value; `of` gives those of the symbols.
+    /// The dimension of the value; `of` returns the dimensions of the symbols.
     ///
     /// # Errors
     /// A sum of different dimensions; a function or an exponent of a value with a dimension.

@@ -1,7 +1,7 @@
 //! The syntax tree in postorder: operands precede their operation.
 //!
-//! So reading, printing and compiling are single passes, and no shape of the tree, however lopsided,
-//! can overflow the call stack.
+//! Reading, printing and compiling are therefore single passes, and no tree, however unbalanced, can overflow the
+//! call stack.
 
 use super::operation::{Binary, Relation, Unary};
 use std::ops::Range;
@@ -24,18 +24,18 @@ pub(super) enum NodeKind {
     Unary(Unary),
     /// An operation on two operands.
     Binary(Binary),
-    /// A condition on two operands; the first operand of an [`If`](Kind::If), nothing else.
+    /// A comparison of two operands, which occurs only as the first operand of an [`If`](NodeKind::If).
     Compare(Relation),
     /// The choice (condition, a, b).
     If,
     /// The rise (t, t0, y0, t1, y1).
     Step5,
-    /// A function that is not of the language, with its number of arguments: a table.
+    /// A call of a table, with its number of arguments.
     Call(String, usize),
 }
 
 impl NodeKind {
-    /// The number of subtrees that it takes.
+    /// The number of its subtrees.
     pub fn operands(&self) -> usize {
         match self {
             Self::Number(_) | Self::Name(_) => 0,
@@ -48,7 +48,7 @@ impl NodeKind {
     }
 }
 
-/// Spans do not count: `a+b` and `a + (b)` are the same tree.
+/// Spans are ignored: `a+b` and `a + (b)` are the same tree.
 impl PartialEq for Node {
     fn eq(&self, other: &Self) -> bool {
         self.kind == other.kind

@@ -1,11 +1,10 @@
 //! Units of measure: `deg`, `mm`, `kN/m`, `kg*m^2`.
 //!
-//! A unit is a product of the units of [`UNITS`], each with an integer exponent:
-//! `atom ["^" integer] {("*" | "/") atom ["^" integer]}`, read from left to right, so that
-//! `N*m*s/rad` is (N·m·s)/rad. `1/s` is allowed. `·` is read as `*`, `µm` as `um`, `°` as
-//! `deg`. Case counts: `mN` is 10⁻³ N, `MN` is 10⁶ N.
+//! A unit is a product of the units of [`UNITS`], each with an integer exponent: `atom ["^" integer] {("*" | "/")
+//! atom ["^" integer]}`, read from left to right, so that `N*m*s/rad` is (N·m·s)/rad. `1/s` is allowed. `·` is read
+//! as `*`, `µm` as `um`, `°` as `deg`. Case matters: `mN` is 10⁻³ N, `MN` is 10⁶ N.
 //!
-//! The angle has no dimension (SI): `N*m/rad` is as good as `N*m` for a torsional stiffness.
+//! Angles are dimensionless, as in the SI: `N*m/rad` and `N*m` are equivalent units of a torsional stiffness.
 
 use super::suggest::did_you_mean;
 use super::ExpressionError;
@@ -84,8 +83,8 @@ impl fmt::Display for Dimension {
 
 /// A unit: SI value = number · `numerator` / `denominator`.
 ///
-/// Two factors, because 1000 is a binary number and 10⁻³ is not: `0.3 mm` is the same number as
-/// `3e-4`, rounded once.
+/// There are two factors because 1000 is a floating-point number and 10⁻³ is not. `0.3 mm` is therefore rounded only
+/// once, to the same number as `3e-4`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Unit {
     /// Factor to the SI unit.
@@ -96,7 +95,7 @@ pub struct Unit {
     pub dimension: Dimension,
 }
 
-/// Units as people spell them, in lower case and singular.
+/// Common spellings of units, in lower case and singular.
 const WORDS: &[(&[&str], &str)] = &[
     (&["meter", "metre"], "m"),
     (&["kilometer", "kilometre"], "km"),
@@ -137,8 +136,8 @@ const fn electric(numerator: f64, denominator: f64, [m, kg, s, a]: [i8; 4]) -> U
     Unit { numerator, denominator, dimension: Dimension { m, kg, s, a } }
 }
 
-/// The units that products are made of. `t` is the time, not the tonne; `Hz` is left out because
-/// it leaves open whether cycles or radians are counted.
+/// The factors of units. `t` is the time, not the tonne. `Hz` is omitted because it is ambiguous: it may count cycles
+/// or radians.
 pub const UNITS: &[(&str, Unit)] = &[
     // length
     ("m", unit(1.0, 1.0, 1, 0, 0)),
@@ -221,13 +220,13 @@ impl Unit {
         }
     }
 
-    /// The number `value` of this unit in SI; `None` if that is too large or too small for a number.
+    /// The number `value` of this unit in SI; `None` if the result overflows or underflows.
     pub fn scale(&self, value: f64) -> Option<f64> {
         let si = value * self.numerator / self.denominator;
         (si.is_finite() && (si != 0.0 || value == 0.0)).then_some(si)
     }
 
-    /// `self` · `factor`^`power`; `None` beyond what numbers can hold.
+    /// `self` · `factor`^`power`; `None` if the result overflows.
     fn times(self, factor: Self, power: i8) -> Option<Self> {
         let magnitude = i32::from(power.unsigned_abs());
         let (up, down) = if power < 0 {
@@ -276,7 +275,7 @@ pub(super) fn atom(name: &str) -> Option<Unit> {
     UNITS.iter().find(|(known, _)| *known == name).map(|(_, unit)| *unit)
 }
 
-/// The unit that a word means: spelt out, or a product without its marks, such as `kNm`.
+/// The unit that a word means: a spelt-out unit, or a product without operators, such as `kNm`.
 pub(super) fn meant(word: &str) -> Option<String> {
     let lower = word.to_lowercase();
     let singular = lower.strip_suffix('s').unwrap_or(&lower);

@@ -15,7 +15,7 @@ fn write(list: List) -> Vec<(Id, Bits)> {
     list.into_iter().map(|(id, x)| (id, Bits::of(x))).collect()
 }
 
-/// Adds up the numbers of equal entries; those that cancel go.
+/// Adds the numbers of equal entries and removes entries that cancel.
 fn merge(mut list: List) -> List {
     list.sort_by_key(|(id, _)| *id);
     let mut merged: Vec<(Id, f64, f64)> = Vec::with_capacity(list.len());
@@ -72,7 +72,7 @@ impl Arena {
         }
     }
 
-    /// The name of an expression, if it has one, else itself.
+    /// The name of an expression, if it has one; otherwise the expression itself.
     fn name_of(&self, id: Id) -> Id {
         self.named.get(&id).copied().unwrap_or(id)
     }
@@ -102,7 +102,8 @@ impl Arena {
         }
     }
 
-    /// A sum as a number times a sum: a common magnitude of the factors, and the sign.
+    /// A sum as a number times a sum. The number contains the common magnitude of the factors, if there is one, and
+    /// the sign.
     fn content(&mut self, terms: &[(Id, f64)]) -> (f64, Id) {
         let size = terms[0].1.abs();
         let common = terms.iter().all(|(_, c)| c.abs() == size);
@@ -136,7 +137,7 @@ impl Arena {
         if a == NAN || b == NAN {
             return NAN;
         }
-        // a number times a sum stays a sum
+        // a number times a sum remains a sum
         for (number, other) in [(a, b), (b, a)] {
             if let Some(c) = self.constant(number) {
                 return self.sum(vec![(other, c)]);

@@ -25,15 +25,15 @@ pub(super) enum Node {
         angle: Id,
         axis: Axis,
     },
-    /// Σ cₖ·termₖ with terms that are neither numbers (but one) nor sums, by rising index; one term
-    /// only if its factor is not 1.
+    /// Σ cₖ·termₖ in ascending order of the indices. Terms are neither sums nor numbers other than 1. A sum of a
+    /// single term has a factor other than 1.
     Sum(Vec<(Id, Bits)>),
-    /// Π baseₖ^eₖ, at least two bases or an exponent other than 1, by rising index.
+    /// Π baseₖ^eₖ in ascending order of the indices, with at least two bases or an exponent other than 1.
     Product(Vec<(Id, Bits)>),
     Call(Function, Vec<Id>),
-    /// The second where the first is positive, else the third.
+    /// The second expression where the first is positive, otherwise the third.
     Select([Id; 3]),
-    /// A derivative of a table, by its place among the names of tables.
+    /// A derivative of a table, by the index of its name.
     Table {
         table: usize,
         order: usize,
@@ -41,16 +41,16 @@ pub(super) enum Node {
     },
 }
 
-/// The time derivative of a symbol with zero accelerations.
+/// The time derivative of a symbol at zero accelerations.
 #[derive(Clone, Debug)]
 pub(super) enum Rate {
-    /// Its rate is this expression.
+    /// The rate is this expression.
     Is(Id),
-    /// It is a function of the first, and its derivative by it is the second.
+    /// The symbol is a function of the first expression, and the second expression is its derivative.
     Along(Id, Id),
     /// The derivative of its definition.
     Inline,
-    /// The same expression under this name, if it is a sum.
+    /// The derivative of its definition. It gets this name if it is a sum.
     Named(Box<Name>),
 }
 
@@ -68,7 +68,7 @@ pub(super) struct Symbol {
 pub(super) struct Pair {
     pub x: Id,
     pub y: Id,
-    /// Such as `a_i`.
+    /// The name of the turned vector in the three forms, such as `a_i`.
     pub turned: [String; 3],
     pub owner: Option<usize>,
     /// The angles by which it is turned.
@@ -84,7 +84,7 @@ pub(super) struct Arena {
     pub pairs: Vec<Pair>,
     /// Sums with a fixed sign: the opposite sum is written with a minus sign before it.
     pub signs: HashSet<Id>,
-    /// Expressions that have got a name, and the name.
+    /// Named expressions with their names.
     pub named: HashMap<Id, Id>,
     /// Names of tables.
     pub tables: Vec<String>,
@@ -140,7 +140,7 @@ impl Arena {
         }
     }
 
-    /// The place of the name of a table.
+    /// The index of the name of a table.
     pub fn table(&mut self, name: &str) -> usize {
         self.tables.iter().position(|known| known == name).unwrap_or_else(|| {
             self.tables.push(name.to_string());
@@ -148,7 +148,7 @@ impl Arena {
         })
     }
 
-    /// The expressions that a node is made of.
+    /// The expressions that a node contains.
     pub fn parts(&self, id: Id) -> Vec<Id> {
         match self.node(id) {
             Node::Number(_) | Node::Symbol(_) => Vec::new(),

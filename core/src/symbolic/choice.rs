@@ -4,7 +4,7 @@ use super::arena::{Arena, Id, Node, ONE, ZERO};
 use super::function::Function::{Abs, Floor, Max, Min, Sign, Step};
 
 impl Arena {
-    /// `positive` where `condition` > 0, else `otherwise`.
+    /// `positive` where `condition` > 0, otherwise `otherwise`.
     pub fn select(&mut self, condition: Id, positive: Id, otherwise: Id) -> Id {
         if let Some(x) = self.constant(condition) {
             return if x > 0.0 { positive } else { otherwise };
@@ -52,7 +52,7 @@ impl Arena {
         }
     }
 
-    /// The larger of two, as an absolute value or a minimum where it is one.
+    /// The larger of two expressions, written as an absolute value or a minimum if possible.
     fn larger(&mut self, a: Id, b: Id) -> Id {
         let opposite = self.sum(vec![(a, -1.0)]);
         if opposite == b {

@@ -1,4 +1,4 @@
-//! Definitions of the named parts that expressions are written with.
+//! Definitions of the named parts that occur in written expressions.
 
 use super::arena::{Arena, Id, Node, Pair, Rate};
 use super::function::Function;
@@ -6,7 +6,7 @@ use super::name::{Axis, NameKind};
 use super::style::Form;
 
 impl Arena {
-    /// Parts with a name in an expression, each after those in its own definition.
+    /// Appends the named parts of an expression to `order`, each after the parts in its definition.
     pub fn needed(&self, id: Id, order: &mut Vec<Id>) {
         if order.contains(&id) {
             return;
@@ -20,7 +20,8 @@ impl Arena {
         }
     }
 
-    /// Parts that are made of no other part first, and the components of a vector side by side.
+    /// The sort key of a definition. Parts that contain no other part come first, and the components of a vector are
+    /// adjacent.
     pub fn definition_key(&mut self, id: Id) -> (usize, bool, String) {
         let rate = self.symbol_of(id).is_some_and(|symbol| {
             symbol.name.kind == NameKind::Part && matches!(symbol.rate, Rate::Inline)
@@ -28,7 +29,7 @@ impl Arena {
         (self.depth(id), rate, self.write(id, Form::Expression))
     }
 
-    /// How many named parts stand on each other in an expression.
+    /// The nesting depth of named parts in an expression.
     fn depth(&self, id: Id) -> usize {
         let definition = self.symbol_of(id).and_then(|symbol| symbol.definition);
         let named = definition.is_some() || matches!(self.node(id), Node::Turned { .. });

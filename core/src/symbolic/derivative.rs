@@ -1,4 +1,4 @@
-//! Derivatives by a name or by time.
+//! Derivatives with respect to a symbol or time.
 
 use super::arena::{Arena, Id, Node, Rate, Symbol, NAN, ONE, ZERO};
 use super::function::Function;
@@ -8,13 +8,13 @@ use std::collections::HashMap;
 /// The variable of differentiation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum By {
-    /// A symbol, all others being constant.
+    /// A symbol; all other symbols are constant.
     Symbol(Id),
     /// Time, along the motion with all accelerations zero.
     Time,
 }
 
-/// Derivatives that are known already.
+/// A differentiation, with the derivatives that have been computed.
 #[derive(Debug)]
 pub(super) struct Derivation {
     by: By,

@@ -1,15 +1,15 @@
-//! Sums of products multiplied out, and common factors taken out again.
+//! The expansion of products of sums, and the extraction of common factors.
 
 use super::algebra::List;
 use super::arena::{Arena, Id, Node, ONE};
 use super::name::NameKind;
 use super::style::Form;
 
-/// Sums are not multiplied out beyond this number of terms.
+/// Largest number of terms up to which products of sums are expanded.
 const MOST_TERMS: usize = 200;
 
 impl Arena {
-    /// The shorter of an expression as it is and with its terms collected.
+    /// The shorter of an expression and its form with collected terms.
     pub fn simplest(&mut self, id: Id) -> Id {
         let collected = self.collected(id);
         let [now, then] = [id, collected].map(|id| self.write(id, Form::Expression).len());
@@ -20,7 +20,7 @@ impl Arena {
         }
     }
 
-    /// The expression with like terms merged across brackets, and common factors before brackets.
+    /// The expression with like terms merged across brackets and common factors extracted.
     fn collected(&mut self, id: Id) -> Id {
         let (c, factors) = self.factors(id);
         let mut made = self.number(c);
@@ -39,7 +39,7 @@ impl Arena {
         made
     }
 
-    /// The terms of a sum, with the sums in its products multiplied out.
+    /// The terms of a sum, with the products of sums expanded.
     fn expanded(&mut self, sum: Id) -> List {
         let mut all = List::new();
         for (term, c) in self.terms(sum) {
@@ -81,8 +81,8 @@ impl Arena {
         all
     }
 
-    /// A sum with common factors taken out: scalars before components of vectors, and of these the
-    /// most frequent first.
+    /// A sum with common factors extracted: scalars before components of vectors, and the most frequent factors
+    /// first.
     fn factored(&mut self, sum: Id) -> Id {
         if !self.is_sum(sum) {
             return sum;
@@ -108,7 +108,7 @@ impl Arena {
         self.sum(vec![(product, 1.0), (others, 1.0)])
     }
 
-    /// The factor to take out of a sum of products.
+    /// The factor to extract from a sum of products.
     fn most_common(&self, products: &[List]) -> Option<(Id, f64)> {
         let mut best: Option<((Id, f64), (bool, usize))> = None;
         for factor in products.iter().flatten() {

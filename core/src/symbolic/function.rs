@@ -25,7 +25,7 @@ pub(super) enum Function {
 }
 
 impl Function {
-    /// Its name in the language of expressions; a power is written as an operator.
+    /// The name in the language of expressions; a power is written as an operator.
     pub fn name(self) -> &'static str {
         match self {
             Self::Sin => "sin",
@@ -50,7 +50,7 @@ impl Function {
         }
     }
 
-    /// The value for constant arguments; `None` where the function itself is easier to read.
+    /// The value for constant arguments. `None` if the function itself is easier to read.
     pub fn value(self, x: &[f64]) -> Option<f64> {
         use std::f64::consts::FRAC_PI_2;
         let quarters = x[0] / FRAC_PI_2;

@@ -1,4 +1,4 @@
-//! Identities of sine and cosine, and turned vectors, between two terms of a sum.
+//! Identities that replace two terms of a sum by one: of sine and cosine, and of turned vectors.
 
 use super::algebra::List;
 use super::arena::{Arena, Id, Node};
@@ -6,7 +6,7 @@ use super::function::Function::{self, Cos, Sin};
 use super::name::Axis;
 
 impl Arena {
-    /// The terms with two of them joined; `None` if no identity applies.
+    /// The terms with two of them replaced by one term; `None` if no identity applies.
     pub fn reduce(&mut self, terms: &[(Id, f64)]) -> Option<List> {
         for k in 1..terms.len() {
             for l in 0..k {
@@ -23,7 +23,7 @@ impl Arena {
         None
     }
 
-    /// c₁·first + c₂·second as one product, if an identity makes one of them.
+    /// c₁·first + c₂·second as one product, if an identity applies.
     fn join(&mut self, (first, c1): (Id, f64), (second, c2): (Id, f64)) -> Option<Id> {
         if c1.abs() != c2.abs() {
             return None;

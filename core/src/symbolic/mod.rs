@@ -1,4 +1,4 @@
-//! A scalar that records formulas: the same code that computes numbers gives its equations as text.
+//! A scalar that records formulas, so that the code that computes numbers also yields its equations as text.
 //!
 //! A [`Symbolic`] is an index into an arena of expression nodes. Equal expressions are stored once.
 //! The arena belongs to one call of [`record`](fn@record) and is freed at its end; a value from another call

@@ -1,6 +1,6 @@
-//! Names of the unknowns and constants of an expression, in every form of print.
+//! Names of the unknowns and constants of an expression, in every printed form.
 
-/// The kind of a name: it decides its place in a product and the order of common factors.
+/// The kind of a name. It determines the position in a product and the order of common factors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum NameKind {
     /// A velocity.
@@ -46,9 +46,9 @@ pub struct Name {
     pub latex: String,
     /// Its kind.
     pub kind: NameKind,
-    /// The component, if it is one of a vector.
+    /// The component of a vector that it denotes, if any.
     pub axis: Option<Axis>,
-    /// The body that it belongs to, by position; terms of one body are written side by side.
+    /// The index of the body that it belongs to. Terms of one body are written side by side.
     pub owner: Option<usize>,
 }
 

@@ -5,7 +5,7 @@ use super::function::Function::{self, Cos, Sin};
 use super::name::{Axis, Name, NameKind};
 use std::collections::{HashMap, HashSet};
 
-/// Letters of named vectors, of a unit vector and of others.
+/// Letters of named vectors: unit vectors and other vectors.
 const DIRECTION: &str = "u";
 const VECTOR: &str = "d";
 
@@ -42,7 +42,7 @@ impl Arena {
         self.named.insert(id, symbol);
     }
 
-    /// The same expression with the present names of its parts.
+    /// The expression, rebuilt with the current names of its parts.
     fn rebuilt(&mut self, id: Id, known: &mut HashMap<Id, Id>) -> Id {
         if let Some(known) = known.get(&id) {
             return *known;
@@ -80,7 +80,7 @@ struct PartsToName {
 }
 
 impl PartsToName {
-    /// Goes through an expression; `nested` if it is part of a product, a power or a function.
+    /// Visits the parts of an expression. `nested` is true if it is part of a product, a power or a function.
     fn visit(&mut self, arena: &Arena, id: Id, nested: bool) {
         if nested && !self.seen.insert(id) {
             return;
@@ -139,7 +139,7 @@ impl Arena {
     }
 }
 
-/// A letter that no other name begins with; a number follows from the second on.
+/// A letter with which no other name begins. From the second vector on, a number is appended.
 fn letter(arena: &Arena, first: &str, k: usize) -> String {
     let letter = if k == 0 { first.to_string() } else { format!("{first}_{}", k + 1) };
     let taken = |name: &Name| name.text == letter || name.text.starts_with(&format!("{letter}."));

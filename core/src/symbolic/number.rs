@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-/// A number that can be compared and hashed by its bits; there is one zero.
+/// A number that can be compared and hashed by its bits. Positive and negative zero are equal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub(super) struct Bits(u64);
 
@@ -15,8 +15,8 @@ impl Bits {
     }
 }
 
-/// A positive number as numerator and denominator, each a text; "1" where nothing is to be written.
-/// 1/n stays a fraction if it is `divided` further.
+/// A positive number as texts of its numerator and denominator, where "1" is not to be written. 1/n remains a
+/// fraction if it is `divided` further.
 pub(super) fn fraction(x: f64, divided: bool, pi: &str, times: &str) -> (String, String) {
     let part = 1.0 / x;
     if short(x) && !(divided && part == part.round()) {
@@ -39,12 +39,12 @@ pub(super) fn fraction(x: f64, divided: bool, pi: &str, times: &str) -> (String,
     (digits(x), "1".to_string())
 }
 
-/// Whether a decimal number of few digits gives x.
+/// Whether x is a decimal number of few digits.
 fn short(x: f64) -> bool {
     x == x.round() || x != 0.5 && digits(x).chars().filter(char::is_ascii_digit).count() <= 5
 }
 
-/// The fewest digits that give x to rounding.
+/// The fewest digits that represent x up to rounding errors.
 pub(super) fn digits(x: f64) -> String {
     let mut text = x.to_string();
     if x == 0.0 {

@@ -5,8 +5,8 @@ use super::arena::{Arena, Id, Node};
 use super::name::{Axis, NameKind};
 
 impl Arena {
-    /// The terms of a sum: those of one body side by side, bodies with a positive first term first.
-    /// No sum begins with a minus sign if one of its terms is positive.
+    /// The terms of a sum in written order. Terms of one body are adjacent, and bodies with a positive first term
+    /// come first. No sum begins with a minus sign if one of its terms is positive.
     pub fn ordered_terms(&self, sum: Id) -> List {
         let mut all = self.natural_order(sum);
         if let Some(at) = all.iter().position(|(_, c)| *c > 0.0) {
@@ -38,7 +38,7 @@ impl Arena {
         groups.into_iter().flat_map(|(_, terms)| terms).collect()
     }
 
-    /// Named parts first, then body by body, what belongs to no body last.
+    /// The group of a term: named parts first, then body by body, terms without a body last.
     fn group(&self, id: Id) -> usize {
         let part = |id: Id| {
             self.symbol_of(id).is_some_and(|symbol| matches!(symbol.name.kind, NameKind::Part))
@@ -50,7 +50,8 @@ impl Arena {
         }
     }
 
-    /// Constants last, then by the number of factors, by component, positive terms first.
+    /// The sort key of a term in its group: constants last, then by the number of factors, by component, positive
+    /// terms first.
     fn term_key(&self, id: Id, c: f64) -> (bool, usize, u8, bool, u8, Id) {
         let factors = match self.node(id) {
             Node::Product(_) => self.ordered_factors(self.plain_factors(id)),
@@ -67,7 +68,7 @@ impl Arena {
         (factors.is_empty(), factors.len(), axis, c < 0.0, rank, id)
     }
 
-    /// The component that a name is.
+    /// The component of a vector that a name denotes, if any.
     fn component(&self, id: Id) -> Option<Axis> {
         match self.node(id) {
             Node::Symbol(k) => self.symbols[*k].name.axis,
@@ -76,7 +77,7 @@ impl Arena {
         }
     }
 
-    /// Factors: scalars first, brackets last.
+    /// The factors in written order: scalars first, brackets last.
     pub fn ordered_factors(&self, mut factors: List) -> List {
         factors.sort_by_key(|(base, _)| (self.rank(*base), self.owner(*base), *base));
         factors

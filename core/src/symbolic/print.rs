@@ -7,7 +7,7 @@ use super::name::{Axis, Name};
 use super::number::{digits, fraction};
 use super::style::Form;
 
-/// How tightly the outermost operation of a text binds.
+/// The precedence of the outermost operation of a text.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
 enum Binding {
     Sum,
@@ -82,7 +82,7 @@ impl Arena {
         for (k, (term, c)) in self.ordered_terms(id).into_iter().enumerate() {
             let (own, mut factors) = self.factors(term);
             let mut c = c * own;
-            // a bracket begins with a positive term, whatever the sign before it
+            // a bracket begins with a positive term, and its sign is adapted
             for (base, e) in &mut factors {
                 if k > 0 && *e == 1.0 && self.is_sum(*base) && self.begins_negative(*base) {
                     *base = self.sum(vec![(*base, -1.0)]);
@@ -100,7 +100,7 @@ impl Arena {
         text
     }
 
-    /// A product with its sign; a minus sign goes into a bracket where a term of it is negative.
+    /// A product with its sign. A minus sign is moved into a bracket that has a negative term.
     fn signed_product(&mut self, id: Id, form: Form) -> (String, Binding) {
         let (mut c, mut factors) = self.factors(id);
         if c < 0.0 {
@@ -185,7 +185,7 @@ impl Arena {
     }
 }
 
-/// Factors one after the other; a sum among several is in brackets.
+/// Factors one after another. A sum is put in brackets if there are several factors.
 fn joined(mut texts: Vec<(String, Binding)>, form: Form) -> (String, Binding) {
     if texts.len() == 1 {
         return texts.remove(0);

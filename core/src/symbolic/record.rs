@@ -22,10 +22,10 @@ pub struct Symbolic {
     node: Id,
 }
 
-/// Calls `body` with an arena of its own. Records may be nested; the inner one cannot see the
-/// expressions of the outer one.
+/// Calls `body` with its own arena. Records may be nested, but an inner record cannot use the expressions of an outer
+/// record.
 pub fn record<T>(body: impl FnOnce(&Record) -> T) -> T {
-    /// Frees the arena, also where `body` panics.
+    /// Frees the arena, even if `body` panics.
     struct Freed;
     impl Drop for Freed {
         fn drop(&mut self) {
@@ -39,7 +39,7 @@ pub fn record<T>(body: impl FnOnce(&Record) -> T) -> T {
     body(&Record { number, here: PhantomData })
 }
 
-/// Runs `f` on the current arena; NaN where there is none.
+/// Runs `f` on the current arena. The result is NaN if there is no arena.
 pub(super) fn with(f: impl FnOnce(&mut Arena, &dyn Fn(Symbolic) -> Id) -> Id) -> Symbolic {
     ARENAS.with_borrow_mut(|arenas| match arenas.last_mut() {
         None => Symbolic { record: 0, node: NAN },
@@ -108,7 +108,7 @@ impl Record {
         self.of(self.with(NAN, |arena| arena.symbol(Symbol { name, rate, definition: None })))
     }
 
-    /// A function of another expression, with its derivative by it.
+    /// A named function of `variable` with the derivative `slope`.
     pub fn along(&self, name: Name, variable: Symbolic, slope: Symbolic) -> Symbolic {
         let rate = Rate::Along(self.own(variable), self.own(slope));
         self.of(self.with(NAN, |arena| arena.symbol(Symbol { name, rate, definition: None })))
@@ -119,8 +119,8 @@ impl Record {
         self.changing(Name::time(), self.of(ONE))
     }
 
-    /// Two constants are the components of a vector fixed in a body. The vector in the global frame
-    /// is written with the name `turned`, for the three forms.
+    /// Declares two constants as the components of a vector fixed in a body. In the global frame, the vector is
+    /// written with the name `turned`, given in the three forms.
     pub fn vector(&self, x: Symbolic, y: Symbolic, turned: [String; 3], owner: Option<usize>) {
         let (x, y) = (self.own(x), self.own(y));
         self.with((), |arena| {
@@ -168,7 +168,7 @@ impl Record {
         self.with(String::new(), |arena| arena.write(id, form))
     }
 
-    /// An expression as a tape; `symbols` are the names with a meaning there.
+    /// An expression as a tape; `symbols` maps names to symbols of the tape.
     pub fn tape(&self, x: Symbolic, symbols: &[(Symbolic, expression::Symbol)]) -> Tape {
         let known: HashMap<Id, expression::Symbol> =
             symbols.iter().map(|(x, symbol)| (self.own(*x), *symbol)).collect();
@@ -176,8 +176,7 @@ impl Record {
         self.with(none, |arena| arena.tape(root, &|id| known.get(&id).copied()))
     }
 
-    /// Names and texts of the parts that expressions are written with, turned
-    /// vectors first, rates last.
+    /// Names and definitions of the named parts of expressions, turned vectors first, rates last.
     pub fn definitions(&self, of: &[Symbolic], form: Form) -> Vec<(String, String)> {
         let roots: Vec<Id> = of.iter().map(|x| self.own(*x)).collect();
         self.with(Vec::new(), |arena| {
@@ -188,7 +187,7 @@ impl Record {
         })
     }
 
-    /// The names that occur in expressions and in the parts that they are written with.
+    /// The names that occur in expressions and in the definitions of their named parts.
     pub fn names(&self, of: &[Symbolic]) -> Vec<String> {
         let roots: Vec<Id> = of.iter().map(|x| self.own(*x)).collect();
         self.with(Vec::new(), |arena| {

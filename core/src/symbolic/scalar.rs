@@ -113,15 +113,15 @@ impl Real for Symbolic {
     fn floor(self) -> Self {
         call(Function::Floor, self)
     }
-    /// That of a constant; 1 for all other expressions.
+    /// The magnitude of a constant; 1 for all other expressions.
     fn least_magnitude(self) -> f64 {
         constant(self).map_or(1.0, f64::abs)
     }
-    /// That of a constant; 1 for all other expressions.
+    /// The magnitude of a constant; 1 for all other expressions.
     fn largest_magnitude(self) -> f64 {
         self.least_magnitude()
     }
-    /// That of a constant; NaN for all other expressions.
+    /// The value of a constant in all lanes; NaN for all other expressions.
     fn in_lanes(self) -> [f64; 4] {
         [constant(self).unwrap_or(f64::NAN); 4]
     }

@@ -3,10 +3,10 @@
 use super::function::Function;
 use super::name::Name;
 
-/// A form of print.
+/// A printed form.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Form {
-    /// The language of expressions, which kempe reads again.
+    /// The language of expressions, which kempe can read.
     Expression,
     /// Plain text with φ, dots and superscripts.
     Unicode,

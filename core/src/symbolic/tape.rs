@@ -5,7 +5,7 @@ use super::name::Axis;
 use crate::expression::{Postfix, Symbol, Tape};
 
 impl Arena {
-    /// The tape of an expression; `symbols` gives the meaning of its names. NaN where a name has none.
+    /// The tape of an expression; `symbols` maps its names to symbols. A name without a symbol yields NaN.
     pub fn tape(&self, id: Id, symbols: &dyn Fn(Id) -> Option<Symbol>) -> Tape {
         let mut tape = Postfix::default();
         self.put(id, symbols, &mut tape);
@@ -63,7 +63,7 @@ impl Arena {
         }
     }
 
-    /// Positive exponents first, then a division for each negative one.
+    /// Writes the factors with positive exponents first, then a division for each negative exponent.
     fn put_product(
         &self,
         factors: &[(Id, super::number::Bits)],

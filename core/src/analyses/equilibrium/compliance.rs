@@ -1,7 +1,7 @@
-//! The stiffness felt at a point: the compliance C = ∂(displacement)/∂(force), shape (2, 2), at rest.
+//! The compliance C = ∂(displacement)/∂(force) of a point of a mechanism at rest, shape (2, 2).
 //!
 //! With the reduced stiffness K and the motion P = ∂(point)/∂u with the independent coordinates u, C = P K⁻¹ Pᵀ. The
-//! compliance is finite even where the mechanism does not give way, so that it is computed, not the stiffness.
+//! compliance is computed in place of the stiffness because it remains finite where a point is rigidly held.
 
 use super::failure::Reason;
 use super::holding;
@@ -15,15 +15,17 @@ use crate::math::Local;
 use crate::model::Model;
 use crate::solve::{solve_dense, Eigen};
 
-/// Largest force that is left at rest, relative to the largest single force.
+/// Largest residual force of a state at rest, relative to the largest single force.
 const AT_REST: f64 = 1e-6;
-/// Motion of a point, relative to that of the mechanism, that counts as none.
+/// Motion of a point that counts as zero in a mode without stiffness, relative to the largest scale of the
+/// coordinates.
 const STILL: f64 = 1e-9;
 
-/// Motion of a point, relative to that of the mechanism, that is rounding.
+/// Motion of a point that counts as a rounding error, relative to the largest scale of the coordinates.
 const ROUNDING: f64 = 1e-13;
 
-/// C of a point fixed in a body, m/N, row by row, at a state of rest. `hold` names position quantities that are held.
+/// C of a point fixed in a body, m/N, row by row, at a state of rest. `hold` contains the names of position
+/// quantities that are held.
 ///
 /// # Errors
 /// The state is not at rest, or the point moves without any stiffness.

@@ -10,21 +10,21 @@ use std::fmt;
 pub enum Reason {
     /// The constraints cannot be closed near the start.
     Open,
-    /// The position is singular: its freedoms are not those of its neighbours.
+    /// The position is singular: its degrees of freedom differ from those of neighbouring positions.
     Singular {
-        /// A joint that takes part.
+        /// A joint or driver whose equations are dependent.
         name: String,
         /// Description.
         message: String,
     },
     /// A force or its derivative is not finite.
     NotFinite,
-    /// A state of an element has no value at which it rests.
+    /// A state of an element has no stationary value.
     State {
         /// The state.
         name: String,
     },
-    /// The forces do work without end.
+    /// The forces still do work after a very large motion.
     Endless {
         /// The independent coordinate that moved farthest.
         coordinate: String,
@@ -37,14 +37,15 @@ pub enum Reason {
     },
     /// The search ended without an equilibrium.
     Lost {
-        /// The force that is left, relative to the largest single force.
+        /// The residual force, relative to the largest single force.
         relative: f64,
-        /// The independent coordinate along which the largest force is left.
+        /// The independent coordinate that moved farthest, or the parameter of a path that cannot be followed
+        /// further.
         coordinate: String,
     },
-    /// A state that must be at rest is not.
+    /// A state is not at rest although the analysis requires it.
     Moving {
-        /// The force that is left, relative to the largest single force.
+        /// The residual force, relative to the largest single force.
         relative: f64,
     },
     /// A point moves without any stiffness.
@@ -52,9 +53,9 @@ pub enum Reason {
         /// An independent coordinate.
         coordinate: String,
     },
-    /// An option has a wrong value.
+    /// An option has an invalid value.
     Option(Vec<Problem>),
-    /// The work was stopped.
+    /// The observer stopped the analysis.
     Stopped,
 }
 
@@ -85,8 +86,9 @@ impl Reason {
         Self::State { name }
     }
 
-    /// The forces `missing`, relative to the `largest` single one, remain after a search that moved the coordinates by
-    /// `moved`, shape (n_q); `own` are the independent ones.
+    /// The reason for a search that moved the coordinates by `moved`, shape (n_q), and left the forces `missing`.
+    /// `far` is true if the motion is very large, `largest` is the largest single force, and `own` contains the
+    /// independent coordinates.
     pub(super) fn of_search(
         model: &Model,
         (moved, far): (&[f64], bool),

@@ -1,4 +1,4 @@
-//! Coordinates that a holder keeps at their value of the start: the model with a driver for each.
+//! Holders: drivers added to the model, each of which keeps a position quantity at its value at the start.
 
 use super::failure::Reason;
 use crate::analyses::assemble::position;
@@ -11,7 +11,8 @@ use crate::expression::Tape;
 use crate::model::{Model, Problem};
 use std::sync::Arc;
 
-/// The model whose position quantities `hold` keep their values at `start`. Its drivers follow those of `model`.
+/// The model with holders that keep the position quantities `hold` at their values at `start`. The holders are its
+/// last constraints.
 pub(super) fn holding(model: &Model, start: &State, hold: &[String]) -> Result<Model, Reason> {
     let found: Vec<_> = hold.iter().map(|name| position(model, name)).collect();
     let faults: Vec<Problem> = found.iter().filter_map(|one| one.clone().err()).collect();

@@ -1,24 +1,26 @@
-//! Statics: positions of rest, their stability, paths of them over a parameter, and the stiffness at a point.
+//! Statics: equilibrium positions, their stability, equilibrium paths over a parameter, and the compliance at a
+//! point.
 //!
-//! With v = 0 and ż = 0, a position of rest solves
+//! With v = 0 and ż = 0, an equilibrium position satisfies
 //!
 //! ```text
 //! Φ(q, t) = 0        Φ_qᵀ λ - Q(q, 0, z, t) = 0
 //! ```
 //!
-//! at a fixed time t; drivers hold their coordinates. Newton's step of this system is taken in the null space of Φ_q, with
-//! the derivative K = ∂(Φ_qᵀ λ - Q)/∂q along it: the reduced stiffness, which is the Hessian of the potential where all
-//! forces have one. Its eigenvalues decide the stability (Pfister, *Dynamik*; Bathe, *Finite Element Procedures*, 8.4).
+//! at a fixed time t. Drivers hold their coordinates. The Newton step is taken in the null space of Φ_q with the
+//! derivative K of Φ_qᵀ λ - Q along it. K is the reduced stiffness, which equals the Hessian of the potential if all
+//! forces have a potential. Its eigenvalues determine the stability (Pfister, *Dynamik*; Bathe, *Finite Element
+//! Procedures*, 8.4).
 //!
 //! | file | concept |
 //! |---|---|
-//! | `statics` | the equations at rest |
-//! | `search`, `relaxation` | Newton's method down the potential, and dynamic relaxation where it fails |
-//! | `holding` | holders of coordinates |
-//! | `result` | a position of rest with stability and efforts |
+//! | `statics` | the equilibrium equations |
+//! | `search`, `relaxation` | descent of the potential by Newton's method, and dynamic relaxation if it fails |
+//! | `holding` | drivers that hold coordinates |
+//! | `result` | an equilibrium position with its stability and efforts |
 //! | `parameter`, `spot`, `stride`, `turning`, `points`, `path` | paths over a parameter: derivatives, tangents, steps, folds |
-//! | `compliance` | the stiffness felt at a point |
-//! | `options`, `failure` | options, and reasons for which there is no result |
+//! | `compliance` | the compliance at a point |
+//! | `options`, `failure` | options, and reasons for a failed search |
 
 mod compliance;
 mod failure;
@@ -50,10 +52,10 @@ use crate::model::Model;
 use search::RestSearch;
 use statics::Statics;
 
-/// The position in which a mechanism comes to rest from `start`, whose rates do not count.
+/// The equilibrium position that is reached from `start`. The velocities of `start` are ignored.
 ///
-/// The search goes down the potential, so that it leaves maxima and saddles unless the start is one; with
-/// [`nearest`](Options::nearest) it is plain Newton iteration. `watch` is called with the number of steps.
+/// The search descends the potential. It therefore leaves maxima and saddle points, unless it starts at one. With
+/// [`nearest`](Options::nearest), it is a plain Newton iteration. `watch` is called with the number of steps.
 ///
 /// # Errors
 /// [`Reason`].
@@ -67,8 +69,8 @@ pub fn equilibrium(
     from(&held, start, options, &mut watch)
 }
 
-/// What prevents the search at its start, as far as it is known without derivatives: a singular position, or a force that
-/// is not finite at rest.
+/// Checks, without computing derivatives, whether the search can begin at `start`: the position must not be singular,
+/// and all forces must be finite at rest.
 ///
 /// # Errors
 /// [`Reason`].

@@ -1,4 +1,4 @@
-//! The model at a value of a parameter, and the derivatives of the equations at rest by it.
+//! The model at a value of a parameter, and the derivatives of the equilibrium equations with respect to it.
 
 use super::failure::Reason;
 use super::statics::{StaticState, Statics};
@@ -10,15 +10,15 @@ use crate::model::Model;
 
 type D = Dual<1>;
 
-/// The model at a value of a parameter; formulas of other parameters follow.
+/// The model at a value of a parameter. Parameters whose formulas depend on it are computed anew.
 pub(super) fn at(model: &Model, over: &str, value: f64) -> Result<Model, Reason> {
     model.with_values(&[(over.to_string(), value)]).map_err(Reason::Option)
 }
 
-/// The motion of a rest position with the parameter, as far as constraints determine it, and the forces that it lacks
-/// then.
+/// The motion of an equilibrium with the parameter, as far as the constraints determine it, and the unbalanced forces
+/// that this motion causes.
 pub(super) struct ByParameter {
-    /// The least dq/dp that keeps the constraints closed, shape (n_q).
+    /// The dq/dp of least norm that keeps the constraints closed, shape (n_q).
     pub motion: Vec<f64>,
     /// The derivative of Φ_qᵀ λ - Q with this motion, shape (n_q).
     pub missing: Vec<f64>,

@@ -1,5 +1,5 @@
-//! A path of equilibria over a parameter, by its length: pseudo-arclength continuation (Keller, in *Applications of
-//! Bifurcation Theory*, 1977), which passes folds.
+//! An equilibrium path over a parameter by pseudo-arclength continuation (Keller, in *Applications of Bifurcation
+//! Theory*, 1977), which passes folds.
 
 use super::failure::Reason;
 use super::holding;
@@ -13,20 +13,21 @@ use crate::analyses::State;
 use crate::integrate::Flow;
 use crate::model::{column_scales, Model};
 
-/// First and longest step; the range of the parameter is one unit, and the root mean square of the coordinates in rad and
-/// sizes of the mechanism.
+/// First and longest step. The parameter is measured in units of its range, the coordinates by their root mean square
+/// in rad and in sizes of the mechanism.
 const FIRST: f64 = 0.01;
 const LONGEST: f64 = 0.04;
 /// Shortest step.
 const SHORTEST: f64 = 1e-9;
-/// Iterations after which the next step is not longer.
+/// Largest number of iterations after which the next step is lengthened.
 const EASY: usize = 4;
 /// Largest number of points.
 const POINTS: usize = 5000;
 
-/// The path of equilibria over `options.over`, from the one at the first value of `options.range` that `start` leads to.
+/// Follows the equilibrium path over `options.over`. It begins at the first value of `options.range` with the
+/// equilibrium that is reached from `start`.
 ///
-/// `watch` is called with the value after each step.
+/// `watch` is called with the value of the parameter at each step.
 ///
 /// # Errors
 /// [`Reason`]: there is no equilibrium at the first value.

@@ -7,15 +7,15 @@ use super::spot::{ParameterPath, Spot};
 /// The end of a path.
 #[derive(Clone, Debug, PartialEq)]
 pub enum PathEnd {
-    /// It reached the last value of the range.
+    /// The path reached the last value of the range.
     Last,
-    /// It turned and came back to the first value.
+    /// The path turned back and returned to the first value.
     First,
-    /// It could not be followed further.
+    /// The path could not be followed further.
     Lost(Reason),
-    /// It has very many points.
+    /// The path has the largest permitted number of points.
     Long,
-    /// The observer stopped it.
+    /// The observer stopped the analysis.
     Stopped,
 }
 
@@ -26,16 +26,16 @@ pub struct EquilibriumPath {
     pub values: Vec<f64>,
     /// The equilibrium at each value.
     pub points: Vec<Equilibrium>,
-    /// Places among the points of the folds, where the path turns back.
+    /// Indices in `points` of the folds, where the path turns back.
     pub folds: Vec<usize>,
-    /// Places of points where the stability changes without a fold: other paths cross there.
+    /// Indices in `points` of the positions where the stability changes without a fold. Other paths cross there.
     pub branches: Vec<usize>,
     /// The end.
     pub end: PathEnd,
 }
 
 impl EquilibriumPath {
-    /// Adds a point; returns its place.
+    /// Adds a point and returns its index.
     pub(super) fn add(&mut self, course: &ParameterPath<'_>, spot: &Spot) -> Result<usize, Reason> {
         self.points.push(course.equilibrium(spot)?);
         self.values.push(spot.value);

@@ -1,6 +1,7 @@
 //! Dynamic relaxation with kinetic damping (Barnes, *Form Finding and Analysis of Tension Structures by Dynamic
-//! Relaxation*, 1999): fictitious masses are accelerated by the missing forces and stopped whenever their kinetic energy
-//! has passed a peak. It needs no stiffness, so that kinks and jumps of forces do not stop it.
+//! Relaxation*, 1999): fictitious masses are accelerated by the unbalanced forces and stopped whenever their kinetic
+//! energy has passed a peak. The steps do not use the stiffness, so that the method also works for forces with kinks
+//! and jumps.
 
 use super::failure::Reason;
 use super::statics::{StaticState, Statics};
@@ -10,12 +11,12 @@ use crate::integrate::Flow;
 const STEPS: usize = 4000;
 /// Longest step of a scaled coordinate.
 const LONGEST: f64 = 0.05;
-/// Force, relative to the largest single force, at which Newton's method continues.
+/// Residual force, relative to the largest single force, below which Newton's method takes over.
 const ENOUGH: f64 = 1e-5;
-/// Smallest number of steps, for a position where Newton's method has just failed.
+/// Smallest number of steps, because relaxation begins where Newton's method has just failed.
 const LEAST: usize = 60;
 
-/// Moves a place towards rest; returns the place and the number of steps.
+/// Moves a position towards rest. Returns the new position and the number of steps.
 pub(super) fn relax(
     statics: &mut Statics<'_>,
     mut place: StaticState,
@@ -49,7 +50,7 @@ pub(super) fn relax(
         let q: Vec<f64> = place.q.iter().zip(&v).map(|(q, v)| q + v).collect();
         match statics.place(&q, &place.z) {
             Ok(next) if statics.energy_change(&place, &next) <= 0.0 => place = next,
-            // too far: slower
+            // the step was too long: it is repeated from rest with twice the mass
             _ => (mass, last, v) = (2.0 * mass, 0.0, vec![0.0; v.len()]),
         }
         if mass > 1e30 * place.scale.max(1e-300) {
@@ -59,14 +60,14 @@ pub(super) fn relax(
     Ok((place, STEPS))
 }
 
-/// The fictitious mass with which a step of unit time is stable, J.
+/// The fictitious mass for which a time step of unit length is stable, J.
 fn mass(statics: &Statics<'_>, place: &StaticState) -> f64 {
     let stiffness = statics.local(place).map(|local| local.stiffness).unwrap_or_default();
     let largest = stiffness.iter().fold(place.scale, |most, x| most.max(x.abs()));
     largest.max(f64::MIN_POSITIVE)
 }
 
-/// Forces times the scales of their coordinates, J.
+/// The forces multiplied by the scales of their coordinates, J.
 fn scaled(statics: &Statics<'_>, force: &[f64]) -> Vec<f64> {
     force.iter().zip(&statics.columns).map(|(f, scale)| f * scale).collect()
 }

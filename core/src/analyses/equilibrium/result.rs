@@ -1,4 +1,4 @@
-//! A position of rest with its stability and its forces.
+//! An equilibrium position with its stability and its forces.
 
 use super::failure::Reason;
 use super::search::{relative, zero};
@@ -11,10 +11,10 @@ use crate::equations::kinematics::Motions;
 use crate::model::{size, Model, Problem};
 use crate::solve::Eigen;
 
-/// Depth that counts as rounding, relative to the size of the mechanism.
+/// Penetration that counts as a rounding error, relative to the size of the mechanism.
 const BEYOND: f64 = 1e-9;
 
-/// A position of rest.
+/// An equilibrium position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Equilibrium {
     /// The state, with v = 0 and ż = 0.
@@ -29,20 +29,21 @@ pub struct Equilibrium {
     pub coordinates: Vec<String>,
     /// The reduced stiffness on the independent coordinates, shape (f, f).
     pub stiffness: Vec<f64>,
-    /// Eigenvalues of its symmetric part, ascending. It is symmetric where all forces have a potential.
+    /// Eigenvalues of the symmetric part of the stiffness, ascending. The stiffness is symmetric if all forces have a
+    /// potential.
     pub eigenvalues: Vec<f64>,
     /// Whether all eigenvalues are positive.
     pub stable: bool,
-    /// The force that is left, relative to the largest single force.
+    /// The residual force, relative to the largest single force.
     pub residual: f64,
-    /// Steps of Newton's method.
+    /// Number of steps of Newton's method.
     pub steps: usize,
-    /// Steps of dynamic relaxation.
+    /// Number of steps of dynamic relaxation.
     pub relaxed: usize,
 }
 
 impl Equilibrium {
-    /// At a place of a model whose last `holders` rows are those of holders.
+    /// The result at a closed position of a model whose last `holders` rows belong to holders.
     pub(super) fn at(
         statics: &Statics<'_>,
         place: &StaticState,
@@ -80,7 +81,7 @@ impl Equilibrium {
     }
 }
 
-/// Refuses a place beyond a stop or contact with restitution: it has no force there.
+/// Rejects a position beyond a stop or contact with restitution, which exerts no force there.
 fn not_beyond_a_stop(model: &Model, t: f64, place: &StaticState) -> Result<(), Reason> {
     let motions = Motions::at_rest(&model.layout, &place.q);
     let acting = Acting { z: &place.z, lam: None, t };

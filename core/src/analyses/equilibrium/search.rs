@@ -1,9 +1,9 @@
-//! The search of a rest position.
+//! The search for an equilibrium position.
 //!
-//! Newton's method on the freedoms, with the exact stiffness. Where the stiffness is not positive, the step uses the
-//! magnitudes of its eigenvalues (Gill, Murray and Wright, *Practical Optimization*, 1981, 4.4), so that it goes down
-//! the potential and leaves maxima and saddles. Steps are bounded, and shortened until the energy falls. If that
-//! fails, as where forces have kinks, dynamic relaxation continues.
+//! Newton's method in the degrees of freedom, with the exact stiffness. Where the stiffness is not positive definite,
+//! the step uses the magnitudes of its eigenvalues (Gill, Murray and Wright, *Practical Optimization*, 1981, 4.4), so
+//! that it descends the potential and leaves maxima and saddle points. Steps are bounded, and shortened until the
+//! energy falls. If this fails, for example because a force has a kink, dynamic relaxation continues.
 
 use super::failure::Reason;
 use super::relaxation;
@@ -11,34 +11,34 @@ use super::statics::{LocalForces, StaticState, Statics};
 use crate::integrate::Flow;
 use crate::solve::{is_positive, solve_dense, Eigen};
 
-/// Force that counts as none, relative to the largest single force.
+/// Residual force that counts as zero, relative to the largest single force.
 const NONE: f64 = 1e-14;
-/// Force from which rounding may decide.
+/// Residual force below which Newton steps only reduce rounding errors.
 const SMALL: f64 = 1e-9;
-/// Longest step of a scaled coordinate, and the first one.
+/// Longest and first step of a scaled coordinate.
 const LONGEST: f64 = 0.5;
 const FIRST: f64 = 0.2;
 /// Shortest step.
 const SHORTEST: f64 = 1e-12;
-/// Largest number of steps, and of rounds with relaxation between them.
+/// Largest number of steps in a round, and of rounds. Relaxation takes place between rounds.
 const STEPS: usize = 500;
 const ROUNDS: usize = 4;
-/// Part of the predicted change of energy that a step must reach.
+/// Fraction of the predicted change of energy that a step must achieve.
 const ENOUGH: f64 = 1e-4;
 /// An eigenvalue of the stiffness below this part of the largest counts as zero.
 pub(super) const ZERO: f64 = 1e-11;
-/// Motion from an unstable position, scaled, and the largest number of these.
+/// Scaled displacement from an unstable position, and the largest number of such displacements.
 const PUSH: f64 = 1e-2;
 const PUSHES: usize = 12;
-/// Motion after which forces that still do work have no equilibrium within reach.
+/// Scaled motion beyond which no equilibrium counts as within reach.
 const FAR: f64 = 40.0;
 
-/// A rest position.
+/// An equilibrium position.
 pub(super) struct RestPosition {
     pub place: StaticState,
-    /// Steps of Newton's method.
+    /// Number of steps of Newton's method.
     pub steps: usize,
-    /// Steps of dynamic relaxation.
+    /// Number of steps of dynamic relaxation.
     pub relaxed: usize,
 }
 
@@ -61,7 +61,7 @@ impl<'s, 'a> RestSearch<'s, 'a> {
         Self { statics, nearest, watch, steps: 0, relaxed: 0 }
     }
 
-    /// The rest position that a start leads to.
+    /// The equilibrium position that is reached from `start`.
     pub fn run(mut self, start: StaticState) -> Result<RestPosition, Reason> {
         let first = start.clone();
         let mut place = start;
@@ -97,7 +97,7 @@ impl<'s, 'a> RestSearch<'s, 'a> {
         self.statics.largest(&way) > FAR
     }
 
-    /// Goes down until the forces vanish; returns the place, and whether they do.
+    /// Descends until the forces vanish. Returns the last position, and whether the forces vanish there.
     fn descend(&mut self, mut place: StaticState) -> Result<(StaticState, bool), Reason> {
         let (mut radius, mut pushes, begin) = (FIRST, 0, self.steps);
         let mut local = self.statics.local(&place)?;
@@ -130,7 +130,7 @@ impl<'s, 'a> RestSearch<'s, 'a> {
         Ok((place, false))
     }
 
-    /// One step that lowers the energy; None if there is none.
+    /// A step that lowers the energy. None if no such step is found.
     fn step(
         &mut self,
         place: &StaticState,
@@ -158,7 +158,7 @@ impl<'s, 'a> RestSearch<'s, 'a> {
         Ok(None)
     }
 
-    /// Whether Newton's step goes down to a minimum.
+    /// Whether the Newton step `p` descends towards a minimum.
     fn good(&self, local: &LocalForces, p: &[f64]) -> bool {
         let f = p.len();
         let transposed = |k: usize| local.stiffness[(k % f) * f + k / f];
@@ -167,7 +167,8 @@ impl<'s, 'a> RestSearch<'s, 'a> {
         dot(&local.gradient, p) < 0.0 && is_positive(&symmetric, f)
     }
 
-    /// The place after a step, if it is better.
+    /// The position after a step. None if the energy does not fall enough, or, in a search for the nearest
+    /// equilibrium, if the residual force does not decrease.
     fn tried(
         &mut self,
         place: &StaticState,
@@ -190,7 +191,7 @@ impl<'s, 'a> RestSearch<'s, 'a> {
         Ok(better.then_some((next, there)))
     }
 
-    /// The closed place near q + dq, unless closing leads elsewhere.
+    /// The closed position near q + dq. None if closing moves it too far.
     fn moved(&mut self, place: &StaticState, dq: &[f64]) -> Option<StaticState> {
         let q: Vec<f64> = place.q.iter().zip(dq).map(|(q, dq)| q + dq).collect();
         let next = self.statics.place(&q, &place.z).ok()?;
@@ -199,7 +200,7 @@ impl<'s, 'a> RestSearch<'s, 'a> {
         near.then_some(next)
     }
 
-    /// The same state with the forces reduced to rounding errors.
+    /// The equilibrium after Newton steps that reduce the forces to rounding errors.
     fn polished(
         &mut self,
         mut place: StaticState,
@@ -225,7 +226,7 @@ impl<'s, 'a> RestSearch<'s, 'a> {
         Ok((place, local))
     }
 
-    /// A place beside an unstable one with less energy.
+    /// A position of lower energy beside an unstable equilibrium, if there is one.
     fn pushed(
         &mut self,
         place: &StaticState,
@@ -261,12 +262,13 @@ pub(super) fn dot(a: &[f64], b: &[f64]) -> f64 {
     a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
-/// The eigenvalues of a stiffness that count as zero have at most this magnitude.
+/// The largest magnitude of an eigenvalue of the stiffness that counts as zero.
 pub(super) fn zero(stiffness: &[f64], scale: f64) -> f64 {
     ZERO * stiffness.iter().fold(scale, |most, x| most.max(x.abs()))
 }
 
-/// The direction in which the potential falls most from a rest position; None if it is a minimum.
+/// The direction in which the potential falls most from an equilibrium. None if there is no such direction, or if the
+/// forces have no potential.
 fn down(local: &LocalForces, place: &StaticState) -> Option<Vec<f64>> {
     let eigen = Eigen::of(&local.stiffness, local.gradient.len());
     let least = *eigen.values.first()?;
@@ -274,7 +276,7 @@ fn down(local: &LocalForces, place: &StaticState) -> Option<Vec<f64>> {
         .then(|| eigen.vectors[0].clone())
 }
 
-/// Whether a stiffness is that of a potential.
+/// Whether a stiffness is symmetric, as that of a potential is.
 fn is_symmetric(stiffness: &[f64]) -> bool {
     let f = stiffness.len().isqrt();
     let largest = stiffness.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
@@ -289,7 +291,7 @@ fn solved(stiffness: &[f64], gradient: &[f64]) -> Option<Vec<f64>> {
     (solved && p.iter().all(|x| x.is_finite())).then_some(p)
 }
 
-/// The step with the magnitudes of the eigenvalues.
+/// The Newton step with the eigenvalues of the stiffness replaced by their magnitudes.
 fn modified(local: &LocalForces, scale: f64) -> Vec<f64> {
     let f = local.gradient.len();
     let eigen = Eigen::of(&local.stiffness, f);

@@ -1,8 +1,8 @@
-//! Points of a path of equilibria over a parameter p, and their tangent.
+//! Points and tangents of an equilibrium path over a parameter p.
 //!
-//! Along a path, K u + k dp = 0 with the reduced stiffness K and the derivative k of the reduced forces by p: the motion
-//! is dq = B u + (dq/dp) dp with the basis B of the freedoms. At a fold dp = 0 and K is singular, but K and k together
-//! keep their rank, so that the system with one row more is regular.
+//! Along a path, K u + k dp = 0 with the reduced stiffness K and the derivative k of the reduced forces with respect
+//! to p. The motion is dq = B u + (dq/dp) dp with the basis B of the degrees of freedom. At a fold, dp = 0 and K is
+//! singular, but the matrix [K k] has full rank, so that the system with one additional row is regular.
 
 use super::failure::Reason;
 use super::parameter::{self, ByParameter};
@@ -21,9 +21,9 @@ pub(super) struct ParameterPath<'m> {
     pub t: f64,
     /// The parameter.
     pub over: &'m str,
-    /// Its range is one unit.
+    /// The range of the parameter, which is its unit.
     pub unit: f64,
-    /// 1/s² n for the scales s of the coordinates and their number n.
+    /// 1/(s² n) for each coordinate, with its scale s and the number n of coordinates.
     pub weights: Vec<f64>,
 }
 
@@ -34,13 +34,13 @@ pub(super) struct PathDirection {
     pub p: f64,
 }
 
-/// A closed position at a value, not necessarily at rest.
+/// A closed position at a value of the parameter, not necessarily in equilibrium.
 pub(super) struct Spot {
     pub value: f64,
     pub place: StaticState,
     local: LocalForces,
     by: ByParameter,
-    /// Derivative of the reduced forces by the parameter.
+    /// Derivative of the reduced forces with respect to the parameter.
     reduced: Vec<f64>,
 }
 
@@ -48,12 +48,12 @@ pub(super) struct Spot {
 pub(super) struct PathStep {
     pub spot: Spot,
     pub tangent: PathDirection,
-    /// Iterations that found it.
+    /// Number of iterations to find it.
     pub iterations: usize,
 }
 
 impl ParameterPath<'_> {
-    /// The position near `q` at a value.
+    /// The closed position near `q` at a value of the parameter.
     pub fn spot(&self, value: f64, q: &[f64], z: &[f64]) -> Result<Spot, Reason> {
         let model = parameter::at(self.model, self.over, value)?;
         let mut statics = Statics::new(&model, self.t);
@@ -78,12 +78,13 @@ impl ParameterPath<'_> {
         a.iter().zip(b).zip(&self.weights).map(|((a, b), w)| a * b * w).sum()
     }
 
-    /// The product of two directions.
+    /// The scalar product of two directions.
     pub fn along(&self, a: &PathDirection, b: &PathDirection) -> f64 {
         self.product(&a.q, &b.q) + a.p * b.p / (self.unit * self.unit)
     }
 
-    /// Solves K u + k dp = `right`, and the direction along `row` = `last`.
+    /// Solves K u + k dp = `right` with the condition that the scalar product of the direction and `row` equals
+    /// `last`.
     fn solved(
         &self,
         spot: &Spot,
@@ -99,7 +100,7 @@ impl ParameterPath<'_> {
             matrix[r * n..r * n + f].copy_from_slice(&stiffness[r * f..(r + 1) * f]);
             matrix[r * n + f] = spot.reduced[r];
         }
-        // rows of comparable length
+        // the scale makes the last row comparable to the others
         let size = matrix.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
         let size = if size > 0.0 { size } else { 1.0 };
         for (column, b) in basis.basis.iter().enumerate() {
@@ -130,7 +131,8 @@ impl ParameterPath<'_> {
         Some(tangent)
     }
 
-    /// The correction of a spot, normal to `tangent` through the prediction.
+    /// The Newton correction of a spot. It leads to the plane normal to `tangent` through the prediction; `ahead` is
+    /// the distance of the spot from this plane.
     pub fn correction(
         &self,
         spot: &Spot,

@@ -13,10 +13,10 @@ use crate::math::Vec2;
 use crate::model::{column_scales, row_scales, size, Model};
 use crate::solve::solve_dense;
 
-/// Iterations for the states of elements; a linear law takes one.
+/// Largest number of iterations for the states of elements.
 const ITERATIONS: usize = 30;
 
-/// Part of a pivot below which a position counts as nearly singular.
+/// Remaining fraction of a pivot below which a position counts as nearly singular.
 const SINGULAR: f64 = 1e-6;
 
 /// A closed position with its forces at rest.
@@ -26,7 +26,7 @@ pub(super) struct StaticState {
     pub q: Vec<f64>,
     /// States of elements with ż = 0, shape (n_z).
     pub z: Vec<f64>,
-    /// Multipliers that balance the forces as far as constraints can, shape (n_rows).
+    /// Multipliers that balance the forces as far as the constraints can, shape (n_rows).
     pub lam: Vec<f64>,
     /// Φ_qᵀ λ - Q, shape (n_q): the forces that are missing for equilibrium.
     pub missing: Vec<f64>,
@@ -34,9 +34,9 @@ pub(super) struct StaticState {
     pub scale: f64,
 }
 
-/// The forces and stiffness along the freedoms of a place.
+/// The forces and the stiffness along the degrees of freedom at a position.
 pub(super) struct LocalForces {
-    /// The freedoms; the basis is orthonormal in the scaled coordinates.
+    /// The degrees of freedom, with a basis that is orthonormal in the scaled coordinates.
     pub basis: Freedoms,
     /// The forces missing along the basis, J.
     pub gradient: Vec<f64>,
@@ -55,11 +55,11 @@ pub(super) struct Statics<'a> {
     /// Scales of the coordinates and of the rows of Φ.
     pub columns: Vec<f64>,
     rows: Vec<f64>,
-    /// Places in z of states that follow ż; those of sampled laws keep their value.
+    /// Indices in z of the states that have a rate ż. The states of sampled laws keep their values.
     states: Vec<usize>,
-    /// Whether rows of Φ depend on others.
+    /// Whether rows of Φ may be linearly dependent.
     redundant: bool,
-    /// Whether all forces have a potential.
+    /// Whether all forces have a potential at rest.
     conservative: bool,
 }
 
@@ -84,10 +84,10 @@ impl<'a> Statics<'a> {
         }
     }
 
-    /// The place near `q` where the constraints are closed and the states of elements at rest.
+    /// The position near `q` where the constraints are closed and the states of elements are at rest.
     ///
     /// # Errors
-    /// A reason that concerns this position; another one may be better.
+    /// The [`Reason`] concerns this position only; the search may continue at another position.
     pub fn place(&mut self, q: &[f64], z: &[f64]) -> Result<StaticState, Reason> {
         let mut q = q.to_vec();
         if !self.closing.close(&mut q).1 || q.iter().any(|x| !x.is_finite()) {
@@ -113,7 +113,7 @@ impl<'a> Statics<'a> {
         Ok(StaticState { q, z, lam, missing, scale })
     }
 
-    /// Q with forces that depend on the reactions λ.
+    /// Q, including the forces that depend on the reactions λ.
     fn applied(&self, factors: &LeastNorm<'_>, lam: &[f64]) -> Vec<f64> {
         let internal = factors.transposed(lam);
         internal.iter().zip(&self.balance.forces).map(|(all, missing)| all - missing).collect()
@@ -152,8 +152,8 @@ impl<'a> Statics<'a> {
         Err(Reason::state(self.model, self.states[0]))
     }
 
-    /// The multipliers with the [loads](crate::elements::Joint::load) of joints, which do no work. They depend on
-    /// multipliers that they do not change.
+    /// The multipliers, including the effect of the [loads](crate::elements::Joint::load) of joints, which do no
+    /// work. The loads depend only on multipliers that they do not change.
     pub fn with_loads(&self, place: &StaticState) -> Result<Vec<f64>, Reason> {
         let motions = Motions::at_rest(&self.model.layout, &place.q);
         let mut loads = vec![0.0; place.q.len()];
@@ -167,20 +167,20 @@ impl<'a> Statics<'a> {
         Ok(place.lam.iter().zip(more).map(|(lam, more)| lam + more).collect())
     }
 
-    /// The joint whose equations nearly depend on others at a place.
+    /// The joint or driver whose equations are nearly dependent at a position, if there is one.
     pub fn near_singular(&self, place: &StaticState) -> Option<String> {
         let factors = LeastNorm::new(self.model, self.t, &place.q, self.redundant).ok()?;
         let (row, _) = factors.cancellation().filter(|(_, kept)| *kept < SINGULAR)?;
         Some(self.model.constraints[self.model.layout.owner(row).0].name.clone())
     }
 
-    /// The freedoms at a place.
+    /// The degrees of freedom at a position.
     pub fn freedoms(&self, place: &StaticState) -> Result<Freedoms, Reason> {
         Freedoms::at(self.model, self.t, &place.q)
             .map_err(|_| Reason::singular(self.model, self.t, &place.q))
     }
 
-    /// Forces and stiffness along the freedoms of a place.
+    /// Forces and stiffness along the degrees of freedom at a position.
     pub fn local(&self, place: &StaticState) -> Result<LocalForces, Reason> {
         let mut basis = self.freedoms(place)?;
         orthonormalize(&mut basis.basis, &self.columns);
@@ -189,7 +189,7 @@ impl<'a> Statics<'a> {
         Ok(LocalForces { basis, gradient, stiffness })
     }
 
-    /// The reduced stiffness on a basis, shape (f, f); the states of elements follow at ż = 0.
+    /// The reduced stiffness on a basis, shape (f, f). The states of elements change so that ż = 0.
     pub fn stiffness(&self, place: &StaticState, basis: &Freedoms) -> Result<Vec<f64>, Reason> {
         let directions: Vec<&[f64]> = basis.basis.iter().map(Vec::as_slice).collect();
         let slopes = self.slopes(place, &directions)?;
@@ -206,8 +206,8 @@ impl<'a> Statics<'a> {
         }
     }
 
-    /// The derivatives of Φ_qᵀ λ - Q along directions of q, at constant λ, each of shape (n_q); the states of elements
-    /// follow at ż = 0.
+    /// The derivatives of Φ_qᵀ λ - Q along directions of q at constant λ, each of shape (n_q). The states of elements
+    /// change so that ż = 0.
     pub fn slopes(
         &self,
         place: &StaticState,
@@ -224,7 +224,8 @@ impl<'a> Statics<'a> {
         directions.iter().map(along).collect()
     }
 
-    /// The change of Φ_qᵀ λ - Q with that of ż, where the states of elements keep ż = 0.
+    /// The change of Φ_qᵀ λ - Q if the states of elements change so that ż = 0. `forces` and `change` are the changes
+    /// of Φ_qᵀ λ - Q and ż at constant states.
     pub fn followed(
         &self,
         SlopesByStates { rates, forces: columns }: &SlopesByStates,
@@ -241,7 +242,7 @@ impl<'a> Statics<'a> {
         Ok(forces)
     }
 
-    /// Derivatives by the states of elements.
+    /// Derivatives with respect to the states of elements.
     pub fn by_states(&self, variation: &Variation<'_>, n_z: usize) -> SlopesByStates {
         let n = self.states.len();
         let mut found = SlopesByStates { rates: vec![0.0; n * n], forces: Vec::new() };
@@ -257,8 +258,8 @@ impl<'a> Statics<'a> {
         found
     }
 
-    /// Energy of `to` less that of `from`: of the potential if all forces have one and the difference is not lost in
-    /// rounding, else by the work of the forces on the way (trapezoidal).
+    /// The energy of `to` minus that of `from`. It is the difference of the potentials if all forces have a potential
+    /// and the difference exceeds rounding errors. Otherwise it is computed from the forces by the trapezoidal rule.
     pub fn energy_change(&self, from: &StaticState, to: &StaticState) -> f64 {
         let both = from.missing.iter().zip(&to.missing);
         let way = to.q.iter().zip(&from.q).map(|(b, a)| b - a);
@@ -300,7 +301,7 @@ impl<'a> Statics<'a> {
     }
 }
 
-/// Derivatives by the states of elements.
+/// Derivatives with respect to the states of elements.
 pub(super) struct SlopesByStates {
     /// Derivatives of ż, shape (n, n).
     rates: Vec<f64>,
@@ -316,7 +317,7 @@ fn is_conservative(model: &Model) -> bool {
     })
 }
 
-/// Gram–Schmidt, twice, in the coordinates over their scales.
+/// The Gram–Schmidt method, applied twice, in scaled coordinates.
 fn orthonormalize(columns: &mut [Vec<f64>], scales: &[f64]) {
     let product = |a: &[f64], b: &[f64]| -> f64 {
         a.iter().zip(b).zip(scales).map(|((a, b), s)| (a / s) * (b / s)).sum()

@@ -1,4 +1,4 @@
-//! One step along a path: prediction along the tangent, and Newton's method normal to it.
+//! One step along a path: prediction along the tangent, and correction normal to it by Newton's method.
 
 use super::failure::Reason;
 use super::spot::{ParameterPath, PathDirection, PathStep, Spot};
@@ -7,9 +7,9 @@ use super::spot::{ParameterPath, PathDirection, PathStep, Spot};
 const ALONG: f64 = 0.97;
 /// Largest number of iterations.
 const ITERATIONS: usize = 12;
-/// Correction at which a point is found, in the unit of steps.
+/// Correction at which the iteration has converged, in units of the step.
 const FOUND: f64 = 1e-13;
-/// Correction at which rounding may decide.
+/// Correction below which an iteration that no longer contracts counts as converged.
 const ROUNDING: f64 = 1e-9;
 
 /// The point of the path at the distance `ds` along the tangent.

@@ -5,11 +5,11 @@ use super::points::{EquilibriumPath, PathEnd};
 use super::spot::{ParameterPath, PathStep};
 use super::stride::advance;
 
-/// Length of the path to which a point is located.
+/// Path length to which a point is located.
 const LOCATED: f64 = 1e-15;
 /// Largest number of trials.
 const TRIALS: usize = 80;
-/// Length to which a crossing of other paths is located.
+/// Path length to which a crossing of other paths is located.
 const CROSSED: f64 = 1e-9;
 
 /// Adds the fold, or the crossing of another path, between two points.
@@ -51,7 +51,7 @@ pub(super) fn between(
     Ok(())
 }
 
-/// The end of the path, if it leaves the range before `to`, with its last point.
+/// The end of the path and its last point, if the path leaves the range before `to`.
 pub(super) fn outside(
     course: &ParameterPath<'_>,
     from: &PathStep,

@@ -1,4 +1,5 @@
-//! A circuit: the path of a position by its length, through all limits, until it returns.
+//! A circuit: the curve of positions through a given position, followed by arc length through all limits until it
+//! closes.
 
 use super::path::{DrivenPath, PathPoint};
 use super::solution::Solver;
@@ -11,15 +12,16 @@ const FIRST: f64 = 1e-3;
 const LONGEST: f64 = 0.05;
 /// Shortest step.
 const SHORTEST: f64 = 1e-8;
-/// Largest number of steps, and of turns.
+/// Largest number of steps, and of turns of a driven angle.
 const MOST: usize = 4000;
 const MOST_TURNS: f64 = 8.0;
-/// Sizes of the mechanism that a length is followed.
+/// Largest travel of a driven length, relative to the size of the mechanism.
 const FARTHEST: f64 = 20.0;
-/// Largest difference of two positions that are the same, rad, and relative to the size of the mechanism.
+/// Largest difference between two positions that count as equal: angles in rad, lengths relative to the size of the
+/// mechanism.
 const SAME: f64 = 1e-6;
 
-/// Whether the bodies lie at the same places, whole turns aside.
+/// Whether all bodies have the same position in `a` and `b`, up to whole turns.
 pub(in crate::analyses) fn same(model: &Model, a: &[f64], b: &[f64], tolerance: f64) -> bool {
     let size = size(model);
     (1..model.bodies.len()).map(BodyId).all(|body| {
@@ -32,18 +34,18 @@ pub(in crate::analyses) fn same(model: &Model, a: &[f64], b: &[f64], tolerance: 
     })
 }
 
-/// The other positions on the path of a regular position `q` at which t has the same value; whole turns aside if the
-/// driven value is an angle.
+/// The other positions on the circuit of a regular position `q` with the same value of t. If `turns` is set, the
+/// driven value is an angle, and values that differ by whole turns count as equal.
 pub(in crate::analyses) fn circuit(model: &Model, t: f64, q: &[f64], turns: bool) -> Vec<Vec<f64>> {
     let mut found = Vec::new();
-    // a path that does not return is followed from its start both ways
+    // a path that does not close is followed from its start in both directions
     if !follow(model, (t, q), turns, 1.0, &mut found) {
         follow(model, (t, q), turns, -1.0, &mut found);
     }
     found
 }
 
-/// Follows the path one way; returns whether it came back.
+/// Follows the path in one direction. Returns true if it closes or cannot begin.
 fn follow(
     model: &Model,
     (t, q): (f64, &[f64]),
@@ -85,7 +87,7 @@ fn follow(
     false
 }
 
-/// The multiple of the period between two values, if there is one; 0 without a period.
+/// The multiple of the period between two values, if any. Without a period, only 0 is considered.
 fn crossed(a: f64, b: f64, period: f64) -> Option<f64> {
     if period.is_infinite() {
         return (a * b <= 0.0 && a != b && a != 0.0).then_some(0.0);
@@ -95,7 +97,7 @@ fn crossed(a: f64, b: f64, period: f64) -> Option<f64> {
     (level >= low && level != a).then_some(level)
 }
 
-/// The position between two places at which t has a value.
+/// The position between two points of the path at which t equals `level`.
 fn at_level(
     path: &mut DrivenPath<'_, '_>,
     from: &PathPoint,

@@ -1,9 +1,9 @@
 //! Steps along a branch of the motion.
 //!
-//! A step predicts q + h v + h²/2 a + h³/6 j, with j from the last step, and closes the mechanism by Newton's method. It
-//! is accepted if the correction and the change of the velocity that the prediction leaves out are small against the
-//! motion over the step. Another branch would be farther away, or have another velocity. Otherwise half the step is
-//! tried.
+//! A step predicts q + h v + h²/2 a + h³/6 j, with j from the last step, and closes the mechanism by Newton's method.
+//! It is accepted if the correction is small compared with the motion over the step, and if the velocity differs
+//! little from a linear prediction. A position on another branch would be farther away or have a different velocity.
+//! A rejected step is halved.
 
 use super::failure::{Failure, Reason};
 use super::passage;
@@ -16,26 +16,27 @@ use std::sync::Arc;
 
 /// Largest motion over a step: the root mean square over the coordinates, lengths relative to the size of the mechanism.
 const LONGEST: f64 = 0.05;
-/// Largest correction, as a part of the motion over the step.
+/// Largest correction, as a fraction of the motion over the step.
 const CORRECTION: f64 = 0.05;
-/// Correction that is accepted however short the motion is.
+/// Correction that is always accepted, even if the motion over the step is shorter.
 const SMALL: f64 = 1e-4;
-/// Largest change of the velocity that the prediction leaves out, as a part of the larger velocity.
+/// Largest deviation of the velocity from its linear prediction, as a fraction of the larger of the two velocities.
 const TURN: f64 = 0.3;
-/// Shortest step, relative to the time to the next output: then the branch is followed by its length.
+/// Shortest step, relative to the smaller of the longest step and the time to the next output. Below it, the branch
+/// is followed by arc length.
 const SHORTEST: f64 = 1e-5;
-/// Longest step, as a part of the longest one, over half of a singular position.
+/// Longest step that may end at a singular position, as a fraction of the longest step.
 const SHORT: f64 = 0.2;
-/// Gap of a start, or of an interpolated position, that counts as closed.
+/// Largest scaled residual at which the start, or an interpolated position, counts as closed.
 const START: f64 = 1e-9;
 
 /// Follows a motion.
 pub(in crate::analyses) struct Continuation<'a> {
     solver: Solver<'a>,
     point: Arc<Point>,
-    /// The point before, if the motion between is smooth.
+    /// The previous point, if the motion since then is smooth.
     before: Option<Arc<Point>>,
-    /// The next step, if the last one limits it.
+    /// Upper bound of the next step, set by the last step; infinite if there is none.
     length: f64,
     /// The sign of det Φ_q at the point, if it is known.
     orientation: Option<f64>,
@@ -43,7 +44,7 @@ pub(in crate::analyses) struct Continuation<'a> {
 }
 
 impl<'a> Continuation<'a> {
-    /// Begins at a state, whose velocities are replaced by those of the drivers.
+    /// Begins at a state. Its velocities are replaced by those that the drivers prescribe.
     pub fn begin(model: &'a Model, start: &State) -> Result<Self, Box<Failure>> {
         let mut solver = Solver::new(model);
         let State { t, q, .. } = start;
@@ -69,17 +70,17 @@ impl<'a> Continuation<'a> {
         }
     }
 
-    /// The motion now.
+    /// The current point of the motion.
     pub fn point(&self) -> &Arc<Point> {
         &self.point
     }
 
-    /// Steps that were taken again.
+    /// Number of rejected steps.
     pub fn rejected(&self) -> usize {
         self.rejected
     }
 
-    /// The position at `t` that is closed from one nearby.
+    /// Closes the nearby position `q` at `t`. None if Newton's method fails.
     pub fn closed(&mut self, t: f64, q: Vec<f64>) -> Option<Vec<f64>> {
         self.solver.point(t, q).map(|point| point.q)
     }
@@ -119,8 +120,8 @@ impl<'a> Continuation<'a> {
         Ok(())
     }
 
-    /// The motion at a singular position, by the polynomials between this point and one as far behind the goal. None if
-    /// the motion does not pass it.
+    /// The motion at a singular position `goal`, interpolated between this point and a point equally far beyond
+    /// `goal`. None if the motion cannot be continued beyond it.
     fn across(&mut self, goal: f64) -> Option<Point> {
         let h = 2.0 * (goal - self.point.t);
         let predicted = self.point.predicted(h, None);
@@ -133,8 +134,8 @@ impl<'a> Continuation<'a> {
         gaps.iter().all(|gap| gap.abs() <= START).then_some(middle)
     }
 
-    /// Whether det Φ_q keeps its sign. It changes only across a singular position, and between branches that nearly meet
-    /// at one: a step beside a change point could jump from one to the other.
+    /// Whether det Φ_q keeps its sign. The sign changes only across a singular position, and between branches that
+    /// nearly meet there. The test rejects a step that would jump between two such branches.
     fn keeps_orientation(&mut self, next: &Point) -> bool {
         if self.solver.is_clear() {
             return true;
@@ -146,7 +147,7 @@ impl<'a> Continuation<'a> {
         keeps
     }
 
-    /// Whether a point that was just solved for lies where the last one leads.
+    /// Whether the point that was solved last continues the branch of the current point.
     fn is_near(&self, next: &Point) -> bool {
         let h = next.t - self.point.t;
         let moved = self.solver.apart(&next.q, &self.point.q);

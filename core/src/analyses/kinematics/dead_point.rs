@@ -8,36 +8,37 @@ use crate::math::{Local, Rotation, Vec2};
 use crate::model::{column_scales, ConstraintItem, Model};
 use std::fmt;
 
-/// Sine of the angle between two bodies that count as in line.
+/// Largest sine of the angle between two bodies in line, and largest cosine between a body and a slide at right
+/// angles.
 const IN_LINE: f64 = 1e-3;
-/// Speed of a point that counts as at rest, as a part of the fastest one.
+/// Speed below which a point counts as at rest, relative to the largest rate of the mechanism.
 const AT_REST: f64 = 1e-4;
-/// Digits of a printed value.
+/// Significant digits of a printed value.
 const DIGITS: usize = 7;
 
 /// An extreme of the driven value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Limit {
-    /// The time, or the value in its place.
+    /// The time, or the value that replaces it.
     pub t: f64,
     /// The position, shape (n_q).
     pub q: Vec<f64>,
     /// The driver that cannot move further.
     pub driver: String,
-    /// What it drives, such as `crank` for the angle of this body, or `slide.displacement`.
+    /// The driven quantity, such as `crank` for the angle of this body, or `slide.displacement`.
     pub driven: String,
     /// The value of the driven quantity, m or rad.
     pub value: f64,
     /// Its unit, m or rad.
     pub unit: &'static str,
-    /// Two bodies that are in line there, if there are such.
+    /// Two bodies that are in line there, if any.
     pub in_line: Option<[String; 2]>,
-    /// A body and a slide at right angles to each other, if there are such.
+    /// A body and a slide at right angles to each other, if any.
     pub across: Option<[String; 2]>,
 }
 
 impl Limit {
-    /// The limit at a position, with the rates of the motion on the path, shape (n_q), by its length.
+    /// The limit at a position. `rates`, shape (n_q), are the derivatives of q by the arc length of the path.
     pub(super) fn new(model: &Model, t: f64, q: Vec<f64>, rates: &[f64]) -> Self {
         let motions = Motions::at(&model.layout, &q, rates);
         let item = driver(model);
@@ -67,8 +68,8 @@ impl fmt::Display for Limit {
     }
 }
 
-/// Two bodies that are in line at a position where the mechanism moves with these rates, shape (n_q), although some
-/// of its pins are at rest.
+/// Two bodies that are in line at a position where the mechanism moves with `rates`, shape (n_q), while some of its
+/// pins are at rest.
 pub(in crate::analyses) fn in_line(model: &Model, q: &[f64], rates: &[f64]) -> Option<[String; 2]> {
     let motions = Motions::at(&model.layout, q, rates);
     LockedDriver { model, motions: &motions, least: least(model, rates) }.in_line()
@@ -121,14 +122,14 @@ fn value(model: &Model, item: &ConstraintItem, motions: &Motions, t: f64) -> f64
     }
 }
 
-/// The least speed of a point that moves.
+/// The speed above which a point counts as moving.
 fn least(model: &Model, rates: &[f64]) -> f64 {
     let scales = column_scales(model);
     let speeds = rates.iter().zip(&scales).map(|(v, scale)| v.abs() / scale);
     AT_REST * speeds.fold(0.0, f64::max) * crate::model::size(model)
 }
 
-/// A mechanism that moves although its driver rests.
+/// A mechanism that moves while its driver is at rest.
 struct LockedDriver<'m> {
     model: &'m Model,
     motions: &'m Motions,
@@ -136,7 +137,7 @@ struct LockedDriver<'m> {
 }
 
 impl LockedDriver<'_> {
-    /// The two bodies of each joint that fixes points, with its number.
+    /// The index and the two bodies of each joint that fixes points but no direction.
     fn pins(&self) -> impl Iterator<Item = (usize, [BodyId; 2])> + '_ {
         let joints = self.model.constraints.iter().enumerate();
         joints

@@ -1,4 +1,4 @@
-//! Reasons for the end of a motion, in terms of the mechanism.
+//! Reasons for which a motion ends early, in terms of the mechanism.
 
 use super::dead_point::Limit;
 use super::motion::Motion;
@@ -9,27 +9,27 @@ use crate::math::Vec2;
 use crate::model::Model;
 use std::fmt;
 
-/// Sine of the angle between two bodies that count as in line.
+/// Largest sine of the angle between two bodies in line.
 const IN_LINE: f64 = 1e-3;
 
-/// A motion that could not be followed to its end, with its part before.
+/// A motion that could not be followed to its end, with the part that was computed.
 #[derive(Clone, Debug)]
 pub struct Failure {
     /// The reason.
     pub reason: Reason,
-    /// The motion before.
+    /// The motion up to the failure.
     pub motion: Motion,
 }
 
-/// The reason for which a motion ended.
+/// The reason for which a motion ended early.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Reason {
     /// The drivers do not determine the motion.
     Free {
-        /// The freedoms that are left.
+        /// The number of degrees of freedom that remain.
         degrees_of_freedom: usize,
     },
-    /// The start does not meet the constraints.
+    /// The start does not satisfy the constraints.
     Open {
         /// The time, s.
         t: f64,
@@ -40,11 +40,11 @@ pub enum Reason {
         /// Its unit.
         unit: &'static str,
     },
-    /// The start, or a position on the way, does not determine the velocities.
+    /// The velocities are not determined at the start or at a later position.
     Singular {
         /// The time, s.
         t: f64,
-        /// A joint that takes part.
+        /// A joint or driver whose equations are dependent; empty if none was identified.
         name: String,
         /// Description.
         message: String,
@@ -96,7 +96,7 @@ pub(super) fn lost(model: &Model, t: f64, q: &[f64]) -> Reason {
     Reason::Singular { t, name: String::new(), message }
 }
 
-/// Two moving bodies, joined to each other, that are in line: the joints of each lie on one straight line.
+/// Two connected bodies that are in line. Each has exactly two joints and no driver.
 fn in_line(model: &Model, q: &[f64]) -> Option<[String; 2]> {
     let motions = Motions::at_rest(&model.layout, q);
     let joints: Vec<(usize, [BodyId; 2])> = model
@@ -109,7 +109,7 @@ fn in_line(model: &Model, q: &[f64]) -> Option<[String; 2]> {
     let place = |k: usize, body: BodyId, side: usize| -> Vec2 {
         motions[body.0].pose.point(model.constraints[k].element.attachment(side).s)
     };
-    // the direction of a body with two joints, from the given joint to the other one
+    // the direction of a body with two joints, from the given joint to the other joint
     let direction = |body: BodyId, from: usize| -> Option<Vec2> {
         let own: Vec<_> = joints.iter().filter(|(_, bodies)| bodies.contains(&body)).collect();
         if own.len() != 2 || body == BodyId::GROUND {

@@ -1,4 +1,4 @@
-//! The extreme value of t on the path: the limit of the motion.
+//! The limit of a motion: the extreme value of t on its path.
 
 use super::dead_point::Limit;
 use super::failure::{self, Reason};
@@ -11,7 +11,7 @@ const LOCATED: f64 = 1e-9;
 /// Largest number of bisections.
 const MOST: usize = 60;
 
-/// The limit between a place and the one `ds` further on, where t goes back.
+/// Locates the limit between a point of the path and the point at the distance `ds` beyond it, where t has reversed.
 pub(super) fn locate(
     path: &mut DrivenPath<'_, '_>,
     from: &PathPoint,
@@ -47,7 +47,7 @@ pub(super) fn locate(
     Reason::Limit(Box::new(Limit::new(path.solver.model, t, q, &rates)))
 }
 
-/// The motion cannot be followed further, though no limit was found.
+/// The reason for a motion that cannot be followed further although no limit was found.
 pub(super) fn lost(model: &Model, from: &Point) -> Reason {
     failure::lost(model, from.t, &from.q)
 }

@@ -1,22 +1,22 @@
 //! Kinematics: the motion of a mechanism whose drivers determine it, without integration.
 //!
-//! At each time the positions solve Φ(q, t) = 0, the velocities Φ_q v = ν and the accelerations Φ_q a = γ (Haug 3.6).
-//! The motion is followed from the start by short steps, so that it stays on its branch. Where it
-//! cannot continue because the driven value has reached an extreme, this limit is found exactly.
+//! At each time, the positions satisfy Φ(q, t) = 0, the velocities Φ_q v = ν and the accelerations Φ_q a = γ (Haug
+//! 3.6). The motion is followed from the start in short steps, so that it stays on its branch. If it cannot continue
+//! because the driven value has reached an extreme, this limit is located to high accuracy.
 //!
 //! | file | concept |
 //! |---|---|
 //! | `solution` | positions, velocities and accelerations at a time |
 //! | `continuation` | steps along a branch |
 //! | `dead_point` | limits in terms of the mechanism |
-//! | `passage`, `path`, `limit` | change points and limits; the branch by its length, and the extreme of t on it |
-//! | `circuit` | the path of a position until it returns |
+//! | `passage`, `path`, `limit` | change points and limits; the branch by arc length, and the extreme of t on it |
+//! | `circuit` | the path through a position, followed until it closes |
 //! | `motion` | the result |
-//! | `over` | the value of a quantity in place of the time |
+//! | `over` | the value of a quantity as a replacement of the time |
 //! | `quintic` | polynomials between two points |
-//! | `works` | works over the motion, by quadrature, and the record for solutions |
+//! | `works` | the work done over a motion, by quadrature, and the record of the motion |
 //! | `options` | options of kinematics and of inverse dynamics |
-//! | `failure` | reasons for the end of a motion, in terms of the mechanism |
+//! | `failure` | reasons for which a motion ends early, in terms of the mechanism |
 
 mod circuit;
 mod continuation;
@@ -47,13 +47,14 @@ use super::State;
 use crate::integrate::Flow;
 use crate::model::Model;
 
-/// The motion from `start` through the `times`, which ascend or descend; the first one may be that of the start.
+/// The motion from `start` through the `times`, in ascending or descending order. The first time may be the start
+/// time.
 ///
-/// `watch` is called with the time after each step and may stop the work.
+/// `watch` is called with the time after each step and may stop the analysis.
 ///
 /// # Errors
-/// [`Failure`]: the drivers leave or contradict a freedom, the start does not meet the constraints, or a limit of the
-/// motion comes before the last time. It contains the motion until then.
+/// [`Failure`] if the drivers do not determine the motion, the start does not satisfy the constraints, or the motion
+/// cannot be followed to the last time. It contains the motion up to the failure.
 pub fn kinematics(
     model: &Model,
     start: &State,

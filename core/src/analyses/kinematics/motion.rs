@@ -8,16 +8,16 @@ use std::sync::Arc;
 pub struct Motion {
     /// The motion at the start and after each step of the continuation.
     pub points: Vec<Arc<Point>>,
-    /// The chosen times, as places among the points.
+    /// Indices into `points` of the chosen times.
     pub outputs: Vec<usize>,
-    /// Steps that were taken again, shorter.
+    /// Number of rejected steps.
     pub rejected: usize,
-    /// Whether the last time was reached; otherwise the observer stopped.
+    /// Whether the last time was reached; false if the observer stopped the analysis.
     pub reached: bool,
 }
 
 impl Motion {
-    /// Steps of the continuation.
+    /// Number of steps of the continuation.
     pub fn steps(&self) -> usize {
         self.points.len().saturating_sub(1)
     }

@@ -2,7 +2,7 @@
 
 use crate::analyses::options::{count, interval, name, number, options, positive};
 
-/// Number of values over a range, if none is given: one for each degree of a turn.
+/// Default number of values over a range: one value for each degree of a full turn.
 const VALUES: usize = 361;
 
 /// Declares an analysis of a driven motion.

@@ -1,7 +1,7 @@
-//! A motion over a driven value: the value of a quantity takes the place of the time.
+//! A motion over a driven value: the value of a quantity replaces the time.
 //!
-//! The mechanism is written anew so that its quantity is t: by its driver, by the joint that has it as a field, or by
-//! a new driver. Laws of time of all other joints and drivers keep their value at the start.
+//! The mechanism is rewritten so that the quantity equals t: in its driver, in the joint that has the quantity as a
+//! field, or in a new driver. In the laws of all other joints and drivers, t keeps its value at the start.
 
 use crate::analyses::{readings, State};
 use crate::elements::{self, Group};
@@ -9,12 +9,12 @@ use crate::model::{Definition, Entry, Model, Problem, Value};
 
 /// Fields of joints and drivers that take laws of time.
 const LAWS: [&str; 3] = ["value", "length", "residual"];
-/// The name of a new driver, if no other has it.
+/// The name of a new driver, unless it is taken.
 const NAME: &str = "over";
 
 /// A mechanism in which t is the value of a quantity.
 pub struct Over {
-    /// The mechanism, written anew.
+    /// The rewritten mechanism.
     pub definition: Definition,
     /// The quantity.
     pub quantity: String,
@@ -24,10 +24,11 @@ pub struct Over {
     pub value: f64,
 }
 
-/// The mechanism of `definition`, whose model is `model`, with t as the value of `over`, a driver or a position quantity.
+/// Rewrites the mechanism of `definition`, whose model is `model`, so that t is the value of `over`: the name of a
+/// driver or of a position quantity.
 ///
 /// # Errors
-/// The model has no such driver or quantity, or several drivers determine the motion already.
+/// The model has no such driver or quantity, or several drivers already determine the motion.
 pub fn over(
     definition: &Definition,
     model: &Model,
@@ -57,7 +58,7 @@ fn text<'a>(entry: &'a Entry, key: &str) -> Option<&'a str> {
     }
 }
 
-/// Removes the only driver of a mechanism without freedom, and the measures of this driver.
+/// Removes the only driver of a mechanism without remaining degrees of freedom, and the measures of this driver.
 fn replace_the_driver(definition: &mut Definition, over: &str) -> Result<(), Problem> {
     if definition.drivers.len() > 1 {
         let names: Vec<&str> = definition.drivers.iter().map(|one| one.name.as_str()).collect();
@@ -72,7 +73,7 @@ fn replace_the_driver(definition: &mut Definition, over: &str) -> Result<(), Pro
     Ok(())
 }
 
-/// Lets t drive a quantity: by its driver, by the joint that has it as a field, or by a new driver.
+/// Makes t the value of a quantity: in its driver, in the joint that has the quantity as a field, or in a new driver.
 fn drive(definition: &mut Definition, driver: Option<&str>, quantity: &str) {
     let law = || Value::Text("t".to_string());
     let (element, field) = quantity.rsplit_once('.').unwrap_or_default();
@@ -119,7 +120,7 @@ fn free_name(definition: &Definition) -> String {
     names.find(|name| !taken.contains(&name)).expect("there are more names than entries")
 }
 
-/// Replaces the time in the laws of joints and drivers by that of the start, except in one driver.
+/// Replaces t by the start time in the laws of all joints, and of all drivers except `driver`.
 fn hold_others(definition: &mut Definition, driver: Option<&str>, t: f64) {
     let others = |entry: &&mut Entry| Some(entry.name.as_str()) != driver;
     for entry in definition.joints.iter_mut().chain(definition.drivers.iter_mut().filter(others)) {
@@ -136,7 +137,7 @@ fn hold(value: &mut Value, t: f64) {
     }
 }
 
-/// A formula with a number in place of the name `t`.
+/// The formula with the name `t` replaced by a number.
 fn at_time(formula: &str, t: f64) -> String {
     let mut held = String::new();
     for (word, after) in words(formula) {
@@ -153,7 +154,7 @@ fn reads(formula: &str, element: &str) -> bool {
     words(formula).any(|(word, _)| word.split_once('.').is_some_and(|(owner, _)| owner == element))
 }
 
-/// The names and numbers of a formula and the signs between them, each with the text behind it.
+/// The names, numbers and other characters of a formula, each with the text after it.
 fn words(formula: &str) -> impl Iterator<Item = (&str, &str)> {
     let in_word = |c: char| c.is_alphanumeric() || c == '_' || c == '.';
     let mut rest = formula;

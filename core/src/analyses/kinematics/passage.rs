@@ -1,4 +1,4 @@
-//! Positions near which steps in t are too short: change points and limits.
+//! Positions near which steps in t become too short: change points and limits.
 
 use super::failure::Reason;
 use super::limit;
@@ -12,8 +12,8 @@ const SHORTEST: f64 = 1e-9;
 /// Largest number of steps around a position where Φ_q is nearly singular.
 const MOST: usize = 2000;
 
-/// Passes a position near which the steps in t are too short: a change point, where the motion continues, or a limit,
-/// where it ends.
+/// Follows the path by arc length past a position near which the steps in t become too short. The motion continues
+/// beyond a change point and ends at a limit.
 pub(super) fn around(solver: &mut Solver<'_>, from: &Point, goal: f64) -> Result<Point, Reason> {
     let sign = (goal - from.t).signum();
     let pace = solver.norm(&from.v);
@@ -36,7 +36,7 @@ pub(super) fn around(solver: &mut Solver<'_>, from: &Point, goal: f64) -> Result
             return Err(limit::locate(&mut path, &place, ds, sign));
         }
         if sign * (next.t - goal) >= 0.0 {
-            // the path passes the goal: only this last part is too steep
+            // the path passes the goal: the position there is interpolated and closed
             let PathPoint { t, q, .. } = &place;
             let share = (goal - t) / (next.t - t);
             let guess = q.iter().zip(&next.q).map(|(a, b)| a + share * (b - a)).collect();

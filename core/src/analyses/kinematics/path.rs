@@ -1,4 +1,5 @@
-//! The branch by its length s in the space of (q, t): a regular curve even where q is not a function of t.
+//! The branch parametrised by its arc length s in the space of (q, t), where it is a regular curve even if q is not a
+//! function of t.
 //!
 //! With y = (q, t), scaled, a point of the curve solves Φ(y) = 0 and τᵀ(y - y₀) = s with the tangent τ at y₀
 //! (Keller's pseudo-arclength continuation, in *Applications of Bifurcation Theory*, 1977).
@@ -6,7 +7,7 @@
 use super::solution::{Point, Solver};
 use crate::solve::solve_dense;
 
-/// Least cosine between the tangents of two neighbours.
+/// Least cosine of the angle between the tangents at two neighbouring points.
 const ALONG: f64 = 0.95;
 /// Scaled residual of a closed position, and largest number of iterations.
 const CLOSED: f64 = 1e-13;
@@ -29,7 +30,7 @@ pub(super) struct DrivenPath<'s, 'a> {
 }
 
 impl DrivenPath<'_, '_> {
-    /// The place of a regular point, with its tangent in the direction of t.
+    /// The path point of a regular point. Its tangent points towards increasing t if `sign` is positive.
     pub fn begin(&mut self, from: &Point, sign: f64) -> Option<PathPoint> {
         let columns = &self.solver.columns;
         let mut tangent: Vec<f64> =
@@ -39,7 +40,8 @@ impl DrivenPath<'_, '_> {
         Some(PathPoint { t: from.t, q: from.q.clone(), tangent })
     }
 
-    /// The place at the distance `ds` along the tangent, if Newton's method finds it.
+    /// The path point at the distance `ds` along the tangent. None if Newton's method fails or the tangent turns too
+    /// far.
     pub fn advance(&mut self, from: &PathPoint, ds: f64) -> Option<PathPoint> {
         let n = from.q.len();
         let columns = self.solver.columns.clone();
@@ -84,7 +86,7 @@ impl DrivenPath<'_, '_> {
         None
     }
 
-    /// Solves with the rows of Φ and the row of a tangent.
+    /// Solves the linear system whose matrix consists of Φ_q and Φ_t with the tangent as last row.
     fn solved(
         &mut self,
         t: f64,

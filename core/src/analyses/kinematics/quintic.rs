@@ -5,7 +5,7 @@ use super::solution::Point;
 /// Their degree.
 pub(super) const DEGREE: usize = 5;
 
-/// The polynomials of degree 5 with position, rate and acceleration of two points at its ends.
+/// The Hermite interpolant of degree 5, which matches position, rate and acceleration at two points.
 pub(super) struct Quintic<'p> {
     from: &'p Point,
     to: &'p Point,
@@ -17,12 +17,12 @@ impl<'p> Quintic<'p> {
         Self { from, to, h: to.t - from.t }
     }
 
-    /// Coefficients of θ … θ⁵ of coordinate k less its first value.
+    /// Coefficients of θ, …, θ⁵ for coordinate `k` minus its initial value.
     pub fn position(&self, k: usize) -> [f64; DEGREE] {
         let Self { from, to, h } = *self;
         let [v0, v1] = [from.v[k], to.v[k]].map(|v| v * h);
         let [a0, a1] = [from.a[k], to.a[k]].map(|a| a * h * h);
-        // the differences that the first three terms leave at the end
+        // the remainders at the end after the terms up to the second degree
         let d = to.q[k] - from.q[k] - v0 - 0.5 * a0;
         let e = v1 - v0 - a0;
         let f = a1 - a0;
@@ -47,7 +47,7 @@ impl<'p> Quintic<'p> {
         [2.0 * c2, 3.0 * c3, 4.0 * c4, 5.0 * c5, 0.0]
     }
 
-    /// The motion at θ.
+    /// The interpolated point at θ in [0, 1].
     pub fn at(&self, theta: f64) -> Point {
         let value = |c: [f64; DEGREE]| c.iter().rev().fold(0.0, |sum, c| (sum + c) * theta);
         let n = self.from.q.len();

@@ -8,19 +8,19 @@ use crate::solve::sign_of_determinant;
 
 /// Largest scaled residual of a closed position.
 const CLOSED: f64 = 1e-13;
-/// A residual of this size is accepted if Newton's step does not reduce it any more.
+/// Largest residual that is accepted if Newton's method no longer reduces it.
 const ROUNDING: f64 = 1e-10;
-/// Largest number of Newton's iterations; a good prediction takes two or three.
+/// Largest number of Newton iterations; a good prediction needs two or three.
 const MOST: usize = 8;
-/// Least factor by which an iteration must reduce the correction.
+/// Largest ratio of successive corrections at which the iteration continues.
 const CONTRACTS: f64 = 0.25;
 /// Damping of redundant rows, relative to their scale.
 const REDUNDANT: f64 = 1e-12;
-/// Part of a pivot that remains where Φ_q counts as regular; less if the mechanism begins with less.
+/// Smallest fraction of a pivot that remains after elimination if Φ_q counts as regular.
 const REGULAR: f64 = 1e-9;
-/// Part of the pivot at the first position that remains where Φ_q counts as regular.
+/// The same bound relative to the fraction at the first position. The smaller of the two bounds applies.
 const OF_FIRST: f64 = 1e-4;
-/// Part of a pivot that remains where no singular position is near, so that no other branch is.
+/// Fraction of a pivot above which no singular position is near, and so no other branch.
 const CLEAR: f64 = 0.01;
 /// Largest number of coordinates for which the orientation is examined.
 const MOST_DENSE: usize = 120;
@@ -28,7 +28,7 @@ const MOST_DENSE: usize = 120;
 /// The motion at a time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Point {
-    /// Time, s, or the driven value in its place.
+    /// Time, s, or the driven value that replaces it.
     pub t: f64,
     /// Coordinates, shape (n_q).
     pub q: Vec<f64>,
@@ -39,7 +39,7 @@ pub struct Point {
 }
 
 impl Point {
-    /// q + h v + h²/2 a + h³/6 j, with the change of the acceleration since an earlier point for j.
+    /// q + h v + h²/2 a + h³/6 j. The jerk j is the difference quotient of the acceleration since an earlier point.
     pub(super) fn predicted(&self, h: f64, earlier: Option<&Point>) -> Vec<f64> {
         let all = self.q.iter().zip(&self.v).zip(&self.a);
         let mut q: Vec<f64> = all.map(|((q, v), a)| q + h * (v + 0.5 * h * a)).collect();
@@ -60,14 +60,14 @@ pub(super) struct Solver<'a> {
     /// Scale of each coordinate, and of each row of Φ.
     pub columns: Vec<f64>,
     pub rows: Vec<f64>,
-    /// Velocities of a mechanism at rest.
+    /// Zero velocities.
     rest: Vec<f64>,
     motions: Motions,
-    /// The sizes of the corrections of the last position together.
+    /// The sum of the norms of the Newton corrections for the last position.
     pub corrected: f64,
-    /// Part of the worst pivot that the last factorisation left.
+    /// Fraction of the worst pivot that remained in the last factorisation.
     kept: f64,
-    /// Least part of a pivot at a regular position; none before the first factorisation.
+    /// The bound of `kept` for a regular position; None before the first factorisation.
     regular: Option<f64>,
     /// Φ, its rate and γ.
     terms: [Vec<f64>; 3],
@@ -110,7 +110,7 @@ impl<'a> Solver<'a> {
         self.mean(a.iter().zip(b).map(|(a, b)| a - b))
     }
 
-    /// The root mean square of v - (v₀ + h a₀): the change of the velocity that a constant acceleration leaves out.
+    /// The scaled root mean square of v - (v₀ + h a₀), the deviation from a motion of constant acceleration.
     pub fn turned(&self, from: &Point, to: &Point) -> f64 {
         let h = to.t - from.t;
         let all = from.v.iter().zip(&from.a).zip(&to.v);
@@ -122,8 +122,8 @@ impl<'a> Solver<'a> {
         (squares.sum::<f64>() / self.weights.len().max(1) as f64).sqrt()
     }
 
-    /// Closes a position that is nearly closed, and solves for its rates. None if Newton's method does not contract at
-    /// once, or Φ_q is singular.
+    /// Closes a nearly closed position and solves for its velocities and accelerations. None if Newton's method does
+    /// not converge fast, or Φ_q is singular.
     pub fn point(&mut self, t: f64, mut q: Vec<f64>) -> Option<Point> {
         self.close(t, &mut q)?;
         self.factor()?;
@@ -133,7 +133,7 @@ impl<'a> Solver<'a> {
         v.iter().chain(&a).all(|x| x.is_finite()).then_some(Point { t, q, v, a })
     }
 
-    /// Newton's method; Φ_q and the terms without velocities belong to the position that it leaves.
+    /// Newton's method. On return, Φ_q and the terms are those of the final position at zero velocity.
     fn close(&mut self, t: f64, q: &mut [f64]) -> Option<()> {
         let mut last = f64::INFINITY;
         self.corrected = 0.0;
@@ -148,7 +148,7 @@ impl<'a> Solver<'a> {
             let step = &self.solution[..q.len()];
             let size = self.norm(step);
             if size.is_nan() || size > CONTRACTS * last {
-                // rounding: the position as it was evaluated
+                // rounding errors dominate: the position of the last evaluation is kept
                 return (gap <= ROUNDING).then_some(());
             }
             q.iter_mut().zip(step).for_each(|(q, dq)| *q += dq);
@@ -158,7 +158,7 @@ impl<'a> Solver<'a> {
         None
     }
 
-    /// Φ, its rate, γ and Φ_q of a mechanism at rest.
+    /// Evaluates Φ, its rate, γ and Φ_q at zero velocity.
     fn evaluate(&mut self, t: f64, q: &[f64]) {
         let Self { model, matrix, motions, terms, rest, .. } = self;
         motions.place(&model.layout, q, rest);
@@ -166,7 +166,7 @@ impl<'a> Solver<'a> {
         constraints::terms_and_jacobian(model, motions, t, terms, matrix.jacobian_mut());
     }
 
-    /// γ at the last position with the velocities v.
+    /// Evaluates γ at the last position with the velocities v.
     fn set_gamma(&mut self, t: f64, v: &[f64]) {
         let Self { model, motions, terms: [phi, rate, gamma], .. } = self;
         motions.set_rates(&model.layout, v);
@@ -179,7 +179,7 @@ impl<'a> Solver<'a> {
         scaled.fold(0.0, |most, x| if x.is_nan() { f64::INFINITY } else { most.max(x) })
     }
 
-    /// Factorises Φ_q of the last position. None where a pivot is lost.
+    /// Factorises Φ_q at the last position. None if it is singular.
     fn factor(&mut self) -> Option<()> {
         self.matrix.factor().ok()?;
         self.kept = self.matrix.cancellation().map_or(1.0, |(_, kept)| kept);
@@ -187,7 +187,7 @@ impl<'a> Solver<'a> {
         (self.model.allow_redundancy || self.kept > least).then_some(())
     }
 
-    /// x of Φ_q x = `sign` times one of the terms; it stays in `solution`.
+    /// Solves Φ_q x = `sign` · `terms[term]`. The solution is also kept in `solution`.
     fn solve(&mut self, term: usize, sign: f64) -> &[f64] {
         let n = self.model.layout.n_q;
         let (upper, lower) = self.solution.split_at_mut(n);
@@ -200,7 +200,7 @@ impl<'a> Solver<'a> {
         &self.solution[..n]
     }
 
-    /// One correction of the solution for the damping of redundant rows, of which an error in its proportion is left.
+    /// One step of iterative refinement, which reduces the error caused by the damping of redundant rows.
     fn correct(&mut self, term: usize, sign: f64) {
         let (x, lower) = self.solution.split_at_mut(self.model.layout.n_q);
         let mut change = vec![0.0; x.len() + lower.len()];
@@ -212,7 +212,7 @@ impl<'a> Solver<'a> {
         x.iter_mut().zip(&change).for_each(|(x, dx)| *x += dx);
     }
 
-    /// Φ at a position, scaled, for the path by its length.
+    /// Φ at a position, scaled.
     pub fn phi(&mut self, t: f64, q: &[f64]) -> Vec<f64> {
         self.evaluate(t, q);
         self.terms[0].iter().zip(&self.rows).map(|(phi, scale)| phi / scale).collect()
@@ -223,7 +223,7 @@ impl<'a> Solver<'a> {
         self.kept > CLEAR
     }
 
-    /// The sign of det Φ_q, which a regular motion keeps; 0 where it is not examined.
+    /// The sign of det Φ_q, which is constant along a regular motion; 0 if Φ_q is not square or too large.
     pub fn orientation(&mut self, point: &Point) -> f64 {
         let n = self.model.layout.n_q;
         if self.model.layout.n_rows != n || n > MOST_DENSE {
@@ -235,7 +235,7 @@ impl<'a> Solver<'a> {
         sign_of_determinant(&mut square, n)
     }
 
-    /// Φ_q, scaled, with the column Φ_t, row by row, shape (n_rows, n_q + 1). `unit` is the scale of t.
+    /// The scaled matrix [Φ_q Φ_t], row by row, shape (n_rows, n_q + 1). `unit` is the scale of t.
     pub fn extended(&mut self, t: f64, q: &[f64], unit: f64) -> Vec<f64> {
         self.evaluate(t, q);
         let Self { model, matrix, terms, .. } = self;

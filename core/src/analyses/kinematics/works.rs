@@ -1,4 +1,5 @@
-//! Works over a motion, by adaptive quadrature of the powers, and the motion with them as dynamics records it.
+//! The work done over a motion, by adaptive quadrature of the powers, and the record of the motion in the form that
+//! dynamics uses.
 
 use super::motion::Motion;
 use super::quintic::{Quintic, DEGREE};
@@ -8,24 +9,25 @@ use crate::analyses::State;
 use crate::equations::{energy, Gains, Workspace};
 use crate::model::{Model, WORKS};
 
-/// Nodes of Lobatto's rule with 5 points on [0, 1], and its weights: exact for polynomials of degree 7.
+/// Interior nodes and weights of Lobatto's rule with 5 points on [0, 1], which is exact for polynomials of degree 7.
 const NODES: [f64; 3] = [0.172_673_164_646_011_43, 0.5, 0.827_326_835_353_988_6];
 const WEIGHTS: [f64; 5] = [0.05, 49.0 / 180.0, 16.0 / 45.0, 49.0 / 180.0, 0.05];
-/// Error of a work relative to the largest work or kinetic energy so far.
+/// Error of a work, relative to the largest work or kinetic energy so far.
 const TOLERANCE: f64 = 1e-11;
 /// Largest number of halvings of a step.
 const DEPTH: usize = 8;
 
-/// A motion as dynamics records it.
+/// A motion, recorded in the form that dynamics uses.
 #[derive(Clone, Debug, Default)]
 pub struct Recorded {
-    /// States at the chosen times, and works since the start. Without forces, as at a singular position, works are NaN.
+    /// States at the chosen times, and the works since the start. The works are NaN where the forces cannot be
+    /// computed, such as at a singular position.
     pub trajectory: Trajectory,
     /// Polynomials between the steps of the continuation.
     pub dense: PiecewiseInterpolant,
 }
 
-/// A motion from `start` with the works of its forces and drivers.
+/// Records a motion from `start` with the works of its forces and drivers.
 pub fn recorded(model: &Model, start: &State, motion: &Motion) -> Recorded {
     let mut works = Works::new(model, start);
     let t = motion.points.first().map(|point| point.t).into_iter().collect();
@@ -44,7 +46,7 @@ pub fn recorded(model: &Model, start: &State, motion: &Motion) -> Recorded {
     made
 }
 
-/// Works since the start: dissipated energy, work of drivers, work of applied forces, J.
+/// Integrates the works since the start: dissipated energy, work of drivers, work of applied forces, J.
 struct Works<'a> {
     model: &'a Model,
     workspace: Workspace,
@@ -80,7 +82,7 @@ impl<'a> Works<'a> {
         }
         dense.c.extend(std::iter::repeat_n(0.0, DEGREE * self.z.len()));
         for (k, work) in works.iter().enumerate() {
-            // the cubic with these ends
+            // the cubic work polynomial whose derivative is the quadratic with these end values and this mean
             let [p0, p1, mean] = [ends[0][k], ends[1][k], work / h];
             dense.c.extend([p0, 3.0 * mean - 2.0 * p0 - p1, p0 + p1 - 2.0 * mean, 0.0, 0.0]);
             self.total[k] += work;

@@ -1,4 +1,4 @@
-//! Reasons for which a mechanism has no linear equations at a state.
+//! Reasons for which a mechanism cannot be linearized at a state.
 
 use crate::analyses::dynamics;
 use crate::model::{Model, Problem};
@@ -8,16 +8,16 @@ use std::fmt;
 /// The reason.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Failure {
-    /// The position is singular: its freedoms are not those of its neighbours.
+    /// The position is singular: its degrees of freedom differ from those of neighbouring positions.
     Singular {
         /// Time, s.
         t: f64,
-        /// A joint or driver that takes part.
+        /// A joint or driver whose equations are dependent.
         name: String,
         /// Description.
         message: String,
     },
-    /// The state does not meet the constraints.
+    /// The state does not satisfy the constraints.
     Open {
         /// The time, s.
         t: f64,
@@ -28,7 +28,7 @@ pub enum Failure {
         /// Its unit.
         unit: &'static str,
     },
-    /// A freedom moves no mass.
+    /// A degree of freedom has no inertia.
     NoInertia {
         /// The time, s.
         t: f64,
@@ -37,19 +37,19 @@ pub enum Failure {
     },
     /// The equations of motion have no solution at the state.
     Motion(Box<dynamics::Failure>),
-    /// The name of an input or output.
+    /// The name of an input or output is invalid.
     Name(Box<Problem>),
-    /// A parameter that is no input.
+    /// A parameter that cannot be an input because the constraints depend on it.
     Geometry {
         /// The parameter.
         parameter: String,
     },
-    /// An output without derivative at the state, by its place among the outputs.
+    /// The index of an output that has no derivative at the state.
     NoDerivative(usize),
 }
 
 impl Failure {
-    /// The groups of constraints depend on each other at this position only.
+    /// The failure for groups of constraints that are dependent only at this position.
     pub(super) fn singular(model: &Model, t: f64, groups: &[Vec<usize>]) -> Self {
         let group = groups.first().cloned().unwrap_or_default();
         let names = model.names_of(&group);
@@ -62,7 +62,7 @@ impl Failure {
         Self::Singular { t, name, message }
     }
 
-    /// The independent coordinate in this column moves no mass.
+    /// The failure for an independent coordinate without inertia; `column` is its index in q.
     pub(super) fn no_inertia(model: &Model, t: f64, column: usize) -> Self {
         Self::NoInertia { t, coordinate: coordinate(model, column) }
     }
@@ -75,7 +75,7 @@ impl Failure {
         Self::NoDerivative(k)
     }
 
-    /// The row of a breakdown depends on others.
+    /// The failure for a factorisation that broke down at a dependent row.
     pub(super) fn breakdown(model: &Model, t: f64, breakdown: Breakdown) -> Self {
         let group = match breakdown {
             Breakdown::Row(row) => vec![vec![model.layout.owner(row).0]],
@@ -85,7 +85,7 @@ impl Failure {
     }
 }
 
-/// The name of a coordinate, such as `crank.angle`, or of an internal one, such as `contact.u`.
+/// The name of a coordinate, such as `crank.angle`, or of an internal coordinate, such as `contact.u`.
 pub fn coordinate(model: &Model, column: usize) -> String {
     if let Some((body, k)) = model.layout.body_of(column) {
         return format!("{}.{}", model.bodies[body.0].name, ["x", "y", "angle"][k]);

@@ -1,32 +1,33 @@
-//! Independent coordinates u at a position, and the motion δq = N δu of all coordinates with them: Φ_q N = 0, and the
-//! rows of u in N are the unit matrix.
+//! Independent coordinates u at a position, and the matrix N with δq = N δu. It satisfies Φ_q N = 0, and its rows for
+//! u form the unit matrix.
 //!
-//! Arbitrary vectors, as many as there are freedoms, are projected onto Φ_q x = 0 and made orthonormal. Their rows are
-//! then taken one by one where they keep much of themselves, angles before lengths, so that no entry of N becomes large.
-//! Each column costs one solution with the sparse factors.
+//! Arbitrary vectors, one for each degree of freedom, are projected onto Φ_q x = 0 and made orthonormal. The
+//! independent coordinates are then chosen one by one, by elimination with threshold pivoting, angles before lengths,
+//! so that no entry of N becomes large. Each column costs two projections with the sparse factors.
 
 use super::failure::Failure;
 use super::least_norm::LeastNorm;
 use crate::analyses::mobility::{mobility, Mobility};
 use crate::model::Model;
 
-/// Part of the largest entry with which a coordinate is taken before later ones.
+/// Fraction of the largest remaining entry from which a coordinate is chosen.
 const ENOUGH: f64 = 0.1;
 
 /// Independent coordinates and the basis N.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Freedoms {
-    /// The columns of q that are independent, ascending.
+    /// Indices of the independent coordinates in q, ascending.
     pub coordinates: Vec<usize>,
     /// N by columns, each of shape (n_q).
     pub basis: Vec<Vec<f64>>,
 }
 
 impl Freedoms {
-    /// At time `t` and coordinates `q` that meet the constraints. Drivers hold their coordinates.
+    /// The independent coordinates at time `t` and a position `q` that satisfies the constraints. Drivers hold their
+    /// coordinates.
     ///
     /// # Errors
-    /// [`Failure::Singular`] at a position where constraints are dependent that are not redundant.
+    /// [`Failure::Singular`] if constraints are dependent at this position although they are not redundant elsewhere.
     pub fn at(model: &Model, t: f64, q: &[f64]) -> Result<Self, Failure> {
         Self::with_factors(model, t, q).map(|(freedoms, _)| freedoms)
     }
@@ -81,7 +82,7 @@ impl Freedoms {
         x
     }
 
-    /// The same x up to a motion: its independent coordinates become zero.
+    /// Adds a motion N α to x so that the independent components of x become zero.
     pub(super) fn without_motion(&self, x: &mut [f64]) {
         for (column, &own) in self.basis.iter().zip(&self.coordinates) {
             let part = x[own];
@@ -98,10 +99,10 @@ fn scale(x: &mut [f64], scales: &[f64], power: i32) {
     x.iter_mut().zip(scales).for_each(|(x, scale)| *x *= scale.powi(power));
 }
 
-/// Orthonormal vectors with Φ_q x = 0, in units of the scales.
+/// Vectors with Φ_q x = 0 that are orthonormal in scaled coordinates.
 fn orthonormal(factors: &LeastNorm<'_>, count: usize) -> Vec<Vec<f64>> {
     let n = factors.scales.len();
-    // fixed arbitrary numbers
+    // fixed pseudo-random numbers
     let part = |k: usize| (12.9898 * (k as f64 + 1.618)).sin() * 43758.5453;
     let probe = |j: usize| (0..n).map(|k| part(j * n + k).fract() - 0.5).collect();
     let mut found: Vec<Vec<f64>> = (0..count).map(probe).collect();
@@ -117,7 +118,7 @@ fn orthonormal(factors: &LeastNorm<'_>, count: usize) -> Vec<Vec<f64>> {
     found
 }
 
-/// Gram–Schmidt, modified.
+/// The modified Gram–Schmidt method.
 fn orthonormalize(columns: &mut [Vec<f64>]) {
     for k in 0..columns.len() {
         let (before, rest) = columns.split_at_mut(k);
@@ -131,8 +132,8 @@ fn orthonormalize(columns: &mut [Vec<f64>]) {
     }
 }
 
-/// The coordinates that are taken, ascending: by elimination, each time the first one that keeps enough of the largest
-/// entry, angles before lengths.
+/// The independent coordinates, ascending. Each step of the elimination chooses the first coordinate whose entry is
+/// large enough relative to the largest entry, angles before lengths.
 fn independent(model: &Model, free: &[Vec<f64>]) -> Vec<usize> {
     let lengths = model.layout.lengths();
     let mut order: Vec<usize> = (0..lengths.len()).collect();

@@ -1,14 +1,14 @@
-//! Solutions with the constraints alone, without masses:
+//! Least-norm solutions with the constraints alone, without masses:
 //!
 //! ```text
 //! [ W   Φ_qᵀ ] [ x ]   [ f ]
 //! [ Φ_q  0   ] [ λ ] = [ g ]
 //! ```
 //!
-//! W = diag(1/s²) with the scales s of the coordinates makes metres and radians comparable. With f = 0, x is the least
-//! change with Φ_q x = g; with g = 0 and f = W y, x is the part of y that meets Φ_q x = 0; and if Φ_qᵀ λ = f has a
-//! solution, λ is its least one. Bodies without mass and redundant rows need no other treatment: damping keeps the
-//! factors, and corrections by the remainder remove its effect.
+//! W = diag(1/s²) with the scales s of the coordinates makes metres and radians comparable. With f = 0, x is the
+//! solution of Φ_q x = g with the least norm. With g = 0 and f = W y, x is the projection of y onto Φ_q x = 0. If
+//! Φ_qᵀ λ = f has a solution, λ is the solution with the least norm. Bodies without mass and redundant rows need no
+//! special treatment: damping keeps the factors regular, and iterative refinement removes its effect.
 
 use crate::equations::augmented::Augmented;
 use crate::equations::constraints;
@@ -18,7 +18,8 @@ use crate::solve::Breakdown;
 
 /// Damping of redundant rows, relative to the squares of the scales.
 const REDUNDANT: f64 = 1e-10;
-/// Corrections of a solution. Each reduces an error by the digits that the Gram matrix of the rows leaves.
+/// Number of steps of iterative refinement. The condition of the Gram matrix of the rows determines how much each
+/// step reduces the error.
 const CORRECTIONS: usize = 3;
 
 /// The factors at one position.
@@ -31,7 +32,7 @@ pub(in crate::analyses) struct LeastNorm<'a> {
 }
 
 impl<'a> LeastNorm<'a> {
-    /// At time `t` and coordinates `q`. With `dependent`, rows may depend on others.
+    /// Factorises the matrix at time `t` and coordinates `q`. If `dependent` is set, rows may be linearly dependent.
     ///
     /// # Errors
     /// [`Breakdown::Row`]: a row depends on the others.
@@ -50,12 +51,12 @@ impl<'a> LeastNorm<'a> {
         Ok(Self { model, matrix, scales })
     }
 
-    /// The row of Φ_q that is nearest to dependence, and the part of its pivot that remains.
+    /// The row of Φ_q closest to linear dependence, and the remaining fraction of its pivot.
     pub fn cancellation(&self) -> Option<(usize, f64)> {
         self.matrix.cancellation()
     }
 
-    /// (x, λ) for (f, g), in place; shape (n_q + n_rows).
+    /// Solves for (x, λ) with the right side (f, g), in place; shape (n_q + n_rows).
     pub fn solve(&self, x: &mut [f64]) {
         let right = x.to_vec();
         self.matrix.solve(x);
@@ -66,7 +67,7 @@ impl<'a> LeastNorm<'a> {
         }
     }
 
-    /// The least x with Φ_q x = g, shapes (n_q) and (n_rows).
+    /// The x of least norm with Φ_q x = g, shapes (n_q) and (n_rows).
     pub fn least(&self, g: &[f64]) -> Vec<f64> {
         if g.iter().all(|g| *g == 0.0) {
             return vec![0.0; self.scales.len()];
@@ -78,7 +79,7 @@ impl<'a> LeastNorm<'a> {
         x
     }
 
-    /// The least λ with Φ_qᵀ λ = f, shapes (n_rows) and (n_q).
+    /// The λ of least norm with Φ_qᵀ λ = f, shapes (n_rows) and (n_q).
     pub fn multipliers(&self, f: &[f64]) -> Vec<f64> {
         let mut x = f.to_vec();
         x.resize(f.len() + self.model.layout.n_rows, 0.0);
@@ -86,7 +87,7 @@ impl<'a> LeastNorm<'a> {
         x.split_off(f.len())
     }
 
-    /// Takes from `x`, shape (n_q), its part that changes Φ.
+    /// Projects `x`, shape (n_q), onto Φ_q x = 0.
     pub fn project(&self, x: &mut [f64]) {
         let mut changes = vec![0.0; self.model.layout.n_rows];
         constraints::times_all(self.model, self.matrix.jacobian(), x, &mut changes);

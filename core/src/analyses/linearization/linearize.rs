@@ -5,9 +5,9 @@
 //! ẋ = A x + B w,   y = C x + D w,   x = (δu, δu̇, δz)
 //! ```
 //!
-//! A direction of x is continued to all coordinates by the constraints: δq = N δu and δv = N δu̇ + S δu with
-//! Φ_q S = -∂(Φ_q v + Φ_t)/∂q N. The accelerations along it follow from the derivatives of the equations of motion, so that
-//! A, B, C and D are exact at any state, also in motion.
+//! The constraints extend a direction of x to all coordinates: δq = N δu and δv = N δu̇ + S δu with Φ_q S = -∂(Φ_q v
+//! + Φ_t)/∂q N. The changes of the accelerations follow from the derivatives of the equations of motion, so that A,
+//! B, C and D are exact at any state, also in motion.
 
 use super::failure::Failure;
 use super::freedoms::Freedoms;
@@ -30,9 +30,9 @@ const CLOSED: f64 = 1e-6;
 /// Linear equations at a state. Matrices are stored row by row; x = (u, u̇, z) has n = 2 f + n_z components.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Linearization {
-    /// The columns of q that are independent, shape (f).
+    /// Indices of the independent coordinates in q, shape (f).
     pub coordinates: Vec<usize>,
-    /// The places in z that belong to x; values of sampled laws do not.
+    /// Indices of the states in z that belong to x. The values of sampled laws do not belong to x.
     pub states: Vec<usize>,
     /// N by columns, each of shape (n_q).
     pub basis: Vec<Vec<f64>>,
@@ -56,7 +56,7 @@ pub struct Linearization {
     pub values: Vec<f64>,
 }
 
-/// A change of the state and of the forces.
+/// A change of the state, of the forces or of a parameter.
 #[derive(Debug, Default)]
 struct StateChange {
     q: Vec<f64>,
@@ -64,26 +64,26 @@ struct StateChange {
     z: Vec<f64>,
     /// A generalized force, shape (n_q), or empty.
     force: Vec<f64>,
-    /// A parameter.
+    /// The index of a parameter.
     parameter: Option<usize>,
 }
 
-/// One column of the equations.
+/// One column of the state-space matrices and of the reduced forces.
 struct Column {
     /// ü of the independent coordinates, then ż.
     rates: Vec<f64>,
     outputs: Vec<f64>,
-    /// Reduced force.
+    /// The reduced force.
     force: Vec<f64>,
 }
 
-/// The linear equations at a state that meets the constraints, with inputs and outputs by name.
+/// Linearizes the equations of motion at a state that satisfies the constraints, with inputs and outputs by name.
 ///
-/// An input is a parameter, or a position quantity for its generalized force. An output is any quantity of the state.
-/// Drivers hold their coordinates, and the time stays.
+/// An input is a parameter or, given by its position quantity, a generalized force. An output is any quantity of the
+/// state. Drivers hold their coordinates, and the time is constant.
 ///
 /// # Errors
-/// [`Failure`]: a singular position, an open joint, a freedom without mass, or an unknown name.
+/// [`Failure`]: a singular position, an open joint, a degree of freedom without inertia, or an invalid name.
 pub fn linearize(
     model: &Model,
     state: &State,
@@ -106,8 +106,8 @@ pub fn linearize(
     LinearEquations { model, t: *t, at, variation, linear, outputs }.all(&inputs)
 }
 
-/// What prevents linear equations at a state, as far as it is known without derivatives: an open joint, a singular
-/// position, or accelerations that are not determined.
+/// Checks, without computing derivatives, whether a state can be linearized: the joints must be closed, the position
+/// must not be singular, and the accelerations must be determined.
 ///
 /// # Errors
 /// [`Failure`].
@@ -124,7 +124,7 @@ fn solved(model: &Model, State { t, q, v, z }: &State) -> Result<Accelerations, 
     solved.map_err(Failure::Motion)
 }
 
-/// The equations at a state.
+/// The linearization at a state.
 struct LinearEquations<'a> {
     model: &'a Model,
     t: f64,
@@ -186,7 +186,7 @@ impl LinearEquations<'_> {
         })
     }
 
-    /// The matrices of the rates and of the outputs by columns of the state or of inputs.
+    /// The matrices of the rates and of the outputs, assembled from the columns of the state or of the inputs.
     fn matrices(
         &self,
         columns: &[Column],
@@ -241,7 +241,7 @@ impl LinearEquations<'_> {
         }
     }
 
-    /// The derivatives of a position quantity by the coordinates, shape (n_q).
+    /// The derivatives of a position quantity with respect to the coordinates, shape (n_q).
     fn gradient(&self, of: &Signal) -> Vec<f64> {
         let n = self.at.q.len();
         let by = |k: usize| {
@@ -268,7 +268,7 @@ impl LinearEquations<'_> {
         values.into_iter()
     }
 
-    /// Calls `f` with the state, of which the derivatives are those along a direction.
+    /// Calls `f` with the state and its derivatives along a direction.
     fn see<R>(
         &self,
         variation: &Variation<'_>,
@@ -292,7 +292,7 @@ impl LinearEquations<'_> {
     }
 }
 
-/// Whether the state meets the constraints.
+/// Checks that the state satisfies the constraints.
 fn check_closed(model: &Model, state: &State) -> Result<(), Failure> {
     let mut phi = vec![0.0; model.layout.n_rows];
     let motions = Motions::at_rest(&model.layout, &state.q);

@@ -1,16 +1,16 @@
-//! Linear equations of a mechanism on independent coordinates, at an equilibrium or any other state.
+//! Linear equations of a mechanism in independent coordinates, at an equilibrium or any other state.
 //!
 //! | file | concept |
 //! |---|---|
-//! | `least_norm` | solutions with the constraints alone |
+//! | `least_norm` | least-norm solutions with the constraints alone |
 //! | `freedoms` | independent coordinates, and the motion of all coordinates with them |
 //! | `variation` | derivatives of the equations of motion along a direction |
-//! | `parameters` | derivatives of parameters that are formulas of others |
-//! | `response` | accelerations and multipliers that change with forces |
+//! | `parameters` | derivatives of parameters that are formulas of other parameters |
+//! | `response` | changes of accelerations and multipliers due to forces |
 //! | `names` | inputs and outputs by name |
 //! | `linearize` | reduced mass, damping and stiffness, and the state-space matrices |
 //! | `options` | options of `modes` |
-//! | `failure` | states without linear equations |
+//! | `failure` | reasons for which a state cannot be linearized |
 
 mod failure;
 mod freedoms;

@@ -8,7 +8,7 @@ use crate::model::{Model, Problem};
 /// An input.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Input {
-    /// A parameter, by its place.
+    /// The index of a parameter.
     Parameter(usize),
     /// A position quantity: the input is its generalized force.
     Quantity(Signal),
@@ -18,7 +18,7 @@ impl Input {
     /// The input with this name.
     ///
     /// # Errors
-    /// There is neither a parameter nor a position quantity of this name.
+    /// There is no parameter or position quantity of this name.
     pub fn named(model: &Model, name: &str) -> Result<Self, Problem> {
         let parameters = &model.blueprint.parameters;
         if let Some(k) = parameters.iter().position(|known| known == name) {

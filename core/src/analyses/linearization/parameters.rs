@@ -1,11 +1,12 @@
-//! Derivatives of the parameters of a model by one of them: formulas of other parameters follow.
+//! Derivatives of the parameters of a model with respect to one parameter, through the formulas of the other
+//! parameters.
 
 use crate::expression::parameters::Parameters;
 use crate::expression::Expression;
 use crate::math::Dual;
 use crate::model::Model;
 
-/// The derivatives of all parameters by the `own`-th, shape (n_parameters).
+/// The derivatives of all parameters with respect to the parameter of index `own`, shape (n_parameters).
 pub(in crate::analyses) fn slopes_by_parameter(model: &Model, own: usize) -> Vec<f64> {
     let formulas: Vec<(&str, Expression)> =
         model.blueprint.formulas.iter().map(|(name, e)| (name.as_str(), e.clone())).collect();

@@ -1,12 +1,14 @@
-//! Accelerations and multipliers that change with the forces f and with the right sides g of the constraints:
+//! Changes of the accelerations and multipliers due to a change f of the forces and g of the right sides of the
+//! constraints:
 //!
 //! ```text
 //! M δa + Φ_qᵀ δλ - R δλ = f        R = ∂(Q + loads)/∂λ
 //! Φ_q δa                = g
 //! ```
 //!
-//! With δa = p + N α, where p meets the constraints and has no independent part, α follows from the reduced mass
-//! Nᵀ M N. Forces that depend on the multipliers of a few rows need one more solution for each of these rows.
+//! With δa = p + N α, where p satisfies the constraints and its independent components are zero, α follows from the
+//! reduced mass Nᵀ M N. If forces depend on the multipliers of a few rows, one additional solution is needed for each
+//! of these rows.
 
 use super::freedoms::Freedoms;
 use super::least_norm::LeastNorm;
@@ -16,7 +18,7 @@ use crate::equations::mass;
 use crate::model::Model;
 use crate::solve::solve_dense;
 
-/// Part of its diagonal entry that a pivot of the reduced mass keeps.
+/// Fraction of its diagonal entry below which a pivot of the reduced mass counts as zero.
 const MASSLESS: f64 = 1e-13;
 
 /// Changes of accelerations and multipliers.
@@ -38,17 +40,18 @@ pub(super) struct Linear<'a> {
     pub freedoms: Freedoms,
     /// Nᵀ M N, row by row.
     pub mass: Vec<f64>,
-    /// The rows after elimination.
+    /// The reduced mass after elimination.
     eliminated: Vec<f64>,
-    /// Rows of multipliers on which forces depend, with the columns of R.
+    /// Rows of the multipliers on which forces depend, with the columns of R.
     reactive: Vec<(usize, Vec<f64>)>,
     /// The response to each column of R.
     by_reaction: Vec<LinearResponse>,
 }
 
 impl<'a> Linear<'a> {
-    /// At a state with coordinates `q` and velocities `v`. `variation` belongs to the same state, and `rows` are those
-    /// of multipliers on which forces depend. The error is an independent coordinate that moves no mass.
+    /// The equations at a state with coordinates `q` and velocities `v`. `variation` belongs to the same state, and
+    /// `rows` contains the rows of the multipliers on which forces depend. The error is the index of an independent
+    /// coordinate without inertia.
     pub fn new(
         model: &'a Model,
         [q, v]: [&[f64]; 2],
@@ -76,7 +79,7 @@ impl<'a> Linear<'a> {
         Ok(linear)
     }
 
-    /// The change of velocities δv with Φ_q δv = `rates`, without change of the independent ones, shape (n_q).
+    /// The change of velocities δv with Φ_q δv = `rates` whose independent components are zero, shape (n_q).
     pub fn velocities(&self, rates: &[f64]) -> Vec<f64> {
         let mut x = self.factors.least(rates);
         self.freedoms.without_motion(&mut x);
@@ -145,8 +148,8 @@ fn reduced_mass(model: &Model, motions: &Motions, freedoms: &Freedoms) -> Vec<f6
     reduced
 }
 
-/// A symmetric matrix, shape (n, n), after elimination without pivoting; below the diagonal the entries from which rows
-/// were subtracted remain. The error is a row without a positive pivot.
+/// A symmetric matrix, shape (n, n), after elimination without pivoting. The entries below the diagonal keep their
+/// values from before they were eliminated. The error is the index of a row without a positive pivot.
 fn eliminated(matrix: &[f64], n: usize) -> Result<Vec<f64>, usize> {
     let mut left = matrix.to_vec();
     for k in 0..n {

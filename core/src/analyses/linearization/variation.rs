@@ -4,7 +4,7 @@
 //! M a + Φ_qᵀ λ - Q - loads     Φ_q v + Φ_t     Φ_q a - γ     ż
 //! ```
 //!
-//! The code is that of the equations themselves. Therefore all terms are included: curvature of the constraints,
+//! The code of the equations themselves is evaluated. All terms are therefore included: curvature of the constraints,
 //! centrifugal and gyroscopic terms, laws, and forces that depend on reactions.
 
 use crate::equations::forces::{self, Acting};
@@ -66,7 +66,8 @@ impl<'a> Variation<'a> {
         Self { compiled: Compiled::new(&model), model, t, at, loads }
     }
 
-    /// The same with derivatives by something of which the parameters have these derivatives.
+    /// The same equations with derivatives with respect to a variable on which the parameters depend; `slopes` are
+    /// the derivatives of the parameters.
     pub fn by_parameters(&self, slopes: &[f64]) -> Self {
         let mut parameters = self.model.parameters.clone();
         parameters.iter_mut().zip(slopes).for_each(|(p, slope)| p.slope = [*slope]);
@@ -79,7 +80,7 @@ impl<'a> Variation<'a> {
         &self.model
     }
 
-    /// Whether the constraints at the state have derivatives by the parameter.
+    /// Whether the constraints at the state depend on the variable of [`by_parameters`](Self::by_parameters).
     pub fn moves_constraints(&self) -> bool {
         let Self { model, at, .. } = self;
         let [q, v] = [at.q, at.v].map(|x| seeded(x, &[]));

@@ -1,4 +1,4 @@
-//! Faults of the variables and measures of a sweep that a model shows.
+//! Faults of the variables and measures of a sweep that can be found with the model.
 
 use super::Statistic;
 use crate::analyses::assemble;
@@ -6,10 +6,10 @@ use crate::analyses::measures::Measure;
 use crate::expression::suggest::did_you_mean;
 use crate::model::{Model, Problem, Value};
 
-/// Types of analyses whose results are motions, of which measures have statistics.
+/// Types of analyses whose results are motions. Measures have statistics for these analyses only.
 pub const MOTIONS: [&str; 3] = ["dynamics", "kinematics", "inverse_dynamics"];
 
-/// A statistic that the front computes from the values of a measure.
+/// A statistic that the front end computes from the values of a measure.
 const OF_FRONT: &str = "frequency";
 
 /// The fault of the name of a variable: it must be a parameter, or a coordinate or rate that can be set.

@@ -1,14 +1,15 @@
-//! The measures of a run at close instants.
+//! The measures of a run at closely spaced instants.
 
 use super::readings::{Missing, ReadRows, Readings};
 use crate::analyses::statistics::{changes, instants, row_norms, Maxima};
 use std::cell::OnceCell;
 
-/// Instants that are read together: their states, accelerations and multipliers stay in the cache of a processor. A
-/// multiple of the lanes, so that the same states are solved together as in one block.
+/// Number of instants that are read together, so that their states, accelerations and multipliers fit into the
+/// processor cache. It is a multiple of the number of lanes, so that the grouping of states does not depend on the
+/// blocks.
 const BLOCK: usize = 1024;
 
-/// A run that is read, also at close instants.
+/// The readings of a run at its outputs and at closely spaced instants.
 pub struct Between<'a> {
     pub readings: Readings<'a>,
     /// None without an interpolant.
@@ -20,7 +21,7 @@ impl<'a> Between<'a> {
         Self { readings, fine: OnceCell::new() }
     }
 
-    /// The measures at close instants, read at the first call; None without an interpolant.
+    /// The measures at closely spaced instants, computed at the first call. None without an interpolant.
     pub fn fine(&self) -> Result<Option<&Fine>, Missing> {
         if let Some(known) = self.fine.get() {
             return Ok(known.as_ref());
@@ -30,12 +31,12 @@ impl<'a> Between<'a> {
     }
 }
 
-/// The motion of a run at close instants, and the singular positions in it.
+/// The measures of a run at closely spaced instants, and its singular positions.
 pub struct Fine {
     pub t: Vec<f64>,
-    /// The values of each measure whose extreme values are wanted; none of the others.
+    /// The values of each measure whose extreme values are required; empty for the other measures.
     pub values: Vec<Vec<f64>>,
-    /// The maxima of all multipliers together, beside which values mean nothing.
+    /// The maxima of the norm of all multipliers. They locate singular positions, near which values are meaningless.
     pub near: Maxima,
 }
 
@@ -49,7 +50,7 @@ impl Fine {
         let mut values = vec![Vec::new(); readings.measures.len()];
         let mut sizes = Vec::with_capacity(t.len());
         for block in blocks(&t, readings.run.projection.is_some()) {
-            // without multipliers somewhere a single run uses its outputs
+            // if multipliers are missing at an instant, a single run uses its outputs only
             let rows = readings.at(block, true).ok_or(Missing::Single)?;
             sizes.extend(norms(&rows));
             for ((measure, is_wanted), values) in readings.measures.iter().zip(&mut values) {
@@ -63,11 +64,12 @@ impl Fine {
     }
 }
 
-/// The instants in blocks. Projected states stay together, because their tolerance depends on the states before.
+/// Splits the instants into blocks. Projected states stay in one block, because their tolerance depends on the
+/// preceding states.
 fn blocks(t: &[f64], projected: bool) -> impl Iterator<Item = &[f64]> {
     let mut rest = t;
     std::iter::from_fn(move || {
-        // no block is small
+        // the last block contains up to twice as many instants, so that no block is small
         let whole = projected || rest.len() < 2 * BLOCK;
         let (block, others) = rest.split_at(if whole { rest.len() } else { BLOCK });
         rest = others;
@@ -75,7 +77,7 @@ fn blocks(t: &[f64], projected: bool) -> impl Iterator<Item = &[f64]> {
     })
 }
 
-/// The maxima of all multipliers together, which find the singular positions of a run.
+/// The maxima of the norm of all multipliers, which locate the singular positions of a run.
 fn singular(readings: &Readings<'_>, t: &[f64], sizes: &[f64]) -> Maxima {
     if !changes(sizes) {
         return Maxima::default();
@@ -84,7 +86,7 @@ fn singular(readings: &Readings<'_>, t: &[f64], sizes: &[f64]) -> Maxima {
     Maxima::search((t, sizes), (&[], &[]), readings.resolved(t), &mut read)
 }
 
-/// The length of the multipliers of each row.
+/// The norm of the multipliers of each row.
 fn norms(rows: &ReadRows) -> Vec<f64> {
     let count = rows.t.len();
     let lam = rows.multipliers();

@@ -1,12 +1,12 @@
-//! What a run keeps for the wanted statistics. States are reported after the steps, so the steps stay the same.
+//! The output that a run stores for the requested statistics. The choice of the output does not change the steps.
 
 use super::Statistic;
 use crate::analyses::dynamics::Options;
 
-/// The options of a run from `t0` that keeps no more than the statistics read.
+/// The options of a run from `t0` that stores only the output that the statistics need.
 ///
-/// An interpolant serves statistics that look between the outputs. Final values need the end alone, which is reported
-/// whatever the grid.
+/// The interpolant is stored for statistics that depend on values between the outputs. Final values need only the
+/// end, which is reported for every output step.
 pub fn kept(options: &Options, wanted: &[Statistic], t0: f64) -> Options {
     let dense_output = options.dense_output && wanted.iter().any(|one| one.looks_between_outputs());
     let span = (options.t_end - t0).abs();

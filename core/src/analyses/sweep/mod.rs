@@ -1,8 +1,9 @@
-//! Sweeps: one mechanism with many values of its parameters and start, and the statistics of measures of each run.
+//! Sweeps: runs of one mechanism with many values of its parameters and start, and the statistics of measures of each
+//! run.
 //!
-//! A variant is what a single run of the changed case is: its model from the linked blueprint, assembly from the
-//! start of the case, the run, and the measures. Nothing passes from one variant to another, so that its numbers do
-//! not depend on the order, and the caller may compute variants on any number of threads.
+//! A variant is equivalent to a single run of the changed case: its model is built from the linked blueprint,
+//! assembled from the start of the case, run, and measured. Variants share no state. Their numbers therefore do not
+//! depend on the order, and the caller may compute variants on any number of threads.
 
 mod faults;
 mod fine;
@@ -25,34 +26,34 @@ use readings::{Missing, Readings};
 use series::Series;
 use std::sync::Arc;
 
-/// A case of which variants are run.
+/// A case whose variants are run.
 #[derive(Clone, Debug)]
 pub struct Sweep {
     /// The model.
     pub model: Arc<Model>,
-    /// Coordinates and rates that hold at the start, as written.
+    /// Coordinates and rates that are prescribed at the start, as written in the case.
     pub set: Vec<(String, Value)>,
-    /// Their guesses.
+    /// Guesses of coordinates and rates at the start, as written in the case.
     pub guess: Vec<(String, Value)>,
     /// The fields of the analysis `dynamics`, as written.
     pub analysis: Vec<(String, Value)>,
-    /// Expressions of quantities, such as `C.force`. None uses energies of a run or checks of it.
+    /// Expressions of quantities, such as `C.force`. They must not use energies or checks of a run.
     pub measures: Vec<String>,
-    /// The numbers of a row: statistics of measures by their place.
+    /// The numbers of a result row: statistics, each with the index of its measure.
     pub wanted: Vec<(usize, Statistic)>,
 }
 
 /// The result of a variant.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Outcome {
-    /// The wanted numbers; NaN for a settling time of a motion that does not settle.
+    /// The requested numbers. The settling time of a motion that does not settle is NaN.
     Values(Vec<f64>),
-    /// It has no numbers, for a reason in terms of the mechanism.
+    /// The run failed, with the reason in terms of the mechanism.
     Failed(String),
-    /// A case that this module leaves to a single run: phases, redundant joints, positions beside which multipliers
-    /// mean nothing, or faulty numbers.
+    /// This module does not compute the variant, so that a single run of the case is needed. Reasons are phases,
+    /// redundant joints, positions near which multipliers are meaningless, and invalid numbers.
     Single,
-    /// It was stopped.
+    /// The run was stopped.
     Stopped,
 }
 
@@ -64,21 +65,22 @@ struct Ready {
     model: Model,
     state: State,
     options: Options,
-    /// The options without the outputs that no statistic reads.
+    /// The options without output that no statistic needs.
     kept: Options,
 }
 
 impl Sweep {
-    /// Whether variants of a model can be computed here: no redundant joints, laws of the caller, or forces with modes.
+    /// Whether this module can compute variants of a model. The model must not have redundant joints, functions of
+    /// the caller or forces with modes.
     pub fn serves(model: &Model) -> bool {
         let plain = !model.allow_redundancy && model.blueprint.functions.is_none();
         plain && model.n_multipliers() == model.layout.n_rows
     }
 
-    /// Runs variants: each with other values of some parameters, and with other numbers for some entries of `set`. Where
-    /// it is faster, several runs take their steps side by side; their numbers are the same.
+    /// Runs variants, each with its own values of some parameters and of some entries of `set`. Where it is faster,
+    /// several runs are integrated side by side, with the same results.
     ///
-    /// `stop` is looked at now and then.
+    /// `stop` is called from time to time and stops the work if it returns true.
     pub fn variants(&self, rows: &[VariantRow], stop: &(dyn Fn() -> bool + Sync)) -> Vec<Outcome> {
         let ready: Vec<_> = rows.iter().map(|row| self.ready(row, stop)).collect();
         let prepared = ready.iter().map(|ready| ready.as_ref().ok());
@@ -122,7 +124,7 @@ impl Sweep {
         Ok(Ready { model, state, options, kept })
     }
 
-    /// The runs that are taken side by side; None for others.
+    /// The runs that are integrated side by side; None for the other variants.
     fn together<'r>(
         &self,
         ready: &'r [Result<Ready, Outcome>],
@@ -146,7 +148,7 @@ impl Sweep {
         runs
     }
 
-    /// The outcome of a variant, which is run if there is no run of it.
+    /// The outcome of a variant. The variant is run here if `run` is None.
     fn outcome(
         &self,
         ready: &Ready,
@@ -157,7 +159,7 @@ impl Sweep {
         let watch = |_| if stop() { Flow::Stop } else { Flow::Continue };
         let Ready { state, options, kept, .. } = ready;
         let run = match run.unwrap_or_else(|| prepared.dynamics(state, kept, watch)) {
-            // the reason is that of the run with all outputs: the fault may be found at one of them
+            // the run is repeated with all outputs, because its failure may occur at one of them
             Err(_) if kept != options => prepared.dynamics(state, options, watch),
             run => run,
         };
@@ -178,7 +180,7 @@ impl Sweep {
 
     fn numbers(&self, prepared: &Prepared<&Model>, run: &Run) -> Result<Vec<f64>, Missing> {
         let measures = self.measures.iter().enumerate().map(|(k, text)| {
-            // names are those of the variant: the place of a point may depend on a parameter
+            // measures are read for each variant, because the position of a point may depend on a parameter
             let measure = Measure::read(prepared.model(), text).map_err(|_| Missing::Single)?;
             let is_extreme = |(of, one): &(usize, Statistic)| *of == k && one.is_extreme();
             Ok((measure, self.wanted.iter().any(is_extreme)))
@@ -205,7 +207,7 @@ impl Sweep {
 
 fn failed(reason: &Reason) -> Outcome {
     match reason {
-        // a fault of the options, which a single run words
+        // a fault of the options, which a single run reports
         Reason::Option { .. } => Outcome::Single,
         _ => Outcome::Failed(reason.to_string()),
     }

@@ -1,4 +1,4 @@
-//! A run at its outputs and on its interpolant, with accelerations and multipliers as far as they are needed.
+//! A run at its outputs and between them, with accelerations and multipliers if they are needed.
 
 use crate::analyses::dynamics::{Accelerations, Prepared, Reason, Run, States};
 use crate::analyses::measures::Measure;
@@ -11,7 +11,7 @@ use std::cell::OnceCell;
 pub enum Missing {
     /// A reported state has no accelerations.
     Failed(Reason),
-    /// A single run decides.
+    /// A single run of the case is needed.
     Single,
 }
 
@@ -29,17 +29,17 @@ impl ReadRows {
         States { t: &self.t, q: &self.q, v: &self.v, z: &self.z }
     }
 
-    /// Rows of multipliers; none if they were not solved.
+    /// Rows of multipliers; empty if they were not computed.
     pub fn multipliers(&self) -> &[f64] {
         self.solved.as_ref().map_or(&[], |solved| &solved.lam)
     }
 }
 
-/// A run that is read.
+/// A run whose measures are evaluated.
 pub struct Readings<'a> {
     prepared: &'a Prepared<&'a Model>,
     pub run: &'a Run,
-    /// The measures, and whether extreme values of each are wanted.
+    /// The measures, and whether the extreme values of each are required.
     pub measures: Vec<(Measure, bool)>,
     /// Accelerations and multipliers at the outputs.
     solved: OnceCell<Accelerations>,
@@ -82,7 +82,8 @@ impl<'a> Readings<'a> {
         Ok(self.solved.get_or_init(|| found))
     }
 
-    /// The motion at times between the outputs; None where it has none.
+    /// The motion at times between the outputs. None if the run has no interpolant or accelerations cannot be
+    /// computed.
     pub fn at(&self, times: &[f64], solve: bool) -> Option<ReadRows> {
         let (layout, dense) = (&self.model().layout, self.run.dense.as_ref()?);
         let (y, width, n, n_z) = (dense.at(times), layout.n_y(), layout.n_q, layout.n_z);
@@ -106,12 +107,12 @@ impl<'a> Readings<'a> {
         Some(rows)
     }
 
-    /// Whether each step has one of these instants.
+    /// Whether there are at least as many instants as ends of steps.
     pub fn resolved(&self, instants: &[f64]) -> bool {
         self.run.dense.as_ref().is_some_and(|dense| instants.len() >= dense.t.len())
     }
 
-    /// The values at states between the outputs; None where one is not finite.
+    /// The values at states between the outputs. None if a value is not finite.
     pub fn values(&self, of: &Measure, rows: &ReadRows) -> Option<Vec<f64>> {
         let values = self.values_of(of, rows.states(), rows.solved.as_ref());
         values.iter().all(|x| x.is_finite()).then_some(values)

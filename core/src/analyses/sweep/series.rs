@@ -12,9 +12,9 @@ use std::cell::OnceCell;
 pub struct Series<'a> {
     between: &'a Between<'a>,
     readings: &'a Readings<'a>,
-    /// The place of its measure.
+    /// The index of the measure.
     place: usize,
-    /// Whether it needs accelerations or multipliers.
+    /// Whether the measure needs accelerations or multipliers.
     solves: bool,
     /// The values at the outputs.
     outputs: Vec<f64>,
@@ -31,7 +31,7 @@ impl<'a> Series<'a> {
         Ok(Self { between, readings, place, solves, outputs, extremes: Default::default() })
     }
 
-    /// The values at other times; None where the run has none.
+    /// The values at other times. None if a value cannot be computed.
     fn read(&self, t: &[f64]) -> Option<Vec<f64>> {
         let (measure, _) = &self.readings.measures[self.place];
         self.readings.values(measure, &self.readings.at(t, self.solves)?)
@@ -86,7 +86,7 @@ impl<'a> Series<'a> {
         let found = Maxima::search((t, &values), known, self.readings.resolved(t), &mut read);
         match found.near.is_empty() {
             true => Ok(extreme(sign, outputs, Some((samples, &found)))),
-            // a single run continues the quantity across these positions
+            // a single run of the case continues the quantity across the singular positions
             false => Err(Missing::Single),
         }
     }

@@ -3,7 +3,7 @@
 /// A statistic of a measure over a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Statistic {
-    /// The largest value, found between the outputs too.
+    /// The largest value, also between the outputs.
     Max,
     /// The least value.
     Min,
@@ -11,7 +11,7 @@ pub enum Statistic {
     Peak,
     /// The mean over time.
     Mean,
-    /// The root of the mean square over time.
+    /// The root mean square over time.
     Rms,
     /// The last value.
     Final,

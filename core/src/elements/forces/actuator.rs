@@ -1,8 +1,8 @@
-//! Actuator: a given force along the line between two points, such as that of a cylinder.
+//! Actuator: a given force along the line between two points, such as the force of a hydraulic cylinder.
 //!
-//! With u the direction from Pᵢ to Pⱼ, the force on j is F u, opposite on i: F > 0 pushes the points apart. Its
-//! power is F l̇ with l the distance of the points; the work counts as applied. Where the points meet, the line
-//! has no direction and the force is zero.
+//! With u the direction from Pᵢ to Pⱼ, the force on j is F u, and the opposite force acts on i: F > 0 pushes the
+//! points apart. Its power is F l̇, where l is the distance of the points; the work counts as applied. Where the
+//! points coincide, the line has no direction and the force is zero.
 
 use crate::elements::line::Line;
 use crate::elements::{

@@ -1,9 +1,9 @@
 //! Bushing: a spring and damper in both directions and in rotation, in the frame of body i.
 //!
-//! With d = Pⱼ - Pᵢ: (x, y) = Aᵢᵀ d and θ = φⱼ - φᵢ, continuous. The force on j at Pⱼ has the components
-//! -kₓ x - cₓ ẋ and -k_y y - c_y ẏ in the frame of body i, the torque is -k_θ θ - c_θ θ̇. The opposite acts on i at the same
-//! place. ẋ and ẏ are the derivatives in time of x and y, those of an observer on body i: (ẋ, ẏ) = Aᵢᵀ (ḋ - ωᵢ ẑ × d).
-//! V = ½ (kₓ x² + k_y y² + k_θ θ²). All states are allowed.
+//! With d = Pⱼ - Pᵢ: (x, y) = Aᵢᵀ d and θ = φⱼ - φᵢ, continuous. The force on j at Pⱼ has the components -kₓ x - cₓ ẋ
+//! and -k_y y - c_y ẏ in the frame of body i, the torque is -k_θ θ - c_θ θ̇. The opposite force and torque act on i
+//! at the same point. ẋ and ẏ are the time derivatives of x and y, as seen by an observer on body i: (ẋ, ẏ) = Aᵢᵀ (ḋ
+//! - ωᵢ ẑ × d). V = ½ (kₓ x² + k_y y² + k_θ θ²). All states are allowed.
 
 use crate::elements::{
     element, measure, At, BodyId, Force, Mark, Measured, Nature, Part, SceneSymbol, Situation,

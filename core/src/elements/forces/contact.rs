@@ -1,14 +1,15 @@
 //! Contact of a point or circle of body i with a curve of body j.
 //!
-//! The gap is the distance of Pᵢ from the nearest point C(u) of the curve, > 0 on the `side` of the curve, less the radius.
-//! Compliant, with the depth δ = -gap: N = max(0, k δⁿ (1 + c δ̇)) (n = 1.5: Hertz; the factor of c: Hunt and Crossley). N
-//! acts on body j along -ν and on body i along ν, with the normal ν of the side, both at C(u). Friction there on body i is
-//! -μ N tanh(v/v₀) along growing u, with the tangential velocity v of body i at C(u), seen from body j.
+//! The gap is the distance of Pᵢ from the nearest point C(u) of the curve, which is positive on the `side` of the
+//! curve, minus the radius. For a compliant contact with the depth δ = -gap, N = max(0, k δⁿ (1 + c δ̇)) (n = 1.5:
+//! Hertz; the factor with c: Hunt and Crossley). N acts at C(u), on body j along -ν and on body i along ν, where ν is
+//! the normal towards the side. The friction force on body i at C(u) is -μ N tanh(v/v₀) along growing u, with the
+//! tangential velocity v of body i relative to body j.
 //!
-//! With a coefficient of restitution e there is no depth: where the gap closes at the rate ġ, it opens with -e ġ after an
-//! impact of the whole mechanism, or the bodies rest on each other: one equation, gap(q) = 0, holds them.
+//! With a coefficient of restitution e, there is no depth. If the gap closes at the rate ġ, it opens at the rate -e ġ
+//! after an impact of the whole mechanism, or the bodies rest on each other, held by the equation gap(q) = 0.
 //!
-//! An open curve ends with corners; the body of a curve is on its other side.
+//! An open curve ends with corners. The material of the body is on the other side of the curve.
 
 use crate::elements::foot::Near;
 use crate::elements::hertz::{self, Depth, Hertz, Normal, SWITCHES};
@@ -66,7 +67,7 @@ element! {
     }
 }
 
-/// The nearest place of the curve, for the poses of the bodies.
+/// The nearest point of the curve, for the poses of the bodies.
 fn near<S: Real>(
     (on, rim, side): (&PointOn<S>, &Rim<S>, Side),
     i: &Pose<S>,
@@ -75,7 +76,7 @@ fn near<S: Real>(
     rim.near(j.rotation.inverse(i.point(on.s) - j.r), side)
 }
 
-/// Bodies at the nearest place of the curve, in the global frame.
+/// The state of the contact at the nearest point of the curve, in the global frame.
 struct TouchPoint<S> {
     gap: S,
     gap_rate: S,
@@ -84,7 +85,7 @@ struct TouchPoint<S> {
     /// ν, away from body j, and the direction of growing u.
     away: Vec2<S>,
     along: Vec2<S>,
-    /// The place from the origins of bodies i and j.
+    /// The vectors from the origins of bodies i and j to the point of contact.
     arms: [Vec2<S>; 2],
 }
 
@@ -119,9 +120,9 @@ impl<S: Real> TouchPoint<S> {
         Depth { value: -self.gap, rate: -self.gap_rate }
     }
 
-    /// The wrenches on bodies i and j of a force on i at the place.
+    /// The wrenches on bodies i and j of a force on i at the point of contact.
     fn wrenches(&self, force: Vec2<S>) -> [Wrench<S>; 2] {
-        // a sum with zero has no negative zeros, which lanes without contact would have
+        // adding zero removes negative zeros, which occur in lanes without contact
         [(self.arms[0], force), (self.arms[1], -force)]
             .map(|(arm, force)| Wrench::at(arm, force) + Wrench::zero())
     }
@@ -133,7 +134,7 @@ fn law<S: Real>(e: &Contact<S>) -> Option<Hertz<S>> {
     e.stiffness.map(|stiffness| Hertz { stiffness, exponent, damping })
 }
 
-/// The normal force; None where there is none.
+/// The normal force; None if it is zero.
 fn normal<S: Real>(
     e: &Contact<S>,
     at: &Situation<'_, S>,
@@ -146,13 +147,14 @@ fn normal<S: Real>(
     }
 }
 
-/// The friction on body j along growing u.
+/// The friction force on body j along growing u.
 fn friction<S: Real>(e: &Contact<S>, touch: &TouchPoint<S>, normal: S) -> Option<S> {
     let part = (touch.sliding / e.velocity?).tanh();
     Some(e.friction * normal * part)
 }
 
-/// Whether there is surely no force: the step began apart, or no equation holds.
+/// Whether there is certainly no force, because the bodies were apart at the beginning of the step, or no equation
+/// holds them.
 fn is_free<S: Real>(e: &Contact<S>, at: &Situation<'_, S>) -> bool {
     match e.stiffness {
         Some(_) => at.held.pieces.get(at.held.first).is_some_and(|piece| *piece < 0.0),
@@ -226,7 +228,7 @@ impl Force for Contact {
         ]
     }
 
-    /// N, and the friction on body j along growing u.
+    /// N, and the friction force on body j along growing u.
     fn results<S: Real>(e: &Contact<S>, at: &Situation<'_, S>, out: &mut [S]) {
         out.fill(S::zero());
         let touch = TouchPoint::new(e, at);

@@ -7,10 +7,11 @@
 //! -(N μ(v) s(v) + c v)        μ = μ_k + (μ_s - μ_k) exp(-(v/v_s)²)        s = tanh(v/v₀)
 //! ```
 //!
-//! on body j, opposite on body i at the same place; times the radius it is a torque. N is the magnitude of the reaction
-//! of the joint, or for a slide of length l the larger of |F| and 2 |T| / l: a torque loads both ends of the slide.
-//! Without v₀, s is the sign of v, and where v is zero the joint may stick: then the friction has any value up to μ_s N,
-//! and an equation holds the coordinate of the joint. The reaction depends on the friction in turn, see `equations/reactive.rs`.
+//! on body j, and the opposite on body i at the same point; for a pin, the force times the radius is a torque. N is
+//! the magnitude of the reaction of the joint or, for a slide of length l, the larger of |F| and 2 |T| / l, because a
+//! torque loads both ends of the slide. Without v₀, s is the sign of v. Where v is zero, the joint may stick: the
+//! friction then has any value up to μ_s N, and an equation holds the coordinate of the joint. The reaction in turn
+//! depends on the friction, see `equations/reactive.rs`.
 
 use crate::elements::{
     element, holding, Behaviour, BodyId, Constraint, Followed, Force, JointId, Mark, Mode, Nature,
@@ -46,11 +47,11 @@ element! {
     }
 }
 
-/// The places of the parts.
+/// The indices of the parts.
 const DRY: usize = 0;
 const VISCOUS: usize = 1;
 
-/// Results of friction: those of a slide, and of a pin.
+/// The results of friction in a slide, and in a pin.
 const SLIDING: [ResultQuantity; 3] = results("force", "N");
 const TURNING: [ResultQuantity; 3] = results("torque", "N*m");
 
@@ -62,7 +63,7 @@ const fn results(effort: &'static str, unit: &'static str) -> [ResultQuantity; 3
 }
 
 impl<S: Real> Friction<S> {
-    /// The effort of a force along the slide, or around the pin; and the speed of a rate.
+    /// Converts a force along the slide or around the pin into an effort, and a rate into a speed.
     fn times_radius(&self, x: S) -> S {
         match self.radius {
             Some(radius) => radius * x,
@@ -111,7 +112,7 @@ impl<S: Real> Friction<S> {
         }
     }
 
-    /// The efforts of the dry and of the viscous part on the coordinate of the joint, N or N·m.
+    /// The efforts of the dry and the viscous part on the coordinate of the joint, N or N·m.
     fn efforts(&self, at: &Situation<'_, S>) -> [S; 2] {
         if at.mode.holds() {
             return [-at.multiplier, S::zero()];
@@ -121,7 +122,7 @@ impl<S: Real> Friction<S> {
         [dry, self.viscous * speed].map(|force| -self.times_radius(force))
     }
 
-    /// Puts an effort on body j, and the opposite on body i.
+    /// Adds an effort on body j, and the opposite effort on body i.
     fn put(&self, part: usize, effort: S, at: &Situation<'_, S>, out: &mut impl Wrenches<S>) {
         if self.joint.turns() {
             out.put(part, 0, Wrench::torque(-effort));
@@ -218,7 +219,7 @@ fn must(be: &str) -> String {
     format!("must {be}")
 }
 
-/// A field that is missing, or that does not belong to the joint.
+/// The fault of a field that is missing or does not belong to the joint.
 fn belongs(e: &Friction) -> Option<(&'static str, String)> {
     let (field, message) = match (e.joint.turns(), e.radius) {
         (true, None) => {

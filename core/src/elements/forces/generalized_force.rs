@@ -1,7 +1,8 @@
 //! Generalized force: a given effort that increases a position quantity.
 //!
-//! With the quantity s(q) and the effort Q, the force on the coordinates of each body is Q ∂s/∂q, so that its power is
-//! Q ṡ; the work counts as applied. ∂s/∂q follows from the formula of the quantity by dual numbers. All states.
+//! With the quantity s(q) and the effort Q, the force on the coordinates of each body is Q ∂s/∂q, so that its power
+//! is Q ṡ; the work counts as applied. ∂s/∂q is computed from the formula of the quantity by dual numbers. All states
+//! are allowed.
 
 use crate::elements::{
     element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation, Wrenches,

@@ -1,4 +1,5 @@
-//! Direct-current motor: a torque on body j, opposite on body i, from a voltage or a line of torque over speed.
+//! Direct-current motor: a torque on body j, and the opposite on body i, from a voltage or from a linear torque–speed
+//! curve.
 //!
 //! With the current i, the relative rate ω = φ̇ⱼ - φ̇ᵢ and the torque constant k:
 //!
@@ -6,12 +7,12 @@
 //! T = k i        L di/dt = u - R i - k ω
 //! ```
 //!
-//! With an inductance L the current is a first-order state; without it i = (u - k ω) / R. The voltage u is a law.
-//! Energy: the source gives u i, the resistance takes R i², the inductance stores L i²/2, and the rest, k ω i, is the
-//! power of the torque. All states.
+//! With an inductance L, the current is a first-order state; without it, i = (u - k ω) / R. The voltage u is a law.
+//! The source supplies the power u i, the resistance dissipates R i², the inductance stores the energy L i²/2, and
+//! the remaining power k ω i is that of the torque. All states are allowed.
 //!
-//! The second form is a straight line between the stall torque T₀ and the free speed ω₀, for a command c:
-//! T = T₀ (c - ω/ω₀). It has no circuit; the work T ω counts as applied.
+//! In the second form, the torque is linear in the speed, between the stall torque T₀ and the free speed ω₀, with a
+//! command c: T = T₀ (c - ω/ω₀). There is no circuit, and the power T ω counts as applied.
 
 use crate::elements::{
     element, measure, At, BodyId, Force, Mark, Measured, Nature, OwnPowers, OwnState, Part,
@@ -70,7 +71,7 @@ impl<S: Real> Circuit<S> {
         self.torque_constant * rate(at)
     }
 
-    /// The current: the state, or without inductance that of the voltage.
+    /// The current: the state or, without inductance, the current that follows from the voltage.
     fn current(&self, at: &Situation<'_, S>) -> S {
         match at.z.first() {
             Some(current) => *current,
@@ -88,7 +89,7 @@ fn torque<S: Real>(e: &Motor<S>, at: &Situation<'_, S>) -> S {
     }
 }
 
-/// A field that is missing or does not belong to the form.
+/// The fault of a field that is missing or does not belong to the form.
 fn form(e: &Motor) -> Option<(&'static str, String)> {
     let refuse = |field, message: &str| Some((field, message.to_string()));
     let other = "not together with voltage; remove one of them";

@@ -1,8 +1,8 @@
-//! Point force: a given force at a point of body j, opposite on body i at the same place.
+//! Point force: a given force at a point of body j, and the opposite force on body i at the same point.
 //!
-//! F has two components, in the global frame or in that of body i or j. With Pⱼ the point, the wrench on body i about its
-//! origin is (-F, -(Pⱼ - rᵢ) × F). Hence its power is F times the velocity of Pⱼ relative to body i at that
-//! place; the work counts as applied. All states are allowed.
+//! F has two components, in the global frame or in the frame of body i or j. With the point Pⱼ, the wrench on body i
+//! about its origin is (-F, -(Pⱼ - rᵢ) × F). The power is therefore F times the velocity of Pⱼ relative to body i at
+//! this point; the work counts as applied. All states are allowed.
 
 use crate::elements::{
     element, At, BodyId, Force, Frame, Mark, Measured, Nature, Part, SceneSymbol, Situation,
@@ -58,7 +58,7 @@ impl Force for PointForce {
         if e.force == [0.0, 0.0] {
             return Vec::new();
         }
-        // a component that varies is drawn in its positive direction
+        // a varying component is drawn in its positive direction
         let [x, y] = e.force.map(|x| if x.is_nan() { 1.0 } else { x });
         let axes = match e.frame {
             Frame::Global => BodyId::GROUND,

@@ -1,16 +1,16 @@
 //! Translational spring-damper (Haug 6.2.10): a force along the line between two points.
 //!
-//! With d = Pⱼ - Pᵢ, l = |d| and u = d/l: force on j is -(k (l - l₀) + c l̇ + p) u with l̇ = uᵀ ḋ; opposite
-//! on i. V = ½ k (l - l₀)² + p (l - l₀).
+//! With d = Pⱼ - Pᵢ, l = |d| and u = d/l, the force on j is -(k (l - l₀) + c l̇ + p) u with l̇ = uᵀ ḋ, and the
+//! opposite force acts on i. V = ½ k (l - l₀)² + p (l - l₀).
 //!
-//! The stiffness part is computed as -k d + (k l₀ - p) u, so that with l₀ = p = 0 it is -k d exactly, without a
-//! division. Where the points meet, l = 0, the line has no direction. There k l₀ u jumps; it is taken
-//! as zero, the mean over all directions. The damping force is -c ḋ, its limit on both sides of a
-//! passage. All states are allowed, and the force is finite in all of them.
+//! The stiffness part is computed as -k d + (k l₀ - p) u, so that it is exactly -k d for l₀ = p = 0, without a
+//! division. Where the points coincide, l = 0 and the line has no direction. The term (k l₀ - p) u, which jumps
+//! there, is taken as zero, its mean over all directions. The damping force is -c ḋ, its limit on both sides of a
+//! passage. All states are allowed, and the force is always finite.
 //!
-//! An element that only pulls is slack where l < l₀; one that only pushes, where l > l₀. Slack means no force and no
-//! energy. Elsewhere damping cannot turn the sum k (l - l₀) + c l̇ + p to the other sense: the sum is zero
-//! there, and the damper takes what the spring gives. Both changes are switches.
+//! An element that only pulls is slack for l < l₀, and an element that only pushes is slack for l > l₀. A slack
+//! element has no force and no energy. Elsewhere, damping cannot reverse the sum k (l - l₀) + c l̇ + p: where it
+//! would, the force is zero, and the damper dissipates the power of the spring. Both changes are switches.
 
 use crate::elements::line::Line;
 use crate::elements::{
@@ -43,7 +43,7 @@ element! {
     }
 }
 
-/// The places of the switches of an element with `only`.
+/// The indices of the switches of an element with `only`.
 const TAUT: usize = 0;
 const ACTS: usize = 1;
 

@@ -1,11 +1,12 @@
 //! Stop: a position quantity s(q) does not pass a lower or an upper limit.
 //!
-//! Compliant, with the depth δ beyond a limit: N = max(0, k δⁿ (1 + c δ̇)), away from the limit. The effort on the
-//! quantity is N at the lower limit and -N at the upper one, and its force on the coordinates of each body is the effort
-//! times ∂s/∂q. Onset, release and the sign of 1 + c δ̇ are switches, so that steps end there.
+//! For a compliant stop with the depth δ beyond a limit, N = max(0, k δⁿ (1 + c δ̇)). The effort on the quantity is N
+//! at the lower limit and -N at the upper limit, and the force on the coordinates of each body is the effort times
+//! ∂s/∂q. Onset, release and the sign of 1 + c δ̇ are switches, so that steps end there.
 //!
-//! With a coefficient of restitution e there is no depth: where the quantity arrives at a limit with the rate ṡ, it leaves
-//! with -e ṡ after an impact of the whole mechanism, or it rests at the limit, held by one equation.
+//! With a coefficient of restitution e, there is no depth. If the quantity reaches a limit with the rate ṡ, it leaves
+//! the limit with the rate -e ṡ after an impact of the whole mechanism, or it rests at the limit, held by one
+//! equation.
 //!
 //! The gap is the smaller of s - lower and upper - s, > 0 apart.
 
@@ -44,7 +45,7 @@ element! {
     }
 }
 
-/// The depth beyond the lower and the upper limit; the effort on the coordinate has the sign beside it.
+/// The signs of the effort on the coordinate at the lower and at the upper limit.
 const SIGNS: [f64; 2] = [1.0, -1.0];
 
 /// s and ṡ.
@@ -57,7 +58,7 @@ fn coordinate<S: Real>(of: &Acted<S>, at: &Situation<'_, S>) -> [S; 2] {
     [of.of.value(&at.i().pose, &at.j().pose), rate]
 }
 
-/// The limits that exist: which of [`SIGNS`], and the value.
+/// The limits that exist, each with its index in [`SIGNS`] and its value.
 fn limits<S: Real>(e: &Stop<S>) -> impl Iterator<Item = (usize, S)> {
     [e.lower, e.upper].into_iter().enumerate().filter_map(|(k, limit)| Some((k, limit?)))
 }

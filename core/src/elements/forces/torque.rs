@@ -1,4 +1,4 @@
-//! Applied torque (Haug 6.2.16): a given torque on body j, opposite on body i.
+//! Applied torque (Haug 6.2.16): a given torque on body j, and the opposite torque on body i.
 //!
 //! T is a law of time and state; a positive torque turns body j counter-clockwise. Its work counts as
 //! applied. All states are allowed.

@@ -1,7 +1,7 @@
 //! Rotational spring-damper (Haug 6.2.18): a torque that depends on the relative angle and its rate.
 //!
-//! θ = φⱼ - φᵢ, continuous, never modulo 2π. Torque on j: -k (θ - θ₀) - c θ̇ - T₀; opposite on i.
-//! V = ½ k (θ - θ₀)² + T₀ (θ - θ₀). All real θ are allowed.
+//! θ = φⱼ - φᵢ is continuous and never reduced modulo 2π. The torque on j is -k (θ - θ₀) - c θ̇ - T₀, and the
+//! opposite torque acts on i. V = ½ k (θ - θ₀)² + T₀ (θ - θ₀). All real θ are allowed.
 
 use crate::elements::{
     element, measure, At, BodyId, Force, Mark, Measured, Nature, Part, SceneSymbol, Situation,

@@ -1,9 +1,10 @@
 //! Belt or chain: two wheels are joined by a belt that does not slip.
 //!
-//! θ is the direction from the centre of wheel i to the centre of wheel j. Seen from the arm, the belt has one speed:
-//! Φ = rᵢ (φᵢ - θ) + σ rⱼ (φⱼ - θ) - offset = 0, with σ = -1 for an open belt and σ = 1 for a crossed one. θ has
-//! a branch cut, so Φ is taken modulo 2π (rᵢ + σ rⱼ), nearest 0; where that is 0, θ cancels. λ is the difference of
-//! the forces of the two strands. The mechanism must hold the distance of the centres, which may have any value > 0.
+//! θ is the direction from the centre of wheel i to the centre of wheel j. Relative to the line of centres, all
+//! points of the belt have the same speed: Φ = rᵢ (φᵢ - θ) + σ rⱼ (φⱼ - θ) - offset = 0, with σ = -1 for an open belt
+//! and σ = 1 for a crossed belt. θ has a branch cut, so that Φ is taken modulo 2π (rᵢ + σ rⱼ), nearest 0; if this
+//! modulus is 0, θ cancels. λ is the difference of the forces of the two strands. The mechanism must hold the
+//! distance of the centres at any value > 0.
 
 use crate::elements::wheels::{centres, nearest, radius_fault, rolled, whole_turn, TANGENTIAL};
 use crate::elements::{
@@ -32,7 +33,7 @@ element! {
     }
 }
 
-/// Share of the radii below which their difference counts as zero, and θ as cancelled.
+/// Fraction of the sum of the radii below which their difference counts as zero, so that θ cancels.
 const EQUAL: f64 = 1e-5;
 
 impl Joint for Belt {
@@ -93,7 +94,7 @@ impl Joint for Belt {
     }
 }
 
-/// Positive where the radii differ, so that θ does not cancel.
+/// Positive if the radii differ, so that θ does not cancel.
 fn differ<S: Real>([r_i, r_j]: [S; 2]) -> S {
     (r_i - r_j).abs() - S::constant(EQUAL) * (r_i + r_j)
 }

@@ -1,7 +1,7 @@
 //! Coupling: a linear relation of position quantities.
 //!
-//! Φ = Σ factorₖ quantityₖ - value = 0. With λ its multiplier, the effort on quantity k is -λ factorₖ, on body j of the
-//! quantity, and the opposite on its body i. All positions.
+//! Φ = Σ factorₖ quantityₖ - value = 0. With the multiplier λ, the effort -λ factorₖ acts on body j of quantity k,
+//! and the opposite effort on its body i. All positions are allowed.
 
 use crate::elements::{
     element, At, Attachment, BodyId, Equation, EquationUnit, Joint, SceneSymbol,

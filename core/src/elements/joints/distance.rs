@@ -1,10 +1,10 @@
 //! Distance (Haug 3.3.8): a massless rod keeps point Pⱼ of body j at the distance l from point Pᵢ of
 //! body i.
 //!
-//! With d = Pⱼ - Pᵢ: Φ = (dᵀ d - l²) / (2 l) = 0. The book has dᵀ d - l². After the division by 2 l, Φ is,
-//! to first order, the elongation of the rod in m, and λ is the tension of the rod in N, because
-//! Φ_r = d/l has length 1. There is no square root, so Φ and its derivatives are finite for all d. Where
-//! the points meet, Φ_q is zero. l > 0.
+//! With d = Pⱼ - Pᵢ: Φ = (dᵀ d - l²) / (2 l) = 0. In the book, the constraint is dᵀ d - l². After the division by 2
+//! l, Φ is, to first order, the elongation of the rod in m, and λ is the tension of the rod in N, because Φ_r = d/l
+//! has length 1. There is no square root, so that Φ and its derivatives are finite for all d. Φ_q is zero where the
+//! points coincide. l must be positive.
 
 use crate::elements::{
     element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Measured,

@@ -1,9 +1,10 @@
 //! Flat face on a curve: a straight line of body i touches the curve C(u) of body j.
 //!
 //! The line passes through Pᵢ with the direction u of `axis`, and n = u turned by +90°: Φ₁ = nᵀ (C(u) - Pᵢ) = 0, the
-//! distance of the curve from the line, and Φ₂ = nᵀ C′/|C′| = 0, the sine of the angle between both. Since
-//! ∂Φ₁/∂u = nᵀ C′ = 0 in contact, the row of the massless u leaves λ₂ = 0: the force is λ₁ along the normal of the line
-//! and acts at the point of contact C(u). The curve must be strictly convex, or Φ₂ does not determine u.
+//! distance of the curve from the line, and Φ₂ = nᵀ C′/|C′| = 0, the sine of the angle between the curve and the
+//! line. Since ∂Φ₁/∂u = nᵀ C′ = 0 in contact, the row of the massless u leaves λ₂ = 0: the force is λ₁ along the
+//! normal of the line and acts at the point of contact C(u). The curve must be strictly convex, because otherwise Φ₂
+//! does not determine u.
 
 use crate::elements::{
     contact, derive, element, At, Attachment, BodyId, CurveOn, Equation, Fixes, Joint, Linearized,
@@ -90,7 +91,7 @@ impl Joint for FlatOnCurve {
         vec![Fixes::Contact]
     }
 
-    /// The place nearest to the face, among those where the curve is parallel to it.
+    /// The point nearest to the face, among the points where the curve is parallel to the face.
     fn own_start(e: &FlatOnCurve, bodies: &[Pose]) -> Vec<f64> {
         let curve = &e.curve.curve;
         let both = |u: f64| {

@@ -1,16 +1,17 @@
 //! Gear pair: two wheels roll on each other at their pitch circles.
 //!
-//! θ is the direction from the centre of wheel i to the centre of wheel j, the arm. Seen from the arm, both wheels
+//! θ is the direction from the centre of wheel i to the centre of wheel j, the arm. Relative to the arm, both wheels
 //! have the same speed at the pitch point: Φ = rᵢ (φᵢ - θ) + σ rⱼ (φⱼ - θ) - offset = 0, with σ = 1 for external and
-//! σ = -1 for internal teeth (Willis's equation, integrated). θ has a branch cut, so Φ is taken modulo
-//! 2π (rᵢ + σ rⱼ), nearest 0. λ is the tangential force of the teeth; its line of action is normal to the line of
-//! centres, so the pins carry it: ∂Φ/∂Pⱼ has length |rᵢ + σ rⱼ|/|d| = 1. The mechanism must hold the centres
+//! σ = -1 for internal teeth (Willis's equation, integrated). θ has a branch cut, so that Φ is taken modulo 2π (rᵢ +
+//! σ rⱼ), nearest 0. λ is the tangential force of the teeth. Its line of action is normal to the line of centres, so
+//! that the pins carry it: ∂Φ/∂Pⱼ has length |rᵢ + σ rⱼ|/|d| = 1. The mechanism must hold the centres
 //! |rᵢ + σ rⱼ| apart.
 //!
 //! Teeth with a pressure angle α touch along the line of action, inclined by α to the tangent of the pitch circles
-//! (Shigley 13-9). The normal force |λ|/cos α has the radial part |λ| tan α along the line of centres, which pushes the
-//! teeth apart for both signs of λ: external wheels away from each other, a wheel inside a ring towards the centre of
-//! the ring. As the centres are held, this force does no work; only the reactions of the pins change.
+//! (Shigley 13-9). The normal force |λ|/cos α has the radial part |λ| tan α along the line of centres, which pushes
+//! the teeth apart for both signs of λ: external wheels away from each other, a wheel inside a ring towards the
+//! centre of the ring. The centres are held, so that this force does no work and changes only the reactions of the
+//! pins.
 
 use crate::elements::wheels::{
     centres, nearest, radii, radius_fault, rolled, whole_turn, TANGENTIAL,
@@ -61,7 +62,7 @@ fn sum<S: Real>(e: &Gear<S>) -> (f64, S) {
     }
 }
 
-/// A field that is missing, not needed or impossible.
+/// The fault of a field that is missing, superfluous or impossible.
 fn given(e: &Gear) -> Option<(&'static str, String)> {
     let refuse = |field, message: &str| Some((field, message.to_string()));
     match (e.radii, e.teeth, e.module) {

@@ -1,7 +1,7 @@
 //! Constraint by formulas: each residual is a formula of positions and time.
 //!
-//! Φₖ = residualₖ(q, t) = 0. Its derivatives follow from the formulas. The reaction on a body is -Φ_qᵀ λ in its columns,
-//! about the origin of its frame. All positions where the formulas have a value.
+//! Φₖ = residualₖ(q, t) = 0. Its derivatives follow from the formulas. The reaction on a body is -Φ_qᵀ λ in its
+//! columns, about the origin of its frame. All positions at which the formulas have a value are allowed.
 
 use crate::elements::{element, At, Attachment, BodyId, Equation, Joint};
 use crate::math::{Local, Real};
@@ -20,7 +20,7 @@ element! {
 const NAMES: [&str; 6] = ["r1", "r2", "r3", "r4", "r5", "r6"];
 
 impl Joint for GivenConstraint {
-    /// The bodies are those of the formulas.
+    /// There are no bodies here: they follow from the formulas.
     fn bodies<S>(_: &GivenConstraint<S>) -> Vec<BodyId> {
         Vec::new()
     }

@@ -1,7 +1,7 @@
-//! Pin in a slot: point Pⱼ of body j stays on a line fixed in body i; it may slide along the line and turn.
+//! Pin in a slot: point Pⱼ of body j stays on a line fixed in body i. Body j may slide along the line and rotate.
 //!
 //! With u the direction of the line, n = u turned by +90° and d = Pⱼ - Pᵢ: Φ = nᵀ d = 0, the first equation of the
-//! translational joint (Haug 3.3.13). No restriction of the domain.
+//! translational joint (Haug 3.3.13). All positions are allowed.
 
 use crate::elements::wheels::directions;
 use crate::elements::{

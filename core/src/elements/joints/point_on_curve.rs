@@ -1,7 +1,7 @@
 //! Point on a curve: Φ = Pᵢ - C(u) = 0 with C(u) a curve in the frame of body j and u an internal coordinate.
 //!
-//! The row of u in the equations of motion is C′ᵀ λ = 0, since u has no mass: the force is normal to the curve. It acts
-//! at the point of contact. |C′| > 0; an open curve ends at its range.
+//! Since u has no mass, its row in the equations of motion is C′ᵀ λ = 0: the force is normal to the curve. It acts at
+//! the point of contact. |C′| must be positive. An open curve ends at its range.
 
 use crate::elements::{
     contact, derive, element, At, Attachment, BodyId, CurveOn, Equation, Fixes, Joint, Linearized,

@@ -1,8 +1,9 @@
-//! Rack and pinion: wheel j rolls on the pitch line of body i, which guides of the mechanism hold at its radius.
+//! Rack and pinion: wheel j rolls on the pitch line of body i. Other joints of the mechanism hold its centre at the
+//! distance of its radius.
 //!
 //! With u the direction of the line and d = Pⱼ - Pᵢ: Φ = uᵀ d + r (φⱼ - φᵢ) - offset = 0. r > 0: the wheel is on the
 //! left of u; r < 0: on its right. λ is the tangential force at the pitch line. The mechanism must hold the centre at
-//! the distance r from the line; then the force acts at the pitch point.
+//! the distance r from the line, so that the force acts at the pitch point.
 
 use crate::elements::wheels::{directions, radius_fault, TANGENTIAL};
 use crate::elements::{

@@ -1,6 +1,6 @@
 //! Revolute joint (Haug 3.3.10): point Pᵢ of body i and point Pⱼ of body j coincide.
 //!
-//! Φ = rⱼ + Aⱼ s′ⱼ - rᵢ - Aᵢ s′ᵢ = 0. Two equations, no restriction of the domain.
+//! Φ = rⱼ + Aⱼ s′ⱼ - rᵢ - Aᵢ s′ᵢ = 0. Two equations; all positions are allowed.
 
 use crate::elements::{
     element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Measured,

@@ -1,9 +1,10 @@
 //! Roller on a curve: Φ = Pᵢ - C(u) - r ν(u) = 0 with the centre Pᵢ of the roller, its radius r, the curve C(u) in the
 //! frame of body j, and ν the unit normal to the right of growing u (to the left for `side = "left"`).
 //!
-//! The roller is a circle around Pᵢ; it rolls or slides without friction, so that its own turning does not enter. Since
-//! ν′ = ±κ C′ with the curvature κ, the row of the massless u is (1 ± r κ) C′ᵀ λ = 0: the force is normal to the curve,
-//! and acts at the point of contact C(u). Where 1 ± r κ ≤ 0, the roller does not fit into the curve (undercut).
+//! The roller is a circle around Pᵢ. It rolls or slides without friction, so that its rotation does not enter the
+//! equations. Since ν′ = ±κ C′ with the curvature κ, the row of the massless u is (1 ± r κ) C′ᵀ λ = 0: the force is
+//! normal to the curve and acts at the point of contact C(u). Where 1 ± r κ ≤ 0, the roller does not fit into the
+//! curve (undercut).
 
 use crate::elements::{
     contact, derive, element, At, Attachment, BodyId, CurveOn, Equation, Fixes, Joint, Linearized,

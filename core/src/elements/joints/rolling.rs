@@ -1,9 +1,9 @@
-//! Rolling: wheel j rolls on a line of body i without slip and without leaving it.
+//! Rolling: wheel j rolls on a line of body i without slip and without separation.
 //!
-//! With u the direction of the line, n = u turned by +90° and d = Pⱼ - Pᵢ: Φ₁ = nᵀ d - r = 0, the centre stays at the
-//! distance r; Φ₂ = uᵀ d + r (φⱼ - φᵢ) - offset = 0, the speed of the wheel at the point of contact is that of the
-//! line. r > 0: the wheel is on the left of u; r < 0: on its right. The line keeps the wheel on both sides: λ₁ may
-//! have any sign.
+//! With u the direction of the line, n = u turned by +90° and d = Pⱼ - Pᵢ: Φ₁ = nᵀ d - r = 0 keeps the centre at the
+//! distance r, and Φ₂ = uᵀ d + r (φⱼ - φᵢ) - offset = 0 makes the velocities of wheel and line equal at the point of
+//! contact. r > 0: the wheel is on the left of u; r < 0: on its right. The constraint is bilateral: λ₁ may have any
+//! sign.
 
 use crate::elements::wheels::{directions, radius_fault, TANGENTIAL};
 use crate::elements::{

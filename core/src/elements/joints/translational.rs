@@ -1,11 +1,10 @@
-//! Translational joint (Haug 3.3.13, 3.3.14): body j slides along a line fixed in body i and does
-//! not turn against it.
+//! Translational joint (Haug 3.3.13, 3.3.14): body j slides along a line fixed in body i and does not rotate relative
+//! to it.
 //!
-//! With uᵢ = Aᵢ u′ᵢ along the slide, nᵢ = uᵢ turned by +90° and dᵢⱼ = rⱼ + Aⱼ s′ⱼ - rᵢ - Aᵢ s′ᵢ:
-//! Φ₁ = nᵢᵀ dᵢⱼ = 0, the distance of point j from the line, m; Φ₂ = φⱼ + aⱼ - φᵢ - aᵢ = 0, rad, with
-//! a the angle of the slide in each body. The book's second equation is the sine of this angle
-//! (3.3.14), which is also zero for a slide turned by 180°; the angle itself is not. Φ₂ distinguishes
-//! positions that differ by whole turns of φⱼ - φᵢ.
+//! With uᵢ = Aᵢ u′ᵢ along the slide, nᵢ = uᵢ turned by +90° and dᵢⱼ = rⱼ + Aⱼ s′ⱼ - rᵢ - Aᵢ s′ᵢ: Φ₁ = nᵢᵀ dᵢⱼ = 0,
+//! the distance of point j from the line, m; Φ₂ = φⱼ + aⱼ - φᵢ - aᵢ = 0, rad, with a the angle of the slide in each
+//! body. The second equation of the book contains the sine of this angle (3.3.14), which is also zero for a slide
+//! turned by 180°; Φ₂ is not. Positions that differ by whole turns of φⱼ - φᵢ are different positions for Φ₂.
 
 use crate::elements::{
     element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Measured,
@@ -28,7 +27,7 @@ element! {
     }
 }
 
-/// Along the slide (u) and to its left (n), in global components.
+/// The directions along the slide (u) and to its left (n), in global components.
 fn directions<S: Real>(e: &Translational<S>, i: &Pose<S>) -> (Vec2<S>, Vec2<S>) {
     let axis = Rotation::new(e.axes[0]);
     let u = i.global(Local::new(axis.cos, axis.sin));
@@ -97,7 +96,7 @@ impl Joint for Translational {
     }
 }
 
-/// The angle between the slides as fixed in both bodies.
+/// The angle between the slide directions fixed in the two bodies.
 fn turned<S: Real>(e: &Translational<S>, i: &Pose<S>, j: &Pose<S>) -> S {
     (j.angle + e.axes[1]) - (i.angle + e.axes[0])
 }

@@ -1,7 +1,7 @@
-//! Weld: body i and body j move as one.
+//! Weld: body i and body j move as one rigid body.
 //!
-//! With dᵢⱼ = rⱼ + Aⱼ s′ⱼ - rᵢ - Aᵢ s′ᵢ: Φ₁,₂ = dᵢⱼ = 0 as in the revolute joint (Haug 3.3.10), m; and
-//! Φ₃ = φⱼ - φᵢ - angle = 0, rad. All positions but whole turns of φⱼ - φᵢ, which differ.
+//! With dᵢⱼ = rⱼ + Aⱼ s′ⱼ - rᵢ - Aᵢ s′ᵢ: Φ₁,₂ = dᵢⱼ = 0 as in the revolute joint (Haug 3.3.10), m; and Φ₃ = φⱼ - φᵢ -
+//! angle = 0, rad. Positions that differ by whole turns of φⱼ - φᵢ are different.
 
 use crate::elements::{
     element, At, Attachment, BodyId, Equation, Fixes, Joint, Linearized, Mark, Moving, SceneSymbol,
