@@ -1,9 +1,9 @@
 //! Times of the floor and of kempe, measured in alternation, as JSON.
 //!
 //! ```text
-//! cargo run --release            evaluations, windows and runs, 21 of each
+//! cargo run --release            evaluations, windows, runs and sweeps, 21 of each
 //! cargo run --release -- 5       5 of each
-//! cargo run --release -- 5 runs  one part: evaluation, windows or runs
+//! cargo run --release -- 5 runs  one part: evaluation, windows, runs or sweep
 //! ```
 //!
 //! The times are medians of CPU times of the thread. "chain" is the floor program, written by hand for
@@ -12,9 +12,14 @@
 
 mod evaluations;
 mod runs;
+mod sweeps;
 mod turns;
 
+use mimalloc::MiMalloc;
 use serde_json::{json, Value};
+
+#[global_allocator]
+static ALLOCATOR: MiMalloc = MiMalloc;
 
 /// One part of the measurements, given the number of repetitions.
 type Measure = fn(usize) -> Value;
@@ -29,14 +34,15 @@ fn main() {
         Some(Ok(repeat)) if repeat > 0 => repeat,
         Some(_) => refuse("repetitions: must be a whole number above 0"),
     };
-    let parts: [(&str, Measure); 3] = [
+    let parts: [(&str, Measure); 4] = [
         ("evaluation", evaluations::measure),
         ("windows", evaluations::windows),
         ("runs", runs::measure),
+        ("sweep", sweeps::measure),
     ];
     let part = words.next();
     if part.as_ref().is_some_and(|part| parts.iter().all(|(name, _)| name != part)) {
-        refuse("part: must be evaluation, windows or runs");
+        refuse("part: must be evaluation, windows, runs or sweep");
     }
     let mut found = json!({ "repeat": repeat });
     for (name, measure) in parts {

@@ -16,7 +16,7 @@ const T_END: f64 = 15.0;
 const GRID: f64 = 0.01;
 
 /// CPU time of a call, s, and its result.
-fn timed<R>(run: impl FnOnce() -> R) -> (f64, R) {
+pub fn timed<R>(run: impl FnOnce() -> R) -> (f64, R) {
     let clock = ThreadTime::now();
     let result = run();
     (clock.elapsed().as_secs_f64(), result)
