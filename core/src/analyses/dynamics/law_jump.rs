@@ -6,8 +6,8 @@ use crate::expression::Tape;
 use crate::math::Jet;
 use crate::model::{row_scales, Model, SwitchOwner};
 
-/// Largest jump of the law of a joint or driver, and of its rate, relative to the sum of the value or rate and the
-/// size of the mechanism (1 for angles).
+/// Largest jump of the law of a joint or driver, and of its rate, relative to the largest of both values (or both
+/// rates) and the size of the mechanism (1 for angles).
 const CONTINUOUS: f64 = 1e-8;
 
 /// A jump of the law of a joint or driver.

@@ -55,7 +55,7 @@ pub struct EventStates {
 /// position, an error e of the constraints causes an error of about e/σ² in accelerations and multipliers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Passed {
-    /// Its time, s, within a small part of the step across it.
+    /// Time, s, accurate to a small fraction of the step across the position.
     pub t: f64,
     /// Names of the joints and drivers whose equations depend on each other there.
     pub names: Vec<String>,

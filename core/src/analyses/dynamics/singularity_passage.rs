@@ -4,7 +4,7 @@
 //! this branch, since it is the smooth continuation of the motion before. The branch is undecided
 //!
 //! * if the mechanism is almost at rest, 2 T ≤ [`REST`] |M⁻¹Q| L: the loads then turn it back or aside within a
-//! fraction of its size in which the branches cannot be distinguished;
+//!   fraction of its size in which the branches cannot be distinguished;
 //! * if its velocity is not tangent to any branch: Φ_q a = γ has no solution.
 
 use super::model_cache::ModelCache;

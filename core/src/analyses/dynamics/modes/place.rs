@@ -103,9 +103,8 @@ impl StateAt<'_> {
         contacts.iter().map(|k| forces::threshold(lifted, *k, &motions, acting)).collect()
     }
 
-    /// A force that is large compared with rounding errors of the forces of a state: the largest of kinetic energy
-    /// per size, weight, and multipliers, and at least the force that accelerates the heaviest body by one size per
-    /// s².
+    /// A force that is large compared with rounding errors of the forces of a state: the largest of the kinetic
+    /// energy per size, the multipliers, and the force on the heaviest body under gravity plus one size per s².
     pub fn force_scale(&self, model: &Model, lam: &[f64]) -> f64 {
         let [q, v, _] = self.state(model);
         let energy = energy::kinetic(model, &Motions::at(&model.layout, q, v));
