@@ -8,7 +8,8 @@ const WISHED: usize = 3000;
 const MOST_NUMBERS: usize = 6_000_000;
 const MOST_INSTANTS: usize = 50_000;
 
-/// The boundaries of the integrator's steps and 3 to 31 instants in each step, at most 50 000 in total.
+/// The boundaries of the integrator's steps and 3 to 31 instants in each step. There are fewer if they would exceed
+/// 50 000 in total; with more than 100 000 steps, some boundaries are omitted.
 ///
 /// The instants do not depend on the output times, with one exception: a time with two outputs, before and after a
 /// jump, is an instant, and so is the floating-point number before it. `numbers` is the count of numbers in the state
