@@ -1,7 +1,7 @@
-//! The kempe core for web pages: a request as JSON text in, a reply as JSON text out. `README.md` lists them.
+//! The kempe core for web pages: requests and replies are JSON texts. `README.md` lists them.
 //!
-//! The page writes a request at the address that [`request`] returns, calls [`call`], and reads the reply. Long lists of
-//! numbers lie in memory at [`numbers`]. One [`Session`] is kept; tests in Rust use it without WebAssembly.
+//! The page writes a request at the address that [`request`] returns, calls [`call`], and reads the reply. Long lists
+//! of numbers are in memory at [`numbers`]. There is one [`Session`]. Tests in Rust use it without WebAssembly.
 #![deny(unsafe_code)]
 
 mod catalogue;
@@ -29,7 +29,7 @@ thread_local! {
     static MODULE: RefCell<Module> = RefCell::default();
 }
 
-/// The session with the texts that go in and out.
+/// The session with the texts of the request and the reply.
 #[derive(Default)]
 struct Module {
     request: Vec<u8>,
