@@ -72,16 +72,16 @@ macro_rules! export {
 }
 
 export! {
-    /// Address of room for a request of so many bytes in UTF-8.
+    /// Address of memory for a request with this number of bytes in UTF-8.
     fn request(length: usize) -> *mut u8 = Module::room;
     /// Answers the request.
     fn call() -> () = Module::call;
     /// Address of the reply, in UTF-8.
     fn reply() -> *const u8 = |module| module.reply.as_ptr();
-    /// Its number of bytes.
+    /// Number of bytes of the reply.
     fn reply_length() -> usize = |module| module.reply.len();
-    /// Address of the numbers of the last reply that has any, in double precision.
+    /// Address of the numbers of the last reply that contains numbers, in double precision.
     fn numbers() -> *const f64 = |module| module.session.numbers().as_ptr();
-    /// Their count.
+    /// Count of these numbers.
     fn numbers_length() -> usize = |module| module.session.numbers().len();
 }

@@ -8,8 +8,8 @@ use crate::solve::{groups_first, normalize_rows, rank, SparseRank, SparseRow};
 
 /// A row does not take part if its factor in a left null vector is below this fraction.
 const PART: f64 = 1e-6;
-/// Largest number of equations for which the dense rank is computed. The dense method eliminates the best-conditioned
-/// rows first; its cost is cubic.
+/// Largest number of equations for which the dense rank is computed. The dense method eliminates rows with large
+/// remainders first; its cost is cubic.
 pub(super) const MOST_DENSE: usize = 300;
 
 /// An equation that depends on others.

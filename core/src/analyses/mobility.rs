@@ -40,11 +40,12 @@ pub struct Mobility {
     pub degrees_of_freedom: usize,
     /// Number of independent constraint equations.
     pub rank: usize,
-    /// Groups of constraints (indices) that repeat each other. Each group is listed once for each dependent equation.
+    /// Groups of constraints (indices) that repeat each other. Consecutive equations with equal groups share an
+    /// entry.
     pub redundant: Vec<Vec<usize>>,
-    /// Groups that are dependent only at this position.
+    /// Groups of constraints that depend on each other only at this position, as in `redundant`.
     pub singular: Vec<Vec<usize>>,
-    /// The equations that repeat others, of which [`Mobility::redundant`] gives each group once.
+    /// The equations that repeat others. [`Mobility::redundant`] contains their groups.
     pub redundant_equations: Vec<Dependent>,
     /// The equations that depend on others only at this position.
     pub singular_equations: Vec<Dependent>,

@@ -34,8 +34,8 @@ pub struct Model<S = f64> {
     /// Switches of laws, forces and curves: first of the laws of constraints, then of the forces (switches of a
     /// force's laws before its own), then of the curves of joints.
     pub switches: Vec<Switch>,
-    /// Whether redundant constraints are accepted. The multipliers are then those of least norm that balance the
-    /// loads.
+    /// Whether redundant constraints are accepted. The multipliers that balance the loads are then those with the
+    /// least norm.
     pub allow_redundancy: bool,
 }
 

@@ -69,7 +69,7 @@ impl Model {
 }
 
 impl<S> Model<S> {
-    /// The number of multipliers, including those of the forces with modes, which follow the rows of the model.
+    /// The number of multipliers: the rows of the model, followed by the multipliers of forces with modes.
     pub fn n_multipliers(&self) -> usize {
         let after = self.forces.iter().filter_map(|item| item.held_row);
         after.map(|row| row + 1).max().unwrap_or(0).max(self.layout.n_rows)

@@ -15,7 +15,8 @@ pub struct Length {
 const NOISE: f64 = 1e-9;
 
 impl Length {
-    /// The unit in which a length has one to four digits before the decimal point.
+    /// The unit in which a length has one to four digits before the decimal point. From 0.2 m to 2 m, and for
+    /// rounding errors, the unit is m.
     pub fn fitting(size: f64) -> Self {
         let power = match size {
             _ if size < NOISE || (0.2..2.0).contains(&size) => 0,

@@ -54,8 +54,7 @@ fn keeping(model: &Model, kept: &[usize]) -> Model {
     Model::new(&Arc::new(model.blueprint.keeping(kept)), &model.parameters)
 }
 
-/// The constraint after the constraints that are met, and those of them on whose rows its row depends. None if it is
-/// independent.
+/// The constraints in `met` on whose rows the row of constraint `last` depends. None if it is independent.
 fn dependent(
     model: &Model,
     t: f64,

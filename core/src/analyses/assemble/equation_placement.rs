@@ -143,7 +143,7 @@ impl Placer<'_> {
         (poses, all)
     }
 
-    /// Whether the point of body j is ahead of that of body i along the axis of constraint `k`.
+    /// Whether the point of body j is ahead of the point of body i along the axis of constraint `k`.
     fn is_ahead(&self, k: usize, b: usize, pose: &Pose) -> bool {
         let item = &self.equations.model.constraints[k];
         let place = |end: usize| match item.bodies[end].0 {
@@ -259,8 +259,8 @@ fn around(f: impl Fn(f64) -> f64, nothing: f64) -> Vec<f64> {
     zeros(f, (SAMPLES, at), nothing, 60)
 }
 
-/// The zeros of `f` from sign changes between samples, which are refined by this number of halvings. The samples are
-/// at the positions for 0 up to a number. Empty for a constant function.
+/// The zeros of `f` from sign changes between the samples `at(k)`, k = 0 to `samples`, with this number of
+/// bisections. Empty for a constant function.
 pub(super) fn zeros(
     f: impl Fn(f64) -> f64,
     (samples, at): (usize, impl Fn(usize) -> f64),

@@ -27,7 +27,7 @@ const EQUAL: f64 = 1e-9;
 pub enum ValueSource {
     /// The guess of the quantity.
     Guess,
-    /// The value nearest to its guess that the joints allow; the number is the difference in m, rad or per s.
+    /// The value nearest to its guess that the joints allow. Contains the guess, in m, rad or per s.
     NearGuess(f64),
     /// Quantities other than coordinates were guessed.
     Guesses,

@@ -293,7 +293,7 @@ impl Stall {
     }
 }
 
-/// Whether a force holds in a phase.
+/// Whether any force holds in a phase.
 fn holds(setting: &Setting) -> bool {
     setting.modes.iter().any(|of| matches!(of.mode, Mode::Holds(_)))
 }

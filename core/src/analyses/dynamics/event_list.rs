@@ -51,7 +51,8 @@ impl EventFunction<'_> {
         }
     }
 
-    /// Returns the value that replaces zero: a quantity may rest where both sides of a comparison are equal.
+    /// The value that replaces a zero of the function, because a quantity may rest where both sides of a comparison
+    /// are equal.
     fn at_zero(&self) -> f64 {
         let holds = match self {
             Self::Condition(condition) => condition.holds_at_zero(),

@@ -20,7 +20,7 @@ const NEAR: f64 = 1e-5;
 /// A body with mass but without inertia is accepted: an angle on which no torque acts does not accelerate.
 ///
 /// # Errors
-/// [`Failure`] with [`Reason::Singular`], which names a massless body with a freedom of its own.
+/// [`Failure`] with [`Reason::Singular`], which names a massless body whose motion is not determined.
 pub(super) fn check(model: &Model, t: f64, q: &[f64]) -> Result<(), Box<Failure>> {
     match undetermined(model, t, q).into_iter().next() {
         Some((name, message)) => Err(Reason::Singular { t, name, message }.into()),
@@ -34,7 +34,8 @@ pub(in crate::analyses) fn undetermined(model: &Model, t: f64, q: &[f64]) -> Vec
     within(RANK_TOLERANCE, columns(model), model, t, q)
 }
 
-/// A massless body that gains an undetermined freedom near a position at which the steps of a run end.
+/// The failure of a body without mass or inertia whose motion becomes undetermined near a position at which the steps
+/// end.
 pub(super) fn near(model: &Model, t: f64, q: &[f64]) -> Option<Box<Failure>> {
     let bodies = model.bodies.iter().zip(&model.layout.bodies).skip(1);
     let turning = bodies.filter(|(body, _)| body.turns && body.mass > 0.0 && body.inertia == 0.0);

@@ -114,7 +114,7 @@ impl<'a> Recorder<'a> {
         recorder
     }
 
-    /// Number of factorisations; factorisations in lanes are counted separately.
+    /// Number of factorisations. A factorisation over all lanes counts once per lane.
     pub fn factorisations(&self) -> usize {
         let many = self.many.as_ref().map_or(0, |batch| batch.placer.factorisations());
         self.one.factorisations() + Lanes::WIDTH * many

@@ -29,7 +29,7 @@ pub enum Settling {
 ///
 /// `noise` is the largest deviation of a quantity that counts as constant. The default is 10⁻¹² of the largest
 /// magnitude, and at least 10⁻¹². With `between`, the settling time is the time at which the quantity enters the
-/// band; otherwise it is the first of the times in the band.
+/// band; otherwise it is the first of the times `t` from which it stays in the band.
 ///
 /// # Panics
 /// If there are no values, or if the numbers of values and times differ.
