@@ -10,15 +10,15 @@
 //!   the constraints and the [output step](Options::output_step).
 //! - [`Run`] holds the reported states. From them follow coordinates ([`Run::coordinate`]), reactions
 //!   ([`Run::reactions`]), accelerations and multipliers ([`Run::accelerations`]) and energies ([`Run::energies`]).
-//! - [`Stepper`] is for a program that takes the steps itself: it locates events and continues from other states.
-//! - [`Problems`] and [`failures`] describe the faults of a model, or the reason for which a mechanism cannot be
-//!   assembled or simulated.
+//! - [`Stepper`] is for a program that takes the steps itself. It locates events and continues from other states.
+//! - [`Problems`] and [`failures`] describe the faults of a model, or the reason that a mechanism cannot be assembled
+//!   or simulated.
 #![forbid(unsafe_code)]
 
 // The modules depend on each other in one direction only, see ARCHITECTURE.md:
 // math ← expression ← symbolic ← elements ← model ← equations ← stabilize ← analyses ← case.
-// They are public for the tests, benchmarks and bindings of this repository; what other programs use is
-// named below.
+// They are public for the tests, benchmarks and bindings of this repository. Items for other programs are re-exported
+// below.
 #[doc(hidden)]
 pub mod analyses;
 pub mod case;

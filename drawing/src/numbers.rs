@@ -9,7 +9,7 @@ pub fn rounded(value: f64) -> f64 {
     format!("{value:.8e}").parse().unwrap_or(value) + 0.0
 }
 
-/// A number to some significant digits without zeros at the end, as `%g` writes it in C.
+/// A number with some significant digits and without trailing zeros, like `%g` in C.
 pub fn general(value: f64, digits: usize) -> String {
     let written = format!("{value:.*e}", digits.saturating_sub(1));
     let Some((mantissa, exponent)) = written.split_once('e') else { return written };

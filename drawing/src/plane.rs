@@ -1,12 +1,12 @@
-//! Points in the plane, and where those of a body are.
+//! Points in the plane, and positions of the points of a body.
 
-/// x and y: in m, or in points of print.
+/// x and y, in m or in points of print.
 pub type At = [f64; 2];
 
-/// x and y in m and the angle in rad of a body.
+/// x and y in m, and the angle in rad, of a body.
 pub type Pose = [f64; 3];
 
-/// The global place r + A(φ) s of the point s of a body.
+/// The global position r + A(φ) s of the point s of a body.
 pub fn placed([x, y, angle]: Pose, [along, aside]: At) -> At {
     let (sin, cos) = angle.sin_cos();
     [x + cos * along - sin * aside, y + sin * along + cos * aside]
@@ -18,12 +18,12 @@ pub fn direction(angle: f64) -> At {
     [cos, sin]
 }
 
-/// A vector turned by +90°.
+/// A vector rotated by +90°.
 pub fn left_of([x, y]: At) -> At {
     [-y, x]
 }
 
-/// Componentwise a - b.
+/// a - b, componentwise.
 pub fn minus(a: At, b: At) -> At {
     [a[0] - b[0], a[1] - b[1]]
 }
@@ -43,27 +43,27 @@ pub fn size([x, y]: At) -> f64 {
     x.hypot(y)
 }
 
-/// A box around points: least x and y, largest x and y.
+/// A box around points: smallest x and y, largest x and y.
 #[derive(Clone, Copy, Debug)]
 pub struct Extent {
-    /// Least x and y.
+    /// Smallest x and y.
     pub low: At,
     /// Largest x and y.
     pub high: At,
 }
 
 impl Extent {
-    /// Around nothing.
+    /// The box around no points.
     pub const NOTHING: Self = Self { low: [f64::INFINITY; 2], high: [f64::NEG_INFINITY; 2] };
 
-    /// Around some points.
+    /// The box around some points.
     pub fn of(points: impl IntoIterator<Item = At>) -> Self {
         let mut found = Self::NOTHING;
         points.into_iter().for_each(|at| found.include(at, 0.0));
         found
     }
 
-    /// Grows to contain a circle.
+    /// Enlarges the box to contain a circle.
     pub fn include(&mut self, at: At, radius: f64) {
         for (k, x) in at.into_iter().enumerate() {
             self.low[k] = self.low[k].min(x - radius);
@@ -71,7 +71,7 @@ impl Extent {
         }
     }
 
-    /// The longer side; 0 around nothing.
+    /// The longer side; 0 for the box around no points.
     pub fn size(&self) -> f64 {
         let [x, y] = minus(self.high, self.low);
         x.max(y).max(0.0)

@@ -1,17 +1,17 @@
-//! The model of a phase that solves the equations, and the multipliers of the whole model.
+//! The model that solves the equations in a phase, and the multipliers of the whole model.
 
 use kempe::analyses::dynamics::{Prepared, Setting};
 use kempe::elements::Group;
 use kempe::model::Model;
 use std::sync::Arc;
 
-/// The model that solves the equations. Multipliers are reported in the rows of the whole model, with those of forces with
-/// modes after them. Released drivers have multipliers of zero.
+/// The model that solves the equations. Multipliers are reported in the rows of the whole model, followed by the
+/// multipliers of forces with modes. The multipliers of released drivers are zero.
 #[derive(Clone)]
 pub struct Active {
     /// The model without released drivers, with an equation for each force that holds.
     pub prepared: Arc<Prepared<Arc<Model>>>,
-    /// The place of each of its rows among the multipliers; None for the same.
+    /// Index of each of its rows among the multipliers. None if the rows are identical.
     rows: Option<Vec<usize>>,
     /// The number of rows of the whole model.
     n_rows: usize,
@@ -20,7 +20,7 @@ pub struct Active {
 }
 
 impl Active {
-    /// All of a model.
+    /// A model with all drivers.
     pub fn whole(prepared: &Arc<Prepared<Arc<Model>>>) -> Self {
         let model = prepared.model();
         let (n_rows, n_multipliers) = (model.layout.n_rows, model.n_multipliers());
@@ -28,7 +28,7 @@ impl Active {
         Self { prepared: Arc::clone(prepared), rows, n_rows, n_multipliers }
     }
 
-    /// A model without the drivers that a setting releases, and with forces in its modes.
+    /// The model without the drivers that a setting releases, and with forces in the modes of the setting.
     pub fn of_phase(whole: &Arc<Prepared<Arc<Model>>>, setting: &Setting) -> Self {
         if setting.released.is_empty() && setting.modes.is_empty() {
             return Self::whole(whole);
@@ -66,12 +66,12 @@ impl Active {
         self.n_multipliers
     }
 
-    /// Rows of numbers, one for each of its equations, as multipliers of the whole model.
+    /// Converts rows of numbers, one for each equation, to multipliers of the whole model.
     pub fn expand(&self, found: Vec<f64>, count: usize) -> Vec<f64> {
         self.spread(found, count, self.n_multipliers)
     }
 
-    /// The same as rows of the whole model.
+    /// Converts rows of numbers, one for each equation, to rows of the whole model.
     pub fn expand_rows(&self, found: Vec<f64>, count: usize) -> Vec<f64> {
         self.spread(found, count, self.n_rows)
     }

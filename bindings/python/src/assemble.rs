@@ -17,7 +17,7 @@ type Array<'py> = Bound<'py, PyArray1<f64>>;
 /// Time, q, v, z, and the report as JSON.
 type Assembled<'py> = (f64, Array<'py>, Array<'py>, Array<'py>, String);
 
-/// Targets from a JSON text.
+/// Reads targets from a JSON text.
 pub fn targets(
     py: Python<'_>,
     model: &PyModel,
@@ -32,7 +32,7 @@ pub fn targets(
     })
 }
 
-/// Puts a mechanism together.
+/// Assembles a mechanism.
 #[pyfunction]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
 #[pyo3(signature = (model, set, guess, t, q, v, z, from_guess=false))]
@@ -70,7 +70,7 @@ pub fn assemble<'py>(
     })
 }
 
-/// The failure of an assembly as an error.
+/// Converts the failure of an assembly to an exception.
 pub fn raise(py: Python<'_>, failure: &core::Failure) -> PyErr {
     let kind = match failure.fault {
         Fault::Redundant => Kind::Redundancy,
@@ -116,7 +116,7 @@ pub fn describe(report: &Report) -> Value {
     })
 }
 
-/// A coordinate or rate that was not set.
+/// A coordinate or rate that was not set, as JSON.
 fn choice(of: &Choice) -> Value {
     let (source, guess) = match of.source {
         ValueSource::Guess => ("guess", None),

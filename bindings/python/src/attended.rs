@@ -1,4 +1,4 @@
-//! Long work without steps of its own, such as an assembly, that an interruption ends.
+//! Long computations without steps, such as an assembly, that can be interrupted.
 
 use pyo3::prelude::*;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -8,13 +8,13 @@ use std::time::Duration;
 
 use crate::guard::caught;
 
-/// Time between looks at signals.
+/// Time between checks for signals.
 const GLANCE: Duration = Duration::from_millis(40);
-/// Size of the stack of the work, as that of a main thread.
+/// Stack size of the computation, equal to that of a main thread.
 const STACK: usize = 8 << 20;
 
-/// Does the work on a thread of its own and looks at signals meanwhile. After an interruption its `stop` becomes true
-/// and the work is left to end by itself, so that the interruption arrives at once.
+/// Runs the computation on its own thread and checks for signals meanwhile. After an interruption, `stop` returns
+/// true and the thread ends by itself, so that the interruption takes effect at once.
 ///
 /// # Errors
 /// The exception of a signal handler, such as `KeyboardInterrupt`.
@@ -27,7 +27,7 @@ pub fn attended<T: Send + 'static>(
     let stopped = Arc::clone(&stop);
     let body = move || {
         let stop = || stopped.load(Ordering::Relaxed);
-        // nobody receives after an interruption
+        // there is no receiver after an interruption
         _ = send.send(caught(|| work(&stop)));
     };
     std::thread::Builder::new().stack_size(STACK).spawn(body)?;

@@ -1,4 +1,4 @@
-//! Cases, for Python: text in, text out, and the compiled model.
+//! Cases for Python: reading and writing text, and compiling the model.
 
 use crate::attended::attended;
 use crate::convert::{refuse, state, tree, Row};
@@ -14,7 +14,7 @@ use pyo3::prelude::*;
 use serde_json::json;
 use std::sync::Arc;
 
-/// Text of a case, checked for its structure.
+/// The text of a case with valid structure.
 #[pyclass(name = "Case", module = "kempe._core", frozen)]
 pub struct PyCase {
     case: Arc<Case>,
@@ -34,7 +34,7 @@ fn format_named(py: Python<'_>, name: &str) -> PyResult<Format> {
 }
 
 impl PyCase {
-    /// Faults with their places in this text.
+    /// Raises faults with their positions in this text.
     fn raise(&self, py: Python<'_>, kind: Kind, found: &[model::Problem]) -> PyErr {
         let more = found.len().saturating_sub(MOST_REPORTED);
         let shown = found.iter().take(MOST_REPORTED);
@@ -60,17 +60,17 @@ impl PyCase {
         })
     }
 
-    /// JSON of the case, structured as the file, order kept.
+    /// The case as JSON, with the structure and order of the file.
     fn tree(&self) -> PyResult<String> {
         guard("Case.tree", || Ok(case::write(&self.case, Format::Json)))
     }
 
-    /// The case as "toml" or "json" text.
+    /// The case as text in the format "toml" or "json".
     fn write(&self, py: Python<'_>, format: &str) -> PyResult<String> {
         guard("Case.write", || Ok(case::write(&self.case, format_named(py, format)?)))
     }
 
-    /// The same case with the points that the file of a table contains.
+    /// The case with the points of a table that a file contains.
     fn supply(&self, py: Python<'_>, table: &str, x: Row<'_>, y: Row<'_>) -> PyResult<Self> {
         guard("Case.supply", || {
             let mut case = (*self.case).clone();
@@ -82,8 +82,8 @@ impl PyCase {
         })
     }
 
-    /// Compiles the model with other parameters, and with Python functions as laws of forces. `state` makes a state
-    /// of an array (t, q, v, z).
+    /// Compiles the model with other parameters, and with Python functions as laws of forces. `state` creates a state
+    /// from an array (t, q, v, z).
     #[pyo3(signature = (overrides, functions=None, state=None))]
     fn model(
         &self,
@@ -109,8 +109,8 @@ impl PyCase {
         })
     }
 
-    /// The case in which t is the value of a driver or position quantity, as JSON; the quantity, its unit, and its value
-    /// at a state.
+    /// The case in which t is the value of a driver or position quantity, as JSON; the quantity, its unit, and its
+    /// value at a state.
     #[allow(clippy::too_many_arguments)] // the state is four arguments
     fn over(
         &self,
@@ -132,7 +132,7 @@ impl PyCase {
         })
     }
 
-    /// Raises the problems of the start and of the analyses, with their places in the text.
+    /// Raises the problems of the start and of the analyses, with their positions in the text.
     fn check(&self, py: Python<'_>, model: &PyModel) -> PyResult<()> {
         guard("Case.check", || {
             let found = self.case.faults(&model.model);
@@ -143,7 +143,8 @@ impl PyCase {
         })
     }
 
-    /// File, line and column of the entry at a path; None if the case has no file, or does not contain it.
+    /// File, line and column of the entry at a path. None if the case has no file or the file does not contain the
+    /// entry.
     fn place(&self, path: &str) -> PyResult<Option<(String, usize, usize)>> {
         guard("Case.place", || {
             let path: Vec<&str> = path.split('.').collect();

@@ -14,10 +14,10 @@ use serde_json::json;
 
 /// q and v, one row for each configuration.
 type Rows<'py> = Bound<'py, PyArray2<f64>>;
-/// q, v, z, and JSON with the reports and whether the list is complete.
+/// q, v, z, and JSON with the reports and a flag whether the list is complete.
 type Found<'py> = (Rows<'py>, Rows<'py>, Rows<'py>, String);
 
-/// The configurations for the values of `held`, a JSON text.
+/// The configurations for the values in `held`, a JSON text.
 #[pyfunction]
 pub fn configurations<'py>(
     py: Python<'py>,

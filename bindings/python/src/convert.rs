@@ -1,4 +1,4 @@
-//! Conversion of arrays, with checks of shape and finiteness; errors contain the name of the array.
+//! Conversion of arrays, with checks of shape and finiteness. Errors contain the name of the array.
 
 use crate::errors::{raise, Failure, Kind};
 use kempe::analyses::State;
@@ -13,7 +13,7 @@ pub type Row<'py> = PyReadonlyArray1<'py, f64>;
 /// Rows of numbers from Python, time first.
 pub type Rows<'py> = PyReadonlyArray2<'py, f64>;
 
-/// A refusal of an argument.
+/// The error for an invalid argument.
 pub fn refuse(py: Python<'_>, name: &str, message: String) -> PyErr {
     Failure::new(Kind::Model, format!("{name}: {message}")).name(name).raise(py)
 }
@@ -62,7 +62,7 @@ pub fn state(py: Python<'_>, model: &Model, t: f64, [q, v, z]: [&Row<'_>; 3]) ->
     Ok(State { t: number(py, "t", t)?, q, v, z })
 }
 
-/// The value of a JSON text that the front wrote.
+/// Reads the fields of a JSON text that the Python package wrote.
 pub fn tree(py: Python<'_>, text: &str) -> PyResult<Vec<(String, Value)>> {
     match case::parse_tree(text, Format::Json) {
         Ok(Value::Table(fields)) => Ok(fields),
@@ -84,7 +84,7 @@ pub fn table<'py>(
     Ok(array.into_pyarray(py))
 }
 
-/// Forgets that an array may be written.
+/// Makes an array read-only.
 pub fn frozen<D: Dimension>(array: Bound<'_, PyArray<f64, D>>) -> Bound<'_, PyArray<f64, D>> {
     array.try_readwrite().map(|guard| guard.make_nonwriteable()).ok();
     array

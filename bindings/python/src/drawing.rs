@@ -12,7 +12,7 @@ use serde_json::{from_str, to_string};
 /// Poses of the moving bodies: time, body, and x, y and angle.
 type Poses<'py> = PyReadonlyArray3<'py, f64>;
 
-/// The static part of a scene as JSON. `efforts` are elements with their forces and torques on body j over time.
+/// The static part of a scene as JSON. `efforts` are the elements with their forces and torques on body j over time.
 #[pyfunction]
 #[pyo3(signature = (model, poses, efforts))]
 pub fn scene<'py>(
@@ -34,7 +34,8 @@ pub fn scene<'py>(
     })
 }
 
-/// The display list of a scene as JSON. `view` is the lower left corner, points per metre, and the size in points.
+/// The display list of a scene as JSON. `view` contains the lower left corner, points per metre, and the size in
+/// points.
 #[pyfunction]
 #[pyo3(signature = (scene, poses, view, request))]
 pub fn display<'py>(
@@ -54,7 +55,7 @@ pub fn display<'py>(
     })
 }
 
-/// The view of bounds with room around them on an area in points: lower left corner, points per metre, size.
+/// The view of bounds with a margin on an area in points: lower left corner, points per metre, size.
 #[pyfunction]
 #[pyo3(signature = (bounds, size))]
 pub fn view_around(bounds: [f64; 4], size: At) -> PyResult<(At, f64, At)> {
@@ -64,7 +65,8 @@ pub fn view_around(bounds: [f64; 4], size: At) -> PyResult<(At, f64, At)> {
     })
 }
 
-/// Offsets from anchors to the centres of texts that cover neither lines, boxes nor each other, points.
+/// Offsets in points from anchors to the centres of texts, such that the texts do not cover lines, boxes or each
+/// other.
 #[pyfunction]
 #[pyo3(signature = (anchors, sizes, lines, boxes, area))]
 pub fn place_texts<'py>(
@@ -97,7 +99,7 @@ pub fn place_texts<'py>(
     })
 }
 
-/// Width of a text of a size, in the unit of the size.
+/// Width of a text with a font size, in the unit of the size.
 #[pyfunction]
 #[pyo3(signature = (words, size, bold))]
 pub fn text_width(words: &str, size: f64, bold: bool) -> PyResult<f64> {

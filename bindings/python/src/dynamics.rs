@@ -1,4 +1,4 @@
-//! Forward dynamics, for Python: without the interpreter's lock, interruptible, with progress.
+//! Forward dynamics for Python: without the interpreter's lock, interruptible, with progress.
 
 use crate::convert::{frozen, state, table, Row};
 use crate::errors::{raise_plain, Failure, Kind};
@@ -15,7 +15,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonl
 use pyo3::prelude::*;
 use serde_json::json;
 
-/// What an integration gave.
+/// The result of an integration.
 #[pyclass(name = "Run", module = "kempe._core", frozen)]
 pub struct PyRun {
     #[pyo3(get)]
@@ -32,7 +32,7 @@ pub struct PyRun {
     parts: Vec<(usize, Py<PyModel>)>,
     events: Vec<core::EventStates>,
     passing: bool,
-    /// Tolerance of the projection of its states.
+    /// Tolerance of the projection of the states.
     #[pyo3(get)]
     projection: Option<f64>,
     #[pyo3(get)]
@@ -52,7 +52,7 @@ pub struct PyRun {
 
 #[pymethods]
 impl PyRun {
-    /// Accelerations and multipliers at the reported states, or at the first of them.
+    /// Accelerations and multipliers at all reported states, or at the first `rows` of them.
     #[pyo3(signature = (rows=None))]
     fn responses<'py>(
         &self,
@@ -76,7 +76,7 @@ impl PyRun {
         })
     }
 
-    /// Kinetic, potential, dissipated energy, work of drivers, work of applied forces, there.
+    /// Kinetic, potential and dissipated energy, work of drivers, and work of applied forces at these states.
     #[pyo3(signature = (rows=None))]
     fn energies<'py>(&self, py: Python<'py>, rows: Option<usize>) -> PyResult<Table<'py>> {
         guard("Run.energies", || {
@@ -118,7 +118,7 @@ impl PyRun {
         self.events.iter().map(one).collect()
     }
 
-    /// What it took, as JSON.
+    /// The statistics of the integration, as JSON.
     #[getter]
     fn statistics(&self) -> String {
         let s = &self.statistics;
@@ -144,7 +144,8 @@ impl PyRun {
 }
 
 impl PyRun {
-    /// Gives the reported states of each phase, or the first of them, with the model and the first row.
+    /// Calls a function for the reported states of each phase, or the first of them, with the model and the first
+    /// row.
     fn by_phase(
         &self,
         py: Python<'_>,
@@ -212,7 +213,7 @@ impl PyRun {
     }
 }
 
-/// The model of each phase that differs from the one before, with its first row.
+/// The model of each phase that differs from the previous phase, with its first row.
 fn phases(
     py: Python<'_>,
     model: &Bound<'_, PyModel>,
@@ -237,7 +238,7 @@ fn phases(
     Ok(parts)
 }
 
-/// The name of an event, its times, rows of q, v and z, and of impulses.
+/// The name of an event, its times, and rows of q, v, z and impulses.
 type EventRows<'py> = (
     String,
     Bound<'py, PyArray1<f64>>,
@@ -267,7 +268,7 @@ fn dense_arrays(
     ))
 }
 
-/// Simulates the motion from a state. `actions` are names of events and the function that is called at them.
+/// Simulates the motion from a state. `actions` are names of events and the function that is called at these events.
 #[pyfunction]
 #[pyo3(signature = (model, t, q, v, z, options, progress, t_end=None, actions=None))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
@@ -323,7 +324,7 @@ pub fn dynamics(
     })
 }
 
-/// The reason for the end of a run.
+/// The reason that a run ended.
 fn ended(run: &core::Run) -> String {
     match (&run.stopped_by, run.trajectory.t.last()) {
         (Some(name), Some(t)) => format!("the event {name} stopped the run at t = {t:.6} s"),

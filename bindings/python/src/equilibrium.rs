@@ -1,4 +1,4 @@
-//! Statics, for Python: without the interpreter's lock, interruptible, with progress.
+//! Statics for Python: without the interpreter's lock, interruptible, with progress.
 
 use crate::convert::{state, Row};
 use crate::errors::{raise_plain, Failure, Kind};
@@ -13,7 +13,7 @@ use kempe::model::Model;
 use pyo3::prelude::*;
 use serde_json::{json, Value};
 
-/// An equilibrium or a path of equilibria with the options of an entry of a case, as JSON.
+/// An equilibrium, or a path of equilibria, with the options of an entry of a case, as JSON.
 #[pyfunction]
 #[pyo3(signature = (model, t, q, v, z, text, progress))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python

@@ -1,5 +1,5 @@
-//! Errors on their way to Python: a [`Failure`] is filled here and raised as a class of
-//! `kempe.errors`, which is imported only when there is something to raise.
+//! Errors for Python. A [`Failure`] collects the data and is raised as a class of `kempe.errors`, which is imported
+//! only if an error is raised.
 
 use kempe::case::Diagnostic;
 use kempe::model::{self, MOST_REPORTED};
@@ -7,22 +7,22 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
-/// The closed set of exceptions; each is a class of `kempe.errors`.
+/// The exceptions; each is a class of `kempe.errors`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
-    /// The model, or the file it was read from, is wrong.
+    /// The model, or its file, contains a fault.
     Model,
     /// The mechanism cannot be assembled.
     Assembly,
-    /// Some constraints repeat others, everywhere.
+    /// Some constraints repeat others at every position.
     Redundancy,
-    /// The mechanism is in a position where the task has no unique answer.
+    /// The mechanism is in a position at which the task has no unique solution.
     Singularity,
     /// The integrator could not continue.
     Integration,
     /// A file cannot be read or written.
     File,
-    /// A fault in kempe itself.
+    /// A fault of kempe itself.
     Internal,
 }
 
@@ -51,18 +51,18 @@ impl Kind {
     }
 }
 
-/// One of possibly many things that are wrong with a model or a file.
+/// One fault of a model or a file.
 #[derive(Clone, Debug, Default)]
 pub struct Problem {
     /// Description of the fault, and the remedy.
     pub message: String,
-    /// Where in the model, such as `joints.C.i`; empty where that has no meaning.
+    /// The path in the model, such as `joints.C.i`; empty if there is no path.
     pub path: String,
-    /// Line and column in the file, from 1; `None` for a model built in Python.
+    /// Line and column in the file, counted from 1; `None` for a model built in Python.
     pub position: Option<(usize, usize)>,
 }
 
-/// An error with its place, time and remedy; [`Failure::raise`] makes the Python exception of it.
+/// An error with its path, time and remedy. [`Failure::raise`] converts it to the Python exception.
 #[derive(Debug)]
 pub struct Failure {
     kind: Kind,
@@ -75,7 +75,7 @@ pub struct Failure {
 }
 
 impl Failure {
-    /// A failure that says only `message`.
+    /// A failure with only a message.
     pub fn new(kind: Kind, message: impl Into<String>) -> Self {
         let message = message.into();
         Self { kind, message, name: None, t: None, hint: None, problems: vec![], solution: None }
@@ -105,13 +105,13 @@ impl Failure {
         self
     }
 
-    /// What had been computed before the failure; only an `IntegrationError` keeps it.
+    /// The results computed before the failure. Only an `IntegrationError` contains them.
     pub fn solution(mut self, solution: Py<PyAny>) -> Self {
         self.solution = Some(solution);
         self
     }
 
-    /// The Python exception, or the reason why it could not be made.
+    /// The Python exception, or the error that prevented its creation.
     pub fn raise(self, py: Python<'_>) -> PyErr {
         self.exception(py).map_or_else(|error| error, PyErr::from_value)
     }
@@ -145,7 +145,7 @@ fn problems<'py>(
     PyTuple::new(module.py(), made?)
 }
 
-/// A fault for Python: with its place in a file, or by path alone where there is no file.
+/// A fault for Python, with its position in a file, or only its path if there is no file.
 fn problem(diagnostic: &Diagnostic, origin: Option<&str>) -> Problem {
     let path = diagnostic.path.join(".");
     if origin.is_some() {
@@ -176,7 +176,7 @@ pub fn raise(py: Python<'_>, kind: Kind, found: &[Diagnostic], origin: Option<&s
     Failure::new(kind, message).name(name).problems(problems).raise(py)
 }
 
-/// Faults that have no text behind them, as one exception.
+/// All faults without positions in a text, as one exception.
 pub fn raise_plain(py: Python<'_>, kind: Kind, found: &[model::Problem]) -> PyErr {
     let problem = |p: &model::Problem| Problem {
         message: p.to_string(),
@@ -188,10 +188,10 @@ pub fn raise_plain(py: Python<'_>, kind: Kind, found: &[model::Problem]) -> PyEr
     Failure::new(kind, message).problems(problems).raise(py)
 }
 
-/// A failure of the class named `kind` with every attribute filled, for the tests in Python.
+/// A failure of the class `kind` with all attributes set, for tests in Python.
 ///
 /// # Errors
-/// `ValueError` where there is no such class.
+/// `ValueError` if there is no such class.
 pub fn sample(kind: &str, message: &str) -> PyResult<Failure> {
     let known = Kind::ALL.into_iter().find(|known| known.class() == kind);
     let kind = known.ok_or_else(|| PyValueError::new_err(format!("no error class '{kind}'")))?;

@@ -29,7 +29,7 @@ pub struct Rates {
 }
 
 impl Rates {
-    /// Rows of Python.
+    /// Reads rows from Python.
     pub fn read(
         py: Python<'_>,
         model: &Model,
@@ -42,7 +42,7 @@ impl Rates {
         Ok(Self { q: rows(py, "q", q, shape)?, v: rows(py, "v", v, shape)?, t })
     }
 
-    /// Gives the motion of all bodies at each state.
+    /// Calls `visit` with the motion of all bodies at each state.
     pub fn each(&self, model: &Model, mut visit: impl FnMut(usize, f64, &Motions)) {
         let n = model.layout.n_q;
         let mut motions = Motions::new(&model.layout);
@@ -54,7 +54,7 @@ impl Rates {
     }
 }
 
-/// Accelerations and multipliers at states, with γ, not γ̂; with `passing`, near singular positions too.
+/// Accelerations and multipliers at states, without stabilization. With `passing`, also near singular positions.
 #[pyfunction]
 #[pyo3(signature = (model, t, q, v, z, passing=false))]
 pub fn evaluate<'py>(
@@ -75,7 +75,7 @@ pub fn evaluate<'py>(
     })
 }
 
-/// States of an interpolant, projected as reported states are: q and v.
+/// States of an interpolant (q and v), projected like reported states.
 #[pyfunction]
 #[pyo3(signature = (model, tolerance, t, q, v, z))]
 pub fn project<'py>(
@@ -120,7 +120,7 @@ pub fn energies<'py>(
     })
 }
 
-/// The position quantities of an element with their rates and accelerations: (n_t, 3 for each quantity).
+/// The position quantities of an element with their rates and accelerations: (n_t, 3 per quantity).
 #[pyfunction]
 #[pyo3(signature = (model, name, t, q, v, a=None))]
 pub fn measured<'py>(
@@ -189,7 +189,7 @@ pub fn frame_named(py: Python<'_>, name: &str) -> PyResult<Frame> {
     }
 }
 
-/// The body `on`, which must be one of those of `owner`.
+/// The body `on`, which must belong to `owner`.
 pub fn one_of(
     py: Python<'_>,
     model: &Model,
@@ -206,12 +206,12 @@ pub fn one_of(
     Err(refuse(py, "on", format!("'{on}' is not a body of {owner}; it joins {joined}")))
 }
 
-/// The error for an element that there is not.
+/// The error for an element that does not exist.
 pub fn unknown(py: Python<'_>, what: &str, name: &str) -> PyErr {
     refuse(py, name, format!("there is no {what} of this name"))
 }
 
-/// Force, and torque about the body's origin, of a force element or one of its parts on a body.
+/// Force, and torque about the body's origin, that a force element or one of its parts exerts on a body.
 #[pyfunction]
 #[pyo3(signature = (model, name, on, part, frame, t, q, v, z, lam=None))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
@@ -263,7 +263,7 @@ pub fn force<'py>(
     })
 }
 
-/// The results of a force element beside its wrenches: (n_t, n).
+/// The results of a force element other than its wrenches: (n_t, n).
 #[pyfunction]
 #[pyo3(signature = (model, name, t, q, v, z, lam))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
@@ -327,7 +327,7 @@ pub fn force_energy<'py>(
     })
 }
 
-/// The matrices and right sides of the equations at a state; `set` adds driver rows as in assembly.
+/// The matrices and right sides of the equations at a state. `set` adds rows of drivers as in assembly.
 #[pyfunction]
 #[pyo3(signature = (model, t, q, v, z, set))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python

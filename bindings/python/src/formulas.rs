@@ -9,8 +9,7 @@ use kempe::symbolic::Form;
 use pyo3::prelude::*;
 use serde_json::{json, Value};
 
-/// Φ, Φ_q and γ of a joint or driver of a model, as JSON; `written` are the fields of its entry
-/// that are texts.
+/// Φ, Φ_q and γ of a joint or driver of a model, as JSON. `written` contains the fields of its entry that are texts.
 #[pyfunction]
 #[pyo3(signature = (model, name, written, form))]
 pub fn formulas(

@@ -1,7 +1,7 @@
-//! Python functions as laws of forces: called with the interpreter's lock, during runs that go without it.
+//! Python functions as laws of forces. They are called with the interpreter's lock during runs without the lock.
 //!
-//! The core gets a number. An exception is kept for this thread: the value is then not a number, which ends the run,
-//! and the entry point raises the exception.
+//! The core receives a number. If a function raises, the exception is stored for this thread and the value is NaN,
+//! which ends the run. The entry point then raises the exception.
 
 use crate::errors::{Failure, Kind};
 use crate::guard::raised;
@@ -16,13 +16,14 @@ thread_local! {
     static CALLED: RefCell<Vec<usize>> = const { RefCell::new(Vec::new()) };
 }
 
-/// A law as the front describes it: element, field, number of its entry in a list, function, period and start.
+/// A law as described by the Python package: element, field, index of its entry in a list, function, period and
+/// start.
 pub type Described = (String, String, Option<usize>, Py<PyAny>, Option<(f64, f64)>);
 
 /// The functions of a model.
 #[derive(Debug)]
 struct Laws {
-    /// Makes a state of an array (t, q, v, z).
+    /// Creates a state from an array (t, q, v, z).
     state: Py<PyAny>,
     /// Path and function of each law.
     laws: Vec<(String, Py<PyAny>)>,
@@ -37,7 +38,7 @@ struct Last {
     values: Vec<Option<f64>>,
 }
 
-/// Puts the functions of the front in the places of their laws.
+/// Replaces laws in the definition by the Python functions.
 pub fn place(py: Python<'_>, definition: &mut Definition, state: Py<PyAny>, given: Vec<Described>) {
     let (mut laws, mut calls) = (Vec::new(), Vec::new());
     for (k, (element, field, entry, function, sampling)) in given.iter().enumerate() {
@@ -106,7 +107,7 @@ impl Laws {
         Ok(value)
     }
 
-    /// The last state if it is x, and the value of the law there.
+    /// The last state if it equals x, and the value of the law there.
     fn remembered(
         &self,
         py: Python<'_>,
@@ -155,7 +156,7 @@ const RECURSION: &str =
 struct Called;
 
 impl Called {
-    /// None if it is being called already.
+    /// None if the host is already being called.
     fn enter(laws: &Laws) -> Option<Self> {
         let address = std::ptr::from_ref(laws) as usize;
         CALLED.with_borrow_mut(|called| {

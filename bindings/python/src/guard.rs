@@ -1,6 +1,6 @@
-//! The boundary of Rust and Python: a panic in Rust becomes an `InternalError` in Python.
+//! The boundary between Rust and Python: a panic in Rust becomes an `InternalError` in Python.
 //!
-//! An entry point is one line:
+//! An entry point consists of one call:
 //!
 //! ```ignore
 //! fn dynamics(…) -> PyResult<…> {
@@ -8,7 +8,7 @@
 //! }
 //! ```
 //!
-//! A test makes each entry point panic, by its name.
+//! A test makes each entry point panic, selected by its name.
 
 use std::any::Any;
 use std::cell::{Cell, RefCell};
@@ -20,21 +20,21 @@ use pyo3::prelude::*;
 
 use crate::errors::{Failure, Kind};
 
-/// The entry point that panics at its next call, and a flag that is cheap to read.
+/// The entry point that panics at its next call, and a flag that is fast to read.
 static VICTIM: Mutex<Option<String>> = Mutex::new(None);
 static ARMED: AtomicBool = AtomicBool::new(false);
 
 thread_local! {
-    /// How many guards are open on this thread; a panic is silent while there is one.
+    /// Number of open guards on this thread. A panic is not printed while a guard is open.
     static DEPTH: Cell<usize> = const { Cell::new(0) };
-    /// Where the last silent panic happened, as `file:line`.
+    /// Place of the last panic that was not printed, as `file:line`.
     static PLACE: RefCell<Option<String>> = const { RefCell::new(None) };
 }
 
-/// Runs `body`; a panic in it becomes an `InternalError` that carries the panic's message.
+/// Runs `body`. A panic in it becomes an `InternalError` with the panic's message.
 ///
-/// State behind `&mut` that a panic left half-changed must not be used again: entry points hand
-/// their scratch in by value or build it anew, which is why `AssertUnwindSafe` is right here.
+/// State behind `&mut` that a panic left half-changed must not be used again. Entry points pass their scratch memory
+/// by value or create it anew, so `AssertUnwindSafe` is valid here.
 pub fn guard<T>(entry: &'static str, body: impl FnOnce() -> PyResult<T>) -> PyResult<T> {
     DEPTH.set(DEPTH.get() + 1);
     let outcome = catch_unwind(AssertUnwindSafe(|| {
@@ -58,18 +58,18 @@ pub mod raised {
         static WAITS: Cell<bool> = const { Cell::new(false) };
     }
 
-    /// Keeps an exception until the entry point raises it.
+    /// Stores an exception until the entry point raises it.
     pub fn keep(error: PyErr) {
         WAITS.set(true);
         RAISED.set(Some(error));
     }
 
-    /// Whether an exception waits.
+    /// Whether an exception is stored.
     pub fn waits() -> bool {
         WAITS.get()
     }
 
-    /// The exception that waits.
+    /// Removes and returns the stored exception.
     pub fn take() -> Option<PyErr> {
         match WAITS.replace(false) {
             true => RAISED.take(),
@@ -92,7 +92,7 @@ impl Caught {
     }
 }
 
-/// Runs `body` on a thread without a guard; a panic is caught without being printed.
+/// Runs `body` on a thread without a guard. A panic is caught and not printed.
 pub fn caught<T>(body: impl FnOnce() -> T) -> Result<T, Caught> {
     DEPTH.set(DEPTH.get() + 1);
     let outcome = catch_unwind(AssertUnwindSafe(body));
@@ -100,16 +100,16 @@ pub fn caught<T>(body: impl FnOnce() -> T) -> Result<T, Caught> {
     outcome.map_err(|payload| Caught { payload, place: PLACE.take() })
 }
 
-/// Makes the next guard of `entry` panic, or none for `None`.
+/// Makes the next guard of `entry` panic. `None` cancels this.
 pub fn arm(entry: Option<&str>) {
     *VICTIM.lock().unwrap_or_else(PoisonError::into_inner) = entry.map(str::to_owned);
     ARMED.store(entry.is_some(), Ordering::Release);
 }
 
-/// Keeps panics inside a guard off the standard error stream; others are printed as before.
+/// Suppresses the output of panics inside a guard on the standard error stream. Other panics are printed as before.
 ///
-/// The hook belongs to this extension's own copy of the Rust runtime, so that no other
-/// extension in the process is touched.
+/// The hook belongs to this extension's own copy of the Rust runtime, so other extensions in the process are not
+/// affected.
 pub fn quiet_inside() {
     static ONCE: Once = Once::new();
     ONCE.call_once(|| {

@@ -1,4 +1,4 @@
-//! Kinematics, for Python: without the interpreter's lock, interruptible, with progress.
+//! Kinematics for Python: without the interpreter's lock, interruptible, with progress.
 
 use crate::convert::{row, state, Row};
 use crate::dynamics::PyRun;
@@ -14,7 +14,7 @@ use kempe::stabilize::Projection;
 use pyo3::prelude::*;
 use serde_json::json;
 
-/// The options of `kinematics` or `inverse_dynamics`, checked, as JSON with numbers in place of formulas.
+/// The checked options of `kinematics` or `inverse_dynamics`, as JSON with numbers in place of formulas.
 #[pyfunction]
 pub fn kinematics_options(py: Python<'_>, model: &PyModel, text: &str) -> PyResult<String> {
     guard("kinematics_options", || {
@@ -86,7 +86,7 @@ fn run(motion: &driven::Motion, recorded: driven::Recorded, seconds: f64) -> Run
     }
 }
 
-/// The failure of a motion as an error.
+/// Converts the failure of a motion to an exception.
 pub fn because(reason: &driven::Reason) -> Failure {
     let message = reason.to_string();
     match reason {

@@ -1,8 +1,7 @@
 //! The Python module `kempe._core`: a thin layer of arrays, errors and callbacks over the core.
 //!
-//! There is no mechanics here. Every entry point is one line, `guard("its name", || …)`, and
-//! every error leaves through [`errors::Failure`], so that Python gets the classes of
-//! `kempe.errors` and never a Rust panic.
+//! This layer contains no mechanics. Every entry point is one call of `guard("its name", || …)`, and every error is
+//! raised by [`errors::Failure`], so that Python receives the classes of `kempe.errors` and never a Rust panic.
 #![forbid(unsafe_code)]
 
 mod active;
@@ -40,12 +39,12 @@ use guard::guard;
 use mimalloc::MiMalloc;
 use pyo3::prelude::*;
 
-/// Keeps the memory of freed results for later ones. Its return to the system and a new request with every run would
-/// cost a brief run a quarter of its time.
+/// Keeps the memory of freed results for later results. Returning it to the system and requesting it again in every
+/// run would cost a short run a quarter of its time.
 #[global_allocator]
 static ALLOCATOR: MiMalloc = MiMalloc;
 
-/// Version of the compiled core; the same as `kempe.__version__`.
+/// Version of the compiled core, equal to `kempe.__version__`.
 #[pyfunction]
 fn version() -> PyResult<&'static str> {
     guard("version", || Ok(env!("CARGO_PKG_VERSION")))
@@ -63,27 +62,27 @@ fn schema() -> PyResult<String> {
     guard("schema", || Ok(kempe::case::schema()))
 }
 
-/// Whether a name belongs to the language of expressions.
+/// Whether a name is reserved in expressions.
 #[pyfunction]
 fn is_reserved(name: &str) -> PyResult<bool> {
     guard("is_reserved", || Ok(kempe::case::RESERVED.contains(&name)))
 }
 
-/// Test hook: the next call of the named entry point panics; `None` takes that back.
+/// Test hook: the next call of the named entry point panics. `None` cancels this.
 #[pyfunction]
 #[pyo3(signature = (entry))]
 fn _inject_panic(entry: Option<&str>) {
     guard::arm(entry);
 }
 
-/// Test hook: raise the error class `kind` with every attribute filled.
+/// Test hook: raises the error class `kind` with all attributes set.
 #[pyfunction]
 #[pyo3(signature = (kind, message))]
 fn _raise(py: Python<'_>, kind: &str, message: &str) -> PyResult<()> {
     guard("_raise", || Err(errors::sample(kind, message)?.raise(py)))
 }
 
-/// The functions for drawings, sweeps and statistics.
+/// Adds the functions for drawings, sweeps and statistics.
 fn add_drawing_and_sweeps(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(statistics::instants, module)?)?;
     module.add_function(wrap_pyfunction!(statistics::interpolate, module)?)?;

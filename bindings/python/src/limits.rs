@@ -1,4 +1,4 @@
-//! Limits of motion, for Python: interruptible, with progress.
+//! Limits of motion for Python: interruptible, with progress.
 
 use crate::convert::{state, table, Row};
 use crate::guard::guard;
@@ -10,10 +10,10 @@ use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::*;
 use serde_json::json;
 
-/// Limits as JSON, the values on the way, and the positions there.
+/// Limits as JSON, the values along the motion, and the positions there.
 type Found<'py> = (String, Bound<'py, PyArray1<f64>>, Bound<'py, PyArray2<f64>>);
 
-/// The limits of the value that takes the place of t.
+/// The limits of the value that replaces t.
 #[pyfunction]
 #[pyo3(signature = (model, t, q, v, z, progress))]
 pub fn limits<'py>(

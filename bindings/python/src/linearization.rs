@@ -1,4 +1,4 @@
-//! Linear equations, for Python.
+//! Linearized equations for Python.
 
 use crate::convert::{refuse, state, table, Row};
 use crate::errors::{raise_plain, Failure, Kind};
@@ -13,7 +13,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::json;
 
-/// The options of `modes`, checked, as JSON.
+/// The checked options of `modes`, as JSON.
 #[pyfunction]
 pub fn modes_options(py: Python<'_>, model: &PyModel, text: &str) -> PyResult<String> {
     guard("modes_options", || {
@@ -25,7 +25,7 @@ pub fn modes_options(py: Python<'_>, model: &PyModel, text: &str) -> PyResult<St
     })
 }
 
-/// The linear equations at a state, as a dict of arrays.
+/// The linearized equations at a state, as a dict of arrays.
 #[pyfunction]
 #[pyo3(signature = (model, t, q, v, z, inputs, outputs))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python

@@ -29,7 +29,7 @@ pub fn measure(
     })
 }
 
-/// Values of a measure for the values of its quantities, (n_t, n).
+/// The values of a measure for given values of its quantities, (n_t, n).
 #[pyfunction]
 #[pyo3(signature = (model, text, t, quantities))]
 pub fn measure_values<'py>(
@@ -50,7 +50,7 @@ pub fn measure_values<'py>(
     })
 }
 
-/// Values of a measure at states, with accelerations and multipliers if it needs them.
+/// The values of a measure at states, with accelerations and multipliers if it needs them.
 #[pyfunction]
 #[pyo3(signature = (model, text, t, q, v, z, a=None, lam=None))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
@@ -82,7 +82,7 @@ pub fn measure_at<'py>(
     })
 }
 
-/// Values of a measure at times, all finite.
+/// The values of a measure at times, which must be finite.
 fn finite<'py>(
     py: Python<'py>,
     text: &str,

@@ -1,4 +1,4 @@
-//! The diagnosis of a mechanism, for Python.
+//! The diagnosis of a mechanism for Python.
 
 use crate::attended::attended;
 use crate::convert::{state, Row};
@@ -7,7 +7,7 @@ use crate::model::PyModel;
 use kempe::analyses::diagnosis::{as_json, diagnose};
 use pyo3::prelude::*;
 
-/// The freedoms, redundancies and singular positions of a mechanism at a position, as JSON.
+/// The degrees of freedom, redundancies and singular positions of a mechanism at a position, as JSON.
 #[pyfunction]
 pub fn mobility(
     py: Python<'_>,

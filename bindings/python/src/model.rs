@@ -1,4 +1,4 @@
-//! A compiled model, and what it holds as JSON.
+//! A compiled model, and its content as JSON.
 
 use crate::active::Active;
 use crate::convert::{refuse, Row};
@@ -19,26 +19,26 @@ use serde_json::{json, Map, Value};
 use std::ops::Range;
 use std::sync::Arc;
 
-/// A compiled model: immutable.
+/// A compiled model. Immutable.
 #[pyclass(name = "Model", module = "kempe._core", frozen)]
 pub struct PyModel {
     /// The model, with all drivers.
     pub model: Arc<Model>,
-    /// What its simulations have in common.
+    /// The data that its simulations share.
     pub prepared: Arc<Prepared<Arc<Model>>>,
-    /// The same without released drivers, which solves the equations.
+    /// The model without released drivers, which solves the equations.
     pub active: Active,
-    /// By which it differs from the model of the case.
+    /// The differences from the model of the case.
     setting: Setting,
-    /// The options that were read for it last.
+    /// The options of this model that were read last.
     pub options: RecentOptions,
 }
 
-/// Python's allocator aligns objects to 16 bytes only.
+/// Python's allocator aligns objects only to 16 bytes.
 const _: () = assert!(align_of::<PyModel>() <= 16);
 
 impl PyModel {
-    /// Of a model of the core.
+    /// Wraps a model of the core.
     pub fn new(model: Model) -> Self {
         let model = Arc::new(model);
         let prepared = Arc::new(Prepared::new(Arc::clone(&model)));
@@ -47,12 +47,12 @@ impl PyModel {
         Self { model, prepared, active, setting, options }
     }
 
-    /// By which it differs from the model of the case.
+    /// The differences from the model of the case.
     pub fn setting(&self) -> &Setting {
         &self.setting
     }
 
-    /// Of a model of the core in a phase of a run.
+    /// Wraps the model in a phase of a run.
     pub fn in_phase(&self, py: Python<'_>, setting: &Setting) -> PyResult<Self> {
         let with_drivers = Setting { released: Vec::new(), ..setting.clone() };
         let open = with_drivers
@@ -69,12 +69,12 @@ impl PyModel {
 
 #[pymethods]
 impl PyModel {
-    /// What the model holds, in numbers, as JSON.
+    /// The content of the model in numbers, as JSON.
     fn describe(&self) -> PyResult<String> {
         guard("Model.describe", || Ok(describe(&self.model).to_string()))
     }
 
-    /// The same model with other values of parameters and with released drivers.
+    /// The model with other values of parameters and with released drivers.
     fn variant(
         &self,
         py: Python<'_>,
@@ -89,7 +89,7 @@ impl PyModel {
         })
     }
 
-    /// The values of parameters and the released drivers by which it differs from the model of the case.
+    /// The values of parameters and the released drivers that differ from the model of the case.
     #[getter]
     #[pyo3(name = "setting")]
     fn written_setting(&self) -> Written {
@@ -101,7 +101,7 @@ impl PyModel {
         guard("Model.symbols", || Ok(symbols(&self.model).to_string()))
     }
 
-    /// Values of a table or of one of its derivatives, in SI units; NaN where it has none.
+    /// Values of a table or of one of its derivatives, in SI units; NaN where there is no value.
     fn table<'py>(
         &self,
         py: Python<'py>,
@@ -124,13 +124,13 @@ impl PyModel {
         })
     }
 
-    /// The same model with redundant constraints accepted.
+    /// The model with redundant constraints accepted.
     fn allowing_redundancy(&self) -> PyResult<Self> {
         guard("Model.allowing_redundancy", || Ok(Self::new(self.model.allowing_redundancy())))
     }
 }
 
-/// A mode of a force: its place, the name of the mode, a sign, the place of another force, and the value that it holds.
+/// A mode of a force: index, name of the mode, sign, index of another force, and the value at which it holds.
 pub type WrittenMode = (usize, String, f64, usize, f64);
 
 /// Values of parameters, released drivers, and modes of forces.
@@ -152,7 +152,7 @@ pub fn written(setting: &Setting) -> Written {
     (setting.parameters.clone(), setting.released.clone(), modes.collect())
 }
 
-/// A mode from Python.
+/// Reads a mode from Python.
 fn read_mode(
     py: Python<'_>,
     model: &Model,
@@ -233,7 +233,7 @@ fn body(body: &Body, columns: Columns) -> Value {
     })
 }
 
-/// A line or an area of the drawing of a body.
+/// A line or an area of the drawing of a body, as JSON.
 fn part(part: &Drawn) -> Value {
     json!({ "points": part.points.iter().map(pair).collect::<Vec<_>>(), "form": part.form.name() })
 }
@@ -247,7 +247,7 @@ fn table(table: &Table) -> Value {
     })
 }
 
-/// The name of a curve and points along it, for drawings.
+/// The name of a curve and points along the curve, for drawings.
 fn drawn((name, curve): &(String, Option<Curve>)) -> Option<(String, Value)> {
     let curve = curve.as_ref()?;
     let points: Vec<Value> = curve.drawn().iter().map(pair).collect();
@@ -258,15 +258,15 @@ fn span(range: &Range<usize>) -> Value {
     json!([range.start, range.end])
 }
 
-/// Names of the bodies of an element: i and j first. An element of one body has it as i and as j.
+/// Names of the bodies of an element: i and j first. For an element with one body, this body is both i and j.
 fn connected<'a>(model: &'a Model, bodies: &[BodyId]) -> (Value, Value, Vec<&'a str>) {
     let names: Vec<&str> = bodies.iter().map(|body| model.bodies[body.0].name.as_str()).collect();
     let at = |k: usize| json!(names.get(k.min(names.len().saturating_sub(1))));
     (at(0), at(1), names)
 }
 
-/// Names and units of the internal coordinates of an element: u of its curve, or lengths u, or u1, u2 and u3. The
-/// assembly treats them as lengths.
+/// Names and units of the internal coordinates of an element: u of its curve, or lengths u, or u1, u2 and u3.
+/// Assembly treats them as lengths.
 fn internal(columns: Columns, curve: Option<&CurveOn>) -> Vec<Value> {
     let unit = curve.map_or("m", |on| on.curve.unit());
     let name = |k: usize| match columns.count {

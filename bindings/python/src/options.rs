@@ -1,4 +1,4 @@
-//! Options of forward dynamics from Python, as text in the form of a file.
+//! Options of forward dynamics from Python, as text in the format of a file.
 
 use crate::convert::number;
 use crate::errors::{raise, raise_plain, Kind};
@@ -8,8 +8,8 @@ use kempe::case::{self, Format};
 use kempe::model::Value;
 use pyo3::prelude::*;
 
-/// Options from `{"type": "dynamics", "t_end": 15, "method": {"type": "rk45", …}, …}`; with `t_end`
-/// instead of what the text says, if given.
+/// Reads options from `{"type": "dynamics", "t_end": 15, "method": {"type": "rk45", …}, …}`. `t_end`, if given,
+/// replaces the value in the text.
 pub fn read(py: Python<'_>, model: &PyModel, text: &str, t_end: Option<f64>) -> PyResult<Options> {
     let known = model.options.of(text);
     let mut options = known.map_or_else(|| read_anew(py, model, text), Ok)?;

@@ -1,13 +1,13 @@
-//! The instructions of this module and of the processor.
+//! The instruction sets of this module and of the processor.
 //!
-//! A wheel contains this module twice, for every x86-64 and for x86-64-v3 (AVX2, FMA and what came with
-//! them). Python loads the first, and the second where the processor has its instructions.
+//! A wheel contains this module twice, for every x86-64 processor and for x86-64-v3 (AVX2, FMA and related
+//! instructions). Python loads the first module, and the second if the processor supports its instructions.
 
 use pyo3::prelude::*;
 
 use crate::guard::guard;
 
-/// The instructions for which this module was compiled: `x86-64-v3`, or the name of the architecture.
+/// The instruction set for which this module was compiled: `x86-64-v3`, or the name of the architecture.
 #[pyfunction]
 pub fn instructions() -> PyResult<&'static str> {
     guard("instructions", || Ok(compiled_for()))
@@ -29,7 +29,7 @@ fn compiled_for() -> &'static str {
     }
 }
 
-/// The features that LLVM adds to x86-64-v2 for x86-64-v3. All processors with AVX2 have those of v2.
+/// The features that LLVM adds to x86-64-v2 for x86-64-v3. All processors with AVX2 support x86-64-v2.
 #[cfg(target_arch = "x86_64")]
 fn found_v3() -> bool {
     use std::is_x86_feature_detected as has;

@@ -14,13 +14,13 @@ use kempe::model::{ForceMode, Model};
 use pyo3::prelude::*;
 use std::collections::BTreeSet;
 
-/// The body `on`, which a joint or driver must touch.
+/// The body `on`, which must belong to the joint or driver.
 fn touched(py: Python<'_>, model: &Model, k: usize, on: &str) -> PyResult<BodyId> {
     let all: Vec<BodyId> = reactions::touched(model, k).collect();
     one_of(py, model, &all, &model.constraints[k].name, on)
 }
 
-/// Force, and torque about the joint point, of a joint or driver on a body.
+/// Force, and torque about the joint point, that a joint or driver exerts on a body.
 #[pyfunction]
 #[pyo3(signature = (model, joint, on, frame, t, q, lam))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
@@ -54,8 +54,8 @@ pub fn reaction<'py>(
     })
 }
 
-/// The impulse of a joint, driver, stop or contact on a body at impacts: force times time, and torque times time about the
-/// joint point, or about the origin of the body for a stop or contact.
+/// The impulse of a joint, driver, stop or contact on a body at impacts: force times time, and torque times time
+/// about the joint point, or about the origin of the body for a stop or contact.
 #[pyfunction]
 #[pyo3(signature = (model, name, on, t, q, impulses))]
 pub fn impulse<'py>(
@@ -94,7 +94,7 @@ pub fn impulse<'py>(
     })
 }
 
-/// The point at which the reaction of a joint or driver on a body is given: (n_t, 2), global, m.
+/// The point of application of the reaction of a joint or driver on a body: (n_t, 2), global, m.
 #[pyfunction]
 #[pyo3(signature = (model, joint, on, t, q))]
 pub fn place<'py>(
@@ -119,8 +119,8 @@ pub fn place<'py>(
     })
 }
 
-/// The balance of each moving body: |Σ F - m a|, |Σ M - J α|, the largest single force and moment, and the largest lever,
-/// (n_t, 5 n_bodies).
+/// The balance of each moving body: |Σ F - m a|, |Σ M - J α|, the largest single force and moment, and the largest
+/// lever arm, (n_t, 5 n_bodies).
 #[pyfunction]
 #[pyo3(signature = (model, t, q, v, z, a, lam))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
@@ -175,7 +175,7 @@ pub fn not_unique(
     })
 }
 
-/// The results of a joint beside its reaction, such as the normal force of a roller: (n_t, n).
+/// The results of a joint other than its reaction, such as the normal force of a roller: (n_t, n).
 #[pyfunction]
 #[pyo3(signature = (model, joint, t, q, lam))]
 pub fn results<'py>(

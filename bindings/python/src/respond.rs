@@ -1,4 +1,4 @@
-//! Accelerations and multipliers of states, for Python: without the interpreter's lock, interruptible.
+//! Accelerations and multipliers at states for Python: without the interpreter's lock, interruptible.
 
 use crate::active::Active;
 use crate::errors::{Failure, Kind};
@@ -10,7 +10,8 @@ use pyo3::prelude::*;
 /// Rows of numbers, time first.
 pub type Table<'py> = Bound<'py, PyArray2<f64>>;
 
-/// Accelerations and multipliers at states in rows, with γ, not γ̂; near singular positions as well if they are passed.
+/// Accelerations and multipliers at states in rows, without stabilization. With `passing`, also near singular
+/// positions.
 pub fn responses(
     py: Python<'_>,
     model: &Active,
@@ -37,7 +38,7 @@ pub fn energies(
     found.map_err(|failure| missing(py, failure.reason))
 }
 
-/// The error of a run that stopped.
+/// The exception for a run that stopped.
 pub fn because(py: Python<'_>, reason: core::Reason) -> PyErr {
     let hint = match reason {
         core::Reason::Integration { hint, .. }
@@ -49,7 +50,7 @@ pub fn because(py: Python<'_>, reason: core::Reason) -> PyErr {
     failure(reason, hint).raise(py)
 }
 
-/// The error of a state that is there, of which something does not follow.
+/// The exception for a state at which a result cannot be computed.
 pub fn missing(py: Python<'_>, reason: core::Reason) -> PyErr {
     let hint = match reason {
         core::Reason::Redundant { hint, .. } => hint,

@@ -1,4 +1,4 @@
-//! Statistics of a quantity over a run, for functions of Python.
+//! Statistics of a quantity over a run, for Python functions.
 
 use crate::convert::{refuse, Row, Rows};
 use crate::guard::guard;
@@ -12,14 +12,14 @@ type Array<'py> = Bound<'py, PyArray1<f64>>;
 /// Values and times of maxima, indices and times of singular positions.
 type Found<'py> = (Array<'py>, Array<'py>, Vec<usize>, Array<'py>);
 
-/// Times and values of the samples, values of the maxima with their times, and whether singular positions were met.
+/// Times and values of the samples, times and values of the maxima, and a flag whether singular positions were found.
 type Between<'py> = (Row<'py>, Row<'py>, Row<'py>, Row<'py>, bool);
 
-/// A function of times that was called by the core.
+/// A Python function of times that the core calls.
 struct Caller<'py> {
     py: Python<'py>,
     call: Bound<'py, PyAny>,
-    /// The exception other than those of kempe.
+    /// An exception that is not an error of kempe.
     raised: Option<PyErr>,
 }
 
@@ -28,7 +28,7 @@ impl<'py> Caller<'py> {
         Self { py: call.py(), call, raised: None }
     }
 
-    /// The values; None after an error of kempe, which means that there are none.
+    /// The values. None after an error of kempe, which means that there are no values.
     fn read(&mut self, t: &[f64]) -> Option<Vec<f64>> {
         let values = self.call.call1((t.to_vec().into_pyarray(self.py),)).and_then(|values| {
             let values: Row<'_> = values.extract()?;
@@ -53,7 +53,7 @@ impl<'py> Caller<'py> {
     }
 }
 
-/// Values at times; not empty.
+/// Values at times. They must not be empty.
 fn series(py: Python<'_>, t: &Row<'_>, values: &Row<'_>) -> PyResult<(Vec<f64>, Vec<f64>)> {
     let (t, values) = (t.as_array().to_vec(), values.as_array().to_vec());
     match t.len() == values.len() && !t.is_empty() {
@@ -65,7 +65,7 @@ fn series(py: Python<'_>, t: &Row<'_>, values: &Row<'_>) -> PyResult<(Vec<f64>, 
     }
 }
 
-/// Instants close enough for smooth curves on an interpolant.
+/// Instants that are close enough for smooth curves on an interpolant.
 #[pyfunction]
 #[pyo3(signature = (bounds, outputs, numbers))]
 pub fn instants<'py>(
@@ -108,7 +108,7 @@ pub fn interpolate<'py>(
     })
 }
 
-/// The largest local maxima of a quantity; `read` gives its values at times.
+/// The largest local maxima of a quantity. `read` returns its values at times.
 #[pyfunction]
 #[pyo3(signature = (t, sampled, near, near_t, resolved, read))]
 pub fn maxima<'py>(
@@ -139,7 +139,7 @@ pub fn maxima<'py>(
     })
 }
 
-/// The extreme value and its time: of the outputs, and of the maxima on the interpolant. Values have the sign that makes
+/// The extreme value and its time, from the outputs and the maxima on the interpolant. The sign of the values makes
 /// the extreme value a maximum.
 #[pyfunction]
 #[pyo3(signature = (sign, t, values, between=None))]
@@ -191,7 +191,7 @@ pub fn root_mean_square(py: Python<'_>, t: Row<'_>, values: Row<'_>) -> PyResult
     })
 }
 
-/// The lengths of rows.
+/// The Euclidean norms of rows.
 #[pyfunction]
 #[pyo3(signature = (rows))]
 pub fn row_norms<'py>(py: Python<'py>, rows: Rows<'py>) -> PyResult<Array<'py>> {
@@ -202,7 +202,7 @@ pub fn row_norms<'py>(py: Python<'py>, rows: Rows<'py>) -> PyResult<Array<'py>> 
     })
 }
 
-/// Whether a quantity changes, and its settling time or None. `between` gives its values at times.
+/// Whether a quantity changes, and its settling time or None. `between` returns its values at times.
 #[pyfunction]
 #[pyo3(signature = (t, values, noise=None, between=None))]
 pub fn settling<'py>(

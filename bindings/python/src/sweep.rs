@@ -14,18 +14,18 @@ use rayon::prelude::*;
 use rayon::ThreadPoolBuilder;
 use std::sync::Arc;
 
-/// Largest number of variants that are computed together, which fit into the cache of a processor.
+/// Largest number of variants in a block, so that a block fits into the cache of a processor.
 const BLOCK: usize = 32;
-/// Blocks for each thread, so that all threads end at about the same time.
+/// Number of blocks per thread, so that all threads end at about the same time.
 const BLOCKS: usize = 4;
 
-/// Size of the stack of a thread, as that of a main thread.
+/// Stack size of a thread, equal to that of a main thread.
 const STACK: usize = 8 << 20;
 
-/// Rows of numbers, the reason of each row that failed, and the rows that a single run decides.
+/// Rows of numbers, the reasons of the rows that failed, and the rows that need a single run.
 type Swept<'py> = (Table<'py>, Vec<(usize, String)>, Bound<'py, PyArray1<u64>>);
 
-/// Whether `sweep` serves a model, measures and statistics.
+/// Whether `sweep` supports a model, measures and statistics.
 #[pyfunction]
 #[pyo3(signature = (model, wanted))]
 pub fn sweeps(model: &PyModel, wanted: Vec<String>) -> PyResult<bool> {
@@ -35,8 +35,8 @@ pub fn sweeps(model: &PyModel, wanted: Vec<String>) -> PyResult<bool> {
     })
 }
 
-/// Runs variants of a case, one for each row, and gives statistics of measures. `start`, `guess` and `analysis` are JSON
-/// as in a file; `parameters` and `coordinates` are the names of the columns.
+/// Runs variants of a case, one per row, and returns statistics of measures. `start`, `guess` and `analysis` are JSON
+/// in the format of a file; `parameters` and `coordinates` are the names of the columns.
 #[pyfunction]
 #[pyo3(signature = (model, start, guess, analysis, measures, wanted, parameters, coordinates, rows, workers))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
@@ -79,7 +79,7 @@ pub fn sweep<'py>(
     })
 }
 
-/// The outcome of each row; a panic ends all.
+/// The outcome of each row. A panic ends all computations.
 fn on_threads(
     sweep: &Sweep,
     (parameters, coordinates): &(Vec<String>, Vec<String>),
@@ -101,7 +101,7 @@ fn on_threads(
     let pool = ThreadPoolBuilder::new().num_threads(workers).stack_size(STACK).build();
     let outcomes: Result<Vec<_>, _> = match pool {
         Ok(pool) => pool.install(|| rows.par_chunks(block).map(run).collect()),
-        // no threads can be started
+        // threads cannot be started
         Err(_) => rows.chunks(block).map(run).collect(),
     };
     Ok(outcomes?.concat())

@@ -3,7 +3,7 @@
 use crate::formulas::declared;
 use kempe::elements::Group;
 
-/// The allowed content of a case by section; joints and drivers have their equations.
+/// The allowed content of a case by section, with the equations of joints and drivers.
 pub fn all() -> String {
     let mut sections = kempe::case::catalogue();
     for group in [Group::Joints, Group::Drivers] {

@@ -6,8 +6,8 @@ use crate::model::PyModel;
 use kempe::analyses::transmission::{line_at as line, others_at, transmitting as pins};
 use pyo3::prelude::*;
 
-/// The pins and slides of a body besides a joint, and the direction of the line of the body from this joint, in its
-/// frame, rad; the line is None unless there is exactly one other.
+/// The pins and slides of a body except one joint, and the direction of the line of the body from this joint, in its
+/// frame, rad. The direction is None unless there is exactly one other pin or slide.
 #[pyfunction]
 #[pyo3(signature = (model, joint, body))]
 pub fn line_at(
@@ -25,7 +25,7 @@ pub fn line_at(
     })
 }
 
-/// The pins at which a link without a driver, guided by ground, is moved by another link.
+/// The pins at which another link moves a link that ground guides and that has no driver.
 #[pyfunction]
 #[pyo3(signature = (model))]
 pub fn transmitting(model: &PyModel) -> PyResult<Vec<String>> {

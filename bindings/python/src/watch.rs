@@ -4,22 +4,22 @@ use kempe::integrate::Flow;
 use pyo3::prelude::*;
 use std::time::{Duration, Instant};
 
-/// Time between looks at signals and calls of `progress`.
+/// Time between checks for signals and calls of `progress`.
 const GLANCE: Duration = Duration::from_millis(40);
-/// Time between looks at the clock: so short that a step which takes hundreds of times as long as the states
-/// reported before it is not late.
+/// Time between readings of the clock. It is so short that a step which takes hundreds of times as long as the
+/// previous states causes no noticeable delay.
 const PACE: Duration = Duration::from_micros(250);
 
-/// Looks at signals and reports progress, rarely enough to cost nothing.
+/// Checks for signals and reports progress, at intervals that make the cost negligible.
 pub struct Watch<'a> {
     progress: Option<&'a Py<PyAny>>,
-    /// The last look at signals.
+    /// The time of the last check for signals.
     told: Instant,
-    /// The last look at the clock.
+    /// The time of the last reading of the clock.
     looked: Instant,
-    /// Steps and reported states from one look at the clock to the next.
+    /// Number of steps and reported states between readings of the clock.
     every: u32,
-    /// And still to come.
+    /// Number of steps and states until the next reading.
     left: u32,
     pub raised: Option<PyErr>,
 }
@@ -41,7 +41,7 @@ impl<'a> Watch<'a> {
     #[cold]
     fn look_at_clock(&mut self, t: f64) -> Flow {
         let now = Instant::now();
-        // too early: twice as many until the next; too late: so many fewer
+        // too early: at most double the number until the next reading; too late: reduce it in proportion
         let late = (now - self.looked).as_secs_f64() / PACE.as_secs_f64();
         self.every = (f64::from(self.every) / late.max(0.5)).max(1.0) as u32;
         (self.left, self.looked) = (self.every, now);

@@ -1,4 +1,4 @@
-//! The content that a case may have, for palettes and forms.
+//! The allowed content of a case, for palettes and forms.
 
 use kempe::case;
 use kempe::elements::{Fixes, Group};
@@ -6,7 +6,7 @@ use kempe::model::Value as Written;
 use kempe::{build, Definition, Entry, Model};
 use serde_json::{json, Value};
 
-/// The catalogue and the version. Joints between two points say whether they only hold the points together.
+/// The catalogue and the version. Joints between two points have a flag whether they only hold the points together.
 pub fn catalogue() -> Value {
     let mut found = case::catalogue();
     if let Some(joints) = found["joints"].as_array_mut() {
@@ -18,7 +18,7 @@ pub fn catalogue() -> Value {
     json!({ "elements": found, "version": env!("CARGO_PKG_VERSION") })
 }
 
-/// Whether a joint of this type between two points holds them together and nothing else: a pin.
+/// Whether a joint of this type between two points only holds them together, as a pin does.
 fn joins_points(kind: &str) -> bool {
     let sample = sample(kind);
     sample.is_some_and(|model| {
@@ -27,7 +27,8 @@ fn joins_points(kind: &str) -> bool {
     })
 }
 
-/// A bar on a ground point, held by a joint that has two points and no other field that is required.
+/// A bar on a ground point, held by a joint of this type. None unless the joint has two points and no other required
+/// field.
 fn sample(kind: &str) -> Option<Model> {
     let text = |text: &str| Written::Text(text.to_string());
     let number = Written::Number;

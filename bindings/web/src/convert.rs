@@ -13,7 +13,7 @@ impl<'a> Fields<'a> {
         self.0.get(name).filter(|value| !value.is_null())
     }
 
-    /// A field that must be there.
+    /// A field that must be present.
     pub fn need(&self, name: &str) -> Result<&'a Value, Fault> {
         self.get(name).ok_or_else(|| Fault::new(format!("the request has no field '{name}'")))
     }
@@ -28,7 +28,7 @@ impl<'a> Fields<'a> {
         self.need(name)?.as_f64().ok_or_else(|| wrong(name, "a number"))
     }
 
-    /// A finite number, or the given one if it is absent.
+    /// A finite number, or `absent` if it is missing.
     pub fn number_or(&self, name: &str, absent: f64) -> Result<f64, Fault> {
         self.get(name).map_or(Ok(absent), |_| self.number(name))
     }
@@ -45,14 +45,14 @@ impl<'a> Fields<'a> {
         self.numbers(name)?.try_into().map_err(|_| wrong(name, "two numbers"))
     }
 
-    /// A list of texts; empty if it is absent.
+    /// A list of texts. Empty if it is absent.
     pub fn texts(&self, name: &str) -> Result<Vec<&'a str>, Fault> {
         let Some(value) = self.get(name) else { return Ok(Vec::new()) };
         let found = value.as_array().and_then(|x| x.iter().map(Value::as_str).collect());
         found.ok_or_else(|| wrong(name, "a list of texts"))
     }
 
-    /// Names with values as in a file; empty if it is absent.
+    /// Names with values as in a file. Empty if absent.
     pub fn table(&self, name: &str) -> Result<Vec<(String, Written)>, Fault> {
         let Some(value) = self.get(name) else { return Ok(Vec::new()) };
         match written(value) {
@@ -89,7 +89,7 @@ pub fn written(value: &Value) -> Option<Written> {
     })
 }
 
-/// Finite numbers; others are null.
+/// Finite numbers. Other numbers become null.
 pub fn row(values: &[f64]) -> Value {
     values.iter().map(|x| json!(x)).collect()
 }

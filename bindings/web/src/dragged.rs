@@ -12,7 +12,7 @@ use kempe::model::Value as Written;
 use kempe::{mobility, Model, State, Vec2};
 use serde_json::{json, Value};
 
-/// Moves a point towards a place; drivers do not act meanwhile. The new state is at rest.
+/// Moves a point towards a target. Drivers do not act meanwhile. The new state is at rest.
 pub fn drag(loaded: &mut Loaded, fields: &Fields<'_>) -> Result<Value, Fault> {
     if !loaded.assembled {
         return Err(Fault::new("the mechanism does not close").hint("assemble it first"));
@@ -49,13 +49,13 @@ pub fn drag(loaded: &mut Loaded, fields: &Fields<'_>) -> Result<Value, Fault> {
     Ok(json!({ "pose": pose(&loaded.model, &loaded.state), "stopped": stopped }))
 }
 
-/// A body that moves, by its name.
+/// A moving body by name.
 pub fn moving(model: &Model, name: &str) -> Result<BodyId, Fault> {
     let body = model.body(name).filter(|body| !body.is_ground());
     body.ok_or_else(|| Fault::new(format!("there is no moving body '{name}'")))
 }
 
-/// The request that holds coordinates at their present values.
+/// The request that holds coordinates at their current values.
 pub fn locked_at(model: &Model, state: &State, names: &[&str]) -> Result<Request, Fault> {
     let values = kempe::analyses::readings::of_state(model, state, names);
     let written = names.iter().zip(values);

@@ -1,4 +1,4 @@
-//! Scene and display list of a mechanism at its present pose.
+//! Scene and display list of a mechanism in its current pose.
 
 use crate::convert::Fields;
 use crate::fault::Fault;
@@ -14,7 +14,7 @@ pub fn scene(loaded: &Loaded) -> Result<Value, Fault> {
     Ok(json!({ "scene": scene }))
 }
 
-/// The display list, laid out for an area in points, and the view for which names have their places.
+/// The display list for an area in points, and the view for which names are laid out.
 pub fn display(loaded: &Loaded, fields: &Fields<'_>) -> Result<Value, Fault> {
     let scene = made(loaded);
     let size = [fields.number("width")?, fields.number("height")?];
@@ -34,7 +34,7 @@ pub fn display(loaded: &Loaded, fields: &Fields<'_>) -> Result<Value, Fault> {
 
 fn made(loaded: &Loaded) -> Scene {
     let state = std::slice::from_ref(&loaded.state);
-    // accelerations, and so efforts, exist only where the mechanism closes
+    // accelerations, and therefore efforts, exist only if the mechanism closes
     let efforts = match loaded.assembled {
         true => efforts(&loaded.model, state),
         false => Vec::new(),

@@ -1,4 +1,4 @@
-//! Changes of single values in the text of a case; comments, order and format of the rest stay.
+//! Changes of single values in the text of a case. Comments, order and format of the rest are preserved.
 
 use crate::convert::Fields;
 use crate::fault::Fault;
@@ -7,7 +7,7 @@ use toml_edit::{Array, DocumentMut, InlineTable, Item, Key, Table, TableLike};
 
 /// Sections whose entries have headers of their own.
 const OF_ENTRIES: [&str; 6] = ["tables", "bodies", "joints", "drivers", "forces", "analyses"];
-/// Keys whose values are words of the format, or texts for people.
+/// Keys whose values are words of the format, or titles.
 const OF_WORDS: [&str; 2] = ["type", "title"];
 
 /// The text with all changes: `{ path, value }`, `{ path, rename }` or `{ path, remove: true }`.
@@ -71,7 +71,7 @@ fn set(root: &mut Table, path: &[&str], value: &Value) -> Result<(), Fault> {
         _ => Item::Value(written(value)?),
     };
     match (table.get_mut(key).and_then(Item::as_value_mut), item) {
-        // the comment behind a value stays
+        // keep the comment after the value
         (Some(old), Item::Value(mut new)) => {
             *new.decor_mut() = old.decor().clone();
             *old = new;
@@ -83,7 +83,7 @@ fn set(root: &mut Table, path: &[&str], value: &Value) -> Result<(), Fault> {
     Ok(())
 }
 
-/// A table with a header; that of a section of entries is not written.
+/// A table with a header. The header of a section of entries is not written.
 fn header(depth: usize, section: &str) -> Item {
     let mut table = Table::new();
     table.set_implicit(depth == 0 && OF_ENTRIES.contains(&section));
@@ -94,7 +94,7 @@ fn inline() -> Item {
     Item::Value(toml_edit::Value::InlineTable(InlineTable::new()))
 }
 
-/// A value of JSON as one of TOML.
+/// Converts a JSON value to TOML.
 fn written(value: &Value) -> Result<toml_edit::Value, Fault> {
     Ok(match value {
         Value::Null => return Err(Fault::new("a value must not be null")),
@@ -118,7 +118,7 @@ fn written(value: &Value) -> Result<toml_edit::Value, Fault> {
     })
 }
 
-/// Gives an entry another name, there and wherever it is named.
+/// Renames an entry, in its own place and in all references.
 fn rename(document: &mut DocumentMut, path: &[&str], new: &str) -> Result<(), Fault> {
     let (last, parents) = path.split_last().expect("a path that is not empty");
     let table = find(document.as_table_mut(), parents)
@@ -128,7 +128,7 @@ fn rename(document: &mut DocumentMut, path: &[&str], new: &str) -> Result<(), Fa
         return Err(Fault::new(format!("there is a '{new}' already")).hint("choose another name"));
     }
     rename_key(table, last, new);
-    // a point is named with its body: "crank.B"
+    // references to a point include its body: "crank.B"
     let (old, new) = match path {
         ["bodies", body, "points" | "curves" | "through", point] => {
             (format!("{body}.{point}"), format!("{body}.{new}"))
@@ -139,7 +139,7 @@ fn rename(document: &mut DocumentMut, path: &[&str], new: &str) -> Result<(), Fa
     Ok(())
 }
 
-/// Changes a key in its place.
+/// Renames a key without changing its position.
 fn rename_key(table: &mut dyn TableLike, old: &str, new: &str) {
     let keys: Vec<String> = table.iter().map(|(key, _)| key.to_string()).collect();
     for key in keys {
@@ -186,7 +186,7 @@ fn rename_in_value(value: &mut toml_edit::Value, old: &str, new: &str) {
     }
 }
 
-/// The text with each occurrence of a whole name replaced; None if there is none.
+/// The text with each occurrence of a whole name replaced. None if the name does not occur.
 fn replaced(text: &str, old: &str, new: &str) -> Option<String> {
     let of_name = |c: char| c.is_alphanumeric() || c == '_';
     let (mut out, mut rest, mut found) = (String::new(), text, false);

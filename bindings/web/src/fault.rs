@@ -1,4 +1,4 @@
-//! Why a request fails.
+//! The reason that a request fails.
 
 use kempe::case::{Diagnostic, Document};
 use kempe::model::Problem;
@@ -13,34 +13,34 @@ pub struct Fault {
 }
 
 impl Fault {
-    /// With a message.
+    /// A fault with a message.
     pub fn new(message: impl Into<String>) -> Self {
         Self { message: message.into(), ..Self::default() }
     }
 
-    /// With a remedy; an empty text is none.
+    /// Adds a remedy. An empty text is ignored.
     pub fn hint(self, hint: impl Into<String>) -> Self {
         Self { hint: Some(hint.into()).filter(|hint| !hint.is_empty()), ..self }
     }
 
-    /// Of faults of a model, without places in a text.
+    /// The fault for several faults of a model, without positions in a text.
     pub fn of_problems(found: &[Problem]) -> Self {
         let first = found.first().map_or_else(String::new, ToString::to_string);
         Self { message: first, hint: None, problems: found.iter().map(problem).collect() }
     }
 
-    /// Of one fault of a request, with its remedy.
+    /// The fault for one problem of a request, with its remedy.
     pub fn of_problem(found: Problem) -> Self {
         let hint = found.hint.unwrap_or_default();
         Self::new(found.message).hint(hint)
     }
 
-    /// As the value of `error` in a reply.
+    /// The value of `error` in a reply.
     pub fn value(&self) -> Value {
         json!({ "message": self.message, "hint": self.hint, "problems": self.problems })
     }
 
-    /// As a reply.
+    /// The fault as a reply.
     pub fn reply(&self) -> String {
         json!({ "error": self.value() }).to_string()
     }
@@ -56,14 +56,14 @@ pub fn diagnostic(found: &Diagnostic) -> Value {
     })
 }
 
-/// A fault of a model with its place in the text, if the text has one.
+/// The faults of a model, with their positions in the text if it has them.
 pub fn placed(document: &Document, found: &[Problem]) -> Vec<Value> {
     let mut found: Vec<Diagnostic> = found.iter().map(|p| document.diagnose(p)).collect();
     found.sort_by_key(|d| (d.line, d.column));
     found.iter().map(diagnostic).collect()
 }
 
-/// A fault of a model, without a place in a text.
+/// A fault of a model, without a position in a text.
 pub fn problem(found: &Problem) -> Value {
     json!({
         "message": found.message, "hint": found.hint, "path": found.path.join("."),

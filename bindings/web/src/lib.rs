@@ -1,7 +1,7 @@
-//! The kempe core for web pages: a request as JSON text in, a reply as JSON text out. `README.md` lists them.
+//! The kempe core for web pages: requests and replies are JSON texts. `README.md` lists them.
 //!
-//! The page writes a request at the address that [`request`] returns, calls [`call`], and reads the reply. Long lists of
-//! numbers lie in memory at [`numbers`]. One [`Session`] is kept; tests in Rust use it without WebAssembly.
+//! The page writes a request at the address that [`request`] returns, calls [`call`], and reads the reply. Long lists
+//! of numbers are in memory at [`numbers`]. There is one [`Session`]. Tests in Rust use it without WebAssembly.
 #![deny(unsafe_code)]
 
 mod catalogue;
@@ -29,7 +29,7 @@ thread_local! {
     static MODULE: RefCell<Module> = RefCell::default();
 }
 
-/// The session with the texts that go in and out.
+/// The session with the texts of the request and the reply.
 #[derive(Default)]
 struct Module {
     request: Vec<u8>,
@@ -72,16 +72,16 @@ macro_rules! export {
 }
 
 export! {
-    /// Address of room for a request of so many bytes in UTF-8.
+    /// Address of memory for a request with this number of bytes in UTF-8.
     fn request(length: usize) -> *mut u8 = Module::room;
     /// Answers the request.
     fn call() -> () = Module::call;
     /// Address of the reply, in UTF-8.
     fn reply() -> *const u8 = |module| module.reply.as_ptr();
-    /// Its number of bytes.
+    /// Number of bytes of the reply.
     fn reply_length() -> usize = |module| module.reply.len();
-    /// Address of the numbers of the last reply that has any, in double precision.
+    /// Address of the numbers of the last reply that contains numbers, in double precision.
     fn numbers() -> *const f64 = |module| module.session.numbers().as_ptr();
-    /// Their count.
+    /// Count of these numbers.
     fn numbers_length() -> usize = |module| module.session.numbers().len();
 }

@@ -1,4 +1,4 @@
-//! Dynamics that goes on while a page shows it: computed a little ahead, and begun anew where the user interferes.
+//! Dynamics in real time while a page displays it: computed slightly ahead, and restarted when the user interferes.
 
 use crate::convert::Fields;
 use crate::dragged::moving;
@@ -12,29 +12,30 @@ use kempe::{build, Flow, Model, Options, State};
 use serde_json::{json, Value};
 use std::sync::Arc;
 
-/// Advances that are computed ahead, and the longest time of them, s, unless one advance is longer.
+/// Number of advances that are computed ahead, and the longest time for them, s, unless one advance is longer.
 const ADVANCES: f64 = 15.0;
 const AHEAD: f64 = 0.25;
-/// Shorter advances are computed ahead as one of this length, s: two frames may have almost the same time.
+/// Advances below this length, s, are computed ahead with this length, because two frames may have almost equal
+/// times.
 const SHORTEST: f64 = 1e-4;
-/// Outputs in one advance; the picture lags by less than the time between them.
+/// Number of outputs in one advance. The picture lags by less than the time between outputs.
 const OUTPUTS: f64 = 4.0;
-/// Part of an advance that is rounding.
+/// Fraction of an advance that counts as rounding.
 const SAME: f64 = 1e-6;
-/// Most steps between two replies; then the motion is slower than real time.
+/// Largest number of steps between two replies. With more steps, the motion is slower than real time.
 const MOST_STEPS: usize = 4000;
-/// Names of what holds the mouse; users cannot write names with a space at the start.
+/// Name of the spring to the mouse. Users cannot write names with a leading space.
 const PULL: &str = "pull by hand";
 
 /// A motion in progress.
 pub struct Live {
     prepared: Prepared<Arc<Model>>,
     state: State,
-    /// The time that was requested, s; the state is at the last output before it.
+    /// The requested time, s. The state is at the last output before it.
     goal: f64,
-    /// Works before the present run, J.
+    /// Works before the current run, J.
     works: [f64; WORKS],
-    /// The total energy at the start, J, and the scale of energies so far.
+    /// The total energy at the start, J, and the scale of energies so far, J.
     start: f64,
     scale: f64,
     ahead: Option<Run>,
@@ -53,7 +54,7 @@ struct Pull {
 }
 
 impl Live {
-    /// Begins at the present state.
+    /// Begins at the current state.
     pub fn begin(loaded: &Loaded) -> Result<Self, Fault> {
         if !loaded.assembled {
             return Err(Fault::new("the mechanism does not close").hint("assemble it first"));
@@ -73,22 +74,22 @@ impl Live {
         Ok(live)
     }
 
-    /// The present state.
+    /// The current state.
     pub fn state(&self) -> &State {
         &self.state
     }
 
-    /// The model that moves: that of the case, and the pull.
+    /// The model that moves: the model of the case with the spring.
     pub fn model(&self) -> &Arc<Model> {
         self.prepared.model()
     }
 
-    /// Goes on by a time; the reply has the state that was reached.
+    /// Advances by a time. The reply contains the new state.
     pub fn advance(&mut self, by: f64) -> Value {
         let (mut steps, mut ended) = (0, None);
         self.goal += by;
         loop {
-            // outputs are near enough for a picture; the last one is where the next run begins
+            // outputs are close enough for a picture; the next run begins at the last output
             let next = self.row_before(self.goal + SAME * by);
             if let Some(next) = next.map(|(run, row)| row_of(run, row, self.prepared.model())) {
                 self.state = next;
@@ -106,7 +107,7 @@ impl Live {
         self.reply(ended)
     }
 
-    /// Computes ahead from the present state; the reason for which the motion ended, if it did.
+    /// Computes ahead from the current state. Returns the reason if the motion ended.
     fn compute(&mut self, by: f64, steps: &mut usize) -> Option<String> {
         self.settle_works();
         let by = by.max(SHORTEST);
@@ -137,13 +138,13 @@ impl Live {
         ended.filter(|_| !moves)
     }
 
-    /// The run ahead, and the last of its rows up to a time.
+    /// The run ahead, and its last row up to a time.
     fn row_before(&self, t: f64) -> Option<(&Run, usize)> {
         let run = self.ahead.as_ref()?;
         Some((run, run.trajectory.t.iter().take_while(|own| **own <= t).count().checked_sub(1)?))
     }
 
-    /// Works up to the present state.
+    /// Works up to the current state.
     fn present_works(&self) -> [f64; WORKS] {
         let mut works = self.works;
         if let Some((run, row)) = self.row_before(self.state.t) {
@@ -158,7 +159,7 @@ impl Live {
         self.ahead = None;
     }
 
-    /// Kinetic and potential energy, dissipated energy, works of drivers and of applied forces, J.
+    /// Kinetic and potential energy, dissipated energy, and works of drivers and of applied forces, J.
     fn energies(&self) -> [f64; ENERGIES] {
         let State { t, q, v, z } = &self.state;
         let states = kempe::analyses::dynamics::States { t: &[*t], q, v, z };
@@ -166,7 +167,7 @@ impl Live {
         found.try_into().unwrap_or([f64::NAN; ENERGIES])
     }
 
-    /// What was done before does not count in the balance.
+    /// Restarts the energy balance, so that earlier works do not count.
     fn mark_energy(&mut self) {
         self.works = [0.0; WORKS];
         self.ahead = None;
@@ -197,7 +198,7 @@ impl Live {
         reply
     }
 
-    /// Pulls at a point, or lets it go.
+    /// Pulls at a point, or releases it.
     pub fn pull(&mut self, loaded: &Loaded, fields: &Fields<'_>) -> Result<Value, Fault> {
         let pull = match fields.get("body") {
             None => None,
@@ -219,7 +220,7 @@ impl Live {
         Ok(json!({}))
     }
 
-    /// Continues from the state of a case with other parameters; a pull goes on.
+    /// Continues from the state of a case with other parameters. A pull continues.
     ///
     /// # Errors
     /// The pull cannot act on the new model.
@@ -238,7 +239,7 @@ impl Live {
     }
 }
 
-/// The model of a case with what pulls at it.
+/// The model of a case with the spring, if there is a pull.
 fn with_pull(loaded: &Loaded, pull: Option<&Pull>) -> Result<Arc<Model>, Fault> {
     match pull {
         None => Ok(Arc::clone(&loaded.model)),
@@ -246,7 +247,7 @@ fn with_pull(loaded: &Loaded, pull: Option<&Pull>) -> Result<Arc<Model>, Fault> 
     }
 }
 
-/// The model with a spring between a point of a body and a place.
+/// The model with a spring between a point of a body and a fixed point.
 fn pulled(loaded: &Loaded, pull: &Pull) -> Result<Model, Fault> {
     moving(&loaded.model, &pull.body)?;
     let Case { definition, .. } = &loaded.case;

@@ -1,4 +1,4 @@
-//! A text that was read: its case, its model and its assembled start.
+//! The content of a text: its case, its model and its assembled start.
 
 use crate::fault::{diagnostic, placed, Fault};
 use crate::mechanism::mechanism;
@@ -14,17 +14,17 @@ use std::sync::Arc;
 pub struct Loaded {
     /// The case.
     pub case: Case,
-    /// Its model, perhaps with other values of parameters than the text.
+    /// Its model. Parameters may have other values than in the text.
     pub model: Arc<Model>,
-    /// The model without drivers, for dragging, with its degrees of freedom where it closes.
+    /// The model without drivers, for dragging, and its degrees of freedom if it closes.
     pub free: (Arc<Model>, usize),
-    /// The present state.
+    /// The current state.
     pub state: State,
     /// Whether the mechanism is closed.
     pub assembled: bool,
 }
 
-/// Reads a text. The reply describes what could be read; there is a case only where the model could be built.
+/// Reads a text. The reply describes the parts that could be read. There is a case only if the model could be built.
 pub fn load(text: &str) -> (Option<Loaded>, Value) {
     let (case, document) = match case::read(text, Format::Toml) {
         Ok(read) => read,
@@ -45,7 +45,7 @@ pub fn load(text: &str) -> (Option<Loaded>, Value) {
     (Some(loaded), reply)
 }
 
-/// The case of the text as JSON; null where its syntax is faulty.
+/// The case of the text as JSON. Null if its syntax is faulty.
 fn tree(text: &str) -> Value {
     let read = case::parse_tree(text, Format::Toml).ok();
     read.map_or(Value::Null, |value| crate::convert::json_of(&value))
@@ -55,7 +55,7 @@ fn unread(problems: &[Value], case: Value) -> Value {
     json!({ "problems": problems, "case": case, "mechanism": null, "pose": null, "unassembled": null })
 }
 
-/// Assembles the start of a case; where that fails, the bodies are placed with open joints.
+/// Assembles the start of a case. If this fails, the bodies are placed with open joints.
 fn start(case: Case, model: Model) -> (Loaded, Result<assemble::Report, Fault>) {
     let model = Arc::new(model);
     let request = case.start.request(&model);
@@ -123,7 +123,7 @@ fn described(
     })
 }
 
-/// The names of q, such as `crank.x`; those of curves' parameters follow the bodies and are left out.
+/// The names of q, such as `crank.x`. Parameters of curves follow the bodies and are omitted.
 fn coordinates(model: &Model) -> Value {
     let of = |k: usize| {
         let count = model.layout.bodies[k].count;

@@ -1,4 +1,4 @@
-//! A model as a page sees it.
+//! The description of a model for a page.
 
 use kempe::case::Case;
 use kempe::elements::Group;
@@ -49,7 +49,7 @@ fn body((k, body): (usize, &Body)) -> Value {
     })
 }
 
-/// The unit of a parameter; none where it is not known.
+/// The unit of a parameter. None if it is not known.
 fn unit_of(inferred: &Inferred) -> Option<String> {
     match inferred {
         Inferred::Of(of) => Some(match of.common_unit() {

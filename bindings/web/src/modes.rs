@@ -1,4 +1,4 @@
-//! The configurations of a mechanism with its freedoms held where they are.
+//! The configurations of a mechanism with its degrees of freedom held at their current values.
 
 use crate::convert::Fields;
 use crate::dragged::locked_at;
@@ -10,7 +10,7 @@ use kempe::analyses::configurations::{configurations as core, Failure};
 use kempe::{mobility, Model, State};
 use serde_json::{json, Value};
 
-/// Most configurations that are looked for.
+/// Default of the largest number of configurations.
 const MOST: f64 = 24.0;
 
 /// All positions in which the mechanism closes.
@@ -33,7 +33,8 @@ pub fn configurations(loaded: &Loaded, fields: &Fields<'_>) -> Result<Value, Fau
     Ok(json!({ "complete": found.complete, "held": names, "poses": poses }))
 }
 
-/// Coordinates that determine the mechanism: those that the start sets, then angles and places of bodies.
+/// Coordinates that determine the mechanism: first coordinates that the start sets, then angles and positions of
+/// bodies.
 fn held(loaded: &Loaded) -> Result<Vec<String>, Fault> {
     let model = &loaded.model;
     let own = loaded.case.start.set.iter().map(|(name, _)| name.clone());

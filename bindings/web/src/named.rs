@@ -1,5 +1,5 @@
-//! What a page can plot: quantities, the measures of the case and transmission angles by name, and other expressions
-//! of quantities.
+//! Expressions that a page can plot: quantities, the measures of the case and transmission angles by name, and other
+//! expressions of quantities.
 
 use crate::fault::Fault;
 use crate::loaded::Loaded;
@@ -10,7 +10,7 @@ use kempe::analyses::transmission::{transmission_angle, transmitting};
 use kempe::model::Value;
 use kempe::Model;
 
-/// An expression that has a name; its unit, if that of the expression does not have it.
+/// An expression with a name, and its unit if it cannot be inferred from the expression.
 struct Expression {
     name: String,
     text: String,
@@ -33,7 +33,7 @@ fn expressions(loaded: &Loaded) -> Vec<Expression> {
     measures.chain(angles).collect()
 }
 
-/// All that can be plotted by name.
+/// All quantities and expressions that can be plotted by name.
 pub fn all(loaded: &Loaded) -> Vec<Readable> {
     let mut found = readings::readable(&loaded.model);
     found.extend(expressions(loaded).into_iter().filter_map(|one| {
@@ -43,16 +43,16 @@ pub fn all(loaded: &Loaded) -> Vec<Readable> {
     found
 }
 
-/// Something that can be plotted.
+/// A quantity or expression that is plotted.
 pub struct Plotted {
     name: String,
-    /// None for a quantity, which is read by its name.
+    /// None for a quantity, which is evaluated by its name.
     measure: Option<Measure>,
-    /// Its SI unit; empty if it is not known.
+    /// Its SI unit. Empty if it is not known.
     unit: String,
 }
 
-/// What a name or an expression means in the model of a run.
+/// The quantity or expression for a name or a text in the model of a run.
 pub fn find(loaded: &Loaded, model: &Model, name: &str) -> Result<Plotted, Fault> {
     let own = expressions(loaded).into_iter().find(|one| one.name == name);
     if let Some(own) = own {
@@ -79,7 +79,7 @@ fn read(model: &Model, one: &Expression) -> Result<Plotted, Fault> {
     Ok(Plotted { unit: unit.to_string(), name: one.name.clone(), measure: Some(measure) })
 }
 
-/// The units, and the values at all outputs of a run, a row for each.
+/// The units, and the values at all outputs of a run, one row for each item.
 pub fn values(model: &Model, run: &Run, all: &[Plotted]) -> (Vec<String>, Vec<f64>) {
     let quantities = all.iter().filter(|one| one.measure.is_none());
     let quantities: Vec<&str> = quantities.map(|one| one.name.as_str()).collect();

@@ -1,4 +1,4 @@
-//! A motion over a driven value: it takes the place of the time, as in `kp.kinematics(over=…)`.
+//! A motion over a driven value that replaces time, as in `kp.kinematics(over=…)`.
 
 use crate::fault::Fault;
 use crate::loaded::Loaded;
@@ -6,13 +6,13 @@ use kempe::analyses::kinematics::{over as driven_over, Over};
 use kempe::{build, Model, State};
 use std::sync::Arc;
 
-/// What takes the place of the time: a quantity and its unit.
+/// The variable that replaces time: a quantity and its unit.
 pub struct Variable {
     pub name: String,
     pub unit: String,
 }
 
-/// The model in which t is the value of `over`, a driver or a position quantity, and the start with this t.
+/// The model in which t is the value of `over`, a driver or a position quantity, and the start at this t.
 pub fn driven_by(
     loaded: &Loaded,
     over: &str,

@@ -1,4 +1,4 @@
-//! A state of a mechanism as a page sees it.
+//! The description of a state of a mechanism for a page.
 
 use crate::convert::row;
 use kempe::equations::constraints;

@@ -1,4 +1,5 @@
-//! What prevents each analysis of a state or motion: the checks with which the core begins it, at the start of the case.
+//! Obstacles to each analysis of a state or motion: the checks with which the core begins it, at the start of the
+//! case.
 
 use crate::fault::problem;
 use crate::loaded::Loaded;
@@ -11,8 +12,7 @@ use kempe::{assemble, Flow, Model, Options, Problem, State};
 use serde_json::{json, Value};
 use std::sync::Arc;
 
-/// What prevents each analysis; null where nothing does. Where the mechanism does not close, no other analysis
-/// can begin.
+/// The obstacle to each analysis, or null. If the mechanism does not close, no other analysis can begin.
 pub fn readiness(loaded: &Loaded) -> Value {
     let (model, definition) = (&loaded.model, &loaded.case.definition);
     let state = match start(loaded) {
@@ -55,7 +55,7 @@ fn problem_at(path: &[String], message: &str, hint: &str) -> Problem {
     Problem::at(path, message).maybe_hint(hint)
 }
 
-/// The place of an element in a file; of a coordinate such as `crank.angle`, that of its body.
+/// The path of an element in a file. For a coordinate such as `crank.angle`, the path of its body.
 fn place(definition: &Definition, name: &str) -> Vec<String> {
     let name = name.split('.').next().unwrap_or_default();
     let Definition { bodies, joints, drivers, forces, .. } = definition;
@@ -108,7 +108,7 @@ impl Obstacles<'_> {
         }
     }
 
-    /// Reactions that the motion at the start does not determine.
+    /// The problem that reactions of the motion at the start are not unique.
     fn of_reactions(&self) -> Option<Problem> {
         let motion =
             kinematics(self.model, self.state, &[self.state.t], |_| Flow::Continue).ok()?;
@@ -122,7 +122,7 @@ impl Obstacles<'_> {
         }
     }
 
-    /// What prevents the search of a position of rest.
+    /// The obstacle to the search for an equilibrium.
     fn of_equilibrium(&self) -> Option<Problem> {
         let reason = equilibrium::begins(self.model, self.state).err()?;
         let message = reason.to_string();
@@ -132,7 +132,7 @@ impl Obstacles<'_> {
         }
     }
 
-    /// What prevents the linear equations, whose eigenvalues are the modes.
+    /// The obstacle to the linearized equations, whose eigenvalues give the modes.
     fn of_modes(&self) -> Option<Problem> {
         let failure = linearization::begins(self.model, self.state).err()?;
         let message = failure.to_string();

@@ -1,4 +1,4 @@
-//! Analyses of a case with a motion as result.
+//! Analyses of a case whose result is a motion.
 
 use crate::convert::{written, Fields};
 use crate::fault::Fault;
@@ -15,11 +15,11 @@ use kempe::{Flow, Model, Options, State};
 use serde_json::{json, Value};
 use std::sync::Arc;
 
-/// Outputs of kinematics without output_step.
+/// Number of outputs of kinematics without output_step.
 const DEGREES: f64 = 360.0;
-/// Most outputs of kinematics.
+/// Largest number of outputs of kinematics.
 const MOST_OUTPUTS: f64 = 1e6;
-/// Outputs of a run without an analysis of the case.
+/// Number of outputs of a run without an analysis of the case.
 const OUTPUTS: f64 = 500.0;
 
 /// The last run, with the model that it used.
@@ -27,13 +27,13 @@ pub struct Ran {
     model: Arc<Model>,
     run: Run,
     error: Option<String>,
-    /// What its times are, if they are not the time.
+    /// The variable that replaces time, if there is one.
     over: Option<Variable>,
 }
 
 impl Ran {
-    /// Runs an analysis of the case by its name; or, from the present state, kinematics over a quantity, or dynamics until
-    /// `t_end`.
+    /// Runs an analysis of the case by its name. Otherwise runs, from the current state, kinematics over a quantity,
+    /// or dynamics until `t_end`.
     pub fn of(loaded: &Loaded, fields: &Fields<'_>) -> Result<Self, Fault> {
         if !loaded.assembled {
             return Err(Fault::new("the mechanism does not close").hint("assemble it first"));
@@ -58,7 +58,7 @@ impl Ran {
         Ok(Self::dynamics(&loaded.model, &loaded.state, &options))
     }
 
-    /// An analysis, after those at whose ends it starts.
+    /// Runs an analysis after the analyses at whose ends it starts.
     fn named(loaded: &Loaded, name: &str) -> Result<Self, Fault> {
         let all = &loaded.case.analyses;
         let place = all.iter().position(|entry| entry.name == name);
@@ -125,7 +125,7 @@ impl Ran {
         Ok(Self::through(&model, &begin.end(), &values, begin.over.take()))
     }
 
-    /// The motion through times, or values of what takes the place of the time.
+    /// The motion at times, or at values of the variable that replaces time.
     fn through(model: &Arc<Model>, start: &State, times: &[f64], over: Option<Variable>) -> Self {
         let (motion, error) = match kinematics(model, start, times, |_| Flow::Continue) {
             Ok(motion) => (motion, None),
@@ -134,7 +134,7 @@ impl Ran {
         Self { run: run_of(model, start, &motion), model: Arc::clone(model), error, over }
     }
 
-    /// The reply.
+    /// The run as a reply.
     pub fn described(&self) -> Value {
         let Run { trajectory, statistics, events, .. } = &self.run;
         let times = events
@@ -178,7 +178,7 @@ impl Ran {
         found
     }
 
-    /// The units of quantities and expressions, and their values, a row for each.
+    /// The units of quantities and expressions, and their values, one row for each.
     pub fn values(
         &self,
         loaded: &Loaded,

@@ -1,4 +1,4 @@
-//! What a page works with: a text, its mechanism, a motion in progress and the last run.
+//! The data that a page works with: a text, its mechanism, a motion in progress and the last run.
 
 use crate::catalogue::catalogue;
 use crate::convert::Fields;
@@ -31,7 +31,7 @@ pub struct Session {
 }
 
 impl Session {
-    /// Answers a request, a JSON text, with a JSON text.
+    /// Answers a request. The request and the reply are JSON texts.
     pub fn call(&mut self, request: &str) -> String {
         let parsed: Result<Value, _> = serde_json::from_str(request);
         let outcome = match parsed.as_ref().map(Value::as_object) {
@@ -45,7 +45,7 @@ impl Session {
         }
     }
 
-    /// The numbers of the last reply that has any.
+    /// The numbers of the last reply that contains numbers.
     pub fn numbers(&self) -> &[f64] {
         &self.numbers
     }
@@ -176,7 +176,7 @@ impl Session {
         self.live.as_mut().ok_or_else(not_live)?.pull(loaded, fields)
     }
 
-    /// Other values of parameters; lengths may change, so that the mechanism is assembled from where it is.
+    /// Sets other values of parameters. Lengths may change, so the mechanism is assembled from its current position.
     fn parameters(&mut self, values: &[(String, f64)]) -> Result<Value, Fault> {
         let loaded = self.loaded.as_mut().ok_or_else(no_mechanism)?;
         let model = loaded.model.with_values(values).map_err(|found| Fault::of_problems(&found))?;
@@ -212,7 +212,7 @@ impl Session {
 }
 
 impl Loaded {
-    /// Assembles the mechanism; the state stays where that fails.
+    /// Assembles the mechanism. The state does not change if this fails.
     pub fn assemble(&mut self, request: Request) -> Result<(), Fault> {
         let (state, _) = close(&self.model, &request)
             .map_err(|failure| Fault::new(failure.message.clone()).hint(failure.hint.clone()))?;

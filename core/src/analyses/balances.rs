@@ -1,20 +1,20 @@
 //! The balances of energies and of reactions in a run up to a state, for conditions.
 //!
-//! Reports relate a balance to the largest energies or forces of a whole run. A condition has only the run so far, so its
-//! balance is that of a run that ends at the state. The scales are those of `python/kempe/energy.py` and
-//! `python/kempe/newton_euler.py`.
+//! Reports relate a balance to the largest energies or forces of a whole run. A condition can use only the run so
+//! far, so its balance is the balance of a run that ends at the state. The scales are those of
+//! `python/kempe/energy.py` and `python/kempe/newton_euler.py`.
 
 use crate::equations::newton_euler::BodyBalance;
 
 /// Kinetic, potential and dissipated energy, work of drivers and of applied forces, J.
 pub(super) type Energies<S> = [S; 5];
 
-/// Part of the potential energy below which its changes are rounding errors.
+/// Changes of the potential energy below this fraction of it are rounding errors.
 const RESOLVED_ENERGY: f64 = 1e-6;
-/// Part of the largest force or moment in the mechanism below which those on one body are rounding errors.
+/// Forces and moments on a body below this fraction of the largest in the mechanism are rounding errors.
 const RESOLVED_FORCE: f64 = 1e-4;
 
-/// T + V + dissipated - works: constant in an exact solution, J.
+/// T + V + dissipated energy - works, J. Constant in an exact solution.
 pub(super) fn total<S>([kinetic, potential, dissipated, drivers, forces]: Energies<S>) -> S
 where
     S: std::ops::Add<Output = S> + std::ops::Sub<Output = S>,
@@ -22,7 +22,7 @@ where
     kinetic + potential + dissipated - drivers - forces
 }
 
-/// The balance of energy, and the ranges of the energies of the run so far.
+/// The balance of energy, and the ranges of the energies in the run so far.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct EnergyBalance {
     start: Option<f64>,
@@ -33,13 +33,13 @@ pub(super) struct EnergyBalance {
 }
 
 impl EnergyBalance {
-    /// The balance of a run that has not begun.
+    /// The balance at the start, before the first state.
     pub fn new() -> Self {
         let [low, high] = [[f64::INFINITY; 5], [f64::NEG_INFINITY; 5]];
         Self { start: None, low, high, present: f64::NAN }
     }
 
-    /// Continues to a state with these energies.
+    /// Adds a state with these energies.
     pub fn add(&mut self, energies: Energies<f64>) {
         for (k, energy) in energies.into_iter().enumerate() {
             self.low[k] = self.low[k].min(energy);
@@ -49,7 +49,7 @@ impl EnergyBalance {
         self.present = (total(energies) - start) / self.scale();
     }
 
-    /// The largest of the kinetic energy and of the ranges of the others, J.
+    /// The largest of the kinetic energy and of the ranges of the other energies, J.
     fn scale(&self) -> f64 {
         let ranges = (1..5).map(|k| self.high[k] - self.low[k]);
         let resolved = RESOLVED_ENERGY * self.high[1].abs().max(self.low[1].abs());
@@ -57,7 +57,7 @@ impl EnergyBalance {
     }
 }
 
-/// The largest balance of a body, and the largest forces and moments of the run so far.
+/// The largest balance of a body, and the largest forces and moments in the run so far.
 #[derive(Clone, Debug)]
 pub(super) struct ReactionBalance {
     /// Largest force, N, and moment, N·m, on each body.
@@ -68,12 +68,12 @@ pub(super) struct ReactionBalance {
 }
 
 impl ReactionBalance {
-    /// The balance of a run that has not begun.
+    /// The balance at the start, before the first state.
     pub fn new() -> Self {
         Self { largest: Vec::new(), lever: 0.0, present: f64::NAN }
     }
 
-    /// Continues to a state with these balances of the bodies.
+    /// Adds a state with these balances of the bodies.
     pub fn add(&mut self, bodies: &[BodyBalance]) {
         self.largest.resize(bodies.len(), [0.0; 2]);
         for (largest, body) in self.largest.iter_mut().zip(bodies) {
@@ -90,14 +90,14 @@ impl ReactionBalance {
             let moment_scale = or_one(own[1].max(RESOLVED_FORCE * moment));
             [body.force / force_scale, body.moment / moment_scale]
         });
-        // not a number where the reactions are not unique
+        // NaN where the reactions are not unique
         let larger =
             |most: f64, share: f64| if most >= share || most.is_nan() { most } else { share };
         self.present = shares.fold(0.0, larger);
     }
 }
 
-/// A scale; 1 without any energy or force.
+/// The scale, or 1 if there is no energy or force.
 fn or_one(scale: f64) -> f64 {
     if scale > 0.0 {
         scale
@@ -122,7 +122,7 @@ mod tests {
         assert_eq!(after(&[body(1.0, 4.0), body(0.0, 0.0)]), 0.25);
         assert_eq!(after(&[body(1.0, 2.0), body(0.0, 0.0)]), 0.25);
         assert_eq!(after(&[body(1.0, 8.0), body(0.0, 0.0)]), 0.125);
-        // the force on the second body is below 1e-4 of that on the first one
+        // the force on the second body is below 1e-4 of the force on the first body
         assert!((after(&[body(0.0, 0.0), body(2e-4, 0.0)]) - 0.25).abs() < 1e-15);
         assert!(after(&[body(f64::NAN, 1.0), body(0.0, 0.0)]).is_nan());
     }

@@ -1,8 +1,8 @@
 //! Closing a mechanism: Newton–Raphson on Φ(q, t) = 0 with the rows of drivers and of `set`.
 //!
-//! Each step solves [W Φ_qᵀ; Φ_q -μ I]. It is the smallest step if there are free coordinates, Newton's step if Φ_q is
-//! square, and a damped least-squares step if μ > 0. Lengths are divided by the size of the mechanism, so that metres
-//! and radians can be compared.
+//! Each step solves [W Φ_qᵀ; Φ_q -μ I]. If there are free coordinates, this is the smallest step; if Φ_q is square,
+//! Newton's step; and if μ > 0, a damped least-squares step. Lengths are divided by the size of the mechanism, so
+//! that metres and radians can be compared.
 
 use crate::equations::augmented::Augmented;
 use crate::equations::constraints;
@@ -14,13 +14,13 @@ use crate::solve::newton::{Damping, Equations, Newton, Options, Outcome, Record}
 pub const TOLERANCE: f64 = 1e-12;
 /// Damping if a row of Φ_q depends on the others: far below the tolerance, but large enough for a pivot.
 const REDUNDANT: f64 = 1e-9;
-/// Damping of a row that is left out: its multiplier becomes zero.
+/// Damping of a row that is omitted. Its multiplier becomes zero.
 const LEFT_OUT: f64 = 1e200;
 
-/// Whether the work has to end early; once true, it stays true.
+/// Whether the computation must end early. Once true, it remains true.
 pub type Halt<'a> = &'a dyn Fn() -> bool;
 
-/// The work ended early.
+/// The computation ended early.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Stopped;
 
@@ -29,7 +29,7 @@ pub struct Closing<'a> {
     model: &'a Model,
     t: f64,
     stop: Halt<'a>,
-    /// Rows that are left out; empty for none.
+    /// Rows that are omitted; empty if there are none.
     left_out: Vec<bool>,
     matrix: Augmented,
     /// Scale of each row: the size for lengths, 1 for angles.
@@ -68,12 +68,12 @@ impl<'a> Closing<'a> {
         self.t
     }
 
-    /// The function that ends the work.
+    /// The function that ends the computation.
     pub fn stop(&self) -> Halt<'a> {
         self.stop
     }
 
-    /// Whether the work has to end.
+    /// Whether the computation must end.
     pub fn stopped(&self) -> bool {
         (self.stop)()
     }
@@ -83,7 +83,7 @@ impl<'a> Closing<'a> {
         self.model
     }
 
-    /// Improves `q` until it satisfies the constraints; a consistent `q` is unchanged. Returns the iterations, and
+    /// Corrects `q` until it satisfies the constraints; a consistent `q` is not changed. Returns the iterations, and
     /// whether the mechanism closed.
     pub fn close(&mut self, q: &mut [f64]) -> (Vec<Record>, bool) {
         let mut newton = Newton::new();
@@ -114,13 +114,13 @@ impl<'a> Closing<'a> {
         phi
     }
 
-    /// aᵀ W b, without unit: lengths are relative to the size of the mechanism.
+    /// aᵀ W b, dimensionless: lengths are relative to the size of the mechanism.
     pub fn product(&self, a: &[f64], b: &[f64]) -> f64 {
         a.iter().zip(b).zip(&self.weights).map(|((a, b), w)| a * w * b).sum()
     }
 
-    /// The motions x that generalized forces f would cause if W were the mass matrix: [W Φ_qᵀ; Φ_q 0] [x; λ] = [f; 0].
-    /// None where the matrix cannot be factorised.
+    /// The motions x that generalized forces f would cause if W were the mass matrix: [W Φ_qᵀ; Φ_q 0] [x; λ] = [f;
+    /// 0]. None if the matrix cannot be factorised.
     pub fn motions_under(&mut self, q: &[f64], forces: &[Vec<f64>; 2]) -> Option<[Vec<f64>; 2]> {
         if !self.set_matrix(q, 0.0) {
             return None;
@@ -138,7 +138,7 @@ impl<'a> Closing<'a> {
         Motions::at_rest(&self.model.layout, q)
     }
 
-    /// Factorises the matrix at a position; whether that succeeded.
+    /// Factorises the matrix at a position; returns whether this succeeded.
     fn set_matrix(&mut self, q: &[f64], levenberg: f64) -> bool {
         let motions = self.at(q);
         self.matrix.set_weights(&self.weights);
@@ -205,7 +205,7 @@ impl Equations for Closing<'_> {
 
     /// Euclidean norm.
     fn residual_norm(&self, residual: &[f64]) -> f64 {
-        // the sum of no numbers is -0
+        // the sum over an empty iterator is -0
         residual.iter().map(|r| r * r).sum::<f64>().abs().sqrt()
     }
 

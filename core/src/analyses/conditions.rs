@@ -10,22 +10,22 @@ use crate::expression::{Expression, ExpressionError, Inferred, Sense, Symbol, Ta
 use crate::integrate::{Direction, Step};
 use crate::model::{Model, Problem};
 
-/// A condition over the quantities of a model. Its event is a change of sign of its function.
+/// A condition on the quantities of a model. Its event is a change of sign of its function.
 #[derive(Clone, Debug)]
 pub(super) struct Condition {
     tape: Tape,
     signals: Vec<Signal>,
-    /// The sense of a comparison; None for an expression.
+    /// The sense of a comparison. None for an expression.
     comparison: Option<Sense>,
     /// Whether a quantity needs accelerations or multipliers.
     pub needs_solution: bool,
 }
 
 impl Condition {
-    /// Reads a condition over a model, from which the drivers `released` were removed.
+    /// Reads a condition on a model from which the drivers `released` were removed.
     ///
     /// # Errors
-    /// A fault of the text, an unknown name, different dimensions, or a condition that never changes.
+    /// A fault of the text, an unknown name, incompatible dimensions, or a condition that never changes.
     pub fn read(model: &Model, released: &[String], text: &str) -> Result<Self, Problem> {
         Self::compile(model, released, text).map_err(Problem::from)
     }
@@ -52,7 +52,7 @@ impl Condition {
         Ok(Self { tape, signals, comparison, needs_solution })
     }
 
-    /// Adds the quantities of the run so far that the condition uses to those that are watched.
+    /// Adds the quantities of the run so far that the condition uses to `so_far`.
     pub fn watch(&self, so_far: &mut SoFar) {
         for signal in &self.signals {
             match signal {
@@ -64,17 +64,18 @@ impl Condition {
         }
     }
 
-    /// Whether it is a comparison.
+    /// Whether the condition is a comparison.
     pub fn is_comparison(&self) -> bool {
         self.comparison.is_some()
     }
 
-    /// Whether a comparison holds at zero; None for an expression.
+    /// Whether the comparison holds at zero. None for an expression.
     pub fn holds_at_zero(&self) -> Option<bool> {
         self.comparison.map(|sense| !sense.strict)
     }
 
-    /// Its value at a state; the event is where it changes sign. A comparison holds where it is positive.
+    /// The value of the function at a state. Its changes of sign are the events. A comparison holds where it is
+    /// positive.
     pub fn value(&self, model: &Model, seen: &Seen<'_>) -> f64 {
         let of = |signal: &Signal| signal.value(model, seen);
         let quantities: Vec<f64> = self.signals.iter().map(of).collect();
@@ -88,17 +89,17 @@ impl Condition {
     }
 }
 
-/// Evaluates conditions at states. The equations of motion are solved if one of the conditions needs their solution.
+/// Evaluates conditions at states. Solves the equations of motion if a condition needs their solution.
 pub(super) struct Evaluator {
     motions: Motions,
     workspace: Option<Box<Workspace>>,
     unsolved: [Vec<f64>; 2],
-    /// The run up to the beginning of the present step.
+    /// The run up to the beginning of the current step.
     pub so_far: SoFar,
 }
 
 impl Evaluator {
-    /// Takes a copy of a workspace of the equations of motion if `solves` is set, and the run so far.
+    /// Copies a workspace of the equations of motion if `solves` is set, and takes over the run so far.
     pub fn new(model: &Model, solves: bool, workspace: &Workspace, so_far: SoFar) -> Self {
         Self {
             motions: Motions::new(&model.layout),
@@ -120,7 +121,7 @@ impl Evaluator {
         self.at(model, t, y, |seen| give(&Seen { so_far: Some(&so_far), ..*seen }))
     }
 
-    /// Continues the run so far to the end of an accepted step.
+    /// Extends the run so far to the end of an accepted step.
     pub fn advance(&mut self, model: &Model, step: &Step<'_>) {
         self.so_far = self.up_to(model, step.t, step);
     }

@@ -2,7 +2,7 @@
 
 use crate::model::Model;
 
-/// A contact may leave its curve by this part of the length of u, because of rounding.
+/// A contact may leave its curve by this fraction of the range of u, because of rounding.
 const SLACK: f64 = 1e-9;
 
 /// The ranges of the internal coordinates that run along open curves, each with its constraint and column.
@@ -34,7 +34,7 @@ impl Ranges {
     }
 }
 
-/// [`Ranges::beyond`] of a model.
+/// [`Ranges::beyond`] for all ranges of a model.
 pub(super) fn beyond(model: &Model, q: &[f64]) -> Option<(String, String)> {
     Ranges::of(model).beyond(model, q)
 }

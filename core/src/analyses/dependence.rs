@@ -1,4 +1,4 @@
-//! Equations of constraints that depend on the earlier ones at a position.
+//! Equations of constraints that depend on earlier equations at a position.
 
 use super::closing::Halt;
 use crate::equations::constraints;
@@ -6,9 +6,10 @@ use crate::equations::kinematics::Motions;
 use crate::model::{column_scales, Model, MOST_REPORTED};
 use crate::solve::{groups_first, normalize_rows, rank, SparseRank, SparseRow};
 
-/// Part of a left null vector below which a row does not take part.
+/// A row does not take part if its factor in a left null vector is below this fraction.
 const PART: f64 = 1e-6;
-/// Largest number of equations for which the dense rank is found. It takes the clearest rows first; its cost is cubic.
+/// Largest number of equations for which the dense rank is computed. The dense method eliminates rows with large
+/// remainders first; its cost is cubic.
 pub(super) const MOST_DENSE: usize = 300;
 
 /// An equation that depends on others.
@@ -18,12 +19,12 @@ pub struct Dependent {
     pub row: usize,
     /// The constraints (indices) that take part, ascending.
     pub group: Vec<usize>,
-    /// The rows k that take part with their factors y_k: Σ y_k Φ_q,k = 0.
+    /// The rows k that take part, with their factors y_k: Σ y_k Φ_q,k = 0.
     pub factors: Vec<(usize, f64)>,
 }
 
-/// The dependent equations by their rows, ascending; their remainder is at most `tolerance`. Without a meaning if `stop`
-/// became true.
+/// The dependent equations, ascending by row. Their remainder is at most `tolerance`. The result is invalid if `stop`
+/// returned true.
 pub(super) fn at(
     model: &Model,
     t: f64,
@@ -45,7 +46,7 @@ pub(super) fn at(
     found
 }
 
-/// The rows of Φ_q, of length 1, and their lengths before. The size of the mechanism makes metres and radians comparable.
+/// The rows of Φ_q, scaled to length 1, and their original lengths. Lengths are divided by the size of the mechanism.
 fn scaled_rows(model: &Model, t: f64, q: &[f64]) -> (Vec<SparseRow>, Vec<f64>) {
     let mut entries = vec![0.0; model.layout.n_entries];
     constraints::jacobian(model, &Motions::at_rest(&model.layout, q), t, &mut entries);
@@ -100,7 +101,7 @@ fn sparse(
     Some(found.dependent.iter().enumerate().map(one).collect())
 }
 
-/// The place of each column in an order with little fill.
+/// Index of each column in an order with little fill-in.
 fn places(model: &Model) -> Vec<usize> {
     let layout = &model.layout;
     let first: Vec<usize> = layout.owners.iter().map(|owner| owner.first).collect();
@@ -116,7 +117,7 @@ fn places(model: &Model) -> Vec<usize> {
     place
 }
 
-/// The equation with the rows that take part.
+/// The equation with the rows that take part in its dependence.
 fn dependent(model: &Model, row: usize, parts: impl Iterator<Item = (usize, f64)>) -> Dependent {
     let factors: Vec<(usize, f64)> = parts.filter(|(_, part)| part.abs() > PART).collect();
     let mut group: Vec<usize> = factors.iter().map(|(row, _)| model.layout.owner(*row).0).collect();

@@ -1,12 +1,12 @@
-//! Dragging: the position of a mechanism in which a point of a body is as near as possible to a target.
+//! Dragging: the position of a mechanism in which a point of a body is as close as possible to a target.
 //!
-//! With K = [W Φ_qᵀ; Φ_q 0] and J the Jacobian of the point, Y = K⁻¹ [Jᵀ; 0] contains the motions under unit forces at the
-//! point, if W were the mass matrix, and G = J Y (2 × 2) the motions of the point. A step Y (G + μ 1)⁻¹ r moves the point by
-//! the way r that is left, as far as the constraints allow. Newton's method then closes the mechanism. Steps are short, so
-//! that the mechanism stays on its branch.
+//! Let K = [W Φ_qᵀ; Φ_q 0], and let J be the Jacobian of the point. If W were the mass matrix, Y = K⁻¹ [Jᵀ; 0] would
+//! contain the motions under unit forces at the point, and G = J Y (2 × 2) the motions of the point. A step Y (G + μ
+//! 1)⁻¹ r moves the point by the remaining vector r to the target, as far as the constraints allow. Newton's method
+//! then closes the mechanism. Steps are short, so that the mechanism stays on its branch.
 //!
-//! A mechanism with one degree of freedom has a path. At a dead point, the velocity of the point along the path changes its
-//! sign. A step across it is refused, because the way back would lead to the other branch.
+//! The point of a mechanism with one degree of freedom moves on a path. At a dead point, its velocity along the path
+//! changes sign. A step across a dead point is refused, because the way back would lead to the other branch.
 
 use super::closing::Closing;
 use super::kinematics::in_line;
@@ -17,24 +17,25 @@ use crate::model::Model;
 
 /// Largest number of steps.
 const MOST_STEPS: usize = 100;
-/// Longest step: the root of the sum of squares over the coordinates, lengths relative to the size of the mechanism.
+/// Longest step: the root of the sum of squares over the coordinates, with lengths relative to the size of the
+/// mechanism.
 const LONGEST: f64 = 0.1;
-/// Step that counts as none.
+/// Steps below this length count as zero.
 const NO_STEP: f64 = 1e-9;
-/// Largest correction by the closing, as a part of the step.
+/// Largest correction by the closing, as a fraction of the step.
 const CORRECTION: f64 = 0.3;
 /// Least cosine between the directions of the path before and after a step.
 const TURN: f64 = 0.9;
-/// Values of μ, relative to the larger eigenvalue of G, the later ones where the first make no progress: at the
-/// end of its reach, the point of an arm can move across the arm only.
+/// Values of μ, relative to the larger eigenvalue of G. Later values are used where earlier values make no progress:
+/// at the end of its reach, the point of an arm can only move across the arm.
 const SOFT: [f64; 4] = [1e-7, 1e-4, 1e-2, 1.0];
 /// Relative difference of distances that count as equal.
 const SAME: f64 = 1e-10;
-/// Least part of the predicted progress.
+/// Smallest accepted fraction of the predicted progress.
 const PROGRESS: f64 = 0.1;
-/// Times that a step along a path is halved.
+/// Number of times that a step along a path is halved.
 const HALVINGS: usize = 16;
-/// Times that another step is halved.
+/// Number of times that any other step is halved.
 const FEW: usize = 3;
 
 /// The point that is dragged.
@@ -59,16 +60,16 @@ pub struct Dragged {
     pub dead_point: Option<DeadPoint>,
 }
 
-/// A position that the dragged point cannot pass.
+/// A dead point that the dragged point cannot pass.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct DeadPoint {
-    /// Two bodies that are in line there, if there are such.
+    /// Two bodies that are in line there, if any.
     pub in_line: Option<[String; 2]>,
 }
 
-/// Moves the point towards `target`, from the closed position `q`; constraints are those at time `t`.
+/// Moves the point towards `target` from the closed position `q`. The constraints are evaluated at time `t`.
 ///
-/// None if `q` is singular in such a way that no motion can be computed there.
+/// None if `q` is singular and no motion can be computed there.
 pub fn drag(model: &Model, t: f64, q: &[f64], grip: Grip, target: Vec2) -> Option<Dragged> {
     let mut hand = Hand { model, grip, closing: Closing::new(model, t, &|| false), target };
     let mut place = hand.place(q.to_vec())?;
@@ -77,7 +78,7 @@ pub fn drag(model: &Model, t: f64, q: &[f64], grip: Grip, target: Vec2) -> Optio
         if hand.length(&place.step((!single).then_some(SOFT[0]))) <= NO_STEP {
             break;
         }
-        // a path needs no choice of direction, but short steps at its end
+        // a path leaves no choice of direction, but needs short steps at its end
         let outcome = match single {
             true => hand.advance(&place, None, HALVINGS),
             false => hand.advance_softly(&place, &mut level),
@@ -127,7 +128,7 @@ impl Hand<'_> {
         Some(DragState { way: self.target - pose.point(self.grip.point), q, jacobian, motions, g })
     }
 
-    /// The next place of a point that has a choice of directions, from the level of μ that worked last.
+    /// The next state of a point that can move in several directions, starting with the level of μ that worked last.
     fn advance_softly(&mut self, place: &DragState, level: &mut usize) -> Result<DragState, bool> {
         for (k, soft) in SOFT.iter().enumerate().skip(*level) {
             if let Ok(next) = self.advance(place, Some(*soft), FEW) {
@@ -138,8 +139,8 @@ impl Hand<'_> {
         Err(false)
     }
 
-    /// The state after the largest part of a step that leads nearer to the target, on the same branch; or whether a
-    /// dead point is in the way.
+    /// The state after the largest fraction of a step that leads closer to the target on the same branch. Otherwise,
+    /// whether a dead point is in the way.
     fn advance(
         &mut self,
         place: &DragState,
@@ -169,7 +170,7 @@ impl Hand<'_> {
         Err(blocked)
     }
 
-    /// The closed position near a predicted one; None if it is farther than `most`.
+    /// The closed position near a predicted position. None if it is farther away than `most`.
     fn closed(&mut self, predicted: &[f64], most: f64) -> Option<DragState> {
         let mut next = predicted.to_vec();
         let (_, closed) = self.closing.close(&mut next);
@@ -209,21 +210,22 @@ impl DragState {
         xx * x * x + 2.0 * xy * x * y + yy * y * y
     }
 
-    /// The way by which a step approaches the target to first order, relative to the distance.
+    /// The first-order approach to the target in a step, relative to the distance.
     fn progress(&self, step: &[f64]) -> f64 {
         let moved = Vec2::new(dot(&self.jacobian[0], step), dot(&self.jacobian[1], step));
         self.way.dot(moved) / self.way.dot(self.way)
     }
 
-    /// Whether it is nearer to the target by a fair part of the predicted way, or as near but closer to an extreme.
+    /// Whether the state is closer to the target by a fair part of the prediction, or equally close but nearer to an
+    /// extreme.
     fn is_better(&self, before: &Self, predicted: f64) -> bool {
         let [now, then] = [self.way.norm(), before.way.norm()];
         let nearer = now < (1.0 - SAME.max(PROGRESS * predicted)) * then;
         nearer || ((now - then).abs() <= SAME * then && self.drive() < before.drive())
     }
 
-    /// Y (G + μ 1)⁻¹ r, with μ relative to the larger eigenvalue of G; without μ, only the direction of this eigenvalue
-    /// counts, because G has rank one.
+    /// Y (G + μ 1)⁻¹ r, with μ relative to the larger eigenvalue of G. Without μ, only the direction of this
+    /// eigenvalue is used, because G has rank one.
     fn step(&self, soft: Option<f64>) -> Vec<f64> {
         let Some(soft) = soft else {
             let (larger, direction) = self.principal();
@@ -241,7 +243,7 @@ impl DragState {
         pairs.map(|(x, y)| force.x * x + force.y * y).collect()
     }
 
-    /// The path of a mechanism with one freedom.
+    /// The path of a mechanism with one degree of freedom.
     fn path(&self, hand: &Hand<'_>) -> Option<FreeDirection> {
         if hand.grip.degrees_of_freedom != 1 {
             return None;
@@ -254,7 +256,7 @@ impl DragState {
     }
 }
 
-/// The direction in which a mechanism with one freedom moves.
+/// The direction in which a mechanism with one degree of freedom moves.
 struct FreeDirection {
     /// Rates of all coordinates along the path, of unit length.
     rates: Vec<f64>,
@@ -262,13 +264,13 @@ struct FreeDirection {
     velocity: Vec2,
 }
 
-/// How a path continues another one.
+/// How a path continues another path.
 #[derive(Clone, Copy, PartialEq)]
 enum PathRelation {
     Ahead,
-    /// The point goes back on its own path.
+    /// The point moves back along its own path.
     Back,
-    /// It is another path.
+    /// The path is a different path.
     Aside,
 }
 

@@ -17,11 +17,11 @@ pub struct EventOption {
     pub name: String,
     /// A comparison, or an expression whose zeros are events.
     pub condition: String,
-    /// The changes of sign of an expression that count.
+    /// The changes of sign of an expression that are events.
     pub direction: Direction,
-    /// Whether the run ends there.
+    /// Whether the run ends at the event.
     pub stop: bool,
-    /// Whether the caller changes the state or parameters there.
+    /// Whether the caller changes the state or parameters at the event.
     pub acts: bool,
 }
 
@@ -107,7 +107,7 @@ fn checked(reader: &mut Reader<'_>, key: &str, text: &str) -> Option<Condition> 
     }
 }
 
-/// Reads an event: a condition, or a table with one.
+/// Reads an event: a condition, or a table with a condition.
 fn event(reader: &mut Reader<'_>, name: &str, stops: bool) -> Option<EventOption> {
     if stops && name == STOP {
         let message = "the option stop has an event of this name already; take another name";

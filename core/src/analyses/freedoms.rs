@@ -5,13 +5,13 @@ use crate::equations::kinematics::Motions;
 use crate::model::{column_scales, ConstraintItem, Model};
 use crate::solve::{normalize_rows, rank};
 
-/// Largest number of coordinates for which freedoms are found.
+/// Largest number of coordinates for which freedoms are computed.
 const MOST: usize = 300;
-/// Remainder of a row that counts as dependent.
+/// Largest remainder of a row that counts as dependent.
 pub(super) const NEARLY: f64 = 1e-5;
 
-/// Directions w with Φ_q w = 0 for the rows of the constraints that `counts` accepts, scaled to metres and rad, orthonormal
-/// if lengths are relative to the size of the mechanism. None if the model is too large.
+/// Directions w with Φ_q w = 0 for the rows of the constraints that `counts` accepts, in metres and rad. They are
+/// orthonormal if lengths are relative to the size of the mechanism. None if the model is too large.
 pub(super) fn freedoms(
     model: &Model,
     t: f64,

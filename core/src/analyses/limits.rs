@@ -1,8 +1,9 @@
-//! Limits of motion: how far a driven value can go up and down from a position, or whether it turns fully.
+//! Limits of motion: how far a driven value can increase and decrease from a position, or whether it turns fully.
 //!
-//! The motion is followed both ways by the continuation of `kinematics`. It ends at a dead point, which is found exactly,
-//! or at the end of a curve. An angle turns fully if it meets no limit until the mechanism is again as at the
-//! start, after one turn or after several. A length is unlimited if it exceeds [`FARTHEST`] sizes of the mechanism.
+//! The motion is followed in both directions by the continuation of `kinematics`. It ends at a dead point, which is
+//! located exactly, or at the end of a curve. An angle turns fully if it meets no limit before the mechanism returns
+//! to its start, after one or several turns. A length is unlimited if it exceeds [`FARTHEST`] times the size of the
+//! mechanism.
 
 use super::curves::Ranges;
 use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Reason};
@@ -12,13 +13,14 @@ use crate::integrate::Flow;
 use crate::model::{size, Model};
 use std::f64::consts::TAU;
 
-/// Turns after which an angle without a limit counts as free to turn, even if the mechanism never returns to its start.
+/// Number of turns after which an angle without a limit counts as unlimited, even if the mechanism never returns to
+/// its start.
 pub const MOST_TURNS: usize = 24;
-/// Sizes of the mechanism after which a length without a limit counts as unlimited.
+/// Length, in sizes of the mechanism, beyond which a length counts as unlimited.
 pub const FARTHEST: f64 = 100.0;
-/// Largest difference of two positions that are the same, rad, and relative to the size of the mechanism.
+/// Largest difference between two positions that count as equal, in rad or relative to the size of the mechanism.
 const SAME: f64 = 1e-5;
-/// Width to which the end of a curve is located, as a part of a step.
+/// Width to which the end of a curve is located, as a fraction of a step.
 const LOCATED: f64 = 1e-14;
 
 options! {
@@ -42,11 +44,11 @@ pub struct Limits {
     pub upper: Option<Bound>,
     /// Unit of the value, m or rad.
     pub unit: &'static str,
-    /// Descriptions: of the lower and the upper end, or of the motion without ends.
+    /// Descriptions of the lower and the upper end, or of the motion without ends.
     pub reasons: Vec<String>,
-    /// Turns after which the mechanism is as at the start, if it turns fully.
+    /// Number of turns after which the mechanism returns to its start, if it turns fully.
     pub turns: Option<usize>,
-    /// Values on the way, ascending, with the positions of shape (n_q); both ends included.
+    /// Values along the motion, ascending, with the positions of shape (n_q); both ends are included.
     pub path: Vec<(f64, Vec<f64>)>,
 }
 
@@ -64,19 +66,19 @@ pub struct Bound {
 /// The end of a motion in one direction.
 enum DirectionEnd {
     At(Bound),
-    /// The mechanism is as at the start after this number of turns.
+    /// The mechanism returns to its start after this number of turns.
     Returned(usize),
     Never,
     Stopped,
 }
 
-/// The limits of the value that takes the place of t in a model, from a start whose t is the value there.
+/// The limits of the value that replaces t in a model. The `t` of the start is this value there.
 ///
-/// `watch` is called with the value after each step and may stop the work; the result then has no meaning.
+/// `watch` is called with the value after each step and may stop the computation. The result is then invalid.
 ///
 /// # Errors
-/// [`Failure`]: drivers leave a freedom, the start does not meet the constraints or is singular, or the motion cannot be
-/// followed although no limit was found.
+/// [`Failure`]: drivers leave a freedom, the start does not meet the constraints or is singular, or the motion cannot
+/// be followed although no limit was found.
 pub fn limits(
     model: &Model,
     start: &State,
@@ -126,7 +128,7 @@ pub fn limits(
     Ok(found)
 }
 
-/// The farthest length that is tried, m.
+/// The largest length that is tried, m.
 fn reach(model: &Model) -> f64 {
     FARTHEST * size(model)
 }
@@ -143,7 +145,7 @@ struct Walk<'a, W> {
 type Path = Vec<(f64, Vec<f64>)>;
 
 impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
-    /// The end in a direction, and the positions on the way there without the start.
+    /// The end in a direction, and the positions on the way there, without the start.
     fn towards(&mut self, way: f64) -> Result<(DirectionEnd, Path), Box<Failure>> {
         let mut motion = Continuation::begin(self.model, self.start)?;
         let mut path = Path::new();
@@ -177,7 +179,7 @@ impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
         Ok((DirectionEnd::Never, path))
     }
 
-    /// The end of a curve that a contact left in the last step, by bisection.
+    /// Locates by bisection the end of a curve that a contact left in the last step.
     fn end_of_curve(
         &self,
         motion: &mut Continuation<'_>,

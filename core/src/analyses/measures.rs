@@ -13,7 +13,7 @@ use crate::expression::{unit::Unit, Expression, ExpressionError, Inferred, Symbo
 use crate::math::Lanes;
 use crate::model::{Model, Problem, Value};
 
-/// The unit of an expression whose dimension does not follow from its parameters.
+/// The unit of an expression whose dimension cannot be inferred.
 pub const UNKNOWN_UNIT: &str = "SI";
 
 /// An expression of quantities of a model.
@@ -51,7 +51,7 @@ impl Measure {
         Ok(Self { tape, quantities, signals, unit: written(inferred, &units) })
     }
 
-    /// Whether it uses quantities of a whole run, which do not follow from one state.
+    /// Whether the measure uses quantities of a whole run, which do not follow from one state.
     pub fn is_of_run(&self) -> bool {
         let of_run = |signal: &Signal| {
             matches!(signal, Signal::Energy(_) | Signal::ForceDissipated(_) | Signal::Balance)
@@ -64,7 +64,8 @@ impl Measure {
         self.signals.iter().any(|signal| signal.needs_solution(model))
     }
 
-    /// Its values at states, with rows of accelerations and multipliers where it [needs](Self::needs_solution) them.
+    /// The values at states, with rows of accelerations and multipliers where the measure
+    /// [needs](Self::needs_solution) them.
     ///
     /// # Panics
     /// If the rows do not fit the model or each other.
@@ -80,7 +81,7 @@ impl Measure {
         found
     }
 
-    /// Its values at many states, four at once: `wide` is the lifted model.
+    /// The values at many states, four at once. `wide` is the lifted model.
     pub(super) fn values_over_lanes(
         &self,
         (model, wide): (&Model, &Model<Lanes>),

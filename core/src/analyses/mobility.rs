@@ -1,10 +1,10 @@
 //! Degrees of freedom and redundant constraints.
 //!
-//! The rank is that of the row-scaled Φ_q. If an equation depends on the others, it is left out and the mechanism is
-//! moved a little: if the equation still holds, it is redundant; if not, it restricts the motion, and the position is
-//! singular. Several dependent equations may restrict the motion together. They are therefore judged at a neighbouring
-//! admissible position, if fewer equations are dependent there. The left null vectors of Φ_q give all joints that take
-//! part.
+//! The rank is the rank of the row-scaled Φ_q. If an equation depends on the others, it is omitted and the mechanism
+//! is moved slightly. If the equation still holds, it is redundant; if not, it restricts the motion, and the position
+//! is singular. Several dependent equations may restrict the motion together. They are therefore examined at a
+//! neighbouring admissible position if fewer equations are dependent there. The left null vectors of Φ_q show all
+//! joints that take part in a dependence.
 
 use super::closing::{Closing, Halt};
 use super::dependence::{self, Dependent, MOST_DENSE};
@@ -16,37 +16,38 @@ use crate::model::{column_scales, row_scales, Model};
 use crate::solve::RANK_TOLERANCE;
 use std::sync::Arc;
 
-/// If all pivots keep this part of their magnitude, the rank is certain.
+/// The rank is certain if all pivots keep this fraction of their magnitude.
 const BEYOND_DOUBT: f64 = 1e-7;
 /// Size of the excursion to a neighbouring position, rad.
 const EXCURSION: f64 = 3e-3;
-/// Size of the excursion without the dependent equations, rad: small beside [`EXCURSION`], so that the mechanism does not
-/// change to another branch.
+/// Size of the excursion without the dependent equations, rad: small compared with [`EXCURSION`], so that the
+/// mechanism stays on its branch.
 const EXCURSION_WITHOUT: f64 = 3e-4;
-/// Largest residual of an equation that holds, relative to the size of the mechanism. Others have a residual of the
-/// order of the square of the excursion.
+/// Largest residual of an equation that holds, relative to the size of the mechanism. Other equations have a residual
+/// of the order of the squared excursion.
 const HOLDS: f64 = 1e-11;
-/// The same as a multiple of what joints are open at the start, where lengths do not match exactly: an excursion changes
-/// this residual by a part of itself.
+/// Largest residual as a multiple of the opening of the joints at the start, for lengths that do not match exactly.
+/// An excursion changes this residual by a fraction of itself.
 const MISMATCH: f64 = 10.0;
-/// Largest number of bodies whose angle is tried to reach a neighbouring position, and of excursions without the dependent
-/// equations.
+/// Largest number of bodies whose angles are tried to reach a neighbouring position, and of excursions without the
+/// dependent equations.
 const EXCURSIONS: usize = 6;
 
-/// How a mechanism can move at a position.
+/// The mobility of a mechanism at a position.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Mobility {
-    /// Coordinates less independent constraints.
+    /// Number of coordinates minus number of independent constraint equations.
     pub degrees_of_freedom: usize,
-    /// Independent constraint equations.
+    /// Number of independent constraint equations.
     pub rank: usize,
-    /// Groups of constraints (indices) that repeat each other, one for each dependent equation.
+    /// Groups of constraints (indices) that repeat each other. Consecutive equations with equal groups share an
+    /// entry.
     pub redundant: Vec<Vec<usize>>,
-    /// Groups that are dependent at this position only.
+    /// Groups of constraints that depend on each other only at this position, as in `redundant`.
     pub singular: Vec<Vec<usize>>,
-    /// The equations that repeat others, of which [`Mobility::redundant`] gives each group once.
+    /// The equations that repeat others. [`Mobility::redundant`] contains their groups.
     pub redundant_equations: Vec<Dependent>,
-    /// The equations that depend on others at this position only.
+    /// The equations that depend on others only at this position.
     pub singular_equations: Vec<Dependent>,
 }
 
@@ -55,7 +56,7 @@ pub fn mobility(model: &Model, t: f64, q: &[f64]) -> Mobility {
     mobility_until(model, t, q, &|| false)
 }
 
-/// Mobility at an assembled position; the result has no meaning if `stop` became true.
+/// Mobility at an assembled position. The result is invalid if `stop` returned true.
 pub(super) fn mobility_until(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Mobility {
     let (n, m) = (model.layout.n_q, model.layout.n_rows);
     if beyond_doubt(model, t, q) {
@@ -79,7 +80,7 @@ pub(super) fn mobility_until(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -
     }
 }
 
-/// The redundant equations, and those that are dependent at this position only.
+/// The redundant equations, and the equations that are dependent only at this position.
 fn judge(
     model: &Model,
     t: f64,
@@ -113,7 +114,7 @@ fn judge(
     }
 }
 
-/// The equations that hold near a position even without them, and the others.
+/// The equations that still hold near a position when they are omitted, and the others.
 fn split(
     model: &Model,
     t: f64,
@@ -155,8 +156,8 @@ fn split(
 /// Remainder of a row that counts as dependent near a singular position.
 const NEAR: f64 = 0.05;
 
-/// The constraints (indices) that depend on each other at or near a position; the constraint with `row` is one
-/// of them.
+/// The constraints (indices) that depend on each other at or near a position. The constraint with `row` is one of
+/// them.
 pub(super) fn dependent(model: &Model, t: f64, q: &[f64], row: usize) -> Vec<usize> {
     let own = model.layout.owner(row).0;
     if model.layout.n_rows > MOST_DENSE {
@@ -166,7 +167,7 @@ pub(super) fn dependent(model: &Model, t: f64, q: &[f64], row: usize) -> Vec<usi
     found.into_iter().find(|group| group.contains(&own)).unwrap_or(vec![own])
 }
 
-/// Whether the sparse factorisation shows full rank; its cost is linear in the size of the model.
+/// Whether the sparse factorisation shows full rank. Its cost is linear in the size of the model.
 fn beyond_doubt(model: &Model, t: f64, q: &[f64]) -> bool {
     if model.layout.n_rows > model.layout.n_q {
         return false;
@@ -178,8 +179,8 @@ fn beyond_doubt(model: &Model, t: f64, q: &[f64]) -> bool {
     matrix.factor().is_ok() && matrix.cancellation().is_none_or(|(_, kept)| kept > BEYOND_DOUBT)
 }
 
-/// A position a little way along an admissible motion, if there is one. Where branches meet, Newton's method
-/// returns to the meeting point; therefore the angle of body `held` is kept away from it (ground: none).
+/// A position near this one on an admissible motion, if it exists. Where branches meet, Newton's method returns to
+/// the intersection; therefore the angle of body `held` is kept away from it (ground: no body).
 pub(super) fn neighbour(
     model: &Model,
     t: f64,
@@ -202,8 +203,8 @@ pub(super) fn neighbour(
     (closed && moved).then_some(near)
 }
 
-/// `q` with the excursion of this number of each coordinate: fixed arbitrary numbers, which have no symmetry of the
-/// mechanism.
+/// `q` with the excursion of this number added to each coordinate. The excursions are fixed arbitrary numbers without
+/// a symmetry of the mechanism.
 pub(super) fn moved(model: &Model, q: &[f64], size: f64, number: usize) -> Vec<f64> {
     let first = 1.0 + 0.618 * number as f64;
     let part = |k: usize| ((12.9898 * (k as f64 + first)).sin() * 43758.5453).fract();

@@ -10,7 +10,7 @@ use super::linearization;
 use super::options::{Declaration, Declared, Family, Member};
 use std::sync::LazyLock;
 
-// made once, because every simulation is checked with them
+// created once, because every simulation is checked with them
 static ANALYSES: LazyLock<Vec<Declaration>> = LazyLock::new(|| {
     vec![
         dynamics::Options::declaration(),
@@ -31,7 +31,7 @@ pub fn declarations() -> &'static [Declaration] {
     &ANALYSES
 }
 
-/// The families of options that analyses refer to.
+/// The families of options that the analyses use.
 pub fn option_families() -> &'static [Family] {
     &FAMILIES
 }

@@ -7,13 +7,13 @@ use crate::model::Model;
 use std::cell::RefCell;
 use std::sync::Arc;
 
-/// The names of a formula; each quantity becomes a variable.
+/// The names in a formula. Each quantity becomes a variable.
 pub(super) struct QuantityNames<'a> {
     model: &'a Model,
     released: &'a [String],
-    /// The quantities that occur, with their names, in the order of their variables.
+    /// The quantities that occur in the formula, with their names, in the order of their variables.
     pub found: RefCell<Vec<(String, Signal)>>,
-    /// The latest name that is unknown.
+    /// The last unknown name.
     missed: RefCell<String>,
 }
 
@@ -23,7 +23,7 @@ impl<'a> QuantityNames<'a> {
         Self { model, released, found: RefCell::default(), missed: RefCell::default() }
     }
 
-    /// A driver that was released has the effort zero.
+    /// The effort of a released driver, which is zero.
     fn of_released(&self, name: &str) -> Option<Signal> {
         let (owner, _) = name.rsplit_once('.')?;
         self.released.iter().any(|known| known == owner).then_some(Signal::Constant(0.0))

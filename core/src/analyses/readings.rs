@@ -1,7 +1,7 @@
 //! Values of quantities by name at the states of a run.
 //!
 //! The names are those of conditions and measures, such as `crank.B.vx` or `C.force`. A run has phases, with released
-//! drivers and modes of forces; each state is read with the model of its phase.
+//! drivers and modes of forces. Each state is evaluated with the model of its phase.
 
 use super::dynamics::{Prepared, Run, Setting, States};
 use super::measures::Measure;
@@ -13,7 +13,7 @@ use super::State;
 use crate::integrate::Flow;
 use crate::model::{did_you_mean, Model, Problem, WORKS};
 
-/// A quantity that can be read.
+/// A quantity that can be evaluated at states.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Readable {
     /// Its name, such as `crank.angle`.
@@ -22,8 +22,8 @@ pub struct Readable {
     pub unit: String,
 }
 
-/// All quantities of a model, without those that need the interpolants of a run: the energy that one element has
-/// dissipated, and the balances.
+/// All quantities of a model except those that need the interpolants of a run: the dissipated energy of one element,
+/// and the balances.
 pub fn readable(model: &Model) -> Vec<Readable> {
     let known = names(model, "").into_iter().filter_map(|name| Some((signal(model, &name)?, name)));
     let readable = known.filter(|(signal, _)| !needs_interpolants(signal));
@@ -33,7 +33,7 @@ pub fn readable(model: &Model) -> Vec<Readable> {
 /// The quantity with this name.
 ///
 /// # Errors
-/// The model has none, or it needs the interpolants of a run.
+/// The model has no such quantity, or the quantity needs the interpolants of a run.
 pub fn find(model: &Model, name: &str) -> Result<Readable, Problem> {
     match signal(model, name) {
         Some(signal) if needs_interpolants(&signal) => {
@@ -53,8 +53,8 @@ pub fn find(model: &Model, name: &str) -> Result<Readable, Problem> {
     }
 }
 
-/// The values of quantities at all reported states, a row for each quantity; not a number where accelerations or
-/// reactions are not unique.
+/// The values of quantities at all reported states, one row per quantity. NaN where accelerations or reactions are
+/// not unique.
 pub fn of_run(model: &Model, run: &Run, names: &[&str]) -> Vec<Vec<f64>> {
     let mut found: Vec<Vec<f64>> = names.iter().map(|_| Vec::new()).collect();
     let plain = Setting::default();
@@ -69,7 +69,7 @@ pub fn of_run(model: &Model, run: &Run, names: &[&str]) -> Vec<Vec<f64>> {
     found
 }
 
-/// The values of an expression of quantities at all reported states; not a number where one of its quantities is none.
+/// The values of an expression of quantities at all reported states. NaN where one of its quantities is NaN.
 pub fn measure_of_run(model: &Model, run: &Run, measure: &Measure) -> Vec<f64> {
     let names: Vec<&str> = measure.quantities.iter().map(String::as_str).collect();
     let (rows, t) = (of_run(model, run, &names), &run.trajectory.t);
@@ -87,7 +87,7 @@ pub fn measure_of_run(model: &Model, run: &Run, measure: &Measure) -> Vec<f64> {
     found
 }
 
-/// The values at one state without a run.
+/// The values at a single state, without a run.
 pub fn of_state(model: &Model, state: &State, names: &[&str]) -> Vec<f64> {
     let State { t, q, v, z } = state;
     let states = States { t: &[*t], q, v, z };
@@ -101,7 +101,7 @@ fn of_states(
     names: &[&str],
     passing: bool,
 ) -> Vec<Vec<f64>> {
-    // a driver that was released has the effort zero
+    // a released driver has zero effort
     let signals: Vec<Signal> =
         names.iter().map(|name| signal(model, name).unwrap_or(Signal::Constant(0.0))).collect();
     let solves = signals.iter().any(|signal| signal.needs_solution(model));

@@ -1,4 +1,4 @@
-//! Quantities that some joints need the rest of the mechanism to hold, such as the distance of the centres of gears.
+//! Quantities that the rest of the mechanism must hold for some joints, such as the centre distance of gears.
 
 use crate::elements::derive::{columns_of, participants};
 use crate::elements::{At, Required};
@@ -8,14 +8,14 @@ use crate::equations::kinematics::Motions;
 use crate::math::{Motion, Pose};
 use crate::model::{column_scales, ConstraintItem, Model};
 
-/// Largest deviation from the required value, as a share of it.
+/// Largest relative deviation from the required value.
 const NEAR: f64 = 1e-6;
-/// Largest share of the gradient of a held quantity along admissible motions.
+/// Largest part of the gradient of a held quantity along admissible motions, as a fraction of the gradient.
 const HELD: f64 = 1e-6;
 /// Damping for dependent rows, see [`super::closing`].
 const REDUNDANT: f64 = 1e-9;
 
-/// A quantity without its required value, or that the mechanism does not hold.
+/// A quantity that differs from its required value, or that the mechanism does not hold.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Unmet {
     /// The joint.
@@ -35,7 +35,7 @@ pub(super) fn missed(model: &Model, t: f64, q: &[f64]) -> Option<Unmet> {
     })
 }
 
-/// The first quantity that the mechanism does not hold at `q`: it changes in an admissible motion.
+/// The first quantity that the mechanism does not hold at `q`, because it changes in an admissible motion.
 pub(super) fn loose(model: &Model, t: f64, q: &[f64]) -> Option<Unmet> {
     let motions = Motions::at_rest(&model.layout, q);
     let needs = |item: &&ConstraintItem| !required(item, &motions, t).is_empty();
@@ -77,7 +77,7 @@ fn wrong(item: &ConstraintItem, required: &Required<f64>) -> Option<Unmet> {
     })
 }
 
-/// The derivatives of the required quantities by the coordinates, shape (n_q) each.
+/// The derivatives of the required quantities with respect to the coordinates, shape (n_q) each.
 fn gradients(model: &Model, item: &ConstraintItem, motions: &[Motion], t: f64) -> Vec<Vec<f64>> {
     let count = required(item, motions, t).len();
     let mut all = vec![vec![0.0; model.layout.n_q]; count];
@@ -120,7 +120,7 @@ impl AdmissibleProjection {
         factored.then_some(Self { matrix, squares, rows })
     }
 
-    /// The share of a gradient that the constraints leave free, 0 to 1.
+    /// The fraction of a gradient that the constraints leave free, 0 to 1.
     fn free(&self, gradient: &[f64]) -> f64 {
         let mut x = gradient.to_vec();
         x.resize(gradient.len() + self.rows, 0.0);

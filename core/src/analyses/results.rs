@@ -8,10 +8,10 @@ use crate::math::Wrench;
 use crate::model::Model;
 use std::fmt;
 
-/// Why a result cannot be given.
+/// The reason that a result is not available.
 #[derive(Clone, Debug, PartialEq)]
 pub enum NoResult {
-    /// The model has nothing of this name, or the body does not belong to the joint.
+    /// The model has no item with this name, or the body does not belong to the joint.
     Unknown(String),
     /// Accelerations and multipliers cannot be computed at a reported state.
     Unsolved(Box<Failure>),
@@ -33,7 +33,7 @@ impl Run {
     /// or rad/s.
     ///
     /// # Errors
-    /// [`NoResult::Unknown`] if the model has no such moving body, or a body no such coordinate.
+    /// [`NoResult::Unknown`] if the model has no such moving body, or the body has no such coordinate.
     pub fn coordinate(&self, model: &Model, name: &str) -> Result<Vec<f64>, NoResult> {
         let (body, coordinate) = name
             .rsplit_once('.')
@@ -53,7 +53,7 @@ impl Run {
 
     /// Force, and torque about the joint point, of a joint or driver on a body at the reported times.
     ///
-    /// The multipliers are those of the equations without stabilization.
+    /// The multipliers are the multipliers of the equations without stabilization.
     ///
     /// # Errors
     /// [`NoResult`] if a name is unknown, or if multipliers cannot be computed.

@@ -1,4 +1,4 @@
-//! Checks of the analyses of a case: what is known without a run.
+//! Checks of the analyses of a case that need no run.
 
 use super::conditions::Condition;
 use super::configurations::Options as ConfigurationsOptions;
@@ -11,10 +11,10 @@ use super::linearization::Options as ModesOptions;
 use super::options::Declared;
 use crate::model::{Entry, Model, Problem, Value};
 
-/// All problems of analyses that follow each other from an assembled start at t = 0.
+/// All problems of a sequence of analyses that begins with an assembled start at t = 0.
 pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
     let mut problems = releases(model);
-    // the time at which each analysis ends, if it is known
+    // the end time of each analysis, if it is known
     let mut ends = vec![("start", Some(0.0))];
     for entry in analyses {
         let path = ["analyses".to_string(), entry.name.clone()];
@@ -35,7 +35,7 @@ pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
             InverseOptions::NAME => {
                 InverseOptions::checked(model, fields, &path).map(|options| options.t_end)
             }
-            // an analysis of a position ends where it begins
+            // an analysis of a position ends at the time at which it begins
             EquilibriumOptions::NAME => {
                 EquilibriumOptions::checked(model, fields, &path).map(|_| begin)
             }

@@ -17,7 +17,7 @@ pub(super) fn signal(model: &Model, name: &str) -> Option<Signal> {
     family(model, owner)?.into_iter().find(|(known, _)| known == quantity).map(|(_, signal)| signal)
 }
 
-/// The names of all quantities, for suggestions: those of the owner in `like` if it exists, else all.
+/// The names of all quantities, for suggestions: only those of the owner in `like` if it exists.
 pub(super) fn names(model: &Model, like: &str) -> Vec<String> {
     let known = like.rsplit_once('.').map(|(owner, _)| owner.to_string());
     let known = known.filter(|owner| family(model, owner).is_some());

@@ -6,7 +6,8 @@ use crate::equations::kinematics::Motions;
 use crate::math::{Lanes, Real};
 use crate::model::Model;
 
-/// States with the works up to them, rows of three or none, and with rows of accelerations and multipliers.
+/// States in rows. The works up to the states have rows of three or are absent. Accelerations and multipliers have
+/// rows.
 #[derive(Clone, Copy)]
 pub(super) struct Rows<'a> {
     pub states: States<'a>,
@@ -14,8 +15,8 @@ pub(super) struct Rows<'a> {
     pub solved: Option<[&'a [f64]; 2]>,
 }
 
-/// Gives the time and the values of all signals at each state. What needs accelerations or multipliers is not a number
-/// without them.
+/// Passes the time and the values of all signals at each state to the caller. Without accelerations and multipliers,
+/// signals that need them are NaN.
 ///
 /// # Panics
 /// If the rows do not fit the model or each other.
@@ -50,7 +51,8 @@ pub(super) fn each(
     }
 }
 
-/// Gives the time and the values of all signals at each state, with four states at once over the lifted model.
+/// Passes the time and the values of all signals at each state to the caller. Evaluates four states at once over the
+/// lifted model.
 ///
 /// # Panics
 /// If the rows do not fit the model or each other.

@@ -35,7 +35,7 @@ pub(super) fn unit_of(model: &Model, name: &str, signal: &Signal) -> String {
     }
 }
 
-/// The unit of a coordinate of ground, or of a quantity of a driver that was released.
+/// The unit of a coordinate of ground, or of a quantity of a released driver.
 fn of_ground(name: &str) -> String {
     let last = name.rsplit('.').next().unwrap_or_default();
     let places = (0..3).flat_map(|order| (0..3).map(move |k| (order, k)));
@@ -68,7 +68,7 @@ fn of_part(part: ForcePart) -> &'static str {
     }
 }
 
-/// An effort times its coordinate is an energy.
+/// The unit of an effort: effort times coordinate is an energy.
 fn of_effort(coordinate: &str) -> &'static str {
     match coordinate {
         "rad" => "N*m",

@@ -1,4 +1,4 @@
-//! Quantities of a motion by name as numbers at one state: positions, rates, accelerations and results.
+//! Named quantities of a motion as numbers at one state: positions, rates, accelerations and results.
 
 use super::balances::{total, Energies};
 use super::so_far::SoFar;
@@ -11,7 +11,7 @@ use crate::equations::{constraints, energy};
 use crate::math::{Local, Real, Vec2, Wrench};
 use crate::model::Model;
 
-/// A state at which signals are read.
+/// A state at which signals are evaluated.
 pub(super) struct Seen<'a, S = f64> {
     /// Time, s.
     pub t: S,
@@ -19,7 +19,7 @@ pub(super) struct Seen<'a, S = f64> {
     pub state: [&'a [S]; 3],
     /// Works up to the state, J.
     pub works: &'a [S],
-    /// The same positions and rates as poses and twists.
+    /// The positions and rates of the state as poses and twists.
     pub motions: &'a Motions<S>,
     /// Accelerations and multipliers; NaN where they are not unique.
     pub solved: [&'a [S]; 2],
@@ -28,7 +28,7 @@ pub(super) struct Seen<'a, S = f64> {
 }
 
 impl<S: Real> Seen<'_, S> {
-    /// The quantities on which forces depend beside the motion.
+    /// The quantities on which forces depend in addition to the motion.
     pub fn acting(&self) -> Acting<'_, S> {
         Acting { z: self.state[2], lam: Some(self.solved[1]), t: self.t }
     }
@@ -42,11 +42,11 @@ pub(super) enum Energy {
     Dissipated,
     Work,
     Total,
-    /// Change of the total relative to the energies of the run so far.
+    /// Change of the total, relative to the energies of the run so far.
     Balance,
 }
 
-/// A part of a force or of a reaction.
+/// A component of a force or of a reaction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum ForcePart {
     X,
@@ -66,32 +66,33 @@ impl ForcePart {
     }
 }
 
-/// A quantity of a motion; orders count derivatives in time.
+/// A quantity of a motion. An order is the number of time derivatives.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Signal {
-    /// A quantity that never changes.
+    /// A constant quantity.
     Constant(f64),
     /// A coordinate by its column.
     Column { order: usize, column: usize },
-    /// A first-order state by its place.
+    /// A first-order state by its index.
     State(usize),
-    /// A coordinate of a point, 0 or 1.
+    /// A component of a point, 0 or 1.
     Point { body: BodyId, s: Local, axis: usize, order: usize },
     /// A position quantity of an element.
     Measured { id: ElementId, k: usize, order: usize },
     /// The reaction of a joint on its body j.
     Reaction { k: usize, part: ForcePart },
-    /// A result of a joint beside its reaction.
+    /// A result of a joint other than its reaction.
     Result { k: usize, place: usize },
     /// The effort of a driver.
     Effort(usize),
     /// The effort of a driver times the rate of its coordinate.
     Power(usize, Box<Signal>),
-    /// A force element's force or torque on its body j.
+    /// The force or torque of a force element on its body j.
     Force { k: usize, part: ForcePart },
-    /// A force along the line of two points, > 0 pushes: of a force element on j, or of a joint with opposite sign.
+    /// A force along the line between two points, positive if it pushes. For a force element, the force on j; for a
+    /// joint, with the opposite sign.
     Line { id: ElementId },
-    /// A result of a force element beside its wrenches.
+    /// A result of a force element other than its wrenches.
     ForceResult { k: usize, place: usize },
     /// Power of a force element on its bodies.
     ForcePower(usize),
@@ -108,7 +109,7 @@ pub(super) enum Signal {
 }
 
 impl Signal {
-    /// Whether it needs accelerations or multipliers.
+    /// Whether the quantity needs accelerations or multipliers.
     pub fn needs_solution(&self, model: &Model) -> bool {
         match self {
             Self::Column { order, .. }
@@ -130,7 +131,7 @@ impl Signal {
         }
     }
 
-    /// Its value.
+    /// The value of the quantity at a state.
     pub fn value<S: Real>(&self, model: &Model<S>, seen: &Seen<'_, S>) -> S {
         let [a, lam] = seen.solved;
         match self {
@@ -174,7 +175,7 @@ impl Signal {
     }
 }
 
-/// A value of the run up to the state; not a number where the run is not known.
+/// A value of the run up to the state. NaN if the run is not known.
 fn of_run<S: Real>(seen: &Seen<'_, S>, value: impl Fn(&SoFar) -> Option<f64>) -> S {
     S::constant(seen.so_far.and_then(value).unwrap_or(f64::NAN))
 }
@@ -183,7 +184,7 @@ fn own<'l, S>(model: &Model<S>, k: usize, lam: &'l [S]) -> &'l [S] {
     &lam[model.layout.constraints[k].rows.clone()]
 }
 
-/// Body j of an element; an element of one body has it alone.
+/// Body j of an element, or the only body.
 fn body_j(bodies: &[BodyId]) -> BodyId {
     bodies[bodies.len().min(2) - 1]
 }
@@ -212,13 +213,13 @@ fn power<S: Real>(model: &Model<S>, k: usize, seen: &Seen<'_, S>) -> S {
     sum
 }
 
-/// The force along the line from point i to point j; zero where they coincide.
+/// The force along the line from point i to point j; zero if the points coincide.
 fn line<S: Real>(model: &Model<S>, id: ElementId, seen: &Seen<'_, S>) -> S {
     let (bodies, points, force) = match id {
         ElementId::Constraint(k) => {
             let item = &model.constraints[k];
             let points = [0, 1].map(|end| item.element.attachment(end).s);
-            // a tension on i points to j
+            // a tension on i points towards j
             let force = reaction(model, k, seen.solved[1], seen).force;
             (&item.bodies, points, Vec2::new(-force.x, -force.y))
         }

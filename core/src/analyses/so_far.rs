@@ -1,11 +1,12 @@
 //! Sums over a run from its start up to a state, for conditions: the energy that force elements have dissipated, and
 //! the balances of energies and reactions.
 //!
-//! The power is integrated on the interpolant of each step, as in reports. So the sums need no states of their own, and
-//! steps do not depend on the conditions of a run.
+//! The power is integrated on the interpolant of each step, as in reports. The sums therefore need no states of their
+//! own, and the steps do not depend on the conditions of a run.
 //!
-//! The balances are errors of the integration. Between two steps they would show those of the interpolant. So they keep
-//! their values during a step and change at its end. Shorter steps would not locate their
+//! The balances measure integration errors. Inside a step they would measure the errors of the interpolant. They
+//! therefore keep their values during a step and change at its end. Shorter steps would not locate their events more
+//! accurately.
 //! events better.
 
 use super::balances::{Energies, EnergyBalance, ReactionBalance};
@@ -14,7 +15,7 @@ use crate::equations::kinematics::Motions;
 use crate::equations::newton_euler::BodyBalance;
 use crate::model::Model;
 
-/// Places of Gauss and Legendre in [0, 1]. The rule is exact to degree 9.
+/// Nodes of the Gauss–Legendre rule on [0, 1], which is exact up to degree 9.
 pub(super) const PLACES: [f64; 5] = [
     0.046_910_077_030_668,
     0.230_765_344_947_158_45,
@@ -22,7 +23,7 @@ pub(super) const PLACES: [f64; 5] = [
     0.769_234_655_052_841_5,
     0.953_089_922_969_332,
 ];
-/// Their weights.
+/// Weights of the nodes.
 const WEIGHTS: [f64; 5] = [
     0.118_463_442_528_094_54,
     0.239_314_335_249_683_24,
@@ -31,8 +32,8 @@ const WEIGHTS: [f64; 5] = [
     0.118_463_442_528_094_54,
 ];
 
-/// The force elements that conditions watch, each with the energy that it has dissipated, J, and the
-/// balances that they watch.
+/// The force elements that conditions use, each with the energy that it has dissipated, J, and the balances that
+/// conditions use.
 #[derive(Clone, Debug, Default)]
 pub(super) struct SoFar {
     elements: Vec<(usize, f64)>,
@@ -41,29 +42,29 @@ pub(super) struct SoFar {
 }
 
 impl SoFar {
-    /// Watches the energy that an element dissipates; a sum that exists continues.
+    /// Sums the energy that an element dissipates. A sum that already exists is continued.
     pub fn watch_element(&mut self, k: usize) {
         if self.of(k).is_none() {
             self.elements.push((k, 0.0));
         }
     }
 
-    /// Watches the balance of energy.
+    /// Computes the balance of energy.
     pub fn watch_energy(&mut self) {
         self.energy.get_or_insert_with(EnergyBalance::new);
     }
 
-    /// Watches the balance of the forces on the bodies.
+    /// Computes the balance of the forces on the bodies.
     pub fn watch_reactions(&mut self) {
         self.reactions.get_or_insert_with(ReactionBalance::new);
     }
 
-    /// Whether elements are watched.
+    /// Whether dissipated energies are summed.
     pub fn sums(&self) -> bool {
         !self.elements.is_empty()
     }
 
-    /// Whether balances are watched.
+    /// Whether balances are computed.
     pub fn balances(&self) -> bool {
         self.energy.is_some() || self.reactions.is_some()
     }
@@ -74,22 +75,22 @@ impl SoFar {
         values.into_iter().flatten().all(|value| !value.is_nan())
     }
 
-    /// The balance of energy; None if it is not watched.
+    /// The balance of energy. None if it is not computed.
     pub fn energy_balance(&self) -> Option<f64> {
         self.energy.map(|balance| balance.present)
     }
 
-    /// The largest balance of the forces on a body; None if it is not watched.
+    /// The largest balance of the forces on a body. None if it is not computed.
     pub fn reaction_balance(&self) -> Option<f64> {
         self.reactions.as_ref().map(|balance| balance.present)
     }
 
-    /// The energy that a force element has dissipated, J; None if it is not watched.
+    /// The energy that a force element has dissipated, J. None if it is not summed.
     pub fn of(&self, force: usize) -> Option<f64> {
         self.elements.iter().find(|(k, _)| *k == force).map(|(_, energy)| *energy)
     }
 
-    /// Adds the energy of a duration; `powers` are those at the [`PLACES`] in it.
+    /// Adds the energy over a duration; `powers` are the powers at the [`PLACES`] in it.
     pub fn add(&mut self, duration: f64, powers: &[Vec<f64>]) {
         for (k, (_, energy)) in self.elements.iter_mut().enumerate() {
             let power: f64 = powers.iter().zip(WEIGHTS).map(|(row, weight)| weight * row[k]).sum();
@@ -103,7 +104,7 @@ impl SoFar {
         self.elements.iter().map(of).collect()
     }
 
-    /// Takes the balances on to a state; the first one is the start of the run.
+    /// Updates the balances with a state. The first state is the start of the run.
     pub fn balance(
         &mut self,
         energies: impl FnOnce() -> Energies<f64>,

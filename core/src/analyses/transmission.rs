@@ -1,17 +1,17 @@
 //! The transmission angle at a pin between a coupler and an output link: the angle between their lines (Alt, 1932;
-//! Norton, *Design of Machinery*, section 3.3). The line of a link goes from the pin to its other pin; if the link is
-//! guided by a slide, its line is the normal of the slide.
+//! Norton, *Design of Machinery*, section 3.3). The line of a link goes from this pin to its other pin. If a slide
+//! guides the link, its line is the normal of the slide.
 
 use crate::elements::{BodyId, Fixes, Group};
 use crate::model::{ConstraintItem, Model};
 use std::f64::consts::FRAC_PI_2;
 
-/// Whether a joint holds two points together and nothing else.
+/// Whether a joint only holds two points together.
 fn is_pin(item: &ConstraintItem) -> bool {
     joins(item) && item.element.fixes() == [Fixes::Points]
 }
 
-/// Whether a joint is a straight slide without turning.
+/// Whether a joint is a straight slide that prevents rotation.
 fn is_slide(item: &ConstraintItem) -> bool {
     joins(item) && item.element.fixes() == [Fixes::Line, Fixes::Direction]
 }
@@ -20,7 +20,7 @@ fn joins(item: &ConstraintItem) -> bool {
     item.group == Group::Joints && item.bodies.len() == 2
 }
 
-/// The pins and slides of a body besides one joint.
+/// The pins and slides of a body except one joint.
 pub fn others_at(model: &Model, joint: usize, body: BodyId) -> Vec<usize> {
     let holds =
         |item: &ConstraintItem| item.bodies.contains(&body) && (is_pin(item) || is_slide(item));
@@ -28,8 +28,8 @@ pub fn others_at(model: &Model, joint: usize, body: BodyId) -> Vec<usize> {
     all.filter(|(k, item)| *k != joint && holds(item)).map(|(k, _)| k).collect()
 }
 
-/// The direction of the line of a link from a pin, in the frame of the link, rad; None unless the link has exactly one
-/// other pin or slide.
+/// The direction of the line of a link from a pin, in the frame of the link, rad. None unless the link has exactly
+/// one other pin or slide.
 pub fn line_at(model: &Model, joint: usize, body: BodyId) -> Option<f64> {
     let others = others_at(model, joint, body);
     let [other] = others[..] else { return None };
@@ -43,7 +43,7 @@ pub fn line_at(model: &Model, joint: usize, body: BodyId) -> Option<f64> {
     Some(if is_slide(other) { to.axis + FRAC_PI_2 } else { along.y.atan2(along.x) })
 }
 
-/// The transmission angle at a pin as an expression of quantities, in rad from 0 to π; None unless the joint is a pin
+/// The transmission angle at a pin as an expression of quantities, in rad from 0 to π. None unless the joint is a pin
 /// and the lines of both links are unique.
 pub fn transmission_angle(model: &Model, joint: usize) -> Option<String> {
     let item = &model.constraints[joint];
@@ -58,7 +58,7 @@ pub fn transmission_angle(model: &Model, joint: usize) -> Option<String> {
     Some(format!("atan2(abs(sin({between})), cos({between}))"))
 }
 
-/// The pins at which a link without a driver, guided by ground, is moved by another link.
+/// The pins at which another link moves a link that ground guides and that has no driver.
 pub fn transmitting(model: &Model) -> Vec<usize> {
     let drivers = model.constraints.iter().filter(|item| item.group == Group::Drivers);
     let driven: Vec<BodyId> = drivers.flat_map(|item| item.bodies.iter().copied()).collect();

@@ -1,15 +1,15 @@
 //! Whether the reactions of joints and drivers are unique at a position.
 //!
-//! M a + Φ_qᵀ λ = Q determines λ up to the left null vectors y of Φ_q, yᵀ Φ_q = 0. A joint whose rows take part in one of
-//! them has no unique reaction: its values are those of the smallest λ.
+//! M a + Φ_qᵀ λ = Q determines λ only up to the left null vectors y of Φ_q, yᵀ Φ_q = 0. A joint whose rows take part
+//! in a null vector has no unique reaction: its values belong to the λ of least norm.
 
 use super::dependence;
 use super::mobility::mobility;
 use crate::model::Model;
 use crate::solve::RANK_TOLERANCE;
 
-/// The constraints (indices) without a unique reaction at a position and near it, ascending. At a singular position the
-/// reactions are those of the motion through it.
+/// The constraints (indices) without a unique reaction at and near a position, ascending. At a singular position, the
+/// reactions of the motion through it are used.
 pub fn not_unique(model: &Model, t: f64, q: &[f64]) -> Vec<usize> {
     let mut found = dependence::at(model, t, q, RANK_TOLERANCE, &|| false);
     if !found.is_empty() {

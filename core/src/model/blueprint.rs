@@ -1,4 +1,4 @@
-//! A model over formulas: the definition with all names linked, before numbers are put in.
+//! A model over formulas: the definition with all names linked, before numbers are inserted.
 
 use super::definition::{Entry, Value};
 use super::doubt::Doubt;
@@ -14,7 +14,7 @@ use crate::elements::{
 use crate::expression::{Expression, Inferred, Symbol, Table, Tape};
 use std::sync::Arc;
 
-/// The linked content of a file: elements over [`Tape`]. A clone shares its lists until they are changed.
+/// The linked content of a file: elements over [`Tape`]. A clone shares its lists until they change.
 #[derive(Clone, Debug)]
 pub struct Blueprint {
     /// Title.
@@ -23,7 +23,7 @@ pub struct Blueprint {
     pub parameters: Vec<String>,
     /// Their formulas.
     pub formulas: Vec<(String, Expression)>,
-    /// Their dimensions, as far as they are written with units.
+    /// Their dimensions, if they are written with units.
     pub inferred: Vec<Inferred>,
     /// The tables that formulas may call.
     pub tables: Vec<Arc<Table>>,
@@ -37,9 +37,9 @@ pub struct Blueprint {
     pub constraints: Arc<Vec<(String, Group, Constraint<Tape>)>>,
     /// Forces, with their first-order states.
     pub forces: Arc<Vec<(String, &'static [OwnState], ForceElement<Tape>)>>,
-    /// The modes of forces in a phase of a run; those that hold have the last constraints, in this order.
+    /// The modes of forces in a phase of a run. Forces that hold have the last constraints, in this order.
     pub modes: Vec<ForceMode>,
-    /// Laws that a host computes.
+    /// Laws that the host computes.
     pub functions: Option<Functions>,
     /// Angles that look like degrees.
     pub doubts: Vec<Doubt>,
@@ -85,7 +85,7 @@ impl Blueprint {
         }
     }
 
-    /// Reports an element between a body and itself: it would be empty or impossible.
+    /// Reports an element between a body and itself, which would be empty or impossible.
     fn two_bodies(
         &self,
         group: Group,
@@ -126,8 +126,7 @@ impl Blueprint {
         true
     }
 
-    /// The same mechanism with further drivers that make coordinates follow given laws: what
-    /// assembly solves.
+    /// The mechanism with additional drivers that hold coordinates at given laws. Assembly solves this model.
     pub fn holding(&self, held: &[(String, Followed<Tape>, Tape)]) -> Self {
         let drivers = held.iter().map(|(name, coordinate, value)| {
             (name.clone(), Group::Drivers, holding(coordinate.clone(), value.clone()))
@@ -136,7 +135,7 @@ impl Blueprint {
         Self { constraints: constraints.into(), ..self.clone() }
     }
 
-    /// The same mechanism with some of its constraints only, and without forces.
+    /// The mechanism with only some of its constraints, and without forces.
     pub fn keeping(&self, kept: &[usize]) -> Self {
         let constraints = kept.iter().map(|k| self.constraints[*k].clone()).collect::<Vec<_>>();
         Self { constraints: constraints.into(), forces: Arc::default(), ..self.clone() }
@@ -148,7 +147,7 @@ impl Blueprint {
     }
 }
 
-/// Reports a joint or driver whose law reads a table with jumps of the slope between its points.
+/// Reports a joint or driver whose law uses a table whose slope jumps between its points.
 fn has_velocity(
     group: Group,
     entry: &Entry,

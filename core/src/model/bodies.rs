@@ -1,7 +1,7 @@
-//! Bodies from their definition: the general body, the uniform slender bar, ground.
+//! Reads bodies from their definition: the general body, the uniform slender bar, and ground.
 //!
-//! A bar is shorthand: it becomes a general body whose numbers are formulas in its own, such as
-//! J = m L²/12, so that no other file needs bars.
+//! A bar is shorthand for a general body whose numbers are formulas of the numbers of the bar, such as J = m L²/12.
+//! No other file needs to handle bars.
 
 use super::body_fields::{INSTEAD_OF_SHAPES, POINT_MASS};
 use super::definition::{Definition, Entry, Value};
@@ -12,8 +12,8 @@ use super::unit_check::ANY_UNIT;
 use crate::expression::{Expression, Tape};
 use crate::math::Local;
 
-/// Reads all bodies; index 0 is ground. A faulty body is kept with stand-in numbers, so that
-/// references to it are not reported as well.
+/// Reads all bodies; index 0 is ground. A faulty body is kept with placeholder numbers, so that references to it
+/// cause no further reports.
 pub fn read(
     definition: &Definition,
     scope: &Scope,
@@ -33,7 +33,7 @@ struct Reader<'a> {
     problems: &'a mut Vec<Problem>,
 }
 
-/// A named point as two formulas, as text.
+/// A named point with two coordinates, as text.
 struct WrittenPoint {
     name: String,
     x: String,
@@ -116,7 +116,7 @@ impl Reader<'_> {
         }
     }
 
-    /// Shapes instead of mass, inertia and mass centre.
+    /// Replaces mass, inertia and mass centre by shapes.
     fn of_shapes(&mut self, body: &mut Body<Tape>) {
         body.shapes = super::read_shapes::read(self.entry, self.scope, self.problems);
         for key in INSTEAD_OF_SHAPES {
@@ -129,7 +129,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A uniform slender bar: frame at its centre, x along it, J = m L²/12.
+    /// A uniform slender bar: its frame is at its centre with x along the bar, and J = m L²/12.
     fn bar(&mut self) -> Body<Tape> {
         let mut body = self.blank("bar");
         let mass = self.number("mass", "kg");
@@ -192,8 +192,8 @@ impl Reader<'_> {
         }
     }
 
-    /// Puts a body where it was drawn: origin midway between the first two points, x axis from the
-    /// first to the second; every point drawn becomes a point of the body.
+    /// Places a body where it was drawn: the origin midway between the first two points, and the x axis from the
+    /// first to the second. Every drawn point becomes a point of the body.
     fn place(&mut self, body: &mut Body<Tape>, through: &[WrittenPoint]) {
         let [a, b, ..] = through else {
             self.report("through", "needs at least two points");
@@ -226,7 +226,7 @@ impl Reader<'_> {
         written.into_iter().map(|w| local(w, self)).collect()
     }
 
-    /// A table of points as text; it is checked here, so that formulas composed of it cannot fail.
+    /// A table of points as text. It is checked here, so that formulas composed of it cannot fail.
     fn written(&mut self, key: &str) -> Vec<WrittenPoint> {
         let mut points = Vec::new();
         let items = match self.entry.get(key) {
@@ -242,7 +242,7 @@ impl Reader<'_> {
             let path: Vec<String> = self.path(key).into_iter().chain([name.clone()]).collect();
             let (x, y) = match (self.scope.pair(value, &path, "m", self.problems), value) {
                 (Some(_), Value::List(xy)) => (term(&xy[0]), term(&xy[1])),
-                // a stand-in, apart from the others
+                // a placeholder that differs from the other points
                 _ => (points.len().to_string(), "0".to_string()),
             };
             points.push(WrittenPoint { name: name.clone(), x, y });
@@ -263,7 +263,7 @@ impl Reader<'_> {
         }
     }
 
-    /// A formula composed here; it can only fail if it becomes too long.
+    /// A formula that is composed here. It can only fail by becoming too long.
     fn compose(&mut self, text: &str) -> Tape {
         let path = self.path("type");
         let value = Value::Text(text.to_string());
@@ -285,7 +285,7 @@ impl Reader<'_> {
     }
 }
 
-/// Stand-ins for the ends of a bar: references to its points are not reported as well.
+/// Placeholders for the ends of a bar, so that references to its points cause no further reports.
 fn unknown() -> Vec<String> {
     vec![String::new(), String::new()]
 }
@@ -297,7 +297,7 @@ fn text(value: &Value) -> Option<String> {
     }
 }
 
-/// A value as a term of a longer formula. A quantity with a unit is not allowed there, so its number is used.
+/// A value as a term of a longer formula. A quantity with a unit is not allowed in formulas, so its number is used.
 fn term(value: &Value) -> String {
     match value {
         Value::Number(x) => format!("({x:?})"),

@@ -1,4 +1,4 @@
-//! Which fields a body may have, as data: for the reader of files, the schema, Python and the model.
+//! The fields of bodies as data, for the reader of files, the schema, Python and the model.
 
 use crate::elements::{Default, Field, Shape, Table};
 
@@ -8,8 +8,8 @@ pub(super) const POINT_MASS: &str = "point_mass";
 /// The fields that shapes determine.
 pub(crate) const INSTEAD_OF_SHAPES: [&str; 3] = ["mass", "inertia", "center"];
 
-/// The types of bodies: `body` (the type if none is written), `bar`, `point_mass`, and `ground`, which
-/// is not written as a type but is the body of that name.
+/// The types of bodies: `body` (the default), `bar`, `point_mass`, and `ground`. `ground` is not written as a type;
+/// it is the name of a body.
 pub fn body_tables() -> Vec<Table> {
     vec![body(), bar(), point_mass(), ground()]
 }

@@ -1,9 +1,9 @@
-//! Mass, mass centre and moment of inertia of a body that consists of homogeneous pieces.
+//! Mass, mass centre and moment of inertia of a body composed of homogeneous pieces.
 //!
-//! m = Σ m_k, c = Σ m_k c_k / m, J = Σ m_k (k_k² + |c_k - c|²), where k_k is the radius of gyration of a piece about its
-//! own centre c_k (theorem of Huygens and Steiner). A hole has a negative mass. Those of a polygon are Green's sums over its
-//! sides; they do not depend on the sense of its corners. Coordinates are taken from its first corner, so that
-//! nothing cancels for a polygon far from the origin.
+//! m = Σ m_k, c = Σ m_k c_k / m, J = Σ m_k (k_k² + |c_k - c|²), where k_k is the radius of gyration of a piece about
+//! its own centre c_k (Huygens–Steiner theorem). A hole has a negative mass. The values of a polygon follow from
+//! Green's theorem as sums over its sides, and do not depend on the orientation of its corners. Coordinates are
+//! relative to the first corner, so that no digits cancel for a polygon far from the origin.
 
 use crate::expression::Tape;
 use crate::math::{Local, Real, Rotation};
@@ -13,31 +13,31 @@ use crate::math::{Local, Real, Rotation};
 pub enum Form<S = f64> {
     /// A thin straight rod along x.
     Rod {
-        /// From end to end.
+        /// Length from end to end, m.
         length: S,
     },
     /// A rectangle.
     Plate {
-        /// Along x.
+        /// Length along x, m.
         width: S,
-        /// Along y.
+        /// Length along y, m.
         height: S,
     },
     /// A disc.
     Disc {
-        /// Its radius.
+        /// Radius, m.
         radius: S,
     },
     /// A disc with a round hole.
     Ring {
-        /// Radius of the hole.
+        /// Radius of the hole, m.
         inner: S,
-        /// Radius of the outside.
+        /// Outer radius, m.
         outer: S,
     },
     /// A polygon.
     Polygon {
-        /// Its corners in order.
+        /// Corners in order, m.
         points: Vec<Local<S>>,
     },
 }
@@ -49,7 +49,7 @@ pub enum Matter<S = f64> {
     Mass(S),
     /// Its density, kg/m³, and its thickness, m, or its cross-section, m².
     Density {
-        /// Mass by volume, kg/m³.
+        /// Mass per volume, kg/m³.
         density: S,
         /// Thickness of an area, m; cross-section of a rod, m².
         section: S,
@@ -65,7 +65,7 @@ pub struct BodyShape<S = f64> {
     pub at: Local<S>,
     /// Angle of its frame in the frame of the body, rad.
     pub angle: S,
-    /// Its mass.
+    /// Mass of the piece.
     pub matter: Matter<S>,
 }
 
@@ -107,7 +107,7 @@ impl<S> Form<S> {
 }
 
 impl<S> BodyShape<S> {
-    /// The same piece over another scalar.
+    /// Converts the piece to another scalar.
     pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> BodyShape<T> {
         BodyShape {
             form: self.form.map(f),
@@ -124,7 +124,7 @@ impl<S> BodyShape<S> {
 }
 
 impl BodyShape<Tape> {
-    /// Whether its centre is the origin of the body whatever the parameters are.
+    /// Whether the centre is the origin of the body for all parameter values.
     pub(super) fn is_centred(&self) -> bool {
         let zero = |tape: &Tape| tape.constant() == Some(0.0);
         !matches!(self.form, Form::Polygon { .. }) && zero(&self.at.x) && zero(&self.at.y)
@@ -132,7 +132,8 @@ impl BodyShape<Tape> {
 }
 
 impl<S: Real> Form<S> {
-    /// Length of a rod, m, or area of another form, m²; its centre; its radius of gyration about it, squared, m².
+    /// Length of a rod, m, or area of another form, m²; its centre; the square of its radius of gyration about the
+    /// centre, m².
     fn measures(&self) -> (S, Local<S>, S) {
         let (number, none) = (S::constant, Local::new(S::zero(), S::zero()));
         let pi = number(std::f64::consts::PI);
@@ -150,7 +151,7 @@ impl<S: Real> Form<S> {
     }
 }
 
-/// Area, centre, and radius of gyration squared of a polygon.
+/// Area, centre, and square of the radius of gyration of a polygon.
 fn polygon<S: Real>(points: &[Local<S>]) -> (S, Local<S>, S) {
     let number = S::constant;
     let Some(first) = points.first() else {
@@ -179,7 +180,7 @@ impl<S: Real> BodyShape<S> {
         Local::new(self.at.x + turned.x, self.at.y + turned.y)
     }
 
-    /// Its mass, its centre in the frame of the body, and its moment of inertia about this centre.
+    /// Mass of the piece, its centre in the frame of the body, and its moment of inertia about this centre.
     pub fn weighed(&self) -> Weighed<S> {
         let (extent, center, gyration) = self.form.measures();
         let mass = match self.matter {

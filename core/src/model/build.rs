@@ -1,4 +1,4 @@
-//! From a definition to a model: names are linked, parameters evaluated, numbers checked.
+//! From a definition to a model: links names, evaluates parameters, and checks numbers.
 
 use super::blueprint::Blueprint;
 use super::definition::{Definition, Value};
@@ -12,7 +12,7 @@ use crate::elements::Group;
 use crate::expression::Tape;
 use std::sync::Arc;
 
-/// Links a definition and puts numbers in. `overrides` replace parameters by name.
+/// Links a definition and inserts numbers. `overrides` replace parameters by name.
 ///
 /// All faults are reported at once.
 pub fn build(

@@ -8,7 +8,7 @@ use super::shape_checks;
 use crate::elements::Curve;
 use crate::expression::{FormulaValues as Values, Tape};
 
-/// Longer lengths, m, have powers that overflow where positions are solved for.
+/// Lengths above this limit, m, have powers that overflow in the solution for positions.
 const LONGEST: f64 = 1e60;
 
 /// Reports negative masses and inertias, bars without length, and everything that is not finite.
@@ -65,7 +65,7 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
     }
 }
 
-/// The value of a formula in the parameters; NaN for one of time or state.
+/// The value of a formula of the parameters. NaN if it depends on time or state.
 fn constant(tape: &Tape, parameters: &[f64]) -> f64 {
     if tape.uses_time() || tape.uses_state() {
         return f64::NAN;

@@ -1,4 +1,4 @@
-//! The curves of a body, from their definition.
+//! Reads the curves of a body from their definition.
 
 use super::definition::{Entry, Value};
 use super::problem::Problem;
@@ -7,7 +7,7 @@ use crate::elements::{Curve, CurveFormula, CurvePoints, CURVE_FORMS};
 use crate::expression::Tape;
 use crate::math::{Interpolation, Local};
 
-/// Curves by name; a faulty one is None, and its fault is reported.
+/// Curves by name. A faulty curve is None, and its fault is reported.
 pub type Curves<S> = Vec<(String, Option<Curve<S>>)>;
 
 /// The curves of a body as formulas.
@@ -53,7 +53,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// The key of the form; exactly one form is given.
+    /// The key of the form. Exactly one form must be given.
     fn form(&mut self) -> Option<&'static str> {
         let given = |form: &[&str]| form.iter().any(|key| self.get(key).is_some());
         let forms: Vec<_> = CURVE_FORMS.iter().filter(|form| given(form.keys)).collect();
@@ -137,7 +137,7 @@ impl<'a> Reader<'a> {
             }
         };
         let periodic = self.periodic()?;
-        // a periodic curve has its first point once more at its end
+        // a periodic curve repeats its first point at its end
         let least = kind.least(periodic) - usize::from(periodic);
         if complete && points.len() < least {
             let message = format!("has {} points; must have at least {least}", points.len());
@@ -161,7 +161,7 @@ impl<'a> Reader<'a> {
         Some([from?, to?])
     }
 
-    /// A formula in u and the parameters.
+    /// A formula of u and the parameters.
     fn formula(&mut self, key: &str) -> Option<Tape> {
         if self.scope.parameters.iter().any(|name| name == "u") {
             let message =
@@ -172,7 +172,7 @@ impl<'a> Reader<'a> {
         self.scope.formula(value, &self.at(key), "m", Reach::Curve, self.problems)
     }
 
-    /// N numbers.
+    /// A list of N numbers.
     fn numbers<const N: usize>(&mut self, key: &str) -> Option<[Tape; N]> {
         let Value::List(items) = self.get(key)? else {
             return self.report(Some(key), format!("must be a list of {N} numbers"));

@@ -1,4 +1,4 @@
-//! The drawing of a body in place of a link around its points.
+//! The drawing of a body that replaces the link around its points.
 
 use super::body_shape::{BodyShape, Form};
 use super::items::Body;
@@ -6,7 +6,7 @@ use super::outline::{circle, Drawn, DrawnForm};
 use crate::math::Local;
 
 impl Body {
-    /// The drawing of the body in place of a link: its outline, otherwise its shapes, otherwise nothing.
+    /// The drawing that replaces the link: the outline of the body, otherwise its shapes, otherwise an empty drawing.
     pub fn drawn(&self) -> Vec<Drawn> {
         match &self.outline {
             Some(outline) => outline.drawn(),
@@ -15,7 +15,7 @@ impl Body {
     }
 }
 
-/// The edges of a shape: counter-clockwise, those of holes clockwise. A rod without mass is not drawn.
+/// The edges of a shape, counter-clockwise; edges of holes are clockwise. A rod without mass is not drawn.
 fn shape(shape: &BodyShape) -> Vec<Drawn> {
     let hole = shape.weighed().mass < 0.0;
     let edges = match &shape.form {

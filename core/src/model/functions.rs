@@ -1,4 +1,4 @@
-//! Laws that the program of the caller computes: functions of time and state without a formula.
+//! Laws that the calling program computes: functions of time and state without a formula.
 
 use crate::math::Real;
 use std::fmt::Debug;
@@ -6,7 +6,7 @@ use std::sync::Arc;
 
 /// The program that computes the laws.
 pub trait Host: Debug + Send + Sync {
-    /// The value of a law at x = (t, q, v, z); NaN if it has none, which ends a run.
+    /// The value of a law at x = (t, q, v, z). NaN if there is no value; this ends a run.
     fn value(&self, law: usize, x: &[f64]) -> f64;
 }
 
@@ -19,7 +19,7 @@ pub struct Sampling {
     pub start: f64,
 }
 
-/// Part of a period by which a time may differ from that of a sample, for rounding.
+/// Fraction of a period by which a time may differ from a sample because of rounding.
 const ROUNDING: f64 = 1e-9;
 
 impl Sampling {
@@ -28,7 +28,7 @@ impl Sampling {
         self.start + k * self.period
     }
 
-    /// The number of the first sample at or after `t`.
+    /// The index of the first sample at or after `t`.
     pub fn next(&self, t: f64) -> f64 {
         ((t - self.start) / self.period - ROUNDING).ceil().max(0.0)
     }
@@ -44,7 +44,7 @@ impl Sampling {
 pub struct FunctionLaw {
     /// The force element.
     pub element: String,
-    /// The field, with the number of its entry if it has several: `torque`, `force_2`.
+    /// The field, with the index of its entry if it has several: `torque`, `force_2`.
     pub field: String,
     /// Its unit.
     pub unit: String,
@@ -53,16 +53,16 @@ pub struct FunctionLaw {
 }
 
 impl FunctionLaw {
-    /// The name of the state that is the held value: `motor.torque_held`.
+    /// The name of the state that holds the value: `motor.torque_held`.
     pub fn held(&self) -> String {
         format!("{}.{}_held", self.element, self.field)
     }
 }
 
-/// The laws of a model that a host computes.
+/// The laws of a model that the host computes.
 #[derive(Clone, Debug)]
 pub struct Functions {
-    /// The laws, in the order of their numbers.
+    /// The laws, in the order of their indices.
     pub laws: Vec<FunctionLaw>,
     /// The host.
     pub host: Arc<dyn Host>,
@@ -75,7 +75,7 @@ impl PartialEq for Functions {
 }
 
 impl Functions {
-    /// The sampled laws; the value that is held for each is a first-order state.
+    /// The sampled laws. The held value of each law is a first-order state.
     pub fn sampled(&self) -> impl Iterator<Item = (usize, &FunctionLaw, Sampling)> {
         let all = self.laws.iter().enumerate();
         all.filter_map(|(k, law)| Some((k, law, law.sampling?)))

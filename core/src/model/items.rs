@@ -1,4 +1,4 @@
-//! The items of a model, over any scalar: bodies, joints, drivers and forces.
+//! The items of a model over any scalar: bodies, joints, drivers and forces.
 
 use super::body_shape::{BodyShape, Weighed};
 use super::curves::Curves;
@@ -24,18 +24,18 @@ pub struct Body<S = f64> {
     pub points: Vec<(String, Local<S>)>,
     /// Named curves in the body frame.
     pub curves: Curves<S>,
-    /// The homogeneous pieces that give its mass, mass centre and inertia; none if these are given.
+    /// The homogeneous pieces that determine mass, mass centre and inertia; empty if these are given.
     pub shapes: Vec<BodyShape<S>>,
-    /// Its outline; None if a link around its points, or its shapes, are drawn.
+    /// Its outline. None if a link around its points or its shapes are drawn.
     pub outline: Option<Outline<S>>,
-    /// Where it was drawn: x, y, angle; a guess for assembly.
+    /// Drawn position: x, y, angle. A guess for assembly.
     pub drawn: Option<[S; 3]>,
-    /// Whether the angle is a coordinate; a point mass has none.
+    /// Whether the angle is a coordinate. A point mass has no angle.
     pub turns: bool,
 }
 
 impl<S> Body<S> {
-    /// The same body over another scalar.
+    /// Converts the body to another scalar.
     pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Body<T> {
         let mut local = |s: &Local<S>| Local { x: f(&s.x), y: f(&s.y) };
         let center = local(&self.center);
@@ -69,7 +69,7 @@ impl<S> Body<S> {
         Self { mass, center, inertia, ..self }
     }
 
-    /// Whether its points are not all known, because a fault of them was reported.
+    /// Whether some of its points are unknown because a fault was reported for them.
     pub fn lacks_points(&self) -> bool {
         self.points.iter().any(|(name, _)| name.is_empty())
     }
@@ -81,7 +81,7 @@ impl<S> Body<S> {
 }
 
 impl Body<Tape> {
-    /// Whether the mass centre is the origin of the frame whatever the parameters are.
+    /// Whether the mass centre is the origin of the frame for all parameter values.
     pub fn is_centred(&self) -> bool {
         let zero = |tape: &Tape| tape.constant() == Some(0.0);
         match self.shapes.is_empty() {
@@ -98,32 +98,32 @@ pub struct ConstraintItem<S = f64> {
     pub name: String,
     /// Joint or driver.
     pub group: Group,
-    /// The bodies whose poses enter Φ: i and j first.
+    /// The bodies whose poses occur in Φ: i and j first.
     pub bodies: Vec<BodyId>,
-    /// The element; if there is a `law`, with its formulas at t = 0.
+    /// The element. If there is a `law`, the element has the values of its formulas at t = 0.
     pub element: Constraint<S>,
     /// The element over formulas, if one of them depends on time or state.
     pub law: Option<Box<Constraint<Tape>>>,
-    /// Whether a law of it reads a coordinate of a body, which is measured from ground.
+    /// Whether a law of the element uses a coordinate of a body, which is measured from ground.
     pub measures_from_ground: bool,
-    /// Whether time or a driven motion does work through it.
+    /// Whether time or a driven motion does work through the constraint.
     pub driven: bool,
     /// Equations, in the order of the rows.
     pub equations: Vec<Equation>,
-    /// The switch of its curve, whose function is the first internal coordinate.
+    /// The switch of its curve. The function of this switch is the first internal coordinate.
     pub curve_switch: Option<usize>,
 }
 
 /// The mode of a force in a phase.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ForceMode {
-    /// The place of the force in the model.
+    /// Index of the force in the model.
     pub force: usize,
     /// Its mode.
     pub mode: Mode,
     /// The value of the coordinate that friction holds.
     pub value: f64,
-    /// The rounding error of the gap or force of a contact, below zero by which it changes its mode.
+    /// The rounding error of the gap or force of a contact. The mode changes only below minus this value.
     pub slack: f64,
 }
 
@@ -136,17 +136,18 @@ pub struct ForceItem<S = f64> {
     pub bodies: Vec<BodyId>,
     /// Its first-order states.
     pub states: &'static [OwnState],
-    /// The joint whose reaction enters it.
+    /// The joint whose reaction the force uses.
     pub reaction: Option<JointId>,
-    /// The element; if there is a `law`, with its formulas at t = 0.
+    /// The element. If there is a `law`, the element has the values of its formulas at t = 0.
     pub element: ForceElement<S>,
     /// The element over formulas, if one of them depends on time or state.
     pub law: Option<Box<ForceElement<Tape>>>,
-    /// The first switch of the element itself, without those of its laws, in [`Model::switches`](super::Model).
+    /// Index in [`Model::switches`](super::Model) of the first switch of the element itself, without switches of its
+    /// laws.
     pub first_switch: usize,
-    /// How it acts in this phase of a run.
+    /// The mode of the force in this phase of a run.
     pub mode: Mode,
-    /// The row of λ of the equation by which it holds. If this equation is not in the model, it follows all rows of the
-    /// model, in the order of the forces with modes.
+    /// The row of λ of the equation by which the force holds. If this equation is not in the model, the row follows
+    /// all rows of the model, in the order of the forces with modes.
     pub held_row: Option<usize>,
 }

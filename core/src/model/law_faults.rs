@@ -2,11 +2,11 @@
 
 use crate::expression::ExpressionError;
 
-/// The measures that remain for a quantity without a formula.
+/// The remedy for a quantity without a formula.
 pub(super) const WITHOUT_FORMULA: &str =
     "use a line or a circle as curve; conditions, measures and figures may use every gap";
 
-/// The error for a quantity that has no formula, in place of that for an unknown name.
+/// The error for a quantity that has no formula. It replaces the error for an unknown name.
 pub(super) fn without_formula(
     text: &str,
     fault: ExpressionError,
@@ -17,7 +17,7 @@ pub(super) fn without_formula(
     ExpressionError::new(fault.span, message).hint(WITHOUT_FORMULA.to_string())
 }
 
-/// The error for a name that is a parameter and a quantity of the element.
+/// The error for a name that is both a parameter and a quantity of the element.
 pub(super) fn ambiguity(text: &str, name: &str, element: &str) -> ExpressionError {
     let message = format!("'{name}' is a parameter and a quantity of '{element}'");
     let hint = format!("rename the parameter, or write '{element}.{name}' for the quantity");

@@ -1,14 +1,13 @@
-//! Index ranges: which columns a body owns, which rows and entries of Φ_q a constraint owns, which
-//! states an element owns, and where all of them are in y = (q, v, z, works).
+//! Index ranges: the columns that a body owns, the rows and entries of Φ_q that a constraint owns, the states that an
+//! element owns, and their positions in y = (q, v, z, works).
 //!
-//! Φ_q is stored by constraint: for each owner of columns that a constraint touches there is a dense
-//! block of (equations × 3) entries, row by row, padded with zeros where the owner has fewer than three
-//! columns. Ground owns no columns.
+//! Φ_q is stored by constraint. For each owner of columns in a constraint there is a dense block of (equations × 3)
+//! entries, row by row, padded with zeros where the owner has fewer than three columns. Ground owns no columns.
 
 use crate::elements::BodyId;
 use std::ops::Range;
 
-/// Works that are integrated with the motion: dissipated, of drivers, of applied forces.
+/// Works that are integrated with the motion: dissipated energy, work of drivers, work of applied forces.
 pub const WORKS: usize = 3;
 
 /// The coordinates of one owner: a moving body, or an element with internal coordinates.
@@ -25,7 +24,7 @@ impl Columns {
     pub fn range(self) -> Range<usize> {
         self.first..self.first + self.count
     }
-    /// Adds the first numbers of three to these columns of `y`.
+    /// Adds the leading numbers of `three` to these columns of `y`.
     #[inline(always)]
     pub fn add<S: crate::math::Real>(self, three: [S; 3], y: &mut [S]) {
         let y = &mut y[self.range()];
@@ -38,7 +37,7 @@ impl Columns {
             _ => y.iter_mut().zip(three).for_each(|(y, x)| *y += x),
         }
     }
-    /// These columns of `x`, padded with zeros to three.
+    /// These columns of `x`, padded to three numbers with zeros.
     #[inline(always)]
     pub fn of<S: crate::math::Real>(self, x: &[S]) -> [S; 3] {
         let mut three = [S::zero(); 3];
@@ -47,28 +46,28 @@ impl Columns {
     }
 }
 
-/// One block of Φ_q: the equations of a constraint by the coordinates of one owner.
+/// One block of Φ_q: the equations of a constraint for the coordinates of one owner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Block {
-    /// Place of the owner among [`StateLayout::owners`].
+    /// Index of the owner in [`StateLayout::owners`].
     pub owner: usize,
     /// Its columns.
     pub columns: Columns,
-    /// The body, if the owner is one.
+    /// The body, if the owner is a body.
     pub body: Option<BodyId>,
     /// Index of the block's first entry; entry (row r, column c) is `first + 3 r + c`.
     pub first: usize,
-    /// ±1 if the columns of translation are ±I in all states (Haug 3.3.12), otherwise 0.
+    /// ±1 if the columns of translation are ±I for all states (Haug 3.3.12), otherwise 0.
     pub sign: f64,
 }
 
 impl Block {
-    /// The places of the stored entries of a row.
+    /// The indices of the stored entries of a row.
     pub fn row(&self, row: usize) -> Range<usize> {
         self.first + 3 * row..self.first + 3 * row + 3
     }
 
-    /// The places of the stored entries of all rows; their number is that of the equations.
+    /// The indices of the stored entries of all rows. `rows` is the number of equations.
     pub fn entries(&self, rows: usize) -> Range<usize> {
         self.first..self.first + 3 * rows
     }
@@ -92,8 +91,7 @@ pub(super) struct Touched {
 pub struct Slots {
     /// Rows of Φ.
     pub rows: Range<usize>,
-    /// Blocks of Φ_q: bodies i and j first, then bodies that only a law names, then the internal
-    /// coordinates.
+    /// Blocks of Φ_q: bodies i and j first, then bodies that occur only in a law, then the internal coordinates.
     pub blocks: Vec<Block>,
     /// Columns of the internal coordinates.
     pub own: Columns,
@@ -116,18 +114,18 @@ pub struct StateLayout {
     pub bodies: Vec<Columns>,
     /// Columns of the moving bodies, then of the elements with internal coordinates.
     pub owners: Vec<Columns>,
-    /// One for each constraint.
+    /// The slots of each constraint.
     pub constraints: Vec<Slots>,
-    /// Places in z of the states of each force.
+    /// Indices in z of the states of each force.
     pub states: Vec<Range<usize>>,
-    /// Places in z of the values of sampled laws, in the order of [`Functions::sampled`](super::Functions::sampled);
-    /// those of a force follow its states.
+    /// Indices in z of the values of sampled laws, in the order of [`Functions::sampled`](super::Functions::sampled).
+    /// The values of a force follow its states.
     pub held: Vec<usize>,
 }
 
 impl StateLayout {
-    /// For the number of coordinates of each moving body, what the constraints touch, and the number of states of each
-    /// force with its sampled laws.
+    /// The layout for the number of coordinates of each moving body, the owners of coordinates in each constraint,
+    /// and the number of states of each force and of its sampled laws.
     pub(super) fn new(
         bodies: impl Iterator<Item = usize>,
         constraints: &[Touched],
@@ -157,7 +155,7 @@ impl StateLayout {
         layout
     }
 
-    /// The next columns, for a new owner.
+    /// Assigns the next columns to a new owner.
     fn own(&mut self, count: usize) -> Columns {
         let columns = Columns { first: self.n_q, count };
         self.owners.push(columns);
@@ -209,7 +207,7 @@ impl StateLayout {
         [q, v, z, works]
     }
 
-    /// The same, mutable.
+    /// Splits y into its mutable parts.
     pub fn split_mut<'a, S>(&self, y: &'a mut [S]) -> [&'a mut [S]; 4] {
         let (q, rest) = y.split_at_mut(self.n_q);
         let (v, rest) = rest.split_at_mut(self.n_q);
@@ -217,8 +215,7 @@ impl StateLayout {
         [q, v, z, works]
     }
 
-    /// For each coordinate whether it is a length, else an angle. An internal coordinate counts as a
-    /// length.
+    /// Whether each coordinate is a length; otherwise it is an angle. An internal coordinate counts as a length.
     pub fn lengths(&self) -> Vec<bool> {
         let mut lengths = vec![true; self.n_q];
         let full = self.bodies.iter().filter(|body| body.count == 3);
@@ -226,7 +223,7 @@ impl StateLayout {
         lengths
     }
 
-    /// Position (row, column) and place of every entry of Φ_q that is not padding, in storage order.
+    /// Position (row, column) and storage index of every entry of Φ_q that is not padding, in storage order.
     pub fn positions(&self) -> impl Iterator<Item = (usize, usize, usize)> + '_ {
         self.constraints.iter().flat_map(|slots| {
             slots.blocks.iter().flat_map(|block| {
@@ -239,13 +236,14 @@ impl StateLayout {
         })
     }
 
-    /// The constraint that owns a row of Φ, and the equation's index within it.
+    /// The constraint that owns a row of Φ, and the index of the equation within the constraint.
     pub fn owner(&self, row: usize) -> (usize, usize) {
         let k = self.constraints.partition_point(|slots| slots.rows.end <= row);
         (k, row - self.constraints[k].rows.start)
     }
 
-    /// The body that owns a coordinate, and the coordinate's index within it; None for an internal one.
+    /// The body that owns a coordinate, and the index of the coordinate within the body. None for an internal
+    /// coordinate.
     pub fn body_of(&self, column: usize) -> Option<(BodyId, usize)> {
         let body = self.bodies.iter().position(|b| b.range().contains(&column))?;
         Some((BodyId(body), column - self.bodies[body].first))

@@ -1,4 +1,4 @@
-//! Linking of the fields of an element: names become indices, text becomes formulas.
+//! Linking of the fields of an element: names become indices, and text becomes formulas.
 
 use super::definition::{Entry, Value};
 use super::items::Body;
@@ -25,13 +25,13 @@ pub struct Linker<'a> {
     pub(super) bodies: &'a [Body<Tape>],
     pub(super) constraints: &'a [Named],
     pub(super) quantities: &'a dyn Quantities,
-    /// Whether laws are read; they are zero if not.
+    /// Whether laws are read. Otherwise they are zero.
     pub(super) laws: bool,
     pub(super) problems: &'a mut Vec<Problem>,
 }
 
 impl<'a> Linker<'a> {
-    /// For an entry of a section.
+    /// A linker for an entry of a section.
     pub fn new(
         group: Group,
         entry: &'a Entry,
@@ -44,7 +44,7 @@ impl<'a> Linker<'a> {
         Self { group, section, entry, scope, bodies, constraints, quantities, laws: true, problems }
     }
 
-    /// For an entry without its laws: its quantities do not depend on them.
+    /// A linker for an entry without its laws, because its quantities do not depend on them.
     pub fn of_numbers(
         group: Group,
         entry: &'a Entry,
@@ -71,7 +71,7 @@ impl<'a> Linker<'a> {
         None
     }
 
-    /// Whether the next problem is shown, so that a suggestion is worth its time.
+    /// Whether the next problem is shown. Only then is a suggestion computed.
     pub(super) fn suggests(&self) -> bool {
         self.problems.len() < MOST_REPORTED
     }
@@ -93,7 +93,7 @@ impl<'a> Linker<'a> {
         }
     }
 
-    /// A body by name, with a report that suggests one.
+    /// A body by name. Reports an unknown name with a suggestion.
     pub(super) fn find(&mut self, field: &Field, name: &str) -> Option<BodyId> {
         if let Some(k) = self.scope.body(name) {
             return Some(BodyId(k));
@@ -110,7 +110,7 @@ impl<'a> Linker<'a> {
         self.report(field, format!("unknown body '{name}'"), hint.flatten())
     }
 
-    /// `body.word`, with the body looked up.
+    /// Splits `body.word` and looks up the body.
     pub(super) fn split<'t>(
         &mut self,
         field: &Field,
@@ -126,7 +126,8 @@ impl<'a> Linker<'a> {
         }
     }
 
-    /// The unit of a field; of two units, the first is for a length and the second for an angle as coordinate.
+    /// The unit of a field. If there are two units, the first is for a length and the second for an angle as
+    /// coordinate.
     pub(super) fn unit(&self, field: &Field) -> String {
         let Some((first, other)) = field.unit.split_once('|') else { return field.unit.clone() };
         let unit =
@@ -188,7 +189,7 @@ impl<'a> Linker<'a> {
         }
     }
 
-    /// A position quantity of a point or an element, which offers some.
+    /// A position quantity of a point or an element.
     pub(super) fn quantity(
         &mut self,
         field: &Field,
@@ -221,7 +222,7 @@ impl<'a> Linker<'a> {
         }
     }
 
-    /// A formula at a place within the entry.
+    /// A formula at a path within the entry.
     pub(super) fn read(
         &mut self,
         value: &Value,
@@ -269,7 +270,7 @@ impl<'a> Linker<'a> {
     }
 }
 
-/// "did you mean …", or the list of all names.
+/// The text "did you mean …", or the list of all names.
 pub fn did_you_mean(word: &str, known: &[&str], plural: &str) -> Option<String> {
     match suggest::closest(word, known.iter().copied()) {
         Some(best) => Some(format!("did you mean '{best}'?")),

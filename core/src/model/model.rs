@@ -15,7 +15,7 @@ use std::sync::Arc;
 /// A planar mechanism, ready to be evaluated. Immutable.
 #[derive(Clone, Debug)]
 pub struct Model<S = f64> {
-    /// The linked definition, from which a model with other parameters is made.
+    /// The linked definition, from which models with other parameters are made.
     pub blueprint: Arc<Blueprint>,
     /// Values of the parameters.
     pub parameters: Vec<S>,
@@ -31,15 +31,15 @@ pub struct Model<S = f64> {
     pub layout: StateLayout,
     /// Whether a joint or driver is driven.
     pub driven: bool,
-    /// Switches of laws, forces and curves: of the laws of constraints, then of the forces, those of a force's laws
-    /// before its own, then of the curves of joints.
+    /// Switches of laws, forces and curves: first of the laws of constraints, then of the forces (switches of a
+    /// force's laws before its own), then of the curves of joints.
     pub switches: Vec<Switch>,
-    /// Whether redundant constraints are accepted; their multipliers are then the smallest that
-    /// balance the loads.
+    /// Whether redundant constraints are accepted. The multipliers that balance the loads are then those with the
+    /// least norm.
     pub allow_redundancy: bool,
 }
 
-/// Values for formulas at the reference state: t = 0, everything at rest in the origin.
+/// Values for formulas at the reference state: t = 0, with everything at rest at the origin.
 struct Reference<'a, S>(&'a [S]);
 
 impl<S: Real> Values<S> for Reference<'_, S> {
@@ -117,13 +117,13 @@ impl<S: Real> Model<S> {
         }
     }
 
-    /// The same model with redundant constraints accepted.
+    /// The model with redundant constraints accepted.
     pub fn allowing_redundancy(&self) -> Self {
         let blueprint = Blueprint { allow_redundancy: true, ..(*self.blueprint).clone() };
         Self::new(&Arc::new(blueprint), &self.parameters)
     }
 
-    /// The same model over a scalar that contains this one.
+    /// Converts the model to a scalar that contains the present scalar.
     pub fn lift<T: Lift<S>>(&self) -> Model<T> {
         let parameters: Vec<T> = self.parameters.iter().map(|p| T::lift(*p)).collect();
         Model::new(&self.blueprint, &parameters)
@@ -141,7 +141,7 @@ fn curve_switches<S: Real>(constraints: &mut [ConstraintItem<S>], switches: &mut
     }
 }
 
-/// The forces of a blueprint; their switches are added to the list.
+/// The forces of a blueprint. Adds their switches to the list.
 fn forces<S: Real>(
     blueprint: &Blueprint,
     value: &mut dyn FnMut(&Tape) -> S,
@@ -180,11 +180,11 @@ impl<S> Model<S> {
     pub fn constraint(&self, name: &str) -> Option<usize> {
         self.constraints.iter().position(|c| c.name == name)
     }
-    /// The names of joints and drivers, by their places.
+    /// The names of joints and drivers with these indices.
     pub fn names_of<'a>(&self, places: impl IntoIterator<Item = &'a usize>) -> Vec<&str> {
         places.into_iter().map(|k| self.constraints[*k].name.as_str()).collect()
     }
-    /// The name of an equation, such as `C.x`; that of its joint if it has only one.
+    /// The name of an equation, such as `C.x`, or the name of its joint if the joint has only one equation.
     pub fn equation_name(&self, row: usize) -> String {
         let (k, equation) = self.layout.owner(row);
         let item = &self.constraints[k];

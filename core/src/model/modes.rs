@@ -1,11 +1,11 @@
-//! The modes of forces in a phase of a run, and the places of their multipliers.
+//! The modes of forces in a phase of a run, and the indices of their multipliers.
 
 use super::items::{ConstraintItem, ForceItem, ForceMode};
 use super::layout::StateLayout;
 use crate::elements::{Group, Mode};
 use crate::math::Real;
 
-/// Sets the modes of forces, and the places of their multipliers.
+/// Sets the modes of forces, and the indices of their multipliers.
 pub(super) fn set<S: Real>(
     forces: &mut [ForceItem<S>],
     constraints: &[ConstraintItem<S>],

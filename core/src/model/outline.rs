@@ -3,10 +3,10 @@
 use crate::math::Local;
 use std::sync::Arc;
 
-/// Corners of a drawn circle.
+/// Number of corners of a drawn circle.
 const OF_CIRCLE: usize = 96;
 
-/// An outline, in the frame of the body, m. It has no influence on any number.
+/// An outline, in the frame of the body, m. It is used only for drawings.
 #[derive(Clone, Debug)]
 pub enum Outline<S = f64> {
     /// A polygon.
@@ -18,7 +18,7 @@ pub enum Outline<S = f64> {
         /// Its radius.
         radius: S,
     },
-    /// The parts of a path, which has no formulas.
+    /// The parts of a path. A path has no formulas.
     Path(Arc<[Drawn]>),
 }
 
@@ -27,23 +27,23 @@ pub enum Outline<S = f64> {
 pub struct Drawn {
     /// Its points in order, m.
     pub points: Vec<Local>,
-    /// How it is drawn.
+    /// The style in which the points are drawn.
     pub form: DrawnForm,
 }
 
-/// How points are drawn.
+/// The style in which points are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum DrawnForm {
-    /// A closed edge. Areas of a body are filled together where their winding number is not 0.
+    /// A closed edge. The areas of a body are filled together where their winding number is nonzero.
     Area,
-    /// A rounded bar of the width of a link.
+    /// A rounded bar with the width of a link.
     Rod,
     /// A thin line.
     Line,
 }
 
 impl DrawnForm {
-    /// Its name in a scene.
+    /// The name of the style in a scene.
     pub fn name(self) -> &'static str {
         match self {
             Self::Area => "area",
@@ -54,7 +54,7 @@ impl DrawnForm {
 }
 
 impl<S> Outline<S> {
-    /// The same outline over another scalar.
+    /// Converts the outline to another scalar.
     pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Outline<T> {
         let mut local = |s: &Local<S>| Local { x: f(&s.x), y: f(&s.y) };
         match self {
@@ -69,7 +69,7 @@ impl<S> Outline<S> {
 }
 
 impl Outline {
-    /// A key of the outline with an impossible value, and the reason.
+    /// A key of the outline with an impossible value, and the reason for the fault.
     pub(super) fn fault(&self) -> Option<(&'static str, String)> {
         let finite = |s: &Local| s.x.is_finite() && s.y.is_finite();
         match self {
@@ -88,7 +88,7 @@ impl Outline {
         }
     }
 
-    /// Its lines and areas.
+    /// The lines and areas of the outline.
     pub(super) fn drawn(&self) -> Vec<Drawn> {
         let area = |points| vec![Drawn { points, form: DrawnForm::Area }];
         match self {
@@ -101,7 +101,7 @@ impl Outline {
     }
 }
 
-/// Corners of a circle around the origin.
+/// The corners of a circle around the origin.
 pub(super) fn circle(radius: f64, clockwise: bool) -> Vec<Local> {
     let turn = if clockwise { -std::f64::consts::TAU } else { std::f64::consts::TAU };
     let at = |k: usize| {

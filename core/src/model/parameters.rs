@@ -1,4 +1,4 @@
-//! Values of the named parameters, which may be formulas in each other.
+//! Values of the named parameters, which may be formulas of each other.
 
 use super::definition::{Definition, Value};
 use super::problem::Problem;
@@ -8,11 +8,11 @@ use std::sync::Arc;
 
 /// The parameters of a model.
 pub struct Evaluated {
-    /// Their values; a faulty one is NaN.
+    /// Their values. A faulty value is NaN.
     pub values: Vec<f64>,
     /// Their dimensions.
     pub inferred: Vec<Inferred>,
-    /// Their formulas by name; empty if one is faulty.
+    /// Their formulas by name. Empty if one of them is faulty.
     pub formulas: Vec<(String, Expression)>,
 }
 
@@ -62,7 +62,7 @@ fn formula(value: &Value) -> Result<Expression, Problem> {
     }
 }
 
-/// The values of formulas in each other. Faults are reported.
+/// The values of formulas that refer to each other. Faults are reported.
 pub fn evaluate(
     formulas: Vec<(String, Expression)>,
     tables: &[Arc<Table>],

@@ -1,11 +1,11 @@
-//! The places of names, so that a name is found at once in a large model.
+//! The indices of names, for fast look-up in a large model.
 
 use super::definition::{Definition, Value};
 use super::variable::Variable;
 use crate::elements::own_of;
 use std::collections::HashMap;
 
-/// The places of the names of each kind.
+/// The indices of the names of each kind.
 #[derive(Clone, Debug, Default)]
 pub(super) struct NameIndex {
     pub parameters: HashMap<String, usize>,
@@ -13,13 +13,13 @@ pub(super) struct NameIndex {
     pub states: HashMap<String, usize>,
     /// Internal coordinates of joints and their rates, such as `cam.u` and `cam.u_rate`.
     pub internals: HashMap<String, Variable>,
-    /// Joints and drivers as they are written.
+    /// Joints and drivers, in the order of the file.
     pub constraints: HashMap<String, usize>,
-    /// Forces as they are written.
+    /// Forces, in the order of the file.
     pub forces: HashMap<String, usize>,
 }
 
-/// The first place of each name.
+/// The first index of each name.
 pub(super) fn places<'n>(names: impl Iterator<Item = &'n String>) -> HashMap<String, usize> {
     let mut places = HashMap::new();
     names.enumerate().for_each(|(k, name)| _ = places.entry(name.clone()).or_insert(k));

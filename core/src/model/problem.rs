@@ -1,4 +1,4 @@
-//! A fault of a definition, with its place and remedy.
+//! A fault of a definition, with its path and remedy.
 
 use crate::expression::ExpressionError;
 use std::fmt;
@@ -13,14 +13,14 @@ pub struct Problem {
     pub message: String,
     /// Remedy, if there is one.
     pub hint: Option<String>,
-    /// The faulty bytes within the value at `path`, if it is a text and only part of it is wrong.
+    /// The range of faulty bytes within the value at `path`, if the value is a text and only a part of it is wrong.
     pub within: Option<Range<usize>>,
-    /// Whether the key is wrong, not its value.
+    /// Whether the key is wrong rather than its value.
     pub at_key: bool,
 }
 
 impl Problem {
-    /// A fault whose place the caller adds.
+    /// A fault whose path the caller adds.
     pub fn new(message: impl Into<String>) -> Self {
         let message = message.into();
         Self { path: Vec::new(), message, hint: None, within: None, at_key: false }
@@ -35,17 +35,17 @@ impl Problem {
         self.hint = Some(hint.into());
         self
     }
-    /// Adds a hint, if there is one.
+    /// Adds a hint, if given.
     pub fn maybe_hint(mut self, hint: Option<String>) -> Self {
         self.hint = self.hint.or(hint);
         self
     }
-    /// Only these bytes of the value.
+    /// Restricts the fault to these bytes of the value.
     pub fn within(mut self, span: Range<usize>) -> Self {
         self.within = Some(span);
         self
     }
-    /// The key itself is wrong.
+    /// Marks the key itself as wrong.
     pub fn at_key(mut self) -> Self {
         self.at_key = true;
         self

@@ -1,9 +1,9 @@
-//! All faults of a definition as one error of Rust.
+//! All faults of a definition as one Rust error.
 
 use super::problem::Problem;
 use std::fmt;
 
-/// Every fault that was found, in the order of the model; never empty where it is an error.
+/// All faults that were found, in the order of the model. Not empty if it is returned as an error.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problems(pub Vec<Problem>);
 
@@ -29,7 +29,7 @@ pub fn more_problems(more: usize) -> String {
     format!("… and {more} more problem{}", if more == 1 { "" } else { "s" })
 }
 
-/// "A, B, C", or the first names and the number of the others.
+/// The text "A, B, C", or the first names and the number of the others.
 pub fn listed(names: &[&str]) -> String {
     match names.len().checked_sub(MOST_NAMES) {
         None | Some(0) => names.join(", "),

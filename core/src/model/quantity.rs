@@ -1,7 +1,7 @@
 //! Quantities of points and elements in formulas: `crank.B.x`, `slide.displacement`.
 //!
-//! An element states its position quantities once, over any scalar. A jet of symbolic scalars gives each quantity and
-//! its rate as a formula of the coordinates of the bodies, and this formula replaces the name in a law.
+//! An element defines its position quantities once, over any scalar. A jet of symbolic scalars gives each quantity
+//! and its rate as a formula of the coordinates of the bodies. This formula replaces the name in a law.
 
 use super::blueprint::Blueprint;
 use super::definition::{Definition, Entry, Value};
@@ -13,7 +13,7 @@ use crate::elements::{BodyId, Constraint, Followed, ForceElement, Group, Measure
 use crate::expression::Tape;
 use std::cell::Cell;
 
-/// Elements whose quantities refer to each other are read to this depth.
+/// Largest depth of nesting of elements whose quantities refer to each other.
 const DEEPEST: u32 = 8;
 
 /// The quantities of the points and elements of a definition.
@@ -33,7 +33,7 @@ impl<'a> Elements<'a> {
         Self { definition, scope, bodies, formulas, depth: Cell::new(0) }
     }
 
-    /// The owner with this name; fields with laws are zero in it.
+    /// The owner with this name. Its fields with laws are zero.
     fn owner(&self, name: &str) -> Option<QuantityOwner<Tape>> {
         if let Some((body, point)) = name.rsplit_once('.') {
             let body = self.scope.body(body)?;
@@ -125,14 +125,14 @@ impl Quantities for Elements<'_> {
     }
 }
 
-/// Suggestions consider so many elements and points.
+/// Largest number of elements and points that suggestions consider.
 const MOST_SUGGESTED: usize = 200;
 
 /// A quantity of a point or element of a linked model.
 pub enum Offered {
-    /// A position quantity, or its rate; its SI unit.
+    /// A position quantity or its rate (whether it is a rate), and its SI unit.
     Position(Followed<Tape>, bool, String),
-    /// No position quantity or rate; the ones that the owner has.
+    /// No position quantity or rate has this name. Contains the quantities of the owner.
     Other(&'static [Measured]),
 }
 
@@ -153,7 +153,7 @@ pub fn quantity_of(blueprint: &Blueprint, owner: &str, word: &str) -> Option<Off
     })
 }
 
-/// The owner with this name; its laws, which no quantity contains, are zero.
+/// The owner with this name. Its laws are zero, because no quantity contains them.
 fn linked(blueprint: &Blueprint, name: &str) -> Option<QuantityOwner<Tape>> {
     if let Some((body, point)) = name.split_once('.') {
         let body = blueprint.body(body)?;

@@ -12,7 +12,7 @@ use crate::symbolic::{record, Name, Record, Symbolic};
 
 /// An owner of quantities.
 pub(super) enum QuantityOwner<S> {
-    /// A point of a body; its component x or y is measured.
+    /// A point of a body. Its components x and y are quantities.
     Point(PointOn<S>),
     Constraint(Constraint<S>),
     Force(ForceElement<S>),
@@ -62,7 +62,7 @@ impl<S> QuantityOwner<S> {
 }
 
 impl<S: Real> QuantityOwner<S> {
-    /// The values of all its quantities.
+    /// The values of all quantities of the owner.
     fn measure(&self, at: &At<'_, S>) -> Vec<S> {
         let mut values = vec![S::zero(); self.measured().len()];
         match self {
@@ -90,7 +90,8 @@ impl<S: Real> QuantityOwner<S> {
     }
 }
 
-/// Parameters, and the coordinates of the bodies of an owner; other laws in its fields are not read.
+/// Values of parameters, and of the coordinates of the bodies of an owner. Other laws in its fields are not
+/// evaluated.
 struct KnownValues<'a, S, T> {
     parameters: &'a [S],
     bodies: &'a [BodyId],
@@ -113,7 +114,7 @@ impl<S: Real, T: Lift<S>> Values<T> for KnownValues<'_, S, T> {
     }
 }
 
-/// An owner as symbols.
+/// An owner with symbols as its numbers.
 struct OwnerSymbols<'a> {
     owner: &'a QuantityOwner<Tape>,
     parameters: Vec<Symbolic>,
@@ -122,14 +123,14 @@ struct OwnerSymbols<'a> {
 }
 
 impl OwnerSymbols<'_> {
-    /// Over a scalar, for poses of its bodies.
+    /// Converts the owner to a scalar, for poses of its bodies.
     fn over<T: Lift<Symbolic>>(&self, poses: &[Pose<T>]) -> QuantityOwner<T> {
         let known = KnownValues { parameters: &self.parameters, bodies: &self.bodies, poses };
         self.owner.map(&mut |tape| tape.evaluate(&known))
     }
 }
 
-/// The model in which the quantities are formulas.
+/// The model in which the quantities become formulas.
 pub(super) struct FormulaModel {
     /// Number of its parameters.
     pub parameters: usize,
@@ -138,7 +139,7 @@ pub(super) struct FormulaModel {
 }
 
 impl FormulaModel {
-    /// The quantity of an owner at a place, or its rate, as a formula; and the frames of its ends.
+    /// The quantity of an owner with index k, or its rate, as a formula; and the frames of its ends.
     pub fn compile(
         &self,
         owner: &QuantityOwner<Tape>,
@@ -158,7 +159,7 @@ impl FormulaModel {
         })
     }
 
-    /// Gives an owner as symbols, and the way from a symbol to a formula.
+    /// Passes an owner over symbols to a function, together with the conversion from a symbol to a formula.
     fn recorded<R>(
         &self,
         owner: &QuantityOwner<Tape>,
@@ -184,7 +185,7 @@ impl FormulaModel {
         })
     }
 
-    /// The derivatives of the quantity of an owner at a place by x, y and angle of its bodies i and j.
+    /// The derivatives of the quantity of an owner with index k with respect to x, y and angle of its bodies i and j.
     pub fn gradient_of(&self, owner: &QuantityOwner<Tape>, k: usize) -> [[Tape; 3]; 2] {
         self.recorded(owner, |own, tape| {
             [0, 1].map(|seed| {
@@ -211,7 +212,7 @@ impl FormulaModel {
         })
     }
 
-    /// The pose of a body with its rates; ground rests in the origin.
+    /// The pose of a body with its rates. Ground rests at the origin.
     fn pose(
         &self,
         body: BodyId,
@@ -231,7 +232,7 @@ impl FormulaModel {
         Pose::new(x, y, angle)
     }
 
-    /// The position quantity of an owner at a place, with the bodies between which it is measured.
+    /// The position quantity of an owner with index k, with the bodies between which it is measured.
     pub fn followed(&self, owner: &QuantityOwner<Tape>, k: usize, name: &str) -> Followed<Tape> {
         let (value, ends) = self.compile(owner, k, 0);
         let measured = owner.measured()[k];
@@ -255,7 +256,7 @@ impl FormulaModel {
     }
 }
 
-/// The place of a quantity and the order of its derivative.
+/// The index of a quantity and the order of its derivative.
 pub(super) fn place(measured: &[Measured], name: &str) -> Option<(usize, usize)> {
     let mut all = measured.iter().enumerate();
     all.find_map(|(k, of)| Some((k, of.names.iter().position(|known| *known == name)?)))

@@ -48,7 +48,7 @@ impl Source for Linker<'_> {
         let (body, name) = self.split(field, text, "body.curve")?;
         let owner = &self.bodies[body.0];
         if let Some((_, found)) = owner.curves.iter().find(|(own, _)| own == name) {
-            // the fault of a faulty curve is reported at the curve
+            // the fault of a faulty curve is reported where the curve is defined
             return found.clone().map(|curve| CurveOn { body, curve });
         }
         let hint = self.suggests().then(|| {
@@ -79,7 +79,7 @@ impl Source for Linker<'_> {
 
     fn joint(&mut self, field: &Field) -> Option<JointId> {
         let name = self.text(field)?;
-        // a faulty constraint before it moves it from its written place
+        // a faulty constraint before this one shifts its index from the written position
         let is_named = |k: &usize| self.constraints.get(*k).is_some_and(|(own, ..)| own == name);
         let written = self.scope.constraint(name).filter(is_named);
         if let Some(k) = written.or_else(|| (0..self.constraints.len()).find(is_named)) {

@@ -1,4 +1,4 @@
-//! The outline of a body, from its definition.
+//! Reads the outline of a body from its definition.
 
 use super::definition::{Entry, Value};
 use super::outline::{Drawn, DrawnForm, Outline};
@@ -9,7 +9,7 @@ use super::svg_path;
 use crate::expression::Tape;
 use crate::math::Local;
 
-/// The outline of a body as formulas; None if there is none, or a faulty one, which is reported.
+/// The outline of a body as formulas. None if it is absent or faulty; faults are reported.
 pub(super) fn read(
     entry: &Entry,
     scope: &Scope,

@@ -1,4 +1,4 @@
-//! The shapes of a body, from their definition.
+//! Reads the shapes of a body from their definition.
 
 use super::body_shape::{BodyShape, Form, Matter};
 use super::definition::{Entry, Value};
@@ -8,7 +8,7 @@ use super::shape_fields::section;
 use crate::expression::Tape;
 use crate::math::Local;
 
-/// The shapes of a body as formulas; the faults of others are reported.
+/// The shapes of a body as formulas. Faulty shapes are omitted and reported.
 pub(super) fn read(
     entry: &Entry,
     scope: &Scope,
@@ -40,7 +40,7 @@ pub(super) fn read(
 struct Reader<'a> {
     fields: &'a [(String, Value)],
     path: Vec<String>,
-    /// Counted from 1.
+    /// Number of the shape, counted from 1.
     number: usize,
     scope: &'a Scope,
     problems: &'a mut Vec<Problem>,
@@ -97,7 +97,7 @@ impl<'a> Reader<'a> {
         corners(items, &self.at("points"), self.scope, self.problems)
     }
 
-    /// Mass, or density with an extent.
+    /// The mass, or the density with an extent.
     fn matter(&mut self, kind: &str) -> Option<Matter<Tape>> {
         let other = section(kind);
         match [self.get("mass"), self.get("density"), self.get(other)].map(|v| v.is_some()) {

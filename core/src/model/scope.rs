@@ -24,21 +24,21 @@ pub struct Scope {
     pub inferred: Vec<Inferred>,
     /// Tables that formulas may call.
     pub tables: Vec<Arc<Table>>,
-    /// Bodies, each with whether it has an angle; index 0 is ground.
+    /// Bodies, each with a flag whether it has an angle; index 0 is ground.
     pub bodies: Vec<(String, bool)>,
-    /// First-order states, such as `motor.current`, in the order of z: those of each force, then the values of its
-    /// sampled laws.
+    /// First-order states, such as `motor.current`, in the order of z: the states of each force, then the values of
+    /// its sampled laws.
     pub states: Vec<String>,
-    /// Laws that a host computes.
+    /// Laws that the host computes.
     pub functions: Option<Functions>,
-    /// Units of the laws that were read so far, with their numbers.
+    /// Units of the laws read so far, with the indices of the laws.
     pub units: RefCell<Vec<(usize, String)>>,
-    /// Angles that were read so far and look like degrees.
+    /// Angles read so far that look like degrees.
     pub doubts: RefCell<Vec<Doubt>>,
     places: NameIndex,
 }
 
-/// The first-order states of a force as written.
+/// The first-order states of a force entry.
 pub(super) fn states(entry: &Entry) -> &'static [OwnState] {
     let Some(Value::Text(kind)) = entry.get("type") else { return &[] };
     let given = |field: &str| entry.get(field).is_some_and(|value| *value != Value::Number(0.0));
@@ -58,15 +58,15 @@ pub enum Reach {
     State,
 }
 
-/// Quantities of points and elements, which formulas may use by their names.
+/// Quantities of points and elements that formulas may use by name.
 pub trait Quantities {
-    /// The formula of a position quantity, or of its rate where `rates` are within reach.
+    /// The formula of a position quantity, or of its rate if `rates` is set.
     fn formula(&self, name: &str, rates: bool) -> Option<Tape>;
     /// A position quantity with the bodies between which it is measured.
     fn followed(&self, name: &str) -> Option<Followed<Tape>>;
-    /// The derivatives of a position quantity by x, y and angle of its bodies i and j.
+    /// The derivatives of a position quantity with respect to x, y and angle of its bodies i and j.
     fn gradient(&self, name: &str) -> Option<[[Tape; 3]; 2]>;
-    /// Why a quantity that exists has no formula.
+    /// The reason that a quantity exists but has no formula.
     fn refusal(&self, name: &str) -> Option<String>;
     /// The position quantities of a point or element; None if there is no such owner.
     fn offered(&self, owner: &str) -> Option<Vec<&'static str>>;
@@ -74,7 +74,7 @@ pub trait Quantities {
     fn names(&self, rates: bool) -> Vec<String>;
 }
 
-/// The place of a law: the quantities that it may use, and the element whose own quantities need no name.
+/// The context of a law: the quantities that it may use, and the element whose own quantities need no prefix.
 #[derive(Clone, Copy)]
 pub struct LawOf<'a> {
     /// The quantities of the model.
@@ -85,14 +85,14 @@ pub struct LawOf<'a> {
     pub own: &'a [Measured],
 }
 
-/// The names of a scope within reach.
+/// The names in a scope that a formula may use.
 struct Visible<'a> {
     scope: &'a Scope,
     reach: Reach,
     law: Option<LawOf<'a>>,
-    /// Whether unknown names get a suggestion.
+    /// Whether unknown names cause a suggestion.
     suggests: bool,
-    /// A name that is a parameter and a quantity of the element.
+    /// A name that is both a parameter and a quantity of the element.
     ambiguous: RefCell<Option<String>>,
 }
 
@@ -177,7 +177,7 @@ impl Visible<'_> {
         has && (self.reach == Reach::State || !coordinate.is_rate())
     }
 
-    /// The whole name of a quantity of the element that is written without a name.
+    /// The full name of a quantity of the element that is written without prefix.
     fn own(&self, name: &str) -> Option<String> {
         let law = self.law.filter(|_| self.reach == Reach::State)?;
         let known = law.own.iter().any(|of| of.names[..2].contains(&name));
@@ -225,22 +225,22 @@ impl Scope {
         Self { parameters, inferred, bodies, states, places, ..Self::default() }
     }
 
-    /// The place at which a joint or driver is written, joints first.
+    /// The index of a joint or driver in the definition, joints first.
     pub(super) fn constraint(&self, name: &str) -> Option<usize> {
         self.places.constraints.get(name).copied()
     }
 
-    /// The place at which a force is written.
+    /// The index of a force in the definition.
     pub(super) fn force(&self, name: &str) -> Option<usize> {
         self.places.forces.get(name).copied()
     }
 
-    /// The place of a body, ground first.
+    /// The index of a body, ground first.
     pub fn body(&self, name: &str) -> Option<usize> {
         self.places.bodies.get(name).copied()
     }
 
-    /// Only the parameters and tables of a model.
+    /// A scope with only the parameters and tables of a model.
     pub fn of_parameters(
         parameters: &[String],
         inferred: &[Inferred],
@@ -251,7 +251,7 @@ impl Scope {
         Self { tables: tables.to_vec(), ..scope }
     }
 
-    /// A formula from a number or a text; reports a fault at `path`.
+    /// A formula from a number or a text. Reports a fault at `path`.
     pub fn formula(
         &self,
         value: &Value,
@@ -263,7 +263,7 @@ impl Scope {
         self.law(value, path, unit, (reach, None), problems)
     }
 
-    /// A formula at a place where quantities may be used.
+    /// A formula that may use quantities.
     pub fn law(
         &self,
         value: &Value,
@@ -311,7 +311,7 @@ impl Scope {
             .ok()
     }
 
-    /// A law that a host computes: the value of a sampled one is a first-order state.
+    /// A law that the host computes. The value of a sampled law is a first-order state.
     fn function(&self, k: usize, unit: &str) -> Option<Tape> {
         let law = self.functions.as_ref()?.laws.get(k)?;
         self.units.borrow_mut().push((k, unit.to_string()));
@@ -347,7 +347,7 @@ impl Scope {
         wide.is_ok().then(|| hint.to_string())
     }
 
-    /// Two formulas in the parameters.
+    /// Two formulas of the parameters.
     pub fn pair(
         &self,
         value: &Value,

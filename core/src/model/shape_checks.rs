@@ -5,10 +5,10 @@ use super::items::Body;
 use super::problem::Problem;
 use crate::math::Local;
 
-/// The mass of a body is rounding below this share of the masses that it is the sum of.
+/// The mass of a body is a rounding error below this fraction of the masses that are summed.
 const ROUNDING: f64 = 1e-12;
 
-/// Reports shapes without size, and shapes that make no body together.
+/// Reports shapes without size, and shapes that together do not form a body.
 pub(super) fn shapes(body: &Body, problems: &mut Vec<Problem>) {
     let before = problems.len();
     for (k, shape) in body.shapes.iter().enumerate() {
@@ -39,7 +39,7 @@ pub(super) fn shapes(body: &Body, problems: &mut Vec<Problem>) {
     problems.push(Problem::at(&path, message));
 }
 
-/// Keys of a shape with impossible values, each with the reason.
+/// Keys of a shape with impossible values, each with the reason for the fault.
 fn faults(shape: &BodyShape) -> Vec<(&'static str, String)> {
     let mut found = Vec::new();
     let mut size = |key: &'static str, x: f64, unit: &str| {
@@ -124,12 +124,12 @@ fn polygon(points: &[Local]) -> Option<String> {
     None
 }
 
-/// "1-2", the numbers of the ends of a side.
+/// The numbers of the ends of a side, such as "1-2".
 fn named(side: usize, count: usize) -> String {
     format!("{}-{}", side + 1, (side + 1) % count + 1)
 }
 
-/// Twice the area of the triangle a, b, c; > 0 if c is on the left of the line from a to b.
+/// Twice the area of the triangle a, b, c. Positive if c is to the left of the line from a to b.
 fn cross(a: Local, b: Local, c: Local) -> f64 {
     (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
 }

@@ -1,4 +1,4 @@
-//! Which fields a shape of a body may have, as data: for the reader of files, the schema and the model.
+//! The fields of the shapes of a body as data, for the reader of files, the schema and the model.
 
 use crate::elements::{Default, Field, Shape, Table};
 
@@ -39,7 +39,7 @@ pub fn shape_tables() -> Vec<Table> {
     ]
 }
 
-/// The key of the extent beside `density`: the thickness of an area, the cross-section of a rod.
+/// The key of the extent that accompanies `density`: the thickness of an area, or the cross-section of a rod.
 pub(super) fn section(kind: &str) -> &'static str {
     if kind == "rod" {
         "area"

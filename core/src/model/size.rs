@@ -1,11 +1,11 @@
-//! The size of a mechanism, the unit for comparisons of lengths and angles.
+//! The size of a mechanism, which makes lengths and angles comparable.
 
 use super::Model;
 use crate::elements::Fixes;
 use crate::math::Real;
 
-/// The size of a mechanism: the largest distance of a point or of a curve from the origin of its frame, and that of two
-/// points which a joint fixes, m; 1 m without any.
+/// The size of a mechanism, m: the largest of the distances of points and curves from the origins of their frames,
+/// and of the distances between two points fixed by a joint. 1 m if there are no such distances.
 pub fn size<S: Real>(model: &Model<S>) -> f64 {
     let points = model.bodies.iter().flat_map(|b| &b.points).map(|(_, s)| s.norm());
     let curves = model.bodies.iter().flat_map(|b| &b.curves).filter_map(|(_, c)| c.as_ref());

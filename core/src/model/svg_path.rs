@@ -1,7 +1,7 @@
 //! The path data of SVG: M L H V C S Q T A Z, absolute and relative (SVG 1.1, section 8.3).
 //!
-//! svgtypes reads it, and kurbo has its curves. Coordinates are in m in the frame of the body, y upwards. Curves become
-//! polylines.
+//! The crate svgtypes parses the data, and kurbo provides the curves. Coordinates are in m in the frame of the body,
+//! with y upwards. Curves become polylines.
 
 use crate::math::Local;
 use kurbo::{Arc, CubicBez, ParamCurve, Point, QuadBez, SvgArc, Vec2};
@@ -9,7 +9,7 @@ use std::f64::consts::TAU;
 use std::ops::Range;
 use svgtypes::{Error, PathParser, PathSegment};
 
-/// Straight pieces of one Bézier curve, and of a full turn of an arc.
+/// Number of straight segments for a Bézier curve, and for a full turn of an arc.
 const OF_CURVE: usize = 24;
 const OF_TURN: f64 = 96.0;
 
@@ -22,7 +22,7 @@ pub(super) struct Subpath {
     pub closed: bool,
 }
 
-/// A faulty place of a path.
+/// A fault of a path.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct PathFault {
     /// The faulty bytes of the text.
@@ -44,7 +44,7 @@ pub(super) fn parse(text: &str) -> Result<Vec<Subpath>, PathFault> {
     }
 }
 
-/// The place of an error, and its description.
+/// The position of an error, and its description.
 fn fault(text: &str, error: &Error) -> PathFault {
     let place = match error {
         Error::UnexpectedData(place) | Error::InvalidNumber(place) => place - 1,
@@ -76,11 +76,11 @@ fn fault(text: &str, error: &Error) -> PathFault {
 struct Pen {
     parts: Vec<Subpath>,
     at: Point,
-    /// The start of the present part.
+    /// The start of the current part.
     start: Point,
-    /// Whether the next line begins a part.
+    /// Whether the next line begins a new part.
     lifted: bool,
-    /// The last control point, if the segment before is a cubic curve, and if it is a quadratic one.
+    /// The last control point, if the previous segment is a cubic curve, and if it is a quadratic curve.
     controls: [Option<Point>; 2],
 }
 
@@ -141,12 +141,12 @@ impl Pen {
         self.at = to;
     }
 
-    /// The control point that continues the curve before smoothly.
+    /// The control point that continues the previous curve smoothly.
     fn mirrored(&self, kind: usize) -> Point {
         self.controls[kind].map_or(self.at, |control| self.at + (self.at - control))
     }
 
-    /// A curve in equal pieces of its parameter, to its end.
+    /// Adds a curve in segments of equal parameter steps, up to its end.
     fn curve(&mut self, curve: &impl ParamCurve, pieces: usize, to: Point) {
         (1..pieces).for_each(|k| self.line(curve.eval(k as f64 / pieces as f64)));
         self.line(to);
@@ -161,7 +161,7 @@ impl Pen {
     }
 
     fn arc(&mut self, arc: SvgArc) {
-        // with radii of order 1: kurbo draws a line for radii below 1e-5
+        // with scaled radii of order 1, because kurbo draws a line for radii below 1e-5
         let scale = arc.radii.x.abs().max(arc.radii.y.abs());
         let (apart, to) = ((arc.to - arc.from) / scale, arc.to);
         let unit =

@@ -6,9 +6,9 @@ use std::sync::Arc;
 /// The element to which a switch belongs.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum SwitchOwner {
-    /// A joint or driver, by its place.
+    /// A joint or driver, by its index.
     Constraint(usize),
-    /// A force, by its place.
+    /// A force, by its index.
     Force(usize),
 }
 
@@ -19,18 +19,18 @@ pub struct Switch {
     pub owner: SwitchOwner,
     /// The boundaries of its pieces.
     pub boundaries: Boundaries,
-    /// Whether its function depends on the time.
+    /// Whether its function depends on time.
     pub time: bool,
     /// Whether its function depends on the state.
     pub state: bool,
-    /// Whether it belongs to a law, not to the element itself.
+    /// Whether it belongs to a law rather than to the element itself.
     pub law: bool,
-    /// Whether the law is C² there: steps end at it only if it depends on the time alone.
+    /// Whether the law is C² there. Steps then end at the switch only if it depends on time alone.
     pub smooth: bool,
 }
 
 impl Switch {
-    /// The switch of an element itself; it may depend on everything.
+    /// The switch of an element itself. It may depend on time and state.
     pub(super) fn of_element(owner: SwitchOwner) -> Self {
         Self {
             owner,

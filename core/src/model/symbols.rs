@@ -4,7 +4,7 @@ use super::model::Model;
 use crate::elements::SceneSymbol;
 use crate::expression::{Symbol, Tape, Values};
 
-/// Values of the parameters; a formula that uses more than these is not evaluated.
+/// Values of the parameters. A formula that uses other variables is not evaluated.
 struct ParameterValues<'a>(&'a [f64]);
 
 impl Values<f64> for ParameterValues<'_> {

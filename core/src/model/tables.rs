@@ -64,7 +64,7 @@ pub(super) fn read(definition: &Definition, problems: &mut Vec<Problem>) -> Vec<
             Ok(table) => tables.push(Arc::new(table)),
             Err(problem) => {
                 problems.push(problem);
-                // formulas that call it have no fault of their own
+                // so that formulas that call this table report no fault of their own
                 tables.push(Arc::new(Table::one(&entry.name)));
             }
         }

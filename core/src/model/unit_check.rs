@@ -1,4 +1,4 @@
-//! The dimension of a formula and that of its place.
+//! Comparison of the dimension of a formula with the required dimension.
 
 use crate::expression::unit::Unit;
 use crate::expression::{Expression, ExpressionError, Inferred};
@@ -6,7 +6,8 @@ use crate::expression::{Expression, ExpressionError, Inferred};
 /// The unit of a formula that is composed of checked formulas.
 pub(crate) const ANY_UNIT: &str = "any";
 
-/// A formula whose dimension is known must have that of its place; without a unit, the place takes a number.
+/// Checks that a formula with a known dimension has the required dimension. If the field has no unit, it requires a
+/// number.
 pub(super) fn check_unit(
     e: &Expression,
     inferred: Inferred,

@@ -8,21 +8,21 @@ use crate::expression::{Symbol, Tape};
 pub enum Variable {
     /// A coordinate of a body, or its rate.
     Coordinate(BodyId, Coordinate),
-    /// A first-order state of an element, by its place in z.
+    /// A first-order state of an element, by its index in z.
     State(usize),
-    /// A law that a host computes, by its number.
+    /// A law that the host computes, by its index.
     Function(usize),
-    /// An internal coordinate of a joint, or its rate, by its place among those of all joints.
+    /// An internal coordinate of a joint, or its rate, by its index among the internal coordinates of all joints.
     Internal {
-        /// The place.
+        /// The index.
         place: usize,
-        /// Whether it is the rate.
+        /// Whether the variable is the rate.
         rate: bool,
     },
 }
 
 impl Variable {
-    /// The index in a formula: even for coordinates, six to a body; odd for all others.
+    /// The index in a formula: even for coordinates, six per body; odd for all other variables.
     pub fn index(self) -> usize {
         match self {
             Self::Coordinate(body, coordinate) => 2 * (6 * body.0 + coordinate as usize),
@@ -43,18 +43,18 @@ impl Variable {
     }
 }
 
-/// Time and state dependence of the formulas of an element.
+/// The dependence of the formulas of an element on time and state.
 #[derive(Clone, Debug, Default)]
 pub struct Dependence {
-    /// On t.
+    /// Dependence on t.
     pub time: bool,
-    /// On coordinates or rates of these bodies.
+    /// Bodies on whose coordinates or rates the formulas depend.
     pub bodies: Vec<BodyId>,
-    /// On these first-order states, by their places in z.
+    /// Indices in z of the first-order states on which the formulas depend.
     pub states: Vec<usize>,
-    /// On these internal coordinates of joints or their rates, by their places.
+    /// Indices of the internal coordinates of joints on which the formulas depend, directly or by their rates.
     pub internals: Vec<usize>,
-    /// On the whole state, by a function of a host.
+    /// Whether the formulas depend on the whole state through a function of the host.
     pub whole: bool,
 }
 
@@ -75,7 +75,7 @@ impl Dependence {
         }
     }
 
-    /// Whether anything varies.
+    /// Whether there is any dependence.
     pub fn any(&self) -> bool {
         let of_state =
             !self.bodies.is_empty() || !self.states.is_empty() || !self.internals.is_empty();

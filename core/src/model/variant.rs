@@ -1,4 +1,4 @@
-//! The same mechanism with other values of some parameters, without some of its drivers, or with forces in given modes.
+//! The mechanism with other values of some parameters, without some of its drivers, or with forces in given modes.
 
 use super::blueprint::Blueprint;
 use super::items::ForceMode;
@@ -10,7 +10,7 @@ use crate::expression::Expression;
 use std::sync::Arc;
 
 impl Model {
-    /// The same model with other values of some parameters; formulas in them follow.
+    /// The model with other values of some parameters. Formulas of these parameters are evaluated again.
     ///
     /// # Errors
     /// All numbers with impossible values.
@@ -35,7 +35,7 @@ impl Model {
         }
     }
 
-    /// The same model without the drivers of these names; other names are ignored.
+    /// The model without the drivers of these names. Other names are ignored.
     pub fn without(&self, drivers: &[String]) -> Self {
         let mut blueprint = Blueprint::clone(&self.blueprint);
         Arc::make_mut(&mut blueprint.constraints).retain(|(name, ..)| !drivers.contains(name));
@@ -44,7 +44,7 @@ impl Model {
 }
 
 impl Model {
-    /// The same model with forces in these modes.
+    /// The model with forces in these modes.
     pub fn in_modes(&self, modes: &[ForceMode]) -> Self {
         let mut blueprint = Blueprint { modes: modes.to_vec(), ..(*self.blueprint).clone() };
         for ForceMode { force, mode, value, .. } in modes {
@@ -60,8 +60,8 @@ impl Model {
 }
 
 impl Model {
-    /// The same model with the modes only, for reports: the multipliers of forces that hold follow those of the rows
-    /// of the model.
+    /// The model with only the modes set, for reports. The multipliers of forces that hold follow the rows of the
+    /// model.
     pub fn marked(&self, modes: &[ForceMode]) -> Self {
         let blueprint = Blueprint { modes: modes.to_vec(), ..(*self.blueprint).clone() };
         Self::new(&Arc::new(blueprint), &self.parameters)
@@ -69,7 +69,7 @@ impl Model {
 }
 
 impl<S> Model<S> {
-    /// The number of multipliers with those of the forces with modes, which follow the rows of the model.
+    /// The number of multipliers: the rows of the model, followed by the multipliers of forces with modes.
     pub fn n_multipliers(&self) -> usize {
         let after = self.forces.iter().filter_map(|item| item.held_row);
         after.map(|row| row + 1).max().unwrap_or(0).max(self.layout.n_rows)

@@ -1,6 +1,6 @@
 //! Symbols along the line between two points: rods, springs, dashpots and cylinders.
 //!
-//! Lengths are points of print unless they belong to the mechanism.
+//! Lengths are in points of print unless they belong to the mechanism.
 
 use super::items::{layer, printed, Frame, Item, Row};
 use super::pins::pin_at;
@@ -9,25 +9,26 @@ use crate::scene::{Mark, Symbol};
 
 /// Width of the lines of a force element.
 pub const FORCE: f64 = 1.2;
-/// Place of the bars of a spring beside a dashpot, as a part of the distance, and their distance.
+/// Position of the bars of a spring beside a dashpot, as a fraction of the distance, and their distance to the side.
 const BAR: f64 = 0.15;
 const ASIDE: f64 = 6.5;
-/// Of a dashpot along its line.
+/// Length of a dashpot along its line.
 const ROOM: f64 = 60.0;
-/// Half width of a barrel, of its piston, and the gap between its base and its pin.
+/// Half width of a barrel and of its piston, and gap between the base of the barrel and its pin.
 const BARREL: f64 = 5.0;
 const PISTON: f64 = 3.6;
 const EYE: f64 = 6.0;
-/// Length of a barrel that holds no stroke, as a share of the distance, and the largest.
+/// Length of a barrel that cannot contain the stroke, as a fraction of the distance, and the largest such fraction.
 const SHARE: f64 = 0.6;
 const MOST: f64 = 0.85;
-/// Part of a barrel in which the piston moves at most.
+/// Largest fraction of a barrel in which the piston moves.
 const TRAVEL: f64 = 0.85;
-/// Ends of a coil as shares of the distance, and its number of windings.
+/// Ends of a coil as fractions of the distance, and number of its windings.
 const COIL: [f64; 2] = [0.22, 0.78];
 const WINDINGS: usize = 18;
 
-/// How far to the side a symbol is drawn among all those of its element: a spring beside its dashpot.
+/// Distance to the side at which a symbol is drawn among the symbols of its element, such as a spring beside a
+/// dashpot.
 pub fn aside(symbol: &Symbol, own: &[Symbol]) -> f64 {
     let has = |mark: Mark| own.iter().any(|one| one.mark == mark);
     match symbol.mark {
@@ -51,17 +52,17 @@ fn line_of(symbol: &Symbol) -> Frame {
 
 /// Lengths of a barrel and of its piston rod, m, for distances between two limits.
 ///
-/// The piston is in the middle of the barrel at half stroke. If no single rod has that stroke, the barrel is as long
-/// as the least distance allows.
+/// The piston is in the middle of the barrel at half stroke. If no rod of fixed length allows the stroke, the barrel
+/// is as long as the smallest distance allows.
 fn lengths([low, high]: [f64; 2]) -> (f64, f64) {
     let barrel = (SHARE * low).max((high - low) / TRAVEL).min(MOST * low);
     (barrel, (low + high - barrel) / 2.0)
 }
 
-/// A barrel on body i, cut open, and a piston on a rod to body j.
+/// A barrel on body i, drawn open, and a piston on a rod to body j.
 ///
-/// The barrel and the rod keep their lengths while the piston moves. A stroke that needs a longer barrel than fits is
-/// drawn in shares of the distance.
+/// The barrel and the rod keep their lengths while the piston moves. If the stroke needs a longer barrel than there
+/// is space for, they are drawn as fractions of the distance.
 pub fn cylinder(symbol: &Symbol, colour: &str) -> Vec<Item> {
     let of = &symbol.element;
     let (bodies, ends) = (symbol.bodies, [symbol.at_i(), symbol.at_j()]);
@@ -112,7 +113,7 @@ pub fn dashpot(symbol: &Symbol, aside: f64) -> Vec<Item> {
     lines(symbol, aside, vec![rod, piston, cup, end])
 }
 
-/// Where a line begins: at its end, or at the bar where it is not alone.
+/// Start of a line: at its end, or at the bar if it is drawn beside another.
 fn lead(aside: f64) -> f64 {
     if aside == 0.0 {
         0.0
@@ -125,7 +126,7 @@ fn lines(symbol: &Symbol, aside: f64, mut lines: Vec<Vec<Row>>) -> Vec<Item> {
     let (of, ends) = (&symbol.element, [symbol.at_i(), symbol.at_j()]);
     let frame = Frame::Line { bodies: symbol.bodies, ends, room: ROOM };
     if aside > 0.0 {
-        // the bars that both share are drawn once
+        // the bars that both symbols share are drawn once
         for (bar, end) in [(BAR, 0.0), (1.0 - BAR, 1.0)] {
             lines.push(vec![[bar, 0.0, 0.0, aside], [bar, 0.0, 0.0, -aside]]);
             lines.push(vec![[bar, 0.0, 0.0, 0.0], [end, 0.0, 0.0, 0.0]]);
@@ -138,7 +139,7 @@ fn lines(symbol: &Symbol, aside: f64, mut lines: Vec<Vec<Row>>) -> Vec<Item> {
     }
     for k in [0, 1] {
         match symbol.bodies[k] {
-            // on ground the end turns on a pin, as a joint does
+            // on ground, the end turns on a pin, like a joint
             0 => found.extend(pin_at(symbol, k)),
             body => {
                 let (frame, dot) = (Frame::upright(body, ends[k]), printed(circle(2.0, 32)));

@@ -1,6 +1,6 @@
 //! Symbols around a point of body j, in rings from the inside to the outside.
 //!
-//! Lengths are points of print.
+//! Lengths are in points of print.
 
 use super::along::FORCE;
 use super::items::{colour_of, printed, Frame, Item};
@@ -18,7 +18,7 @@ const RING: f64 = 8.0;
 /// Half thickness of a brake pad around a pin.
 const PAD: f64 = 3.0;
 
-/// Radii of the symbols around each place so far.
+/// Radii that the symbols around each place already occupy.
 #[derive(Default)]
 pub struct Rings(HashMap<usize, f64>);
 
@@ -31,9 +31,9 @@ impl Rings {
     }
 }
 
-/// A ring around a place: where the next symbol is drawn.
+/// A ring around a place, for the next symbol.
 pub struct Around<'a> {
-    /// The symbols around each place.
+    /// The radii occupied around each place.
     pub rings: &'a mut Rings,
     /// The place of the point on body j.
     pub place: usize,
@@ -58,7 +58,7 @@ pub fn rubbing_pin(symbol: &Symbol, mut around: Around<'_>) -> Vec<Item> {
     [0.0, PI].into_iter().flat_map(pad).collect()
 }
 
-/// A spiral from body i to body j that winds as they turn against each other.
+/// A spiral from body i to body j that winds up as they rotate relative to each other.
 pub fn spiral(symbol: &Symbol, mut around: Around<'_>) -> Vec<Item> {
     let [inner, outer] = SPIRAL;
     let radius = around.radius(outer);
@@ -71,7 +71,7 @@ pub fn spiral(symbol: &Symbol, mut around: Around<'_>) -> Vec<Item> {
     vec![Item::line(&symbol.element, &frame, rows, "force", FORCE)]
 }
 
-/// A dashpot bent around the pin: rod, piston, cup, rod, each end on a leg from the pin.
+/// A dashpot bent around the pin: rod, piston, cup, rod. Each end is on a leg from the pin.
 pub fn rotary_dashpot(symbol: &Symbol, mut around: Around<'_>) -> Vec<Item> {
     let r = around.radius(FIRST_RING + 3.0);
     let [begin, piston, end] = [20.0_f64, 86.0, 160.0].map(f64::to_radians);
@@ -88,7 +88,7 @@ pub fn rotary_dashpot(symbol: &Symbol, mut around: Around<'_>) -> Vec<Item> {
     lines.map(line).to_vec()
 }
 
-/// A stop of body i at an angle of body j around their joint.
+/// A stop on body i at an angle of body j around their joint.
 pub fn turn_stop(symbol: &Symbol) -> Vec<Item> {
     let ([i, j], r) = (symbol.bodies, FIRST_RING + RING);
     let frame = Frame::turned(j, symbol.at_j(), i, symbol.axes[0]);

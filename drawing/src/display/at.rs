@@ -1,6 +1,6 @@
-//! Symbols at a point of a body, or along an axis of it.
+//! Symbols at a point of a body, or along an axis of a body.
 //!
-//! Lengths are points of print unless they belong to the mechanism.
+//! Lengths are in points of print unless they belong to the mechanism.
 
 use super::along::FORCE;
 use super::items::{colour_of, layer, printed, Frame, Item};
@@ -13,12 +13,12 @@ use std::f64::consts::FRAC_PI_2;
 
 const BLOCK: [At; 4] = [[-13.0, -7.5], [13.0, -7.5], [13.0, 7.5], [-13.0, 7.5]];
 const RAIL: f64 = 9.0;
-/// Half width of a slot, and its length beyond the places of the pin.
+/// Half width of a slot, and its length beyond the positions of the pin.
 const SLOT: f64 = 5.5;
 const BEYOND: f64 = 14.0;
 /// Radius of the eye of a sleeve.
 const EYE: f64 = 8.5;
-/// Half the height of a stop.
+/// Half height of a stop.
 const STOP: f64 = 9.0;
 /// Overhang of a face beyond its contacts.
 const FACE: f64 = 8.0;
@@ -38,7 +38,7 @@ pub fn clamp(symbol: &Symbol) -> Vec<Item> {
     found
 }
 
-/// A rubber ring in an eye of body i around a pin of body j; on ground the eye has feet.
+/// A rubber ring in an eye of body i around a pin of body j. On ground the eye has feet.
 pub fn sleeve(symbol: &Symbol) -> Vec<Item> {
     let (of, i) = (&symbol.element, symbol.bodies[0]);
     let (frame, eye) = (Frame::upright(i, symbol.at_i()), printed(circle(EYE, 32)));
@@ -60,7 +60,7 @@ pub fn sleeve(symbol: &Symbol) -> Vec<Item> {
     found
 }
 
-/// A block of body j between rails of body i, which are hatched on ground.
+/// A block of body j between rails of body i. The rails are hatched on ground.
 pub fn slide(symbol: &Symbol) -> Vec<Item> {
     let (of, [i, j], [low, high]) = (&symbol.element, symbol.bodies, symbol.reach());
     let rail = |side: i8| {
@@ -80,7 +80,7 @@ pub fn slide(symbol: &Symbol) -> Vec<Item> {
     ]
 }
 
-/// A slot in body i, as long as the pin of body j moves, and the pin.
+/// A slot in body i, as long as the travel of the pin of body j, and the pin.
 pub fn slot(symbol: &Symbol) -> Vec<Item> {
     let (of, i, [low, high]) = (&symbol.element, symbol.bodies[0], symbol.reach());
     let frame = Frame::turned(i, symbol.at_i(), i, symbol.axes[0]);
@@ -118,7 +118,7 @@ pub fn touch(symbol: &Symbol) -> Item {
     Item::fill(&symbol.element, &frame, dot, &colour_of(i)).on(layer::PIN)
 }
 
-/// A face of body i as far as the curve touches it.
+/// A face of body i, as long as the range in which the curve touches it.
 pub fn face(symbol: &Symbol) -> Item {
     let (i, [low, high]) = (symbol.bodies[0], symbol.reach());
     let frame = Frame::turned(i, symbol.at_i(), i, symbol.axes[0]);
@@ -126,7 +126,7 @@ pub fn face(symbol: &Symbol) -> Item {
     Item::line(&symbol.element, &frame, rows, &colour_of(i), 3.0).on(layer::BODY)
 }
 
-/// A stop of body i, hatched on the side to which nothing passes.
+/// A stop of body i, hatched on the blocked side.
 pub fn shift_stop(symbol: &Symbol) -> Item {
     let i = symbol.bodies[0];
     let frame = Frame::turned(i, symbol.at_i(), i, symbol.axes[0]);

@@ -1,4 +1,4 @@
-//! The items of a body: a link around its points, or what it has as an outline; and its curves.
+//! The items of a body: a link around its points or its outline, and its curves.
 
 use super::items::{colour_of, layer, metres, Frame, Item, Row};
 use super::shapes::circle;
@@ -6,16 +6,16 @@ use crate::plane::{ahead, minus, At, Extent};
 use crate::scene::{Body, PartForm};
 use std::f64::consts::TAU;
 
-/// Radius of a spot, and widths of a link, of its edges, of curves, points of print.
+/// Radius of a spot, and widths of a link, of its edges, and of curves, in points of print.
 const SPOT: f64 = 7.0;
 const LINK: f64 = 8.0;
 const EDGE: f64 = 1.0;
 const CURVE: f64 = 1.4;
 const TINT: f64 = 0.72;
-/// Places along a body from end to end, where a number is tried in turn.
+/// Positions along a body, as fractions of its length, that are tried in order for its number.
 const SHARES: [f64; 7] = [0.5, 0.35, 0.65, 0.25, 0.75, 0.15, 0.85];
 
-/// A moving body, or what ground has as an outline.
+/// Draws a moving body, or the outline of ground.
 pub fn draw(body: &Body) -> Vec<Item> {
     match body.number {
         _ if !body.drawn.is_empty() => drawn(body),
@@ -25,7 +25,7 @@ pub fn draw(body: &Body) -> Vec<Item> {
     }
 }
 
-/// Whether a body has a closed curve around its points: the curve is all of it.
+/// Whether a closed curve contains all points of a body. Only the curve is then drawn.
 fn is_plate(body: &Body) -> bool {
     let around = |ring: &&[At]| body.outline.iter().all(|at| winding(&[ring], *at) != 0);
     rings(body).iter().any(around)
@@ -37,7 +37,7 @@ fn rings(body: &Body) -> Vec<&[At]> {
     closed.map(|curve| curve.points.as_slice()).collect()
 }
 
-/// Places on a moving body, m, the best ones for a number first.
+/// Positions on a moving body, m, in order of preference for its number.
 pub fn middles(body: &Body) -> Vec<At> {
     let areas = body.drawn.iter().filter(|part| part.form == PartForm::Area);
     let mut areas: Vec<&[At]> = areas.map(|part| part.points.as_slice()).collect();
@@ -75,7 +75,7 @@ fn mean(points: &[At]) -> At {
     sum.map(|x| x / points.len().max(1) as f64)
 }
 
-/// How many times closed lines go around a point, counter-clockwise.
+/// Winding number of closed lines around a point, counter-clockwise.
 fn winding(rings: &[&[At]], at: At) -> i64 {
     let mut turns = 0.0;
     for ring in rings {
@@ -91,7 +91,7 @@ fn winding(rings: &[&[At]], at: At) -> i64 {
     (turns / TAU).round() as i64
 }
 
-/// The curves of a body: areas, or lines where they are open.
+/// The curves of a body: areas if they are closed, lines if they are open.
 pub fn rims(body: &Body) -> Vec<Item> {
     let (of, frame, colour) = looks(body);
     let mut found = Vec::new();
@@ -107,13 +107,13 @@ pub fn rims(body: &Body) -> Vec<Item> {
     found
 }
 
-/// Name, frame and colour.
+/// Name, frame and colour of a body.
 fn looks(body: &Body) -> (&str, Frame, String) {
     let colour = if body.number == 0 { "ground".to_string() } else { colour_of(body.number) };
     (&body.name, Frame::on(body.number, [0.0; 2]), colour)
 }
 
-/// A rounded bar or plate: a wide dark line and a narrower light one in it.
+/// A rounded bar or plate: a wide dark line with a narrower light line on top.
 fn link(body: &Body) -> Vec<Item> {
     let (of, frame, colour) = looks(body);
     let line = |rows: &[Row], width: f64| {
@@ -134,7 +134,7 @@ fn link(body: &Body) -> Vec<Item> {
     }
 }
 
-/// All edges, then all areas over them, so that only the edge of the whole remains.
+/// All edges, then all areas on top of them, so that only the outer edge of the union remains visible.
 fn drawn(body: &Body) -> Vec<Item> {
     let (of, frame, colour) = looks(body);
     let above = if body.number == 0 { layer::GROUND } else { layer::BODY };
@@ -156,10 +156,10 @@ fn drawn(body: &Body) -> Vec<Item> {
     found
 }
 
-/// Closed lines as one: from the first point to each ring, around it, and back.
+/// Joins closed lines to one line: from the first point to each ring, around it, and back.
 ///
-/// The ways there and back coincide, so that the winding number of every point is the sum of those of the rings.
-/// Painters fill where it is not 0, and a hole is a ring of the other sense.
+/// The paths to a ring and back coincide, so the winding number of every point is the sum of the winding numbers of
+/// the rings. Areas are filled where it is nonzero, and a hole is a ring with the opposite sense.
 fn joined(rings: &[Vec<Row>]) -> Vec<Row> {
     let start = rings.iter().flatten().next().copied();
     let one = |ring: &Vec<Row>| -> Vec<Row> {

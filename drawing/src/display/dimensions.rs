@@ -1,4 +1,4 @@
-//! Lengths of bars and distances of ground pins, drawn as on a technical drawing.
+//! Lengths of bars and distances of ground pins, as on a technical drawing.
 
 use super::items::{layer, Frame, Item, Row};
 use super::layout::taken;
@@ -11,21 +11,21 @@ use crate::plane::{ahead, dot, left_of, minus, placed, size, At};
 use crate::scene::Mark;
 use std::f64::consts::PI;
 
-/// Distances of a dimension line from its object, tried in turn, points.
+/// Distances of a dimension line from its object that are tried in order, points.
 const DISTANCES: [f64; 3] = [20.0, 32.0, 44.0];
-/// More lengths than this are not read off a drawing.
+/// Largest number of lengths on a drawing.
 const MOST: usize = 7;
 const HEAD: f64 = 6.0;
 /// Width of the lines.
 const WIDTH: f64 = 0.6;
-/// Places along a dimension line at which it is compared with what is drawn, and room to keep there.
+/// Number of positions along a dimension line at which it is compared with other items, and required clearance.
 const COMPARED: usize = 13;
 const ROOM: f64 = 3.0;
 
 /// Two bodies and a point of each.
 type Span = ([usize; 2], [At; 2]);
 
-/// Adds a dimension line beside each bar, and between two pins on ground.
+/// Adds a dimension line for each bar, and between two pins on ground.
 pub fn add(made: &mut List<'_>) {
     let scene = made.scene;
     let bars = scene.bodies.iter().filter(|body| body.number > 0);
@@ -63,7 +63,7 @@ fn add_one(made: &mut List<'_>, (bodies, ends): Span) {
     let (wide, high) = (width / 2.0 + 2.0, height / 2.0);
     let aside = best_distance(made, dots, along, [c * wide + s * high, s * wide + c * high]);
     let (frame, of) = (Frame::between(bodies, ends), format!("length {words}"));
-    // Between points that are too near for it the text is beside them, the arrows point inwards.
+    // If the points are too close, the text is beside them and the arrows point inwards.
     let near = apart < width + 2.0 * HEAD;
     let out = if near { 1.8 * HEAD } else { 0.0 };
     let line = |rows: Vec<Row>| Item::line(&of, &frame, rows, "quiet", WIDTH).on(layer::GROUND);
@@ -81,7 +81,8 @@ fn add_one(made: &mut List<'_>, (bodies, ends): Span) {
     made.items.push(Item::text(&of, &frame, row, &words, Role::Measure).along());
 }
 
-/// To the side and at the distance where the line meets least; else away from the middle.
+/// The side and distance at which the line meets the fewest items. Small distances on the side away from the middle
+/// of the view are preferred.
 fn best_distance(made: &List<'_>, dots: [At; 2], along: At, half: At) -> f64 {
     let normal = left_of(along);
     let middle = ahead(dots[0], 0.5, minus(dots[1], dots[0]));
@@ -99,7 +100,7 @@ fn best_distance(made: &List<'_>, dots: [At; 2], along: At, half: At) -> f64 {
     best.1
 }
 
-/// Lines and boxes of texts that cover a dimension line, at places along it.
+/// Number of lines and text boxes that cover a dimension line, at positions along it.
 fn touched(taken: &Taken, [begin, end]: [At; 2], half: At) -> usize {
     let mut cost = 0;
     for share in spread(0.05, 0.95, COMPARED) {
@@ -131,7 +132,7 @@ mod tests {
         touched(&taken, [[0.0, 0.0], [100.0, 0.0]], [10.0, 5.0])
     }
 
-    /// At 50 points the text has a box of ±10 and ±5, at 42.5 and 57.5 points too.
+    /// At 50 points the text has a box of ±10 and ±5, and also at 42.5 and 57.5 points.
     #[test]
     fn what_covers_the_text_is_counted() {
         assert_eq!(cost(&[], &[], 0.0), 0);
@@ -144,7 +145,7 @@ mod tests {
         assert_eq!(cost(&[], &[[48., -8., 52., -5.]], 0.0), 0);
     }
 
-    /// Elsewhere the line keeps 3 points free; there are 13 places, at which two lines at once count once.
+    /// Elsewhere the line keeps 3 points free. At each of 13 positions, two lines count once.
     #[test]
     fn what_covers_the_line_is_counted() {
         assert_eq!(cost(&[[[12.5, 2.], [12.5, 2.5]]], &[], 0.0), 1);

@@ -9,14 +9,14 @@ use super::text::Role;
 use crate::numbers::general;
 use crate::plane::{ahead, minus, size, At};
 
-/// Length of the arrow, points of print, and the half sides of its room in lengths.
+/// Length of the arrow, points of print, and half sides of the space for it as multiples of the length.
 const LENGTH: f64 = 30.0;
 const ROOM: At = [1.6, 1.05];
 const HEAD: f64 = 7.0;
-/// Corners whose lengths of lines differ by less are equal, so that rounding errors decide nothing.
+/// Corners count as equal if their lengths of lines differ by less, so that rounding errors do not affect the choice.
 const EQUAL: f64 = 1e-3;
 
-/// Adds an arrow in the corner with the most room.
+/// Adds an arrow in the corner with the most free space.
 pub fn add(made: &mut List<'_>) {
     let gravity = made.scene.gravity;
     let strength = size(gravity);
@@ -33,7 +33,7 @@ pub fn add(made: &mut List<'_>) {
     made.name(Role::Body, &format!("g = {} m/s²", general(strength, 4)), frame);
 }
 
-/// The centre of the arrow in the first corner where the lines are shortest.
+/// The centre of the arrow in the corner with the least length of lines; the first of equal corners.
 fn free_corner(taken: &Taken, view: At) -> At {
     let room = ROOM.map(|x| x * LENGTH);
     let mut best = (f64::INFINITY, minus(view, room));
@@ -81,7 +81,7 @@ mod tests {
         let line = |([x, y], wide): (&[f64; 2], f64)| [[x - wide, *y], [x + wide, *y]];
         let lines = CORNERS.iter().zip([20.0, 30.0, 10.0, 15.0]).map(line).collect();
         assert_eq!(free_corner(&taken(lines, vec![]), SIZE), CORNERS[2]);
-        // what only touches the room of 48 × 31.5 points from outside is not in the corner
+        // items that only touch the space of 48 × 31.5 points from outside are not in the corner
         let lines = vec![[[303.0, 268.0], [303.0, 200.0]]];
         let boxes = vec![[300.0, 200.0, 304.0, 290.0], [310.0, 200.0, 390.0, 237.0]];
         assert_eq!(free_corner(&taken(lines, boxes), SIZE), CORNERS[0]);

@@ -1,18 +1,18 @@
 //! The items of a display list: lines, fills and texts that follow the bodies.
 //!
-//! An item is plain data. Its frame is what it follows; each of its points is a row `[x, y, px, py]`: lengths of the
-//! mechanism in m, and lengths of print in points, which stay the same whatever the scale.
+//! An item is plain data. Its frame defines its motion. Each of its points is a row `[x, y, px, py]`: x and y are
+//! lengths of the mechanism in m, and px and py are lengths of print in points, which do not depend on the scale.
 
 use super::text::Role;
 use crate::plane::At;
 use serde::{Deserialize, Serialize};
 
-/// Lengths of the mechanism and of print.
+/// A point with lengths of the mechanism and of print.
 pub type Row = [f64; 4];
 
-/// Layers: an item of a higher layer is painted later.
+/// Layers. An item on a higher layer is painted later.
 pub mod layer {
-    /// What is behind the bodies.
+    /// Items behind the bodies.
     pub const GROUND: u8 = 0;
     /// Bodies.
     pub const BODY: u8 = 1;
@@ -26,45 +26,47 @@ pub mod layer {
     pub const NAME: u8 = 5;
 }
 
-/// What an item follows.
+/// The frame that an item follows.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(tag = "type", rename_all = "snake_case")]
 pub enum Frame {
     /// Origin at the point `at` of `body`, turned by the angle of the body `turns_with` and by `turn`.
     Body {
-        /// Whose point.
+        /// The body with the point.
         body: usize,
-        /// In the frame of the body, m.
+        /// The point in the frame of the body, m.
         at: At,
-        /// Whose angle.
+        /// The body with the angle.
         turns_with: usize,
-        /// rad.
+        /// Additional angle, rad.
         turn: f64,
     },
-    /// From a point of one body to a point of another. x is the share of the distance, y is in m to the left of the
-    /// line, px is along the line and py to its left. On distances below `room` px shrinks in proportion.
+    /// From a point of one body to a point of another. x is the fraction of the distance, y is in m to the left of
+    /// the line, px is along the line and py to its left. For distances below `room`, px shrinks in proportion.
     Line {
-        /// Of the two ends.
+        /// The bodies of the two ends.
         bodies: [usize; 2],
-        /// In the frames of the bodies, m.
+        /// The ends in the frames of the bodies, m.
         ends: [At; 2],
-        /// Points of print; 0 if nothing shrinks.
+        /// Points of print; 0 if px never shrinks.
         room: f64,
     },
-    /// From a point of one body towards a point of another. x is in m from the first point, otherwise as a line.
+    /// From a point of one body towards a point of another. x is in m from the first point; otherwise like
+    /// [`Frame::Line`].
     Ray {
-        /// Of the two ends.
+        /// The bodies of the two ends.
         bodies: [usize; 2],
-        /// In the frames of the bodies, m.
+        /// The ends in the frames of the bodies, m.
         ends: [At; 2],
     },
-    /// Around the point `at` of body j. x is the share of the angle from body i to body j plus `turn`, px is the radius.
+    /// Around the point `at` of body j. x is the fraction of the angle from body i to body j plus `turn`; px is the
+    /// radius.
     Twist {
-        /// i and j.
+        /// Bodies i and j.
         bodies: [usize; 2],
-        /// In the frame of body j, m.
+        /// The point in the frame of body j, m.
         at: At,
-        /// rad.
+        /// Additional angle, rad.
         turn: f64,
     },
 }
@@ -72,20 +74,20 @@ pub enum Frame {
 /// An item.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Item {
-    /// What it is.
+    /// The kind of item.
     #[serde(flatten)]
     pub kind: Kind,
     /// The name of the body or element to which it belongs.
     pub of: String,
     /// Items of a higher layer are painted later.
     pub layer: u8,
-    /// What it follows.
+    /// The frame that the item follows.
     pub frame: Frame,
-    /// Its points in its frame; a text is centred at its one row.
+    /// Points in the frame. A text is centred at its only row.
     pub points: Vec<Row>,
-    /// A word of the palette, such as `ink` or `body 2`.
+    /// A name in the palette, such as `ink` or `body 2`.
     pub colour: String,
-    /// Share of white.
+    /// Fraction of white in the colour.
     pub tint: f64,
     /// Whether it belongs to the number of a body.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
@@ -98,51 +100,51 @@ pub struct Item {
 pub enum Kind {
     /// A line.
     Line {
-        /// Points of print.
+        /// Width, points of print.
         width: f64,
-        /// Whether the last point is joined to the first.
+        /// Whether the last point is connected to the first.
         closed: bool,
-        /// The side with strokes of ground: ±1, or 0.
+        /// The side that is hatched for ground: ±1, or 0 for none.
         hatch: i8,
     },
     /// An area.
     Fill {},
     /// A text.
     Text {
-        /// Its words.
+        /// The text.
         text: String,
-        /// What it names.
+        /// The kind of object that the text names.
         role: Role,
-        /// Points of print.
+        /// Size, points of print.
         size: f64,
         /// `normal` or `bold`.
         weight: String,
         /// Whether it is in italics.
         slanted: bool,
-        /// Whether it is written along the x axis of its frame, never upside down.
+        /// Whether the text is written along the x axis of its frame, but never upside down.
         turned: bool,
-        /// Of its centre from its row, points of print; it does not turn.
+        /// Offset of the centre from the row, points of print. It does not rotate.
         offset: At,
     },
 }
 
 impl Frame {
-    /// At a point of a body, turning with it.
+    /// The frame at a point of a body that rotates with it.
     pub fn on(body: usize, at: At) -> Self {
         Self::Body { body, at, turns_with: body, turn: 0.0 }
     }
 
-    /// At a point of a body, upright.
+    /// The frame at a point of a body that remains upright.
     pub fn upright(body: usize, at: At) -> Self {
         Self::Body { body, at, turns_with: 0, turn: 0.0 }
     }
 
-    /// At a point of a body, turned by the angle of another and more.
+    /// The frame at a point of a body, rotated by the angle of another body and by `turn`.
     pub fn turned(body: usize, at: At, turns_with: usize, turn: f64) -> Self {
         Self::Body { body, at, turns_with, turn }
     }
 
-    /// Along the line between two points.
+    /// The frame along the line between two points.
     pub fn between(bodies: [usize; 2], ends: [At; 2]) -> Self {
         Self::Line { bodies, ends, room: 0.0 }
     }
@@ -180,17 +182,17 @@ impl Item {
         Self { kind, of, layer: layer::SYMBOL, frame, points, colour, tint: 0.0, numbered: false }
     }
 
-    /// On another layer.
+    /// Moves the item to another layer.
     pub fn on(self, layer: u8) -> Self {
         Self { layer, ..self }
     }
 
-    /// Mixed with a share of white.
+    /// Mixes the colour with a fraction of white.
     pub fn tinted(self, tint: f64) -> Self {
         Self { tint, ..self }
     }
 
-    /// A line whose last point is joined to the first.
+    /// Connects the last point of a line to the first.
     pub fn closed(mut self) -> Self {
         if let Kind::Line { closed, .. } = &mut self.kind {
             *closed = true;
@@ -198,7 +200,7 @@ impl Item {
         self
     }
 
-    /// A line with strokes of ground on a side.
+    /// Hatches one side of a line as ground.
     pub fn hatched(mut self, side: i8) -> Self {
         if let Kind::Line { hatch, .. } = &mut self.kind {
             *hatch = side;
@@ -206,7 +208,7 @@ impl Item {
         self
     }
 
-    /// A text along the x axis of its frame.
+    /// Writes a text along the x axis of its frame.
     pub fn along(mut self) -> Self {
         if let Kind::Text { turned, .. } = &mut self.kind {
             *turned = true;
@@ -214,7 +216,7 @@ impl Item {
         self
     }
 
-    /// A text whose centre is moved.
+    /// Moves the centre of a text.
     pub fn moved(mut self, by: At) -> Self {
         if let Kind::Text { offset, .. } = &mut self.kind {
             *offset = by;
@@ -228,12 +230,12 @@ pub fn colour_of(body: usize) -> String {
     format!("body {body}")
 }
 
-/// Rows of points in lengths of the mechanism.
+/// Rows from points in lengths of the mechanism.
 pub fn metres(points: impl IntoIterator<Item = At>) -> Vec<Row> {
     points.into_iter().map(|[x, y]| [x, y, 0.0, 0.0]).collect()
 }
 
-/// Rows of points in lengths of print.
+/// Rows from points in lengths of print.
 pub fn printed(points: impl IntoIterator<Item = At>) -> Vec<Row> {
     points.into_iter().map(|[x, y]| [0.0, 0.0, x, y]).collect()
 }

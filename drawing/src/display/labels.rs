@@ -1,31 +1,33 @@
-//! Places of names that cover nothing else, at rest and while the mechanism moves.
+//! Positions of names that do not cover other items, at rest and while the mechanism moves.
 
 use super::taken::{clipped_length, Taken};
 use crate::plane::{ahead, direction, minus, size as length, At, Extent};
 
-/// Directions from an anchor to its name.
+/// Number of directions from an anchor to its name, and gaps between them, points.
 const DIRECTIONS: usize = 16;
 const GAPS: [f64; 7] = [3.0, 7.0, 12.0, 18.0, 26.0, 36.0, 48.0];
-/// The same while the anchors move; a name must not be far from its anchor.
+/// Number of gaps that are used while the anchors move, because a name must not be far from its anchor.
 const GAPS_IN_MOTION: usize = 4;
-/// Room to keep between a name and everything else.
+/// Clearance between a name and all other items.
 const CLEARANCE: f64 = 2.0;
-/// Names side by side need so much more room not to be read as one.
+/// Additional clearance between adjacent names, so that they are not read as one name.
 const BESIDE: f64 = 4.0;
-/// To touch a line costs this much more than to be farther away by the same length; to touch a text still more.
+/// Cost of contact with a line, per length of contact, relative to the cost of distance; and the same for a text.
 const TOUCH: f64 = 10.0;
 const COVER: f64 = 60.0;
-/// A name that is nearer to another anchor costs so much more.
+/// Cost of a name that is closer to another anchor.
 const MISLEADING: f64 = 40.0;
 /// Shorter contacts are rounding errors, points.
 const CONTACT: f64 = 1e-3;
-/// Of places whose costs differ by less, the first is taken, so that rounding errors decide nothing.
+/// Costs that differ by less count as equal, and the first position is used, so that rounding errors do not affect
+/// it.
 const EQUAL: f64 = 0.05;
 
 /// Offsets from moving anchors to the centres of their names, clear of lines and of each other.
 ///
-/// Greedy: the names are placed one by one, the longest first, each at the candidate that touches least on average and
-/// is nearest. `anchors` are those of each instant, points of print, `sizes` widths and heights.
+/// Greedy algorithm: the names are placed one by one, the longest first, each at the candidate with the least average
+/// contact and the smallest distance. `anchors` are the anchors at each instant, points of print; `sizes` are widths
+/// and heights.
 pub fn place_labels(anchors: &[Vec<At>], sizes: &[At], mut taken: Taken) -> Vec<At> {
     let mut chosen = vec![[0.0; 2]; sizes.len()];
     let mut order: Vec<usize> = (0..sizes.len()).collect();
@@ -39,7 +41,7 @@ pub fn place_labels(anchors: &[Vec<At>], sizes: &[At], mut taken: Taken) -> Vec<
         let mut costs = Vec::with_capacity(candidates.len());
         let mut least = f64::INFINITY;
         for (gap, offset) in &candidates {
-            // all costs are positive, so that a sum above the least one need not be completed
+            // all costs are positive, so a sum that exceeds the least cost need not be completed
             let mut cost = *gap;
             for (at, near) in anchors.iter().zip(&near) {
                 if cost > least + EQUAL {
@@ -61,7 +63,7 @@ pub fn place_labels(anchors: &[Vec<At>], sizes: &[At], mut taken: Taken) -> Vec<
     chosen
 }
 
-/// Half of the box of a name with the room that it needs.
+/// Half of the box of a name, including its clearance.
 fn half(size: At) -> At {
     size.map(|x| x / 2.0 + CLEARANCE)
 }
@@ -73,17 +75,17 @@ fn is_nearer(anchors: &[At], k: usize, offset: At) -> bool {
     others.into_iter().any(|(_, at)| length(minus(centre, *at)) < own - CONTACT)
 }
 
-/// Offsets such that the box of a name is one of the gaps away from its anchor, each with its gap.
+/// Offsets at which the box of a name has one of the gaps from its anchor, each with its gap.
 fn candidates(size: At, gaps: &[f64]) -> Vec<(f64, At)> {
     let ways = (1..=DIRECTIONS).map(|k| direction((k as f64 * 22.5).to_radians()));
-    // with the distance from the centre to the edge of the box
+    // together with the distance from the centre to the edge of the box
     let edge = |u: At| (size[0] / 2.0 / u[0]).abs().min((size[1] / 2.0 / u[1]).abs());
     let ways: Vec<(At, f64)> = ways.map(|u| (u, edge(u).min(length(size) / 2.0))).collect();
     let at = |gap: f64| ways.iter().map(move |(u, edge)| (gap, u.map(|x| (edge + gap) * x)));
     gaps.iter().flat_map(|gap| at(*gap)).collect()
 }
 
-/// What is taken near the candidates of one name at one instant.
+/// The occupied areas near the candidates for one name at one instant.
 struct Near {
     segments: Vec<([At; 2], f64)>,
     boxes: Vec<[f64; 4]>,
@@ -114,7 +116,7 @@ impl Taken {
 }
 
 impl Near {
-    /// Overlap of the box of a name, points; some number above a limit where it is above this.
+    /// Overlap of the box of a name, points. If it exceeds `limit`, any number above `limit` may be returned.
     fn cost(&self, centre: At, size: At, limit: f64) -> f64 {
         let (low, high) = (minus(centre, half(size)), ahead(centre, 1.0, half(size)));
         let [least, largest] = self.inside;

@@ -1,4 +1,4 @@
-//! Names in their places: what they must not cover, and where they are written.
+//! Positions of names: the areas that they must not cover, and the resulting texts.
 
 use super::items::{layer, Frame, Item, Kind};
 use super::labels::place_labels;
@@ -8,12 +8,12 @@ use super::taken::Taken;
 use super::text::{size_of, Role};
 use crate::plane::At;
 
-/// At most so many corners of one item count.
+/// Largest number of corners of an item that are considered.
 const MOST: usize = 60;
-/// Width of the strokes of ground beside a line, points of print.
+/// Width of the hatching of ground beside a line, points of print.
 const HATCHED: f64 = 4.0;
 
-/// Writes all names where there is room.
+/// Writes all names at free positions.
 pub fn lay_out(made: &mut List<'_>) {
     let names = std::mem::take(&mut made.names);
     if names.is_empty() {
@@ -37,7 +37,7 @@ pub fn lay_out(made: &mut List<'_>) {
     made.items.extend(texts.into_iter().zip(offsets).map(|(text, offset)| text.moved(offset)));
 }
 
-/// Width and height of a text; a number is in a circle.
+/// Width and height of a text. A number has a circle around it.
 fn box_of(words: &str, role: Role) -> At {
     match role {
         Role::Number => [2.0 * numbered::RADIUS; 2],

@@ -1,4 +1,4 @@
-//! A display list in the making.
+//! A display list under construction.
 
 use super::items::{Frame, Item};
 use super::placing::{place, View};
@@ -7,9 +7,9 @@ use crate::plane::{placed, At, Extent, Pose};
 use crate::scene::{Scene, Symbol};
 use serde::{Deserialize, Serialize};
 
-/// Instants at which names are kept clear of everything.
+/// Number of instants at which the positions of names are checked.
 const SAMPLES: usize = 12;
-/// Places no farther apart than this share of the drawing at any instant are one place.
+/// Paths of points that are always closer than this fraction of the drawing are one place.
 const SAME: f64 = 1e-3;
 
 /// How bodies are numbered.
@@ -21,16 +21,16 @@ pub struct Numbers {
     pub names: bool,
 }
 
-/// A name without a place yet.
+/// A name without a position yet.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Name {
-    /// What it belongs to.
+    /// The object to which the name belongs.
     pub of: String,
     /// The text.
     pub words: String,
-    /// What it names.
+    /// The kind of object that the text names.
     pub role: Role,
-    /// It is near the origin of this frame, or half-way along it.
+    /// The frame of the name, which is near its origin or half-way along it.
     pub frame: Frame,
 }
 
@@ -41,26 +41,26 @@ impl Name {
     }
 }
 
-/// A display list in the making.
+/// A display list under construction.
 pub struct List<'a> {
-    /// What is drawn.
+    /// The scene that is drawn.
     pub scene: &'a Scene,
-    /// For which scale and edges names are laid out.
+    /// The scale and the edges for which names are laid out.
     pub view: &'a View,
-    /// Of all bodies, ground first, at some instants.
+    /// Poses of all bodies, ground first, at some instants.
     pub poses: Vec<Vec<Pose>>,
-    /// Paths that are always so near are one place, m.
+    /// Paths that are always closer than this distance are one place, m.
     pub near: f64,
-    /// So far.
+    /// The items so far.
     pub items: Vec<Item>,
-    /// So far.
+    /// The names so far.
     pub names: Vec<Name>,
     /// Boxes that names must not cover.
     pub boxes: &'a [[f64; 4]],
 }
 
 impl<'a> List<'a> {
-    /// Nothing so far.
+    /// A list without items.
     pub fn new(
         scene: &'a Scene,
         poses: &[Vec<Pose>],
@@ -74,18 +74,18 @@ impl<'a> List<'a> {
         Self { scene, view, poses, near, items: Vec::new(), names: Vec::new(), boxes }
     }
 
-    /// Where a point of a body is at the instants, m.
+    /// The positions of a point of a body at the instants, m.
     pub fn path(&self, body: usize, at: At) -> Vec<At> {
         let pose = |poses: &Vec<Pose>| poses.get(body).copied().unwrap_or_default();
         self.poses.iter().map(|poses| placed(pose(poses), at)).collect()
     }
 
-    /// Where the points of a symbol are at the instants.
+    /// The positions of the points of a symbol at the instants.
     pub fn ends(&self, symbol: &Symbol) -> Vec<Vec<At>> {
         symbol.ends().map(|(body, at)| self.path(body, at)).collect()
     }
 
-    /// Where the point of a symbol on body j is at the instants.
+    /// The positions of the point of a symbol on body j at the instants.
     pub fn last_end(&self, symbol: &Symbol) -> Vec<At> {
         self.path(symbol.bodies[1], symbol.at_j())
     }
@@ -101,7 +101,7 @@ impl<'a> List<'a> {
     }
 }
 
-/// Some instants, evenly spread, with ground. What is not finite is zero.
+/// Some evenly spaced instants, including ground. Numbers that are not finite become zero.
 fn some(poses: &[Vec<Pose>], bodies: usize) -> Vec<Vec<Pose>> {
     let last = poses.len().saturating_sub(1) as f64;
     let mut chosen: Vec<usize> = (0..SAMPLES)

@@ -1,7 +1,7 @@
 //! The display list of a scene.
 //!
-//! Symbols are chosen by the physics that the elements declare, names are laid out once for the whole motion, and names
-//! of what coincides are written once.
+//! Symbols follow from the marks that the elements declare. Names are laid out once for the whole motion, and names
+//! of coincident objects form one text.
 
 use super::items::Item;
 use super::layout::lay_out;
@@ -12,17 +12,17 @@ use crate::plane::Pose;
 use crate::scene::Scene;
 use serde::{Deserialize, Serialize};
 
-/// What a display list contains.
+/// The content of a display list.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Request {
     /// Bodies, the symbols of all elements, supports, and points without a symbol.
     pub mechanism: bool,
-    /// Further items, over the mechanism.
+    /// Further items, drawn on top of the mechanism.
     pub items: Vec<Item>,
-    /// A dimension line beside each bar, and between two pins on ground.
+    /// A dimension line for each bar, and between two pins on ground.
     pub dimensions: bool,
-    /// An arrow in the corner with the most room.
+    /// An arrow in the corner with the most free space.
     pub gravity: bool,
     /// A number in a circle on each body.
     pub numbers: Option<Numbers>,
@@ -32,12 +32,12 @@ pub struct Request {
     pub elements: bool,
     /// Further names.
     pub names: Vec<Name>,
-    /// Boxes that names must not cover, points of print: least x and y, largest x and y.
+    /// Boxes that names must not cover, points of print: smallest x and y, largest x and y.
     pub taken: Vec<[f64; 4]>,
 }
 
 impl Request {
-    /// The mechanism, numbered and named as on the page.
+    /// The mechanism with the numbers and names of the page.
     pub fn labelled() -> Self {
         let numbers = Some(Numbers { first: 1, names: false });
         Self { mechanism: true, numbers, joints: true, elements: true, ..Self::default() }
@@ -46,8 +46,9 @@ impl Request {
 
 /// The display list of a scene, in the order of painting.
 ///
-/// `poses` are those of the moving bodies at the instants of a motion, at least one: names are laid out for all of
-/// them. Their places do not depend on the order of the instants, but the first one decides dimensions.
+/// `poses` are the poses of the moving bodies at one or more instants of a motion. Names are laid out for all
+/// instants. Their positions do not depend on the order of the instants, but dimensions are taken at the first
+/// instant.
 pub fn display(scene: &Scene, poses: &[Vec<Pose>], view: &View, request: &Request) -> Vec<Item> {
     let mut made = List::new(scene, poses, view, &request.taken);
     if request.mechanism {

@@ -35,12 +35,12 @@ pub fn draw(made: &mut List<'_>) {
     add_points(made);
 }
 
-/// The bodies: those with a slot first, so that the links that move in it are seen.
+/// Adds the bodies. Bodies with a slot come first, so that links that move in the slot remain visible.
 fn add_links(made: &mut List<'_>) {
     let scene = made.scene;
     let slots = || scene.symbols.iter().filter(|symbol| symbol.mark == Mark::Slot);
     let is_slotted = |body: &&Body| slots().any(|slot| slot.bodies[0] == body.number);
-    // a body that is nothing but a curve has no link
+    // a body that consists only of a curve has no link
     let is_link = |body: &&Body| {
         let of_curve = !body.curves.is_empty() && body.outline.len() == 1;
         body.number > 0 && (!body.drawn.is_empty() || !of_curve)
@@ -55,7 +55,7 @@ fn add_links(made: &mut List<'_>) {
     made.items.extend(others.into_iter().flat_map(bodies::draw));
 }
 
-/// The symbols of each element together, those with the largest wheels first.
+/// The symbols, grouped by element. Elements with the largest wheels come first.
 fn by_element(symbols: &[Symbol]) -> Vec<&[Symbol]> {
     let mut found: Vec<&[Symbol]> = symbols.chunk_by(|a, b| a.element == b.element).collect();
     let largest = |own: &[Symbol]| {
@@ -66,7 +66,7 @@ fn by_element(symbols: &[Symbol]) -> Vec<&[Symbol]> {
     found
 }
 
-/// One support for each place on ground on which something turns.
+/// Adds one support at each place on ground about which a body turns.
 fn add_supports(made: &mut List<'_>) {
     let mut supported = Places::new(made.near);
     let scene = made.scene;
@@ -79,7 +79,7 @@ fn add_supports(made: &mut List<'_>) {
     }
 }
 
-/// A dot at each named point that no symbol marks.
+/// Adds a dot at each named point without a symbol.
 fn add_points(made: &mut List<'_>) {
     let mut marked = Places::new(made.near);
     let scene = made.scene;

@@ -8,9 +8,9 @@ use crate::plane::At;
 use crate::scene::{Mark, Symbol};
 use std::collections::HashSet;
 
-/// More names than these do not fit on a drawing.
+/// Largest number of names on a drawing.
 const MOST: usize = 60;
-/// Between the names of objects at one place.
+/// Separator between the names of objects at one place.
 const BETWEEN: &str = " · ";
 
 /// Objects at one place.
@@ -28,7 +28,7 @@ struct Groups<'a> {
 }
 
 impl<'a> Groups<'a> {
-    /// Adds a name at a place; where there is a joint or a contact, points go unnamed.
+    /// Adds a name at a place. Names of points are omitted at joints and contacts.
     fn add(&mut self, path: Vec<At>, role: Role, name: &'a str, (body, at): (usize, At)) {
         let k = self.places.index(path);
         if k == self.groups.len() {

@@ -11,10 +11,10 @@ use crate::scene::Body;
 /// Radius of the circle around a number, and of symbols around a pin, points of print.
 pub const RADIUS: f64 = 7.0;
 const RINGED: f64 = 20.0;
-/// More numbers than these do not fit on a drawing.
+/// Largest number of numbers on a drawing.
 const MOST: usize = 40;
 
-/// Places at the instants, points of print, with the radius around them that is taken.
+/// Positions at the instants, points of print, and the occupied radius around them.
 type Pin = (Vec<At>, f64);
 
 /// Writes a number in a circle on each moving body, and its name beside it.
@@ -71,7 +71,7 @@ fn printed_path(made: &List<'_>, body: usize, at: At) -> Vec<At> {
     made.path(body, at).into_iter().map(|place| made.view.points(place)).collect()
 }
 
-/// Where a number covers no pin and no other number; none if there is no room.
+/// A position at which a number covers no pin and no other number. None if there is no free position.
 fn free_place(made: &List<'_>, body: &Body, pins: &[Pin]) -> Option<At> {
     middles(body).into_iter().find(|at| {
         let path = printed_path(made, body.number, *at);

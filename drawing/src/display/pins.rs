@@ -7,7 +7,7 @@ use crate::scene::Symbol;
 
 const RADIUS: f64 = 3.0;
 
-/// Pins at the points of a symbol on body i (0) or j (1).
+/// The pin at the point of a symbol on body i (0) or j (1).
 pub fn pin_at(symbol: &Symbol, k: usize) -> [Item; 2] {
     let frame = Frame::upright(symbol.bodies[k], symbol.points[k].unwrap_or_default());
     let rim = printed(circle(RADIUS, 32));
@@ -29,7 +29,7 @@ pub fn support(of: &str, at: At) -> [Item; 3] {
     ]
 }
 
-/// The mark of a point that no symbol has.
+/// The mark of a point without a symbol.
 pub fn dot(of: &str, body: usize, at: At) -> Item {
     let colour = if body == 0 { "ground" } else { "ink" };
     let rim = printed(circle(2.0, 32));

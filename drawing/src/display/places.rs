@@ -1,24 +1,24 @@
-//! Which points of a motion are one place in a drawing.
+//! Determines which moving points are one place in a drawing.
 
 use crate::plane::At;
 use std::collections::HashMap;
 
-/// Paths of points, those of one place once.
+/// Paths of points; one path for each place.
 pub struct Places {
-    /// Paths that are always so near are one place, m.
+    /// Paths that are always closer than this distance are one place, m.
     near: f64,
     paths: Vec<Vec<At>>,
-    /// The paths by the square of this side in which they begin, so that few are compared.
+    /// Indices of the paths that begin in each square with this side length, so that few paths are compared.
     squares: HashMap<[i64; 2], Vec<usize>>,
 }
 
 impl Places {
-    /// No place yet.
+    /// No places yet.
     pub fn new(near: f64) -> Self {
         Self { near, paths: Vec::new(), squares: HashMap::new() }
     }
 
-    /// The number of the place of a path; a new one if there is none yet.
+    /// The index of the place of a path. Adds a place if there is none.
     pub fn index(&mut self, path: Vec<At>) -> usize {
         let begin = path.first().copied().unwrap_or_default();
         let [x, y] = begin.map(|x| (x / self.near).floor() as i64);
@@ -36,14 +36,14 @@ impl Places {
         self.paths.len() - 1
     }
 
-    /// Whether a path has a place of its own; it is then taken.
+    /// Whether a path is a new place. Adds the place if it is new.
     pub fn is_new(&mut self, path: Vec<At>) -> bool {
         let before = self.paths.len();
         self.index(path) == before
     }
 }
 
-/// The largest distance of two paths along x or y.
+/// The largest difference between two paths along x or y.
 fn apart(one: &[At], other: &[At]) -> f64 {
     let pairs = one.iter().zip(other);
     pairs.map(|(a, b)| (a[0] - b[0]).abs().max((a[1] - b[1]).abs())).fold(0.0, f64::max)

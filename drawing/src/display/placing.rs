@@ -1,27 +1,27 @@
-//! Places of the items of a display list at one instant; only here metres become points.
+//! Positions of the items of a display list at one instant. Only this file converts metres to points.
 //!
-//! The painters have the same rules: `python/kempe/draw/placing.py` and `studio/src/draw/place.ts`.
+//! The painters use the same rules: `python/kempe/draw/placing.py` and `studio/src/draw/place.ts`.
 
 use super::items::{Frame, Item, Row};
 use crate::plane::{direction, minus, placed, size, At, Pose};
 use serde::{Deserialize, Serialize};
 
-/// Room around a mechanism, as a share of its size.
+/// Margin around a mechanism, as a fraction of its size.
 const ROOM: f64 = 0.14;
 
-/// The part of the plane that is seen.
+/// The visible part of the plane.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct View {
-    /// Least x and y, m.
+    /// Smallest x and y, m.
     pub low: At,
-    /// Points of print for each metre.
+    /// Points of print per metre.
     pub scale: f64,
     /// Width and height, points of print.
     pub size: At,
 }
 
 impl View {
-    /// Bounds with room around them, on an area of points of print.
+    /// The view of bounds with a margin, on an area in points of print.
     pub fn around([left, bottom, right, top]: [f64; 4], size: At) -> Self {
         let (middle, span) =
             ([(left + right) / 2.0, (bottom + top) / 2.0], [right - left, top - bottom]);
@@ -33,18 +33,18 @@ impl View {
         Self { low, scale: size[1] / height, size }
     }
 
-    /// A place in the plane, m, in points of print from the lower left corner.
+    /// Converts a position in the plane, m, to points of print from the lower left corner.
     pub fn points(&self, at: At) -> At {
         minus(at, self.low).map(|x| x * self.scale)
     }
 
-    /// The place in the plane, m, of points of print.
+    /// Converts points of print to a position in the plane, m.
     pub fn plane(&self, [x, y]: At) -> At {
         [x / self.scale + self.low[0], y / self.scale + self.low[1]]
     }
 }
 
-/// The points of an item in points of print, at the poses of all bodies, ground first.
+/// The points of an item in points of print, for the poses of all bodies, ground first.
 pub fn place(item: &Item, poses: &[Pose], view: &View) -> Vec<At> {
     let (origin, angle, local) = in_frame(&item.frame, &item.points, poses, view);
     let [c, s] = direction(angle);

@@ -3,7 +3,7 @@
 use crate::plane::{ahead, direction, left_of, At};
 use std::f64::consts::TAU;
 
-/// Evenly spread numbers, both ends included.
+/// Evenly spaced numbers, including both ends.
 pub fn spread(first: f64, last: f64, count: usize) -> Vec<f64> {
     let step = (last - first) / (count.max(2) - 1) as f64;
     (0..count)
@@ -22,7 +22,7 @@ pub fn arc(radius: f64, begin: f64, end: f64, count: usize) -> Vec<At> {
     spread(begin, end, count).into_iter().map(point).collect()
 }
 
-/// Corners of an arrow's head.
+/// Corners of the head of an arrow.
 pub fn arrow_head(tip: At, angle: f64, size: f64) -> [At; 3] {
     let along = direction(angle);
     let (back, aside) = (ahead(tip, -size, along), left_of(along));

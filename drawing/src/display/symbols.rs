@@ -1,4 +1,4 @@
-//! The items of symbols: one function for each word of the vocabulary.
+//! The items of symbols: one function for each mark.
 
 use super::around::{self, Around};
 use super::items::Item;
@@ -8,8 +8,8 @@ use crate::scene::{Mark, Symbol};
 
 /// The items of a symbol.
 ///
-/// `around` is where it is drawn if it is around a point. `aside` is its distance from its line where it is drawn in
-/// parallel to others; 0 for one alone.
+/// `around` is the ring for a symbol around a point. `aside` is the distance from the line for a symbol that is drawn
+/// parallel to others; 0 for a single symbol.
 pub fn draw(symbol: &Symbol, around: Around<'_>, aside: f64) -> Vec<Item> {
     match symbol.mark {
         Mark::Pin => pin_at(symbol, 1).to_vec(),

@@ -2,16 +2,16 @@
 
 use crate::plane::{minus, size, At};
 
-/// Areas that names must not cover, at some instants of a motion; points of print.
+/// Areas that names must not cover, at some instants of a motion, in points of print.
 #[derive(Clone, Debug)]
 pub struct Taken {
     /// Lines at each instant.
     pub segments: Vec<Vec<[At; 2]>>,
-    /// Their half widths.
+    /// Half widths of the lines.
     pub reach: Vec<f64>,
-    /// Other texts at each instant: least x and y, largest x and y.
+    /// Other texts at each instant: smallest x and y, largest x and y.
     pub boxes: Vec<Vec<[f64; 4]>>,
-    /// Least x and y, largest x and y that names had better not leave.
+    /// Smallest and largest limits of the area that names should not leave.
     pub inside: [At; 2],
 }
 
@@ -24,13 +24,13 @@ impl Taken {
     }
 }
 
-/// Length of a segment inside of a box (Liang & Barsky 1984).
+/// Length of the part of a segment inside a box (Liang and Barsky 1984).
 pub fn clipped_length(low: At, high: At, [begin, end]: &[At; 2]) -> f64 {
     let along = minus(*end, *begin);
     let (mut enter, mut leave) = (0.0_f64, 1.0_f64);
     for k in 0..2 {
         if along[k] == 0.0 {
-            // parallel to an edge: inside for the whole length, or never
+            // parallel to an edge: inside along its whole length or not at all
             if !(low[k]..=high[k]).contains(&begin[k]) {
                 return 0.0;
             }

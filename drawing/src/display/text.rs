@@ -1,12 +1,13 @@
-//! The looks and the sizes of texts.
+//! The styles and the sizes of texts.
 
 use serde::{Deserialize, Serialize};
 
 /// Longest name in a drawing, in characters.
 const LONGEST: usize = 24;
-/// Height of a line of text for the size of its letters.
+/// Height of a line of text, relative to the font size.
 const LINE: f64 = 1.25;
-/// Widths of the characters of ASCII from the space in DejaVu Sans, in 1/2048 of the size; slanted ones have the same.
+/// Widths of the ASCII characters from the space on, in DejaVu Sans, in 1/2048 of the size. Italics have equal
+/// widths.
 #[rustfmt::skip]
 const PLAIN: [u16; 95] = [
     651, 821, 942, 1716, 1303, 1946, 1597, 563, 799, 799, 1024, 1716, 651, 739, 651, 690, 1303, 1303, 1303, 1303, 1303,
@@ -15,7 +16,7 @@ const PLAIN: [u16; 95] = [
     690, 799, 1716, 1024, 1024, 1255, 1300, 1126, 1300, 1260, 721, 1300, 1298, 569, 569, 1186, 569, 1995, 1298, 1253,
     1300, 1300, 842, 1067, 803, 1298, 1212, 1675, 1212, 1212, 1075, 1303, 690, 1303, 1716,
 ];
-/// The same in bold.
+/// Widths of these characters in bold.
 #[rustfmt::skip]
 const BOLD: [u16; 95] = [
     713, 934, 1067, 1716, 1425, 2052, 1786, 627, 936, 936, 1071, 1716, 778, 850, 778, 748, 1425, 1425, 1425, 1425, 1425,
@@ -24,11 +25,11 @@ const BOLD: [u16; 95] = [
     748, 936, 1716, 1024, 1024, 1382, 1466, 1214, 1466, 1389, 891, 1466, 1458, 702, 702, 1362, 702, 2134, 1458, 1407,
     1466, 1466, 1010, 1219, 979, 1458, 1335, 1892, 1321, 1335, 1192, 1458, 748, 1458, 1716,
 ];
-/// Widths of other letters, and of the wide ones of East Asia and of pictures.
+/// Width of other characters, and of wide East Asian characters and pictographs.
 const OTHER: u16 = 1303;
 const WIDE: u16 = 2048;
 
-/// What a text names.
+/// The kind of object that a text names.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[allow(missing_docs)]
@@ -42,20 +43,20 @@ pub enum Role {
     Measure,
 }
 
-/// How a text is written.
+/// The style of a text.
 pub struct Look {
-    /// Points of print.
+    /// Size, points of print.
     pub size: f64,
-    /// Whether in bold letters.
+    /// Whether the text is bold.
     pub bold: bool,
-    /// Whether in italics.
+    /// Whether the text is in italics.
     pub slanted: bool,
-    /// A word of the palette.
+    /// A name in the palette.
     pub colour: &'static str,
 }
 
 impl Role {
-    /// How texts of this role are written.
+    /// The style of texts with this role.
     pub fn look(self) -> Look {
         let (size, bold, slanted, colour) = match self {
             Self::Joint => (9.0, true, false, "ink"),
@@ -69,7 +70,7 @@ impl Role {
     }
 }
 
-/// Width of a text in DejaVu Sans, in the unit of its size. Other fonts for drawings are narrower.
+/// Width of a text in DejaVu Sans, in the unit of its size. Other usual fonts are narrower.
 pub fn width(words: &str, size: f64, bold: bool) -> f64 {
     let table = if bold { &BOLD } else { &PLAIN };
     let of = |c: char| match u32::from(c) {
@@ -91,7 +92,7 @@ pub fn size_of(words: &str, role: Role) -> [f64; 2] {
     [width(words, look.size, look.bold), LINE * look.size]
 }
 
-/// A name on one line, its middle left out if it is too long.
+/// A name on one line. Its middle is omitted if it is too long.
 pub fn one_line(name: &str) -> String {
     let text = name.split_whitespace().collect::<Vec<_>>().join(" ");
     let letters: Vec<char> = text.chars().collect();

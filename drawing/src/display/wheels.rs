@@ -1,6 +1,6 @@
-//! Wheels, gears, racks and belts, in the size of the mechanism.
+//! Wheels, gears, racks and belts, drawn to scale.
 //!
-//! Lengths are points of print unless they belong to the mechanism.
+//! Lengths are in points of print unless they belong to the mechanism.
 
 use super::items::{colour_of, layer, metres, Frame, Item, Row};
 use super::pins::pin_at;
@@ -9,30 +9,30 @@ use crate::plane::{direction, At};
 use crate::scene::{outer_radius, Symbol};
 use std::f64::consts::{PI, TAU};
 
-/// Length of the rails and lines beyond the places where something is on them.
+/// Length of rails and lines beyond the range of contact.
 pub const OVERHANG: f64 = 24.0;
-/// Corners of a tooth: along the pitch line and outwards, as shares of the pitch.
+/// Corners of a tooth, along and perpendicular to the pitch line, as fractions of the pitch.
 const TOOTH: [At; 4] = [[-0.38, -0.27], [-0.14, 0.25], [0.14, 0.25], [0.38, -0.27]];
 /// Distance of the back of a rack from the pitch line, in pitches.
 const BACK: f64 = 0.8;
 const TINT: f64 = 0.84;
 const TINT_OF_BODIES: f64 = 0.72;
 
-/// A plain wheel, with a radius of it that shows how it turns if it can.
+/// A plain wheel. If it can turn, a radius shows its angle.
 pub fn plain_wheel(symbol: &Symbol) -> Vec<Item> {
     let colour =
         if symbol.bodies[1] == 0 { "ground".to_string() } else { colour_of(symbol.bodies[1]) };
     wheel(symbol, circle(symbol.radii()[1], 96), &colour)
 }
 
-/// A wheel with teeth on its outside.
+/// A wheel with external teeth.
 pub fn toothed_wheel(symbol: &Symbol) -> Vec<Item> {
     let mut found = wheel(symbol, teeth(symbol, 1.0), &colour_of(symbol.bodies[1]));
     found.push(pitch_circle(symbol));
     found
 }
 
-/// A ring with teeth on its inside; on ground its outside is hatched.
+/// A ring with internal teeth. On ground, its outside is hatched.
 pub fn toothed_ring(symbol: &Symbol) -> Vec<Item> {
     let (of, body) = (&symbol.element, symbol.bodies[1]);
     let (frame, colour) = (Frame::on(body, symbol.at_j()), colour_of(body));
@@ -66,7 +66,7 @@ pub fn toothed_line(symbol: &Symbol) -> Vec<Item> {
     filled(of, &frame, rim, &colour_of(i), 1.0)
 }
 
-/// An area of a body with its edge.
+/// An area of a body and its edge.
 fn filled(of: &str, frame: &Frame, rim: Vec<Row>, colour: &str, width: f64) -> Vec<Item> {
     vec![
         Item::fill(of, frame, rim.clone(), colour).on(layer::BODY).tinted(TINT_OF_BODIES),
@@ -113,7 +113,7 @@ fn teeth(symbol: &Symbol, outwards: f64) -> Vec<At> {
     (0..count as usize).flat_map(tooth).collect()
 }
 
-/// The line of body i on which a wheel rolls, hatched on ground.
+/// The line of body i on which a wheel rolls; hatched on ground.
 pub fn track(symbol: &Symbol) -> Item {
     let i = symbol.bodies[0];
     let [low, high] = symbol.reach();

@@ -13,7 +13,7 @@ struct Ends {
     name: String,
     bodies: [usize; 2],
     points: [At; 2],
-    /// Whether its place on body j moves, as on a curve.
+    /// Whether its point on body j moves, as on a curve.
     moves_on: bool,
 }
 
@@ -33,7 +33,7 @@ pub fn joints(model: &Model) -> Vec<Joint> {
     ends(model).into_iter().map(one).collect()
 }
 
-/// A point of the core.
+/// Converts a point of the core.
 pub fn pair(s: &Local) -> At {
     [s.x, s.y]
 }
@@ -59,7 +59,7 @@ fn ends(model: &Model) -> Vec<Ends> {
         .collect()
 }
 
-/// Bodies i and j. An element of one body has it as i and as j.
+/// Bodies i and j. For an element with one body, this body is both i and j.
 fn first_two(bodies: &[BodyId]) -> [usize; 2] {
     let number = |body: Option<&BodyId>| body.map_or(0, |body| body.0);
     [number(bodies.first()), number(bodies.get(1).or(bodies.first()))]
@@ -92,10 +92,10 @@ fn body(model: &Model, joints: &[Ends], number: usize) -> Body {
     }
 }
 
-/// Corners in the body's frame: 1 (a spot), 2 (a line between its ends) or a convex polygon.
+/// The corners in the frame of the body: 1 (a spot), 2 (the ends of a line) or a convex polygon.
 ///
-/// A slender bar reaches from end to end, its length being √(12 J/m). All bodies contain their named points and those
-/// of their joints, a general body its mass centre too.
+/// A slender bar extends from end to end; its length is √(12 J/m). The outline of every body contains its named
+/// points and the points of its joints. The outline of a general body also contains its mass centre.
 fn outline(model: &Model, joints: &[Ends], number: usize) -> Vec<At> {
     let of = &model.bodies[number];
     let mut corners: Vec<At> = of.points.iter().map(|(_, s)| pair(s)).collect();

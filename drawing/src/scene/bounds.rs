@@ -5,12 +5,12 @@ use super::paths::Paths;
 use super::teeth::outer_radius;
 use crate::plane::{ahead, direction, At, Extent};
 
-/// At most so many points of a curve decide.
+/// Largest number of points of a curve that are considered.
 const SOME: usize = 50;
 
 /// The largest extent of a body, ground included, in its own frame, m.
 ///
-/// It does not depend on the motion, so that all drawings of a model have the same unit of length.
+/// It does not depend on the motion, so all drawings of a model have the same unit of length.
 pub fn own_size(bodies: &[Body], joints: &[Joint]) -> f64 {
     let of_body = |body: &Body| {
         let mut extent = Extent::of(corners(body));
@@ -73,7 +73,7 @@ fn on(joints: &[Joint], number: usize) -> impl Iterator<Item = &At> {
     ends.filter(move |(body, _)| **body == number).map(|(_, at)| at)
 }
 
-/// Some points along a curve, with the last one.
+/// Some points along a curve, including the last point.
 fn some(points: &[At]) -> impl Iterator<Item = At> + '_ {
     points.iter().step_by(points.len() / SOME + 1).chain(points.last()).copied()
 }

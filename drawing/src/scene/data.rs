@@ -5,22 +5,22 @@ use super::mark::Mark;
 use crate::plane::At;
 use serde::{Deserialize, Serialize};
 
-/// What is drawn of a model. Lengths are in m, angles in rad.
+/// The drawing of a model. Lengths are in m, angles in rad.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Scene {
     /// Title of the model.
     pub title: String,
     /// Acceleration of free fall, m/s².
     pub gravity: At,
-    /// Least x and y, largest x and y at all instants.
+    /// Smallest x and y, largest x and y over all instants.
     pub bounds: [f64; 4],
     /// The unit of lengths in the drawing.
     pub length: Length,
-    /// Ground first.
+    /// Bodies, ground first.
     pub bodies: Vec<Body>,
-    /// In the order of the model.
+    /// Joints, in the order of the model.
     pub joints: Vec<Joint>,
-    /// Marks of joints, drivers and forces; those of one element follow each other.
+    /// Symbols of joints, drivers and forces, grouped by element.
     pub symbols: Vec<Symbol>,
 }
 
@@ -29,7 +29,7 @@ pub struct Scene {
 pub struct Body {
     /// Its name.
     pub name: String,
-    /// 0 for ground; moving bodies count from 1.
+    /// 0 for ground; moving bodies are counted from 1.
     pub number: usize,
     /// The `type` in the file, or "ground".
     pub kind: String,
@@ -37,9 +37,9 @@ pub struct Body {
     pub points: Vec<Point>,
     /// Mass centre.
     pub center: At,
-    /// The link around its points: a spot, a line between two ends, or a convex polygon; none for ground.
+    /// The link around its points: a spot, a line between two ends, or a convex polygon; empty for ground.
     pub outline: Vec<At>,
-    /// What is drawn in place of a link.
+    /// The parts that are drawn instead of a link.
     pub drawn: Vec<Part>,
     /// Its curves.
     pub curves: Vec<Curve>,
@@ -50,20 +50,20 @@ pub struct Body {
 pub struct Point {
     /// Its name.
     pub name: String,
-    /// Its place.
+    /// Position of the point.
     pub at: At,
 }
 
 /// A line or an area of a body.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Part {
-    /// How it is drawn.
+    /// Style in which the part is drawn.
     pub form: PartForm,
     /// Its points in order.
     pub points: Vec<At>,
 }
 
-/// How a part of a body is drawn.
+/// Style in which a part of a body is drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum PartForm {
@@ -78,9 +78,9 @@ pub enum PartForm {
 /// Points along a curve.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Curve {
-    /// In the order of the curve.
+    /// Points in the order of the curve.
     pub points: Vec<At>,
-    /// Whether the last point is joined to the first.
+    /// Whether the last point is connected to the first.
     pub closed: bool,
 }
 
@@ -91,7 +91,7 @@ pub struct Joint {
     pub name: String,
     /// Bodies i and j.
     pub bodies: [usize; 2],
-    /// In the frame of each. Both are that of body i where the joint has no point on body j.
+    /// The point in the frame of each body. If the joint has no point on body j, both are the point on body i.
     pub points: [At; 2],
 }
 
@@ -100,51 +100,51 @@ pub struct Joint {
 pub struct Symbol {
     /// The name of its element.
     pub element: String,
-    /// What is drawn.
+    /// The mark that is drawn.
     pub mark: Mark,
     /// Bodies i and j.
     pub bodies: [usize; 2],
-    /// In the frame of each; none on body i where the symbol is around its point on body j.
+    /// Points in the frames of the bodies. None on body i if the symbol is around its point on body j.
     pub points: [Option<At>; 2],
-    /// Angles of its axis in the frame of each.
+    /// Angles of the axis in the frames of the bodies.
     pub axes: [f64; 2],
-    /// Around the points on i and j, of a symbol in the size of the mechanism.
+    /// Radii around the points on i and j, for a symbol drawn to scale.
     pub radii: Option<[f64; 2]>,
-    /// Diameter of the pitch circle for each tooth, where the model gives it.
+    /// Pitch diameter per tooth, if the model defines it.
     #[serde(skip)]
     pub module: Option<f64>,
     /// The teeth of a wheel or rack.
     pub teeth: Option<Teeth>,
-    /// Least and largest place along the axis, or distance of its points.
+    /// Smallest and largest position along the axis, or distance between the points.
     pub reach: Option<[f64; 2]>,
-    /// The angle from i to j at the first instant, and by how much it differs from that at most.
+    /// The angle from i to j at the first instant, and its largest deviation from this angle.
     pub turning: Option<[f64; 2]>,
-    /// -1 where its largest torque is clockwise.
+    /// -1 if the largest torque is clockwise.
     pub sense: i8,
 }
 
 impl Symbol {
-    /// Its point on body j.
+    /// The point on body j.
     pub fn at_j(&self) -> At {
         self.points[1].unwrap_or_default()
     }
 
-    /// Its point on body i, or the origin.
+    /// The point on body i, or the origin.
     pub fn at_i(&self) -> At {
         self.points[0].unwrap_or_default()
     }
 
-    /// Its radii, or zeros.
+    /// The radii, or zeros.
     pub fn radii(&self) -> [f64; 2] {
         self.radii.unwrap_or_default()
     }
 
-    /// Its reach, or zeros.
+    /// The reach, or zeros.
     pub fn reach(&self) -> [f64; 2] {
         self.reach.unwrap_or_default()
     }
 
-    /// Its points with their bodies, without those that it does not have.
+    /// The points of the symbol with their bodies. Absent points are omitted.
     pub fn ends(&self) -> impl DoubleEndedIterator<Item = (usize, At)> + '_ {
         self.bodies.iter().zip(&self.points).filter_map(|(body, at)| at.map(|at| (*body, at)))
     }
@@ -153,8 +153,8 @@ impl Symbol {
 /// The teeth of a drawn wheel or rack.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Teeth {
-    /// Diameter of the pitch circle for each tooth, m.
+    /// Pitch diameter per tooth, m.
     pub module: f64,
-    /// The place of a tooth: its angle in the frame of a wheel, or its distance along the axis of a rack.
+    /// The position of a tooth: its angle in the frame of a wheel, or its distance along the axis of a rack.
     pub phase: f64,
 }

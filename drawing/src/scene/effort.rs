@@ -6,20 +6,20 @@ use kempe::equations::forces::{each_wrench, Acting};
 use kempe::equations::kinematics::Motions;
 use kempe::{Model, State};
 
-/// What an element exerts on its body j at the instants of a scene.
+/// The force and torque that an element exerts on its body j at the instants of a scene.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Effort {
     /// The name of the element.
     pub element: String,
-    /// Global, N.
+    /// Force in the global frame, N.
     pub force: Vec<At>,
-    /// N·m.
+    /// Torque, N·m.
     pub torque: Vec<f64>,
 }
 
 /// The efforts of all elements that a scene shows as arrows.
 ///
-/// They are those of the laws at the states; no reaction enters them.
+/// The efforts follow from the laws at the states, without reactions.
 pub fn efforts(model: &Model, states: &[State]) -> Vec<Effort> {
     let mut found = Vec::new();
     for (name, symbols) in model.symbols() {

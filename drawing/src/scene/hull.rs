@@ -3,10 +3,10 @@
 use crate::plane::{minus, At, Extent};
 use std::cmp::Ordering;
 
-/// Points that are closer to a line than this share of its length lie on it.
+/// Points whose distance from a line is below this fraction of its length lie on it.
 const STRAIGHT: f64 = 1e-9;
 
-/// Convex hull of points, counter-clockwise; the two ends where all lie on a line.
+/// The convex hull of points, counter-clockwise. If all points lie on a line, its two ends.
 ///
 /// Andrew's monotone chain (Inf. Proc. Lett. 9, 1979).
 pub fn hull(mut points: Vec<At>) -> Vec<At> {

@@ -1,4 +1,4 @@
-//! The unit in which lengths of a drawing are short.
+//! The unit in which the lengths of a drawing have few digits.
 
 use serde::{Deserialize, Serialize};
 
@@ -11,11 +11,12 @@ pub struct Length {
     pub metres: f64,
 }
 
-/// Under this, m, a length is a rounding error.
+/// Lengths below this value, m, are rounding errors.
 const NOISE: f64 = 1e-9;
 
 impl Length {
-    /// The unit in which a length has one to four digits before the point.
+    /// The unit in which a length has one to four digits before the decimal point. From 0.2 m to 2 m, and for
+    /// rounding errors, the unit is m.
     pub fn fitting(size: f64) -> Self {
         let power = match size {
             _ if size < NOISE || (0.2..2.0).contains(&size) => 0,
@@ -35,7 +36,7 @@ impl Length {
     }
 }
 
-/// A number as an exponent.
+/// A number as a superscript exponent.
 fn raised(power: i32) -> String {
     let digits: Vec<char> = "⁰¹²³⁴⁵⁶⁷⁸⁹".chars().collect();
     let of = |c: char| c.to_digit(10).map_or('⁻', |digit| digits[digit as usize]);

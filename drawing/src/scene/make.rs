@@ -13,9 +13,9 @@ use kempe::model::Model;
 
 /// Describes a model for drawing.
 ///
-/// `poses` are x and y in m and the angle in rad of each moving body at some instants, at least one. Bounds and the
-/// reach of symbols contain all of them. An arrow has the direction of the largest of its `efforts`; without efforts it
-/// has the one that its element declares.
+/// `poses` are x and y in m and the angle in rad of each moving body at one or more instants. Bounds and the reach of
+/// symbols cover all instants. An arrow has the direction of the largest of its `efforts`. Without efforts, it has
+/// the direction that its element declares.
 pub fn scene(model: &Model, poses: &[Vec<Pose>], efforts: &[Effort]) -> Scene {
     let paths = Paths(poses);
     let (bodies, joints) = (bodies(model), joints(model));

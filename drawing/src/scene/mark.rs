@@ -1,9 +1,9 @@
-//! The vocabulary of symbols.
+//! The marks that symbols use.
 
 use kempe::elements;
 use serde::{Deserialize, Serialize};
 
-/// What is drawn; the words are described at [`elements::Mark`].
+/// The mark of a symbol. [`elements::Mark`] describes the marks.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 #[allow(missing_docs)]
@@ -81,13 +81,13 @@ impl From<elements::Mark> for Mark {
 }
 
 impl Mark {
-    /// Along the line between two points.
+    /// Whether the mark is drawn along the line between two points.
     pub fn is_along(self) -> bool {
         let of_line = [Self::Rod, Self::Spring, Self::Dashpot, Self::Cylinder, Self::DriveCylinder];
         of_line.contains(&self)
     }
 
-    /// Around a point, in rings.
+    /// Whether the mark is drawn around a point, in rings.
     pub fn is_around(self) -> bool {
         matches!(
             self,
@@ -100,32 +100,32 @@ impl Mark {
         )
     }
 
-    /// It turns on a pin where an end of it is on ground.
+    /// Whether the mark turns on a pin if one of its ends is on ground.
     pub fn is_pinned(self) -> bool {
         self == Self::Pin || self.is_along()
     }
 
-    /// In the size of the mechanism, around the point of body j.
+    /// Whether the mark is a wheel, drawn to scale around the point of body j.
     pub fn is_wheel(self) -> bool {
         self == Self::Circle || self.is_toothed_wheel()
     }
 
-    /// A wheel or ring with teeth.
+    /// Whether the mark is a wheel or ring with teeth.
     pub fn is_toothed_wheel(self) -> bool {
         matches!(self, Self::ToothedWheel | Self::ToothedRing)
     }
 
-    /// Along a line of body i, as long as what moves on it goes.
+    /// Whether the mark is a guide along a line of body i, as long as the motion along it.
     pub fn is_guide(self) -> bool {
         matches!(self, Self::Slide | Self::Slot | Self::ToothedLine | Self::Track)
     }
 
-    /// The colour of drivers.
+    /// Whether the mark has the colour of drivers.
     pub fn is_drive(self) -> bool {
         matches!(self, Self::DriveTurn | Self::DriveShift | Self::DriveCylinder)
     }
 
-    /// How many of its two points it does not show, that of body i first.
+    /// Number of its two points that the mark does not show, beginning with the point on body i.
     pub fn unmarked(self) -> usize {
         match self {
             Self::ShiftStop | Self::Round => 2,

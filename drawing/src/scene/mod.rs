@@ -1,6 +1,6 @@
-//! The static part of a scene: what is drawn of a model, as plain data.
+//! The static part of a scene: the drawing of a model as plain data.
 //!
-//! `docs/scene.md` describes its text in JSON.
+//! `docs/scene.md` describes its JSON format.
 
 mod bodies;
 mod bounds;

@@ -1,4 +1,4 @@
-//! Where bodies and their points are at some instants.
+//! Positions of bodies and their points at some instants.
 
 use crate::plane::{placed, At, Pose};
 
@@ -7,7 +7,7 @@ use crate::plane::{placed, At, Pose};
 pub struct Paths<'a>(pub &'a [Vec<Pose>]);
 
 impl<'a> Paths<'a> {
-    /// The pose of a body at each instant; ground, number 0, does not move.
+    /// The pose of a body at each instant. Ground, with the number 0, does not move.
     pub fn of(self, body: usize) -> impl Iterator<Item = Pose> + 'a {
         let at = move |poses: &Vec<Pose>| match body {
             0 => [0.0; 3],
@@ -16,7 +16,7 @@ impl<'a> Paths<'a> {
         self.0.iter().map(at)
     }
 
-    /// The place of a point of a body at each instant.
+    /// The position of a point of a body at each instant.
     pub fn point(self, body: usize, at: At) -> impl Iterator<Item = At> + 'a {
         self.of(body).map(move |pose| placed(pose, at))
     }
@@ -27,7 +27,7 @@ impl<'a> Paths<'a> {
     }
 }
 
-/// Least and largest of some numbers.
+/// Smallest and largest of some numbers.
 pub fn range(values: impl Iterator<Item = f64>) -> [f64; 2] {
     let ends = [f64::INFINITY, f64::NEG_INFINITY];
     values.fold(ends, |[low, high], x| [low.min(x), high.max(x)])

@@ -1,4 +1,4 @@
-//! Symbols of a model with their places: how far they reach, where they are, which sense they have.
+//! Symbols of a model with their geometry: reach, position and sense.
 
 use super::bodies::pair;
 use super::data::Symbol;
@@ -13,9 +13,10 @@ use kempe::model::Model;
 
 type Found<'a> = Vec<(&'a str, Vec<SceneSymbol>)>;
 
-/// Marks of joints, drivers and forces, with their places on two bodies.
+/// Marks of joints, drivers and forces, with their points on two bodies.
 ///
-/// A mark without points is drawn around the joint that its two bodies share, otherwise at the mass centre of body j.
+/// A mark without points is drawn around the joint between its two bodies; without such a joint, at the mass centre
+/// of body j.
 pub fn symbols(model: &Model, paths: Paths<'_>, efforts: &[Effort]) -> Vec<Symbol> {
     let all = model.symbols();
     let each = all.iter().flat_map(|(name, own)| own.iter().map(move |one| (*name, one)));
@@ -70,7 +71,7 @@ fn symbol(
     found
 }
 
-/// The angle from i to j at the first instant, and by how much it differs from that at most.
+/// The angle from i to j at the first instant, and its largest deviation from this angle.
 fn turning(paths: Paths<'_>, bodies: [usize; 2]) -> [f64; 2] {
     let turns: Vec<f64> = paths.both(bodies).map(|[i, j]| j[2] - i[2]).collect();
     let first = turns.first().copied().unwrap_or(0.0);
@@ -78,26 +79,26 @@ fn turning(paths: Paths<'_>, bodies: [usize; 2]) -> [f64; 2] {
     [first, most]
 }
 
-/// From the point of i to that of j, at each instant.
+/// The vector from the point on i to the point on j, at each instant.
 fn apart<'a>(paths: Paths<'a>, of: &Symbol) -> impl Iterator<Item = At> + use<'a> {
     let (at_i, at_j) = (of.at_i(), of.at_j());
     paths.both(of.bodies).map(move |[i, j]| minus(placed(j, at_j), placed(i, at_i)))
 }
 
-/// The place of the point of j along the axis of i and to its left, from the point of i.
+/// The position of the point on j, along the axis of i and to its left, relative to the point on i.
 fn along<'a>(paths: Paths<'a>, of: &Symbol) -> impl Iterator<Item = At> + use<'a> {
     let axis = of.axes[0];
     let away = apart(paths, of).zip(paths.of(of.bodies[0]));
     away.map(move |(away, i)| in_axes(i, axis, away))
 }
 
-/// A global vector along an axis of a body and to its left.
+/// Components of a global vector along an axis of a body and to its left.
 fn in_axes(body: Pose, axis: f64, vector: At) -> At {
     let u = direction(body[2] + axis);
     [dot(vector, u), dot(vector, left_of(u))]
 }
 
-/// The place of a stop on body i, beside which the point of j is where it comes nearest.
+/// The position on body i of a stop, next to the closest position of the point on j.
 fn stopped(paths: Paths<'_>, of: &Symbol) -> At {
     let mut nearest = [f64::NEG_INFINITY, 0.0];
     for place in along(paths, of) {
@@ -109,7 +110,7 @@ fn stopped(paths: Paths<'_>, of: &Symbol) -> At {
     [at[0] + nearest[1] * aside[0], at[1] + nearest[1] * aside[1]].map(rounded)
 }
 
-/// Least and largest place of the contact along a face of i, from the point of i, m.
+/// Smallest and largest position of the contact along a face of i, relative to the point on i, m.
 fn touched(model: &Model, paths: Paths<'_>, of: &Symbol) -> [f64; 2] {
     let item = model.constraints.iter().find(|item| item.name == of.element);
     let Some(on) = item.and_then(|item| item.element.curve()) else { return [0.0; 2] };
@@ -123,13 +124,13 @@ fn touched(model: &Model, paths: Paths<'_>, of: &Symbol) -> [f64; 2] {
     }))
 }
 
-/// The point of body j in the joint that it shares with body i, or its mass centre.
+/// The point on body j of the joint with body i, or the mass centre of body j.
 fn pivot(model: &Model, all: &Found<'_>, [i, j]: [usize; 2]) -> At {
     let shared = all.iter().flat_map(|(_, own)| own).find_map(|other| {
         let ends = [&other.i, &other.j];
         let bodies = ends.map(|end| end.body.0);
         let same = bodies == [i, j] || bodies == [j, i];
-        // of two ends on one body, the second one counts
+        // if both ends are on one body, the second end is used
         let end = ends.into_iter().rev().find(|end| end.body.0 == j)?;
         let known = i == j || ends.iter().all(|end| end.point.is_some());
         end.point.as_ref().filter(|_| same && known).map(pair)
@@ -137,7 +138,7 @@ fn pivot(model: &Model, all: &Found<'_>, [i, j]: [usize; 2]) -> At {
     shared.unwrap_or_else(|| pair(&model.bodies[j].center))
 }
 
-/// The direction of a force in the frame of body i when it is largest, rad.
+/// The direction of a force in the frame of body i when its magnitude is largest, rad.
 fn pushing(paths: Paths<'_>, of: &Symbol, forces: &[At]) -> f64 {
     let mut largest = (0.0, of.axes[0]);
     for (&[x, y], i) in forces.iter().zip(paths.of(of.bodies[0])) {
@@ -150,7 +151,7 @@ fn pushing(paths: Paths<'_>, of: &Symbol, forces: &[At]) -> f64 {
     largest.1
 }
 
-/// The sign of the value of largest magnitude.
+/// The sign of the value with the largest magnitude.
 fn sign(values: &[f64]) -> i8 {
     let mut most = 0.0_f64;
     for &value in values {

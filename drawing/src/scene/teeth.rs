@@ -1,7 +1,7 @@
-//! How many teeth drawn gears have, and where, so that those of a pair mesh.
+//! Numbers and positions of the teeth of drawn gears, so that pairs mesh.
 //!
-//! Meshing wheels and racks have one module. Where the model does not give it, it is chosen such that the radii have
-//! nearly whole numbers of teeth.
+//! Meshing wheels and racks have one module. If the model does not define it, it is chosen such that the numbers of
+//! teeth are nearly integers.
 
 use super::data::{Symbol, Teeth};
 use super::mark::Mark;
@@ -9,24 +9,24 @@ use super::paths::Paths;
 use crate::plane::{ahead, direction, dot, left_of, minus, placed, size, At, Pose};
 use std::f64::consts::PI;
 
-/// Error of a number of teeth at which it is a whole one.
+/// Deviation below which a number of teeth counts as an integer.
 const WHOLE: f64 = 1e-6;
-/// Height of a tooth above the pitch line, and distance of the rim of a ring from it, in pitches.
+/// Height of a tooth above the pitch line, and distance of the rim of a ring from the pitch line, in pitches.
 const TOOTH: f64 = 0.25;
 const RIM: f64 = 0.9;
 
-/// How far the drawing of a wheel reaches from its centre, m.
+/// The outer radius of a drawn wheel, m.
 pub fn outer_radius(symbol: &Symbol) -> f64 {
     let share = if symbol.mark == Mark::ToothedRing { RIM } else { TOOTH };
     symbol.radii()[1] + symbol.teeth.map_or(0.0, |teeth| share * PI * teeth.module)
 }
 
-/// Symbols with one key are one wheel or rack: its mark, body, place and radius.
+/// Mark, body, position and radius. Symbols with equal keys are one wheel or rack.
 type Key = (Mark, usize, [i64; 2], u64);
-/// Two toothed symbols that mesh, by their numbers.
+/// The indices of two toothed symbols that mesh.
 type Pair = [usize; 2];
 
-/// Gives each toothed symbol its teeth, which mesh at the first instant.
+/// Sets the teeth of all toothed symbols. They mesh at the first instant.
 pub fn add_teeth(symbols: &mut [Symbol], paths: Paths<'_>) {
     for group in connected(symbols, &pairs(symbols)) {
         let module = module(symbols, &group);
@@ -60,7 +60,7 @@ fn is_toothed(mark: Mark) -> bool {
     mark.is_toothed_wheel() || mark == Mark::ToothedLine
 }
 
-/// The toothed symbols of each element that has two.
+/// The pairs of toothed symbols, for each element with two.
 fn pairs(symbols: &[Symbol]) -> Vec<Pair> {
     let mut found = Vec::new();
     let mut first = 0;
@@ -86,7 +86,7 @@ fn touches(symbols: &[Symbol], group: &[Pair], keys: &[Key]) -> bool {
     group.iter().flatten().any(|k| keys.contains(&key(&symbols[*k])))
 }
 
-/// The pairs that have wheels in common, directly or through others.
+/// Groups of pairs that are connected by common wheels, directly or indirectly.
 fn connected(symbols: &[Symbol], pairs: &[Pair]) -> Vec<Vec<Pair>> {
     let mut groups: Vec<Vec<Pair>> = Vec::new();
     for pair in pairs {
@@ -101,7 +101,7 @@ fn connected(symbols: &[Symbol], pairs: &[Pair]) -> Vec<Vec<Pair>> {
     groups
 }
 
-/// The pairs of a group such that each has a wheel in common with those before.
+/// The pairs of a group, ordered such that each has a wheel in common with earlier pairs.
 fn in_order(symbols: &[Symbol], group: &[Pair]) -> Vec<Pair> {
     let mut left = group.to_vec();
     let mut seen = vec![key(&symbols[group[0][0]])];
@@ -128,7 +128,7 @@ fn module(symbols: &[Symbol], group: &[Pair]) -> f64 {
         };
         radii.iter().map(off).fold(0.0, f64::max)
     };
-    // of the smallest wheel, the usual number first
+    // numbers of teeth of the smallest wheel, the usual number first
     let counts: Vec<f64> = std::iter::once(18).chain(14..31).map(f64::from).collect();
     let whole = counts.iter().find(|count| error(count) < WHOLE);
     let best = whole.or_else(|| counts.iter().min_by(|a, b| error(a).total_cmp(&error(b))));
@@ -143,7 +143,7 @@ struct Mesh<'a> {
 }
 
 impl Mesh<'_> {
-    /// The phase of the second symbol whose teeth are in the gaps of the first.
+    /// The phase of the second symbol for which its teeth are in the gaps of the first.
     fn phase(&self, phase: f64) -> f64 {
         let [first, second] = self.symbols;
         let pitch = PI * self.module;
@@ -152,7 +152,7 @@ impl Mesh<'_> {
         let (other, other_sign) = self.of_pitches(second, contact);
         let unit = if first.mark.is_toothed_wheel() { first.radii()[1] } else { 1.0 };
         place -= phase * unit / pitch;
-        // a gap of the first one is at this distance along the common tangent, in pitches
+        // a gap of the first symbol is at this distance along the common tangent, in pitches
         let gap = (0.5 - place) * sign;
         let shift = other + other_sign * gap; // whole where a tooth of the second one is in the gap
         if second.mark.is_toothed_wheel() {
@@ -161,7 +161,7 @@ impl Mesh<'_> {
         shift * pitch
     }
 
-    /// Pitch point and the direction of the common tangent.
+    /// The pitch point and the direction of the common tangent.
     fn contact(&self) -> (At, At) {
         let [first, second] = self.symbols;
         let swap = !first.mark.is_toothed_wheel();
@@ -179,7 +179,7 @@ impl Mesh<'_> {
         (ahead(centre, radius, out), left_of(out))
     }
 
-    /// The place of the pitch point on a symbol, in pitches, and its sense along the tangent.
+    /// The position of the pitch point on a symbol, in pitches, and its sense along the tangent.
     fn of_pitches(&self, symbol: &Symbol, (point, along): (At, At)) -> (f64, f64) {
         let pitch = PI * self.module;
         if symbol.mark.is_toothed_wheel() {

@@ -1,7 +1,8 @@
 //! Whole turns: the choice among angles that differ by multiples of 2π.
 //!
-//! A guess or `set` fixes the whole turns of its body, and of all bodies whose relative angle to it a slide fixes. The
-//! turns of wheels that roll on others are fixed too: a whole turn of one moves the others. For the other bodies, each torsional spring, in the order of the file, is relaxed as far as whole turns can relax it.
+//! A guess or `set` fixes the whole turns of its body, and of all bodies whose relative angles are fixed by slides.
+//! The turns of wheels that roll on each other are also fixed, because a whole turn of one wheel moves the others.
+//! For the other bodies, each torsional spring is relaxed as far as whole turns allow, in the order of the file.
 
 use super::targets::{nearest_turn, Targets};
 use crate::elements::{BodyId, Fixes, Group};
@@ -10,7 +11,7 @@ use crate::equations::kinematics::Motions;
 use crate::model::{ConstraintItem, Model};
 use std::f64::consts::{PI, TAU};
 
-/// Shifts free angles of `q` by whole turns; returns a warning for each spring still beyond half a turn.
+/// Shifts free angles of `q` by whole turns. Returns a warning for each spring that remains beyond half a turn.
 pub fn relax(model: &Model, targets: &Targets, q: &mut [f64]) -> Vec<String> {
     let group = turning_together(model);
     let mut fixed = vec![false; group.len()];
@@ -51,7 +52,7 @@ pub fn relax(model: &Model, targets: &Targets, q: &mut [f64]) -> Vec<String> {
     warnings
 }
 
-/// For each body, the first of the bodies whose relative angle to it is fixed by slides.
+/// For each body, the first of the bodies whose angles relative to it are fixed by slides.
 fn turning_together(model: &Model) -> Vec<usize> {
     let mut group: Vec<usize> = (0..model.bodies.len()).collect();
     let turns_together = |item: &&ConstraintItem| item.element.fixes().contains(&Fixes::Direction);
@@ -62,7 +63,7 @@ fn turning_together(model: &Model) -> Vec<usize> {
     (0..group.len()).map(|b| root(&mut group, b)).collect()
 }
 
-/// The first body of a group; the way to it is halved.
+/// The first body of a group. Shortens the path to it (path halving).
 fn root(group: &mut [usize], mut b: usize) -> usize {
     while group[b] != b {
         group[b] = group[group[b]];
@@ -71,7 +72,7 @@ fn root(group: &mut [usize], mut b: usize) -> usize {
     b
 }
 
-/// Turns bodies by whole turns, so that driven relative angles have their values and not others of the same pose.
+/// Turns bodies by whole turns so that driven relative angles have their prescribed values.
 pub(in crate::analyses) fn wind(model: &Model, t: f64, q: &mut [f64]) {
     for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
         let ([i, j], [equation]) = (&item.bodies[..], &item.equations[..]) else { continue };

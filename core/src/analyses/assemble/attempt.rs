@@ -12,7 +12,7 @@ use crate::solve::newton::Record;
 
 /// Largest number of placements from which Newton's method is tried.
 pub(super) const MOST_TRIES: usize = 16;
-/// Largest difference of a given pose from `set` with which bodies are not placed anew, rad.
+/// Largest difference between a given pose and `set` for which the bodies are not placed again, rad.
 const NEAR: f64 = 0.35;
 
 /// A position in which the mechanism closes.
@@ -22,7 +22,7 @@ pub(super) struct Closed {
     pub warnings: Vec<String>,
 }
 
-/// The internal coordinates that the state or the guess gives, by their columns. All others are those of the nearest
+/// The internal coordinates given by the state or the guess, with their columns. All others follow from the nearest
 /// contact.
 pub(super) fn internal(model: &Model, request: &Request) -> Vec<(usize, f64)> {
     let state = request.state.iter().flat_map(|state| {
@@ -36,7 +36,7 @@ pub(super) fn internal(model: &Model, request: &Request) -> Vec<(usize, f64)> {
     state.chain(guess).collect()
 }
 
-/// Newton's method from a position; the error is the position that it reached.
+/// Applies Newton's method from a position. The error is the position that it reached.
 pub(super) fn close_from(
     closing: &mut Closing<'_>,
     internal: &[(usize, f64)],
@@ -53,7 +53,7 @@ pub(super) fn close_from(
     }
 }
 
-/// The whole position, if every coordinate has a target and hard targets lie near soft ones.
+/// The whole position, if every coordinate has a target and hard targets are near soft targets.
 pub(super) fn given(model: &Model, asked: &Targets) -> Option<Vec<f64>> {
     let near = |b: usize| match (asked.hard[b][2], asked.soft[b][2]) {
         (Some(hard), Some(soft)) => (hard - soft).abs() < NEAR,

@@ -3,7 +3,7 @@
 use crate::elements::Fixes;
 use crate::model::{size, ConstraintItem, Dependence, Model};
 
-/// The constraints of each body that may place it, and the size of the mechanism.
+/// The constraints that may place each body, and the size of the mechanism.
 pub(super) struct ByEquation<'a> {
     pub model: &'a Model,
     pub size: f64,
@@ -40,7 +40,7 @@ impl<'a> ByEquation<'a> {
     }
 }
 
-/// Whether the laws of a constraint use nothing but time and the positions of its own bodies.
+/// Whether the laws of a constraint depend only on time and the positions of its own bodies.
 fn is_of_its_bodies(item: &ConstraintItem) -> bool {
     let mut depends = Dependence::default();
     if let Some(law) = &item.law {

@@ -1,7 +1,8 @@
-//! Placing a body that has one freedom left by a contact with a curve, such as the follower of a cam.
+//! Placement of a body with one remaining freedom by a contact with a curve, such as the follower of a cam.
 //!
-//! For a pose of the body, the internal coordinate u takes its nearest value. The part of Φ across ∂Φ/∂u then is the
-//! distance of the bodies, with a sign. It is sampled along the freedom; its zeros are the places of contact.
+//! For each pose of the body, the internal coordinate u takes its nearest value. The component of Φ perpendicular to
+//! ∂Φ/∂u is then the signed distance of the bodies. It is sampled along the freedom, and its zeros are the positions
+//! of contact.
 
 use super::equation_placement::{zeros, Freedom, NOTHING};
 use super::placer::Placer;
@@ -9,18 +10,18 @@ use crate::elements::At;
 use crate::math::{Pose, Vec2};
 use std::f64::consts::PI;
 
-/// Largest distance that remains at a contact, as a share of the reach of the curve. Beyond the end of a curve, more
-/// remains.
+/// Largest distance that remains at a contact, as a fraction of the reach of the curve. Beyond the end of a curve, a
+/// larger distance remains.
 const TOUCHES: f64 = 1e-3;
-/// Halvings of an interval with a contact; each searches the nearest u.
+/// Number of halvings of an interval with a contact. Each halving finds the nearest u.
 const HALVINGS: i32 = 12;
-/// Places along the freedom.
+/// Number of samples along the freedom.
 const PLACES: usize = 48;
-/// Half of the length along a slide in which contacts are looked for, as a multiple of the reach of the curve.
+/// Half of the length along a slide in which contacts are searched, as a multiple of the reach of the curve.
 const FAR: f64 = 3.0;
 
 impl Placer<'_> {
-    /// The poses of body `b` at which constraint `k`, a contact with a curve, holds; the preferred first.
+    /// The poses of body `b` at which constraint `k`, a contact with a curve, holds; the preferred pose first.
     pub fn contacts(&self, k: usize, b: usize, freedom: &Freedom) -> Vec<Pose> {
         let item = &self.equations.model.constraints[k];
         let Some(curve) = item.element.curve() else { return Vec::new() };
@@ -31,7 +32,7 @@ impl Placer<'_> {
         };
         let Some(other) = self.poses[other] else { return Vec::new() };
         let own = item.element.attachment(place).s;
-        // the place of the freedom at which the point of the body is nearest to the other body
+        // the position on the freedom at which the point of the body is nearest to the other body
         let target = other.point(item.element.attachment(1 - place).s);
         let from = match freedom {
             Freedom::Slide(rail) => (target - rail.pose.point(own)).dot(rail.direction),
@@ -57,7 +58,7 @@ impl Placer<'_> {
         found.into_iter().map(|x| freedom.pose(x)).collect()
     }
 
-    /// The distance of the bodies of a contact across ∂Φ/∂u, with a sign, and |Φ|, with body `b` at a pose.
+    /// The signed distance of the bodies of a contact perpendicular to ∂Φ/∂u, and |Φ|, with body `b` at a pose.
     fn distance(&self, k: usize, b: usize, pose: &Pose) -> Option<[f64; 2]> {
         let item = &self.equations.model.constraints[k];
         let place = |body: usize| if body == b { Some(*pose) } else { self.poses[body] };

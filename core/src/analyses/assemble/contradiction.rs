@@ -1,9 +1,9 @@
 //! Drivers, driven joints and values of `set` that contradict each other.
 //!
-//! The joints alone can be closed. Drivers are added one by one, in the order of the file. The first one that cannot be
-//! met contradicts those before it if its row of Φ_q depends on theirs; the left null vector shows which ones. A row
-//! that depends on the others at a limit of the motion only, such as a dead point, does not: it is judged at a
-//! neighbouring position too.
+//! It is known that the joints alone can be closed. Drivers are added one by one, in the order of the file. The first
+//! driver that cannot be met contradicts earlier ones if its row of Φ_q depends on their rows; the left null vector
+//! shows which ones. A row that is dependent only at a limit of the motion, such as a dead point, is not a
+//! contradiction. Dependence is therefore also checked at a neighbouring position.
 
 use super::failure::{freed, Failure, Fault};
 use super::holding::SET;
@@ -22,18 +22,18 @@ use crate::model::{listed, row_scales, size, Model};
 use crate::solve::RANK_TOLERANCE;
 use std::sync::Arc;
 
-/// Most equations of a model in which contradictions are looked for.
+/// Largest number of equations of a model for which contradictions are searched.
 const MOST_ROWS: usize = 300;
 /// Distance of the neighbouring position, rad.
 const NEIGHBOUR: f64 = 0.02;
-/// Largest relative residual of velocities that agree.
+/// Largest relative residual of velocities that are compatible.
 pub(super) const AGREE: f64 = 1e-8;
 
 /// A driven constraint that cannot be met together with others.
 struct Contradiction {
     /// The constraints that hold, ascending.
     met: Vec<usize>,
-    /// The one that then does not hold.
+    /// The constraint that then does not hold.
     missed: usize,
     by: f64,
     /// Order of the derivative in time: 0 for positions, 1 for rates, 2 for accelerations.
@@ -49,12 +49,12 @@ fn parts(model: &Model) -> Option<[Vec<usize>; 2]> {
     (!driven.is_empty() && model.layout.n_rows <= MOST_ROWS).then_some([driven, rest])
 }
 
-/// The model with some of its constraints only.
+/// The model with only some of its constraints.
 fn keeping(model: &Model, kept: &[usize]) -> Model {
     Model::new(&Arc::new(model.blueprint.keeping(kept)), &model.parameters)
 }
 
-/// The constraint after those that are met, among those whose rows its row depends on; None if it is independent.
+/// The constraints in `met` on whose rows the row of constraint `last` depends. None if it is independent.
 fn dependent(
     model: &Model,
     t: f64,
@@ -73,7 +73,8 @@ fn dependent(
     Some(others)
 }
 
-/// Positions that contradict each other in a model that contains drivers for `set`, if that is why it does not close.
+/// Positions that contradict each other in a model with drivers for `set`, if this is the reason that it does not
+/// close.
 pub(super) fn of_positions(
     model: &Model,
     request: &Request,
@@ -106,7 +107,8 @@ pub(super) fn of_positions(
     None
 }
 
-/// Joints that contradict each other: their equations depend on each other at every position, but not their values.
+/// Joints that contradict each other: their equations depend on each other at every position, but their values do not
+/// agree.
 pub(super) fn of_joints(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Option<Failure> {
     if model.layout.n_rows > MOST_ROWS || q.len() != model.layout.n_q {
         return None;
@@ -124,7 +126,7 @@ pub(super) fn of_joints(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Opt
     let one = here.iter().find(contradicts)?;
     let name = |k: &usize| model.constraints[*k].name.as_str();
     let names = listed(&one.group.iter().map(name).collect::<Vec<_>>());
-    // gaps add up to the missing length; where they are small, an angle is missed
+    // gaps add up to the missing length; if they are small, an angle does not agree
     let miss = |k: &usize, unit: &str| {
         let first = model.layout.constraints[*k].rows.start;
         let own = model.constraints[*k].equations.iter().enumerate();
@@ -151,7 +153,7 @@ pub(super) fn of_joints(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Opt
     })
 }
 
-/// Rates that contradict each other at a position, in a model that contains drivers for those that are set.
+/// Rates that contradict each other at a position, in a model with drivers for the rates that are set.
 pub(super) fn of_rates(
     model: &Model,
     request: &Request,
@@ -212,7 +214,7 @@ pub(super) fn of_accelerations(
     let scales = row_scales(model);
     redundant.iter().find_map(|one| {
         let missed = last(one)?;
-        // beside accelerations of a size of the mechanism, or of 1 rad, per s²
+        // relative to accelerations of one size of the mechanism, or of 1 rad, per s²
         let parts = one.factors.iter().map(|(row, y)| (y * gamma[*row], (y * scales[*row]).abs()));
         let (sum, size) = parts.fold((0.0, 0.0), |(sum, size), (part, scale)| {
             (sum + part, f64::max(size, f64::max(f64::abs(part), scale)))
@@ -237,7 +239,7 @@ fn label(model: &Model, request: &Request, k: usize) -> String {
     }
 }
 
-/// The place of a constraint in a file.
+/// The path of a constraint in a file.
 fn place(model: &Model, k: usize) -> Vec<String> {
     let item = &model.constraints[k];
     match item.name.strip_prefix(SET) {
@@ -250,7 +252,7 @@ fn failure(model: &Model, request: &Request, found: &Contradiction) -> Failure {
     let Contradiction { met, missed, by, order } = found;
     let driven: Vec<usize> =
         met.iter().filter(|k| model.constraints[**k].driven).copied().collect();
-    // without another driver, the joints decide the quantity
+    // without another driver, the joints determine the quantity
     let others = if driven.is_empty() { met } else { &driven };
     let labels: Vec<String> = others.iter().map(|k| label(model, request, *k)).collect();
     let others = listed(&labels.iter().map(String::as_str).collect::<Vec<_>>());

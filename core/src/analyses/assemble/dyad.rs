@@ -2,10 +2,10 @@
 
 use crate::math::Vec2;
 
-/// The possible places of the joint of a dyad.
+/// The possible positions of the joint of a dyad.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Closure {
-    /// To the left of the line from the first to the second centre, and to its right.
+    /// One to the left of the line from the first to the second centre, and one to its right.
     Two(Vec2, Vec2),
     /// The circles touch, or they miss each other by the given length: positive if the dyad is too short,
     /// negative if one arm is too long for the other.

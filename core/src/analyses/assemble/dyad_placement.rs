@@ -1,4 +1,4 @@
-//! Closing dyads while bodies are placed: two bodies on pins, and a body on a slide with a link.
+//! Closing of dyads during placement: two bodies on pins, or a body on a slide with a link.
 
 use super::dyad::{close, Closure};
 use super::legs::Leg;
@@ -34,7 +34,7 @@ impl Placer<'_> {
         let at_joint = [joint.own, joint.at_other];
         let arms = [0, 1].map(|k| at_joint[k] - carried[k].0.own);
         let [p1, p2] = carried.map(|(_, at)| at);
-        // a body may turn about three pins in one place
+        // a body may turn about three pins at one position
         self.result.assumed |= arms.iter().any(|arm| arm.norm() == 0.0);
         let pin = self.pin_between(carried.map(|(leg, _)| leg.other));
         let opposite =
@@ -74,7 +74,7 @@ impl Placer<'_> {
         self.result.gaps.extend(gap);
     }
 
-    /// Closes body `b`, if it is on a slide and a link from a placed body reaches it.
+    /// Closes body `b` if it is on a slide and connected to a placed body by a link.
     pub fn close_slide_of(&mut self, b: usize) {
         let Some((slide, rail)) = self.rail(b).filter(|_| self.is_open(b)) else { return };
         let link = self.legs[b].iter().find_map(|joint| {
@@ -129,7 +129,7 @@ impl Placer<'_> {
         });
     }
 
-    /// As [`Placer::decide`], but requested places decide if there are no requested angles.
+    /// Like [`Placer::decide`], but requested positions decide if there are no requested angles.
     fn decide_place(&mut self, bodies: [usize; 2], closures: [&[Pose; 2]; 2]) -> usize {
         let off = |poses: &[Pose; 2], c: usize| -> Option<f64> {
             let squares = bodies.iter().zip(poses).filter_map(|(b, pose)| {
@@ -154,7 +154,7 @@ impl Placer<'_> {
         self.targets.nearest_turn(b, angle)
     }
 
-    /// Chooses one of two closures: the one nearer to the guess, otherwise an undecided choice.
+    /// Chooses one of two closures: the closure nearer to the guess, otherwise an undecided choice.
     fn decide(&mut self, bodies: [usize; 2], angles: &[[f64; 2]]) -> usize {
         let distance = |pair: &[f64; 2]| -> Option<f64> {
             let squares = bodies.iter().zip(pair).filter_map(|(b, angle)| {
@@ -170,8 +170,9 @@ impl Placer<'_> {
     }
 }
 
-/// The left and the right closure of a dyad on two anchors, the unfolded first: the one away from the pin `opposite` of
-/// the loop. If this pin is on the line of the anchors, or missing, the left closure is first.
+/// The left and the right closure of a dyad on two anchors. The unfolded closure, which lies away from the pin
+/// `opposite` of the loop, is first. If this pin is on the line of the anchors, or missing, the left closure is
+/// first.
 fn unfolded_first(
     [p1, p2]: [Vec2; 2],
     [left, right]: [Vec2; 2],

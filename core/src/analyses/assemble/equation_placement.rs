@@ -1,5 +1,5 @@
-//! Placing a body that has one freedom left, by an equation to placed bodies: it turns about a pin, or moves along a
-//! slide, until the equation holds. A wheel beside a line is placed by two equations.
+//! Placement of a body with one remaining freedom by an equation to placed bodies: it turns about a pin, or moves
+//! along a slide, until the equation holds. A wheel on a line is placed by two equations.
 
 use super::legs::Leg;
 use super::placer::Placer;
@@ -8,14 +8,14 @@ use crate::elements::{At, BodyId, Coordinate, Fixes};
 use crate::equations::Laws;
 use crate::math::{Local, Pose, Rotation, Twist, Vec2};
 
-/// Angles at which an equation is evaluated to find the signs of its solutions.
+/// Number of angles at which an equation is evaluated to bracket its solutions.
 const SAMPLES: usize = 72;
-/// Largest change of an equation, over the size, that counts as none.
+/// Largest change of an equation, relative to the size, that counts as zero.
 pub(super) const NOTHING: f64 = 1e-9;
-/// Smallest component of a line along a coordinate with which the coordinate decides the place.
+/// Smallest component of a line along a coordinate for which the coordinate determines the position.
 const ACROSS: f64 = 1e-9;
 
-/// The freedom that a body has left.
+/// The remaining freedom of a body.
 pub(super) enum Freedom {
     Turn(Leg, Vec2),
     Slide(Rail),
@@ -35,7 +35,7 @@ impl Freedom {
 }
 
 impl Placer<'_> {
-    /// Φ of a constraint with body `b` at a pose and all others placed; None if one is not.
+    /// Φ of a constraint with body `b` at a pose and all other bodies placed. None if a body is not placed.
     fn phi(&self, k: usize, b: usize, pose: &Pose) -> Option<Vec<f64>> {
         let item = &self.equations.model.constraints[k];
         let place = |body: usize| if body == b { Some(*pose) } else { self.poses[body] };
@@ -55,7 +55,7 @@ impl Placer<'_> {
         Some(phi)
     }
 
-    /// Places body `b` if it has one freedom left and an equation decides it.
+    /// Places body `b` if it has one remaining freedom that an equation determines.
     pub fn close_equation_of(&mut self, b: usize) {
         if !self.is_open(b) {
             return;
@@ -81,7 +81,8 @@ impl Placer<'_> {
         }
     }
 
-    /// The poses at which an equation of constraint `k` holds, the preferred first, and whether there are no others.
+    /// The poses at which an equation of constraint `k` holds, the preferred pose first, and whether the list is
+    /// complete.
     fn solutions(&self, k: usize, b: usize, freedom: &Freedom) -> (Vec<Pose>, bool) {
         let fixes = self.equations.model.constraints[k].element.fixes();
         if fixes.contains(&Fixes::Contact) {
@@ -142,7 +143,7 @@ impl Placer<'_> {
         (poses, all)
     }
 
-    /// Whether the point of body j is ahead of that of body i along the axis of constraint `k`.
+    /// Whether the point of body j is ahead of the point of body i along the axis of constraint `k`.
     fn is_ahead(&self, k: usize, b: usize, pose: &Pose) -> bool {
         let item = &self.equations.model.constraints[k];
         let place = |end: usize| match item.bodies[end].0 {
@@ -156,7 +157,7 @@ impl Placer<'_> {
         u.dot(j.point(at[1].s) - i.point(at[0].s)) >= 0.0
     }
 
-    /// The pose nearest to the targets of body `b`; without that, an undecided choice.
+    /// The pose nearest to the targets of body `b`; without targets, an undecided choice.
     pub fn chosen(&mut self, b: usize, poses: &[Pose]) -> Option<Pose> {
         if poses.len() < 2 {
             return poses.first().copied();
@@ -186,8 +187,8 @@ impl Placer<'_> {
         }
     }
 
-    /// The pose of body `b` as a wheel beside a line of a placed body: at the requested place or angle, otherwise at the
-    /// beginning of the line.
+    /// The pose of body `b` as a wheel on a line of a placed body: at the requested position or angle, otherwise at
+    /// the beginning of the line.
     pub fn beside(&self, b: usize) -> Option<Pose> {
         self.equations.of[b].iter().find_map(|k| {
             let item = &self.equations.model.constraints[*k];
@@ -235,7 +236,7 @@ impl Placer<'_> {
     }
 }
 
-/// A zero of `f` by Newton's method with differences; None if it does not converge.
+/// A zero of `f` by Newton's method with finite differences. None if it does not converge.
 fn newton(f: impl Fn(f64) -> f64, start: f64, scale: f64) -> Option<f64> {
     let (h, mut x) = (1e-5 * scale, start);
     for _ in 0..40 {
@@ -251,15 +252,15 @@ fn newton(f: impl Fn(f64) -> f64, start: f64, scale: f64) -> Option<f64> {
     None
 }
 
-/// The zeros of `f` in one turn: between samples of opposite sign, halved until they meet. None of a constant.
+/// The zeros of `f` in one turn: sign changes between samples, refined by bisection. Empty for a constant function.
 fn around(f: impl Fn(f64) -> f64, nothing: f64) -> Vec<f64> {
-    // no round angle is a sample: solutions are often round
+    // samples avoid round angles, because solutions are often round
     let at = |k: usize| std::f64::consts::TAU * ((k as f64 + 0.377) / SAMPLES as f64 - 0.5);
     zeros(f, (SAMPLES, at), nothing, 60)
 }
 
-/// The zeros of `f` between samples of opposite sign, at the places of 0 to a number, which are halved so many times.
-/// None of a constant.
+/// The zeros of `f` from sign changes between the samples `at(k)`, k = 0 to `samples`, with this number of
+/// bisections. Empty for a constant function.
 pub(super) fn zeros(
     f: impl Fn(f64) -> f64,
     (samples, at): (usize, impl Fn(usize) -> f64),

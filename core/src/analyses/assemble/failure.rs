@@ -35,13 +35,13 @@ pub struct Failure {
     pub fault: Fault,
     /// The joint or driver with the largest error.
     pub name: String,
-    /// The gap that remains there, m; zero for faults without a gap.
+    /// The gap that remains at this joint or driver, m; zero for faults without a gap.
     pub gap: f64,
     /// Description of the fault.
     pub message: String,
     /// Remedy.
     pub hint: String,
-    /// The places in a file of the drivers and values that contradict each other.
+    /// The paths, in a file, of the drivers and values that contradict each other.
     pub places: Vec<Vec<String>>,
 }
 
@@ -51,7 +51,7 @@ impl fmt::Display for Failure {
     }
 }
 
-/// The loop does not close; `q` is the position with the smallest gap that was found.
+/// Failure of a loop that does not close. `q` is the position with the smallest gap that was found.
 pub(super) fn open(
     model: &Model,
     request: &Request,
@@ -65,7 +65,7 @@ pub(super) fn open(
     }
 }
 
-/// A constraint whose law has no finite value or derivative at a position.
+/// Failure of a constraint whose law has no finite value or derivative at a position.
 pub(super) fn undefined(model: &Model, t: f64, q: &[f64]) -> Option<Failure> {
     if !q.iter().all(|q| q.is_finite()) {
         return None; // the position is the fault, not a law
@@ -107,7 +107,7 @@ pub(super) fn undefined(model: &Model, t: f64, q: &[f64]) -> Option<Failure> {
     })
 }
 
-/// The table that a law reads outside its range.
+/// The table that a law evaluates outside its range.
 fn refusal(model: &Model, item: &ConstraintItem, motions: &Motions, t: f64) -> Option<String> {
     let values = at(&model.parameters, motions, &[], t);
     let mut found = None;
@@ -115,7 +115,7 @@ fn refusal(model: &Model, item: &ConstraintItem, motions: &Motions, t: f64) -> O
     found
 }
 
-/// A contact beyond the end of its curve.
+/// Failure of a contact beyond the end of its curve.
 pub(super) fn off_the_curve((name, message): (String, String)) -> Failure {
     let hint = "extend the range of the curve, or give a guess of the contact on it".to_string();
     Failure { fault: Fault::Open, name, gap: 0.0, message, hint, places: Vec::new() }
@@ -185,7 +185,7 @@ fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
     Failure { fault: Fault::Open, name, gap, message, hint: hint.to_string(), places: Vec::new() }
 }
 
-/// The text "with crank.angle = 70° ", or nothing.
+/// The text "with crank.angle = 70° ", or an empty text.
 fn asked<'a>(model: &Model, set: impl Iterator<Item = &'a Target>) -> String {
     let all: Vec<String> = set.map(|target| target.written(model)).collect();
     match all.is_empty() {
@@ -194,7 +194,7 @@ fn asked<'a>(model: &Model, set: impl Iterator<Item = &'a Target>) -> String {
     }
 }
 
-/// A length, m, with three decimals in a unit that shows it.
+/// A length in m, written with three decimals in a suitable unit.
 fn length(x: f64) -> String {
     let units = [("m", 1.0, 0.1), ("mm", 1e3, 1e-4), ("µm", 1e6, 1e-7), ("nm", 1e9, 1e-10)];
     match units.into_iter().find(|(.., least)| x >= *least) {
@@ -203,10 +203,10 @@ fn length(x: f64) -> String {
     }
 }
 
-/// Largest number of joints of a loop that are named.
+/// Largest number of joints of a loop that a message names.
 const MOST_IN_LOOP: usize = 20;
 
-/// Names of the joints around the shortest loop through a joint, from the first of the file.
+/// Names of the joints around the shortest loop through a joint, starting with the first in the file.
 pub(super) fn loop_through(model: &Model, joint: usize) -> Option<String> {
     let [from, to] = ends(&model.constraints[joint]);
     let mut neighbours: Vec<Vec<(usize, usize)>> = vec![Vec::new(); model.bodies.len()];
@@ -251,13 +251,13 @@ pub(super) fn loop_through(model: &Model, joint: usize) -> Option<String> {
     })
 }
 
-/// Bodies i and j of a constraint; ground twice for a constraint of time alone.
+/// Bodies i and j of a constraint; ground twice for a constraint on time alone.
 fn ends(item: &ConstraintItem) -> [usize; 2] {
     let last = item.bodies.len().saturating_sub(1).min(1);
     [0, last].map(|k| item.bodies.get(k).map_or(0, |body| body.0))
 }
 
-/// The rates that are set or driven cannot be reached.
+/// Failure of rates that are set or driven and cannot be reached.
 pub(super) fn rates(model: &Model, request: &Request) -> Failure {
     let mut set = of_rates(&request.set);
     let name = set.clone().next().map_or(String::new(), |target| target.name(model));
@@ -274,13 +274,13 @@ pub(super) fn rates(model: &Model, request: &Request) -> Failure {
     }
 }
 
-/// A quantity that the mechanism must hold has another value, or is not held.
+/// Failure of a quantity that the mechanism must hold: it has another value, or it is not held.
 pub(super) fn unmet(unmet: Unmet) -> Failure {
     let Unmet { name, gap, message, hint } = unmet;
     Failure { fault: Fault::Open, name, gap, message, hint: hint.to_string(), places: Vec::new() }
 }
 
-/// The caller has ended the assembly.
+/// Failure because the caller ended the assembly.
 pub(super) fn stopped() -> Failure {
     Failure {
         fault: Fault::Stopped,
@@ -292,7 +292,7 @@ pub(super) fn stopped() -> Failure {
     }
 }
 
-/// Constraints are redundant at a position.
+/// Failure because constraints are redundant at a position.
 pub(super) fn redundant(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -> Failure {
     let group = mobility.redundant.first().cloned().unwrap_or_default();
     let equations = &mobility.redundant_equations;
@@ -324,7 +324,7 @@ pub(super) fn redundant(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -
     }
 }
 
-/// "free one of A along x, B along x", for each redundancy.
+/// The text "free one of A along x, B along x" for each redundancy.
 pub(super) fn freed(model: &Model, t: f64, q: &[f64], equations: &[Dependent]) -> String {
     let first = &equations[..equations.len().min(MOST_REPORTED)];
     let of = |remedies: Vec<Remedy>| {
@@ -336,9 +336,9 @@ pub(super) fn freed(model: &Model, t: f64, q: &[f64], equations: &[Dependent]) -
     remedies(model, t, q, first).into_iter().map(of).collect::<Vec<_>>().join("; ")
 }
 
-/// "joint D2 repeats joint D: both fix point rocker.D to ground".
+/// The text "joint D2 repeats joint D: both fix point rocker.D to ground".
 ///
-/// None if a part of the second one is needed.
+/// None if a part of the second joint is needed.
 fn twin(model: &Model, group: &[usize], mobility: &Mobility) -> Option<String> {
     let [first, second] = group else { return None };
     let superfluous = |row: usize| mobility.redundant_equations.iter().any(|one| one.row == row);

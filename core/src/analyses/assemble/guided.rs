@@ -1,8 +1,8 @@
-//! Closing near guesses of quantities of points and elements.
+//! Closing near guesses for quantities of points and elements.
 //!
-//! A driver for each guess leads Newton's method to the guess, or as near to it as the joints admit. From there the
-//! mechanism is closed without these drivers. This is done from several placements, and the result nearest to the
-//! guesses is taken.
+//! A driver for each guess leads Newton's method to the guess, or as near to it as the joints allow. From there the
+//! mechanism is closed without these drivers. This is repeated from several placements, and the result nearest to the
+//! guesses is used.
 
 use super::angle_winding::wind;
 use super::attempt::{close_from, given, Closed, MOST_TRIES};
@@ -14,11 +14,10 @@ use super::targets::Targets;
 use crate::analyses::closing::Closing;
 use crate::model::{row_scales, Model};
 
-/// Largest scaled distance from the guesses that counts as none.
+/// Largest scaled distance from the guesses that counts as zero.
 const MET: f64 = 1e-9;
 
-/// The position that is nearest to the guesses of quantities; None without such guesses, or if the mechanism does not
-/// close.
+/// The position nearest to the guesses of quantities. None without such guesses, or if the mechanism does not close.
 pub(super) fn close(
     model: &Model,
     request: &Request,

@@ -7,7 +7,7 @@ use crate::expression::Tape;
 use crate::model::Model;
 use std::sync::Arc;
 
-/// Name of the driver that holds a value of `set`, before the name of the quantity.
+/// Prefix of the name of a driver that holds a value of `set`. The name of the quantity follows.
 pub(super) const SET: &str = "set ";
 
 /// The model with a driver for each position that is set.
@@ -15,7 +15,7 @@ pub fn holding(model: &Model, request: &Request) -> Model {
     extended(model, of_positions(&request.set))
 }
 
-/// The model with a driver for each of the targets, which are positions.
+/// The model with a driver for each target. The targets are positions.
 pub(super) fn extended<'a>(model: &Model, targets: impl Iterator<Item = &'a Target>) -> Model {
     let held: Vec<_> = targets.filter_map(|target| held(model, target, |_, x| x.into())).collect();
     Model::new(&Arc::new(model.blueprint.holding(&held)), &model.parameters)

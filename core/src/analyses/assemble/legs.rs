@@ -1,19 +1,19 @@
-//! The pins of a mechanism, seen from their bodies.
+//! The pins of a mechanism, described from each of their bodies.
 
 use crate::elements::Fixes;
 use crate::math::Local;
 use crate::model::Model;
 
-/// Two points that coincide, seen from one of their bodies.
+/// Two coincident points, described from one of their bodies.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Leg {
     pub constraint: usize,
     pub own: Local,
     pub other: usize,
     pub at_other: Local,
-    /// The place of the same joint among the legs of the other body.
+    /// Index of the same joint among the legs of the other body.
     pub mirror: usize,
-    /// The angle of the own body minus that of the other, if the joint fixes this difference as well.
+    /// The angle of this body minus the angle of the other body, if the joint also fixes this difference.
     pub turned: Option<f64>,
 }
 

@@ -71,10 +71,10 @@ pub fn assemble(model: &Model, request: &Request) -> Result<(State, Report), Box
     assemble_until(model, request, &|| false)
 }
 
-/// [`assemble`], which ends soon after `stop` has become true.
+/// Like [`assemble`], but ends soon after `stop` returns true.
 ///
 /// # Errors
-/// As [`assemble`], and [`Fault::Stopped`].
+/// The errors of [`assemble`], and [`Fault::Stopped`].
 pub fn assemble_until(
     model: &Model,
     request: &Request,
@@ -88,10 +88,10 @@ pub fn assemble_until(
     }
 }
 
-/// The state of [`assemble_until`] without its report. Sweeps need no report, and it costs time.
+/// The state of [`assemble_until`] without the report. Sweeps need no report, and its computation takes time.
 ///
 /// # Errors
-/// As [`assemble_until`].
+/// The errors of [`assemble_until`].
 pub fn state_until(
     model: &Model,
     request: &Request,
@@ -107,15 +107,15 @@ pub fn state_until(
 /// A closed mechanism.
 struct Complete {
     state: State,
-    /// Without what was left unset, and without assembly modes.
+    /// The report without unset quantities and assembly modes.
     report: Report,
     asked: Targets,
-    /// The model with the positions that are set.
+    /// The model with drivers for the positions that are set.
     extended: Model,
 }
 
 impl Complete {
-    /// The state with the whole report.
+    /// The state with the complete report.
     fn described(self, model: &Model, request: &Request, stop: Halt<'_>) -> (State, Report) {
         let Self { state, mut report, asked, extended } = self;
         let State { q, v, .. } = &state;
@@ -166,7 +166,7 @@ fn complete(model: &Model, request: &Request, stop: Halt<'_>) -> Result<Complete
     Ok(Complete { state, report, asked, extended })
 }
 
-/// First-order states: those that are set, else guessed, else given, else zero.
+/// The first-order states: the set value if there is one, otherwise the guess, the given state, or zero.
 fn states(model: &Model, request: &Request) -> Vec<f64> {
     let n_z = model.layout.n_z;
     let given = request.state.as_ref().map(|state| state.z.clone()).filter(|z| z.len() == n_z);
@@ -179,7 +179,7 @@ fn states(model: &Model, request: &Request) -> Vec<f64> {
     z
 }
 
-/// Drivers and `set` are hard; drawn poses, `guess` and a given state are soft.
+/// The targets: drivers and `set` are hard; drawn poses, `guess` and a given state are soft.
 fn asked(model: &Model, request: &Request) -> Targets {
     let mut asked = Targets::of(model, request.t);
     if let Some(state) = &request.state {
@@ -241,7 +241,7 @@ fn close(
     Err(Box::new(unclosed(request, closing, &q, gap.as_ref())))
 }
 
-/// Why the mechanism does not close; `q` is the position with the smallest gap that was found.
+/// The reason that the mechanism does not close. `q` is the position with the smallest gap that was found.
 fn unclosed(request: &Request, closing: &Closing<'_>, q: &[f64], gap: Option<&DyadGap>) -> Failure {
     let model = closing.model();
     let undefined = failure::undefined(model, request.t, q);

@@ -8,7 +8,7 @@ use crate::model::{
 };
 use std::collections::HashMap;
 
-/// Results of elements, which follow from the motion.
+/// Results of elements that follow from the motion.
 const RESULTS: [&str; 12] = [
     "fx",
     "fy",
@@ -24,7 +24,7 @@ const RESULTS: [&str; 12] = [
     "load",
 ];
 
-/// A quantity that a target may have.
+/// A quantity that may have a target.
 pub(super) struct Named {
     of: Quantity,
     /// SI unit.
@@ -39,12 +39,12 @@ enum Quantity {
 }
 
 impl Named {
-    /// Whether it follows the bodies, so that it cannot be set.
+    /// Whether the quantity follows from the bodies, so that it cannot be set.
     pub fn follows(&self) -> bool {
         matches!(self.of, Quantity::Internal(_))
     }
 
-    /// The target with this value.
+    /// The target for the quantity with this value.
     pub fn with(self, value: f64) -> Target {
         match self.of {
             Quantity::Element { name, of, rate } => {
@@ -103,7 +103,7 @@ fn internal(model: &Model, key: &str) -> Option<Named> {
     Some(Named { of: Quantity::Internal(own.first + place), unit: ANY_UNIT.to_string() })
 }
 
-/// A quantity of a point or an element, such as `crank.B.x` or `A.omega`; None if there is no such owner.
+/// A quantity of a point or an element, such as `crank.B.x` or `A.omega`. None if the owner does not exist.
 fn of_element(model: &Model, owner: &str, word: &str) -> Option<Result<Named, (String, String)>> {
     let name = format!("{owner}.{word}");
     Some(match quantity_of(&model.blueprint, owner, word)? {
@@ -121,7 +121,7 @@ fn of_element(model: &Model, owner: &str, word: &str) -> Option<Result<Named, (S
     })
 }
 
-/// The fault and the remedy for a quantity that is no position and no rate.
+/// The fault and the remedy for a quantity that is neither a position nor a rate.
 fn refused(owner: &str, word: &str, measured: &[Measured]) -> (String, String) {
     let known: Vec<&str> =
         measured.iter().flat_map(|of| &of.names[..2]).copied().filter(|n| !n.is_empty()).collect();
@@ -141,7 +141,7 @@ fn refused(owner: &str, word: &str, measured: &[Measured]) -> (String, String) {
     (message, hint)
 }
 
-/// The quantity with this name; a fault is reported at `path`.
+/// The quantity with this name. A fault is reported at `path`.
 pub(super) fn named(
     names: &NamedTargets<'_>,
     key: &str,
@@ -173,7 +173,7 @@ pub(super) fn named(
 /// The position quantity with this name, such as `crank.angle` or `slide.displacement`.
 ///
 /// # Errors
-/// There is no quantity of this name, or it is not the position of a moving body.
+/// There is no quantity with this name, or it is not a position of a moving body.
 pub fn position(model: &Model, name: &str) -> Result<Followed<Tape>, Problem> {
     let mut problems = Vec::new();
     let found = named(&NamedTargets::of(model), name, &[name.to_string()], &mut problems);

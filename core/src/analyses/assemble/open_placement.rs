@@ -1,7 +1,7 @@
-//! A first position with open loops: bodies at the angles of the guess, placed by their joints.
+//! A first position with open loops: bodies have the angles of the guess and are placed by their joints.
 //!
 //! This is the usual first guess for Newton–Raphson by hand (Haug 4.2). In the order of the file, each body is placed
-//! at its first joint to a placed body; the joint that would close the loop stays open.
+//! at its first joint to a placed body. The joint that would close the loop remains open.
 
 use super::legs::legs;
 use super::slider_placement::slides;
@@ -10,8 +10,8 @@ use crate::equations::kinematics;
 use crate::math::Pose;
 use crate::model::Model;
 
-/// Coordinates of all bodies, shape (n_q). Angles without a request are zero, and so are the places of bodies
-/// without a joint to a placed body.
+/// Coordinates of all bodies, shape (n_q). Angles without a request are zero, as are positions of bodies without a
+/// joint to a placed body.
 pub fn open_placement(model: &Model, targets: &Targets) -> Vec<f64> {
     let (legs, slides) = (legs(model), slides(model));
     let mut poses: Vec<Option<Pose>> = vec![None; model.bodies.len()];

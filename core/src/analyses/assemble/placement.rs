@@ -3,11 +3,11 @@
 /// Two bodies closed as a dyad, or a body on two rods.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Dyad {
-    /// The two bodies; the same twice on two rods.
+    /// The two bodies. A body on two rods is listed twice.
     pub bodies: [usize; 2],
-    /// The joint between them; on two rods, the first rod.
+    /// The joint between them; for two rods, the first rod.
     pub joint: usize,
-    /// Joints that carry them; on two rods, these.
+    /// The joints that carry them; for two rods, the rods.
     pub anchors: [usize; 2],
     /// Whether the two closures are different positions.
     pub has_other: bool,
@@ -16,7 +16,7 @@ pub struct Dyad {
     /// The pin between the two bodies that carry the dyad, if there is one. The dyad is folded if its joint lies on the
     /// same side of the line between the anchors as this pin.
     pub opposite: Option<usize>,
-    /// Whether no guess decided between the closures and the second choice was taken.
+    /// Whether no guess decided between the closures and the second closure was used.
     pub second: bool,
 }
 
@@ -27,9 +27,10 @@ pub struct DyadGap {
     pub bodies: [usize; 2],
     /// The joint between them.
     pub joint: usize,
-    /// Length by which the two bodies together are too short (> 0) or one is too long for the other (< 0), m.
+    /// Length by which the two bodies together are too short (> 0), or by which one is too long for the other (< 0),
+    /// m.
     pub missing: f64,
-    /// Number of undecided choices before it; later ones do not change it.
+    /// Number of undecided choices before it. Later choices do not change it.
     pub choices: usize,
 }
 

@@ -1,4 +1,4 @@
-//! The placements through all undecided choices, those without gaps first.
+//! The placements for all undecided choices. Placements without gaps come first.
 
 use super::placement::Placement;
 use super::placer::place;
@@ -8,12 +8,12 @@ use crate::model::Model;
 /// Largest number of placements that are computed.
 const MOST: usize = 256;
 
-/// Placements, in the order in which assembly tries them. They are computed as they are needed: one without gaps at
-/// once, those with gaps after all others.
+/// Placements, in the order in which assembly tries them. They are computed when they are needed. A placement without
+/// gaps is returned at once, and placements with gaps after all others.
 pub(super) struct Placements<'a> {
     model: &'a Model,
     targets: &'a Targets,
-    /// The choices of the next placement; None if all have been computed.
+    /// The choices for the next placement. None if all placements have been computed.
     choices: Option<Vec<usize>>,
     computed: usize,
     /// Placements with gaps, in order.
@@ -36,7 +36,8 @@ impl<'a> Placements<'a> {
     }
 }
 
-/// The next combination: the last choice that still has an option takes it. A gap remains whatever is chosen after it.
+/// The next combination of choices: the last choice with a remaining option uses it. Later choices cannot close a
+/// gap.
 pub(in crate::analyses) fn following(
     mut choices: Vec<usize>,
     placement: &Placement,

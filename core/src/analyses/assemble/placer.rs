@@ -1,6 +1,6 @@
-//! First positions of all bodies: along the joints from ground, with dyads closed on the way.
+//! First positions of all bodies. They are placed along the joints from ground, and dyads are closed on the way.
 //!
-//! A body is placed as soon as enough is known:
+//! A body is placed as soon as enough is known about it:
 //!
 //! * its angle and one pin;
 //! * two pins;
@@ -10,8 +10,8 @@
 //! * its angle and two rods;
 //! * a pin or a slide on a placed body, and an equation to placed bodies, such as that of a gear.
 //!
-//! If no body can be placed, a coordinate is taken from the guess, or several angles are tried. Choices that
-//! no guess decides are numbered, so that a caller can go through all of them.
+//! If no body can be placed, a coordinate is taken from the guess, or several angles are tried. Choices that no guess
+//! decides are numbered, so that a caller can enumerate them.
 
 use super::by_equation::ByEquation;
 use super::legs::{legs, Leg};
@@ -23,11 +23,12 @@ use crate::equations::kinematics;
 use crate::math::{Pose, Vec2};
 use crate::model::Model;
 
-/// Angles that are tried for a body without known coordinates, in this order.
+/// Angles, in this order, that are tried for a body without known coordinates.
 const TRIED_DEG: [f64; 12] =
     [0.0, 90.0, 45.0, 135.0, -45.0, 180.0, -90.0, -135.0, 20.0, 110.0, -70.0, -160.0];
 
-/// Distance of a pin from the line of two anchors, relative to the distance of the anchors, up to which it is on it.
+/// Largest distance of a pin from the line of two anchors, relative to the distance of the anchors, at which it
+/// counts as on the line.
 pub(super) const ON_LINE: f64 = 1e-9;
 
 pub(super) struct Placer<'a> {
@@ -35,18 +36,18 @@ pub(super) struct Placer<'a> {
     pub legs: Vec<Vec<Leg>>,
     slides: Vec<Vec<Slide>>,
     pub equations: ByEquation<'a>,
-    /// Whether a constraint touches each body.
+    /// Whether each body has a constraint.
     joined: Vec<bool>,
     pub poses: Vec<Option<Pose>>,
-    /// Places of the legs of each body whose other bodies are placed, ascending.
+    /// For each body, the indices of its legs to placed bodies, ascending.
     carried: Vec<Vec<usize>>,
     waiting: Worklist,
     choices: &'a [usize],
     pub result: Placement,
 }
 
-/// Places all bodies; undecided choice k takes option `choices[k]`, or the first. The cost is linear in the size of the
-/// model.
+/// Places all bodies. Undecided choice k uses option `choices[k]`, or the first option. The cost is linear in the
+/// size of the model.
 pub fn place<'a>(model: &'a Model, targets: &'a Targets, choices: &'a [usize]) -> Placement {
     let n = model.bodies.len();
     let mut joined = vec![false; n];
@@ -79,7 +80,7 @@ pub(super) fn direction<V: Into<(f64, f64)>>(v: V) -> f64 {
 }
 
 impl Placer<'_> {
-    /// Takes the next body that can be placed, by the surest means first.
+    /// Places the remaining bodies one by one, by the most reliable method first.
     fn place_all(&mut self) {
         loop {
             if let Some(b) = self.waiting.follow.pop() {
@@ -102,18 +103,18 @@ impl Placer<'_> {
         self.poses[b].is_none()
     }
 
-    /// The legs of body `b` to placed bodies, with the required places of their pins.
+    /// The legs of body `b` to placed bodies, with the required positions of their pins.
     pub fn carried(&self, b: usize) -> impl Iterator<Item = (Leg, Vec2)> + '_ {
         let legs = self.carried[b].iter().map(move |k| self.legs[b][*k]);
         legs.filter_map(|leg| Some((leg, self.poses[leg.other].as_ref()?.point(leg.at_other))))
     }
 
-    /// The first slide of body `b` whose other body is placed, and the places that it allows for `b`.
+    /// The first slide of body `b` whose other body is placed, and the positions that it allows for `b`.
     pub fn rail(&self, b: usize) -> Option<(Slide, Rail)> {
         self.slides[b].iter().find_map(|s| Some((*s, s.rail(self.poses[s.other].as_ref()?)?)))
     }
 
-    /// Places a body; its neighbours may then be placed.
+    /// Places a body and adds its neighbours to the worklist.
     pub fn put(&mut self, b: usize, pose: Pose) {
         self.poses[b] = Some(pose);
         for k in 0..self.legs[b].len() {
@@ -138,7 +139,7 @@ impl Placer<'_> {
         }
     }
 
-    /// Notes that leg `k` of body `b` leads to a placed body.
+    /// Records that leg `k` of body `b` leads to a placed body.
     fn carry(&mut self, b: usize, k: usize) {
         let carried = &mut self.carried[b];
         carried.insert(carried.partition_point(|leg| *leg < k), k);
@@ -156,14 +157,14 @@ impl Placer<'_> {
         linked.filter(|b| !self.slides[*b].is_empty()).for_each(|b| self.waiting.slides.push(b));
     }
 
-    /// Places a body with a known angle that is pinned at `leg` to `target`.
+    /// Places a body with a known angle whose pin `leg` is at `target`.
     pub fn hang(&mut self, b: usize, leg: &Leg, target: Vec2, angle: f64) {
         let mut pose = Pose::new(0.0, 0.0, angle);
         pose.r = target - pose.global(leg.own);
         self.put(b, pose);
     }
 
-    /// Places a body by a joint that fixes a point and the angle.
+    /// Places a body by a joint that fixes a point and its angle.
     fn join(&mut self, b: usize, pins: &[(Leg, Vec2)]) {
         for (leg, target) in pins {
             if let (Some(turned), Some(other)) = (leg.turned, self.poses[leg.other]) {
@@ -207,7 +208,7 @@ impl Placer<'_> {
         self.choices.get(k).copied().unwrap_or(0)
     }
 
-    /// The body that is placed by assumption if no other can be placed.
+    /// The body that is placed by assumption if no other body can be placed.
     fn next_assumed(&mut self) -> Option<usize> {
         for kind in 0..self.waiting.assumed.len() {
             while let Some(b) = self.waiting.assumed[kind].pop() {

@@ -1,4 +1,4 @@
-//! Velocities of the start: from the guess, made consistent; drivers hold the rates of `set`.
+//! Velocities at the start: the guess, made consistent, with drivers that hold the rates of `set`.
 
 use super::contradiction::{self, AGREE};
 use super::failure::{self, Failure};
@@ -47,7 +47,7 @@ pub(super) fn holding_rates(model: &Model, request: &Request, q: &[f64]) -> Mode
     holding(model, request.t, q, of_rates(&request.set))
 }
 
-/// The model with a driver for each of the targets, which are rates.
+/// The model with a driver for each target. The targets are rates.
 fn holding<'a>(
     model: &Model,
     t: f64,
@@ -66,7 +66,7 @@ fn holding<'a>(
     Model::new(&Arc::new(model.blueprint.holding(&held)), &model.parameters)
 }
 
-/// The velocities that are given, set or guessed, before they are made consistent.
+/// The velocities that are given, set or guessed, before they become consistent.
 fn wanted(model: &Model, request: &Request, q: &[f64]) -> Vec<f64> {
     let mut v = match &request.state {
         Some(state) => state.v.clone(),
@@ -77,7 +77,7 @@ fn wanted(model: &Model, request: &Request, q: &[f64]) -> Vec<f64> {
             v[model.layout.bodies[target.body.0].first + target.coordinate.column()] = target.value;
         }
     }
-    // rates of points and elements are met as far as they agree with those before them
+    // rates of points and elements are met if they agree with earlier ones
     let mut met: Vec<&Target> = Vec::new();
     for target in of_rates(&request.guess).filter(|target| matches!(target, Target::Quantity(_))) {
         met.push(target);

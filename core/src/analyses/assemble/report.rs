@@ -8,17 +8,17 @@ use crate::math::{Local, Motion, Rotation, Vec2};
 use crate::model::{listed, Doubt, Model, MOST_REPORTED};
 use crate::solve::newton::Record;
 
-/// The closure of a dyad or of two rods, one of two.
+/// One of the two closures of a dyad or of two rods.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DyadMode {
-    /// The two bodies, or the one that two rods hold.
+    /// The two bodies, or the body that two rods hold.
     pub bodies: Vec<String>,
     /// The joint between them, or the body that two rods hold.
     pub joint: String,
     /// The joints that carry them.
     pub anchors: [String; 2],
     /// Whether the joint lies to the left of the line from the first to the second anchor. If the second anchor is a
-    /// slide: whether the joint lies ahead of the first anchor along the slide.
+    /// slide, whether the joint lies ahead of the first anchor along the slide.
     pub left: bool,
     /// Whether the second anchor is a slide.
     pub slides: bool,
@@ -30,7 +30,7 @@ pub struct DyadMode {
 /// The course and the result of an assembly.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Report {
-    /// Newton's iterations, the start first; residuals relative to the size of the mechanism.
+    /// Iterations of Newton's method, beginning with the start. Residuals are relative to the size of the mechanism.
     pub iterations: Vec<Record>,
     /// Degrees of freedom of the model, drivers counted as constraints.
     pub degrees_of_freedom: usize,
@@ -81,7 +81,8 @@ pub(super) fn modes(model: &Model, dyads: &[Dyad], q: &[f64]) -> Vec<DyadMode> {
     dyads.iter().filter(|d| d.has_other).map(of).collect()
 }
 
-/// The side of a body on two rods: that of the line between the far ends, after both near ends have been moved to one place.
+/// The side of a body on two rods, relative to the line between the far ends after both near ends are moved to one
+/// point.
 fn on_rods(
     dyad: &Dyad,
     body: String,
@@ -105,7 +106,7 @@ fn on_rods(
     }
 }
 
-/// A warning for each dyad that no guess decided and whose unfolded closure did not lead to an assembly.
+/// A warning for each dyad without a deciding guess whose unfolded closure did not lead to an assembly.
 pub(super) fn folded(model: &Model, dyads: &[Dyad]) -> Vec<String> {
     let second = dyads.iter().filter(|dyad| dyad.second && dyad.opposite.is_some());
     let joints: Vec<&str> = second.map(|d| model.constraints[d.joint].name.as_str()).collect();
@@ -118,7 +119,7 @@ pub(super) fn folded(model: &Model, dyads: &[Dyad]) -> Vec<String> {
     }
 }
 
-/// A warning for each group of constraints that depend on each other at this position only.
+/// A warning for each group of constraints that depend on each other only at this position.
 pub(super) fn singular(model: &Model, groups: &[Vec<usize>]) -> Vec<String> {
     let one = |group: &Vec<usize>| {
         let names = listed(&model.names_of(group));

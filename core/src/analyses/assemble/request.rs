@@ -9,23 +9,23 @@ use crate::model::{Doubt, Model, Problem, Reach, Scope, Value};
 /// The request for an assembly.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Request {
-    /// Targets held exactly.
+    /// Targets that are held exactly.
     pub set: Vec<Target>,
-    /// Targets approached.
+    /// Targets that are approached.
     pub guess: Vec<Target>,
     /// A whole state as guess.
     pub state: Option<State>,
     /// Time, s.
     pub t: f64,
-    /// Whether Newton's method starts from the guess with open loops, and not from a placement that closes them: the
-    /// classical iteration, for teaching.
+    /// Whether Newton's method starts from the guess with open loops instead of a placement that closes them. This is
+    /// the classical iteration, for teaching.
     pub from_guess: bool,
     /// Values of `set` and `guess` that look like degrees.
     pub doubts: Vec<Doubt>,
 }
 
 impl Request {
-    /// A value of `set` as written: "crank.angle = 70°".
+    /// A value of `set` as written, such as "crank.angle = 70°".
     pub(super) fn written(&self, model: &Model, quantity: &str) -> String {
         let mut all = self.set.iter().filter(|target| target.name(model) == quantity);
         all.next().map_or(quantity.to_string(), |target| target.written(model))

@@ -1,5 +1,6 @@
-//! Placing a body by rods, which are `distance` joints: two rods hold a body of known angle, and one rod a body that
-//! turns about a pin or moves along a slide. The places are intersections of two circles, or of a line and a circle.
+//! Placement of a body by rods (`distance` joints): two rods hold a body of known angle, and one rod holds a body
+//! that turns about a pin or moves along a slide. The positions are intersections of two circles, or of a line and a
+//! circle.
 
 use super::dyad::{close, Closure};
 use super::equation_placement::Freedom;
@@ -12,7 +13,7 @@ use crate::math::{Local, Pose, Vec2};
 /// A rod from a placed body.
 struct Rod {
     constraint: usize,
-    /// Its end on the body that is to be placed.
+    /// Its end on the body to be placed.
     own: Local,
     /// Its other end.
     from: Vec2,
@@ -21,7 +22,7 @@ struct Rod {
 }
 
 impl Placer<'_> {
-    /// Constraint `k` as a rod that holds body `b`; None if it is not one, or if its length depends on positions.
+    /// Constraint `k` as a rod that holds body `b`. None if it is not a rod, or if its length depends on positions.
     fn rod(&self, k: usize, b: usize) -> Option<Rod> {
         let item = &self.equations.model.constraints[k];
         let element = at_time(self.equations.model, item, self.targets.t)?;
@@ -56,7 +57,7 @@ impl Placer<'_> {
         Some(at.into_iter().map(|x| freedom.pose(x)).collect())
     }
 
-    /// Places body `b` of a known angle, if two rods hold it; returns whether they do.
+    /// Places body `b` with a known angle if two rods hold it; returns whether they do.
     pub fn close_rods_of(&mut self, b: usize, angle: f64) -> bool {
         let all = self.equations.of[b].iter();
         let rods: Vec<Rod> = all.filter_map(|k| self.rod(*k, b)).take(2).collect();
@@ -82,7 +83,7 @@ impl Placer<'_> {
     }
 }
 
-/// The points of two circles; none if they miss each other or are the same.
+/// The intersections of two circles. Empty if the circles do not meet or are identical.
 fn meeting((p1, r1): (Vec2, f64), (p2, r2): (Vec2, f64)) -> Vec<Vec2> {
     match close(p1, r1, p2, r2) {
         Closure::Two(left, right) => vec![left, right],

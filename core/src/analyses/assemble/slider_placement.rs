@@ -1,12 +1,12 @@
-//! Placing bodies on slides. The other body gives the angle. The place along the slide follows from a pin, a
-//! coordinate, or a link to a placed body.
+//! Placement of bodies on slides. The other body determines the angle. The position along the slide follows from a
+//! pin, a coordinate, or a link to a placed body.
 
 use super::targets::Targets;
 use crate::elements::Fixes;
 use crate::math::{Local, Pose, Rotation, Vec2};
 use crate::model::Model;
 
-/// A slide seen from one of its bodies.
+/// A slide, described from one of its bodies.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slide {
     /// The joint.
@@ -19,18 +19,18 @@ pub(super) struct Slide {
     other_axis: f64,
 }
 
-/// The possible places of a body on a slide: `pose` moved along `direction`.
+/// The possible positions of a body on a slide: `pose` moved along `direction`.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rail {
     /// The pose at which the joint points coincide.
     pub pose: Pose,
-    /// Along the slide, of length 1.
+    /// Unit vector along the slide.
     pub direction: Vec2,
     /// The joint point of the other body.
     pub guide: Vec2,
 }
 
-/// Smallest component of a direction along a coordinate with which the coordinate decides the place.
+/// Smallest component of a direction along a coordinate for which the coordinate determines the position.
 const ACROSS: f64 = 1e-9;
 
 /// The slides of each body.
@@ -58,7 +58,7 @@ pub(super) fn slides(model: &Model) -> Vec<Vec<Slide>> {
 }
 
 impl Slide {
-    /// The possible places of the body if the other is placed; None if they are not finite.
+    /// The possible positions of the body if the other body is placed. None if they are not finite.
     pub fn rail(&self, other: &Pose) -> Option<Rail> {
         let axis = other.angle + self.other_axis;
         let mut pose = Pose::new(0.0, 0.0, axis - self.own_axis);
@@ -77,7 +77,7 @@ impl Rail {
         pose
     }
 
-    /// The pose at which x (0) or y (1) of the body has a value, if the slide does not run across.
+    /// The pose at which x (0) or y (1) of the body has a value. None if the slide is perpendicular to this axis.
     pub fn reaching(&self, column: usize, value: f64) -> Option<Pose> {
         let (along, from) = match column {
             0 => (self.direction.x, self.pose.r.x),
@@ -86,16 +86,16 @@ impl Rail {
         (along.abs() > ACROSS).then(|| self.at((value - from) / along))
     }
 
-    /// The pose nearest to the requested place of body `b`.
+    /// The pose nearest to the requested position of body `b`.
     pub fn towards(&self, b: usize, targets: &Targets) -> Pose {
         let targeted = |c: usize, otherwise: f64| targets.value(b, c).unwrap_or(otherwise);
         let place = Vec2::new(targeted(0, self.pose.r.x), targeted(1, self.pose.r.y));
         self.at((place - self.pose.r).dot(self.direction))
     }
 
-    /// The places at which the point `s` of the body has the distance `radius` from `center`: the intersection
-    /// of a line and a circle, with the point ahead first. Returns the distances along the slide, and the length
-    /// by which the radius is too short, m.
+    /// The positions at which the point `s` of the body has the distance `radius` from `center`: the intersections of
+    /// a line and a circle, with the point ahead first. Returns the distances along the slide, and the length by
+    /// which the radius is too short, m.
     pub fn meeting(&self, s: Local, center: Vec2, radius: f64) -> (Vec<f64>, Option<f64>) {
         let from = self.pose.point(s) - center;
         let (along, across) = (-from.dot(self.direction), self.direction.cross(from).abs());

@@ -1,4 +1,4 @@
-//! Values given for the start, by `set` or `guess`.
+//! Values that `set` or `guess` prescribes for the start.
 
 use crate::elements::{BodyId, Coordinate, CoordinateOf, Followed};
 use crate::expression::Tape;
@@ -22,7 +22,7 @@ pub struct QuantityTarget {
     pub name: String,
     /// The position quantity.
     pub of: Followed<Tape>,
-    /// Whether the value is that of the rate.
+    /// Whether the value is the value of the rate.
     pub rate: bool,
     /// SI unit.
     pub unit: String,
@@ -52,7 +52,7 @@ pub enum Target {
     },
     /// A first-order state of an element.
     State {
-        /// Its place in z.
+        /// Index in z.
         place: usize,
         /// The value in its unit.
         value: f64,
@@ -72,7 +72,7 @@ impl Target {
         }
     }
 
-    /// Whether it is a rate.
+    /// Whether the target is a rate.
     pub(super) fn is_rate(&self) -> bool {
         match self {
             Self::Coordinate(target) => target.coordinate.is_rate(),
@@ -92,7 +92,7 @@ impl Target {
         }
     }
 
-    /// "crank.angle = 70°".
+    /// The target as written, such as "crank.angle = 70°".
     pub(super) fn written(&self, model: &Model) -> String {
         let (unit, value) = match self {
             Self::Coordinate(target) => (target.coordinate.unit(), target.value),
@@ -107,7 +107,7 @@ impl Target {
     }
 }
 
-/// Some significant digits without trailing zeros.
+/// The number with some significant digits and without trailing zeros.
 pub(in crate::analyses) fn trimmed(x: f64, digits: usize) -> String {
     let rounded = format!("{x:.*e}", digits - 1).parse::<f64>().unwrap_or(x);
     match rounded.abs() {

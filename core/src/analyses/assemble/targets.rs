@@ -12,15 +12,15 @@ pub struct Targets {
     pub hard: Vec<[Option<f64>; 3]>,
     /// Targets approached: from `guess`, a given state, or the drawn position of the body.
     pub soft: Vec<[Option<f64>; 3]>,
-    /// Whether the soft angle decides the whole turn.
+    /// Whether the soft angle determines the whole turn.
     pub turn: Vec<bool>,
-    /// Whether all solutions of equations are numbered choices where no soft target decides. Otherwise hard targets decide
-    /// too, and wheels mesh at the angle nearest to zero.
+    /// Whether all solutions of equations become numbered choices if no soft target decides. Otherwise hard targets
+    /// also decide, and wheels mesh at the angle nearest to zero.
     pub every_solution: bool,
 }
 
 impl Targets {
-    /// Drivers at time `t` are hard, drawn poses are soft.
+    /// The targets without a request: drivers at time `t` are hard, drawn poses are soft.
     pub fn of(model: &Model, t: f64) -> Self {
         let n = model.bodies.len();
         let none = || vec![[None; 3]; n];
@@ -42,30 +42,30 @@ impl Targets {
         targets
     }
 
-    /// Makes the positions `q`, shape (n_q), soft.
+    /// Sets soft targets to the positions `q`, shape (n_q).
     pub fn approach(&mut self, model: &Model, q: &[f64]) {
         for (soft, columns) in self.soft.iter_mut().zip(&model.layout.bodies).skip(1) {
             *soft = columns.of(q).map(Some);
         }
     }
 
-    /// The target of a coordinate, hard before soft.
+    /// The target of a coordinate; the hard target if there is one, otherwise the soft target.
     pub fn value(&self, body: usize, column: usize) -> Option<f64> {
         self.hard[body][column].or(self.soft[body][column])
     }
 
-    /// All three targets of a body, if it has all.
+    /// The targets of all three coordinates of a body. None if one is missing.
     pub fn pose(&self, body: usize) -> Option<[f64; 3]> {
         Some([self.value(body, 0)?, self.value(body, 1)?, self.value(body, 2)?])
     }
 
-    /// The angle nearest to the soft one (or to zero) that differs by whole turns.
+    /// The angle, shifted by whole turns, that is nearest to the soft angle, or to zero.
     pub fn nearest_turn(&self, body: usize, angle: f64) -> f64 {
         nearest_turn(angle, self.soft[body][2].unwrap_or(0.0))
     }
 }
 
-/// `angle` plus the whole turns that bring it nearest to `to`.
+/// `angle` shifted by whole turns to the value nearest to `to`.
 pub fn nearest_turn(angle: f64, to: f64) -> f64 {
     let turn = std::f64::consts::TAU;
     angle - turn * ((angle - to) / turn).round()
@@ -81,7 +81,7 @@ fn driven(model: &Model, item: &ConstraintItem, t: f64) -> Option<(BodyId, Coord
     })
 }
 
-/// A constraint with the values of its laws at `t`; None if these depend on positions.
+/// A constraint with the values of its laws at `t`. None if the laws depend on positions.
 pub(super) fn at_time(model: &Model, item: &ConstraintItem, t: f64) -> Option<Constraint> {
     let Some(law) = &item.law else { return Some(item.element.clone()) };
     let mut depends = Dependence::default();

@@ -1,9 +1,9 @@
-//! What the request for an assembly left unset, and what was chosen for it.
+//! The quantities that a request for an assembly does not set, and the values chosen for them.
 //!
-//! The freedoms that drivers and `set` leave are the null space of Φ_q with their rows. Each of them is named by one
-//! coordinate, such that the coordinates together determine the motion: those that were guessed and met first, then angles, then
-//! places, in the order of the bodies, unless another coordinate moves ten times as far. The same holds for rates, where
-//! those of coordinates that were set come first too.
+//! The freedoms that remain after drivers and `set` are the null space of Φ_q with their rows. Each freedom is named
+//! by one coordinate, such that these coordinates together determine the motion. Coordinates that were guessed and
+//! met come first, then angles, then positions, in the order of the bodies, unless another coordinate moves ten times
+//! as far. Rates are named in the same way, but rates of coordinates that were set also come first.
 
 use super::rates::holding_rates;
 use super::request::Request;
@@ -16,17 +16,18 @@ use crate::elements::Coordinate;
 use crate::model::{column_scales, size, Model};
 use crate::solve::{rank, RANK_TOLERANCE};
 
-/// Largest number of coordinates of a model in which freedoms are named; their cost is cubic.
+/// Largest number of coordinates of a model for which freedoms are named. The cost is cubic.
 const MOST_NAMED: usize = 120;
-/// Largest difference, relative to the size of the mechanism, of a value that equals its guess.
+/// Largest difference between a value and its guess, relative to the size of the mechanism, for which they count as
+/// equal.
 const EQUAL: f64 = 1e-9;
 
 /// The source of the value of a coordinate or rate that was not set.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum ValueSource {
-    /// Its guess.
+    /// The guess of the quantity.
     Guess,
-    /// The value nearest to its guess that the joints allow; the number is the difference in m, rad or per s.
+    /// The value nearest to its guess that the joints allow. Contains the guess, in m, rad or per s.
     NearGuess(f64),
     /// Quantities other than coordinates were guessed.
     Guesses,
@@ -34,9 +35,9 @@ pub enum ValueSource {
     Drawing,
     /// Nothing was given.
     Nothing,
-    /// A rate: everything is at rest.
+    /// A rate: the mechanism is at rest.
     Rest,
-    /// A rate: the motion with the least kinetic energy, measured from the guessed rates.
+    /// A rate: the motion with the least kinetic energy, relative to the guessed rates.
     LeastEnergy,
 }
 
@@ -56,7 +57,7 @@ pub struct Choice {
 /// The coordinates and rates that were not set.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Unset {
-    /// Number of freedoms, and of rates.
+    /// Number of free coordinates, and of free rates.
     pub count: [usize; 2],
     /// A coordinate for each freedom; empty if the model is too large.
     pub coordinates: Vec<Choice>,
@@ -67,8 +68,8 @@ pub struct Unset {
 /// A candidate: its column, and the index of its body with the coordinate.
 type Candidate = (usize, usize, Coordinate);
 
-/// The coordinates and rates that a request did not set, with their values in the result; `extended` is the model
-/// with the positions that are set. Nothing if a state was given.
+/// The coordinates and rates that a request did not set, with their values in the result. `extended` is the model
+/// with the positions that are set. Empty if a state was given.
 pub(super) fn unset(
     [model, extended]: [&Model; 2],
     request: &Request,
@@ -86,7 +87,7 @@ pub(super) fn unset(
     }
     let all = |model: &Model| freedoms(model, request.t, q, |_| true).unwrap_or_default();
     let moving = all(extended);
-    // what is free in the first order only, at a singular position, is not free
+    // a freedom of first order only, at a singular position, is not a freedom
     let regular = moving.len() == q.len().saturating_sub(extended.layout.n_rows);
     let passing = match regular {
         true => 0,
@@ -104,7 +105,7 @@ pub(super) fn unset(
     // otherwise the rates of the coordinates that were set or are named
     let known = coordinates.iter().map(|(_, body, coordinate)| (*body, coordinate.column()));
     let first = guesses.iter().chain(of_bodies(&request.set)).map(column).chain(known);
-    // without `set` the velocities have the same freedoms
+    // without `set`, the velocities have the same freedoms
     let free_rates = match of_motion(&request.set).next() {
         None => moving,
         Some(_) => all(&held),
@@ -129,7 +130,7 @@ pub(super) fn unset(
     }
 }
 
-/// Guesses, those that were met before the others.
+/// Guesses; guesses that were met come first.
 fn met_first(
     model: &Model,
     mut guesses: Vec<CoordinateTarget>,
@@ -142,7 +143,7 @@ fn met_first(
     guesses
 }
 
-/// A coordinate for each freedom: those of `first` before angles before places.
+/// A coordinate for each freedom: first coordinates in `first`, then angles, then positions.
 fn named(
     model: &Model,
     freedoms: &[Vec<f64>],
@@ -189,7 +190,7 @@ fn source(
     }
 }
 
-/// Whether a value is that of its guess.
+/// Compares a value with its guess.
 fn near(model: &Model, coordinate: Coordinate, guess: f64, value: f64) -> ValueSource {
     let unit = if coordinate.column() == 2 { 1.0 } else { size(model) };
     match (value - guess).abs() <= EQUAL * unit.max(value.abs()) {

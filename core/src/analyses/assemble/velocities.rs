@@ -6,12 +6,12 @@ use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, refine, Compiled};
 use crate::model::{size, Model};
 
-/// Largest velocity residual that is not corrected, relative to the terms of which it is the sum.
+/// Largest velocity residual that is not corrected, relative to its summands.
 const TOLERANCE: f64 = 1e-12;
 /// If a larger residual remains after corrections in the metric of the mass matrix, it is corrected in the metric of
-/// the unit matrix: with ratios of masses of 1e10 and more, the mass matrix leaves too few digits.
+/// the unit matrix. With mass ratios of 1e10 and more, the mass matrix leaves too few digits.
 const ALIKE: f64 = 1e-10;
-/// Corrections that are always made: the second removes the rounding errors of the first.
+/// Number of corrections that are always made. The second removes the rounding errors of the first.
 const LEAST: usize = 2;
 /// Largest number of corrections. Damped rows converge by the ratio of their damping to the compliance at the
 /// joint. This ratio is near 1 if heavy bodies are joined to light ones.
@@ -24,8 +24,8 @@ struct Metric<'a> {
     compliance: f64,
 }
 
-/// Makes `v` consistent at `q`; a consistent `v` is unchanged. Returns the largest remaining part of Φ_q q̇ - ν,
-/// relative; it is not near zero if the requested rates contradict each other.
+/// Makes `v` consistent at `q`; a consistent `v` is not changed. Returns the largest remaining component of Φ_q q̇ -
+/// ν, relative to its summands. It is not near zero if the requested rates contradict each other.
 pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
     let motions = Motions::at(&model.layout, q, v);
     let rate = velocity_residual(model, t, &motions);
@@ -50,7 +50,7 @@ pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
     correct(model, t, q, v, (metric, scale))
 }
 
-/// Corrects `v` with the weights of the matrix until the residual no longer falls; returns the residual.
+/// Corrects `v` with the weights of the matrix until the residual no longer decreases; returns the residual.
 fn correct(
     model: &Model,
     t: f64,
@@ -84,8 +84,8 @@ fn correct(
     last
 }
 
-/// Solves for a correction in the metric. Where a massless body has a freedom of its own, each of its rates has the same
-/// energy; the factor, with mass added to it, chooses them.
+/// Solves for a correction in the metric. If the motion of a massless body is undetermined, all of its rates have the
+/// same energy; the factorisation with added mass selects one of them.
 fn nearest(model: &Model, motions: &Motions, matrix: &Augmented, x: &mut Vec<f64>) {
     if matrix.adds_inertia() {
         let mut exact = x.clone();

@@ -1,9 +1,9 @@
-//! The bodies that may be placed next, so that each is looked at only after a neighbour was placed.
+//! The bodies that may be placed next. A body is examined only after a neighbour was placed.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// A queue of bodies, in the order of the file; each is in it once.
+/// A queue of bodies in the order of the file. Each body is in it at most once.
 #[derive(Clone, Debug)]
 pub(super) struct Queue {
     heap: BinaryHeap<Reverse<usize>>,
@@ -39,13 +39,14 @@ pub(super) struct Worklist {
     pub equations: Queue,
     /// Bodies on a slide, which a link may place.
     pub slides: Queue,
-    /// Bodies that may be placed by assumption: with a pin and a known angle, with known coordinates, with a pin, and
-    /// any.
+    /// Bodies that may be placed by assumption, in four queues: with a pin and a known angle, with known coordinates,
+    /// with a pin, and all others.
     pub assumed: [Queue; 4],
 }
 
 impl Worklist {
-    /// The queues for `n` bodies, of which index 0 is ground. At first all bodies are in the queue of assumptions only.
+    /// The queues for `n` bodies, of which index 0 is ground. At first, all bodies are only in the queue of
+    /// assumptions.
     pub fn new(n: usize, posed: impl Iterator<Item = usize>) -> Self {
         let none = Queue::new(n);
         let mut list = Self {

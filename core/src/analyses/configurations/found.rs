@@ -3,7 +3,8 @@
 use crate::analyses::kinematics::same;
 use crate::model::Model;
 
-/// Largest difference of two positions that are the same; near a dead point, Newton's method finds half of the digits.
+/// Largest difference between two positions that count as equal. Near a dead point, Newton's method finds only half
+/// of the digits.
 const SAME: f64 = 1e-5;
 
 /// The positions found so far.
@@ -20,7 +21,7 @@ impl<'a> Positions<'a> {
         Self { model, limit, positions: Vec::new(), dropped: 0 }
     }
 
-    /// Whether no further position is kept.
+    /// Whether further positions are discarded.
     pub fn is_full(&self) -> bool {
         self.dropped > 0
     }

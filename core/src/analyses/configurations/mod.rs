@@ -1,15 +1,16 @@
 //! All positions in which a mechanism closes, for given values of its drivers and of `set`.
 //!
-//! Where dyads, rods and meshed wheels place all bodies, each has a known number of closures, and all combinations are
-//! computed: the list is complete. Otherwise Newton's method starts from many positions, and from each position found the path of every driven
-//! value is followed through its limits until it returns; other positions with the same value lie on it.
+//! If dyads, rods and meshed wheels place all bodies, each has a known number of closures, and all combinations are
+//! computed. The list is then complete. Otherwise Newton's method starts from many positions. From each position
+//! found, the path of every driven value is followed through its limits until it returns. Other positions with the
+//! same value lie on this path.
 //!
 //! | file | concept |
 //! |---|---|
 //! | `found` | positions without duplicates |
 //! | `walk` | all closures of dyads, rods and meshed wheels |
 //! | `search` | starts of Newton's method, and circuits |
-//! | `turns` | whole turns that couplings count |
+//! | `turns` | whole turns that couplings distinguish |
 //! | `options` | options of the analysis |
 
 mod found;
@@ -31,26 +32,26 @@ use found::Positions;
 pub struct Configurations {
     /// The states, with the reports of their assembly.
     pub states: Vec<(State, Report)>,
-    /// Whether there are no others: proven, where dyads, rods and meshed wheels place all bodies.
+    /// Whether the list is proven to be complete, because dyads, rods and meshed wheels place all bodies.
     pub complete: bool,
 }
 
-/// A reason for which configurations cannot be listed.
+/// The reason that configurations cannot be listed.
 #[derive(Clone, Debug)]
 pub enum Failure {
-    /// There is none, or a rate contradicts the drivers.
+    /// There is no configuration, or a rate contradicts the drivers.
     Assembly(Box<AssemblyFailure>),
-    /// Freedoms are left, so that there are infinitely many.
+    /// The mechanism has free coordinates, so there are infinitely many configurations.
     Free {
-        /// Their number.
+        /// Number of degrees of freedom.
         degrees_of_freedom: usize,
     },
 }
 
-/// The configurations with the values of `request.set`, at most `limit`; guesses are not used.
+/// The configurations with the values of `request.set`, at most `limit`. Guesses are not used.
 ///
 /// # Errors
-/// [`Failure`]: the mechanism does not close, or freedoms are left.
+/// [`Failure`]: the mechanism does not close, or has degrees of freedom left.
 pub fn configurations(
     model: &Model,
     request: &Request,
@@ -85,7 +86,7 @@ pub fn configurations(
         match assemble_until(model, &request, stop) {
             Ok(one) => states.push(one),
             Err(failure) if stop() => return Err(Failure::Assembly(failure)),
-            // a position that breaks a requirement of a joint, such as the end of a curve
+            // a position that violates a requirement of a joint, such as the end of a curve
             Err(failure) if states.is_empty() && found.positions.len() == 1 => {
                 return Err(Failure::Assembly(failure));
             }
@@ -93,7 +94,7 @@ pub fn configurations(
         }
     }
     if states.is_empty() {
-        // the reason is that of the assembly
+        // use the failure of the assembly as the reason
         let one = assemble_until(model, request, stop);
         states.push(one.map_err(Failure::Assembly)?);
     }

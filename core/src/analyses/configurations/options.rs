@@ -4,7 +4,7 @@ use crate::analyses::assemble::{targets, Target};
 use crate::analyses::options::{count, kind, name, options};
 use crate::model::Value;
 
-/// Largest number of configurations, if none is given.
+/// Default of the largest number of configurations.
 const LIMIT: usize = 100;
 
 kind! {

@@ -12,13 +12,14 @@ use crate::model::Model;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
 
-/// Largest number of placements from which Newton's method starts, and of starts with arbitrary angles.
+/// Largest number of placements from which Newton's method starts, and largest number of starts with arbitrary
+/// angles.
 const PLACEMENTS: usize = 128;
 const STARTS: usize = 300;
-/// Number of starts in a row without a new position after which no more are tried.
+/// The search ends after this number of consecutive starts without a new position.
 const IDLE: usize = 60;
 
-/// Adds the positions that starts and circuits reach.
+/// Adds the positions that are found from starts and along circuits.
 pub(super) fn search(model: &Model, t: f64, found: &mut Positions<'_>, stop: Halt<'_>) {
     let mut closing = Closing::new(model, t, stop);
     let mut next = found.positions.len();
@@ -60,7 +61,7 @@ fn arbitrary(start: usize, body: usize) -> f64 {
         .rem_euclid(1.0)
 }
 
-/// Follows the circuits of all positions from the given one on.
+/// Follows the circuits of all positions from index `next` on.
 fn follow_new(model: &Model, t: f64, found: &mut Positions<'_>, next: &mut usize, stop: Halt<'_>) {
     let mut closing = Closing::new(model, t, stop);
     while *next < found.positions.len() {
@@ -81,7 +82,7 @@ fn follow_new(model: &Model, t: f64, found: &mut Positions<'_>, next: &mut usize
     }
 }
 
-/// The drivers that may be moved; none if a joint follows a law of time, which would move with them.
+/// The drivers that may be moved. Empty if a joint follows a law of time, which would move with them.
 fn drivers(model: &Model) -> Vec<usize> {
     let joint = |item: &crate::model::ConstraintItem| item.group == Group::Joints && item.driven;
     if model.constraints.iter().any(joint) {
@@ -91,7 +92,8 @@ fn drivers(model: &Model) -> Vec<usize> {
     items.filter(|(_, item)| item.element.drives().is_some()).map(|(k, _)| k).collect()
 }
 
-/// The model in which the value of a driver grows with t and all others keep theirs; whether this value is an angle.
+/// The model in which the value of one driver grows with t and the other drivers keep their values; also whether this
+/// value is an angle.
 fn moving(model: &Model, t: f64, q: &[f64], driver: usize) -> (Model, bool) {
     let motions = Motions::at_rest(&model.layout, q);
     let value = |of: &Followed<Tape>| match of {

@@ -1,7 +1,7 @@
-//! Other whole turns of bodies whose angles a coupling counts.
+//! Other whole turns of bodies whose angles are coupled.
 //!
-//! A coupling of angles, such as 1:2, counts whole turns: where a body may have turned once more in the same position,
-//! the bodies coupled to it are elsewhere.
+//! A coupling of angles, such as 1:2, distinguishes whole turns: if a body has turned once more in the same position,
+//! the bodies coupled to it are at other positions.
 
 use super::found::Positions;
 use crate::analyses::assemble::Targets;
@@ -10,16 +10,16 @@ use crate::elements::Group;
 use crate::model::{ConstraintItem, Model};
 use std::f64::consts::TAU;
 
-/// Rounding errors of a linear equation.
+/// Largest rounding error of a linear equation.
 const LINEAR: f64 = 1e-12;
 
-/// Whether a constraint counts whole turns.
+/// Whether a constraint distinguishes whole turns.
 fn counts(item: &ConstraintItem) -> bool {
     let [equation] = &item.equations[..] else { return false };
     item.group == Group::Joints && equation.unit == "rad"
 }
 
-/// The columns of the angles that such constraints count.
+/// The columns of the angles for which such constraints distinguish whole turns.
 fn counted(model: &Model) -> Vec<usize> {
     let bodies = model.constraints.iter().filter(|item| counts(item)).flat_map(|item| &item.bodies);
     let columns = bodies.map(|body| model.layout.bodies[body.0]).filter(|body| body.count == 3);
@@ -29,8 +29,8 @@ fn counted(model: &Model) -> Vec<usize> {
     angles
 }
 
-/// Gives the angles that follow from given ones by couplings, whole turns included, to the targets; returns whether that
-/// gives all counted angles. Then no body can have turned once more.
+/// Sets targets for the angles that follow from given angles by couplings, including whole turns. Returns whether
+/// this determines all counted angles. Then no body can have turned once more.
 pub(super) fn follow(model: &Model, closing: &Closing<'_>, targets: &mut Targets) -> bool {
     let rows = model.constraints.iter().zip(&model.layout.constraints);
     let counting: Vec<_> = rows.filter(|(item, _)| counts(item)).collect();
@@ -51,8 +51,8 @@ pub(super) fn follow(model: &Model, closing: &Closing<'_>, targets: &mut Targets
     moving.all(|body| targets.hard[body.0][2].is_some())
 }
 
-/// The one angle of an equation of angles that the targets do not give; None if the equation is not linear in it, or
-/// depends on places.
+/// The only angle of an equation that has no target, solved from the equation. None if the equation is not linear in
+/// it, or depends on positions.
 fn solved(model: &Model, closing: &Closing<'_>, targets: &Targets, row: usize) -> Option<f64> {
     let residual = |angle: f64, place: f64| {
         let mut q = vec![place; model.layout.n_q];
@@ -69,7 +69,7 @@ fn solved(model: &Model, closing: &Closing<'_>, targets: &Targets, row: usize) -
     (slope != 0.0 && alike(far - next, slope) && alike(at, elsewhere)).then(|| -at / slope)
 }
 
-/// Adds the positions that whole turns of each such body lead to, from all positions found.
+/// Adds the positions that follow from all positions found by whole turns of these bodies.
 pub(super) fn turn(model: &Model, t: f64, found: &mut Positions<'_>, stop: Halt<'_>) {
     let mut closing = Closing::new(model, t, stop);
     let angles = counted(model);

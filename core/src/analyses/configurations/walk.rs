@@ -8,10 +8,10 @@ use crate::model::{row_scales, Model};
 
 /// Largest number of combinations.
 const MOST: usize = 20_000;
-/// Largest residual of a position of which all bodies are placed exactly, relative to the size of the mechanism.
+/// Largest residual of a position whose bodies are all placed exactly, relative to the size of the mechanism.
 const CLOSED: f64 = 1e-7;
 
-/// Adds the positions of all combinations of closures and meshes; returns whether there are no others.
+/// Adds the positions for all combinations of closures and meshes. Returns whether the list is complete.
 pub(super) fn walk(model: &Model, t: f64, found: &mut Positions<'_>, stop: Halt<'_>) -> bool {
     let mut targets = Targets::of(model, t);
     targets.soft.fill([None; 3]);
@@ -19,7 +19,7 @@ pub(super) fn walk(model: &Model, t: f64, found: &mut Positions<'_>, stop: Halt<
     let mut closing = Closing::new(model, t, stop);
     let scales = row_scales(model);
     let mut choices = Some(Vec::new());
-    // a dyad closes at any whole turn of its bodies
+    // a dyad closes for any whole turns of its bodies
     let proven = turns::follow(model, &closing, &mut targets);
     for _ in 0..MOST {
         let Some(taken) = choices.take() else { return proven };
@@ -31,7 +31,7 @@ pub(super) fn walk(model: &Model, t: f64, found: &mut Positions<'_>, stop: Halt<
         let mut q = placement.q;
         crate::analyses::assemble::wind(model, t, &mut q);
         let phi = closing.phi(&q);
-        // joints that no dyad needed must close too
+        // joints that no dyad used must also close
         let closes = placement.gaps.is_empty()
             && phi.iter().zip(&scales).all(|(phi, scale)| phi.abs() <= CLOSED * scale);
         if closes && closing.close(&mut q).1 {

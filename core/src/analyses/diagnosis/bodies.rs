@@ -1,4 +1,4 @@
-//! Bodies that cannot move, and bodies that nothing holds.
+//! Bodies that cannot move, and bodies that no joint holds.
 
 use super::passing::freedoms;
 use crate::analyses::mobility::neighbour;
@@ -6,14 +6,14 @@ use crate::elements::Group;
 use crate::model::Model;
 use std::sync::Arc;
 
-/// Part of a motion, relative to its largest component, that counts as rest.
+/// Components of a motion below this fraction of its largest component count as rest.
 const AT_REST: f64 = 1e-7;
 
-/// The bodies that no motion without drivers moves; none where the model is too large to tell.
+/// The bodies that no motion without drivers moves. Empty if the model is too large for this check.
 pub(super) fn locked(model: &Model, t: f64, q: &[f64]) -> Vec<String> {
     let Some(here) = resting(model, t, q) else { return Vec::new() };
     let mut locked = here;
-    // a piston at a dead centre rests there only
+    // a piston at a dead centre is at rest only in this position
     let near = neighbour(&released(model), t, q, 0, &|| false);
     if let Some(there) = near.and_then(|near| resting(model, t, &near)) {
         locked.retain(|body| there.contains(body));
@@ -21,7 +21,7 @@ pub(super) fn locked(model: &Model, t: f64, q: &[f64]) -> Vec<String> {
     locked.into_iter().map(|body| model.bodies[body].name.clone()).collect()
 }
 
-/// The bodies that have no velocity at a position.
+/// The bodies with zero velocity in every motion at a position.
 fn resting(model: &Model, t: f64, q: &[f64]) -> Option<Vec<usize>> {
     let freedoms = freedoms(model, t, q)?;
     let rests = |body: &usize| {
@@ -38,7 +38,7 @@ fn released(model: &Model) -> Model {
     Model::new(&Arc::new(model.blueprint.keeping(&kept)), &model.parameters)
 }
 
-/// The bodies that no chain of joints connects with ground.
+/// The bodies that no chain of joints connects to ground.
 pub(super) fn loose(model: &Model) -> Vec<String> {
     let mut held = vec![false; model.bodies.len()];
     held[0] = true;

@@ -5,7 +5,7 @@ use crate::math::Local;
 use crate::model::Model;
 use std::fmt;
 
-/// Difference of sums of lengths, relative to their size, up to which they are equal.
+/// Sums of lengths that differ by less than this relative amount count as equal.
 const EQUAL: f64 = 1e-9;
 /// Largest number of loops that are listed.
 const MOST: usize = 100;
@@ -13,35 +13,35 @@ const MOST: usize = 100;
 /// A closed loop of four bodies and four pins.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FourBar {
-    /// The bodies, each next to its neighbours; ground first if it takes part.
+    /// The bodies in order around the loop. Ground is first if it takes part.
     pub bodies: [String; 4],
-    /// The pins: of the first and second body, and so on.
+    /// The pins: between the first and second body, and so on.
     pub pins: [String; 4],
-    /// The distances of the two pins of each body, m.
+    /// The distance between the two pins of each body, m.
     pub lengths: [f64; 4],
-    /// Its kind.
+    /// The kind of the loop.
     pub class: Grashof,
 }
 
-/// Kinds of four-bar loops, with the place of the shortest link among the bodies.
+/// Kinds of four-bar loops, with the index of the shortest link among the bodies.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Grashof {
-    /// The shortest link, beside ground, turns fully.
+    /// The shortest link is adjacent to ground and turns fully.
     CrankRocker(usize),
-    /// Ground is the shortest: both links beside it turn fully.
+    /// Ground is the shortest link; both adjacent links turn fully.
     DoubleCrank(usize),
-    /// The link opposite to ground is the shortest: it turns fully, the links beside ground do not.
+    /// The link opposite to ground is the shortest. It turns fully; the links adjacent to ground do not.
     DoubleRocker(usize),
-    /// The shortest link turns fully; ground does not take part.
+    /// The shortest link turns fully. Ground does not take part.
     Grashof(usize),
-    /// No link turns fully against another.
+    /// No link turns fully relative to another link.
     TripleRocker,
-    /// The shortest and the longest link together are as long as the others: all links can lie in line.
+    /// The shortest and the longest link are together as long as the other two: all links can lie in line.
     ChangePoint,
 }
 
 impl Grashof {
-    /// The places of the links that turn fully against their neighbours; None if that depends on the branch.
+    /// The indices of the links that turn fully relative to their neighbours. None if this depends on the branch.
     pub fn turning(self) -> Option<impl Iterator<Item = usize>> {
         let places = match self {
             Self::ChangePoint => return None,
@@ -73,7 +73,7 @@ struct Pin {
     at: [Local; 2],
 }
 
-/// The four-bar loops of a model; each once.
+/// The four-bar loops of a model, each listed once.
 pub(super) fn four_bars(model: &Model) -> Vec<FourBar> {
     let pins = pins(model);
     let mut of_body = vec![Vec::new(); model.bodies.len()];
@@ -106,7 +106,7 @@ pub(super) fn four_bars(model: &Model) -> Vec<FourBar> {
     found
 }
 
-/// Each two bodies that turn about the same point: joined by a pin, or both to others at this point.
+/// Pairs of bodies that turn about the same point: joined by a pin, or each pinned to other bodies at this point.
 fn pins(model: &Model) -> Vec<Pin> {
     let mut found = Vec::new();
     for hinge in hinges(model) {
@@ -131,7 +131,7 @@ fn pins(model: &Model) -> Vec<Pin> {
 /// A point about which bodies turn: the bodies, the point on each of them, and its pins there.
 type Hinge = Vec<(usize, Local, Vec<usize>)>;
 
-/// The joints that fix two points and nothing else, those at the same point of a body together.
+/// The joints that only fix two points. Joints at the same point of a body are combined.
 fn hinges(model: &Model) -> Vec<Hinge> {
     let mut hinges: Vec<Hinge> = Vec::new();
     for (k, item) in model.constraints.iter().enumerate() {
@@ -163,7 +163,7 @@ fn hinges(model: &Model) -> Vec<Hinge> {
     hinges
 }
 
-/// The loop of four bodies; None if two pins of a body coincide.
+/// The loop of four bodies. None if two pins of a body coincide.
 fn four_bar(model: &Model, pins: &[Pin], bodies: [usize; 4], loop_: [usize; 4]) -> Option<FourBar> {
     let place = |k: usize, body: usize| pins[k].at[usize::from(pins[k].bodies[1] == body)];
     let lengths: [f64; 4] = std::array::from_fn(|k| {
@@ -179,7 +179,7 @@ fn four_bar(model: &Model, pins: &[Pin], bodies: [usize; 4], loop_: [usize; 4]) 
     })
 }
 
-/// Grashof's rule; the first link is ground if `grounded`.
+/// Grashof's rule. The first link is ground if `grounded`.
 fn class(lengths: &[f64; 4], grounded: bool) -> Grashof {
     let place = (0..4).min_by(|a, b| lengths[*a].total_cmp(&lengths[*b])).unwrap_or(0);
     let mut sorted = *lengths;

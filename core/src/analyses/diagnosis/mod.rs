@@ -4,9 +4,9 @@
 //! | file | concept |
 //! |---|---|
 //! | `passing` | kinds of singular positions, by the second derivatives of the constraints |
-//! | `remedies` | what may be freed in the joints of a redundancy |
+//! | `remedies` | equations that may be freed in the joints of a redundancy |
 //! | `bodies` | bodies that cannot move, and bodies that no joint holds |
-//! | `four_bars` | closed loops of four pins, by Grashof's rule |
+//! | `four_bars` | closed loops of four pins, with Grashof's rule |
 //! | `as_json` | a diagnosis as JSON |
 
 mod as_json;
@@ -29,7 +29,7 @@ use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
 use crate::model::Model;
 
-/// Part of a sum of rates that counts as rounding.
+/// Sums of rates below this fraction of their terms count as rounding errors.
 const ROUNDING: f64 = 1e-9;
 
 options! {
@@ -41,42 +41,43 @@ options! {
     }
 }
 
-/// The freedoms, redundancies and singular positions of a mechanism at a position.
+/// The degrees of freedom, redundancies and singular positions of a mechanism at a position.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnosis {
-    /// Coordinates less constraint equations, drivers included; negative if there are more equations.
+    /// Number of coordinates minus number of constraint equations, including drivers. Negative if there are more
+    /// equations.
     pub gruebler: i64,
-    /// Equations of drivers, and of joints with a law of time.
+    /// Number of equations of drivers, and of joints with a law of time.
     pub driven: usize,
-    /// Coordinates less independent constraint equations, and the groups of dependent ones.
+    /// Number of coordinates minus number of independent constraint equations, and the groups of dependent equations.
     pub mobility: Mobility,
     /// Redundant equations.
     pub redundant: Vec<Redundancy>,
-    /// Equations that depend on others at this position only, and the kind of position.
+    /// Equations that depend on others only at this position, and the kind of position.
     pub singular: Vec<(Redundancy, SingularKind)>,
     /// Bodies (names) that cannot move even if the drivers are released.
     pub locked: Vec<String>,
-    /// Bodies (names) that no chain of joints connects with ground.
+    /// Bodies (names) that no chain of joints connects to ground.
     pub loose: Vec<String>,
-    /// Massless bodies (names) whose motion the mechanism does not determine, so that dynamics refuses it; each with the
-    /// message of a run.
+    /// Massless bodies (names) whose motion the mechanism does not determine. Dynamics refuses these bodies. Each has
+    /// the message of a run.
     pub undetermined: Vec<(String, String)>,
     /// Closed loops of four pins.
     pub four_bars: Vec<FourBar>,
 }
 
-/// An equation that others imply.
+/// An equation that follows from others.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Redundancy {
     /// The joints and drivers that take part.
     pub joints: Vec<String>,
-    /// Their equations that take part, such as `C.x`: any single one may be removed.
+    /// Their equations that take part, such as `C.x`. Any one of them may be removed.
     pub equations: Vec<String>,
-    /// The equations that may be freed in each joint; one joint is enough.
+    /// The equations that may be freed in each joint. Freeing them in one joint is sufficient.
     pub remedies: Vec<Remedy>,
-    /// One of the equations, such that the equations of this name in all redundancies may be removed together.
+    /// An equation that may be removed. These equations of all redundancies may be removed together.
     pub remove: String,
-    /// Whether the rates that drivers prescribe agree with it; a joint always agrees.
+    /// Whether the rates prescribed by drivers are consistent with the dependence. Always true for joints.
     pub consistent: bool,
 }
 
@@ -107,8 +108,8 @@ pub fn diagnose(model: &Model, state: &State) -> Diagnosis {
     }
 }
 
-/// Equations that depend on others within the error of the position: at a dead point, Newton's method finds it to half of
-/// the digits.
+/// Equations that depend on others within the error of the position. At a dead point, Newton's method finds only half
+/// of the digits.
 fn nearly_dependent(model: &Model, state: &State, redundant: &[Dependent]) -> Vec<Dependent> {
     let mut found = dependence::at(model, state.t, &state.q, NEARLY, &|| false);
     found.retain(|one| redundant.iter().all(|other| other.row != one.row));

@@ -1,8 +1,8 @@
 //! Kinds of singular positions.
 //!
-//! Where rows of Φ_q depend on each other, Σ y_k Φ_q,k = 0, a motion q + ε w + … with Φ_q w = 0 must also satisfy
-//! B(w, w) = Σ y_k wᵀ Φ_qq,k w = 0. If B has both signs on the null space, two motions cross: a change point. If it has one
-//! sign, no motion exists in these directions, and the mechanism has play of the first order only. If a driver takes part,
+//! If rows of Φ_q depend on each other, Σ y_k Φ_q,k = 0, a motion q + ε w + … with Φ_q w = 0 must also satisfy B(w,
+//! w) = Σ y_k wᵀ Φ_qq,k w = 0. If B has both signs on the null space, two motions cross: a change point. If B has one
+//! sign, no motion exists in these directions, and the mechanism has only first-order play. If a driver takes part,
 //! it cannot move the mechanism: a dead point.
 
 use crate::analyses::freedoms;
@@ -13,7 +13,7 @@ use crate::equations::kinematics::Motions;
 use crate::model::Model;
 use std::fmt;
 
-/// Part of the largest entry of a form that counts as zero.
+/// Entries below this fraction of the largest entry of a form count as zero.
 const ZERO: f64 = 1e-7;
 
 /// The kind of a singular position.
@@ -21,9 +21,9 @@ const ZERO: f64 = 1e-7;
 pub enum SingularKind {
     /// A driver cannot move the mechanism.
     DeadPoint,
-    /// Motions cross, or touch: the branch is not determined by the position.
+    /// Motions cross or touch: the position does not determine the branch.
     ChangePoint,
-    /// Velocities without a motion: play of the first order.
+    /// Velocities exist without a motion: first-order play.
     Uncertainty,
 }
 
@@ -37,7 +37,7 @@ impl fmt::Display for SingularKind {
     }
 }
 
-/// The kind for each of the equations that are dependent at this position only.
+/// The kind of each equation that is dependent only at this position.
 pub(super) fn kinds(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -> Vec<SingularKind> {
     let driven = |one: &Dependent| one.group.iter().any(|k| model.constraints[*k].driven);
     let equations = &mobility.singular_equations;
@@ -78,7 +78,7 @@ fn crossing(model: &Model, t: f64, q: &[f64], equations: &[&Dependent]) -> Singu
     }
 }
 
-/// B on the freedoms, row by row, for each equation.
+/// The form B on the freedoms, row by row, for each equation.
 fn forms(
     model: &Model,
     t: f64,
@@ -120,7 +120,7 @@ fn forms(
     found
 }
 
-/// An orthonormal basis of some forms; a redundant equation has the form zero.
+/// An orthonormal basis of some forms. The form of a redundant equation is zero.
 fn independent(forms: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let length = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
     let largest = forms.iter().map(|form| length(form)).fold(0.0, f64::max);
@@ -139,7 +139,7 @@ fn independent(forms: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     basis
 }
 
-/// The least and the largest eigenvalue of a symmetric matrix, by Jacobi's rotations.
+/// The smallest and the largest eigenvalue of a symmetric matrix, by Jacobi rotations.
 fn signs(form: &[f64], n: usize) -> [f64; 2] {
     let mut a = form.to_vec();
     for _ in 0..30 {

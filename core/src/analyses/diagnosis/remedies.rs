@@ -1,9 +1,9 @@
-//! What may be freed in the joints of a redundancy.
+//! Equations that may be freed in the joints of a redundancy.
 //!
-//! A dependence Σ y_k Φ_q,k = 0 is a set of constraint forces that balance each other. A joint gives it up if it no longer
-//! transfers its part: a pin with the factors (y_x, y_y) if it leaves the direction of this vector free, any other joint if
-//! one of the equations that take part is removed. Where the mechanism moves, the direction may turn with one of the two
-//! bodies; a slot for the pin then belongs to this body.
+//! A dependence Σ y_k Φ_q,k = 0 is a set of constraint forces that balance each other. A joint removes the dependence
+//! if it no longer transfers its force. A pin with the factors (y_x, y_y) must leave the direction of this vector
+//! free; in any other joint one of the equations that take part must be removed. If the mechanism moves, the
+//! direction may turn with one of the two bodies. A slot for the pin then belongs to this body.
 
 use crate::analyses::dependence;
 use crate::analyses::mobility::neighbour;
@@ -14,7 +14,7 @@ use crate::solve::RANK_TOLERANCE;
 use std::f64::consts::PI;
 use std::fmt;
 
-/// Angle up to which two directions are the same, rad.
+/// Directions that differ by less than this angle count as equal, rad.
 const SAME: f64 = 1e-7;
 
 /// The equations that may be freed in one joint.
@@ -24,7 +24,7 @@ pub struct Remedy {
     pub joint: String,
     /// Its equations that take part, such as `C.x`.
     pub equations: Vec<String>,
-    /// Whether the joint has other equations.
+    /// Whether the joint also has other equations.
     pub is_part: bool,
     /// The direction that may be freed, if the joint is a pin.
     pub along: Option<JointDirection>,
@@ -33,7 +33,8 @@ pub struct Remedy {
 /// A direction at a joint.
 #[derive(Clone, Debug, PartialEq)]
 pub struct JointDirection {
-    /// The body with which it turns; None if there is none, so that the direction is that of the position.
+    /// The body with which the direction turns. None if there is no such body; the direction is then valid at this
+    /// position.
     pub body: Option<String>,
     /// Angle from the x axis of this body, or of ground, in (-π/2, π/2], rad.
     pub axis: f64,
@@ -62,7 +63,7 @@ impl fmt::Display for Remedy {
     }
 }
 
-/// The remedies of each of the dependences, one for each joint that takes part.
+/// The remedies of each dependence: one for each joint that takes part.
 pub fn remedies(model: &Model, t: f64, q: &[f64], all: &[Dependent]) -> Vec<Vec<Remedy>> {
     let near = neighbour(model, t, q, 0, &|| false);
     let there = near.map(|near| {
@@ -111,7 +112,7 @@ fn remedy(model: &Model, k: usize, here: At<'_>, moved: Option<At<'_>>, moves: b
     Remedy { joint: item.name.clone(), equations, is_part: rows.len() > 1, along }
 }
 
-/// The direction of the part of a pin in a dependence, rad; None of other joints and equations.
+/// The direction of the force of a pin in a dependence, rad. None for other joints and equations.
 fn direction(model: &Model, k: usize, one: &Dependent) -> Option<f64> {
     let item = &model.constraints[k];
     if item.element.fixes() != [Fixes::Points] {

@@ -1,5 +1,6 @@
-//! Absolute tolerances of a mechanism. One number cannot serve metres and radians at every size, so there is one for
-//! each kind of component: lengths, angles, and first-order states. Rates have the number of their coordinate, per s.
+//! Absolute tolerances of a mechanism. Metres and radians need different tolerances, so there is one number for each
+//! kind of component: lengths, angles, and first-order states. The number for rates is the number for their
+//! coordinates, per s.
 
 use crate::analyses::options::{not_negative, OptionKind, Reader};
 use crate::elements::{Default, Shape, TOLERANCES};
@@ -11,12 +12,12 @@ use crate::model::{size, Model, Value};
 pub enum AbsoluteTolerance {
     /// One number for every component, in the unit of the component.
     Uniform(f64),
-    /// For each component of (q, v, z) the number of its kind, if there is one, and its scale.
+    /// For each component of (q, v, z) the number of its kind, if it is given, and the scale of the component.
     ByKind(Vec<(Option<f64>, f64)>),
 }
 
 impl AbsoluteTolerance {
-    /// The tolerance for the integrator. A kind without a number has `usual` times its scale.
+    /// The tolerance for the integrator. The tolerance of a kind without a number is `usual` times its scale.
     pub fn resolve(given: Option<Self>, usual: f64) -> Atol {
         match given {
             None => Atol::Scaled(usual),
@@ -28,7 +29,7 @@ impl AbsoluteTolerance {
     }
 }
 
-/// The kind of each component of (q, v, z), as a place in [`TOLERANCES`].
+/// The kind of each component of (q, v, z), as an index into [`TOLERANCES`].
 fn kinds(model: &Model) -> impl Iterator<Item = usize> {
     let of_q = model.layout.lengths().into_iter().map(|length| usize::from(!length));
     let of_q: Vec<usize> = of_q.collect();
@@ -41,7 +42,7 @@ fn scales(model: &Model) -> [f64; 3] {
     [size(model), 1.0, 1.0]
 }
 
-/// One number for each component of (q, v, z), as most methods control them.
+/// The tolerance with one number for each component of (q, v, z), as most methods need it.
 pub(super) fn for_model(model: &Model, atol: &Atol) -> Atol {
     match atol {
         Atol::Scaled(part) => {

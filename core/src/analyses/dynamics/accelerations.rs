@@ -1,8 +1,8 @@
-//! Accelerations and multipliers at the states of a run, with γ and never γ̂.
+//! Accelerations and multipliers at the states of a run, without stabilization (γ, not γ̂).
 //!
 //! A run keeps only states. Accelerations and multipliers are computed on request. The states are independent of each
-//! other, so several are solved at once, with the same formulas over lanes. If one of them is not regular (near a
-//! singular position, or with a number that is not finite), each is solved separately.
+//! other, so several states are solved at once, one in each lane. If one of them is not regular (near a singular
+//! position, or with a number that is not finite), each state is solved separately.
 
 use super::failure::Failure;
 use super::lane_batch::are_finite;
@@ -19,7 +19,7 @@ use crate::math::{Lanes, Real};
 use crate::model::Model;
 use crate::solve::Breakdown;
 
-/// Accelerations and multipliers of states, a row for each.
+/// Accelerations and multipliers, one row per state.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Accelerations {
     /// Accelerations, rows of n_q.
@@ -32,7 +32,7 @@ impl Run {
     /// Accelerations and multipliers at the reported states, without stabilization.
     ///
     /// # Errors
-    /// As [`Prepared::accelerations`](super::Prepared::accelerations).
+    /// The errors of [`Prepared::accelerations`](super::Prepared::accelerations).
     pub fn accelerations(&self, model: &Model) -> Result<Accelerations, Box<Failure>> {
         let (cache, states) = (ModelCache::default(), self.trajectory.states());
         accelerations((model, &cache), states, self.passing, |_| Flow::Continue)
@@ -120,7 +120,8 @@ fn one_by_one(
     Ok(())
 }
 
-/// Changes multipliers that damped rows made nearly the smallest to the smallest, where the others are independent.
+/// Replaces multipliers from damped rows, which have nearly the least norm, by the multipliers of least norm. Keeps
+/// them if the independent rows have no solution.
 fn take_smallest(
     model: &Model,
     independent: &mut Workspace,
@@ -147,7 +148,7 @@ struct Many<'a> {
 }
 
 impl<'a> Many<'a> {
-    /// Uses the plan of elimination of `one`.
+    /// Uses the elimination plan of `one`.
     fn new(wide: Wide<'a>, one: &Workspace) -> Self {
         let model = wide.model();
         let mut workspace = Workspace::like(model, one);
@@ -157,14 +158,14 @@ impl<'a> Many<'a> {
         Self { wide, workspace, q: room(n_q), v: room(n_q), z: room(n_z) }
     }
 
-    /// Leaves out the same rows as `one`.
+    /// Omits the same rows as `one`.
     fn follow(&mut self, one: &Workspace) {
         if self.workspace.matrix.omitted() != one.matrix.omitted() {
             self.workspace.omit(one.matrix.omitted());
         }
     }
 
-    /// Solves four states, if there are four and every one is regular.
+    /// Solves four states. Returns false if there are fewer than four or if one of them is not regular.
     fn solve(&mut self, rows: States<'_>, found: &mut Accelerations) -> bool {
         let Ok(t) = rows.t.try_into() else { return false };
         Lanes::from_rows(rows.q, &mut self.q);

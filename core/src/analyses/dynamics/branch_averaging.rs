@@ -1,36 +1,36 @@
-//! Reported states near a singular position. There the distance of two branches of the motion may be below the
-//! tolerance, so the nearest state that meets the constraints may belong to the wrong branch.
+//! Reported states near a singular position. There, two branches of the motion may be closer than the tolerance, so
+//! the nearest state that meets the constraints may belong to the wrong branch.
 //!
-//! Farther away the branches are apart. So the state is moved forward and backward along its rates and projected
-//! there, and the mean of these states is extrapolated once. The error of the linear motion cancels, and the remaining
-//! error by curvature is of the fourth order.
+//! The branches separate farther away. The state is therefore moved forward and backward along its rates and
+//! projected there, and the mean of these states is extrapolated once. The error of the linear motion cancels, and
+//! the remaining error from the curvature is of fourth order.
 
 use crate::equations::Workspace;
 use crate::math::Real;
 use crate::solve::Breakdown;
 use crate::stabilize::Projector;
 
-/// Largest change of the rates by projection on the right branch, as a part of the fastest rate.
+/// Largest change of the rates by projection on the correct branch, as a fraction of the fastest rate.
 pub(super) const TURNED: f64 = 0.1;
-/// Part that the worst pivot keeps of its magnitude beside a singular position; it is of the order of the square of the
-/// distance. Branches that differ by less than a tolerance are far nearer.
+/// Fraction of its magnitude that the worst pivot keeps near a singular position. The fraction is of the order of the
+/// squared distance. Branches that differ by less than a tolerance are far closer to the position.
 pub(super) const NEAR: f64 = 1e-4;
-/// Largest distance of two states on different branches beside a singular position, as a part of the mechanism's size or
-/// in rad.
+/// Largest distance between two states on different branches near a singular position, relative to the mechanism's
+/// size or in rad.
 pub(super) const BESIDE: f64 = 1e-3;
-/// Distances of the neighbouring states, as parts of the mechanism's size or in rad: first far away, where the
-/// branches are well apart, then nearer, where the error by curvature is smaller.
+/// Distances of the neighbouring states, as fractions of the mechanism's size or in rad: first far away, where the
+/// branches are well apart, then nearer, where the error from the curvature is smaller.
 const AHEAD: [f64; 3] = [0.2, 0.05, 0.0125];
-/// Place of each neighbouring state in units of the distance, and its weight: even orders up to the second cancel.
+/// Position of each neighbouring state in units of the distance, and its weight. Even orders up to the second cancel.
 const AROUND: [(f64, f64); 4] =
     [(1.0, 2.0 / 3.0), (-1.0, 2.0 / 3.0), (2.0, -1.0 / 6.0), (-2.0, -1.0 / 6.0)];
 
-/// Change of v by projection, as a part of the fastest rate.
+/// Change of v by projection, as a fraction of the fastest rate.
 pub(super) fn turn<S: Real>(projector: &Projector<'_, S>, given: &[S], v: &[S]) -> f64 {
     projector.largest_difference(v, given) / projector.fastest().max(f64::MIN_POSITIVE)
 }
 
-/// Computes (q, v) from neighbouring states; they must be projected afterwards.
+/// Computes (q, v) from neighbouring states. The caller must project the result.
 ///
 /// # Errors
 /// [`Breakdown`] of a neighbouring state; q and v are then invalid.

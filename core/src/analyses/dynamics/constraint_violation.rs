@@ -1,8 +1,8 @@
 //! Joints that open too far. Baumgarte's stabilization bounds the opening only by its gains and the tolerance.
 //!
-//! Projection closes the joints or fails. With Baumgarte's stabilization they open a little; beyond [`APART`] of the
-//! mechanism's size the result is not a motion of the mechanism. Without stabilization drift is expected, but not
-//! joints that are farther apart than the mechanism is large.
+//! Projection closes the joints or fails. With Baumgarte's stabilization they open a little. If they open by more
+//! than [`APART`] times the mechanism's size, the result is not a motion of the mechanism. Without stabilization,
+//! drift is expected, but no joint may open farther than the size of the mechanism.
 
 use super::options::Options;
 use super::stabilizations::Stabilization;
@@ -40,7 +40,8 @@ impl<S: Real> ViolationCheck<S> {
         })
     }
 
-    /// [`Breakdown::Apart`] of the row with the largest residual, if it is too large; over lanes, in any of them.
+    /// Returns [`Breakdown::Apart`] for the row with the largest residual if this residual is too large; over lanes,
+    /// if it is too large in any lane.
     pub fn largest(&mut self, model: &Model<S>, t: S, motions: &Motions<S>) -> Option<Breakdown> {
         constraints::residual(model, motions, t, &mut self.residual);
         let gaps = || self.residual.iter().map(|gap| gap.largest_magnitude());

@@ -1,10 +1,10 @@
 //! Steps at the beginning and at the end of compliant contacts.
 //!
-//! A mass m, as the contact feels it through the mechanism, that arrives with the speed v at k δⁿ stays in contact for
-//! about 3 δ/v with the depth δ = ((n + 1) m v²/(2 k))^(1/(n + 1)). Constant steps of an explicit method may be too long
-//! for that. Methods that choose their steps find the error of steps that are too long, but where n is not an integer, the
-//! force begins and ends like tⁿ, without higher derivatives, and estimates of the error are too small there: the first and
-//! the last steps are graded.
+//! Let m be the effective mass of the mechanism at the contact. If it arrives with speed v at a contact with the
+//! force k δⁿ, it stays in contact for about 3 δ/v and reaches the depth δ = ((n + 1) m v²/(2 k))^(1/(n + 1)).
+//! Constant steps of an explicit method may be too long for this. Methods with error control detect steps that are
+//! too long. If n is not an integer, however, the force begins and ends like tⁿ, without higher derivatives, and
+//! error estimates are too small there. The first and the last steps are then graded.
 
 use super::modes::StateAt;
 use super::motion_ode::MotionOde;
@@ -15,9 +15,9 @@ use crate::solve::Breakdown;
 
 /// Least number of constant steps in a contact.
 const STEPS: f64 = 10.0;
-/// Time in contact over depth and speed: π for a linear spring, 2.94 for a sphere.
+/// Time in contact divided by δ/v: π for a linear spring, 2.94 for a sphere.
 const DURATION: f64 = 3.0;
-/// Ends of the first steps, as parts of the time in contact, and of the last ones, as parts of one step.
+/// Ends of the first steps as fractions of the time in contact, and of the last steps as fractions of one step.
 const GRADED: [f64; 4] = [0.25, 0.05, 0.01, 0.002];
 
 /// How a method chooses its steps.
@@ -45,12 +45,12 @@ impl StepChoice {
 /// A contact that begins.
 struct Onset {
     force: usize,
-    /// About how long it lasts, s.
+    /// Approximate duration, s.
     lasts: f64,
 }
 
-/// The ends of the first steps, last ones first, of contacts that begin at a state where these switches change; None if
-/// none begins that changes the steps. With the steps of the method, and the direction of time.
+/// Ends of the first steps, last step first, of contacts that begin at a state where these switches change. None if
+/// no contact begins that changes the steps. The arguments include the steps of the method and the direction of time.
 ///
 /// # Errors
 /// [`Breakdown::Unresolved`] if constant steps are too long.
@@ -64,7 +64,7 @@ pub(super) fn ends(
     Ok(Some(onset.ends(steps)?.into_iter().map(|after| at.0 + sign * after).collect()))
 }
 
-/// The ends of the last steps, last ones first, before a compliant contact is released at the end of a step: the force
+/// Ends of the last steps, last step first, before a compliant contact is released at the end of a step. The force
 /// ends as it begins.
 pub(super) fn before_release(
     model: &Model,
@@ -88,7 +88,7 @@ pub(super) fn before_release(
 }
 
 impl Onset {
-    /// The shortest contact that begins where these switches change, of those that change the steps.
+    /// The shortest contact that begins where these switches change, among contacts that change the steps.
     fn find(
         ode: &mut MotionOde<'_>,
         at: (f64, &[f64]),
@@ -134,7 +134,7 @@ impl Onset {
         Ok((speed > 0.0 && lasts.is_finite()).then_some(Self { force, lasts }))
     }
 
-    /// The times after its beginning at which the first steps end, last ones first.
+    /// Times after the beginning of the contact at which the first steps end, last step first.
     fn ends(&self, steps: StepChoice) -> Result<Vec<f64>, Breakdown> {
         let Self { force, lasts } = *self;
         match steps {
@@ -147,7 +147,7 @@ impl Onset {
     }
 }
 
-/// The derivatives of the rate of the gap by the rates of the coordinates, which are changed.
+/// Derivatives of the rate of the gap with respect to the rates of the coordinates. Changes `y`.
 fn gradient(model: &Model<Jet>, (t, y): (f64, &mut [f64]), force: usize) -> Vec<f64> {
     let mut rate = |one: Option<usize>| {
         let [_, v, ..] = model.layout.split_mut(y);

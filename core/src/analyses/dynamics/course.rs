@@ -1,7 +1,7 @@
 //! The course of a run with events: phases, each with the drivers and parameters that hold in it.
 //!
-//! An event that only lists its times does not end a phase. A phase ends where the run stops, where a driver is released
-//! and where the caller acts; the next one begins there, with a model of its own.
+//! An event that only lists its times does not end a phase. A phase ends where the run stops, a driver is released, a
+//! force changes its mode or the caller acts. The next phase begins there, with its own model.
 
 use super::clock::Clock;
 use super::event_list::{EventFunction, Watched};
@@ -44,7 +44,7 @@ enum Effect {
     Act,
     /// This driver no longer acts.
     Release(String),
-    /// The mode of a force may change; the place among the events of its behaviour.
+    /// The mode of a force may change. `place` is the index among the events of its behaviour.
     Mode { force: usize, place: usize },
 }
 
@@ -196,7 +196,7 @@ fn check_modes(
     modes::check(model, &StateAt { t: at.t, y: &mut at.y })
 }
 
-/// The model of the next phase, which must meet its constraints where it begins.
+/// Builds the model of the next phase and checks that the state meets its constraints.
 fn changed(
     base: &Model,
     setting: &Setting,
@@ -213,7 +213,7 @@ fn changed(
     Ok(own)
 }
 
-/// The conditions of a phase over its model.
+/// Reads the conditions of the events for the model of a phase.
 fn conditions(
     model: &Model,
     setting: &Setting,
@@ -261,7 +261,7 @@ fn watched<'c>(
     watched.collect()
 }
 
-/// Changes of mode that follow each other without time between them.
+/// Counts changes of mode that occur at one time.
 #[derive(Default)]
 struct Stall {
     t: f64,
@@ -269,9 +269,9 @@ struct Stall {
 }
 
 impl Stall {
-    /// Most changes at one time, and for each force with modes.
+    /// Largest number of changes at one time: a constant, and the addition for each force with modes.
     const MOST: [usize; 2] = [200, 20];
-    /// Spacings of numbers that count as one time.
+    /// Times count as equal within this number of floating-point spacings.
     const SPACINGS: f64 = 64.0;
 
     fn look(&mut self, model: &Model, t: f64, setting: &Setting) -> Result<(), Box<Failure>> {
@@ -293,7 +293,7 @@ impl Stall {
     }
 }
 
-/// Whether a force holds in a phase.
+/// Whether any force holds in a phase.
 fn holds(setting: &Setting) -> bool {
     setting.modes.iter().any(|of| matches!(of.mode, Mode::Holds(_)))
 }

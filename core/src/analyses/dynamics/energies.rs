@@ -1,4 +1,4 @@
-//! Energies at the states of a run, computed on request; several states at once over lanes.
+//! Energies at the states of a run, computed on request, for several states at once over lanes.
 
 use super::failure::Failure;
 use super::model_cache::ModelCache;
@@ -19,7 +19,7 @@ impl Run {
     /// rows of [`ENERGIES`].
     ///
     /// # Errors
-    /// As [`Prepared::energies`](super::Prepared::energies).
+    /// The errors of [`Prepared::energies`](super::Prepared::energies).
     pub fn energies(&self, model: &Model) -> Result<Vec<f64>, Box<Failure>> {
         energies((model, &ModelCache::default()), self.trajectory.states(), &self.trajectory.works)
     }

@@ -1,7 +1,7 @@
 //! The events of a phase: functions of the state whose changes of sign are located on the interpolant of each step.
 //!
-//! An event that ends its phase is located where the solution itself has it: the step is taken again up to the event,
-//! and the time is corrected until the function is zero at the end of a step.
+//! The time of an event that ends its phase must agree with the solution, not only with the interpolant. The step is
+//! taken again up to the event, and the time is corrected until the function is zero at the end of a step.
 
 use super::modes::ModeFunction;
 use super::motion_ode::MotionOde;
@@ -11,19 +11,19 @@ use crate::analyses::so_far::SoFar;
 use crate::integrate::{crossings, Crossing, Direction, Step};
 use crate::model::Model;
 
-/// Times a step is taken again to end at an event.
+/// Largest number of times that a step is taken again to end at an event.
 const AGAIN: usize = 6;
-/// Spacings of numbers to which the end of a phase agrees with the event.
+/// Largest distance between the end of a phase and the event, in floating-point spacings.
 const CLOSE: f64 = 32.0;
-/// Part of a step over which the slope of a function is taken.
+/// Fraction of a step over which the slope of a function is computed.
 const SLOPE: f64 = 1e-3;
-/// Part of its value at the beginning of a step that a function may have left at an event.
+/// Largest magnitude of a function at its event, as a fraction of the value at the start of the step.
 const NEAR: f64 = 1e-6;
 
-/// Parts into which a step is divided at least, and at most.
+/// Smallest and largest number of parts into which a step is divided.
 const PARTS: [usize; 2] = [6, 20_000];
 
-/// Parts of a step in which no body turns by more than a radian, so that functions of angles are resolved.
+/// Number of parts of a step in which no body turns by more than a radian, so that functions of angles are resolved.
 fn parts(model: &Model, step: &Step<'_>) -> usize {
     let turned = model.layout.bodies[1..].iter().filter(|columns| columns.count == 3);
     let turned =
@@ -38,7 +38,7 @@ pub(super) enum EventFunction<'a> {
     Condition(&'a Condition),
     /// The function of a force with modes; it is positive while the mode lasts.
     Mode(ModeFunction),
-    /// An event that does not happen any more.
+    /// An event that no longer occurs.
     Never,
 }
 
@@ -51,7 +51,8 @@ impl EventFunction<'_> {
         }
     }
 
-    /// The value that counts in place of zero: a quantity may rest where both sides of a comparison are equal.
+    /// The value that replaces a zero of the function, because a quantity may rest where both sides of a comparison
+    /// are equal.
     fn at_zero(&self) -> f64 {
         let holds = match self {
             Self::Condition(condition) => condition.holds_at_zero(),
@@ -66,18 +67,18 @@ impl EventFunction<'_> {
 pub(super) struct Watched<'a> {
     pub function: EventFunction<'a>,
     pub direction: Direction,
-    /// Whether the phase ends at it.
+    /// Whether the event ends the phase.
     pub ends: bool,
-    /// Whether the event is listed where its function changes sign. The events of modes are listed later, when the new
-    /// modes are known.
+    /// Whether the event is listed where its function changes sign. Events of modes are listed later, after the new
+    /// modes are determined.
     pub listed: bool,
 }
 
 /// The events in a step, and how the phase continues.
 pub(super) enum StepEvents {
-    /// These events are in the step, and the phase continues.
+    /// These events occur in the step, and the phase continues.
     Events(Vec<Crossing>),
-    /// These events are in the step, and the phase ends with it, even if no event is at its end.
+    /// These events occur in the step, and the phase ends with it, even if no event is at its end.
     End(Vec<Crossing>),
     /// The step is taken again, to end at this time.
     Again(f64),
@@ -87,16 +88,16 @@ pub(super) enum StepEvents {
 pub(super) struct EventList<'a> {
     watched: Vec<Watched<'a>>,
     evaluator: Evaluator,
-    /// The events at which the phase began, and this time: they do not happen again there.
+    /// The events at which the phase began, and the time of the start. They do not occur again there.
     began: (f64, Vec<usize>),
-    /// The event at which a step is to end: its time and place.
+    /// The event at which a step is to end: its time and index.
     awaited: Option<(f64, usize)>,
     tries: usize,
 }
 
 impl<'a> EventList<'a> {
-    /// The events of a phase that begins at `t`. `fired` are the events that ended the phase before; `so_far` is the
-    /// run up to `t`. Returns None if there are no events.
+    /// The events of a phase that begins at `t`. `fired` are the events that ended the previous phase; `so_far` is
+    /// the run up to `t`. Returns None if there are no events.
     pub fn new(
         ode: &MotionOde<'_>,
         watched: Vec<Watched<'a>>,
@@ -186,7 +187,7 @@ impl<'a> EventList<'a> {
             });
             if t == began.0 {
                 began.1.iter().for_each(|index| out[*index] = 0.0);
-                // the mode may end again within a time that is short beside the steps
+                // the mode may end again after a time that is short compared with the steps
                 let of_mode =
                     |event: &Watched<'_>| matches!(event.function, EventFunction::Mode(_));
                 let modes =
@@ -202,8 +203,8 @@ impl<'a> EventList<'a> {
         crossings(step, parts(model, step), &directions, &mut functions, &ends)
     }
 
-    /// The time of an event that is expected at the end of a step and lies slightly later. None if there is no event:
-    /// the interpolant was wrong.
+    /// The time of an event that is expected at the end of a step but lies slightly later. Returns None if there is
+    /// no event because the interpolant was inaccurate.
     fn later(&mut self, model: &Model, step: &Step<'_>, index: usize, t_end: f64) -> Option<f64> {
         let function = self.watched[index].function;
         let h = SLOPE * (step.t - step.t_old);

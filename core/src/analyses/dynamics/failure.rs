@@ -12,7 +12,7 @@ use crate::model::{size, Model, Switch};
 use crate::solve::Breakdown;
 use std::fmt;
 
-/// A failed run or evaluation, with the results before the failure.
+/// A failed run or evaluation, with the results up to the failure.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Failure {
     /// The reason.
@@ -44,7 +44,7 @@ pub enum Reason {
         /// Remedy.
         hint: &'static str,
     },
-    /// A joint repeats others, so that its reaction, on which a force depends, is not unique.
+    /// A joint repeats others, so its reaction is not unique, and a force depends on this reaction.
     Redundant {
         /// Time, s.
         t: f64,
@@ -55,9 +55,9 @@ pub enum Reason {
         /// Remedy.
         hint: &'static str,
     },
-    /// A law that no run can follow, found before the run.
+    /// A law that no run can follow. It is found before the run.
     Law {
-        /// The time at which it cannot, s.
+        /// The time at which the law cannot be followed, s.
         t: f64,
         /// The joint, driver or force.
         name: String,
@@ -84,7 +84,7 @@ pub enum Reason {
     },
 }
 
-/// Mismatch of lengths, relative to the size, from which motions that pass a change point are distinct.
+/// Mismatch of lengths, relative to the size, above which two motions past a change point are distinct.
 const MEET: f64 = 1e-8;
 
 impl From<Reason> for Box<Failure> {
@@ -94,14 +94,14 @@ impl From<Reason> for Box<Failure> {
 }
 
 impl Failure {
-    /// A contact is beyond the end of its curve.
+    /// Failure of a contact beyond the end of its curve.
     pub(super) fn off_the_curve(t: f64, message: &str) -> Box<Self> {
         let message = format!("{message} at t = {t:.6} s");
         let hint = "extend the range of the curve, or end the run before";
         Reason::Integration { t, message, hint }.into()
     }
 
-    /// The equations have no usable solution at a time and a position.
+    /// Failure of equations that have no usable solution at a time and a position.
     pub(super) fn at_state(model: &Model, t: f64, q: &[f64], breakdown: Breakdown) -> Box<Self> {
         let name = |row| model.constraints[model.layout.owner(row).0].name.clone();
         let (name, message) = match breakdown {
@@ -163,14 +163,14 @@ impl Failure {
         Reason::Singular { t, name, message }.into()
     }
 
-    /// A number of the equations is not finite at a time and a position.
+    /// Failure of equations with a number that is not finite at a time and a position.
     fn undefined(model: &Model, t: f64, q: &[f64]) -> Box<Self> {
         let rest = vec![0.0; q.len()];
         let (message, hint) = not_finite(t, undefined_law(model, (t, t), [q, &rest, &[]]));
         Reason::Integration { t, message, hint }.into()
     }
 
-    /// A row depends on the others where a run with projection continues.
+    /// Failure of a dependent row at a position that a run with projection could pass.
     fn passable(model: &Model, t: f64, q: &[f64], row: usize) -> Box<Self> {
         let mut failure = Self::at_state(model, t, q, Breakdown::Row(row));
         if let Reason::Singular { message, .. } = &mut failure.reason {
@@ -179,7 +179,7 @@ impl Failure {
         failure
     }
 
-    /// The integrator stopped at a time `t` and a state `y`.
+    /// Failure of an integrator that stopped at a time `t` and a state `y`.
     pub(super) fn of_integrator(
         model: &Model,
         cause: Cause<Breakdown>,
@@ -233,7 +233,7 @@ impl Failure {
     }
 }
 
-/// A law jumps, the motion slides along a switch, or a contact begins for which the steps are too long.
+/// Failure at a switch: a law jumps, the motion slides along the switch, or the steps are too long for a contact.
 fn at_switch(model: &Model, t: f64, breakdown: Breakdown) -> Box<Failure> {
     let switch = match breakdown {
         Breakdown::Sliding(switch) => switch,
@@ -264,7 +264,7 @@ fn at_switch(model: &Model, t: f64, breakdown: Breakdown) -> Box<Failure> {
     Reason::Integration { t, message, hint }.into()
 }
 
-/// Whether numbers are lost, so that a law may have no value.
+/// Whether numbers are not finite, so that a law may have no value.
 fn is_undefined(breakdown: Breakdown) -> bool {
     match breakdown {
         Breakdown::NotFinite => true,
@@ -295,7 +295,7 @@ fn law_ends(LawFault { law, table }: &LawFault) -> String {
     }
 }
 
-/// Two unequal numbers with as many digits as show the difference.
+/// Two unequal numbers, with enough digits to show the difference.
 fn apart_in_print(a: f64, b: f64) -> [String; 2] {
     let written = |digits: usize| [a, b].map(|x| format!("{x:.digits$e}"));
     (1..17).map(written).find(|[a, b]| a != b).unwrap_or_else(|| written(1))
@@ -312,7 +312,7 @@ fn equation(model: &Model, row: usize) -> (String, &'static str) {
 /// Largest number of bodies whose coordinates a message contains.
 const MOST_BODIES: usize = 4;
 
-/// The joints that depend on each other, and the positions of the bodies.
+/// The joints whose equations depend on each other, and the positions of the bodies.
 fn place(model: &Model, t: f64, q: &[f64], row: usize) -> String {
     let joints = model.names_of(&dependent(model, t, q, row)).join(", ");
     format!(" (joints {joints}; {})", positions(model, q))

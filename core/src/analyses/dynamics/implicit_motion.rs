@@ -1,4 +1,4 @@
-//! An implicit method on the equations of motion, with the interface of explicit ones.
+//! An implicit method on the equations of motion, with the interface of explicit methods.
 
 use super::motion_dae::MotionDae;
 use super::motion_ode::MotionOde;
@@ -25,12 +25,12 @@ impl<'a> ImplicitMotion<'a> {
         Ok(Self { stepper: method.start(&*dae, span, y)?, dae })
     }
 
-    /// The least ratio of a pivot to its largest summand, at the end of the last step.
+    /// The least ratio of a pivot to its largest summand at the end of the last step.
     pub fn pivot(&self) -> Option<f64> {
         self.dae.pivot()
     }
 
-    /// Factorisations that the method does not count.
+    /// Number of factorisations that the method does not count.
     pub fn factorisations(&self) -> usize {
         self.dae.factorisations()
     }

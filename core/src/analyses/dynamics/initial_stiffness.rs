@@ -18,10 +18,10 @@ use super::stiffness_detection::{Fastest, StiffnessDetector, LIMIT, TO_GO};
 use crate::integrate::Atol;
 use crate::model::{size, Model};
 
-/// Ratio |λ| / w from which a model counts as stiff: a factor of six between the steps of stability and of accuracy,
-/// times five for the lower order of Radau.
+/// Ratio |λ| / w from which a model counts as stiff: a factor of six between the step at the stability limit and the
+/// step that accuracy allows, times five for the lower order of Radau.
 const FAR: f64 = 30.0;
-/// Time of the difference quotient of accelerations, as a part of 1/|λ|.
+/// Time step of the difference quotient of accelerations, as a fraction of 1/|λ|.
 const PROBE: f64 = 1e-3;
 
 /// Stiffness at the start.
@@ -31,8 +31,8 @@ pub(super) struct InitialStiffness {
     fastest: Option<Fastest>,
     /// w, 1/s.
     pace: f64,
-    /// Number of steps of DOP853 to the end, at the limit of stability. Not positive backward in time, where damped
-    /// motions grow.
+    /// Number of steps that DOP853 needs to the end at the limit of stability. Not positive backward in time, where
+    /// damped motions grow.
     steps: f64,
     /// Whether the fast motion has not decayed.
     under_way: bool,
@@ -62,18 +62,18 @@ impl InitialStiffness {
         }
     }
 
-    /// The fastest motion, if it makes the model stiff.
+    /// The fastest motion if it makes the model stiff.
     pub fn stiff(&self) -> Option<Fastest> {
         let far = |fastest: &Fastest| fastest.damped && fastest.rate > FAR * self.pace;
         self.fastest.filter(|fastest| far(fastest) && self.steps > TO_GO)
     }
 
-    /// Whether Radau begins.
+    /// Whether the run begins with Radau.
     pub fn implicit(&self) -> bool {
         self.stiff().is_some() && !self.under_way
     }
 
-    /// Explains why Radau begins.
+    /// Explains why the run begins with Radau.
     pub fn why_implicit(&self) -> String {
         format!(
             "stiff from the start: a damped motion with a rate of {:.2e} 1/s would need {:.0} steps of dop853, but \
@@ -84,7 +84,7 @@ impl InitialStiffness {
         )
     }
 
-    /// Explains why DOP853 begins.
+    /// Explains why the run begins with DOP853.
     pub fn why_explicit(&self) -> String {
         let Some(Fastest { rate, damped }) = self.fastest else {
             return "not stiff: the run ended before the first check".to_string();
@@ -109,7 +109,7 @@ fn pace(model: &Model, v: &[f64], a: &[f64]) -> f64 {
     })
 }
 
-/// Whether the part of a motion of this rate in the velocities is above the tolerance.
+/// Whether the part of a motion with this rate in the velocities exceeds the tolerance.
 fn excited(auto: &Auto, jerk: &[f64], v: &[f64], rate: f64) -> bool {
     let n = v.len();
     let atol = |k: usize| match &auto.control.atol {

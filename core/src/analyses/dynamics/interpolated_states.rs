@@ -1,5 +1,6 @@
-//! States between the reported ones. An interpolant leaves the constraints by the error of integration. Near a singular
-//! position this error is large in the velocities, so that these states are projected as reported ones are.
+//! States between the reported states. An interpolant violates the constraints by the integration error. Near a
+//! singular position this error is large in the velocities, so these states are projected in the same way as reported
+//! states.
 
 use super::failure::Failure;
 use super::model_cache::ModelCache;

@@ -1,4 +1,4 @@
-//! Reported states of a grid, projected and kept four at once.
+//! Reported states of a grid, projected and stored four at once.
 
 use super::branch_averaging;
 use super::options::Options;
@@ -25,7 +25,7 @@ pub(super) struct LaneBatch<'a> {
 }
 
 impl<'a> LaneBatch<'a> {
-    /// Uses the plan of elimination of the equations of motion of this run.
+    /// Uses the elimination plan of the equations of motion of this run.
     pub fn new(wide: Wide<'a>, options: &Options, one: &Workspace) -> Self {
         let model = wide.model();
         let (n, len) = (model.layout.n_q, model.layout.n_y());
@@ -65,7 +65,7 @@ impl<'a> LaneBatch<'a> {
         self.t.into_iter().enumerate().take(std::mem::take(&mut self.count))
     }
 
-    /// Projects all states; returns whether every one is regular. If not, the lanes are invalid.
+    /// Projects all states. Returns whether all of them are regular; if not, the lanes are invalid.
     pub fn place(&mut self) -> bool {
         self.fill_up();
         Lanes::from_rows(&self.given, &mut self.y);
@@ -76,7 +76,7 @@ impl<'a> LaneBatch<'a> {
             && self.placer.turn(&self.rates, layout.split(&self.y)[1]) <= branch_averaging::TURNED
     }
 
-    /// Free lanes repeat the last state.
+    /// Fills free lanes with the last state.
     fn fill_up(&mut self) {
         let (last, len) = (self.count.max(1) - 1, self.y.len());
         for lane in last + 1..Lanes::WIDTH {
@@ -85,7 +85,7 @@ impl<'a> LaneBatch<'a> {
         }
     }
 
-    /// Records the projected states and empties the batch.
+    /// Stores the projected states and empties the batch.
     pub fn keep(&mut self, trajectory: &mut Trajectory) {
         let count = std::mem::take(&mut self.count);
         let parts = self.wide.model().layout.split(&self.y);

@@ -18,8 +18,8 @@ pub(super) struct LaneMotion {
 }
 
 impl LaneMotion {
-    /// For variants of one model with the same structure of their equations; None if they differ in it, or if one
-    /// elimination does not solve the equations of one of them.
+    /// Lanes for variants of one model whose equations have equal structure. None if the structures differ, or if one
+    /// elimination cannot solve the equations of one of the variants.
     pub fn new(lanes: [&MotionOde<'_>; WIDTH]) -> Option<Self> {
         let [first, ..] = lanes;
         let alike = |one: &&MotionOde<'_>| {
@@ -48,7 +48,7 @@ impl LaneMotion {
     }
 }
 
-/// The equations over lanes with those of each lane.
+/// The equations over lanes, and the equations of each lane.
 pub(super) struct LaneEquations<'r, 'a> {
     pub motion: &'r mut LaneMotion,
     pub lanes: [Option<&'r mut MotionOde<'a>>; WIDTH],

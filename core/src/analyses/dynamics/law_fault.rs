@@ -1,4 +1,4 @@
-//! Finds the law without a value if a run fails because the motion is not finite.
+//! Finds the law that has no value if a run fails because the motion is not finite.
 
 use crate::elements::{catalogue, Group};
 use crate::equations::held;
@@ -6,15 +6,15 @@ use crate::equations::kinematics::Motions;
 use crate::expression::Tape;
 use crate::model::{Model, Variable};
 
-/// Largest distance from the failure at which a law is evaluated, relative to 1 s + |t|; the step of an integrator
-/// shrinks before the law ends.
+/// Largest distance from the failure at which a law is evaluated, relative to 1 s + |t|. The steps of an integrator
+/// shrink before the end of the law's domain.
 const NEAR: f64 = 1e-5;
 
 /// A law without a value.
 pub(super) struct LawFault {
     /// The law: `torque of drive`.
     pub law: String,
-    /// The table that it reads outside its range.
+    /// The table that the law evaluates outside its range.
     pub table: Option<String>,
 }
 
@@ -39,7 +39,7 @@ pub(super) fn undefined_law(
 fn undefined_at(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Option<LawFault> {
     let motions = Motions::at(&model.layout, q, v);
     let values = held(&model.parameters, &motions, z, t);
-    // None where a law has a value; else why it has none, if that is known
+    // None where a law has a value; otherwise the reason for its absence, if there is one
     let without = |tape: &Tape| {
         // the states of elements are unknown if only the position is known
         let known = |k: &usize| match Variable::at(*k) {
@@ -67,7 +67,7 @@ fn undefined_at(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Option<LawFaul
     })
 }
 
-/// The name of the field of each formula of an element with this number of scalars in each field.
+/// The field name of each formula of an element; `scalars` are the numbers of scalars in the fields.
 fn fields(group: Group, kind: &str, scalars: &[usize]) -> Vec<&'static str> {
     let declared = catalogue().into_iter().find(|(g, table)| *g == group && table.name == kind);
     let fields = declared.map(|(_, table)| table.fields).unwrap_or_default();

@@ -1,4 +1,4 @@
-//! Jumps of the law of a joint or driver, or of its rate, which no body with mass could follow.
+//! Jumps of the law of a joint or driver, or of its rate, which a body with mass cannot follow.
 
 use crate::equations::kinematics::Motions;
 use crate::equations::switches::law_values;
@@ -6,23 +6,23 @@ use crate::expression::Tape;
 use crate::math::Jet;
 use crate::model::{row_scales, Model, SwitchOwner};
 
-/// Largest jump of the law of a joint or driver, and of its rate: relative to the size of the mechanism, or in rad, and to
-/// the value or rate.
+/// Largest jump of the law of a joint or driver, and of its rate, relative to the largest of both values (or both
+/// rates) and the size of the mechanism (1 for angles).
 const CONTINUOUS: f64 = 1e-8;
 
 /// A jump of the law of a joint or driver.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct LawJump {
     pub constraint: usize,
-    /// Whether the value jumps, not the rate.
+    /// Whether the value jumps; otherwise the rate jumps.
     pub position: bool,
     /// The value or rate before and after.
     pub values: [f64; 2],
 }
 
 impl LawJump {
-    /// The jump of a law of constraint `k` from the pieces `before` to those of `motions`, if it is not continuous with
-    /// its rate. `which` selects formulas.
+    /// The jump of a law of constraint `k` from the pieces `before` to the pieces of `motions`, if the law or its
+    /// rate is discontinuous. `which` selects formulas.
     pub fn of(
         model: &Model,
         k: usize,

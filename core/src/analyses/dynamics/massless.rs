@@ -1,8 +1,9 @@
-//! Bodies without mass or inertia whose motion the mechanism does not determine.
+//! Massless bodies whose motion the mechanism does not determine.
 //!
-//! A motion v that the joints admit, Φ_q v = 0, and that moves no mass, M v = 0, has no acceleration of its own: nothing
-//! resists it. It moves massless bodies alone. So it exists if the columns of Φ_q of their coordinates are dependent, and
-//! this is found before the run. Later, at a position in which such a freedom appears, the equations of motion find it.
+//! A motion v that the joints allow, Φ_q v = 0, and that moves no mass, M v = 0, has no determined acceleration,
+//! because nothing resists it. Only massless bodies move in it. It exists if the columns of Φ_q for their coordinates
+//! are dependent. This check is made before the run. If such a freedom appears at a later position, the equations of
+//! motion detect it.
 
 use super::failure::{Failure, Reason};
 use super::no_mass;
@@ -11,7 +12,7 @@ use crate::equations::kinematics::Motions;
 use crate::model::Model;
 use crate::solve::{SparseRank, SparseRow, RANK_TOLERANCE};
 
-/// Tolerance of the rank next to a position in which a freedom appears.
+/// Tolerance of the rank near a position at which a freedom appears.
 const NEAR: f64 = 1e-5;
 
 /// Checks the massless bodies at a position.
@@ -19,7 +20,7 @@ const NEAR: f64 = 1e-5;
 /// A body with mass but without inertia is accepted: an angle on which no torque acts does not accelerate.
 ///
 /// # Errors
-/// [`Failure`] with [`Reason::Singular`], which names a massless body with a freedom of its own.
+/// [`Failure`] with [`Reason::Singular`], which names a massless body whose motion is not determined.
 pub(super) fn check(model: &Model, t: f64, q: &[f64]) -> Result<(), Box<Failure>> {
     match undetermined(model, t, q).into_iter().next() {
         Some((name, message)) => Err(Reason::Singular { t, name, message }.into()),
@@ -27,13 +28,14 @@ pub(super) fn check(model: &Model, t: f64, q: &[f64]) -> Result<(), Box<Failure>
     }
 }
 
-/// The massless bodies, or joints with internal coordinates, whose motion is not determined at a position, each with a
-/// message about one of its coordinates.
+/// The massless bodies, or joints with internal coordinates, whose motion is not determined at a position, each with
+/// a message about one of its coordinates.
 pub(in crate::analyses) fn undetermined(model: &Model, t: f64, q: &[f64]) -> Vec<(String, String)> {
     within(RANK_TOLERANCE, columns(model), model, t, q)
 }
 
-/// A massless body of which a freedom of its own appears next to a position, where the steps of a run end.
+/// The failure of a body without mass or inertia whose motion becomes undetermined near a position at which the steps
+/// end.
 pub(super) fn near(model: &Model, t: f64, q: &[f64]) -> Option<Box<Failure>> {
     let bodies = model.bodies.iter().zip(&model.layout.bodies).skip(1);
     let turning = bodies.filter(|(body, _)| body.turns && body.mass > 0.0 && body.inertia == 0.0);
@@ -43,7 +45,7 @@ pub(super) fn near(model: &Model, t: f64, q: &[f64]) -> Option<Box<Failure>> {
     Some(Reason::Singular { t, name, message }.into())
 }
 
-/// The same of these coordinates, with the tolerance of a rank.
+/// The undetermined items among these coordinates, for this tolerance of the rank.
 fn within(
     tolerance: f64,
     massless: Vec<usize>,
@@ -80,7 +82,7 @@ fn within(
     messages
 }
 
-/// The coordinates that move no mass; none if every body has mass.
+/// The coordinates that move no mass. Empty if every body has mass.
 fn columns(model: &Model) -> Vec<usize> {
     let bodies = model.bodies.iter().zip(&model.layout.bodies).skip(1);
     let massless = bodies.filter(|(body, _)| body.mass == 0.0).flat_map(|(body, columns)| {

@@ -1,4 +1,4 @@
-//! The automatic choice of the method: changes between DOP853 and Radau, decided by `stiffness_detection`.
+//! The automatic choice of the method: changes between DOP853 and Radau, as `stiffness_detection` determines.
 
 use super::implicit_motion::ImplicitMotion;
 use super::initial_stiffness::InitialStiffness;
@@ -34,7 +34,7 @@ impl<'a> SwitchedStepper<'a> {
         }
     }
 
-    /// Factorisations that the statistics do not contain.
+    /// Number of factorisations that the statistics do not contain.
     fn factorisations(&self) -> usize {
         match self {
             Self::Explicit(stepper) => stepper.statistics().evaluations,
@@ -46,7 +46,7 @@ impl<'a> SwitchedStepper<'a> {
 /// A stepper that changes between an explicit and an implicit method.
 pub(super) struct MethodSwitching<'a> {
     options: Options,
-    /// The end of the steps; that of the run is in the options.
+    /// The end of the steps. The end of the run is in the options.
     t_end: f64,
     /// Tolerances and steps of both methods.
     control: StepControl,
@@ -55,11 +55,11 @@ pub(super) struct MethodSwitching<'a> {
     piece: SwitchedStepper<'a>,
     /// Whether the other method takes the next step.
     due: bool,
-    /// Length of the last step of the last method.
+    /// Length of the last step of the previous method.
     step: Option<f64>,
     /// Counts of the earlier steppers.
     total: StepCounts,
-    /// Factorisations of the earlier steppers that the counts do not contain.
+    /// Factorisations of the earlier steppers that `total` does not contain.
     factorisations: usize,
     /// Time at which Radau began, its number of steps since then, and the time of the last comparison.
     tried: (f64, usize, f64),
@@ -100,7 +100,7 @@ impl<'a> MethodSwitching<'a> {
         Ok(switching)
     }
 
-    /// Whether the model is stiff at the start.
+    /// Selects the first method from the stiffness of the model at the start.
     fn judge_start(&mut self) {
         let Some(fastest) = self.initial.stiff() else { return };
         if self.initial.implicit() {
@@ -146,7 +146,8 @@ impl<'a> MethodSwitching<'a> {
         Ok(())
     }
 
-    /// Whether the explicit method should end after this step, for stiffness.
+    /// Checks for stiffness after a step of the explicit method. If the model is stiff, the implicit method takes the
+    /// next step.
     pub fn judge_explicit(&mut self, ode: &MotionOde<'a>) {
         let SwitchedStepper::Explicit(stepper) = &self.piece else { return };
         if ode.passage.in_reach() {
@@ -173,7 +174,8 @@ impl<'a> MethodSwitching<'a> {
         self.due = true;
     }
 
-    /// Whether the implicit method should end after this step, because its steps are not much longer.
+    /// Checks after a step of the implicit method whether its steps are long enough. If not, the explicit method
+    /// takes the next step.
     fn judge_implicit(&mut self) {
         let SwitchedStepper::Implicit(stepper) = &self.piece else { return };
         if stepper.crossing() {
@@ -199,7 +201,7 @@ impl<'a> MethodSwitching<'a> {
         }
     }
 
-    /// Factorisations that the methods do not count.
+    /// Number of factorisations that the methods do not count.
     pub fn factorisations(&self) -> usize {
         self.factorisations + self.piece.factorisations()
     }
@@ -267,7 +269,7 @@ impl<'a> Stepper<MotionOde<'a>, Breakdown> for MethodSwitching<'a> {
     fn statistics(&self) -> StepCounts {
         self.total.plus(self.piece.get().statistics())
     }
-    /// While the explicit method takes the steps.
+    /// The explicit stepper, while it takes the steps.
     fn side_by_side(&mut self) -> Option<&mut dyn SideBySide> {
         match &mut self.piece {
             SwitchedStepper::Explicit(stepper) if !self.due => stepper.side_by_side(),

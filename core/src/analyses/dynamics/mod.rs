@@ -8,22 +8,22 @@
 //! | `options`, `option_checks` | options, and the combinations that are refused |
 //! | `absolute_tolerance` | absolute tolerances of lengths, angles and first-order states |
 //! | `massless`, `no_mass` | massless bodies whose motion is not determined |
-//! | `shared_reaction` | forces that depend on a reaction which is not unique |
+//! | `shared_reaction` | forces that depend on a reaction that is not unique |
 //! | `start_check` | states from which a run may start |
 //! | `course`, `setting` | the phases of a run, which follow from its events, and their models |
 //! | `run`, `event_list`, `run_results` | one phase, its events, and the outcome of a run |
 //! | `stepper` | a stepper for callers |
-//! | `motion_stepper`, `method_switching` | the stepper of a method on a model; that of the automatic choice |
+//! | `motion_stepper`, `method_switching` | the stepper of a method on a model; the automatic choice of the method |
 //! | `motion_ode`, `motion_dae` | the equations of motion for explicit and for implicit methods |
-//! | `implicit_motion` | an implicit method, with the interface of explicit ones |
-//! | `initial_stiffness`, `stiffness_detection` | whether a model is stiff at the start, and on the way |
+//! | `implicit_motion` | an implicit method with the interface of explicit methods |
+//! | `initial_stiffness`, `stiffness_detection` | stiffness of a model at the start, and during the run |
 //! | `switch_schedule`, `switching` | switches in time, found before a run; switches during a run |
 //! | `contact_resolution` | the first steps of compliant contacts |
 //! | `singularity_passage`, `singularity_forecast`, `branch_averaging` | singular positions |
 //! | `redundant_rows` | redundant equations that a run leaves out |
 //! | `singularity_handover` | methods that leave singular positions to DOP853 |
 //! | `recorder`, `trajectory`, `report_projection`, `lane_batch`, `wide` | reported states |
-//! | `interpolated_states` | states between them |
+//! | `interpolated_states` | states between the reported states |
 //! | `constraint_violation` | joints that open too far |
 //! | `accelerations`, `energies` | quantities that follow from reported states |
 //! | `prepared`, `model_cache` | a model for many runs |

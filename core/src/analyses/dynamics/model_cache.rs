@@ -1,4 +1,4 @@
-//! Data derived from a model that its runs share; each is computed at first use.
+//! Data derived from a model and shared by its runs. Each item is computed at its first use.
 
 use super::wide::{Wide, WideCell};
 use crate::equations::Plan;
@@ -15,7 +15,7 @@ pub(super) struct ModelCache {
 }
 
 impl ModelCache {
-    /// The plan of elimination of the equations of motion, with or without redundant constraints.
+    /// The elimination plan of the equations of motion, with or without redundant constraints.
     pub fn plan(&self, model: &Model, redundant: bool) -> Arc<Plan> {
         Arc::clone(match redundant {
             true => self.redundant.get_or_init(|| Arc::new(Plan::free(model))),
@@ -23,7 +23,7 @@ impl ModelCache {
         })
     }
 
-    /// The model over lanes, if so many states are solved faster by it.
+    /// The model over lanes, if it solves this number of states faster.
     #[inline]
     pub fn wide(&self, model: &Model, states: usize) -> Option<Wide<'_>> {
         self.wide.of(model, states)

@@ -1,5 +1,5 @@
-//! The equations of motion for implicit methods: residuals, tangent, and the matrices of
-//! Newton's iteration by one plan of elimination.
+//! The equations of motion for implicit methods: residuals, tangent, and the matrices of Newton's iteration, all with
+//! one elimination plan.
 
 use super::options::Options;
 use super::stabilizations::Stabilization;
@@ -26,14 +26,14 @@ pub(super) struct MotionDae<'a> {
     real: BlockLu<f64>,
     /// Right side and solution of the augmented matrix.
     solution: Vec<f64>,
-    /// Made for the first complex matrix.
+    /// Allocated for the first complex matrix.
     complex: Option<BlockLu<Complex>>,
     /// Factorisations of the augmented matrix, for accelerations.
     accelerations: usize,
 }
 
 impl<'a> MotionDae<'a> {
-    /// Uses the plan of elimination of `one`, and leaves out the same rows.
+    /// Uses the elimination plan of `one`, and omits the same rows.
     pub fn new(model: &'a Model, options: &Options, one: &Workspace) -> Self {
         let projector = match options.stabilization {
             Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
@@ -56,7 +56,7 @@ impl<'a> MotionDae<'a> {
         }
     }
 
-    /// Holds the pieces of switches, and leaves out the same rows as `one`.
+    /// Copies the held pieces of switches from `one`, and omits the same rows.
     pub fn hold(&mut self, one: &Workspace) {
         if self.workspace.matrix.omitted() != one.matrix.omitted() {
             self.workspace.omit(one.matrix.omitted());
@@ -183,7 +183,7 @@ impl Dae for MotionDae<'_> {
     fn project(&mut self, t: f64, state: DaeState<'_>) -> Result<bool, Self::Stop> {
         let DaeState { q, v, z } = state;
         let Some(projector) = &mut self.projector else {
-            // `normal` needs the factors of a state nearby, which projection would provide
+            // `normal` needs the factors of a nearby state, which projection would provide
             self.accelerations += 1;
             let outcome = self.workspace.accelerate(self.model, t, [q, v, z], Gains::default());
             return outcome.map(|()| false);

@@ -14,7 +14,7 @@ use crate::model::{size, Model};
 use crate::solve::Breakdown;
 use crate::stabilize::{Projection, Projector, StepwiseBaumgarte};
 
-/// Sizes of the mechanism, or radians, beyond which a trial state cannot be part of its motion.
+/// Distance, in sizes of the mechanism or in rad, beyond which a trial state cannot belong to the motion.
 const FAR: f64 = 1e6;
 
 /// The right side of forward dynamics.
@@ -22,24 +22,24 @@ pub(super) struct MotionOde<'a> {
     pub model: &'a Model,
     pub workspace: Workspace,
     pub gains: Gains,
-    /// Baumgarte's term, if its gains follow from the step.
+    /// Baumgarte's term, if its gains depend on the step.
     stepwise: Option<StepwiseBaumgarte>,
     pub projector: Option<Projector<'a>>,
     /// Whether singular positions are passed.
     pub passing: bool,
     pub passage: SingularityPassage,
-    /// Where the last evaluation had no solution, which a shorter step may avoid.
+    /// Time and reason of the last evaluation without a solution. A shorter step may avoid it.
     pub paradox: Option<(f64, Breakdown)>,
 }
 
 impl<'a> MotionOde<'a> {
-    /// Uses a workspace of the model, whose plan of elimination is shared by runs.
+    /// Uses a workspace of the model, whose elimination plan is shared by runs.
     pub fn new(model: &'a Model, options: &Options, mut workspace: Workspace) -> Self {
         let projector = match options.stabilization {
             Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
             _ => None,
         };
-        // only projection returns a state to its branch
+        // only projection keeps a state on its branch
         let passing = projector.is_some();
         if passing {
             workspace.matrix.set_near_singular(NearSingular::Regularise);
@@ -53,19 +53,19 @@ impl<'a> MotionOde<'a> {
         Self { model, workspace, gains, stepwise, projector, passing, passage, paradox }
     }
 
-    /// The options of projection, if it is an option of the run.
+    /// The options of projection, if the run uses projection.
     pub fn projection(&self) -> Option<Projection> {
         self.projector.as_ref().map(Projector::options)
     }
 
-    /// Factorisations in addition to those of evaluations.
+    /// Number of factorisations in addition to the factorisations of evaluations.
     pub fn factorisations(&self) -> usize {
         self.projector.as_ref().map_or(0, |projector| projector.factorisations)
     }
 
-    /// Projects the state at the start of a run or of a phase, if projection is an option of the run; with
-    /// `velocities`, the velocities in any case. With
-    /// `samples`, then computes the laws with a sample there. Fails if the constraints are redundant.
+    /// Projects the state at the start of a run or of a phase, if the run uses projection. With `velocities`, always
+    /// projects the velocities. With `samples`, then computes the laws with a sample there. Fails if the constraints
+    /// are redundant.
     ///
     /// # Errors
     /// [`Breakdown`].
@@ -89,8 +89,8 @@ impl<'a> MotionOde<'a> {
         self.begin(t, y)
     }
 
-    /// Begins the forecast of singular positions at a state. Fails at a start with redundant constraints; a singular
-    /// position alone is allowed.
+    /// Begins the forecast of singular positions at a state. Fails if the constraints are redundant at the start; a
+    /// start at a singular position is allowed.
     pub fn begin(&mut self, t: f64, y: &[f64]) -> Result<(), Breakdown> {
         let [q, v, z, _] = self.model.layout.split(y);
         if self.workspace.accelerate(self.model, t, [q, v, z], self.gains).is_err() {
@@ -104,12 +104,12 @@ impl<'a> MotionOde<'a> {
         }
     }
 
-    /// Whether constraints are redundant that must not be.
+    /// Whether constraints are redundant although the model does not allow redundancy.
     fn is_redundant(&self, t: f64, q: &[f64]) -> bool {
         !self.model.allow_redundancy && !mobility(self.model, t, q).redundant.is_empty()
     }
 
-    /// Leaves out other redundant rows if the state at the end of a step needs it.
+    /// Omits other redundant rows if the state at the end of a step requires it.
     pub fn exchange_rows(&mut self, t: f64, y: &[f64]) {
         let [q, v, z, _] = self.model.layout.split(y);
         if redundant_rows::exchange(self.model, &mut self.workspace, t, [q, v, z]) {
@@ -121,8 +121,8 @@ impl<'a> MotionOde<'a> {
         }
     }
 
-    /// dy at y; `placed` if the bodies are at y already. This is one function, because two copies of it would exceed
-    /// the instruction cache.
+    /// Computes dy at y. `placed` states that the bodies are already at y. This is a single function because two
+    /// copies would exceed the instruction cache.
     #[inline(never)]
     fn evaluate(
         &mut self,
@@ -163,7 +163,8 @@ impl<'a> MotionOde<'a> {
         q.iter().any(|q| q.abs() > FAR * size(self.model))
     }
 
-    /// Whether a constraint has no derivative at a trial state, such as a table of a curve beyond its ends.
+    /// Whether a constraint has no derivative at a trial state, for instance because a table of a curve is evaluated
+    /// beyond its ends.
     #[cold]
     fn is_undefined(&self, t: f64) -> bool {
         let mut jacobian = vec![0.0; self.model.layout.n_entries];
@@ -171,8 +172,8 @@ impl<'a> MotionOde<'a> {
         !all_finite(&jacobian)
     }
 
-    /// Stops where the accelerations are not unique. A trial state that is not finite is rejected, because a shorter
-    /// step may avoid it.
+    /// Stops where the accelerations are not unique. Rejects a trial state that is not finite, because a shorter step
+    /// may avoid it.
     #[cold]
     fn stop_if_finite(&self, breakdown: Breakdown, t: f64, y: &[f64]) -> Result<(), Breakdown> {
         if !all_finite(y) {
@@ -189,11 +190,11 @@ impl<'a> MotionOde<'a> {
         }
     }
 
-    /// Projects y if projection is an option of the run; returns whether y changed. The works are unchanged, so the
-    /// energy balance shows the change of energy by projection.
+    /// Projects y if the run uses projection; returns whether y changed. The works do not change, so the energy
+    /// balance shows the change of energy by projection.
     fn project_state(&mut self, t: f64, y: &mut [f64], factored: bool) -> Result<bool, Breakdown> {
         let Some(projector) = &mut self.projector else { return Ok(false) };
-        // rows that are left out may differ from the others by rounding, which must not change with the choice of rows
+        // omitted rows may differ from the others by rounding, which must not change with the choice of rows
         let redundant = !self.workspace.matrix.omitted().is_empty();
         projector.sharpen(redundant || self.passage.in_reach());
         let [q, v, ..] = self.model.layout.split_mut(y);
@@ -201,7 +202,7 @@ impl<'a> MotionOde<'a> {
     }
 }
 
-/// y′ at the state at which the accelerations of a workspace were computed.
+/// Computes y′ at the state at which the accelerations of a workspace were computed.
 #[inline(always)]
 pub(super) fn rates<S: Real>(
     model: &Model<S>,
@@ -256,7 +257,7 @@ impl Ode for MotionOde<'_> {
     }
 }
 
-/// The manifold of the states that meet the constraints.
+/// The manifold of states that meet the constraints.
 impl Manifold for MotionOde<'_> {
     type Stop = Breakdown;
 
@@ -265,13 +266,13 @@ impl Manifold for MotionOde<'_> {
         self.project_state(t, y, true)
     }
 
-    /// After projection the motions of the workspace are those of y.
+    /// After projection, the motions of the workspace belong to y.
     fn rate_projected(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop> {
         self.evaluate(t, y, dy, true)
     }
 
-    /// Near a singular position: there the noise along the lost direction would reject every step. A motion without a
-    /// freedom has no tangential error; its whole error counts.
+    /// Projects the error near a singular position, where the noise along the lost direction would otherwise reject
+    /// every step. A motion without a freedom has no tangential error, so its whole error counts.
     fn project_error(&mut self, dy: &mut [f64]) -> bool {
         let layout = &self.model.layout;
         let free = layout.n_rows < layout.n_q + self.workspace.matrix.omitted().len();

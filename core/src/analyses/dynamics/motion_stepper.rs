@@ -25,7 +25,7 @@ use crate::stabilize::Projector;
 /// The stepper of a method.
 enum MethodStepper<'a> {
     Explicit(BoxedStepper<MotionOde<'a>, Breakdown>),
-    /// An implicit method, or a constant step.
+    /// An implicit method, or a method with a constant step.
     HandingOver(Box<SingularityHandover<'a>>),
     Auto(Box<MethodSwitching<'a>>),
 }
@@ -47,7 +47,7 @@ impl<'a> MethodStepper<'a> {
         }
     }
 
-    /// The stepper of an explicit method that was started.
+    /// Wraps the stepper of an explicit method that was started.
     fn explicit(
         stepper: BoxedStepper<MotionOde<'a>, Breakdown>,
         (ode, control, span): (&MotionOde<'a>, &StepControl, (f64, f64)),
@@ -78,7 +78,7 @@ pub(super) struct MotionStepper<'a> {
 }
 
 impl<'a> MotionStepper<'a> {
-    /// Begins with `y` at `t` and ends at `options.t_end`. The schedule contains the switches until then.
+    /// Begins with `y` at `t` and ends at `options.t_end`. The schedule contains the switches up to this time.
     ///
     /// # Errors
     /// [`Cause`] of invalid options.
@@ -148,7 +148,7 @@ impl<'a> MotionStepper<'a> {
             switching.pass(&mut self.ode, t, &y)?;
             self.hold(switching, t, &y)?;
         } else if t == self.kind.get().t_end() {
-            // a switch was given up at the end of the last step
+            // a switch was released at the end of the last step
             let y = self.y().to_vec();
             self.hold(switching, t, &y)?;
         }
@@ -193,7 +193,7 @@ impl<'a> MotionStepper<'a> {
         self.kind.get_mut().restart_until(t, y, switching.end())
     }
 
-    /// Continues from a state with the switches of this stepper, if there are any.
+    /// Continues from a state with the switches of this stepper, if it has any.
     fn go_on_from(&mut self, t: f64, y: &[f64]) -> Result<(), Cause<Breakdown>> {
         let Some(switching) = self.switching.take() else { return Ok(()) };
         let outcome = self.hold(&switching, t, y);
@@ -214,7 +214,7 @@ impl<'a> MotionStepper<'a> {
         Ok(())
     }
 
-    /// Notes a singular position that the last step passed.
+    /// Records a singular position that the last step passed.
     fn note_passed(&mut self, (at, slope, row): (f64, f64, usize)) {
         let Some(step) = self.kind.get().last_step() else { return };
         let (model, ahead) = (self.ode.model, at - step.t);
@@ -229,8 +229,8 @@ impl<'a> MotionStepper<'a> {
         self.passed.push(Passed { t: at, names, slope, residual });
     }
 
-    /// The stepper as one of several that take steps side by side, with the equations of motion; None if the next step
-    /// has to be taken alone.
+    /// The stepper for steps side by side with others, with the equations of motion. None if the next step must be
+    /// taken alone.
     pub fn side_by_side(&mut self) -> Option<(&mut MotionOde<'a>, &mut dyn SideBySide)> {
         let ordinary = self.switching.is_none()
             && self.ode.passage.is_clear()
@@ -239,7 +239,7 @@ impl<'a> MotionStepper<'a> {
         Some((&mut self.ode, stepper))
     }
 
-    /// Has to be called after a step that was taken beside others.
+    /// Must be called after a step that was taken side by side with others.
     pub fn after_step_beside_others(&mut self) {
         if let MethodStepper::Auto(stepper) = &mut self.kind {
             stepper.judge_explicit(&self.ode);
@@ -288,7 +288,7 @@ impl<'a> MotionStepper<'a> {
         self.kind.get_mut().restart_until(t, &y, t_end)
     }
 
-    /// Counts of all steps so far; those that were taken again count as rejected.
+    /// Counts of all steps so far. Steps that were taken again count as rejected.
     pub fn statistics(&self) -> StepCounts {
         let mut counts = self.kind.get().statistics();
         counts.steps -= self.taken_again;
@@ -296,7 +296,7 @@ impl<'a> MotionStepper<'a> {
         counts
     }
 
-    /// Time within the last step at which g(t, [q, v, z]) changes sign, with the state there.
+    /// The time within the last step at which g(t, [q, v, z]) changes sign, and the state there.
     pub fn locate(
         &mut self,
         g: &dyn Fn(f64, [&[f64]; 3]) -> f64,
@@ -319,7 +319,7 @@ impl<'a> MotionStepper<'a> {
         self.ode.model.layout.split(&y)[3].to_vec()
     }
 
-    /// A failure in terms of the mechanism.
+    /// Converts a cause to a failure in terms of the mechanism.
     pub fn failure(&self, cause: Cause<Breakdown>) -> Box<Failure> {
         let (model, y) = (self.ode.model, self.y());
         let short = matches!(cause, Cause::StepTooSmall { .. });
@@ -343,7 +343,7 @@ impl<'a> MotionStepper<'a> {
         }
     }
 
-    /// All factorisations.
+    /// Number of all factorisations.
     pub fn factorisations(&self) -> usize {
         let counted = self.statistics().factorisations as usize;
         let others = match &self.kind {
@@ -354,7 +354,7 @@ impl<'a> MotionStepper<'a> {
         counted + others + self.ode.factorisations()
     }
 
-    /// The method of the automatic choice.
+    /// The method that was chosen automatically.
     pub fn choice(&self) -> Option<MethodChoice> {
         match &self.kind {
             MethodStepper::Auto(stepper) => Some(stepper.choice()),

@@ -3,7 +3,7 @@
 use crate::elements::BodyId;
 use crate::model::{Model, Slots};
 
-/// The name of a body, or of a joint with internal coordinates, and a message: nothing resists the motion of this
+/// The name of a body, or of a joint with internal coordinates, and a message that nothing resists the motion of this
 /// coordinate.
 pub(super) fn undetermined(model: &Model, t: f64, column: usize) -> (String, String) {
     let owner = |slots: &Slots| slots.own.range().contains(&column);

@@ -22,8 +22,8 @@ impl Options {
         check_lengths(model, start)
     }
 
-    /// The first option that no run of the model can have, as far as this is known without a run, which begins at
-    /// `t0` if this time is known: its path and its fault.
+    /// The first option that no run of the model can have: its path and its fault. Only faults that can be found
+    /// without a run are reported. `t0` is the start of the run, if it is known.
     pub(in crate::analyses) fn fault(&self, model: &Model, t0: Option<f64>) -> Option<OptionFault> {
         let t0 = self.t_start.or(t0);
         let found = self.check_combination().and_then(|()| match t0 {
@@ -37,7 +37,7 @@ impl Options {
         found.err().map(|failure| OptionFault::new(failure.reason, step))
     }
 
-    /// The checks of the integrator before its first step.
+    /// Makes the checks that the integrator makes before its first step.
     fn check_steps(&self, model: &Model, t0: f64) -> Result<(), Box<Failure>> {
         let checked = self.bounded_method(model).control().check_times(t0, self.t_end);
         let nowhere = || vec![0.0; model.layout.n_y()];
@@ -83,7 +83,7 @@ impl Options {
     }
 }
 
-/// An option that a file gives and no run can have.
+/// An option in a file with a value that no run can have.
 pub(in crate::analyses) struct OptionFault {
     /// Its keys in the analysis.
     pub path: Vec<&'static str>,

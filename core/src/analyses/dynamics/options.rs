@@ -10,7 +10,8 @@ use crate::analyses::options::{
 use crate::equations::Gains;
 use crate::model::{Model, Problem, Value};
 
-/// Default of max_steps, times the moving bodies: some seconds, and half a gigabyte if everything is kept.
+/// Numerator of the default of max_steps, which is divided by the number of moving bodies. It corresponds to some
+/// seconds, and to half a gigabyte if everything is stored.
 const MOST_WORK: usize = 1_000_000;
 /// Smallest default of max_steps, for large models.
 const LEAST_BOUND: usize = 50_000;
@@ -102,7 +103,7 @@ impl Options {
         }
     }
 
-    /// The fault of a run that would end before it begins. A run of this crate may go backward in time; runs of cases
+    /// The fault of a run whose end is before its start. Runs of this crate may go backward in time; runs of cases
     /// and of the Python package may not.
     ///
     /// # Arguments
@@ -116,7 +117,7 @@ impl Options {
         })
     }
 
-    /// The method with a bound on its steps (its own, that of the run, or [`most_steps`]) and with an absolute tolerance
+    /// The method with a limit on its steps (its own, the run's, or [`most_steps`]) and with an absolute tolerance
     /// for this model.
     pub(super) fn bounded_method(&self, model: &Model) -> Scheme {
         let mut bounded = self.method.clone();

@@ -1,4 +1,4 @@
-//! A model prepared for many runs: data that each run would compute anew is computed only by the first run.
+//! A model prepared for many runs. The first run computes the data that runs share.
 
 use super::accelerations::accelerations;
 use super::accelerations::Accelerations;
@@ -19,7 +19,7 @@ use crate::model::Model;
 use crate::stabilize::Projection;
 use std::ops::Deref;
 
-/// A model and the data that its runs share: the plan of elimination, and the model over lanes once a run needs it.
+/// A model and the data that its runs share: the elimination plan, and the model over lanes once a run needs it.
 ///
 /// It borrows the model or, as `Prepared<Arc<Model>>`, contains it. Threads may share it; the results of a run do not
 /// depend on earlier runs.
@@ -62,7 +62,7 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         &self.cache
     }
 
-    /// The model over lanes for so many states, if they are enough for it.
+    /// The model over lanes, if there are enough states for it.
     pub(in crate::analyses) fn wide_for(&self, count: usize) -> Option<&Model<Lanes>> {
         self.cache.wide(&self.model, count).map(Wide::model)
     }
@@ -84,7 +84,7 @@ impl<M: Deref<Target = Model>> Prepared<M> {
     /// [acts](crate::analyses::EventOption::acts).
     ///
     /// # Errors
-    /// As [`dynamics`](Self::dynamics), and for a change that does not meet the constraints.
+    /// The errors of [`dynamics`](Self::dynamics), and a change that does not meet the constraints.
     pub fn dynamics_with(
         &self,
         start: &State,
@@ -95,8 +95,9 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         course::run((&self.model, &self.cache), start, options, self.clock, watch, Some(act))
     }
 
-    /// Solves the equations of motion at states. With `passing`, also near singular positions, as runs with projection
-    /// do. `watch` is called with the times and may stop the computation; then the rows so far are returned.
+    /// Solves the equations of motion at states. With `passing`, also near singular positions, as in runs with
+    /// projection. `watch` is called with the times and may stop the computation. The rows computed so far are then
+    /// returned.
     ///
     /// # Errors
     /// [`Failure`] of the first state where accelerations and multipliers are not unique, or not finite.
@@ -112,8 +113,8 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         accelerations((&self.model, &self.cache), states, passing, watch)
     }
 
-    /// Projects states between the outputs of a run, such as those of its interpolant: rows of q and of v as they would
-    /// be reported at these times. `projection` is that of the run.
+    /// Projects states between the outputs of a run, such as states of its interpolant. The results are rows of q and
+    /// v as they would be reported at these times. `projection` is the projection of the run.
     ///
     /// # Errors
     /// [`Failure`] at the first state that cannot be projected.
@@ -128,11 +129,11 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         interpolated_states::project((&self.model, &self.cache), states, projection)
     }
 
-    /// Kinetic and potential energy at states, J, followed by the dissipated energy and the works up to them: `works`,
-    /// rows of three, become rows of [`ENERGIES`](super::ENERGIES).
+    /// Kinetic and potential energy at states, J, followed by the dissipated energy and the works up to these states.
+    /// Rows of three in `works` become rows of [`ENERGIES`](super::ENERGIES).
     ///
     /// # Errors
-    /// [`Failure`] of the first state where one of them is not finite.
+    /// [`Failure`] of the first state with an energy that is not finite.
     ///
     /// # Panics
     /// If the rows do not fit the model or each other.

@@ -14,14 +14,14 @@ use crate::math::Lanes;
 use crate::model::Model;
 use crate::solve::Breakdown;
 
-/// Reported states for which memory is reserved in each step; tables grow beyond it.
+/// Number of reported states for which memory is reserved in each step. Tables grow beyond it.
 const IN_A_STEP: usize = 4;
 
-/// Steps without a reported state after which the joints are checked, for steps chosen by the error control. Joints
-/// then open over many steps, and each check costs two fifths of the instructions of an evaluation.
+/// Number of steps without a reported state after which the joints are checked, if the error control chooses the
+/// steps. Joints then open over many steps, and each check costs two fifths of the instructions of an evaluation.
 const UNREPORTED: usize = 4;
 
-/// The number of these steps for a scheme: an unstable constant step opens joints within few steps.
+/// The number of these steps for a scheme. An unstable constant step opens joints within few steps.
 fn unreported(scheme: &Scheme) -> usize {
     let constant = match scheme {
         Scheme::GeneralizedAlpha(_) | Scheme::Radau(_) | Scheme::Auto(_) => None,
@@ -30,7 +30,7 @@ fn unreported(scheme: &Scheme) -> usize {
     constant.map_or(UNREPORTED, |_| 1)
 }
 
-/// Number of steps of a grid, a whole number or not; zero if the steps of the method are reported.
+/// Number of steps of a grid, which need not be an integer. Zero if the steps of the method are reported.
 pub(super) fn grid_steps(options: &Options, t0: f64) -> f64 {
     options.output_step.map_or(0.0, |h| ((options.t_end - t0) / h).abs())
 }
@@ -43,7 +43,7 @@ pub(super) fn tables(
 ) -> (Trajectory, Option<PiecewiseInterpolant>) {
     let layout = &model.layout;
     let states = (grid_steps(options, t0) + 2.0) as usize;
-    // all steps get the highest degree of the method from the start
+    // use the highest degree of the methods for all steps from the start
     let several = matches!(options.method, Scheme::Auto(_) | Scheme::Dop853(_));
     let degree = if several { HIGHEST } else { 0 };
     let dense =
@@ -82,8 +82,8 @@ pub(super) struct Recorder<'a> {
 }
 
 impl<'a> Recorder<'a> {
-    /// Makes the recorder of a phase that begins at `t`, in a run that began at `t0`. The tables contain the records of
-    /// the phases before. The model over lanes is used if there are many states to report.
+    /// Makes the recorder of a phase that begins at `t`, in a run that began at `t0`. The tables contain the records
+    /// of the earlier phases. The model over lanes is used if many states are reported.
     pub fn new(
         system: &MotionOde<'a>,
         wide: Option<Wide<'a>>,
@@ -114,13 +114,13 @@ impl<'a> Recorder<'a> {
         recorder
     }
 
-    /// Factorisations, those of lanes one by one.
+    /// Number of factorisations. A factorisation over all lanes counts once per lane.
     pub fn factorisations(&self) -> usize {
         let many = self.many.as_ref().map_or(0, |batch| batch.placer.factorisations());
         self.one.factorisations() + Lanes::WIDTH * many
     }
 
-    /// Leaves out the rows that the equations of motion leave out; returns whether the run may continue.
+    /// Omits the rows that the equations of motion omit. Returns whether the run may continue.
     pub fn follow(&mut self, workspace: &Workspace) -> Flow {
         let omitted = workspace.matrix.omitted();
         if self.one.omitted() == omitted {
@@ -171,7 +171,7 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Projects and reports the state in the scratch.
+    /// Projects and reports the state in `y`.
     fn report_alone(&mut self, t: f64) -> Flow {
         let mut y = std::mem::take(&mut self.y);
         let placed = self.one.place_on_branch(t, &mut y);
@@ -201,7 +201,7 @@ impl<'a> Recorder<'a> {
         flow
     }
 
-    /// Keeps a projected state.
+    /// Stores a projected state.
     fn keep(&mut self, t: f64, y: &[f64], placed: Result<(), Breakdown>) -> Flow {
         if let Err(breakdown) = placed {
             return self.stop(t, breakdown);
@@ -226,7 +226,7 @@ impl<'a> Recorder<'a> {
         Flow::Stop
     }
 
-    /// Reports all states in a step; stops when `watch` requests it, and where a state cannot be projected.
+    /// Reports all states in a step. Stops if `watch` requests it or a state cannot be projected.
     pub fn step(&mut self, step: &Step<'_>, watch: &mut impl FnMut(f64) -> Flow) -> Flow {
         if let Some(dense) = &mut self.dense {
             if !dense.add(step, &mut self.coefficients) {
@@ -262,7 +262,7 @@ impl<'a> Recorder<'a> {
         y
     }
 
-    /// Checks the joints at the end of a step, after so many steps without reported states.
+    /// Checks the joints at the end of a step if enough steps have passed without reported states.
     fn check_joints(&mut self, step: &Step<'_>) -> Flow {
         let due = self.due(step.t).is_some();
         let [since, most] = &mut self.unreported;
@@ -277,12 +277,12 @@ impl<'a> Recorder<'a> {
         }
     }
 
-    /// Whether a step that ends at `t` is needed between its ends.
+    /// Whether states inside a step that ends at `t` are needed.
     pub fn looks_inside(&self, t: f64) -> bool {
         self.dense.is_some() || self.output_step.is_some() && self.due(t).is_some()
     }
 
-    /// The next time of the grid, if it is reached.
+    /// The next time of the grid, if the run has reached it.
     fn due(&self, reached: f64) -> Option<f64> {
         let past = |a: f64, b: f64| self.direction * (a - b) > 0.0;
         let t = self.upcoming;

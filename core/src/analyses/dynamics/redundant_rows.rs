@@ -1,4 +1,4 @@
-//! Redundant equations of a run: which are left out, so that the motion is that of independent ones
+//! Redundant equations of a run. They are omitted, and the motion follows from the independent equations
 //! (`equations/independent.rs`).
 
 use super::model_cache::ModelCache;
@@ -7,7 +7,7 @@ use crate::equations::augmented::NearSingular;
 use crate::equations::{Gains, Workspace};
 use crate::model::Model;
 
-/// The rows that repeat others at and near a position; none where redundant constraints are refused.
+/// The rows that repeat others at and near a position. Empty if redundant constraints are refused.
 pub(super) fn redundant_rows(model: &Model, t: f64, q: &[f64]) -> Vec<usize> {
     match model.allow_redundancy {
         true => mobility(model, t, q).redundant_equations.iter().map(|one| one.row).collect(),
@@ -15,7 +15,8 @@ pub(super) fn redundant_rows(model: &Model, t: f64, q: &[f64]) -> Vec<usize> {
     }
 }
 
-/// A workspace for states near this one: without redundant rows, it is that of the model without the option.
+/// A workspace for states near this one. Without redundant rows it equals the workspace of a model that does not
+/// allow redundancy.
 pub(super) fn workspace_at(
     (model, cache): (&Model, &ModelCache),
     t: f64,
@@ -34,7 +35,7 @@ pub(super) fn workspace_at(
     workspace
 }
 
-/// Leaves out other redundant rows if this state needs it; returns whether they changed.
+/// Omits other redundant rows if this state requires it; returns whether the rows changed.
 pub(super) fn exchange(
     model: &Model,
     workspace: &mut Workspace,

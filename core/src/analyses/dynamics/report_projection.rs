@@ -1,8 +1,8 @@
-//! Reported states: projected onto the constraints, or checked whether they meet them.
+//! Reported states: projected onto the constraints, or checked for open joints.
 //!
-//! States of a grid lie between the ends of steps and are independent of each other, so several are projected at once
-//! (`lane_batch`), with the same formulas over lanes. If one of them is not regular (near a singular position, with a
-//! gap that does not close, or with a number that is not finite), each is projected separately.
+//! States of a grid lie between the ends of steps and are independent of each other, so several states are projected
+//! at once (`lane_batch`), one in each lane. If one of them is not regular (near a singular position, with a gap that
+//! does not close, or with a number that is not finite), each state is projected separately.
 
 use super::branch_averaging;
 use super::constraint_violation::ViolationCheck;
@@ -38,17 +38,17 @@ impl<'a, S: Real> ReportProjection<'a, S> {
         Self { model, workspace, projector, check, changed: false }
     }
 
-    /// The rows that are left out.
+    /// The rows that are omitted.
     pub fn omitted(&self) -> &[usize] {
         self.workspace.matrix.omitted()
     }
 
-    /// Leaves out these rows and no others.
+    /// Omits exactly these rows.
     pub fn omit(&mut self, rows: &[usize]) {
         self.workspace.omit(rows);
     }
 
-    /// The joint that is open too far at y, if there is one.
+    /// The joint that is open too far at y, if any.
     pub fn violation(&mut self, t: S, y: &[S]) -> Option<Breakdown> {
         self.check.as_ref()?;
         self.set_motions(y);
@@ -60,11 +60,11 @@ impl<'a, S: Real> ReportProjection<'a, S> {
         self.workspace.place(self.model, [q, v, z]);
     }
 
-    /// Projects y = (q, v, works) if projection is an option of the run; otherwise checks the joints. The works are
-    /// unchanged, so the energy balance shows the change of energy by projection.
+    /// Projects y = (q, v, works) if the run uses projection; otherwise checks the joints. The works do not change,
+    /// so the energy balance shows the change of energy by projection.
     ///
     /// # Errors
-    /// [`Breakdown`]; over lanes, that of one of them.
+    /// [`Breakdown`]; over lanes, the breakdown of one lane.
     pub fn place(&mut self, t: S, y: &mut [S]) -> Result<(), Breakdown> {
         let Some(projector) = &mut self.projector else {
             return self.violation(t, y).map_or(Ok(()), Err);
@@ -74,13 +74,13 @@ impl<'a, S: Real> ReportProjection<'a, S> {
         Ok(())
     }
 
-    /// Change of the `given` rates by projection, as a part of the fastest rate.
+    /// Change of the `given` rates by projection, as a fraction of the fastest rate.
     pub fn turn(&self, given: &[S], v: &[S]) -> f64 {
         let projector = self.projector.as_ref().filter(|_| self.changed);
         projector.map_or(0.0, |projector| branch_averaging::turn(projector, given, v))
     }
 
-    /// Number of factorisations; one over all lanes counts once.
+    /// Number of factorisations. A factorisation over all lanes counts once.
     pub fn factorisations(&self) -> usize {
         self.projector.as_ref().map_or(0, |projector| projector.factorisations)
     }
@@ -103,20 +103,20 @@ impl ReportProjection<'_> {
         }
     }
 
-    /// Leaves out other redundant rows if the state needs it.
+    /// Omits other redundant rows if the state requires it.
     pub fn exchange_rows(&mut self, t: f64, state: [&[f64]; 3]) {
         redundant_rows::exchange(self.model, &mut self.workspace, t, state);
     }
 
-    /// Whether the matrix of the last projection is that of a position at or near a singular one.
+    /// Whether the matrix of the last projection belongs to a position at or near a singular one.
     fn is_near_singular(&self) -> bool {
         let matrix = &self.workspace.matrix;
         let kept = matrix.cancellation().map_or(1.0, |(_, kept)| kept);
         matrix.regularised() || kept < branch_averaging::NEAR
     }
 
-    /// Whether two states are so near each other that they may lie on two branches beside a singular position. States
-    /// computed from the neighbours of a mechanism at rest are not: its rates are rounding errors.
+    /// Whether two states are so close to each other that they may lie on two branches near a singular position. This
+    /// does not apply to a mechanism at rest, whose rates are rounding errors.
     fn is_beside(&self, y: &[f64], other: &[f64]) -> bool {
         let [q, ..] = self.model.layout.split(y);
         let [to, ..] = self.model.layout.split(other);
@@ -124,8 +124,8 @@ impl ReportProjection<'_> {
         apart.is_some_and(|apart| apart < branch_averaging::BESIDE)
     }
 
-    /// Projects a reported state. If it ends on another branch beside a singular position, the state is computed from
-    /// neighbouring states, if this changes the rates less.
+    /// Projects a reported state. If it ends on another branch near a singular position, computes the state from
+    /// neighbouring states instead, provided that this changes the rates less.
     ///
     /// # Errors
     /// [`Breakdown`].
@@ -136,7 +136,7 @@ impl ReportProjection<'_> {
             |solver: &Self, y: &[f64]| solver.turn(layout.split(&given)[1], layout.split(y)[1]);
         self.place(t, y)?;
         let turn = turned(self, y);
-        // the rates of a mechanism nearly at rest also change by a large part, but there are no other branches
+        // the rates of a mechanism nearly at rest also change by a large fraction, but there are no other branches
         let near = turn > branch_averaging::TURNED && self.is_near_singular();
         let Some(projector) = self.projector.as_mut().filter(|_| near) else {
             return Ok(());

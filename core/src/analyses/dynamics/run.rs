@@ -1,4 +1,4 @@
-//! One phase of a run, with its own active constraints. `course` makes the sequence of phases.
+//! One phase of a run, with its own active constraints. `course` creates the sequence of phases.
 
 use super::event_list::{EventList, StepEvents, Watched};
 use super::failure::Failure;
@@ -27,12 +27,12 @@ pub(super) struct Progress {
     pub y: Vec<f64>,
     /// The events that ended the last phase.
     pub fired: Vec<usize>,
-    /// The course of the run that conditions refer to.
+    /// The course of the run, which conditions may use.
     pub so_far: SoFar,
 }
 
 impl Progress {
-    /// At the start of a run; makes its tables.
+    /// Begins a run and creates its tables.
     pub fn begin(model: &Model, start: &State, options: &Options, run: &mut Run) -> Self {
         let t0 = options.t_start.unwrap_or(start.t);
         let mut y = [&start.q[..], &start.v, &start.z].concat();
@@ -57,8 +57,8 @@ pub(super) enum PhaseEnd {
 pub(super) struct Phase<'a> {
     pub model: &'a Model,
     pub cache: &'a ModelCache,
-    /// Whether the velocities at its start are projected onto its constraints, in the metric of the mass matrix.
-    /// Otherwise they should meet the constraints already.
+    /// Whether the velocities at the start are projected onto the constraints of the phase, in the metric of the mass
+    /// matrix. Otherwise they must meet the constraints already.
     pub project_velocities: bool,
 }
 
@@ -88,7 +88,7 @@ pub(super) fn run_phase(
     end_phase(phase.model, recorder, at, outcome, run)
 }
 
-/// The steps of a phase, None if it is stopped at its start, and their recorder, which has the tables of the run.
+/// The steps of a phase (None if it is stopped at its start), and their recorder, which holds the tables of the run.
 type Begun<'a> = (Result<Option<PhaseSteps<'a>>, Box<Failure>>, Recorder<'a>);
 
 /// Begins a phase; updates `at` and `run`.
@@ -178,7 +178,7 @@ impl<'a> PhaseSteps<'a> {
         Ok(Self { stepper, events, ranges, start, t_end, fired })
     }
 
-    /// How the phase ended, if its last step was taken.
+    /// How the phase ended, if the last step reached its end.
     pub fn reached(&self, recorder: &Recorder<'_>) -> Option<PhaseEnd> {
         if self.stepper.t() != recorder.t_end {
             return None;
@@ -202,7 +202,7 @@ impl<'a> PhaseSteps<'a> {
         }
     }
 
-    /// Passes the step that was taken to the observers. Returns how the phase ended, if they end it.
+    /// Passes the step that was taken to the observers. Returns how the phase ended, if the observers end it.
     pub fn follow(
         &mut self,
         observers: (&mut Recorder<'_>, &mut impl FnMut(f64) -> Flow),
@@ -249,8 +249,8 @@ enum Next {
     Event(f64),
 }
 
-/// Passes the last step to the recorder and to the caller. Events in it are added to the run; those that end the phase
-/// are also put into `fired`.
+/// Passes the last step to the recorder and to the caller. Adds the events in the step to the run. Events that end
+/// the phase are also added to `fired`.
 fn observe(
     stepper: &mut MotionStepper<'_>,
     events: &mut Option<EventList<'_>>,
@@ -275,7 +275,7 @@ fn observe(
         Some(StepEvents::Events(happened)) => happened,
         None => Vec::new(),
     };
-    // a step that is taken again has no sample
+    // a step that will be taken again has no sample
     recorder.sample = stepper.sample().cloned();
     let step = stepper.last_step().expect("a step was taken");
     let mut flow = recorder.follow(&stepper.ode.workspace);

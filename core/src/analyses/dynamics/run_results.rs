@@ -14,13 +14,13 @@ pub struct Statistics {
     pub steps: usize,
     /// Rejected steps.
     pub rejected: usize,
-    /// Evaluations of the equations of motion, without those for the output.
+    /// Evaluations of the equations of motion, without evaluations for the output.
     pub evaluations: usize,
     /// Tangents of the equations of motion; zero for explicit methods.
     pub jacobians: usize,
     /// Steps of Newton's iteration; zero for explicit methods.
     pub iterations: usize,
-    /// Factorisations of the augmented matrix, with those for the output, and of the matrices of
+    /// Factorisations of the augmented matrix, including factorisations for the output, and of the matrices of
     /// Newton's iteration.
     pub factorisations: usize,
     /// Wall time, s.
@@ -28,7 +28,7 @@ pub struct Statistics {
 }
 
 impl Statistics {
-    /// Adds the counts of a stepper and the factorisations that belong to it.
+    /// Adds the counts of a stepper and its factorisations.
     pub(super) fn add(&mut self, counts: integrate::StepCounts, factorisations: usize) {
         self.steps += counts.steps;
         self.rejected += counts.rejected;
@@ -46,22 +46,22 @@ pub struct EventStates {
     pub name: String,
     /// A row for each time.
     pub states: Trajectory,
-    /// Impulses of all multipliers, those of forces with modes after the rows of the model, N·s or N·m·s: a row for each
-    /// time of a contact that hits, otherwise empty.
+    /// Impulses of all multipliers, N·s or N·m·s; impulses of forces with modes follow the rows of the model. One row
+    /// per time if a contact hits, otherwise empty.
     pub impulses: Vec<f64>,
 }
 
-/// A singular position that a run passed. With σ the smallest singular value of Φ_q relative to its rows, an error e of
-/// the constraints beside it is an error of about e/σ² in accelerations and multipliers.
+/// A singular position that a run passed. Let σ be the smallest singular value of Φ_q relative to its rows. Near the
+/// position, an error e of the constraints causes an error of about e/σ² in accelerations and multipliers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Passed {
-    /// Its time, s, within a small part of the step across it.
+    /// Time, s, accurate to a small fraction of the step across the position.
     pub t: f64,
     /// Names of the joints and drivers whose equations depend on each other there.
     pub names: Vec<String>,
-    /// σ over the time from the position, 1/s.
+    /// σ divided by the distance in time from the position, 1/s.
     pub slope: f64,
-    /// Largest Φ after the step across, with lengths relative to the size of the mechanism.
+    /// Largest Φ after the step across the position, with lengths relative to the size of the mechanism.
     pub residual: f64,
 }
 
@@ -70,28 +70,29 @@ pub struct Passed {
 pub struct Run {
     /// Reported states.
     pub trajectory: Trajectory,
-    /// The first row of each phase. The state at the end of a phase and the state at the start of the next have a
-    /// row each, at one time.
+    /// The first row of each phase. The state at the end of a phase and the state at the start of the next phase have
+    /// a row each, at the same time.
     pub phases: Vec<usize>,
     /// The parameters and drivers of each phase that differ from those of the model; empty without events.
     pub settings: Vec<Setting>,
-    /// The states at which events happened, those of each event in order.
+    /// The states at which events occurred, in order for each event.
     pub events: Vec<EventStates>,
-    /// The event at which the run stopped, by its name.
+    /// Name of the event that stopped the run.
     pub stopped_by: Option<String>,
     /// Interpolants of all steps, if the options request them.
     pub dense: Option<PiecewiseInterpolant>,
     /// Counts.
     pub statistics: Statistics,
-    /// The method of the automatic choice.
+    /// The method that was chosen automatically.
     pub choice: Option<MethodChoice>,
     /// Whether t_end was reached; otherwise an event or the observer stopped the run.
     pub reached: bool,
-    /// Whether it passes singular positions, as runs with projection do.
+    /// Whether the run passes singular positions, as runs with projection do.
     pub passing: bool,
-    /// The singular positions that it passed, in order.
+    /// The singular positions that the run passed, in order.
     pub passed: Vec<Passed>,
-    /// Projection of its states; None with another stabilization. See [`Prepared::project`](super::Prepared::project).
+    /// Projection of the states; None with another stabilization. See
+    /// [`Prepared::project`](super::Prepared::project).
     pub projection: Option<Projection>,
 }
 

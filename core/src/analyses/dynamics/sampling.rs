@@ -1,13 +1,15 @@
-//! Sampled laws: a host computes them at known times, and their values are held as first-order states between.
+//! Sampled laws. The host program computes them at known times, and first-order states hold their values between
+//! these times.
 //!
-//! Steps end at the samples. At the end of a run no sample is taken: a run that continues from there begins with it.
+//! Steps end at the samples. No sample is taken at the end of a run. A run that continues from there begins with this
+//! sample.
 
 use super::failure::{Failure, Reason};
 use crate::model::{Functions, Model};
 
-/// Most samples of a run.
+/// Largest number of samples of a run.
 const MOST: f64 = 1e6;
-/// Distance from a sample below which a reported time is that of the sample, relative to 1 s + |t|.
+/// A reported time within this distance of a sample has the values of the sample, relative to 1 s + |t|.
 const SAME: f64 = 1e-12;
 
 /// The values of all sampled laws, computed at a time.
@@ -18,7 +20,8 @@ pub(super) struct Sample {
 }
 
 impl Sample {
-    /// Computes the laws with a sample at `t`; the others keep their values. All see the state before the sample.
+    /// Computes the laws with a sample at `t`. Other laws keep their values. All laws are evaluated at the state
+    /// before the sample.
     pub fn take(model: &Model, t: f64, y: &[f64]) -> Option<Self> {
         let functions = model.blueprint.functions.as_ref()?;
         let [q, v, z, _] = model.layout.split(y);
@@ -42,7 +45,7 @@ impl Sample {
     }
 }
 
-/// The times of samples between `t0` and `t_end`, ascending; both ends excluded.
+/// The times of samples strictly between `t0` and `t_end`, ascending.
 ///
 /// # Errors
 /// More samples than a run can step to; a run backward in time.
@@ -70,7 +73,7 @@ pub(super) fn times(model: &Model, (t0, t_end): (f64, f64)) -> Result<Vec<f64>, 
     Ok(times)
 }
 
-/// Whether a sample is at the end, up to rounding.
+/// Whether the end is a sampling time, up to rounding, and `t` is this time.
 fn near(sampling: &crate::model::Sampling, t: f64, t_end: f64) -> bool {
     sampling.is_at(t_end) && t_end - t < 0.5 * sampling.period
 }

@@ -3,7 +3,8 @@
 use super::options::Options;
 use crate::model::{ForceMode, Model, Problem};
 
-/// Parameters that differ from those of the model, drivers that no longer act, and the modes of forces that have any.
+/// Parameters that differ from the parameters of the model, drivers that are released, and the modes of forces that
+/// have modes.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Setting {
     /// Values of parameters by name.
@@ -15,13 +16,13 @@ pub struct Setting {
 }
 
 impl Setting {
-    /// The setting at the start of a run; the modes of forces are not decided yet.
+    /// The setting at the start of a run. The modes of forces are determined later.
     pub(super) fn of(options: &Options) -> Self {
         let (parameters, released) = (options.parameters.clone(), options.release.clone());
         Self { parameters, released, modes: Vec::new() }
     }
 
-    /// Whether the model of a phase is the given one.
+    /// Whether the phase uses the given model unchanged.
     pub fn is_plain(&self) -> bool {
         *self == Self::default()
     }
@@ -29,16 +30,16 @@ impl Setting {
     /// The model with these parameters, without these drivers, and with forces in these modes.
     ///
     /// # Errors
-    /// All parameters and numbers with an impossible value.
+    /// All parameters and numbers with impossible values.
     pub fn model(&self, model: &Model) -> Result<Model, Vec<Problem>> {
         let open = self.open(model)?;
         Ok(if self.modes.is_empty() { open } else { open.in_modes(&self.modes) })
     }
 
-    /// The model with these parameters and without these drivers. The modes of forces follow from the state.
+    /// The model with these parameters and without these drivers. The modes of forces are not set.
     ///
     /// # Errors
-    /// As [`model`](Self::model).
+    /// The errors of [`model`](Self::model).
     pub fn open(&self, model: &Model) -> Result<Model, Vec<Problem>> {
         let changed = match self.parameters.is_empty() {
             true => model.clone(),

@@ -1,13 +1,13 @@
-//! Forces that depend on a reaction which is not unique, such as friction in one of two pins on the same axis.
+//! Forces that depend on a reaction that is not unique, such as friction in one of two pins on the same axis.
 
 use super::failure::{Failure, Reason};
 use crate::analyses::uniqueness::not_unique;
 use crate::model::Model;
 
-/// Refuses a force that depends on the reaction of a joint which repeats others.
+/// Refuses a force that depends on the reaction of a joint that repeats others.
 ///
 /// # Errors
-/// [`Failure`] with [`Reason::Redundant`], which names the force, the joint and those that it repeats.
+/// [`Failure`] with [`Reason::Redundant`], which names the force, the joint and the joints that it repeats.
 pub(super) fn check(model: &Model, t: f64, q: &[f64]) -> Result<(), Box<Failure>> {
     if !model.allow_redundancy || model.forces.iter().all(|item| item.reaction.is_none()) {
         return Ok(());

@@ -1,8 +1,8 @@
 //! Runs of several variants of a model side by side: up to four take their steps together, one in each lane.
 //!
-//! Each run has its own time and step. A run that ends is replaced by the next one. A run takes a step alone where
-//! the step needs more than the ordinary evaluation (`integrate/lane_steps.rs`), so that its results are those of a run on its own,
-//! to the last bit.
+//! Each run has its own time and step. A run that ends is replaced by the next run. If a step needs more than the
+//! ordinary evaluation (`integrate/lane_steps.rs`), the run takes this step alone. The results therefore agree with
+//! the results of a separate run to the last bit.
 
 use super::failure::Failure;
 use super::lane_motion::{LaneEquations, LaneMotion};
@@ -36,8 +36,8 @@ pub struct Variant<'a> {
 pub type RunOutcome = Result<Run, Box<Failure>>;
 
 impl Variant<'_> {
-    /// Whether its steps can be taken beside others: by an explicit method with error control, without events, switches,
-    /// outputs between start and end, or an interpolant.
+    /// Whether the run can take its steps side by side with others: by an explicit method with error control, without
+    /// events, switches, outputs between start and end, or an interpolant.
     pub fn serves(&self) -> bool {
         let Options { method, stabilization, events, stop, dense_output, output_step, .. } =
             self.options;
@@ -58,9 +58,9 @@ impl Variant<'_> {
     }
 }
 
-/// A run under way.
+/// A run that has not ended.
 struct Underway<'a> {
-    /// Its place among the variants.
+    /// Index among the variants.
     place: usize,
     model: &'a Model,
     at: Progress,
@@ -70,7 +70,7 @@ struct Underway<'a> {
 }
 
 impl<'a> Underway<'a> {
-    /// Begins a run; a result if it ends at once.
+    /// Begins a run. Returns its result if it ends at once.
     fn begin(place: usize, variant: &Variant<'a>) -> Result<Self, Box<RunOutcome>> {
         let Variant { prepared, start, options } = variant;
         let model: &'a Model = prepared.model();
@@ -91,7 +91,7 @@ impl<'a> Underway<'a> {
         }
     }
 
-    /// Takes a step alone, or looks at one that was taken beside others. Returns whether the run goes on.
+    /// Takes a step alone, or processes a step that was taken side by side. Returns whether the run continues.
     fn go_on(&mut self, beside: bool, watch: &dyn Fn() -> Flow) -> Result<bool, Box<Failure>> {
         let mut each_step = |_| watch();
         let observers = (&mut self.recorder, &mut each_step);
@@ -132,14 +132,14 @@ fn conclude(
 /// Numbers of trial steps.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Trials {
-    /// Taken beside others.
+    /// Taken side by side.
     pub beside: usize,
     /// Taken alone.
     pub alone: usize,
 }
 
-/// Integrates variants of one model, which differ in the [values of parameters](Model::with_values) and all
-/// [can be run so](Variant::serves). `watch` may stop all runs.
+/// Integrates variants of one model, which differ in the [values of parameters](Model::with_values). All variants
+/// must [be suitable](Variant::serves). `watch` may stop all runs.
 pub fn side_by_side(
     variants: &[Variant<'_>],
     watch: &dyn Fn() -> Flow,
@@ -149,7 +149,7 @@ pub fn side_by_side(
     let mut waiting = variants.iter().enumerate();
     let mut lanes: [Option<Underway<'_>>; WIDTH] = Default::default();
     let (mut steps, mut motion) = (LaneSteps::default(), None);
-    // whether other runs are in the lanes than in the model over lanes
+    // whether the runs in the lanes differ from the runs in the model over lanes
     let mut stale = false;
     loop {
         for lane in lanes.iter_mut().filter(|lane| lane.is_none()) {
@@ -195,15 +195,15 @@ fn next<'v, 'a: 'v>(
     })
 }
 
-/// The equations of the runs over lanes; empty lanes repeat one. None for fewer than two runs, or if their equations
-/// differ in structure.
+/// The equations of the runs over lanes; empty lanes repeat a run. None for fewer than two runs, or if the structures
+/// of their equations differ.
 fn over_lanes(lanes: &[Option<Underway<'_>>; WIDTH]) -> Option<LaneMotion> {
     let first = lanes.iter().flatten().next().filter(|_| lanes.iter().flatten().count() > 1)?;
     let ode = |lane: usize| &lanes[lane].as_ref().unwrap_or(first).steps.stepper.ode;
     LaneMotion::new(std::array::from_fn(ode))
 }
 
-/// A trial step of each run that can take it beside others.
+/// Takes a trial step of each run that can take it side by side.
 fn round(
     lanes: &mut [Option<Underway<'_>>; WIDTH],
     motion: &mut Option<LaneMotion>,

@@ -1,14 +1,15 @@
 //! Forecast of the time of a singular position, from the least pivot so far.
 //!
-//! If Φ_q loses rank at t_s, a pivot of Φ_q M⁻¹ Φ_qᵀ goes to zero as (t - t_s)². So its root falls to zero along a
-//! line, and the pivot itself is a parabola around t_s. Both give t_s well before a step comes near.
+//! If Φ_q loses rank at t_s, a pivot of Φ_q M⁻¹ Φ_qᵀ tends to zero as (t - t_s)². Its square root falls linearly to
+//! zero, and the pivot itself is a parabola with its vertex at t_s. Both give t_s well before a step reaches it.
 
-/// Largest pivot at the vertex of the parabola, as a part of the pivots beside it. Above it the position is regular.
+/// Largest pivot at the vertex of the parabola, as a fraction of the pivots beside it. A position with a larger pivot
+/// is regular.
 const DEEP: f64 = 0.05;
-/// Samples nearer to each other than this part of a step add no information.
+/// Samples closer to each other than this fraction of a step add no information.
 const APART: f64 = 0.01;
 
-/// Least reduction of the pivot by an approach within two steps: the square of one half.
+/// Smallest reduction of the pivot on the way to a singular position within two steps: the square of two.
 const NEARER: f64 = 4.0;
 
 /// Largest number of stages of a trial; constant steps have no forecast.
@@ -31,7 +32,7 @@ pub(super) struct SingularityForecast {
 }
 
 impl SingularityForecast {
-    /// The start of the run.
+    /// Begins a forecast at the start of the run.
     pub fn begin(&mut self, start: Option<Sample>) {
         *self = Self { start, ..Self::default() };
     }
@@ -41,7 +42,7 @@ impl SingularityForecast {
         self.position.is_some() || !self.stages.is_empty()
     }
 
-    /// Whether a singular position lies between the start of the current trial and `t`.
+    /// Whether a forecast singular position lies between the start of the current trial and `t`.
     pub fn is_behind(&self, t: f64) -> bool {
         let from = self.start.map_or(f64::NAN, |(from, _)| from);
         self.position.is_some_and(|position| (position - t) * (position - from) <= 0.0)
@@ -55,12 +56,12 @@ impl SingularityForecast {
         self.stages.push(stage);
     }
 
-    /// Whether the end of a trial shows that no singular position is within two steps from its start.
+    /// Whether the end of a trial shows that no singular position lies within two steps of its start.
     pub fn is_clear(&self, end: Sample) -> bool {
         self.stages.is_empty() && self.start.is_none_or(|start| NEARER * end.1 > start.1)
     }
 
-    /// Ends a trial; returns the time of a singular position within two steps from its start.
+    /// Ends a trial. Returns the time of a singular position within two steps of its start.
     pub fn foresee(&mut self, end: Sample) -> Option<f64> {
         let stages = std::mem::take(&mut self.stages);
         self.end = Some(end);
@@ -80,8 +81,8 @@ impl SingularityForecast {
         self.position
     }
 
-    /// Accepts the last trial with the sample at its end, which the trial evaluated only at a state nearby. Returns the
-    /// time of a singular position that it passed, and the root of the pivot over the time from there.
+    /// Accepts the last trial, with the sample at its end; the trial evaluated only a nearby state. Returns the time
+    /// of a singular position that the trial passed, and the slope of the square root of the pivot there.
     pub fn accept(&mut self, end: Option<Sample>) -> Option<(f64, f64)> {
         self.end = end.or(self.end);
         let mut passed = None;
@@ -98,7 +99,7 @@ impl SingularityForecast {
     }
 }
 
-/// Growth of the root of the pivot from the time at which it vanishes, the mean of both sides.
+/// Slope of the square root of the pivot from the time at which it vanishes, averaged over both sides.
 fn slope(t: f64, start: Sample, end: Sample) -> f64 {
     0.5 * [start, end]
         .map(|(at, pivot)| pivot.sqrt() / (at - t).abs().max(f64::MIN_POSITIVE))
@@ -106,7 +107,7 @@ fn slope(t: f64, start: Sample, end: Sample) -> f64 {
         .sum::<f64>()
 }
 
-/// The time at which the pivot vanishes; the samples are in the order of motion.
+/// The time at which the pivot vanishes. The samples are in the order of the motion.
 fn vanishing(samples: &[Sample]) -> Option<f64> {
     let least = (1..samples.len()).min_by(|a, b| samples[*a].1.total_cmp(&samples[*b].1))?;
     let (t, ratio) = samples[least];
@@ -118,7 +119,7 @@ fn vanishing(samples: &[Sample]) -> Option<f64> {
         let (root, root_before) = (ratio.sqrt(), before.sqrt());
         return Some(t + root * (t - t_before) / (root_before - root));
     };
-    // Newton's form through three points
+    // Newton's form of the interpolation through three points
     let (left, right) = ((before - ratio) / (t_before - t), (after - ratio) / (t_after - t));
     let curvature = (right - left) / (t_after - t_before);
     let slope = right - curvature * (t_after - t);

@@ -1,9 +1,9 @@
-//! Methods that cannot place their steps leave singular positions to DOP853.
+//! Methods that cannot choose the ends of their steps are replaced by DOP853 at singular positions.
 //!
-//! Across a singular position the tangent of an implicit method changes its sign, so Newton's iteration finds no
-//! solution, or one on another branch; and a constant step may end where rates are noise. So DOP853, which places its
-//! steps (see `singularity_passage`), takes over before such a position, and the method continues behind it. A
-//! step that was already across is taken again.
+//! Across a singular position, the tangent of an implicit method changes its sign, so Newton's iteration finds no
+//! solution or a solution on another branch. A constant step may end where the rates are noise. DOP853, whose steps
+//! avoid the position (see `singularity_passage`), therefore takes over before it, and the method continues behind
+//! it. A step that has already crossed the position is taken again.
 
 use super::implicit_motion::ImplicitMotion;
 use super::motion_ode::MotionOde;
@@ -16,23 +16,23 @@ use crate::solve::Breakdown;
 
 /// Largest relative tolerance of DOP853 at a singular position, whose neighbourhood amplifies errors.
 const RTOL: f64 = 1e-8;
-/// Steps are sampled inside if the pivot at one of their ends is below this part of the largest one so far, and its root
-/// can change by the part [`FAST`] during the step.
+/// Samples are taken inside a step if the pivot at one of its ends is below this fraction of the largest pivot so
+/// far, and the square root of the pivot can change by the fraction [`FAST`] during the step.
 const LOW: f64 = 0.25;
 const FAST: f64 = 0.5;
-/// Places of the samples in a step.
+/// Positions of the samples, as fractions of a step.
 const INSIDE: [f64; 3] = [0.25, 0.5, 0.75];
-/// DOP853 takes over if the pivot is below this part of the largest one so far, and on a parabola to less than the part
-/// [`DEEP`] of itself. The steps of an implicit method become ever shorter there, so a forecast over two steps does not
-/// reach the position.
+/// DOP853 takes over if the pivot is below this fraction of the largest pivot so far, and if its parabola falls below
+/// the fraction [`DEEP`] of the pivot. The steps of an implicit method become ever shorter there, so a forecast over
+/// two steps does not reach the position.
 const NEAR: f64 = 1.0 / 16.0;
 const DEEP: f64 = 0.5;
-/// Number of steps of DOP853 after which the method continues at a smaller pivot, if it grows.
+/// Number of steps of DOP853 after which the method continues even at a smaller pivot, if the pivot grows.
 const LONG: usize = 100;
-/// Part of a constant step by which a time may miss the grid.
+/// Largest distance of a time from the grid, as a fraction of a constant step.
 const ROUNDING: f64 = 1e-6;
 
-/// The method between singular positions.
+/// The method that is used between singular positions.
 pub(super) enum Method<'a> {
     /// An explicit method with a constant step.
     Explicit(BoxedStepper<MotionOde<'a>, Breakdown>),
@@ -63,7 +63,7 @@ enum Turn {
     /// DOP853; the method took the last step.
     HandOver,
     Dop853,
-    /// DOP853, whose step ends at this time of the grid of a constant step.
+    /// DOP853, with a step that ends at this time of the grid of a constant step.
     ToGrid(f64),
     /// The method; DOP853 took the last step.
     HandBack,
@@ -83,7 +83,7 @@ pub(super) struct SingularityHandover<'a> {
     forecast: SingularityForecast,
     /// Whether the forecast has a sample at the start of the next step.
     begun: bool,
-    /// Times and pivots at the ends of the last steps, the last one first; and the largest pivot so far.
+    /// Times and pivots at the ends of the last steps, the last step first; and the largest pivot so far.
     last: [(f64, f64); 2],
     most: f64,
     /// Steps of the method that were taken again.
@@ -125,7 +125,7 @@ impl<'a> SingularityHandover<'a> {
         }
     }
 
-    /// Factorisations that [`statistics`](Stepper::statistics) does not count.
+    /// Number of factorisations that [`statistics`](Stepper::statistics) does not count.
     pub fn factorisations(&self) -> usize {
         let of_method = match &self.method {
             Method::Explicit(stepper) => stepper.statistics().evaluations,
@@ -135,7 +135,8 @@ impl<'a> SingularityHandover<'a> {
         of_method + of_dop853 + self.sampled
     }
 
-    /// Takes the sample at the start of the next step of the method. Returns whether it is near a singular position.
+    /// Takes the sample at the start of the next step of the method. Returns whether the state is near a singular
+    /// position.
     fn begin(&mut self, ode: &mut MotionOde<'a>) -> bool {
         let (t, y) = (self.method.get().t(), self.method.get().y().to_vec());
         let sample = sample(ode, t, &y);
@@ -147,8 +148,8 @@ impl<'a> SingularityHandover<'a> {
         sample.is_some() && ode.workspace.matrix.regularised()
     }
 
-    /// The singular position ahead of the start of the last step, which the method took: one within two steps, or one
-    /// that lies near.
+    /// The singular position ahead of the start of the last step, which the method took: a position within two steps,
+    /// or a position nearby.
     fn foresee(&mut self, ode: &mut MotionOde<'a>) -> Option<f64> {
         let pivot = match &self.method {
             Method::Explicit(_) => pivot(ode),
@@ -183,7 +184,7 @@ impl<'a> SingularityHandover<'a> {
         })
     }
 
-    /// A step of the method; if a singular position is there, DOP853 takes a step instead.
+    /// Takes a step of the method. At a singular position DOP853 takes a step instead.
     fn ordinary_step(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Breakdown>> {
         if !self.begun && self.begin(ode) {
             return self.hand_over(ode);
@@ -212,7 +213,7 @@ impl<'a> SingularityHandover<'a> {
         Ok(())
     }
 
-    /// DOP853 continues from the state of the method, with a step.
+    /// Starts DOP853 from the state of the method, and takes a step.
     fn hand_over(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Breakdown>> {
         let (t, y) = (self.method.get().t(), self.method.get().y().to_vec());
         self.sampled += 1;
@@ -229,7 +230,7 @@ impl<'a> SingularityHandover<'a> {
         self.cross(ode)
     }
 
-    /// A step of DOP853.
+    /// Takes a step of DOP853.
     fn cross(&mut self, ode: &mut MotionOde<'a>) -> Result<(), Cause<Breakdown>> {
         let Some(dop853) = &mut self.dop853 else { unreachable!("DOP853 took over") };
         if let Turn::ToGrid(end) = self.turn {
@@ -251,7 +252,7 @@ impl<'a> SingularityHandover<'a> {
         Ok(())
     }
 
-    /// Whether the singular position is behind the end of the last step of DOP853.
+    /// Whether the last step of DOP853 ended behind the singular position.
     fn behind(&mut self, ode: &MotionOde<'a>) -> bool {
         let Some(now) = pivot(ode) else { return true };
         let grows = now >= std::mem::replace(&mut self.last[0].1, now);
@@ -265,7 +266,7 @@ impl<'a> SingularityHandover<'a> {
         now >= NEAR * self.most
     }
 
-    /// The next time of the grid of a constant step; None for other steps, and at such a time.
+    /// The next time of the grid of a constant step. None for other steps, and if `t` is on the grid.
     fn grid_time(&self, t: f64) -> Option<f64> {
         let step = self.control.step?.copysign(self.t_end - self.t0);
         let count = (t - self.t0) / step;

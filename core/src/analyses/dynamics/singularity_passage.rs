@@ -1,10 +1,10 @@
-//! Passing singular positions: where Φ_q loses rank for an instant and branches of motion may meet.
+//! Passing of singular positions, where Φ_q loses rank for an instant and branches of the motion may meet.
 //!
 //! A motion that passes with a velocity stays on the branch to which this velocity is tangent. The integration follows
 //! this branch, since it is the smooth continuation of the motion before. The branch is undecided
 //!
-//! * if the mechanism is almost at rest: 2 T ≤ [`REST`] |M⁻¹Q| L. Then the loads turn it back or aside within a part
-//!   of its size in which the branches cannot be distinguished;
+//! * if the mechanism is almost at rest, 2 T ≤ [`REST`] |M⁻¹Q| L: the loads then turn it back or aside within a
+//!   fraction of its size in which the branches cannot be distinguished;
 //! * if its velocity is not tangent to any branch: Φ_q a = γ has no solution.
 
 use super::model_cache::ModelCache;
@@ -18,24 +18,24 @@ use crate::equations::{constraints, forces, mass, Gains, Powers, Workspace};
 use crate::model::{size, Model};
 use crate::solve::Breakdown;
 
-/// Branches cannot be distinguished if the ratio of a pivot to its largest summand is below this: a part of 1e-3 of
-/// the mechanism's size.
+/// Branches cannot be distinguished if the ratio of a pivot to its largest summand is below this value, which
+/// corresponds to a distance of 1e-3 of the mechanism's size.
 const INDISTINCT: f64 = 1e-6;
-/// Part of the size of the mechanism: a mechanism counts as at rest within this distance of its turning point.
+/// Fraction of the size of the mechanism. The mechanism counts as at rest within this distance of its turning point.
 const REST: f64 = 1e-3;
-/// Part of γ that may remain; the error of a trial state leaves far less.
+/// Largest remaining fraction of γ. The error of a trial state leaves far less.
 const REMAINDER: f64 = 0.05;
 /// Rounding of γ = 0, relative to the accelerations and divided by [`REMAINDER`].
 const ROUNDING: f64 = 1e-9;
-/// Loads count as balanced below this part of the joint forces.
+/// Loads below this fraction of the joint forces count as balanced.
 const BALANCED: f64 = 1e-9;
 
 /// The singular positions near a step.
 pub(super) struct SingularityPassage {
     /// Whether a stage of the current trial was near a singular position.
     pub near: bool,
-    /// Time of a singular position that the last accepted step passed, the growth of σ from there, and a row that
-    /// depends on others there.
+    /// Time of a singular position that the last accepted step passed, the slope of σ there, and a row that depends
+    /// on others there.
     pub passed: Option<(f64, f64, usize)>,
     /// Reason and time of the last undecided trial state.
     pub undecided: Option<(f64, Breakdown)>,
@@ -58,7 +58,7 @@ pub(super) fn would_pass(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> bool 
     work.matrix.set_near_singular(NearSingular::Regularise);
     let solved = work.accelerate(model, t, [q, v, z], Gains::default());
     let mut passage = SingularityPassage::new(&Options::new(t), true);
-    // a motion without drivers is tangent to its branch, whatever the errors of this state
+    // a motion without drivers is tangent to its branch, whatever the errors of this state are
     let decided = !model.driven || !passage.misses_gamma(model, &work, t);
     solved.is_ok() && decided && !passage.rests(model, &work, t, v)
 }
@@ -79,8 +79,8 @@ impl SingularityPassage {
     }
 
     /// Checks the accelerations that were just computed. Returns whether the motion decides its branch, or continues
-    /// anyway. If not, the breakdown is kept in [`undecided`](Self::undecided): the state may be a trial, and the breakdown
-    /// counts only if no shorter step avoids it.
+    /// anyway. If not, stores the breakdown in [`undecided`](Self::undecided). The state may be a trial state, and
+    /// the breakdown is an error only if no shorter step avoids it.
     #[inline(always)]
     pub fn watch(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> bool {
         if !(work.matrix.regularised() || self.approach.in_reach()) {
@@ -121,12 +121,12 @@ impl SingularityPassage {
         Ok(())
     }
 
-    /// The start of a run.
+    /// Begins the forecast at the start of a run.
     pub fn begin(&mut self, t: f64, work: &Workspace) {
         self.approach.begin(work.matrix.cancellation().map(|(_, ratio)| (t, ratio)));
     }
 
-    /// The singular position ahead, if a step of the length of the last trial can reach it.
+    /// The singular position ahead, if a step as long as the last trial can reach it.
     pub fn foresee(&mut self, t: f64, work: &Workspace) -> Option<f64> {
         self.near = false;
         if !self.passing {
@@ -141,7 +141,7 @@ impl SingularityPassage {
         self.approach.in_reach()
     }
 
-    /// Accepts the trial of the last forecast; the workspace belongs to its end.
+    /// Accepts the trial of the last forecast. The workspace belongs to the end of the trial.
     pub fn accept(&mut self, t: f64, work: &Workspace) {
         if self.passing {
             self.accept_at(t, work.matrix.cancellation());
@@ -161,7 +161,8 @@ impl SingularityPassage {
         !self.near && !self.in_reach()
     }
 
-    /// Ends a trial with the loss of digits at its end, if no singular position is in reach; otherwise returns false.
+    /// Ends a trial if no singular position is in reach, given the loss of digits at its end; otherwise returns
+    /// false.
     pub fn clears(&mut self, t: f64, ratio: f64) -> bool {
         let clear = !self.passing || self.approach.is_clear((t, ratio));
         if self.passing && clear {
@@ -170,15 +171,15 @@ impl SingularityPassage {
         clear
     }
 
-    /// Accepts a trial that was clear, with the loss of digits at its end.
+    /// Accepts a trial without a singular position in reach, given the loss of digits at its end.
     pub fn accept_clear(&mut self, t: f64, ratio: f64) {
         if self.passing {
             self.accept_at(t, Some((0, ratio)));
         }
     }
 
-    /// Whether the mechanism is almost at rest under loads that would move it. Accelerations of a trial state are
-    /// noisy here. So the loads are the measure of rest, and accelerations are used only for the balance of loads.
+    /// Whether the mechanism is almost at rest under loads that would move it. The accelerations of a trial state are
+    /// noisy here. The loads therefore measure rest, and accelerations are used only for the balance of loads.
     fn rests(&mut self, model: &Model, work: &Workspace, t: f64, v: &[f64]) -> bool {
         self.loads.resize(v.len(), 0.0);
         let acting = Acting { z: &work.z, lam: None, t };

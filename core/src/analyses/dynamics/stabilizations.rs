@@ -9,9 +9,9 @@ use crate::stabilize;
 pub enum Stabilization {
     /// No stabilization.
     None,
-    /// Baumgarte's, with gains α and β.
+    /// Baumgarte's stabilization, with gains α and β.
     Baumgarte(Gains),
-    /// Baumgarte's, with gains from the step, and the term held over it
+    /// Baumgarte's stabilization, with gains from the step and a term that is constant over the step
     /// ([`StepwiseBaumgarte`](crate::stabilize::StepwiseBaumgarte)).
     BaumgarteFromStep,
     /// Projection of every accepted and of every reported state.
@@ -87,7 +87,7 @@ impl From<NoStabilization> for Stabilization {
 }
 
 impl Stabilization {
-    /// Baumgarte's with the gains of the classical literature, α = 10 and β = 200.
+    /// Baumgarte's stabilization with the gains of the classical literature, α = 10 and β = 200.
     pub fn classical() -> Self {
         Baumgarte::new().into()
     }

@@ -1,8 +1,8 @@
-//! The check of a state from which a run, or a part of it, starts: its joints must be closed.
+//! The check of a state from which a run or a phase starts: its joints must be closed.
 //!
-//! A start is accepted if Φ and Φ_q v - ν, with lengths over the size of the mechanism, are at most [`CLOSED`] and
-//! [`CLOSED`] times the pace: the fastest rate of the state, and at least 1/s. Any other state is refused. It is never
-//! moved, because the run would then start at another state than the given one.
+//! A start is accepted if |Φ| ≤ [`CLOSED`] and |Φ_q v - ν| ≤ [`CLOSED`] times the pace, with lengths divided by the
+//! size of the mechanism. The pace is the fastest rate of the state, and at least 1/s. Any other state is refused. It
+//! is not corrected, because the run would then start at a different state.
 
 use super::constraint_violation::{ADRIFT, APART};
 use super::failure::{Failure, Reason};
@@ -21,12 +21,12 @@ use crate::model::{column_scales, row_scales, Model};
 
 /// Largest opening of a joint: lengths relative to the size of the mechanism, angles in rad.
 const CLOSED: f64 = 1e-9;
-/// Factor of the rounding error of Φ that is accepted for large coordinates, as projection does.
+/// Multiple of the rounding error of Φ that is accepted for large coordinates, as in projection.
 const ROUNDING: f64 = 8e3 * f64::EPSILON;
 /// Largest opening that counts as rounding.
 const ROUNDED: f64 = 1e-8;
-/// Largest rate of opening near a singular position: there a deviation e leaves residuals of order e² in Φ and e in
-/// Φ_q v - ν.
+/// Largest rate of opening near a singular position. There, a deviation e leaves residuals of order e² in Φ and of
+/// order e in Φ_q v - ν.
 const NEAR: f64 = 1e-6;
 
 /// The limits of a start.
@@ -40,11 +40,11 @@ pub(super) struct StartCheck {
     hint: &'static str,
 }
 
-/// Rows of Φ, or of its rate, with the largest allowed number of each.
+/// Rows of Φ, or of its rate, with the largest allowed magnitude of each row.
 struct ConstraintRows<'a> {
     rows: &'a [f64],
     most: Vec<f64>,
-    /// The text behind the unit of a row: nothing, or per second.
+    /// The text after the unit of a row: empty, or per second.
     per: &'static str,
 }
 
@@ -66,7 +66,7 @@ impl StartCheck {
         }
     }
 
-    /// The check of a state that a run reached, which meets the constraints up to the errors of integration.
+    /// The check of a state that a run reached. It meets the constraints up to the errors of integration.
     pub fn of_continuation(options: &Options) -> Self {
         let most = match options.stabilization {
             Stabilization::None => ADRIFT,
@@ -92,7 +92,7 @@ impl StartCheck {
         Self { hint, ..base }
     }
 
-    /// The same check without a limit of the velocities.
+    /// The same check without a limit for the velocities.
     pub fn of_positions(self) -> Self {
         Self { rate: None, ..self }
     }
@@ -100,8 +100,8 @@ impl StartCheck {
     /// Checks a state.
     ///
     /// # Errors
-    /// [`Failure`] with [`Reason::Start`], which names the joint that is open farthest, or with [`Reason::Singular`], which
-    /// names a massless body whose motion is not determined.
+    /// [`Failure`] with [`Reason::Start`], which names the joint with the largest opening, or with
+    /// [`Reason::Singular`], which names a massless body whose motion is not determined.
     pub fn check(&self, model: &Model, t: f64, state: [&[f64]; 3]) -> Result<(), Box<Failure>> {
         let [q, v, _] = state;
         let m = model.layout.n_rows;
@@ -154,7 +154,7 @@ impl ConstraintRows<'_> {
     }
 }
 
-/// The largest coordinate or rate, lengths over the size of the mechanism.
+/// The largest coordinate or rate, with lengths divided by the size of the mechanism.
 fn largest(model: &Model, x: &[f64]) -> f64 {
     let scaled = x.iter().zip(column_scales(model)).map(|(x, scale)| x.abs() / scale);
     scaled.fold(0.0, f64::max)

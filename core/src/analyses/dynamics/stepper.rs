@@ -32,7 +32,7 @@ use crate::model::Model;
 pub struct Stepper<'a> {
     model: &'a Model,
     t_end: f64,
-    /// The check of a state from which it continues.
+    /// The check of a state from which the stepper continues.
     check: StartCheck,
     inner: MotionStepper<'a>,
 }
@@ -79,20 +79,20 @@ impl<'a> Stepper<'a> {
         self.inner.t() == self.t_end
     }
 
-    /// The state reached.
+    /// The current state.
     pub fn state(&self) -> State {
         self.to_state(self.inner.t(), self.inner.y())
     }
 
-    /// Works up to the state reached, J: dissipated energy, work of drivers, work of applied forces.
+    /// Works up to the current state, J: dissipated energy, work of drivers, work of applied forces.
     pub fn works(&self) -> &[f64] {
         self.model.layout.split(self.inner.y())[3]
     }
 
-    /// The state at a time within the last step; None outside it. It is not projected.
+    /// The state at a time within the last step; None outside this step. The state is not projected.
     ///
     /// # Errors
-    /// As [`step`](Self::step).
+    /// The errors of [`step`](Self::step).
     pub fn interpolate(&mut self, t: f64) -> Result<Option<State>, Box<Failure>> {
         self.inner.prepare_interpolant().map_err(|cause| self.inner.failure(cause))?;
         let inside = |step: &Step<'_>| (t - step.t_old) * (t - step.t) <= 0.0;
@@ -108,7 +108,7 @@ impl<'a> Stepper<'a> {
     /// The state within the last step at which g(t, [q, v, z]) changes sign; None if it has the same sign at both ends.
     ///
     /// # Errors
-    /// As [`step`](Self::step).
+    /// The errors of [`step`](Self::step).
     pub fn locate(
         &mut self,
         g: impl Fn(f64, [&[f64]; 3]) -> f64,
@@ -118,12 +118,12 @@ impl<'a> Stepper<'a> {
         Ok(found.map(|(t, y)| self.to_state(t, &y)))
     }
 
-    /// Continues from another state, at a time within the last step or at its end: for instance with other velocities
-    /// after an impact. The works continue from the last step. With projection, the velocities become the nearest ones
-    /// that meet the constraints, in the metric of the mass matrix.
+    /// Continues from another state, at a time within the last step or at its end, for instance with other velocities
+    /// after an impact. The works continue from the last step. With projection, the velocities are replaced by the
+    /// nearest velocities that meet the constraints, in the metric of the mass matrix.
     ///
     /// # Errors
-    /// As [`step`](Self::step).
+    /// The errors of [`step`](Self::step).
     pub fn restart(&mut self, state: &State) -> Result<(), Box<Failure>> {
         check_lengths(self.model, state)?;
         self.check.check(self.model, state.t, [&state.q, &state.v, &state.z])?;

@@ -1,12 +1,12 @@
 //! Detection of stiffness for the automatic choice of the method: DOP853, or Radau if the equations are stiff.
 //!
-//! `initial_stiffness` judges the model at the start. This module judges the steps on the way.
+//! `initial_stiffness` checks the model at the start. This module checks the steps during the run.
 //!
-//! Stiffness is not a property of one number of a model: a damper of 1e7 N·m·s/rad is soft on a heavy rocker, and a
-//! system that is stiff over a second is not stiff over a microsecond. Therefore the steps of the explicit method are
-//! checked now and then. If a damped motion of the linearised equations limits them by stability, h |λ| ≈ 6.1 for
-//! DOP853 (the number of its authors), accuracy would allow longer steps, and Radau takes over. Undamped vibrations do
-//! not count, because an implicit method needs steps of the same length to follow them.
+//! Stiffness cannot be read from a single number of a model: a damper of 1e7 N·m·s/rad is soft on a heavy rocker, and
+//! a system that is stiff over a second is not stiff over a microsecond. Therefore the steps of the explicit method
+//! are checked from time to time. If the stability of a damped motion of the linearised equations limits the steps (h
+//! |λ| ≈ 6.1 for DOP853, the value of its authors), accuracy would allow longer steps, and Radau takes over. Undamped
+//! vibrations do not count, because an implicit method needs steps of the same length to follow them.
 //!
 //! Radau is of lower order, so stability alone does not make it cheaper. If its steps are not longer by the factor
 //! [`WORTH`], DOP853 takes over again, and the next check is later.
@@ -19,21 +19,21 @@ use crate::equations::{Gains, Workspace};
 use crate::integrate::Step;
 use crate::model::Model;
 
-/// Extent of the stability of DOP853 along the negative real axis.
+/// Length of the stability region of DOP853 along the negative real axis.
 pub(super) const LIMIT: f64 = 6.1;
-/// Part of this limit from which steps count as limited by stability.
+/// Fraction of this limit from which steps count as limited by stability.
 const NEAR: f64 = 0.6;
-/// -Re λ / |λ| from which a motion counts as damped.
+/// Smallest value of -Re λ / |λ| for a motion that counts as damped.
 const DAMPED: f64 = 0.3;
-/// Number of steps before the first check, and smallest number between checks.
+/// Number of steps before the first check, and smallest number of steps between checks.
 const FIRST_LOOK: usize = 15;
-/// Steps until the next check, over the steps so far.
+/// Number of steps until the next check, divided by the number of steps so far.
 const NEXT_LOOK: f64 = 0.25;
 /// The method changes only if more steps than this remain.
 pub(super) const TO_GO: f64 = 100.0;
 /// Number of steps of Radau between its checks.
 pub(super) const TRIAL: usize = 20;
-/// Factor by which the steps of Radau must be longer: the cost of one of them in steps of DOP853.
+/// Factor by which the steps of Radau must be longer: the cost of a step of Radau relative to a step of DOP853.
 pub(super) const WORTH: f64 = 2.0;
 /// Double applications of the Jacobian in a check.
 const ITERATIONS: usize = 3;
@@ -66,17 +66,17 @@ pub(super) struct StiffnessDetector<'a> {
     steps: usize,
     next: usize,
     since: (usize, f64),
-    /// Rate of a damped motion that was predicted at the start to limit the steps.
+    /// Rate of a damped motion that is predicted at the start to limit the steps.
     pub predicted: Option<f64>,
     /// Result of the last check: the fastest motion, and the mean step.
     pub seen: Option<(Fastest, f64)>,
 }
 
 impl<'a> StiffnessDetector<'a> {
-    /// Uses the plan of elimination of the equations of motion of this run.
+    /// Uses the elimination plan of the equations of motion of this run.
     pub fn new(model: &'a Model, one: &Workspace, t0: f64) -> Self {
         let n = 2 * model.layout.n_q + model.layout.n_z;
-        // an arbitrary vector has a part of every motion
+        // an arbitrary vector has a component in every motion
         let start = (0..n).map(|k| (1.0 + 0.7 * k as f64).sin()).collect();
         Self {
             model,
@@ -90,7 +90,7 @@ impl<'a> StiffnessDetector<'a> {
         }
     }
 
-    /// Leaves out the same rows as `one`.
+    /// Omits the same rows as `one`.
     pub fn follow(&mut self, one: &Workspace) {
         if self.workspace.matrix.omitted() != one.matrix.omitted() {
             self.workspace.omit(one.matrix.omitted());
@@ -128,7 +128,7 @@ impl<'a> StiffnessDetector<'a> {
         self.wait(4.0);
     }
 
-    /// Accelerations at a state, and their rate along the motion by a difference over the time `probe`, s; None
+    /// Accelerations at a state, and their rate along the motion from a difference over the time `probe`, s. None
     /// where the equations are singular.
     pub fn rates(&mut self, t: f64, y: &[f64], probe: f64) -> Option<[Vec<f64>; 2]> {
         let [q, v, z, _] = self.model.layout.split(y);
@@ -150,7 +150,7 @@ impl<'a> StiffnessDetector<'a> {
         Some([self.workspace.a().to_vec(), dz])
     }
 
-    /// The fastest motion of the equations linearised at a state; None where they are singular.
+    /// The fastest motion of the equations linearised at a state. None where the equations are singular.
     pub fn fastest(&mut self, t: f64, y: &[f64]) -> Option<Fastest> {
         let n = self.model.layout.n_q;
         let [q, v, z, _] = self.model.layout.split(y);
@@ -181,7 +181,7 @@ impl<'a> StiffnessDetector<'a> {
             }
             self.x.rotate_left(2);
             let scale = 1.0 / largest(&self.x[0]).max(f64::MIN_POSITIVE);
-            // the other vectors are rotated too, so that all three give the quadratic
+            // the other vectors are rotated too, so that all three yield the quadratic equation
             for x in &mut self.x {
                 x.iter_mut().for_each(|x| *x *= scale);
             }
@@ -192,8 +192,8 @@ impl<'a> StiffnessDetector<'a> {
     }
 }
 
-/// The dominant λ from x, J x and J² x, each (q part of length n, the others): J² x = s J x - p x holds for one
-/// pair of eigenvalues. The other parts are divided by |λ|, so that all have equal weight.
+/// The dominant λ from x, J x and J² x, each with a q part of length n: J² x = s J x - p x holds for one pair of
+/// eigenvalues. The other parts are divided by |λ|, so that all parts have equal weight.
 fn dominant(n: usize, x: &[f64], jx: &[f64], jjx: &[f64]) -> Option<Fastest> {
     let plain = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let weight = (plain(&x[n..], &x[n..]) / plain(&jjx[n..], &jjx[n..])).sqrt();
@@ -235,7 +235,7 @@ mod tests {
         let pair = |re: f64, im: f64| {
             // one coordinate: q̈ = 2 re q̇ - (re² + im²) q
             let times = |[q, v]: [f64; 2]| [v, 2.0 * re * v - (re * re + im * im) * q];
-            // a real pair has the form that the power iteration gives
+            // a real pair has the form that the power iteration returns
             let x = if im == 0.0 { [1.0, re] } else { [1.0, 0.3 * im] };
             dominant(1, &x, &times(x), &times(times(x))).expect("finite")
         };

@@ -1,4 +1,5 @@
-//! The switches that depend on the time alone, found before a run, and the jumps of drivers and joint laws at them.
+//! The switches that depend on time alone, found before a run, and the jumps of drivers and joint laws at these
+//! switches.
 
 use super::failure::{Failure, Reason};
 use super::law_jump::{owner_name, LawJump, SMOOTH};
@@ -7,9 +8,9 @@ use crate::equations::kinematics::Motions;
 use crate::expression::{pieces_at, switch_times, Tape};
 use crate::model::{Model, SwitchOwner};
 
-/// Distance below which two switches count as one, relative to the largest time of a run.
+/// Switches closer than this distance count as one switch, relative to the largest time of a run.
 const TOGETHER: f64 = 1e-14;
-/// The switches of a run that depend on the time alone.
+/// The switches of a run that depend on time alone.
 #[derive(Debug, Default)]
 pub(super) struct Schedule {
     /// The pieces at the start; NaN for switches that depend on the state.
@@ -24,7 +25,7 @@ impl Schedule {
     /// Finds all switches between `t0` and `t_end`.
     ///
     /// # Errors
-    /// More switches than a run can step to; a joint or driver with a law that jumps at one.
+    /// More switches than a run can step to; a joint or driver with a law that jumps at a switch.
     pub fn new(model: &Model, (t0, t_end): (f64, f64)) -> Result<Self, Box<Failure>> {
         let samples = sampling::times(model, (t0, t_end))?;
         if model.switches.is_empty() {
@@ -95,7 +96,7 @@ impl Schedule {
         schedule
     }
 
-    /// Keeps only some times.
+    /// Keeps only the times for which `keeps` is true.
     pub fn keep(&mut self, keeps: impl Fn(f64) -> bool) {
         self.times.retain(|(t, _)| keeps(*t));
         self.samples.retain(|t| keeps(*t));
@@ -106,7 +107,7 @@ impl Schedule {
         self.samples.binary_search_by(|sample| sample.total_cmp(&t)).is_ok()
     }
 
-    /// Refuses a law of a joint or driver that jumps; a law that depends on the state too is checked in the run.
+    /// Refuses a law of a joint or driver that jumps. A law that also depends on the state is checked during the run.
     fn check(&self, model: &Model) -> Result<(), Box<Failure>> {
         let mut motions = Motions::new(&model.layout);
         motions.pieces = self.start.clone();

@@ -1,12 +1,13 @@
-//! Switches during a run: the piece of each is held during a step, and steps end where a piece ends.
+//! Switches during a run. The piece of each switch is constant during a step, and steps end where a piece ends.
 //!
-//! Switches that depend on the time alone come from a [`Schedule`]. The functions of the others are scanned on the
-//! interpolant of each step (`integrate::scan`); where one leaves its piece, the step is taken again up to that time, with
-//! the old piece, and the next step begins with the new one.
+//! Switches that depend on time alone are listed in a [`Schedule`]. The functions of the other switches are scanned
+//! on the interpolant of each step (`integrate::scan`). Where a switch leaves its piece, the step is taken again up
+//! to this time with the old piece, and the next step begins with the new piece.
 //!
-//! A switch that changes back at once holds the motion between two pieces (`sliding`). Where the accelerations of both
-//! are equal it is released: its law then decides by itself, until it has kept one piece for [`CALM`] steps. Otherwise the
-//! motion slides along the switch, which laws cannot describe, and the run ends.
+//! A switch that changes back at once holds the motion between two pieces (`sliding`). If the accelerations of both
+//! pieces are equal, the switch is released: its law then selects the piece at each evaluation, until it has kept one
+//! piece for [`CALM`] steps. Otherwise the motion slides along the switch, which laws cannot describe, and the run
+//! ends.
 
 mod calm;
 mod curve_break;
@@ -24,19 +25,19 @@ use crate::integrate::{scan, Cause, Direction, Scan, Step};
 use crate::model::{Model, SwitchOwner};
 use crate::solve::Breakdown;
 
-/// Changes of one switch within [`SHORT`] of the run after which it counts as stuck.
+/// Number of changes of one switch within [`SHORT`] of the run after which it counts as stuck.
 const STUCK: usize = 8;
-/// Part of a run within which changes of a switch follow each other at once.
+/// Fraction of a run within which changes of a switch count as immediate.
 const SHORT: f64 = 1e-9;
-/// Steps on one piece after which a released switch is held again.
+/// Number of steps on one piece after which a released switch is held again.
 const CALM: usize = 10;
-/// Times a step is taken again for one switch, as its interpolant becomes more accurate.
+/// Number of times that a step is taken again for one switch while its interpolant becomes more accurate.
 const AGAIN: usize = 3;
 
 /// The state of a switch in a run.
 #[derive(Clone, Copy, Debug)]
 struct History {
-    /// The time of its last change, and the number of changes that followed each other at once.
+    /// The time of its last change, and the number of immediate changes in sequence.
     last: f64,
     quick: usize,
     /// For a released switch: the piece of the last steps, and their number.
@@ -48,7 +49,7 @@ struct History {
 struct Due {
     t: f64,
     changes: Vec<(usize, f64)>,
-    /// How often the step to it was taken again.
+    /// Number of times that the step to this time was taken again.
     tries: usize,
 }
 
@@ -56,9 +57,9 @@ struct Due {
 pub(super) enum After {
     /// The step is accepted.
     Accept,
-    /// The step is taken again, to the switch that is now due.
+    /// The step is taken again, up to the switch that is now due.
     Again,
-    /// The step is taken again, with the changes that are now due at its beginning.
+    /// The step is taken again, and the changes that are now due take effect at its beginning.
     Change,
 }
 
@@ -80,7 +81,7 @@ pub(super) struct Switching {
     /// Evaluates the functions of switches.
     workspace: Option<Box<Workspace>>,
     steps: StepChoice,
-    /// Ends of the first steps of a contact, last ones first.
+    /// Ends of the first steps of a contact, last step first.
     graded: Vec<f64>,
     motions: Motions,
     sigma: Vec<f64>,
@@ -89,7 +90,7 @@ pub(super) struct Switching {
 }
 
 impl Switching {
-    /// The switches of a run that begins with `y` at `t`; None if the model has none.
+    /// The switches of a run that begins with `y` at `t`. None if the model has no switches.
     pub fn new(
         ode: &mut MotionOde<'_>,
         (schedule, steps): (Schedule, StepChoice),
@@ -130,7 +131,7 @@ impl Switching {
         Some(switching)
     }
 
-    /// The pieces at the start. On a boundary the motion decides.
+    /// Sets the pieces at the start. On a boundary, the direction of the motion selects the piece.
     fn begin(&mut self, ode: &mut MotionOde<'_>, t: f64, y: &[f64]) {
         self.evaluate(ode.model, t, y);
         for k in &self.on_state {
@@ -159,7 +160,7 @@ impl Switching {
         }
     }
 
-    /// The functions of all switches, with the held pieces of those inside them.
+    /// Evaluates the functions of all switches. Switches within these functions keep their pieces.
     fn evaluate(&mut self, model: &Model, t: f64, y: &[f64]) {
         let [q, v, z, _] = model.layout.split(y);
         let Self { workspace, motions, sigma, pieces, .. } = self;
@@ -194,7 +195,7 @@ impl Switching {
         self.schedule.keep(|t| self.sign * (t_end - t) > 0.0);
     }
 
-    /// Continues from another state: the pieces of the switches on the state are those at `y`.
+    /// Continues from another state: switches that depend on the state take their pieces at `y`.
     pub fn restart(&mut self, ode: &mut MotionOde<'_>, t: f64, y: &[f64]) {
         (self.due, self.graded) = (None, Vec::new());
         ode.workspace.motions.pieces.clear();
@@ -262,7 +263,7 @@ impl Switching {
         Ok(())
     }
 
-    /// Reactions jump at a switch: the switches that depend on them follow.
+    /// Updates the switches that depend on reactions, because reactions jump at a switch.
     fn follow_reactions(&mut self, model: &Model, t: f64, y: &[f64]) {
         self.evaluate(model, t, y);
         for k in &self.on_state {
@@ -306,8 +307,8 @@ impl Switching {
         }
     }
 
-    /// The first crossings of the margins of the held pieces. With a more accurate interpolant the switches that are due
-    /// may lie slightly earlier: they are approached a few times.
+    /// The first crossings of the margins of the held pieces. With a more accurate interpolant the crossing may be
+    /// slightly earlier than the due time, so it is approached in a few repetitions.
     fn scan(&mut self, model: &Model, step: &Step<'_>, spacing: f64) -> Scan {
         let on_state = std::mem::take(&mut self.on_state);
         let due = self.due.take();
@@ -329,7 +330,7 @@ impl Switching {
         scanned
     }
 
-    /// A step without a crossing. Switches that were never in the piece that was held change at its beginning.
+    /// Accepts a step without a crossing. Switches that were never in their held piece change at its beginning.
     fn after_smooth_step(&mut self, model: &Model, step: &Step<'_>, scanned: &Scan) -> After {
         if !scanned.negative.is_empty() {
             if let Some((t, k, piece)) = self.first_through(model, step, &scanned.negative) {

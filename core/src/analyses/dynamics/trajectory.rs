@@ -3,7 +3,7 @@
 use crate::integrate::{all_finite, Step};
 use crate::model::StateLayout;
 
-/// Largest number of values for which memory is reserved; longer tables grow.
+/// Largest number of values for which memory is reserved. Longer tables grow.
 const MOST_ROOM: usize = 1 << 20;
 
 /// States in rows, time first.
@@ -35,7 +35,7 @@ pub struct Trajectory {
 }
 
 impl Trajectory {
-    /// Empty, with memory for so many rows; growth would copy them repeatedly.
+    /// Empty, with memory for this number of rows. Growth would copy the rows repeatedly.
     pub(super) fn with_room(layout: &StateLayout, rows: usize) -> Self {
         let rows = rows.min(MOST_ROOM / (layout.n_y() + 1));
         let room = |width: usize| Vec::with_capacity(rows * width);
@@ -66,7 +66,7 @@ pub struct PiecewiseInterpolant {
     pub t: Vec<f64>,
     /// y at the start of each step, rows of n_y.
     pub y: Vec<f64>,
-    /// Coefficients of θ … θᵈ, for each step n_y rows of d.
+    /// Coefficients of θ … θᵈ: for each step, n_y rows of length d.
     pub c: Vec<f64>,
     /// The degree d.
     pub degree: usize,
@@ -80,7 +80,7 @@ impl PiecewiseInterpolant {
         let parts = Steps { t: &self.t, y: &self.y, c: &self.c, n_y, degree: self.degree };
         parts.at(times)
     }
-    /// Empty, from `t0` on, with memory for so many steps. Later steps may have a degree above `degree`.
+    /// Empty, starting at `t0`, with memory for this number of steps. Later steps may have a degree above `degree`.
     pub(super) fn with_room(
         n_y: usize,
         degree: usize,
@@ -134,23 +134,23 @@ impl PiecewiseInterpolant {
     }
 }
 
-/// The parts of an interpolant of some steps: y(t_old + θ h) = y_old + h Σ_k c_k θ^(k+1) in every step.
+/// The data of an interpolant of some steps: y(t_old + θ h) = y_old + h Σ_k c_k θ^(k+1) in every step.
 #[derive(Clone, Copy, Debug)]
 pub struct Steps<'a> {
-    /// Step boundaries, one more than steps; descending for a motion over a quantity that falls.
+    /// Step boundaries, one more than steps; descending if the independent variable falls.
     pub t: &'a [f64],
     /// y at the start of each step, rows of n_y.
     pub y: &'a [f64],
-    /// Coefficients of θ … θᵈ, for each step n_y rows of d.
+    /// Coefficients of θ … θᵈ: for each step, n_y rows of length d.
     pub c: &'a [f64],
-    /// Numbers in y.
+    /// Length of y.
     pub n_y: usize,
     /// The degree d.
     pub degree: usize,
 }
 
 impl Steps<'_> {
-    /// The rows y at times. At the boundary of two steps the later one counts.
+    /// The rows y at times. At the boundary of two steps the later step is used.
     ///
     /// # Panics
     /// If there is no step.

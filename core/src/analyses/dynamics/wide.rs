@@ -1,7 +1,7 @@
 //! The model over lanes, which solves several states at once.
 //!
-//! In WebAssembly there is none: lanes would be used without vector registers, and pages would load a quarter more code.
-//! A [`Wide`] has no value there, so that the compiler leaves out the code that uses one.
+//! There is no such model in WebAssembly: lanes would run without vector registers, and pages would load a quarter
+//! more code. A [`Wide`] has no value there, so the compiler removes the code that uses it.
 
 use crate::math::Lanes;
 use crate::model::Model;
@@ -37,17 +37,17 @@ impl<'a> Wide<'a> {
     }
 }
 
-/// A model over lanes that is made at its first use.
+/// A model over lanes that is created at its first use.
 #[derive(Debug, Default)]
 pub(super) struct WideCell {
-    /// The model is in a box, because it has the alignment of vector registers, which allocators of other languages
+    /// The model is in a box because it needs the alignment of vector registers, which allocators of other languages
     /// do not provide.
     #[cfg(not(target_arch = "wasm32"))]
     made: std::sync::OnceLock<Box<Model<Lanes>>>,
 }
 
 impl WideCell {
-    /// The model over lanes, if so many states are solved faster by it.
+    /// The model over lanes, if it solves this number of states faster.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn of(&self, model: &Model, states: usize) -> Option<Wide<'_>> {
         (states >= MANY).then(|| Wide(self.made.get_or_init(|| Box::new(model.lift()))))

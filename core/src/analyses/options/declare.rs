@@ -1,4 +1,4 @@
-//! The declaration of a set of options: one macro emits the struct with its defaults, its table and its reader.
+//! The declaration of a set of options. One macro generates the struct with its defaults, its table and its reader.
 
 use super::reader::Reader;
 use crate::elements::Table;
@@ -11,12 +11,12 @@ pub struct Declaration {
     pub class: &'static str,
     /// The `type` in the file, and the options.
     pub table: Table,
-    /// Options that exclude others: each with those that may not be given with it.
+    /// Options that exclude others, each with the options that must not be given with it.
     pub excludes: &'static [(&'static str, &'static [&'static str])],
 }
 
 impl Declaration {
-    /// A declaration. The docs of options that exclude others get the exclusions.
+    /// A declaration. Adds the exclusions to the docs of options that exclude others.
     pub fn new(
         class: &'static str,
         mut table: Table,
@@ -31,10 +31,10 @@ impl Declaration {
     }
 }
 
-/// Sets of options of which an analysis takes one, such as the methods of integration.
+/// Alternative sets of options, of which an analysis uses one, such as the methods of integration.
 #[derive(Clone, Debug)]
 pub struct Family {
-    /// The name by which [`Shape::Options`](crate::elements::Shape::Options) refers to it.
+    /// The name in [`Shape::Options`](crate::elements::Shape::Options).
     pub name: &'static str,
     /// The sets to choose from.
     pub options: Vec<Declaration>,
@@ -46,10 +46,10 @@ pub trait Declared: Sized {
     const NAME: &'static str;
     /// The declaration as data.
     fn declaration() -> Declaration;
-    /// Reads all options; None if one was faulty (the reader keeps the reports).
+    /// Reads all options. None if an option was faulty (the reader stores the reports).
     fn read(reader: &mut Reader<'_>) -> Option<Self>;
 
-    /// The option that does not fit the others, with a message.
+    /// An option that is incompatible with the others, with a message.
     fn conflict(&self, _: &Model) -> Option<(&'static str, String)> {
         None
     }
@@ -74,14 +74,14 @@ pub trait Declared: Sized {
     }
 }
 
-/// A value that is chosen from a family by its `type`.
+/// A value that is chosen from a family by `type`.
 pub trait Member {
     /// The sets to choose from.
     fn family() -> Family;
 }
 
-/// Declares options: required ones in parentheses, then those with defaults, those that exclude others, and a function
-/// that finds an option which does not fit the others.
+/// Declares options: required options in parentheses, then options with defaults, then exclusions, and a function
+/// that finds an option that is incompatible with the others.
 macro_rules! options {
     ($(#[doc = $doc:literal])* $Name:ident, $name:literal, $class:literal
         ($($(#[doc = $what:literal])* $required:ident : $must:ty $([$($in:tt)*])?),*)
@@ -97,7 +97,7 @@ macro_rules! options {
         }
 
         impl $Name {
-            /// The options with the defaults of all others.
+            /// The options with the required values and all defaults.
             #[allow(clippy::new_without_default)] // where nothing is required
             pub fn new($($required: <$must as $crate::analyses::options::OptionKind>::Value),*) -> Self {
                 Self { $($required,)* $($field: $default),* }
@@ -157,7 +157,7 @@ macro_rules! options {
 }
 pub(in crate::analyses) use options;
 
-/// Declares the members of a family; each becomes the value by `From`. The first is the default.
+/// Declares the members of a family. Each member converts to the value by `From`. The first member is the default.
 macro_rules! family {
     ($Value:ident, $name:literal, [$Default:ident $(, $Other:ident)* $(,)?]) => {
         impl Default for $Value {

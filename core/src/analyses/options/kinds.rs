@@ -1,4 +1,4 @@
-//! Kinds of options: what each holds, and how it is read and checked.
+//! Kinds of options: the value of each kind, and how it is read and checked.
 
 use super::reader::Reader;
 use crate::elements::{Default, Shape};
@@ -8,11 +8,11 @@ use crate::model::Value as Written;
 pub trait OptionKind {
     /// The value in the struct of options.
     type Value;
-    /// The values that the file may hold.
+    /// The values that are allowed in the file.
     fn shape() -> Shape;
     /// A default value as data.
     fn data(value: &Self::Value) -> Default;
-    /// Reads a value that is given; None if it is faulty (the reader keeps the report).
+    /// Reads a value that is given. None if it is faulty (the reader stores the report).
     fn read(reader: &mut Reader<'_>, key: &'static str, unit: &'static str) -> Option<Self::Value>;
 
     /// Reads an option that must be given.
@@ -41,7 +41,7 @@ pub trait OptionKind {
     }
 }
 
-/// An option that may be left out; it then has no value.
+/// An optional value; None if it is absent.
 impl<K: OptionKind> OptionKind for Option<K> {
     type Value = Option<K::Value>;
 

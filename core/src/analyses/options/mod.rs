@@ -1,5 +1,5 @@
-//! Options of analyses, each declared once: the struct with its defaults, the table for the schema, Python and the
-//! docs, and reading with its checks follow from one `options!`.
+//! Options of analyses. Each set is declared once by `options!`, which generates the struct with its defaults, the
+//! table for the schema, Python and the docs, and the reader with its checks.
 //!
 //! | file | concept |
 //! |---|---|

@@ -1,9 +1,9 @@
-//! Options from a file or from Python. Their structure has been checked by the tables; here values are computed.
+//! Options from a file or from Python. The tables have already checked their structure; here the values are computed.
 
 use crate::equations::at;
 use crate::model::{Model, Problem, Reach, Scope, Value, ANY_UNIT};
 
-/// Reads the fields of one table of options and keeps the reports of their faults.
+/// Reads the fields of one table of options and stores the reports of their faults.
 pub struct Reader<'a> {
     model: &'a Model,
     scope: &'a Scope,
@@ -13,8 +13,7 @@ pub struct Reader<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// Reads fields by `read`; `path` is their path in the file. Numbers may be formulas in the parameters of the
-    /// model.
+    /// Reads fields by `read`; `path` is their path in the file. Numbers may be formulas of the model's parameters.
     ///
     /// # Errors
     /// Every faulty value, with its path.
@@ -57,7 +56,7 @@ impl<'a> Reader<'a> {
         None
     }
 
-    /// A finite number for which `holds` is true; otherwise it is refused, with the words `must`.
+    /// A finite number for which `holds` is true. Otherwise reports that the number must be `must`.
     pub fn number(
         &mut self,
         key: &str,
@@ -77,7 +76,7 @@ impl<'a> Reader<'a> {
         Some(x)
     }
 
-    /// A finite number of any unit that is a part of the value of `key`.
+    /// A finite number of any unit within the value of `key`.
     pub fn value(&mut self, key: &str, value: &Value) -> Option<f64> {
         let path = self.path_of(key);
         let reach = Reach::Parameters;
@@ -89,7 +88,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    /// A list of names. `check` gets each name with those before it.
+    /// A list of names. `check` receives each name with the names before it.
     pub fn names(
         &mut self,
         key: &str,
@@ -117,7 +116,7 @@ impl<'a> Reader<'a> {
         self.model
     }
 
-    /// A table, of which `read` reads the fields.
+    /// A table, whose fields `read` reads.
     pub fn table<T>(
         &mut self,
         key: &str,
@@ -130,7 +129,7 @@ impl<'a> Reader<'a> {
         read(&mut Reader { model, scope, fields, path, problems: &mut *self.problems })
     }
 
-    /// A table of options, whose `type` is given to `read`.
+    /// A table of options. `read` receives its `type`.
     pub fn chosen<T>(
         &mut self,
         key: &str,

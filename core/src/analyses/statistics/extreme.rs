@@ -2,9 +2,9 @@
 
 use super::{largest, Maxima};
 
-/// Values that differ by less than this share of the largest are the same value.
+/// Values that differ by less than this fraction of the largest magnitude count as equal.
 const SAME: f64 = 1e-12;
-/// Maxima that differ by less than this share are equal within the error of the interpolant.
+/// Maxima that differ by less than this fraction are equal within the error of the interpolant.
 const EQUAL: f64 = 1e-7;
 
 /// An extreme value.
@@ -16,24 +16,24 @@ pub struct Extreme {
     pub t: f64,
 }
 
-/// Times and values of a quantity, with the sign that makes the wanted extreme value a maximum.
+/// Times and values of a quantity. The sign makes the requested extreme value a maximum.
 #[derive(Clone, Copy, Debug)]
 pub struct Samples<'a> {
     /// Times, s.
     pub t: &'a [f64],
-    /// Values with the sign.
+    /// Values, multiplied by the sign.
     pub values: &'a [f64],
 }
 
 /// Whether values differ by more than rounding errors.
 pub fn changes(values: &[f64]) -> bool {
     let span = largest(values.iter().copied()) + largest(values.iter().map(|x| -x));
-    // a span that is not a number is a change
+    // a span that is NaN counts as a change
     span.is_nan() || span > SAME * largest(values.iter().map(|x| x.abs()))
 }
 
-/// The largest of the values with their sign: of the outputs, and of the maxima on the interpolant with its samples.
-/// Without an interpolant, and for a constant, there are no maxima.
+/// The largest signed value among the outputs and the maxima on the interpolant with its samples. Without an
+/// interpolant, and for a constant quantity, only the outputs are used.
 pub fn extreme(
     sign: f64,
     outputs: Samples<'_>,

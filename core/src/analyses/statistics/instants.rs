@@ -1,17 +1,19 @@
 //! Instants close enough for smooth curves on the interpolant of a run.
 
-/// Instants in a step of the integrator: at least, at most, and for all steps together.
+/// Smallest and largest number of instants in a step of the integrator.
 const LEAST: usize = 4;
 const MOST: usize = 32;
 const WISHED: usize = 3000;
-/// Numbers in the arrays of a motion at these instants, and instants, at most.
+/// Largest total number of values in the arrays of a motion at these instants, and largest number of instants.
 const MOST_NUMBERS: usize = 6_000_000;
 const MOST_INSTANTS: usize = 50_000;
 
-/// The boundaries of the integrator's steps and 3 to 31 instants in each step, at most 50 000 in total.
+/// The boundaries of the integrator's steps and 3 to 31 instants in each step. There are fewer if they would exceed
+/// 50 000 in total; with more than 100 000 steps, some boundaries are omitted.
 ///
-/// They do not depend on the output times, except that a time with two outputs, before and after a jump, is an instant,
-/// as is the number before it. `numbers` is the count of numbers in the state at an instant.
+/// The instants do not depend on the output times, with one exception: a time with two outputs, before and after a
+/// jump, is an instant, and so is the floating-point number before it. `numbers` is the count of numbers in the state
+/// at an instant.
 ///
 /// # Panics
 /// If there are fewer than two boundaries.
@@ -35,7 +37,7 @@ pub fn instants(bounds: &[f64], outputs: &[f64], numbers: usize) -> Vec<f64> {
     with_jumps(found, outputs)
 }
 
-/// Adds the times with two outputs and the numbers before them.
+/// Adds the times with two outputs and the floating-point numbers before them.
 fn with_jumps(mut instants: Vec<f64>, outputs: &[f64]) -> Vec<f64> {
     let jumps: Vec<f64> =
         outputs.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[1]).collect();
@@ -51,7 +53,7 @@ fn with_jumps(mut instants: Vec<f64>, outputs: &[f64]) -> Vec<f64> {
     instants
 }
 
-/// The largest number below a finite one.
+/// The largest floating-point number below a finite number.
 fn below(x: f64) -> f64 {
     if x == 0.0 {
         return -f64::from_bits(1);

@@ -1,45 +1,45 @@
-//! Local maxima on the interpolant, and the singular positions beside which values mean nothing.
+//! Local maxima on the interpolant, and the singular positions near which values have no meaning.
 //!
-//! A run passes positions in which constraints lose their rank. Beside such a position a multiplier is the quotient of
-//! two small numbers: it may have a pole there, and the errors of the state, divided by little, exceed it. A maximum that
-//! a search finds there depends on how close to it the search comes.
+//! A run passes positions at which constraints lose rank. Near such a position, a multiplier is the quotient of two
+//! small numbers. It may have a pole there, and small errors of the state, divided by a small number, exceed it. A
+//! maximum that a search finds there depends on how close to the position the search comes.
 
 use super::{largest, place_of_largest, Read};
 
-/// Local maxima above this share of the largest one are refined together, so many at most.
+/// Local maxima above this fraction of the largest are refined together, up to a number of maxima.
 const SHARE: f64 = 0.9;
 const TOGETHER: usize = 8;
-/// A bracket is divided so often into so many intervals; each time it shrinks by half as much.
+/// Number of rounds of refinement of a bracket, and number of intervals in each round.
 const ROUNDS: usize = 4;
 const INTERVALS: usize = 16;
-/// So many groups of maxima are examined at most.
+/// Largest number of groups of maxima that are examined.
 const GROUPS: usize = 64;
-/// A maximum between instants exceeds that at an instant by at most this multiple of the change from there to the
-/// instants beside it, as each step of the integrator has several instants: by an eighth at a smooth maximum, by the
-/// whole at a kink. A share of the value is the error of states.
+/// Largest excess of a maximum between instants over the value at an instant, as a multiple of the change to the
+/// neighbouring instants. Each step of the integrator has several instants, so the excess is an eighth of this change
+/// at a smooth maximum and the whole change at a kink. `ERROR` is the error of states, as a fraction of the value.
 const STEEP: f64 = 2.0;
 const ERROR: f64 = 1e-3;
-/// Instants on either side of a singular position at which errors of states may hide the value.
+/// Number of instants on either side of a singular position at which errors of states may hide the value.
 pub const NEAR: usize = 8;
 
-/// The largest local maxima of a quantity, without those beside singular positions.
+/// The largest local maxima of a quantity, except those near singular positions.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Maxima {
-    /// The largest maxima that were found; none if all are beside such positions.
+    /// The largest maxima that were found. Empty if all are near singular positions.
     pub values: Vec<f64>,
     /// Their times, s.
     pub t: Vec<f64>,
-    /// The indices of singular positions, those met on the way too.
+    /// The indices of singular positions, including those found during the search.
     pub near: Vec<usize>,
-    /// Closer times of these positions, s.
+    /// More accurate times of these positions, s.
     pub near_t: Vec<f64>,
 }
 
 impl Maxima {
     /// Searches the maxima of a quantity with the values `sampled` at instants `t`.
     ///
-    /// `known` are indices and times of singular positions. `resolved` is whether each step has an instant, so that only
-    /// errors are steeper than between instants.
+    /// `known` are indices and times of singular positions. `resolved` states whether each step has an instant, so
+    /// that only errors are steeper than the change between instants.
     pub fn search(
         (t, sampled): (&[f64], &[f64]),
         known: (&[usize], &[f64]),
@@ -65,7 +65,7 @@ impl Maxima {
         self.near.iter().all(|near| k.abs_diff(*near) > NEAR)
     }
 
-    /// Refines some maxima, and keeps those that are none of a singular position.
+    /// Refines some maxima, and keeps those that do not belong to a singular position.
     fn examine(
         &mut self,
         group: &[usize],
@@ -112,9 +112,9 @@ fn local_maxima(values: &[f64]) -> Vec<usize> {
     found
 }
 
-/// The largest value in each bracket and its time; ∞ where the quantity has no value.
+/// The largest value in each bracket and its time; ∞ if the quantity has no value.
 ///
-/// Each bracket shrinks to the parts beside its largest value.
+/// Each bracket shrinks to the intervals next to its largest value.
 fn refine(mut brackets: Vec<[f64; 2]>, read: Read<'_>) -> Vec<Best> {
     let start = |bracket: &[f64; 2]| Best { value: f64::NEG_INFINITY, t: bracket[0] };
     let mut found: Vec<Best> = brackets.iter().map(start).collect();

@@ -1,9 +1,9 @@
-//! Means over time by the trapezoidal rule, and lengths of rows.
+//! Means over time by the trapezoidal rule, and Euclidean norms of rows.
 
 /// The mean over time of values at times; the last value if all times are equal.
 ///
 /// # Panics
-/// If there are no values, or not as many as times.
+/// If there are no values, or if the numbers of values and times differ.
 pub fn mean(t: &[f64], values: &[f64]) -> f64 {
     assert_eq!(t.len(), values.len(), "a value for each time");
     let last = t.len() - 1;
@@ -19,13 +19,13 @@ pub fn mean(t: &[f64], values: &[f64]) -> f64 {
 /// The root of the mean square over time.
 ///
 /// # Panics
-/// As [`mean`].
+/// The conditions of [`mean`].
 pub fn root_mean_square(t: &[f64], values: &[f64]) -> f64 {
     let squares: Vec<f64> = values.iter().map(|x| x * x).collect();
     mean(t, &squares).sqrt()
 }
 
-/// The Euclidean lengths of rows of the given width; zero for rows without numbers.
+/// The Euclidean norms of rows of the given width. Zero for rows of width zero.
 pub fn row_norms(rows: &[f64], width: usize, count: usize) -> Vec<f64> {
     let norm = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
     (0..count).map(|k| norm(&rows[k * width..(k + 1) * width])).collect()

@@ -1,7 +1,7 @@
 //! Statistics of a quantity over a run: extreme values on the interpolant, means, and the settling time.
 //!
-//! A quantity is read through a function of times, so that the same code serves measures of the core and functions of
-//! the caller.
+//! A quantity is evaluated through a function of times, so that the same code works for measures of the core and for
+//! functions of the caller.
 
 mod extreme;
 mod instants;
@@ -15,16 +15,16 @@ pub use maxima::Maxima;
 pub use means::{mean, root_mean_square, row_norms};
 pub use settling::{settling, Settling};
 
-/// A quantity at some times; None where it has no value at one of them.
+/// Returns a quantity at some times. None if it has no value at one of them.
 pub type Read<'a> = &'a mut dyn FnMut(&[f64]) -> Option<Vec<f64>>;
 
-/// The largest value; not a number if one is none.
+/// The largest value. NaN if a value is NaN.
 fn largest(values: impl IntoIterator<Item = f64>) -> f64 {
     let larger = |most: f64, x: f64| if x > most || x.is_nan() { x } else { most };
     values.into_iter().fold(f64::NEG_INFINITY, larger)
 }
 
-/// The place of the largest value, the first of equal ones.
+/// The index of the largest value; the first of equal values.
 fn place_of_largest(values: &[f64]) -> usize {
     let most = largest(values.iter().copied());
     values.iter().position(|x| *x == most || x.is_nan()).unwrap_or(0)

@@ -4,11 +4,11 @@ use super::{largest, Read};
 
 /// Half width of the settling band, relative to the largest deviation from the final value.
 const BAND: f64 = 0.005;
-/// A motion has settled only if it stays in the band for this share of the time, at the end.
+/// A motion has settled only if it stays in the band during this final fraction of the time.
 const QUIET_SHARE: f64 = 0.1;
-/// Smaller deviations are rounding errors, relative to the largest value or 1.
+/// Smaller deviations are rounding errors, relative to the largest magnitude or to 1.
 const NOISE: f64 = 1e-12;
-/// Refinement of the time: intervals, and how often it shrinks to one of them.
+/// Refinement of the time: number of intervals, and number of rounds.
 const INTERVALS: usize = 8;
 const ROUNDS: usize = 12;
 
@@ -17,21 +17,22 @@ const ROUNDS: usize = 12;
 pub enum Settling {
     /// The quantity does not change.
     Constant,
-    /// It does not stay in the band during the last tenth of the time.
+    /// The quantity does not stay in the band during the last tenth of the time.
     Never,
-    /// From this time on it stays in the band, s.
+    /// The time from which the quantity stays in the band, s.
     At(f64),
-    /// It has no value at one of the times that the search reads.
+    /// The quantity has no value at one of the times that the search uses.
     Unknown,
 }
 
-/// Settling, with a band of 0.5 % of the largest deviation from the final value.
+/// The settling of a quantity, with a band of 0.5 % of the largest deviation from the final value.
 ///
-/// `noise` is the largest deviation of a quantity that does not change; by default 10⁻¹² of the largest value, at least
-/// 10⁻¹². With `between`, the time is that at which the quantity enters the band, otherwise the first time in the band.
+/// `noise` is the largest deviation of a quantity that counts as constant. The default is 10⁻¹² of the largest
+/// magnitude, and at least 10⁻¹². With `between`, the settling time is the time at which the quantity enters the
+/// band; otherwise it is the first of the times `t` from which it stays in the band.
 ///
 /// # Panics
-/// If there are no values, or not as many as times.
+/// If there are no values, or if the numbers of values and times differ.
 pub fn settling(
     t: &[f64],
     values: &[f64],
@@ -66,7 +67,7 @@ pub fn settling(
     }
 }
 
-/// The time of the last entry into the band, between a time outside and a time in it.
+/// The time of the last entry into the band, between a time outside and a time inside.
 fn entry(
     mut outside: f64,
     mut inside: f64,

@@ -1,8 +1,8 @@
-//! Decides which friction and contacts can hold together, and the modes of the others.
+//! Decides which friction and contacts can hold together, and determines the modes of the others.
 //!
-//! Equations may depend on others. Where they depend on those of other friction, friction follows it. Where joints and
-//! drivers alone hold the coordinate of friction, it is idle until a driver moves it, and where its speed is zero for a
-//! moment only, it slides on.
+//! The equation of a force may depend on other equations. If it depends on the equations of other friction, the
+//! friction follows that friction. If joints and drivers alone hold the coordinate of friction, the friction is idle
+//! until a driver moves it. If the speed is zero only for a moment, the friction continues to slide.
 
 use super::super::model_cache::ModelCache;
 use super::super::redundant_rows::workspace_at;
@@ -17,8 +17,8 @@ use crate::model::{size, ForceMode, Model};
 /// Speed at which friction in a joint that drivers hold begins to slide, relative to the speeds of the mechanism.
 const BEGINS: f64 = 1e-6;
 
-/// The modes of forces that hold together: their equations are independent of each other and of the joints. The `free`
-/// modes have the directions in which friction slides otherwise.
+/// The modes of forces that hold together: their equations are independent of each other and of the joints. `free`
+/// are the modes with the directions in which friction would slide.
 pub(super) fn independent(
     model: &Model,
     place: &StateAt<'_>,
@@ -65,7 +65,7 @@ pub(super) fn independent(
     held
 }
 
-/// The value that a row of a phase holds: that of a coordinate if friction sticks, zero for a contact.
+/// The value at which a row of a phase is held: the coordinate's value if friction sticks, zero for a contact.
 fn value_of(phase: &Model, place: &StateAt<'_>, row: usize) -> f64 {
     let owner = phase.forces.iter().find(|item| item.held_row == Some(row));
     let Some(Behaviour::Sticks) = owner.and_then(|item| item.element.behaviour()) else {
@@ -77,7 +77,7 @@ fn value_of(phase: &Model, place: &StateAt<'_>, row: usize) -> f64 {
     residual[row]
 }
 
-/// The mode of a force whose equation depends on those that hold, on joints and on drivers.
+/// The mode of a force whose equation depends on forces that hold, on joints and on drivers.
 fn dependent(
     model: &Model,
     place: &StateAt<'_>,
@@ -98,7 +98,7 @@ fn dependent(
     }
 }
 
-/// The sticking friction that keeps another one, `force`, from sliding, and the sign of the speed if it were released.
+/// The sticking friction that keeps `force` from sliding, and the sign of the speed after a release.
 fn leader(
     model: &Model,
     place: &StateAt<'_>,
@@ -127,8 +127,8 @@ fn leader(
     found.map(|(ratio, leader)| (leader, ratio.signum()))
 }
 
-/// Whether friction whose speed is zero for a moment continues to slide: the speed changes its sign while the mechanism
-/// moves, or a driver begins to move it. Then the speed or the acceleration has the direction of sliding.
+/// Whether friction whose speed is zero for a moment continues to slide: the speed changes its sign while the
+/// mechanism moves, or a driver begins to move it. The speed or the acceleration then has the direction of sliding.
 fn passes(
     model: &Model,
     place: &StateAt<'_>,

@@ -1,8 +1,8 @@
 //! Contacts that rest and friction that sticks.
 //!
-//! All contacts that touch without speed and all friction without speed hold at first. Equations that depend on others
-//! are left out: friction follows another one then, and a contact is idle. While a contact pulls or friction exceeds its
-//! limit, the one with the largest excess is released.
+//! At first, all contacts that touch without speed and all friction without speed are held. Equations that depend on
+//! others are omitted: the friction then follows other friction, and the contact is idle. While a contact pulls or
+//! friction exceeds its limit, the force with the largest excess is released.
 
 use super::super::failure::Failure;
 use super::dependence::independent;
@@ -14,22 +14,23 @@ use crate::equations::kinematics::Motions;
 use crate::math::Jet;
 use crate::model::{ForceMode, Model};
 
-/// Part of the limit by which a reserve may be negative.
+/// Magnitude of a negative reserve that is accepted, as a fraction of the limit.
 const ROUNDING: f64 = 1e-11;
-/// Part of the limit that may be left at the event where the reserve becomes zero: its time follows from an interpolant.
+/// Fraction of the limit that may remain at the event where the reserve becomes zero, because its time is computed
+/// from an interpolant.
 const USED_UP: f64 = 1e-6;
 
-/// Height of a flight, as a part of the mechanism's size or in rad, below which a contact without losses rests.
+/// Height of a flight, as a fraction of the mechanism's size or in rad, below which a contact without losses rests.
 const LOW: f64 = 1e-10;
-/// Rate of a gap, m/s or rad/s, below which the next flight is so low that rounding errors of the gap count.
+/// Rate of a gap, m/s or rad/s, below which the next flight is so low that rounding errors of the gap matter.
 const SLOW: f64 = 2e-7;
-/// Most forces of which all combinations are tried.
+/// Largest number of forces for which all combinations are tried.
 const MOST_TRIED: usize = 5;
-/// Part of the forces of a state below which a force is noise.
+/// Forces below this fraction of the forces of a state are noise.
 const NOISE: f64 = 1e-13;
 
-/// The modes of all forces that have any, with the contacts that touch, the forces whose modes ended, and the largest rate
-/// before the velocities jumped, if they did.
+/// The modes of all forces that have modes. The arguments include the contacts that touch, the forces whose modes
+/// ended, and, if the velocities jumped, the largest rate before the jump.
 pub(super) fn decide(
     model: &Model,
     place: &mut StateAt<'_>,
@@ -79,14 +80,15 @@ pub(super) fn decide(
     give_slack(model, place, touching, &mut modes);
     for (own, threshold) in modes.iter_mut().zip(&thresholds) {
         if let (Mode::Slides(sign), true) = (own.mode, threshold.abs() <= STILL * speed) {
-            // a rounding error of the speed may have the other direction, and at rest all of it is rounding
+            // a rounding error of the speed may have the opposite direction, and at rest the speed consists of
+            // rounding errors
             own.slack = (-2.0 * sign * threshold).max(NOISE * speed);
         }
     }
     Ok(modes)
 }
 
-/// Sets the slack of contacts that touch and of forces that hold: the rounding errors of gaps and forces.
+/// Sets the slack of contacts that touch and of forces that hold, from the rounding errors of gaps and forces.
 fn give_slack(model: &Model, place: &StateAt<'_>, touching: &[usize], modes: &mut [ForceMode]) {
     let rates = place.gap_rates(model, touching);
     let gaps = place.thresholds(model, touching);
@@ -103,8 +105,8 @@ fn give_slack(model: &Model, place: &StateAt<'_>, touching: &[usize], modes: &mu
     }
 }
 
-/// The contacts that touch without speed, or whose next flight would be lower than the rounding error of the gap. Where
-/// one rests, the flights of others may be lower.
+/// The contacts that touch without speed, or whose next flight would be lower than the rounding error of the gap. If
+/// one contact rests, the flights of others may become lower.
 fn at_rest(
     model: &Model,
     place: &StateAt<'_>,
@@ -132,7 +134,7 @@ fn at_rest(
         let gaps = place.gap_jets(model, &others, workspace.a());
         let rests = |(k, gap): &(&usize, Jet)| {
             let (restitution, rest_speed) = restitution(model, **k);
-            // bounces that lose nothing here and are damped elsewhere become ever more frequent
+            // bounces without losses here that are damped elsewhere become ever more frequent
             let least = if restitution < 1.0 { 0.0 } else { LOW * unit(model, **k) };
             let height = least.max(place.rounding(model, **k));
             gap.rate <= rest_speed || 0.5 * gap.rate * gap.rate <= -gap.second * height
@@ -145,7 +147,7 @@ fn at_rest(
     }
 }
 
-/// Finds the candidates that can hold. The reserve of those in `ended` is zero.
+/// Finds the candidates that can hold. The reserve of candidates in `ended` is zero.
 fn hold(
     model: &Model,
     place: &StateAt<'_>,
@@ -204,7 +206,7 @@ fn released(
     }
 }
 
-/// The modes with some forces that hold, as far as their equations are independent.
+/// The modes with some forces held, as far as their equations are independent.
 fn with_held(
     model: &Model,
     place: &StateAt<'_>,
@@ -218,7 +220,7 @@ fn with_held(
     modes
 }
 
-/// Whether the contacts among the candidates that are free move apart, and friction that slides moves in its direction.
+/// Whether the free contacts among the candidates separate, and sliding friction moves in its direction.
 fn moves_apart(
     model: &Model,
     place: &StateAt<'_>,
@@ -237,7 +239,7 @@ fn moves_apart(
     candidates.iter().zip(gaps).all(fits)
 }
 
-/// The forces that ended, with those that they follow: all of them have reached their limits.
+/// The forces that ended, and the forces that they follow. All of them have reached their limits.
 fn with_leaders(held: &[ForceMode], ended: &[usize]) -> Vec<usize> {
     let leader = |own: &ForceMode| match own.mode {
         Mode::Follows { leader, .. } if ended.contains(&own.force) => Some(leader),
@@ -246,7 +248,7 @@ fn with_leaders(held: &[ForceMode], ended: &[usize]) -> Vec<usize> {
     ended.iter().copied().chain(held.iter().filter_map(leader)).collect()
 }
 
-/// The force that exceeds what it can hold most, and the direction in which friction slides then.
+/// The force with the largest excess over its limit, and the direction in which its friction then slides.
 fn worst(
     phase: &Model,
     place: &StateAt<'_>,

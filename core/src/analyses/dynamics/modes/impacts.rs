@@ -9,8 +9,9 @@
 //! ```
 //!
 //! This is repeated until no contact approaches (Glocker and Pfeiffer, *Multiple impacts with friction in rigid multibody
-//! systems*, Nonlinear Dynamics 7 (1995) 471). For one e the kinetic energy does not grow: its change is
-//! -½ (1 - e²) ġ⁻ᵀ (G M⁻¹ Gᵀ)⁻¹ ġ⁻. Contacts with different e that would gain energy together take the least of them.
+//! systems*, Nonlinear Dynamics 7 (1995) 471). If all e are equal, the kinetic energy does not grow: its change is -½
+//! (1 - e²) ġ⁻ᵀ (G M⁻¹ Gᵀ)⁻¹ ġ⁻. If contacts with different e would gain energy together, all of them use the least
+//! e.
 
 use super::super::failure::{Failure, Reason};
 use super::super::model_cache::ModelCache;
@@ -21,7 +22,7 @@ use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, energy};
 use crate::model::{ForceMode, Model};
 
-/// Most rounds of impacts at one time.
+/// Largest number of rounds of impacts at one time.
 const ROUNDS: usize = 1000;
 
 /// The restitution of each contact.
@@ -34,7 +35,7 @@ pub(super) struct Hits {
     pub impulses: Vec<f64>,
 }
 
-/// The contacts that touch: those that rest, and those with a closed gap.
+/// The contacts that touch: contacts that rest, and contacts with a closed gap.
 pub(super) fn touching(model: &Model, place: &StateAt<'_>, before: &[ForceMode]) -> Vec<usize> {
     let impacts =
         |k: &usize| matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Impacts { .. }));
@@ -54,7 +55,7 @@ pub(super) fn restitution(model: &Model, k: usize) -> (f64, f64) {
     }
 }
 
-/// Lets the touching contacts that approach hit, until none approaches.
+/// Computes impacts at the touching contacts that approach, until none approaches.
 pub(super) fn resolve(
     model: &Model,
     place: &mut StateAt<'_>,
@@ -91,7 +92,7 @@ pub(super) fn resolve(
     Err(Reason::Integration { t, message, hint }.into())
 }
 
-/// Takes the small rates of the gaps of contacts that come to rest.
+/// Removes the small gap rates of contacts that come to rest.
 pub(super) fn halt(
     model: &Model,
     place: &mut StateAt<'_>,
@@ -106,7 +107,7 @@ pub(super) fn halt(
     hit(model, place, (&moving, &|_| 0.0), &mut vec![0.0; model.n_multipliers()])
 }
 
-/// One round: all these contacts hit, each with the rate of its gap and with its restitution.
+/// Computes one round, in which all these contacts hit, each with the rate of its gap and with its restitution.
 fn hit(
     model: &Model,
     place: &mut StateAt<'_>,
@@ -131,7 +132,7 @@ fn hit(
     let before = kinetic(&v);
     let mut rates = vec![0.0; closed.layout.n_rows];
     let mut outcome = None;
-    // each with its own restitution first
+    // first with the individual restitutions
     for common in [false, true] {
         for ((k, rate), side) in approach.iter().zip(&sides) {
             let row = closed.forces[*k].held_row.expect("it holds");
@@ -167,7 +168,7 @@ fn hit(
     Ok(())
 }
 
-/// Work of the impulses of drivers, whose rows have the rates -Φ_t before and after.
+/// Work of the impulses of drivers. The rates of their rows are -Φ_t before and after.
 fn driver_work(model: &Model, t: f64, q: &[f64], impulses: &[f64]) -> f64 {
     if !model.driven {
         return 0.0;

@@ -1,11 +1,11 @@
-//! The modes of forces at the start of a phase: which friction slides or sticks, which contacts are apart or rest.
+//! The modes of forces at the start of a phase: friction slides or sticks, and contacts are apart or rest.
 //!
 //! | file | concept |
 //! |---|---|
 //! | `mode_events` | the functions whose zeros may change a mode |
-//! | `place` | a state in which modes are decided |
+//! | `place` | a state at which modes are determined |
 //! | `impacts` | jumps of velocities where contacts hit |
-//! | `dependence` | which of them can hold together, and what follows for the others |
+//! | `dependence` | which forces can hold together, and the modes of the others |
 //! | `holding` | contacts that rest and friction that sticks |
 
 mod dependence;
@@ -40,8 +40,8 @@ pub(super) struct Settled {
     pub changed: Vec<(usize, usize)>,
 }
 
-/// Decides the modes at a state, whose velocities jump where contacts hit. `fired` are the forces whose modes ended
-/// there; without modes `before`, the run begins.
+/// Determines the modes at a state, whose velocities jump where contacts hit. `fired` are the forces whose modes
+/// ended there. If `before` contains no modes, the run begins.
 ///
 /// # Errors
 /// [`Failure`] where contacts hit without end, and where the equations have no solution.
@@ -68,7 +68,7 @@ pub(super) fn settle(
     Ok(Settled { modes, hits, impulses, changed })
 }
 
-/// Refuses a start beyond a stop or contact with restitution, and a stop whose coordinate drivers hold.
+/// Refuses a start beyond a stop or contact with restitution, and a stop whose coordinate is held by drivers.
 ///
 /// # Errors
 /// [`Failure`] with [`Reason::Start`].

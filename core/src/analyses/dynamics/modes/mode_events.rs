@@ -15,17 +15,18 @@ pub enum ModeFunction {
         force: usize,
         /// ±1.
         sign: f64,
-        /// Added to it.
+        /// Added to the function.
         slack: f64,
     },
     /// The reserve until friction slips or a contact separates, and the slack of the mode.
     Reserve {
         /// The force.
         force: usize,
-        /// Added to it.
+        /// Added to the reserve.
         slack: f64,
     },
-    /// The speed at which friction begins to slide in a joint that drivers hold, less the speed.
+    /// In a joint that drivers hold, friction begins to slide at a certain speed. The function is this speed minus
+    /// the actual speed.
     Begins {
         /// The force.
         force: usize,
@@ -37,12 +38,12 @@ pub enum ModeFunction {
 }
 
 impl ModeFunction {
-    /// Whether it needs multipliers.
+    /// Whether the function needs multipliers.
     pub fn needs_solution(self) -> bool {
         matches!(self, Self::Reserve { .. })
     }
 
-    /// Its value at a state.
+    /// The value of the function at a state.
     pub fn value(self, model: &Model, seen: &Seen<'_>) -> f64 {
         let acting = Acting { z: seen.state[2], lam: Some(seen.solved[1]), t: seen.t };
         match self {
@@ -60,8 +61,8 @@ impl ModeFunction {
     }
 }
 
-/// The function of an event of a force, by its place in [`Behaviour::events`], with the direction that counts. The modes
-/// are those of the model.
+/// The function of an event of a force, and the direction of its zero. `place` is the index of the event in
+/// [`Behaviour::events`]. The modes are read from the model.
 pub fn watched_mode(model: &Model, force: usize, place: usize) -> (ModeFunction, Direction) {
     let item = &model.forces[force];
     let slack =

@@ -1,4 +1,4 @@
-//! A state in which modes are decided.
+//! A state at which modes are determined.
 
 use super::super::failure::Failure;
 use super::super::model_cache::ModelCache;
@@ -11,13 +11,14 @@ use crate::equations::{Gains, Workspace};
 use crate::math::{Jet, Lift, Real};
 use crate::model::{size, ForceMode, Model};
 
-/// Speed of friction that counts as zero, relative to the speeds of the mechanism; accelerations likewise.
+/// Speeds of friction below this value count as zero, relative to the speeds of the mechanism; accelerations
+/// likewise.
 pub const STILL: f64 = 1e-9;
 
 /// Largest gap of a contact that touches: relative to the size of the mechanism, or in rad.
 const TOUCHING: f64 = 1e-10;
 
-/// Spacings of numbers within which a gap is uncertain.
+/// Uncertainty of a gap in floating-point spacings.
 const ROUNDING: f64 = 64.0;
 
 /// A state y = (q, v, z, works) at a time.
@@ -45,8 +46,8 @@ impl StateAt<'_> {
         Ok(workspace)
     }
 
-    /// A speed beside which rounding errors of speeds are small: the largest rate of the state, and what the
-    /// accelerations give it within the size of the mechanism.
+    /// A speed that is large compared with rounding errors of speeds: the largest rate of the state, or the speed
+    /// that the accelerations produce within the size of the mechanism.
     pub fn speed_scale(&self, model: &Model, modes: &[ForceMode]) -> f64 {
         let fastest = largest(self.state(model)[1]);
         let workspace = self.solved(&model.in_modes(modes));
@@ -81,8 +82,8 @@ impl StateAt<'_> {
         self.jets(lifted, &[contact], &vec![0.0; lifted.layout.n_q])[0].rate
     }
 
-    /// The gaps of contacts with their first and second derivatives in time, or the speeds of friction with their first
-    /// one, for accelerations `a`.
+    /// The gaps of contacts with their first and second time derivatives, or the speeds of friction with their first
+    /// time derivative, for accelerations `a`.
     pub fn gap_jets(&self, model: &Model, contacts: &[usize], a: &[f64]) -> Vec<Jet> {
         if contacts.is_empty() {
             return Vec::new();
@@ -102,8 +103,8 @@ impl StateAt<'_> {
         contacts.iter().map(|k| forces::threshold(lifted, *k, &motions, acting)).collect()
     }
 
-    /// A force beside which rounding errors of the forces of a state are small: that of the largest kinetic energy per
-    /// size, weight, and multipliers; at least that which gives the heaviest body the acceleration of a size per s².
+    /// A force that is large compared with rounding errors of the forces of a state: the largest of the kinetic
+    /// energy per size, the multipliers, and the force on the heaviest body under gravity plus one size per s².
     pub fn force_scale(&self, model: &Model, lam: &[f64]) -> f64 {
         let [q, v, _] = self.state(model);
         let energy = energy::kinetic(model, &Motions::at(&model.layout, q, v));

@@ -1,11 +1,11 @@
-//! Released switches that have kept one piece.
+//! Holds released switches again after they have kept one piece.
 
 use super::{History, Switching, CALM};
 use crate::integrate::Step;
 use crate::model::Model;
 
 impl Switching {
-    /// Holds released switches again that have kept one piece.
+    /// Holds released switches that have kept one piece for enough steps.
     pub(super) fn hold_calm(&mut self, model: &Model, step: &Step<'_>) {
         if self.on_state.iter().all(|k| !self.pieces[*k].is_nan()) {
             return;

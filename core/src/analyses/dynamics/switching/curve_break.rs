@@ -1,18 +1,18 @@
 //! Steps to the breaks of curves.
 //!
-//! A curve has no pieces that extend beyond their ends, so that a step must not end before a break and the next one pass
-//! over it. The interpolant of a step across the break gives its time only roughly. The step is therefore taken again to
-//! later times, until its own interpolant reaches the break at its end.
+//! The pieces of a curve do not extend beyond their ends, so a step must not end before a break and the next step
+//! pass over it. The interpolant of a step across the break gives its time only roughly. The step is therefore taken
+//! again up to later times, until its own interpolant reaches the break at its end.
 
 use super::{After, Due, Switching, AGAIN};
 use crate::integrate::Step;
 use crate::model::{Model, SwitchOwner};
 
-/// Part of a step over which the rate of u is found.
+/// Fraction of a step over which the rate of u is computed.
 const PART: f64 = 1e-3;
 
 impl Switching {
-    /// How the run continues after a step that was to end at the break of a curve, if the contact has not reached the
+    /// How the run continues if a step should have ended at the break of a curve but the contact has not reached the
     /// break. None for other steps.
     pub(super) fn approach(&mut self, model: &Model, step: &Step<'_>) -> Option<After> {
         let due = self.due.as_ref().filter(|due| due.t == step.t)?;

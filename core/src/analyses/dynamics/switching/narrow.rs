@@ -1,11 +1,11 @@
-//! Pieces that a step enters at its beginning and leaves before its first sample: narrow ones, through their other
-//! boundary, and others where the motion turns back at once, as in a short flight between two contacts.
+//! Pieces that a step enters at its beginning and leaves before its first sample: narrow pieces, left through their
+//! other boundary, and pieces where the motion turns back at once, as in a short flight between two contacts.
 
 use super::Switching;
 use crate::integrate::Step;
 use crate::model::Model;
 
-/// Halvings of a step in which a short stay in a piece is looked for.
+/// Number of halvings of a step in the search for a short stay in a piece.
 const HALVINGS: i32 = 20;
 
 impl Switching {
@@ -33,7 +33,7 @@ impl Switching {
         found.min_by(|a, b| (sign * a.0).total_cmp(&(sign * b.0)))
     }
 
-    /// The time at which a switch left a narrow piece that it entered at the beginning of a step, and the piece beyond.
+    /// The time at which a switch left a narrow piece that it entered at the beginning of a step, and the next piece.
     fn through(&mut self, model: &Model, step: &Step<'_>, k: usize) -> Option<(f64, usize, f64)> {
         let boundaries = &model.switches[k].boundaries;
         let [low, high] = boundaries.of(self.pieces[k]);
@@ -61,7 +61,7 @@ impl Switching {
         Some((b, k, boundaries.beside(far, above)))
     }
 
-    /// The time at which a switch left the piece in which it was for a short time, and the piece beyond.
+    /// The time at which a switch left a piece in which it was only briefly, and the next piece.
     fn back(&mut self, model: &Model, step: &Step<'_>, k: usize) -> Option<(f64, usize, f64)> {
         let boundaries = &model.switches[k].boundaries;
         let piece = self.pieces[k];

@@ -1,4 +1,4 @@
-//! Motions that are held at a switch: in both pieces they return to the boundary between them.
+//! Motions that are held at a switch: both pieces return them to the boundary.
 
 use super::{History, Switching};
 use crate::analyses::dynamics::motion_ode::MotionOde;
@@ -6,12 +6,12 @@ use crate::equations::switches;
 use crate::integrate::{Cause, Ode};
 use crate::solve::Breakdown;
 
-/// Smallest jump of rates at which a motion can slide, relative to the largest ones.
+/// Smallest jump of rates at which a motion can slide, relative to the largest rates.
 const JUMPS: f64 = 1e-6;
 
 impl Switching {
-    /// Whether the motion returns at once to the piece that the switch of a law has just left: the rates of its function
-    /// before and after the change have opposite signs.
+    /// Whether the motion returns at once to the piece that the switch of a law has just left: the rates of its
+    /// function before and after the change have opposite signs.
     pub(super) fn returns(
         &mut self,
         ode: &mut MotionOde<'_>,
