@@ -5,10 +5,10 @@
 //! (1 - α_m) a₁ + α_m a₀ = (1 - α_f) v̇₁ + α_f v̇₀
 //! ```
 //!
-//! The variable a approximates, to second order, the acceleration at t + Δ h with Δ = α_m - α_f. (Chung and
-//! Hulbert, *A time integration algorithm for structural dynamics with improved numerical dissipation: the
-//! generalized-α method*, J. Appl. Mech. 60 (1993) 371; Arnold and Brüls, *Convergence of the generalized-α
-//! scheme for constrained mechanical systems*, Multibody Syst. Dyn. 18 (2007) 185.)
+//! The variable a approximates, to second order, the acceleration at t + Δ h with Δ = α_m - α_f. (Chung and Hulbert,
+//! *A time integration algorithm for structural dynamics with improved numerical dissipation: the generalized-α
+//! method*, J. Appl. Mech. 60 (1993) 371; Arnold and Brüls, *Convergence of the generalized-α scheme for constrained
+//! mechanical systems*, Multibody Syst. Dyn. 18 (2007) 185.)
 
 /// The parameters α_m, α_f, β and γ. β and γ give order 2 with the largest damping of high frequencies.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -41,10 +41,10 @@ impl AlphaParameters {
         Self::of_order_two(0.0, -alpha)
     }
 
-    /// The parameters for first-order states z with the same spectral radius ρ = (1 - x) / (1 + x), x = α_f -
-    /// α_m. In the equations above, z and z′ replace v and v̇ (Jansen, Whiting and Hulbert, *A generalized-α
-    /// method for integrating the filtered Navier–Stokes equations with a stabilized finite element method*,
-    /// Comput. Methods Appl. Mech. Eng. 190 (2000) 305).
+    /// The parameters for first-order states z with the same spectral radius ρ = (1 - x) / (1 + x), x = α_f - α_m. In
+    /// the equations above, z and z′ replace v and v̇ (Jansen, Whiting and Hulbert, *A generalized-α method for
+    /// integrating the filtered Navier–Stokes equations with a stabilized finite element method*, Comput. Methods
+    /// Appl. Mech. Eng. 190 (2000) 305).
     pub fn of_states(&self) -> Self {
         let x = self.alpha_f - self.alpha_m;
         Self::of_order_two(0.5 - x, 0.5 * (1.0 - x))

@@ -1,5 +1,4 @@
-//! One step of the generalized-α method at index 3. Newton's iteration solves for q and λ with Φ(q) = 0 at the
-//! end.
+//! One step of the generalized-α method at index 3. Newton's iteration solves for q and λ with Φ(q) = 0 at the end.
 //!
 //! Let x be the change of q. With the balance of forces multiplied by β h², the equations of the iteration are
 //!
@@ -9,19 +8,18 @@
 //! ```
 //!
 //! The condition number of this matrix does not grow as h decreases (Bottasso, Bauchau and Cardona,
-//! *Time-step-size-independent conditioning and sensitivity to perturbations in the numerical solution of index
-//! three differential algebraic equations*, SIAM J. Sci. Comput. 29 (2007) 397).
+//! *Time-step-size-independent conditioning and sensitivity to perturbations in the numerical solution of index three
+//! differential algebraic equations*, SIAM J. Sci. Comput. 29 (2007) 397).
 //!
-//! The method has order 2 from the first step on, also for variable steps (Arnold, Brüls and Cardona, *Error
-//! analysis of generalized-α Lie group time integration methods for constrained mechanical systems*, Numer. Math.
-//! 129 (2015) 149). This requires two deviations to be carried from step to step. First, a approximates the
-//! acceleration at t + Δ h, so that a - v̇ is proportional to h. Second, the velocities of the method deviate
-//! from the constraints by h² C_q v̈, normal to them. The deviations are stored divided by h and by h². The
-//! reported velocities satisfy the constraints.
+//! The method has order 2 from the first step on, also for variable steps (Arnold, Brüls and Cardona, *Error analysis
+//! of generalized-α Lie group time integration methods for constrained mechanical systems*, Numer. Math. 129 (2015)
+//! 149). This requires two deviations to be carried from step to step. First, a approximates the acceleration at t +
+//! Δ h, so that a - v̇ is proportional to h. Second, the velocities of the method deviate from the constraints by h²
+//! C_q v̈, normal to them. The deviations are stored divided by h and by h². The reported velocities satisfy the
+//! constraints.
 //!
 //! First-order states z are integrated as v is, with parameters that give the same damping
-//! ([`AlphaParameters::of_states`]). Their variable w corresponds to a. Their changes are further unknowns after
-//! x.
+//! ([`AlphaParameters::of_states`]). Their variable w corresponds to a. Their changes are further unknowns after x.
 
 use super::alpha_parameters::AlphaParameters;
 use super::dae::{
@@ -39,16 +37,16 @@ const MOST: usize = 10;
 const MATRICES: usize = 3;
 /// A matrix of an earlier step is replaced if one iteration does not reduce the error below this fraction.
 const SLOW: f64 = 0.2;
-/// Relative difference of two step sizes below which the steps share a matrix. Differences of times are subject
-/// to rounding.
+/// Relative difference of two step sizes below which the steps share a matrix. Differences of times are subject to
+/// rounding.
 const SAME: f64 = 1e-6;
 /// Relative size of corrections that are rounding errors, compared with the largest coordinate.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Largest error that Newton's iteration may leave, as a fraction of the tolerance.
 const PART: f64 = 1e-2;
 
-/// The quantities of v or of z that are carried from step to step: (a - v̇) / h, the rate of v̇ at the beginning
-/// of a step, and the variable a, which replaces v̇ in the method, at both ends.
+/// The quantities of v or of z that are carried from step to step: (a - v̇) / h, the rate of v̇ at the beginning of a
+/// step, and the variable a, which replaces v̇ in the method, at both ends.
 pub(super) struct Carried {
     pub shift: Vec<f64>,
     pub slope: Vec<f64>,
@@ -62,8 +60,8 @@ impl Carried {
         Self { shift: row(), slope: row(), start: row(), end: row() }
     }
 
-    /// Predicts the derivative at the end of the step and a at both ends by extrapolation. Returns the weighted
-    /// mean of a that changes component i over the step, (1 - γ) a₀ + γ a₁.
+    /// Predicts the derivative at the end of the step and a at both ends by extrapolation. Returns the weighted mean
+    /// of a that changes component i over the step, (1 - γ) a₀ + γ a₁.
     fn predict(&mut self, p: &AlphaParameters, h: f64, i: usize, rate: f64, end: &mut f64) -> f64 {
         self.start[i] = rate + h * self.shift[i];
         *end = rate + h * self.slope[i];
@@ -280,8 +278,7 @@ impl AlphaStep {
         scale.norm(&self.x[..n], &self.dv, &self.x[n..both])
     }
 
-    /// Computes the residuals at `end`: those of the forces and states into the first parts of x, and Φ into
-    /// `rows`.
+    /// Computes the residuals at `end`: those of the forces and states into the first parts of x, and Φ into `rows`.
     fn evaluate<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, t: f64) {
         let (forces, rest) = self.x.split_at_mut(self.dv.len());
         let states = &mut rest[..self.end.z.len()];
@@ -290,10 +287,10 @@ impl AlphaStep {
         system.residual(t, Iterate { q, v, a, lam, z, dz }, ConstraintLevel::Position, out);
     }
 
-    /// The estimated error of the step relative to its tolerance: C_q h² (a₁ - a₀) for q and C_v h³ v⃛ for v,
-    /// with v⃛ from the last three accelerations. The parts normal to the constraints are removed, because the
-    /// constraints prevent such errors. The error of z is estimated in the same way as that of v. Stiff motions
-    /// are not filtered out, because oscillations of a enter q.
+    /// The estimated error of the step relative to its tolerance: C_q h² (a₁ - a₀) for q and C_v h³ v⃛ for v, with v⃛
+    /// from the last three accelerations. The parts normal to the constraints are removed, because the constraints
+    /// prevent such errors. The error of z is estimated in the same way as that of v. Stiff motions are not filtered
+    /// out, because oscillations of a enter q.
     pub fn error<Y: Dae>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
@@ -330,9 +327,9 @@ impl AlphaStep {
         }
     }
 
-    /// The norm of corrections that contain only rounding errors. The correction of q is compared with the
-    /// largest component of q, since every constraint is a sum over several components. The correction of v is
-    /// that of q multiplied by γ / (β h).
+    /// The norm of corrections that contain only rounding errors. The correction of q is compared with the largest
+    /// component of q, since every constraint is a sum over several components. The correction of v is that of q
+    /// multiplied by γ / (β h).
     fn rounding(&self, h: f64, scale: &mut ErrorWeights) -> f64 {
         let AlphaParameters { beta, gamma, .. } = self.parameters;
         scale.set(&self.start, &self.end);
@@ -346,8 +343,8 @@ impl AlphaStep {
         (sum / scale.weights.len() as f64).sqrt()
     }
 
-    /// Solves for (x, y) with the right side (M x (1 - α_m)/(1 - α_f), y, 0), in place. The result contains the
-    /// rates without those of stiff motions; Φ_q x = 0.
+    /// Solves for (x, y) with the right side (M x (1 - α_m)/(1 - α_f), y, 0), in place. The result contains the rates
+    /// without those of stiff motions; Φ_q x = 0.
     pub fn filter<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, x: &mut [f64], y: &mut [f64]) {
         let n = x.len();
         let share = self.parameters.acceleration_share();

@@ -1,10 +1,9 @@
-//! Locates the sign changes of several functions of the state within a step, including several changes of a
-//! function.
+//! Locates the sign changes of several functions of the state within a step, including several changes of a function.
 //!
-//! The functions are sampled at [`PARTS`] + 1 times of the interpolant. Bisection and inverse quadratic
-//! interpolation locate a sign change between two samples (`events`). Where the samples approach zero and turn
-//! back, a parabola through three samples shows whether the function reaches zero between them. An even number of
-//! changes within 1/[`PARTS`] of a step can be missed; a shorter step finds them.
+//! The functions are sampled at [`PARTS`] + 1 times of the interpolant. Bisection and inverse quadratic interpolation
+//! locate a sign change between two samples (`events`). Where the samples approach zero and turn back, a parabola
+//! through three samples shows whether the function reaches zero between them. An even number of changes within
+//! 1/[`PARTS`] of a step can be missed; a shorter step finds them.
 
 use super::events::{Bracket, Direction};
 use super::step::Step;
@@ -13,8 +12,8 @@ use super::step::Step;
 const PARTS: usize = 12;
 /// Two sign changes count as one time if they differ by at most this number of floating-point spacings.
 const TOGETHER: f64 = 8.0;
-/// Multiple of that time for which rounding errors may shift a sign change. A change within it before the first
-/// one counts as simultaneous; a change within it after a change that ends the step is kept.
+/// Multiple of that time for which rounding errors may shift a sign change. A change within it before the first one
+/// counts as simultaneous; a change within it after a change that ends the step is kept.
 const NEAR: f64 = 8.0;
 /// Largest number of parabolas that search for a zero between samples of equal sign.
 const PARABOLAS: usize = 4;
@@ -33,8 +32,8 @@ pub struct Crossing {
 /// The signs of functions over a step.
 #[derive(Clone, Debug, Default)]
 pub struct Scan {
-    /// The earliest sign changes in the given direction. It contains several changes, in the order of the
-    /// functions, if the functions change sign together.
+    /// The earliest sign changes in the given direction. It contains several changes, in the order of the functions,
+    /// if the functions change sign together.
     pub first: Vec<Crossing>,
     /// Indices of the functions that are negative at all samples after the beginning.
     pub negative: Vec<usize>,
@@ -43,9 +42,9 @@ pub struct Scan {
 /// Evaluates functions at a time and a state and writes the values into the last argument. NaN has no sign.
 pub type Functions<'a> = &'a mut dyn FnMut(f64, &[f64], &mut [f64]);
 
-/// Samples `count` functions over a step and locates the first sign changes to within four floating-point
-/// spacings. A change at the very beginning belongs to the step before. A change of function `i` after the time
-/// `until(i)` is ignored.
+/// Samples `count` functions over a step and locates the first sign changes to within four floating-point spacings. A
+/// change at the very beginning belongs to the step before. A change of function `i` after the time `until(i)` is
+/// ignored.
 pub fn scan(
     step: &Step<'_>,
     count: usize,
@@ -64,10 +63,10 @@ pub fn scan(
     Scan { first: sampled.first(changes, until), negative }
 }
 
-/// Returns all sign changes, with a direction for each function. They are sorted by time, and simultaneous
-/// changes by function. Changes after the first change of a function that `ends` are left out. The step is
-/// divided into `parts`. A part is divided further where a parabola through three samples reaches zero or the
-/// samples do not follow a parabola. This resolves functions that oscillate within a step.
+/// Returns all sign changes, with a direction for each function. They are sorted by time, and simultaneous changes by
+/// function. Changes after the first change of a function that `ends` are left out. The step is divided into `parts`.
+/// A part is divided further where a parabola through three samples reaches zero or the samples do not follow a
+/// parabola. This resolves functions that oscillate within a step.
 pub fn crossings(
     step: &Step<'_>,
     parts: usize,
@@ -135,14 +134,14 @@ impl SignChange {
     }
 }
 
-/// Place of a further sample between two samples. The middle is avoided because samples could repeat the period
-/// of a function.
+/// Place of a further sample between two samples. The middle is avoided because samples could repeat the period of a
+/// function.
 const BETWEEN: f64 = 0.45;
 /// Largest number of divisions of one part.
 const DEEPEST: usize = 10;
 
-/// Whether a function may have further sign changes among three samples. It may if a parabola through the values
-/// a and b with the curvature of the samples can have two zeros.
+/// Whether a function may have further sign changes among three samples. It may if a parabola through the values a
+/// and b with the curvature of the samples can have two zeros.
 fn may_turn([a, m, b]: [f64; 3]) -> bool {
     let line = a + BETWEEN * (b - a);
     let bend = (m - line).abs() / (BETWEEN * (1.0 - BETWEEN));

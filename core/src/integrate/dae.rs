@@ -5,9 +5,9 @@
 //!               z′ - f(t, q, v, z) = 0
 //! ```
 //!
-//! An integration method provides the iterates and the coefficients of the matrices of Newton's iteration. The
-//! system evaluates the residuals, stores its tangent and factorises the matrices. Observers receive y = (q, v,
-//! z, quadratures), so output, interpolants and events work as for the explicit methods.
+//! An integration method provides the iterates and the coefficients of the matrices of Newton's iteration. The system
+//! evaluates the residuals, stores its tangent and factorises the matrices. Observers receive y = (q, v, z,
+//! quadratures), so output, interpolants and events work as for the explicit methods.
 
 use crate::math::Complex;
 
@@ -101,8 +101,8 @@ pub struct DaeRates<'a> {
 /// [ Φ_q + rate B                                 0                    0  ]
 /// ```
 ///
-/// K and D are the derivatives of the balance of forces with respect to q and v. B is the derivative of Φ_q v +
-/// Φ_t with respect to q.
+/// K and D are the derivatives of the balance of forces with respect to q and v. B is the derivative of Φ_q v + Φ_t
+/// with respect to q.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewtonCoefficients<F = f64> {
     /// Factor of M.
@@ -149,8 +149,8 @@ pub trait Dae {
     /// Computes and stores M, D, K, B, Φ_q and the derivatives of Q and f at an iterate.
     fn linearize(&mut self, t: f64, at: Iterate<'_>);
 
-    /// Factorises the matrix with the last tangent. Returns false if the matrix is singular; a shorter step may
-    /// then help.
+    /// Factorises the matrix with the last tangent. Returns false if the matrix is singular; a shorter step may then
+    /// help.
     fn factor(&mut self, coefficients: NewtonCoefficients) -> bool;
 
     /// Factorises the matrix with complex coefficients. The real factors are kept as well.
@@ -162,8 +162,8 @@ pub trait Dae {
     /// Solves with the complex factors, in place.
     fn solve_complex(&mut self, x: &mut [Complex]);
 
-    /// Computes (M x - K s, y + f_q s, -B s) with the last tangent into `out`, which has the parts (q, z, λ). x
-    /// and s have the length of q, y has that of z.
+    /// Computes (M x - K s, y + f_q s, -B s) with the last tangent into `out`, which has the parts (q, z, λ). x and s
+    /// have the length of q, y has that of z.
     fn times(&self, x: &[f64], y: &[f64], s: &[f64], out: &mut [f64]);
 
     /// Replaces x by its component normal to the constraints in the metric of M, at the state of the last

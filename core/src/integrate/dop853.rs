@@ -1,17 +1,16 @@
-//! DOP853: explicit adaptive method of order 8 with error estimators of orders 5 and 3, and a continuous
-//! extension of order 7.
+//! DOP853: explicit adaptive method of order 8 with error estimators of orders 5 and 3, and a continuous extension of
+//! order 7.
 //!
 //! The coefficients of Dormand and Prince are those of Hairer, Nørsett and Wanner, *Solving Ordinary Differential
-//! Equations I*, II.5 and II.6. The error estimate is h e₅² / √(e₅² + 0.01 e₃²). It has order 7 and remains
-//! reliable where e₅ happens to vanish (II.10). All this is as in `scipy.integrate.DOP853`. The step control is
-//! that of II.4, but with a safety factor of 0.8 instead of 0.9, and a step grows only if it is too short by more
-//! than 10 %. On 46 mechanisms this saves 4 % of the evaluations for the same error (`docs/performance.md`).
+//! Equations I*, II.5 and II.6. The error estimate is h e₅² / √(e₅² + 0.01 e₃²). It has order 7 and remains reliable
+//! where e₅ happens to vanish (II.10). All this is as in `scipy.integrate.DOP853`. The step control is that of II.4,
+//! but with a safety factor of 0.8 instead of 0.9, and a step grows only if it is too short by more than 10 %. On 46
+//! mechanisms this saves 4 % of the evaluations for the same error (`docs/performance.md`).
 //!
 //! The extension needs three more stages than the step. For a system of second order it needs one evaluation
-//! (`hermite_birkhoff`). They are evaluated only if an observer needs states between the ends of a step;
-//! otherwise the interpolant is the cubic Hermite polynomial. The derivative at the end is evaluated only for
-//! accepted steps, since the error estimate does not use it. This saves one evaluation over scipy for each
-//! rejected step.
+//! (`hermite_birkhoff`). They are evaluated only if an observer needs states between the ends of a step; otherwise
+//! the interpolant is the cubic Hermite polynomial. The derivative at the end is evaluated only for accepted steps,
+//! since the error estimate does not use it. This saves one evaluation over scipy for each rejected step.
 
 use super::dop853_coefficients::*;
 use super::runge_kutta::{RungeKutta, TrialStages};
@@ -59,8 +58,7 @@ const PARTS: [[f64; DEGREE]; 7] = [
     [0.0,  0.0,  0.0,  1.0, -3.0,  3.0, -1.0],
 ];
 
-/// The factors of the basis polynomials, divided by h: Δ = Σ b k, k₁ - Δ, 2Δ - k₁ - k₁₃, and the four rows of
-/// [`D`].
+/// The factors of the basis polynomials, divided by h: Δ = Σ b k, k₁ - Δ, 2Δ - k₁ - k₁₃, and the four rows of [`D`].
 const fn table(whole: bool) -> [f64; (ALL + 1) * DEGREE] {
     let mut out = [0.0; (ALL + 1) * DEGREE];
     let mut stage = 0;

@@ -1,6 +1,6 @@
-//! Coefficients of DOP853: Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, second
-//! edition, II.5 (method and error estimators) and II.6 (continuous extension), as published with their program,
-//! rounded to double precision.
+//! Coefficients of DOP853: Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, second edition,
+//! II.5 (method and error estimators) and II.6 (continuous extension), as published with their program, rounded to
+//! double precision.
 //!
 //! Zeros are omitted. The comment at each row lists the stages k of its coefficients, counted from 1.
 
@@ -80,8 +80,8 @@ pub(super) const B: [f64; 8] = [
     0.054293734116568765, 4.450312892752409, 1.8915178993145003, -5.801203960010585,
     0.3111643669578199, -0.1521609496625161, 0.20136540080403034, 0.04471061572777259,
 ];
-/// Weights bᵢ (1 - cᵢ) of stages 1 to 12 for ∫ y dt over a step. They follow from the order conditions of order 8
-/// for trees with an additional leaf at the root.
+/// Weights bᵢ (1 - cᵢ) of stages 1 to 12 for ∫ y dt over a step. They follow from the order conditions of order 8 for
+/// trees with an additional leaf at the root.
 #[rustfmt::skip]
 pub(super) const DOUBLE_QUADRATURE: [f64; 12] = [
     B[0], 0.0, 0.0, 0.0, 0.0, B[1] * (1.0 - C[4]), B[2] * (1.0 - C[5]), B[3] * (1.0 - C[6]),

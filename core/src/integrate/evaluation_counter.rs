@@ -67,8 +67,8 @@ impl<Y: Dae> CountedDae<'_, Y> {
         }
     }
 
-    /// The reason why no step from a state was found: the error of the system if the matrix was singular,
-    /// otherwise `other`.
+    /// The reason why no step from a state was found: the error of the system if the matrix was singular, otherwise
+    /// `other`.
     pub fn unsolved(
         &mut self,
         singular: bool,

@@ -1,8 +1,8 @@
 //! Locates a sign change of a function of the state within a step.
 //!
-//! The ends of the step bracket the root. The method of Chandrupatla locates it (*A new hybrid
-//! quadratic/bisection algorithm for finding the zero of a nonlinear function without using derivatives*, Adv.
-//! Eng. Softw. 28 (1997) 145): inverse quadratic interpolation where it is safe, otherwise bisection.
+//! The ends of the step bracket the root. The method of Chandrupatla locates it (*A new hybrid quadratic/bisection
+//! algorithm for finding the zero of a nonlinear function without using derivatives*, Adv. Eng. Softw. 28 (1997)
+//! 145): inverse quadratic interpolation where it is safe, otherwise bisection.
 
 use super::step::Step;
 
@@ -33,12 +33,12 @@ impl Direction {
 }
 
 /// Time within `step` at which g(t, y) changes sign. At this time, just past the change, g has its new sign or is
-/// zero; the change lies at most `tolerance` before. Returns `None` if g has the same sign at both ends or begins
-/// at zero, because that root belongs to the step before. Of several changes one is found; an even number of
-/// changes is missed.
+/// zero; the change lies at most `tolerance` before. Returns `None` if g has the same sign at both ends or begins at
+/// zero, because that root belongs to the step before. Of several changes one is found; an even number of changes is
+/// missed.
 ///
-/// `y` is scratch memory of the length of the state; on return it contains the state at the time found.
-/// `tolerance` is absolute, in units of t, and is raised to four floating-point spacings.
+/// `y` is scratch memory of the length of the state; on return it contains the state at the time found. `tolerance`
+/// is absolute, in units of t, and is raised to four floating-point spacings.
 pub fn locate(
     step: &Step<'_>,
     y: &mut [f64],
@@ -88,8 +88,8 @@ fn signs(
 /// A time and a value, which is positive on the side of the new sign.
 type Point = (f64, f64);
 
-/// Two times around a root. The value is negative at the old time and not negative at the new time. When
-/// integrating backward, the new time is the earlier one.
+/// Two times around a root. The value is negative at the old time and not negative at the new time. When integrating
+/// backward, the new time is the earlier one.
 pub(super) struct Bracket {
     pub old: Point,
     pub new: Point,
@@ -120,8 +120,8 @@ impl Bracket {
     }
 }
 
-/// The zero of the inverse quadratic interpolant through a, b and c, as a fraction of the way from a (0) to b
-/// (1). `None` unless the interpolant is monotonic between a and b.
+/// The zero of the inverse quadratic interpolant through a, b and c, as a fraction of the way from a (0) to b (1).
+/// `None` unless the interpolant is monotonic between a and b.
 fn inverse_quadratic(a: Point, b: Point, c: Point) -> Option<f64> {
     let xi = (a.0 - b.0) / (c.0 - b.0);
     let phi = (a.1 - b.1) / (c.1 - b.1);

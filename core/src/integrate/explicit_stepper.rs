@@ -1,8 +1,8 @@
 //! The stepper of the explicit Runge–Kutta methods. It tries a step, tests the error, and accepts or shortens the
 //! step.
 //!
-//! With the elementary controller it takes the same steps as `scipy.integrate.solve_ivp`, so that step counts can
-//! be compared.
+//! With the elementary controller it takes the same steps as `scipy.integrate.solve_ivp`, so that step counts can be
+//! compared.
 
 use super::explicit_work::{Accepted, InterpolantLevel, Work};
 use super::failure::Cause;
@@ -351,8 +351,8 @@ impl<P: RungeKutta> ExplicitStepper<P> {
 
     /// The error norm of a rejected step, computed from its tangential error alone if that is smaller.
     ///
-    /// Because the manifold is curved, projection may end on another branch where the relative error exceeds
-    /// [`FAR`]. The whole error counts there.
+    /// Because the manifold is curved, projection may end on another branch where the relative error exceeds [`FAR`].
+    /// The whole error counts there.
     fn tangential<Y: Ode>(&mut self, rhs: &mut RightHandSide<'_, Y>, norm: f64, h: f64) -> f64 {
         let farthest = self.placement.strictness() * FAR / self.control.rtol;
         if norm < 1.0 || !norm.is_finite() || norm > farthest {

@@ -3,8 +3,8 @@
 use super::arguments::{finite, positive, step_count, ROUNDING};
 use super::failure::Cause;
 
-/// The ends t0 + k step of the steps. They are computed by multiplication, so that errors do not accumulate; the
-/// last is t_end.
+/// The ends t0 + k step of the steps. They are computed by multiplication, so that errors do not accumulate; the last
+/// is t_end.
 pub(super) struct Grid {
     t0: f64,
     t_end: f64,

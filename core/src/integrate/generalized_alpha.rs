@@ -1,7 +1,7 @@
 //! The generalized-α method at index 3, with step control or a constant step.
 //!
-//! The order is 2 for q, v and λ. The cubic Hermite polynomial interpolates q and v between the steps. The method
-//! is intended for stiff forces and for tolerances of about 1e-2 to 1e-4. `alpha_step` contains one step.
+//! The order is 2 for q, v and λ. The cubic Hermite polynomial interpolates q and v between the steps. The method is
+//! intended for stiff forces and for tolerances of about 1e-2 to 1e-4. `alpha_step` contains one step.
 
 use super::alpha_parameters::AlphaParameters;
 use super::alpha_step::AlphaStep;
@@ -22,8 +22,8 @@ const ERROR_ORDER: i32 = 2;
 const PROBE: f64 = 1e-3;
 /// Factor on the step after a trial without convergence.
 const SHORTEN: f64 = 0.25;
-/// Largest growth of a step. A step damps a stiff motion by the factor ρ, and a longer step must not amplify it
-/// more than that.
+/// Largest growth of a step. A step damps a stiff motion by the factor ρ, and a longer step must not amplify it more
+/// than that.
 const GROWTH: f64 = 1.5;
 /// The step and the matrix are kept if the step could grow by less than this factor.
 const KEEP: f64 = 1.2;
@@ -111,8 +111,8 @@ impl ImplicitScheme for AlphaProgress {
 type AlphaStepper = ImplicitStepper<AlphaProgress>;
 
 impl AlphaStepper {
-    /// Evaluates the derivative at the start, chooses the first step, and sets the initial deviations that order
-    /// 2 requires.
+    /// Evaluates the derivative at the start, chooses the first step, and sets the initial deviations that order 2
+    /// requires.
     fn begin<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>) -> Result<StepSize, Cause<Y::Stop>> {
         let Self { method, control, scale, steps, .. } = self;
         let AlphaStep { start, end, .. } = &mut method.step;
@@ -122,8 +122,8 @@ impl AlphaStepper {
     }
 
     /// Sets a for t + Δ h and velocities that deviate from the constraints by h² C_q v̈. A difference of
-    /// accelerations gives v̈. Its tangential part is filtered, so that stiff forces do not make it large. The
-    /// states z are treated in the same way.
+    /// accelerations gives v̈. Its tangential part is filtered, so that stiff forces do not make it large. The states
+    /// z are treated in the same way.
     fn begin_rates<Y: Dae>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,

@@ -1,24 +1,23 @@
 //! Interpolant of a step for y = (q, v, z, w) with q′ = v, further states z and quadratures w. It takes one
 //! evaluation.
 //!
-//! q and its first and second derivatives are known at both ends of a step and at the beginning of the step
-//! before. They determine a Hermite polynomial of degree 8. It is as accurate as the step in q, but not in v.
-//! Therefore the second derivative is evaluated once more inside the step, at the state of this polynomial. The
-//! polynomial of degree 9 with this second derivative, and its derivative for v, form a Hermite–Birkhoff
-//! interpolation of order 9 in q and 8 in v. (Enright, Jackson, Nørsett and Thomsen, *Interpolants for
-//! Runge–Kutta formulas*, ACM Trans. Math. Software 12 (1986) 193, construct interpolants in this way from both
-//! ends.) z and w are treated like v, with ∫ z dt and ∫ w dt in place of q. The stages give these integrals to
-//! the order of the step.
+//! q and its first and second derivatives are known at both ends of a step and at the beginning of the step before.
+//! They determine a Hermite polynomial of degree 8. It is as accurate as the step in q, but not in v. Therefore the
+//! second derivative is evaluated once more inside the step, at the state of this polynomial. The polynomial of
+//! degree 9 with this second derivative, and its derivative for v, form a Hermite–Birkhoff interpolation of order 9
+//! in q and 8 in v. (Enright, Jackson, Nørsett and Thomsen, *Interpolants for Runge–Kutta formulas*, ACM Trans. Math.
+//! Software 12 (1986) 193, construct interpolants in this way from both ends.) z and w are treated like v, with ∫ z
+//! dt and ∫ w dt in place of q. The stages give these integrals to the order of the step.
 //!
-//! Let θ = (t - t_old) / h. After the terms of the beginning are subtracted, the remainder is θ³ times a
-//! polynomial in Newton's form,
+//! Let θ = (t - t_old) / h. After the terms of the beginning are subtracted, the remainder is θ³ times a polynomial
+//! in Newton's form,
 //!
 //! ```text
 //! s₀ + s₁ x + s₂ x² + x³ (u₀ + u₁ z + u₂ z² + g z³) ,   x = θ - 1 ,   z = θ + r ,   r = h_before / h
 //! ```
 //!
-//! An error e at the node before is amplified to about e / r⁵. The data of the step before are therefore not used
-//! if this step is much longer.
+//! An error e at the node before is amplified to about e / r⁵. The data of the step before are therefore not used if
+//! this step is much longer.
 
 use super::component_polynomials::{store, Four, Polynomials, HIGHEST as DEGREE};
 use super::interpolant::Interpolant;
@@ -26,9 +25,8 @@ use super::ode::Structure;
 use super::stages;
 use crate::math::{Lanes, Real};
 
-/// Place of the additional second derivative, as a fraction of the step. For equal steps the error of v is
-/// smallest between 0.55 and 0.6. DOP853 has a stage near this place already, so that its widest gap is
-/// unchanged.
+/// Place of the additional second derivative, as a fraction of the step. For equal steps the error of v is smallest
+/// between 0.55 and 0.6. DOP853 has a stage near this place already, so that its widest gap is unchanged.
 pub(super) const INSIDE: f64 = 0.6;
 /// Range of h_before / h in which the beginning of the step before is used.
 const BEFORE: std::ops::RangeInclusive<f64> = 0.5..=2.5;
@@ -120,9 +118,9 @@ impl HermiteBirkhoff {
         BEFORE.contains(&(self.h_before / h))
     }
 
-    /// Computes the integrals of (v, z, w) over a step. The integral of v is the change of q. The integral of x =
-    /// z or w follows from the stages in the first rows of `k` and their double-quadrature `weights`: ∫ x dt = h
-    /// x_old + h² Σ weightᵢ kᵢ.
+    /// Computes the integrals of (v, z, w) over a step. The integral of v is the change of q. The integral of x = z
+    /// or w follows from the stages in the first rows of `k` and their double-quadrature `weights`: ∫ x dt = h x_old
+    /// + h² Σ weightᵢ kᵢ.
     pub fn measure(&mut self, ends: Ends<'_>, weights: &[f64], k: &[stages::Block]) {
         let Ends { h, y_old, y, .. } = ends;
         let (n, p) = (y.len(), self.positions);

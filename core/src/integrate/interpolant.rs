@@ -1,9 +1,8 @@
-//! The continuous extension of a step, 0 ≤ θ ≤ 1. It is either a sum over the stages, y(θ) = y_old + h Σₛ wₛ(θ)
-//! kₛ, or one polynomial for each component.
+//! The continuous extension of a step, 0 ≤ θ ≤ 1. It is either a sum over the stages, y(θ) = y_old + h Σₛ wₛ(θ) kₛ,
+//! or one polynomial for each component.
 //!
-//! kₛ are the stages of a Runge–Kutta step, and wₛ are polynomials without a constant term. Nothing is computed
-//! until the interpolant is evaluated. (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*,
-//! II.6.)
+//! kₛ are the stages of a Runge–Kutta step, and wₛ are polynomials without a constant term. Nothing is computed until
+//! the interpolant is evaluated. (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6.)
 
 use super::component_polynomials::{Polynomials, HIGHEST};
 use crate::math::{Lanes, Real};
@@ -49,8 +48,8 @@ fn polynomial(coefficients: &[f64], theta: f64) -> f64 {
 }
 
 impl<'a> Interpolant<'a> {
-    /// An interpolant from `stages` in rows of length `len`, whose first entries are the components. The number
-    /// of rows may be less than that of `table`.
+    /// An interpolant from `stages` in rows of length `len`, whose first entries are the components. The number of
+    /// rows may be less than that of `table`.
     pub(super) fn new(stages: &'a [f64], len: usize, table: &'static [f64], degree: usize) -> Self {
         assert!(degree <= HIGHEST, "a method of a higher degree");
         assert!(table.len() <= MOST * degree, "a method of more stages");
@@ -94,8 +93,8 @@ impl<'a> Stages<'a> {
         self.stages.chunks_exact(self.len.max(1)).zip(rows)
     }
 
-    /// out = y_old + ahead Σₛ wₛ(θ) / θ kₛ. Not inlined, because the other form of the interpolant needs no
-    /// registers for it.
+    /// out = y_old + ahead Σₛ wₛ(θ) / θ kₛ. Not inlined, because the other form of the interpolant needs no registers
+    /// for it.
     #[inline(never)]
     fn evaluate(&self, degree: usize, y_old: &[f64], at: (f64, f64), out: &mut [f64]) {
         // a constant degree lets the compiler unroll the inner loops, here and in `coefficients`
@@ -161,8 +160,8 @@ impl<'a> Stages<'a> {
     }
 }
 
-/// out = y + Σ weight stage, in passes over `BLOCKS` blocks of components. The last pass may overlap the one
-/// before. `out` must have at least as many components as one pass.
+/// out = y + Σ weight stage, in passes over `BLOCKS` blocks of components. The last pass may overlap the one before.
+/// `out` must have at least as many components as one pass.
 #[inline(always)]
 fn blocks_of_sums<'a, const BLOCKS: usize, T>(y: &[f64], terms: impl Fn() -> T, out: &mut [f64])
 where

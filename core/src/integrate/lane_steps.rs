@@ -1,8 +1,8 @@
 //! Steps of several integrations in parallel, one in each lane of the vector registers.
 //!
-//! All integrations use one method and systems of the same structure. Each has its own time, step and error. The
-//! sums in a lane are computed in the same order as in a separate integration, so that the results are identical
-//! to the last bit.
+//! All integrations use one method and systems of the same structure. Each has its own time, step and error. The sums
+//! in a lane are computed in the same order as in a separate integration, so that the results are identical to the
+//! last bit.
 //!
 //! Only ordinary trial steps are taken in lanes. If a lane needs more, for instance near a singular position, its
 //! integration takes the step alone, from the same state.
@@ -28,12 +28,12 @@ pub trait LaneOde {
     /// dy = f(t, y) in each lane. Returns false if a lane needs more than the ordinary evaluation.
     fn rates(&mut self, t: Lanes, y: &[Lanes], dy: &mut [Lanes]) -> bool;
 
-    /// Called after trial steps of `lanes` to the times `t`, near which f was evaluated last. Returns the lanes
-    /// with an ordinary trial.
+    /// Called after trial steps of `lanes` to the times `t`, near which f was evaluated last. Returns the lanes with
+    /// an ordinary trial.
     fn on_trials(&mut self, t: [f64; WIDTH], lanes: Mask) -> Mask;
 
-    /// Projects the accepted states of `lanes` onto their manifolds and leaves the other lanes unchanged. Returns
-    /// for each lane whether the state changed, or None if it needs more than the ordinary iteration.
+    /// Projects the accepted states of `lanes` onto their manifolds and leaves the other lanes unchanged. Returns for
+    /// each lane whether the state changed, or None if it needs more than the ordinary iteration.
     fn project(&mut self, t: Lanes, y: &mut [Lanes], lanes: Mask) -> [Option<bool>; WIDTH];
 
     /// Called with the ends `t` of accepted steps of `lanes`, where f was evaluated last.
@@ -57,8 +57,8 @@ pub trait SideBySide {
     #[doc(hidden)]
     fn method(&self) -> &'static dyn LaneMethod;
 
-    /// Begins a trial: fills its lane and returns the times t and t_new. Returns None if the stepper must take
-    /// the step alone.
+    /// Begins a trial: fills its lane and returns the times t and t_new. Returns None if the stepper must take the
+    /// step alone.
     #[doc(hidden)]
     fn propose(&mut self, at: LaneStart<'_>) -> Option<[f64; 2]>;
 
@@ -71,8 +71,7 @@ pub trait SideBySide {
     fn accept(&mut self, norm: f64, end: LaneEnd<'_>);
 }
 
-/// The lane of a trial. The stepper fills it with the state at the start, the derivative there, and the
-/// tolerances.
+/// The lane of a trial. The stepper fills it with the state at the start, the derivative there, and the tolerances.
 #[doc(hidden)]
 pub struct LaneStart<'a> {
     pub lane: usize,
@@ -95,8 +94,7 @@ pub struct LaneEnd<'a> {
 #[doc(hidden)]
 pub trait LaneMethod: Sync {
     fn id(&self) -> TypeId;
-    /// The number of stages including the derivative at the end, and whether the error estimate uses that
-    /// derivative.
+    /// The number of stages including the derivative at the end, and whether the error estimate uses that derivative.
     fn stages(&self) -> (usize, bool);
     fn advance(&self, trial: &mut LaneTrial<'_>, k: &mut [Block], y_new: &mut [Block]) -> bool;
     fn norms(&self, h: Block, k: &[Block], y: [&[Block]; 2], by: &LaneTolerances) -> Block;

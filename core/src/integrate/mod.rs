@@ -1,18 +1,16 @@
 //! Initial value problems, independent of mechanics: y′ = f(t, y), and constrained systems for implicit methods.
 //!
 //! A method ([`ExplicitMethod`], [`ImplicitMethod`]) starts a [`Stepper`]. The stepper advances the state by one
-//! accepted step at a time, can restart from another state at the same time, and locates events. It provides the
-//! last [`Step`] with its interpolant.
+//! accepted step at a time, can restart from another state at the same time, and locates events. It provides the last
+//! [`Step`] with its interpolant.
 //!
 //! # Properties of a system
 //!
 //! | trait | content | used for |
 //! |---|---|---|
 //! | [`Ode`] | `len`, `rate`: the required methods | every explicit method |
-//! | [`Structure`] (a value) | numbers of positions, first-order states and quadratures | error norm, cheaper
-//! interpolant |
-//! | [`Manifold`] | projection of an accepted state; tangential part of an error | drift, errors near singular
-//! positions |
+//! | [`Structure`] (a value) | numbers of positions, first-order states and quadratures | error norm, cheaper interpolant |
+//! | [`Manifold`] | projection of an accepted state; tangential part of an error | drift, errors near singular positions |
 //! | [`TimesToAvoid`] | times near which noise dominates f | placement of steps |
 //! | [`TrialChanges`] | changes of f before a trial step | gains that follow the step |
 //! | [`Dae`] | residuals, tangent, factorised matrices of a constrained system | every implicit method |
@@ -26,8 +24,7 @@
 //! | `failure`, `arguments` | causes of failure; checks of arguments before the first evaluation |
 //! | `step_control`, `step_size`, `fixed_step` | options of steps; choice of the step from the error; constant steps |
 //! | `events`, `crossings` | where a function of the state changes sign; several functions and changes |
-//! | `interpolant`, `hermite_birkhoff` | the state between the ends of a step; the same for systems of second
-//! order |
+//! | `interpolant`, `hermite_birkhoff` | the state between the ends of a step; the same for systems of second order |
 //! | `explicit_stepper`, `explicit_work` | the stepper of explicit methods; its memory |
 //! | `step_acceptance`, `step_placement` | the end of a step; steps that avoid a time |
 //! | `side_by_side`, `lane_steps` | steps of several explicit steppers in parallel, one in each lane |

@@ -19,8 +19,8 @@ pub trait Ode {
     /// dy = f(t, y). Both y and dy have the length [`Ode::len`].
     ///
     /// # Errors
-    /// An error ends the integration at once. For a trial state outside the domain of f, return NaN instead: a
-    /// method with step control then tries a shorter step.
+    /// An error ends the integration at once. For a trial state outside the domain of f, return NaN instead: a method
+    /// with step control then tries a shorter step.
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop>;
 
     /// The structure of y.
@@ -44,8 +44,7 @@ pub trait Ode {
     }
 }
 
-/// The structure of y = (q, v, z, w): positions q with q′ = v, their rates v, further states z, and quadratures
-/// w.
+/// The structure of y = (q, v, z, w): positions q with q′ = v, their rates v, further states z, and quadratures w.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Structure {
     /// Number of components of q, and of v. A system of second order allows a cheaper interpolant.
@@ -79,12 +78,11 @@ pub trait Manifold {
     type Stop;
 
     /// Projects an accepted state, near which f was evaluated last. Returns whether y changed. If it did, the
-    /// derivative is evaluated by [`rate_projected`](Self::rate_projected), and the interpolant ends in the new
-    /// y.
+    /// derivative is evaluated by [`rate_projected`](Self::rate_projected), and the interpolant ends in the new y.
     ///
     /// # Errors
-    /// An error refuses the state. A method with step control then tries shorter steps, and ends with this error
-    /// if no step is short enough. A method with constant steps ends at once.
+    /// An error refuses the state. A method with step control then tries shorter steps, and ends with this error if
+    /// no step is short enough. A method with constant steps ends at once.
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop>;
 
     /// dy = f(t, y) immediately after [`project`](Self::project) changed y. It may use results of the projection.
@@ -94,23 +92,23 @@ pub trait Manifold {
     fn rate_projected(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop>;
 
     /// Replaces a derivative at the last evaluated state by its tangential component, which
-    /// [`project`](Self::project) does not remove. Linear in `dy`. Returns false if the whole derivative counts
-    /// as error. A rejected step is tested again with the tangential error alone.
+    /// [`project`](Self::project) does not remove. Linear in `dy`. Returns false if the whole derivative counts as
+    /// error. A rejected step is tested again with the tangential error alone.
     fn project_error(&mut self, dy: &mut [f64]) -> bool {
         let _ = dy;
         false
     }
 }
 
-/// Times near which noise dominates f. A method with step control places its steps so that no stage is near such
-/// a time.
+/// Times near which noise dominates f. A method with step control places its steps so that no stage is near such a
+/// time.
 pub trait TimesToAvoid {
-    /// Whether such a time may be near, judged from the evaluations of the current trial. If so, f is also
-    /// evaluated at the end of the trial, even if the error estimate does not need this evaluation.
+    /// Whether such a time may be near, judged from the evaluations of the current trial. If so, f is also evaluated
+    /// at the end of the trial, even if the error estimate does not need this evaluation.
     fn may_be_near(&self) -> bool;
 
-    /// The next such time, if one is within reach. Called after every trial step, accepted or not. `t` is the end
-    /// of the trial; f was evaluated last at or near it.
+    /// The next such time, if one is within reach. Called after every trial step, accepted or not. `t` is the end of
+    /// the trial; f was evaluated last at or near it.
     fn next(&mut self, t: f64) -> Option<f64>;
 
     /// Called at the end of every accepted step, where f was evaluated last.

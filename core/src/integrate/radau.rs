@@ -1,10 +1,10 @@
 //! Radau IIA of order 5 with step control, for constrained mechanical systems that may be stiff.
 //!
 //! The equations are solved at index 2: the velocities satisfy their constraints at every stage, and projection
-//! corrects the positions at the end of a step (see `radau_step`). The predictive controller of Gustafsson
-//! chooses the steps. The tangent is kept while Newton's iteration converges fast, and the factors are kept while
-//! the step is unchanged (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.8). The collocation
-//! polynomials interpolate between the steps.
+//! corrects the positions at the end of a step (see `radau_step`). The predictive controller of Gustafsson chooses
+//! the steps. The tangent is kept while Newton's iteration converges fast, and the factors are kept while the step is
+//! unchanged (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.8). The collocation polynomials
+//! interpolate between the steps.
 
 use super::dae::{Dae, DaeState};
 use super::evaluation_counter::CountedDae;
@@ -226,8 +226,7 @@ impl RadauStepper {
     }
 
     /// Chooses the next step from the errors of this step and the one before (Gustafsson, *Control-theoretic
-    /// techniques for stepsize selection in implicit Runge–Kutta methods*, ACM Trans. Math. Softw. 20 (1994)
-    /// 496).
+    /// techniques for stepsize selection in implicit Runge–Kutta methods*, ACM Trans. Math. Softw. 20 (1994) 496).
     fn accept(&mut self, (h, norm): (f64, f64), factor: f64, safety: f64, rejected: bool) {
         let mut by = factor;
         if let Some((h_before, norm_before)) = self.method.before {

@@ -1,9 +1,9 @@
 //! Radau IIA of order 5 with three stages: nodes, coefficient matrix, its transformation, and collocation
 //! polynomials.
 //!
-//! The matrix A⁻¹ has one real eigenvalue and a pair of complex eigenvalues. T⁻¹ A⁻¹ T is block diagonal with
-//! these eigenvalues, so that the equations of Newton's iteration separate into a real and a complex system
-//! (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.5 and IV.8).
+//! The matrix A⁻¹ has one real eigenvalue and a pair of complex eigenvalues. T⁻¹ A⁻¹ T is block diagonal with these
+//! eigenvalues, so that the equations of Newton's iteration separate into a real and a complex system (Hairer and
+//! Wanner, *Solving Ordinary Differential Equations II*, IV.5 and IV.8).
 
 use std::sync::LazyLock;
 
@@ -46,18 +46,18 @@ pub(super) const T_INVERSE: [[f64; 3]; 3] = [
     [0.502_872_634_945_786_8, -2.571_926_949_855_605, 0.596_039_204_828_224_9],
 ];
 
-/// Factors of the stages in the error estimate, in addition to h f(y₀) divided by the real eigenvalue. The
-/// estimate is the difference from an embedded method of order 3.
+/// Factors of the stages in the error estimate, in addition to h f(y₀) divided by the real eigenvalue. The estimate
+/// is the difference from an embedded method of order 3.
 pub(super) const ERROR: [f64; 3] =
     [(-13.0 - 7.0 * ROOT) / (3.0 * REAL), (-13.0 + 7.0 * ROOT) / (3.0 * REAL), -1.0 / (3.0 * REAL)];
 
 /// Degree of the continuous extension.
 pub(super) const DEGREE: usize = 4;
 
-/// Coefficients of θ … θ⁴ for each row. The first four rows belong to the derivatives of q and the quadratures at
-/// the beginning and at the stages; they integrate the cubic through these derivatives. The next three belong to
-/// the derivatives of the other components at the stages; they integrate the parabola through them. The last row,
-/// 3θ² - 2θ³, belongs to the jump of a projection.
+/// Coefficients of θ … θ⁴ for each row. The first four rows belong to the derivatives of q and the quadratures at the
+/// beginning and at the stages; they integrate the cubic through these derivatives. The next three belong to the
+/// derivatives of the other components at the stages; they integrate the parabola through them. The last row, 3θ² -
+/// 2θ³, belongs to the jump of a projection.
 pub(super) static EXTENSION: LazyLock<[f64; 8 * DEGREE]> = LazyLock::new(|| {
     let mut table = [0.0; 8 * DEGREE];
     let four = [0.0, C[0], C[1], C[2]];

@@ -1,8 +1,8 @@
 //! One step of Radau IIA of order 5 at index 2: Φ_q v + Φ_t = 0 at every stage.
 //!
-//! The unknowns are the increments vᵢ - v₀ and zᵢ - z₀ and the multipliers λᵢ of the stages. The positions are q₀
-//! + h Σ aᵢⱼ vⱼ, and the derivatives of (v, z) are Σ (A⁻¹)ᵢⱼ incrementⱼ / h. For each eigenvalue μ of A⁻¹, the
-//! equations of Newton's iteration for the transformed unknowns are, without z,
+//! The unknowns are the increments vᵢ - v₀ and zᵢ - z₀ and the multipliers λᵢ of the stages. The positions are q₀ + h
+//! Σ aᵢⱼ vⱼ, and the derivatives of (v, z) are Σ (A⁻¹)ᵢⱼ incrementⱼ / h. For each eigenvalue μ of A⁻¹, the equations
+//! of Newton's iteration for the transformed unknowns are, without z,
 //!
 //! ```text
 //! [ M + h/μ D + (h/μ)² K   Φ_qᵀ ] [    w    ]     [ h/μ r ]
@@ -10,8 +10,8 @@
 //! ```
 //!
 //! They are solved once with the real and once with the complex eigenvalue (Hairer and Wanner, *Solving Ordinary
-//! Differential Equations II*, IV.8 and VII.6). The condition number does not grow as h decreases. The order is 5
-//! for q and v, and 3 for λ.
+//! Differential Equations II*, IV.8 and VII.6). The condition number does not grow as h decreases. The order is 5 for
+//! q and v, and 3 for λ.
 
 use super::dae::{ConstraintLevel, Dae, DaeLengths, DaeResidual, Iterate, NewtonCoefficients};
 use super::error_weights::ErrorWeights;
@@ -21,13 +21,13 @@ use super::implicit_state::ImplicitState;
 use super::radau_coefficients::{lagrange, A, C, COMPLEX, ERROR, INVERSE, REAL, T, T_INVERSE};
 use crate::math::{Complex, Field};
 
-/// Relative difference of two step sizes below which the steps share their matrices. Differences of times are
-/// subject to rounding.
+/// Relative difference of two step sizes below which the steps share their matrices. Differences of times are subject
+/// to rounding.
 const SAME: f64 = 1e-6;
 /// Relative size of velocity corrections that are rounding errors, compared with the largest velocity.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// Number of rows of the continuous extension: v at the beginning and at the stages, the derivatives at the
-/// stages, and the jump of a projection.
+/// Number of rows of the continuous extension: v at the beginning and at the stages, the derivatives at the stages,
+/// and the jump of a projection.
 pub(super) const ROWS: usize = 8;
 
 /// The outcome of Newton's iteration.
@@ -284,8 +284,8 @@ impl RadauStep {
         (sum / 3.0_f64).sqrt()
     }
 
-    /// The norm of corrections that contain only rounding errors: of v relative to the largest velocity, of z to
-    /// its own size.
+    /// The norm of corrections that contain only rounding errors: of v relative to the largest velocity, of z to its
+    /// own size.
     fn rounding(&self, scale: &ErrorWeights) -> f64 {
         let (n, end) = (self.dq.len(), &self.stages[2]);
         let largest = end.v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
@@ -296,8 +296,8 @@ impl RadauStep {
     }
 
     /// The estimated error of the step relative to its tolerance. It is the difference from an embedded method of
-    /// order 3, filtered by the real matrix (IV.8.19 and IV.8.20 of the book). With `again`, the estimate is
-    /// repeated from the start moved by the first estimate. A stiff start requires this.
+    /// order 3, filtered by the real matrix (IV.8.19 and IV.8.20 of the book). With `again`, the estimate is repeated
+    /// from the start moved by the first estimate. A stiff start requires this.
     pub fn error<Y: Dae>(
         &mut self,
         system: &mut CountedDae<'_, Y>,

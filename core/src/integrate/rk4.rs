@@ -29,9 +29,9 @@ impl Rk4 {
 /// Weights of the stages.
 const B: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
 
-/// Coefficients of θ … θ⁴ for each stage and for the jump of a projection. They combine θ (1 - θ)² for the
-/// derivative at the beginning, θ² (θ - 1) for the derivative at the end, and 3θ² - 2θ³ for the chord, which is
-/// the weighted mean of the stages.
+/// Coefficients of θ … θ⁴ for each stage and for the jump of a projection. They combine θ (1 - θ)² for the derivative
+/// at the beginning, θ² (θ - 1) for the derivative at the end, and 3θ² - 2θ³ for the chord, which is the weighted
+/// mean of the stages.
 #[rustfmt::skip]
 const HERMITE: [f64; 24] = [
     1.0, -2.0 + 3.0 * B[0], 1.0 - 2.0 * B[0], 0.0,

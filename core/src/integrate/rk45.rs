@@ -1,8 +1,8 @@
 //! Dormand–Prince 5(4): explicit adaptive method with local extrapolation and a continuous extension of order 4.
 //!
 //! The pair is that of Dormand and Prince, *A family of embedded Runge–Kutta formulae*, J. Comput. Appl. Math. 6
-//! (1980) 19. The extension is that of Shampine, *Some practical Runge–Kutta formulas*, Math. Comp. 46 (1986)
-//! 135, with the optimal c₆. The step control is that of `scipy.integrate.RK45`.
+//! (1980) 19. The extension is that of Shampine, *Some practical Runge–Kutta formulas*, Math. Comp. 46 (1986) 135,
+//! with the optimal c₆. The step control is that of `scipy.integrate.RK45`.
 
 use super::runge_kutta::{RungeKutta, TrialStages};
 use super::stages::{rows, rows_mut, sum_at, Block};

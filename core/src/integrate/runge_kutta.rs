@@ -11,8 +11,7 @@ use std::borrow::Cow;
 pub(super) trait RungeKutta: 'static {
     /// Order of the error estimate.
     const ERROR_ORDER: i32;
-    /// Whether the error estimate uses the last stage. If not, the last stage is evaluated for accepted steps
-    /// only.
+    /// Whether the error estimate uses the last stage. If not, the last stage is evaluated for accepted steps only.
     const LAST_IN_ERROR: bool;
     /// Constants of the step-size controller.
     const CONTROL: Control;
@@ -24,11 +23,11 @@ pub(super) trait RungeKutta: 'static {
     const DEGREE: usize;
     /// The widest gap between stages. A time to avoid is passed within it.
     const GAP: Gap;
-    /// Table of the interpolant with STAGES + EXTRA + 1 rows. The last row, 3θ² - 2θ³, moves the end to a
-    /// projected state.
+    /// Table of the interpolant with STAGES + EXTRA + 1 rows. The last row, 3θ² - 2θ³, moves the end to a projected
+    /// state.
     const TABLE: &'static [f64];
-    /// Weights wᵢ of the stages with ∫ y dt = h y_old + h² Σ wᵢ kᵢ over a step, to the order of the method.
-    /// Methods with extra stages define them, for systems that do not need these stages.
+    /// Weights wᵢ of the stages with ∫ y dt = h y_old + h² Σ wᵢ kᵢ over a step, to the order of the method. Methods
+    /// with extra stages define them, for systems that do not need these stages.
     const DOUBLE_QUADRATURE: &'static [f64] = &[];
     /// Table of an interpolant of lower order, with zeros for the extra stages.
     const WITHOUT_EXTRA: &'static [f64] = Self::TABLE;
@@ -36,8 +35,8 @@ pub(super) trait RungeKutta: 'static {
     /// Tolerances and steps.
     fn control(&self) -> Cow<'_, StepControl>;
 
-    /// Computes the stages after the first, which is given, into rows of `k`, and the state at the end into
-    /// `y_new`. The last stage is computed only if [`LAST_IN_ERROR`](Self::LAST_IN_ERROR) is true.
+    /// Computes the stages after the first, which is given, into rows of `k`, and the state at the end into `y_new`.
+    /// The last stage is computed only if [`LAST_IN_ERROR`](Self::LAST_IN_ERROR) is true.
     fn advance<T: TrialStages>(
         trial: &mut T,
         k: &mut [Block],
@@ -64,8 +63,8 @@ pub(super) trait TrialStages {
     /// Number of blocks in a row.
     fn width(&self) -> usize;
 
-    /// out = f(t + c h, y + h Σₛ aₛ kₛ). Whether `out` is finite is checked only in the sums that use it. The
-    /// last of the stages k must therefore be the stage before, with a nonzero weight.
+    /// out = f(t + c h, y + h Σₛ aₛ kₛ). Whether `out` is finite is checked only in the sums that use it. The last of
+    /// the stages k must therefore be the stage before, with a nonzero weight.
     ///
     /// # Errors
     /// Errors of f, and a sum that is not finite.

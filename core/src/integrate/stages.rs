@@ -18,8 +18,8 @@ pub(super) fn width(n: usize) -> usize {
     n.div_ceil(Lanes::WIDTH).max(1)
 }
 
-/// out = y + h Σₛ aₛ kₛ, with an h for each number of a block. Returns whether the sum is finite, without loading
-/// it again.
+/// out = y + h Σₛ aₛ kₛ, with an h for each number of a block. Returns whether the sum is finite, without loading it
+/// again.
 #[inline(always)]
 pub(super) fn combine<const S: usize>(
     y: &[Block],
@@ -45,8 +45,7 @@ pub(super) fn combine<const S: usize>(
     none.are_zero()
 }
 
-/// Σₛ aₛ kₛ of a block. Fused operations gain little and would change steps whose error is close to the
-/// tolerance.
+/// Σₛ aₛ kₛ of a block. Fused operations gain little and would change steps whose error is close to the tolerance.
 #[inline(always)]
 pub(super) fn sum_at<const S: usize>(i: usize, a: [f64; S], k: [&[Block]; S]) -> Lanes {
     let mut sum = Lanes::constant(a[0]) * Lanes::new(k[0][i]);

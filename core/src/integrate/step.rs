@@ -37,8 +37,8 @@ impl Step<'_> {
         self.interpolant.evaluate(self.y_old, ahead, ahead / h, out);
     }
 
-    /// Computes the coefficients b of y(θ) = y_old + h Σₖ bₖ θᵏ, k = 1…[`Interpolant::degree`], θ = (t - t_old) /
-    /// h, into `out`, row-major (len of y) × degree.
+    /// Computes the coefficients b of y(θ) = y_old + h Σₖ bₖ θᵏ, k = 1…[`Interpolant::degree`], θ = (t - t_old) / h,
+    /// into `out`, row-major (len of y) × degree.
     pub fn coefficients(&self, out: &mut [f64]) {
         self.interpolant.coefficients(out);
     }

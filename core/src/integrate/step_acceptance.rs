@@ -77,8 +77,8 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         Step { t_old: self.t, t: accepted.t, y_old, y, dy_old, dy, interpolant }
     }
 
-    /// Computes the integrals of the rates over the step, for the Hermite–Birkhoff interpolants of this step and
-    /// the next.
+    /// Computes the integrals of the rates over the step, for the Hermite–Birkhoff interpolants of this step and the
+    /// next.
     pub(super) fn measure(&mut self, accepted: Accepted) {
         let Work { width, k, y, y_new, hermite_birkhoff, .. } = &mut self.work;
         let Some(hermite_birkhoff) = hermite_birkhoff else { return };
@@ -87,8 +87,8 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         hermite_birkhoff.measure(ends, P::DOUBLE_QUADRATURE, k);
     }
 
-    /// Evaluates the extra stages of the interpolant, if there are any. If they are not finite, the interpolant
-    /// has a lower order.
+    /// Evaluates the extra stages of the interpolant, if there are any. If they are not finite, the interpolant has a
+    /// lower order.
     pub(super) fn extend<Y: Ode>(
         &mut self,
         rhs: &mut RightHandSide<'_, Y>,
@@ -146,8 +146,8 @@ impl<P: RungeKutta> ExplicitStepper<P> {
     }
 }
 
-/// The row of the derivative at the end of a step. It is the last stage, or the row after the jump if the last
-/// stage belongs to the state before a projection.
+/// The row of the derivative at the end of a step. It is the last stage, or the row after the jump if the last stage
+/// belongs to the state before a projection.
 pub(super) fn last_row<P: RungeKutta>(projected: bool) -> usize {
     match projected && P::LAST_IN_ERROR {
         false => P::STAGES - 1,

@@ -11,19 +11,19 @@ pub enum Atol {
     Scalar(f64),
     /// One tolerance for each controlled component.
     Each(Vec<f64>),
-    /// Relative to the scale of each component. A caller that has scales converts it to [`Each`](Self::Each);
-    /// here each scale is 1.
+    /// Relative to the scale of each component. A caller that has scales converts it to [`Each`](Self::Each); here
+    /// each scale is 1.
     Scaled(f64),
 }
 
 /// Tolerances and step options of a method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepControl {
-    /// Relative tolerance of a step. With a constant step, tolerance of Newton's iteration only. Most methods
-    /// raise it to 100 ε ≈ 2.2e-14.
+    /// Relative tolerance of a step. With a constant step, tolerance of Newton's iteration only. Most methods raise
+    /// it to 100 ε ≈ 2.2e-14.
     pub rtol: f64,
-    /// Absolute tolerance of a step, in the units of y. A component that stays zero requires a positive one. With
-    /// a constant step, tolerance of Newton's iteration only.
+    /// Absolute tolerance of a step, in the units of y. A component that stays zero requires a positive one. With a
+    /// constant step, tolerance of Newton's iteration only.
     pub atol: Atol,
     /// Constant step size, whatever the error. It is positive also when integrating backward, and excludes
     /// `first_step` and `max_step`. Steps end at t0 + k `step`, computed by multiplication. The last step is
@@ -33,8 +33,8 @@ pub struct StepControl {
     pub first_step: Option<f64>,
     /// Largest step.
     pub max_step: f64,
-    /// Largest number of accepted steps. If steps of length `max_step` need more, the integration fails before
-    /// the first step.
+    /// Largest number of accepted steps. If steps of length `max_step` need more, the integration fails before the
+    /// first step.
     pub max_steps: Option<usize>,
 }
 
@@ -87,8 +87,8 @@ impl StepControl {
         Self { rtol, ..self.clone() }
     }
 
-    /// Checks the options, the times, and that `y` has the length `len`. Returns the ends of the steps if the
-    /// step is constant.
+    /// Checks the options, the times, and that `y` has the length `len`. Returns the ends of the steps if the step is
+    /// constant.
     pub(super) fn begin<E>(
         &self,
         (t0, t_end): (f64, f64),

@@ -1,7 +1,7 @@
 //! Steps that avoid a time near which noise dominates the derivative.
 //!
-//! A step passes such an obstacle within its widest gap between stages, with the obstacle in the middle of the
-//! gap. If the obstacle is too far ahead, a shorter step comes first and ends where the passing step must begin.
+//! A step passes such an obstacle within its widest gap between stages, with the obstacle in the middle of the gap.
+//! If the obstacle is too far ahead, a shorter step comes first and ends where the passing step must begin.
 //!
 //! Stages near the obstacle contain noise. In stages far from it, a deviation from the constraints has a larger
 //! effect. Therefore a passing step has an optimal length. If its error is still too large, shorter steps only
@@ -11,8 +11,8 @@ use super::step_size::Control;
 
 /// Largest distance of an obstacle from the middle of the gap, as a fraction of the half-width of the gap.
 const OFF: f64 = 0.8;
-/// A step is unchanged if the obstacle lies beyond its end by at least this fraction of the distance from its
-/// start to the middle of the gap.
+/// A step is unchanged if the obstacle lies beyond its end by at least this fraction of the distance from its start
+/// to the middle of the gap.
 const BEFORE: f64 = 0.7;
 /// Largest factor by which a step may grow to pass an obstacle.
 const LONGER: f64 = 1.1;
@@ -22,8 +22,8 @@ const BEHIND: f64 = 0.04;
 const LEAST: f64 = 0.05;
 /// Largest number of placements of a step.
 const MOST: usize = 3;
-/// Factor on error norms after an obstacle was met. Near an obstacle only the tangential part of an error counts,
-/// and this part is determined at one state for all stages.
+/// Factor on error norms after an obstacle was met. Near an obstacle only the tangential part of an error counts, and
+/// this part is determined at one state for all stages.
 const STRICT: f64 = 2.5;
 
 /// A shorter passing step is tried only if the last one was better than the best earlier one by this factor.
@@ -63,8 +63,8 @@ impl StepPlacement {
         *self = Self { met: self.met, least, ..Self::default() };
     }
 
-    /// Whether the current trial is accepted although its error norm is too large. It is accepted if it passes
-    /// the obstacle and similar trials were not much worse.
+    /// Whether the current trial is accepted although its error norm is too large. It is accepted if it passes the
+    /// obstacle and similar trials were not much worse.
     pub fn at_best(&mut self, norm: f64, rtol: f64) -> bool {
         if !std::mem::take(&mut self.passing) || !norm.is_finite() {
             return false;
@@ -74,8 +74,8 @@ impl StepPlacement {
         best && norm * rtol < AT_BEST
     }
 
-    /// The step to try instead of a step of magnitude `h`. The obstacle is `ahead` of the start of the step
-    /// (negative if it lies behind), and `left` is the distance to the end of the integration.
+    /// The step to try instead of a step of magnitude `h`. The obstacle is `ahead` of the start of the step (negative
+    /// if it lies behind), and `left` is the distance to the end of the integration.
     pub fn instead(&mut self, gap: Gap, h: f64, ahead: f64, left: f64) -> Option<f64> {
         self.met |= ahead > 0.0 && ahead < h;
         let Gap { middle, half } = gap;

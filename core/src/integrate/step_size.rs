@@ -5,10 +5,10 @@
 //! h_new = h min(most, factor),   factor = safety norm^(-1/k),   k the order of the estimate + 1,
 //! ```
 //!
-//! The constants depend on the method. A controller may hold its step: a factor above 1 is divided by `hold`, but
-//! not below 1. A step therefore grows only if it is too short by more than the factor `hold`. Controllers with a
-//! memory of errors (Gustafsson 1991; Söderlind, *Digital filters in adaptive time-stepping*, ACM TOMS 29 (2003)
-//! 1) performed worse for mechanisms: `docs/performance.md`.
+//! The constants depend on the method. A controller may hold its step: a factor above 1 is divided by `hold`, but not
+//! below 1. A step therefore grows only if it is too short by more than the factor `hold`. Controllers with a memory
+//! of errors (Gustafsson 1991; Söderlind, *Digital filters in adaptive time-stepping*, ACM TOMS 29 (2003) 1)
+//! performed worse for mechanisms: `docs/performance.md`.
 
 /// Factor on the step after the system refused the state at its end.
 const REFUSED: f64 = 0.7;
@@ -78,8 +78,8 @@ impl StepSize {
         self.size = h * (self.control.safety * norm.powf(self.exponent)).max(MIN_FACTOR);
     }
 
-    /// Updates the size after the system refused the end of a step of magnitude `h`. The next step may grow at
-    /// once, past the refused end.
+    /// Updates the size after the system refused the end of a step of magnitude `h`. The next step may grow at once,
+    /// past the refused end.
     pub fn refuse(&mut self, h: f64) {
         self.rejected = false;
         self.size = h * REFUSED;
@@ -94,8 +94,8 @@ pub(super) fn least_step(t: f64, direction: f64) -> f64 {
     MIN_SPACINGS * (next - t.abs()).abs()
 }
 
-/// First guess of the first step, from a first-order method (the algorithm of II.4 before its trial step). `d0`
-/// and `d1` are the scaled norms of y and f.
+/// First guess of the first step, from a first-order method (the algorithm of II.4 before its trial step). `d0` and
+/// `d1` are the scaled norms of y and f.
 pub(super) fn probing_step(d0: f64, d1: f64, interval: f64) -> f64 {
     let guess = if d0 < 1e-5 || d1 < 1e-5 { 1e-6 } else { 0.01 * d0 / d1 };
     guess.min(interval)

@@ -1,7 +1,7 @@
 //! Steppers advance an initial value problem by one accepted step at a time.
 //!
-//! A method ([`ExplicitMethod`], [`ImplicitMethod`]) starts a [`Stepper`] for a system `Y`, which is passed to
-//! each call.
+//! A method ([`ExplicitMethod`], [`ImplicitMethod`]) starts a [`Stepper`] for a system `Y`, which is passed to each
+//! call.
 
 use super::dae::Dae;
 use super::events::{self, Direction};
@@ -22,8 +22,8 @@ pub trait Stepper<Y, E> {
     /// At t_end.
     fn step(&mut self, system: &mut Y) -> Result<(), Cause<E>>;
 
-    /// Performs the evaluations that only the interpolant of the last step needs. Without this call the
-    /// interpolant has a lower order. It must be called before the next step.
+    /// Performs the evaluations that only the interpolant of the last step needs. Without this call the interpolant
+    /// has a lower order. It must be called before the next step.
     ///
     /// # Errors
     /// [`Cause::Equations`].
@@ -41,8 +41,8 @@ pub trait Stepper<Y, E> {
     /// State reached.
     fn y(&self) -> &[f64];
 
-    /// Continues from a state `y` at a time `t` within the last step, for instance after an event that changes
-    /// the velocities. The solution then has two states at this time: the end of the last step and `y`.
+    /// Continues from a state `y` at a time `t` within the last step, for instance after an event that changes the
+    /// velocities. The solution then has two states at this time: the end of the last step and `y`.
     ///
     /// # Errors
     /// [`Cause::Argument`].

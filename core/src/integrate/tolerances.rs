@@ -125,8 +125,8 @@ impl LaneTolerances {
 impl Squares for LaneTolerances {
     type Sum = Block;
 
-    /// Computes the same sums as for each integration alone, to the last bit, because the components are added in
-    /// the same order.
+    /// Computes the same sums as for each integration alone, to the last bit, because the components are added in the
+    /// same order.
     #[inline(always)]
     fn squares<const Q: usize>(
         &self,

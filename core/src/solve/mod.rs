@@ -5,8 +5,7 @@
 //! A [`Pattern`] is computed once for each structure (groups of one to three unknowns, blocks of one to three rows).
 //! A [`Saddle`] contains the numbers of one matrix and of its factors. A solution has these steps:
 //!
-//! 1. Condense: a pair of rows at only one group, such as a joint to ground, leaves its group one degree of freedom
-//! e.
+//! 1. Condense: a pair of rows at only one group, such as a joint to ground, leaves the group one freedom e.
 //! 2. Divide the right side of all other groups by their mass: x = W⁻¹ f.
 //! 3. Assemble the Schur complement S = A W⁻¹ Aᵀ + μ I and its right side y = A x - g, row block by row block.
 //! 4. Eliminate, S = L D Lᵀ, and compute y ← L⁻¹ y at the same time.
@@ -21,13 +20,11 @@
 //! |---|---|---|---|---|
 //! | `masses` | W⁻¹ = diag(d₀⁻¹, d₁⁻¹, 0) + d₂⁻¹ e eᵀ: 7 numbers | groups | owner; e of condensed groups by step 1 | before 1 |
 //! | `condensed` | W and the particular solution P: 10 numbers | condensed pairs | W by owner, P by step 1 | before 1 |
-//! | `entries` | A in rows of three; the columns ±I do not change | rows × groups touched | owner | before 1, or in 1
-//! and 3 |
+//! | `entries` | A in rows of three; the columns ±I do not change | rows × groups touched | owner | before 1, or in 1 and 3 |
 //! | `damping` | μ | rows, or 0 | owner | before 3 |
 //! | `pins` | rows [±I b] with the mass of their group: 6 numbers | such rows × groups | step 3 | 3, read in 4 and 5 |
 //! | `u` | other rows, transformed by W⁻¹: 6 numbers | such rows × groups | step 3 | 3, read in 4 and 5 |
-//! | `factors` | S, then L D and D⁻¹, and the sums with which pivots are compared | blocks of L | diagonal blocks by
-//! step 3, all by step 4 | 3, 4 |
+//! | `factors` | S, then L D and D⁻¹, and the sums with which pivots are compared | blocks of L | diagonal blocks by step 3, all by step 4 | 3, 4 |
 //!
 //! The solution (x, λ) replaces the right side (f, g) in place; its length is [`Pattern::n_unknowns`] +
 //! [`Pattern::n_rows`]. For a group with fewer than three unknowns, three are read and written nevertheless, and its
