@@ -9,8 +9,8 @@
 //! | trait | content | used for |
 //! |---|---|---|
 //! | [`Ode`] | `len`, `rate`: the required methods | every explicit method |
-//! | [`Structure`] (a value) | numbers of positions, first-order states and quadratures | error norm, cheaper interpolant |
-//! | [`Manifold`] | projection of an accepted state; tangential part of an error | drift, errors near singular positions |
+//! | [`Structure`] (a value) | numbers of positions, states and quadratures | error norm, cheaper interpolant |
+//! | [`Manifold`] | projection of a state; tangential part of an error | drift, errors near singular positions |
 //! | [`TimesToAvoid`] | times near which noise dominates f | placement of steps |
 //! | [`TrialChanges`] | changes of f before a trial step | gains that follow the step |
 //! | [`Dae`] | residuals, tangent, factorised matrices of a constrained system | every implicit method |
