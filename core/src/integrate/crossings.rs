@@ -64,9 +64,9 @@ pub fn scan(
 }
 
 /// Returns all sign changes, with a direction for each function. They are sorted by time, and simultaneous changes by
-/// function. Changes after the first change of a function that `ends` are left out. The step is divided into `parts`.
-/// A part is divided further where a parabola through three samples reaches zero or the samples do not follow a
-/// parabola. This resolves functions that oscillate within a step.
+/// function. Changes after the first change of a function that `ends` the step are omitted. The step is divided into
+/// `parts`. A part is divided further where a parabola through three samples reaches zero or the samples do not
+/// follow a parabola. This resolves functions that oscillate within a step.
 pub fn crossings(
     step: &Step<'_>,
     parts: usize,
@@ -260,7 +260,7 @@ impl<'a, 'b> Sampled<'a, 'b> {
     }
 
     /// Samples just before and just past the earliest change. A change is located only if it may come before the
-    /// changes located so far. This holds for few changes, unless they are simultaneous up to rounding errors.
+    /// changes located so far. Only few changes come earlier, unless they are simultaneous up to rounding errors.
     fn earliest<'c>(
         &mut self,
         changes: impl Iterator<Item = &'c SignChange>,
@@ -325,7 +325,8 @@ impl<'a, 'b> Sampled<'a, 'b> {
         (t, self.at(t).to_vec())
     }
 
-    /// Searches between three samples of equal sign for a point beyond zero. Returns it with its two neighbours.
+    /// Searches between three samples of equal sign for a point on the other side of zero. Returns the point with its
+    /// two neighbours.
     fn turn(&mut self, index: usize, mut points: [Point; 3]) -> Option<[Point; 3]> {
         let sign = points[1].1.signum();
         for _ in 0..PARABOLAS {

@@ -24,7 +24,7 @@ use super::trial::Trial;
 use crate::math::{Lanes, Real};
 use std::marker::PhantomData;
 
-/// Number of rejected steps that ends an integration. The limit is half of `max_steps` if that is larger.
+/// Number of rejected steps that ends an integration with `max_steps`, or half of `max_steps` if that is larger.
 const MANY: usize = 10_000;
 
 /// Relative error of a step above which projection cannot be relied on to remove the normal part.

@@ -93,8 +93,8 @@ impl<'a> Stages<'a> {
         self.stages.chunks_exact(self.len.max(1)).zip(rows)
     }
 
-    /// out = y_old + ahead Σₛ wₛ(θ) / θ kₛ. Not inlined, because the other form of the interpolant needs no registers
-    /// for it.
+    /// out = y_old + ahead Σₛ wₛ(θ) / θ kₛ. Not inlined, because the other form, with polynomials, does not need its
+    /// registers.
     #[inline(never)]
     fn evaluate(&self, degree: usize, y_old: &[f64], at: (f64, f64), out: &mut [f64]) {
         // a constant degree lets the compiler unroll the inner loops, here and in `coefficients`

@@ -103,7 +103,7 @@ pub trait Manifold {
 /// Times near which noise dominates f. A method with step control places its steps so that no stage is near such a
 /// time.
 pub trait TimesToAvoid {
-    /// Whether such a time may be near, judged from the evaluations of the current trial. If so, f is also evaluated
+    /// Whether such a time may be near, according to the evaluations of the current trial. If so, f is also evaluated
     /// at the end of the trial, even if the error estimate does not need this evaluation.
     fn may_be_near(&self) -> bool;
 

@@ -153,7 +153,7 @@ impl StepControl {
         Ok(())
     }
 
-    /// Checks that no other step option is set beside a constant step.
+    /// Checks that no other step option is set together with a constant step.
     fn check_constant<E>(&self) -> Result<(), Cause<E>> {
         const ABSENT: &str = "absent beside a constant step";
         require(self.first_step.is_none(), "first_step", self.first_step.unwrap_or(0.0), ABSENT)?;

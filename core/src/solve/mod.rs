@@ -5,7 +5,7 @@
 //! A [`Pattern`] is computed once for each structure (groups of one to three unknowns, blocks of one to three rows).
 //! A [`Saddle`] contains the numbers of one matrix and of its factors. A solution has these steps:
 //!
-//! 1. Condense: a pair of rows at only one group, such as a joint to ground, leaves the group one freedom e.
+//! 1. Condense: a pair of rows at one group only, such as a joint to ground, leaves one degree of freedom e.
 //! 2. Divide the right side of all other groups by their mass: x = W⁻¹ f.
 //! 3. Assemble the Schur complement S = A W⁻¹ Aᵀ + μ I and its right side y = A x - g, row block by row block.
 //! 4. Eliminate, S = L D Lᵀ, and compute y ← L⁻¹ y at the same time.

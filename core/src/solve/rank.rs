@@ -25,7 +25,8 @@ pub struct Rank {
     /// Orthonormal basis of the left null space, (m - rank) vectors of length m. Of the dependent rows, the k-th
     /// vector contains `dependent[k]` and possibly earlier ones.
     pub left_null: Vec<Vec<f64>>,
-    /// |r_kk|: the remainder of each independent row when it was chosen. The values are of the order of the singular values, but not sorted.
+    /// |r_kk|: the remainder of each independent row when it was chosen. The values are of the order of the singular
+    /// values, but not sorted.
     pub kept: Vec<f64>,
     /// Remainder of the largest dependent row; 0 without dependent rows.
     pub dropped: f64,

@@ -1,7 +1,7 @@
 //! Dense symmetric matrices: eigenvalues, eigenvectors, and a test of positive definiteness.
 //!
 //! Cyclic Jacobi rotations (Golub and Van Loan, *Matrix Computations*, 4th ed., 8.5) compute small eigenvalues
-//! accurately beside large ones.
+//! accurately even if others are large.
 
 /// Largest number of sweeps; five to ten are usual.
 const SWEEPS: usize = 60;
@@ -43,7 +43,7 @@ impl Eigen {
     }
 }
 
-/// Makes the entry (p, q) zero by a rotation, unless it is negligible beside the diagonal. Returns whether it
+/// Makes the entry (p, q) zero by a rotation, unless it is negligible compared with the diagonal. Returns whether it
 /// rotated.
 fn rotate(a: &mut [f64], n: usize, (p, q): (usize, usize), vectors: &mut [Vec<f64>]) -> bool {
     let [app, aqq, apq] = [a[p * n + p], a[q * n + q], a[p * n + q]];
