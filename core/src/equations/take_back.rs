@@ -38,7 +38,7 @@ struct AddedMotion<S> {
     factor: S,
 }
 
-/// The motions of all additions at one state.
+/// The directions y of all additions at one state.
 #[derive(Clone, Debug)]
 pub(super) struct Directions<S> {
     all: Vec<AddedMotion<S>>,
@@ -52,7 +52,7 @@ impl<S> Default for Directions<S> {
     }
 }
 
-/// Possible faults of the motions.
+/// Possible faults of the directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Doubts {
     /// Rounding errors grow when inertia is removed.
@@ -62,7 +62,7 @@ pub(super) struct Doubts {
 }
 
 impl<S: Real> Directions<S> {
-    /// Computes the motions with the factors of the matrix.
+    /// Computes the directions with the factors of the matrix.
     pub fn find(
         &mut self,
         model: &Model<S>,

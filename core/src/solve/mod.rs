@@ -18,13 +18,13 @@
 //!
 //! | array of [`Saddle`] | contents | length | filled by | when |
 //! |---|---|---|---|---|
-//! | `masses` | W⁻¹ = diag(d₀⁻¹, d₁⁻¹, 0) + d₂⁻¹ e eᵀ: 7 numbers | groups | owner; e of condensed groups by step 1 | before 1 |
+//! | `masses` | W⁻¹ = diag(d₀⁻¹, d₁⁻¹, 0) + d₂⁻¹ e eᵀ: 7 numbers | groups | owner; condensed e by step 1 | before 1 |
 //! | `condensed` | W and the particular solution P: 10 numbers | condensed pairs | W by owner, P by step 1 | before 1 |
 //! | `entries` | A in rows of three; columns ±I are constant | rows × groups touched | owner | before 1, or in 1, 3 |
 //! | `damping` | μ | rows, or 0 | owner | before 3 |
 //! | `pins` | rows [±I b] with the mass of their group: 6 numbers | such rows × groups | step 3 | 3, read in 4 and 5 |
 //! | `u` | other rows, transformed by W⁻¹: 6 numbers | such rows × groups | step 3 | 3, read in 4 and 5 |
-//! | `factors` | S, then L D and D⁻¹; the sums for the pivot test | blocks of L | step 3 the diagonal, step 4 all | 3, 4 |
+//! | `factors` | S, then L D and D⁻¹; sums of the pivot test | blocks of L | step 3 (diagonal), step 4 | 3, 4 |
 //!
 //! The solution (x, λ) replaces the right side (f, g) in place; its length is [`Pattern::n_unknowns`] +
 //! [`Pattern::n_rows`]. For a group with fewer than three unknowns, three are read and written nevertheless, and its
