@@ -1,30 +1,31 @@
-//! Which bodies are light, and how much inertia they need so that M can be inverted block by block without loss of digits.
+//! Finds the light bodies, and the inertia with which M can be inverted block by block without loss of digits.
 //!
-//! `equations/lending.rs` lets them borrow it from their neighbours, or adds it.
+//! Light bodies borrow this inertia from their neighbours, or it is added (`equations/lending.rs`).
 //!
-//! A body is light if it carries loads between heavier ones. Its branches are what each of its joints leads to; ground is
-//! a branch of infinite mass. Only the load of the second heaviest branch passes through the body. So a light pendulum on
-//! a heavy cart has no addition, because it has one branch, and neither has a watch beside a locomotive, because no joint
-//! connects them. Where two branches lead to ground, the heaviest body that is connected counts.
+//! A body is light if it transmits loads between heavier bodies. A branch of a body is the part of the mechanism to
+//! which one of its joints leads; ground is a branch of infinite mass. Only the load of the second heaviest branch
+//! passes through the body. A light pendulum on a heavy cart needs no addition, because it has only one branch. A
+//! watch beside a locomotive needs none either, because no joint connects them. If two branches lead to ground, the
+//! heaviest connected body counts.
 
 use crate::math::Real;
 use crate::model::{Body, Model};
 
-/// Mass relative to the bodies between which a body lies, below which it is light. A pivot that is cancelled to this
-/// part loses three digits.
+/// Mass, relative to the bodies between which a body lies, below which the body is light. A pivot that is reduced to
+/// this fraction by cancellation loses three digits.
 const LIGHT: f64 = 1e-3;
-/// The mass that a light body has then, in the same unit.
+/// Mass of a light body after the addition, relative to the same bodies.
 const FLOOR: f64 = 1e-2;
-/// The same for moments of inertia relative to m l²: a slender bar has 1/12 of that.
+/// Factor on both limits for moments of inertia relative to m l². A slender bar has 1/12 of m l².
 const TURNING: f64 = 0.1;
-/// A body with less is light for implicit methods. Their matrix contains the additions, and Newton's iteration takes them
-/// back, so that they must be small.
+/// Limit below which a body is light for implicit methods. Their matrix contains the additions, and Newton's
+/// iteration removes their effect, so that they must be small.
 const LIGHT_IMPLICIT: f64 = 1e-12;
-/// The mass that it has then.
+/// Mass of such a body after the addition.
 const FLOOR_IMPLICIT: f64 = 1e-9;
 /// Mass of the internal coordinates of elements, relative to the heaviest body.
 const OWN: f64 = 1e-4;
-/// The same in the matrix of implicit methods.
+/// Mass of the internal coordinates in the matrix of implicit methods.
 const OWN_IMPLICIT: f64 = 1e-7;
 
 /// Mass, kg, and moment of inertia about the mass centre, kg·m², that a light body needs; zero for other bodies.
@@ -43,12 +44,12 @@ impl Added {
     }
 }
 
-/// What each body needs, ground first, while the equations of motion are solved.
+/// The inertia that each body needs, ground first, for the solution of the equations of motion.
 pub(super) fn added<S: Real>(model: &Model<S>) -> Vec<Added> {
     additions(model, LIGHT, FLOOR)
 }
 
-/// The same in the matrix of implicit methods.
+/// The inertia that each body needs, ground first, in the matrix of implicit methods.
 pub(super) fn added_implicit(model: &Model) -> Vec<Added> {
     additions(model, LIGHT_IMPLICIT, FLOOR_IMPLICIT)
 }
@@ -59,7 +60,7 @@ pub(super) fn own_mass<S: Real>(bodies: &[Body<S>]) -> f64 {
     OWN * if heaviest > 0.0 { heaviest } else { 1.0 }
 }
 
-/// The same in the matrix of implicit methods.
+/// Mass added to the internal coordinates in the matrix of implicit methods, kg.
 pub(super) fn own_mass_implicit(bodies: &[Body]) -> f64 {
     own_mass(bodies) * (OWN_IMPLICIT / OWN)
 }
@@ -87,7 +88,7 @@ fn additions<S: Real>(model: &Model<S>, light: f64, floor: f64) -> Vec<Added> {
     std::iter::once(Added::default()).chain(moving.map(one)).collect()
 }
 
-/// The bodies as numbers, and the joints between them.
+/// The inertias of the bodies as numbers, and the joints between the bodies.
 struct Bodies {
     mass: Vec<f64>,
     inertia: Vec<f64>,
@@ -95,13 +96,13 @@ struct Bodies {
     reach: Vec<f64>,
     /// The larger of J and m l², kg·m².
     turning: Vec<f64>,
-    /// The bodies of each joint and driver, and whether it is a pin.
+    /// The bodies of each joint and driver, and whether the joint is a pin.
     joints: Vec<(Vec<usize>, bool)>,
     /// The joints of each body.
     of_body: Vec<Vec<usize>>,
 }
 
-/// What a joint leads to.
+/// The largest inertia of the branch to which a joint leads, and whether the branch contains ground.
 #[derive(Clone, Copy, Default)]
 struct Branch {
     mass: f64,
@@ -134,8 +135,8 @@ impl Bodies {
         Self { mass, inertia, reach, turning, joints, of_body }
     }
 
-    /// The mass and the moment of inertia relative to which body `k` is light; zero if it lies between no others, except
-    /// that a body without mass or inertia always gets a number.
+    /// The mass and the moment of inertia relative to which body `k` is light. Zero if it does not lie between other
+    /// bodies, except that a body without mass or inertia always has a positive value.
     fn between(&self, k: usize) -> [f64; 2] {
         let mut label = vec![usize::MAX; self.mass.len()];
         let mut branches: Vec<Branch> = Vec::new();
@@ -181,7 +182,7 @@ impl Bodies {
         ]
     }
 
-    /// Labels the bodies that joints connect with `start`, without body `k` and ground.
+    /// Labels the bodies that joints connect with `start`, except body `k` and ground. Returns their branch.
     fn spread(&self, k: usize, start: usize, name: usize, label: &mut [usize]) -> Branch {
         let (mut found, mut next) = (Branch::default(), vec![start]);
         label[start] = name;
@@ -211,13 +212,13 @@ impl Branch {
         }
     }
 
-    /// The weight with which it counts, and the number that replaces an infinite one.
+    /// The weight of the branch, infinite for ground, and the finite number that replaces an infinite weight.
     fn of(&self, finite: f64) -> (f64, f64) {
         (if self.grounded { f64::INFINITY } else { finite }, finite)
     }
 }
 
-/// The second largest; if it is infinite, the largest finite number of all.
+/// The second largest weight. If it is infinite, the largest of all finite numbers.
 fn second(mut branches: Vec<(f64, f64)>) -> f64 {
     branches.sort_by(|a, b| b.0.total_cmp(&a.0));
     match branches.get(1) {
@@ -227,7 +228,7 @@ fn second(mut branches: Vec<(f64, f64)>) -> f64 {
     }
 }
 
-/// The value of a number that is the same in every lane.
+/// The value of a number that is equal in all lanes.
 pub(super) fn number<S: Real>(x: S) -> f64 {
     x.largest_magnitude()
 }

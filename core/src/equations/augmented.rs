@@ -1,7 +1,7 @@
-//! The augmented matrix [W Φ_qᵀ; Φ_q -μ I] of a model, on a pattern found once.
+//! The augmented matrix [W Φ_qᵀ; Φ_q -μ I] of a model, on a precomputed pattern.
 //!
-//! With W = M and μ = 0 it is the matrix of the equations of motion (Haug 6.3.18); with W = I it
-//! gives the smallest step of Newton's method, with μ > 0 a damped one.
+//! With W = M and μ = 0 it is the matrix of the equations of motion (Haug 6.3.18). With W = I it gives the smallest
+//! step of Newton's method, and with μ > 0 a damped step.
 
 use super::lending::Lent;
 use super::loans::{self, Addition};
@@ -12,66 +12,66 @@ use crate::model::Model;
 use crate::solve::{Breakdown, InverseMass, Saddle};
 use std::sync::Arc;
 
-/// ε² near singular positions. A small ε amplifies the rounding errors of positions by 1/ε; a large ε disturbs the
-/// motion for a time in proportion to ε. `docs/performance.md` has the errors for other values.
+/// The ridge ε² near singular positions. A small ε amplifies the rounding errors of positions by 1/ε. A large ε
+/// disturbs the motion for a time proportional to ε. `docs/performance.md` lists the errors for other values.
 pub const RIDGE: f64 = 1e-10;
 
-/// Damping of a row that is left out: beside it every other number is below rounding, and its multiplier is zero.
+/// Damping of an omitted row. All other terms of the row are then below rounding, and its multiplier is zero.
 const OMITTED: f64 = 1e100;
 
-/// The policy of a factorisation near a singular position, where a row of Φ_q comes near to dependence.
+/// The policy of a factorisation near a singular position, where a row of Φ_q is nearly dependent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum NearSingular {
-    /// Factorises as everywhere; only dependent rows are an error.
+    /// Factorises as usual. Only dependent rows are an error.
     #[default]
     Ignore,
-    /// Factorises with the ridge ε² = [`RIDGE`], which bounds the multipliers.
+    /// Factorises with the ridge ε² = [`RIDGE`], which keeps the multipliers bounded.
     Regularise,
     /// Returns an error.
     Refuse,
 }
 
-/// Matrix and factors, on a shared plan.
+/// The matrix and its factors, on a shared plan.
 #[derive(Clone, Debug)]
 pub struct Augmented<S = f64> {
     plan: Arc<Plan>,
     saddle: Saddle<S>,
-    /// What light bodies have beside their own inertia in W.
+    /// The inertia that is lent or added to light bodies in W.
     lent: Option<Arc<Lent<S>>>,
     near_singular: NearSingular,
-    /// Whether the current factor has the ridge.
+    /// Whether the current factors contain the ridge.
     regularised: bool,
-    /// The rows that are left out.
+    /// The omitted rows.
     omitted: Vec<usize>,
 }
 
 impl<S: Real> Augmented<S> {
-    /// Memory and elimination order for a model, see [`Plan::free`].
+    /// A matrix with the elimination order of [`Plan::free`].
     pub fn new<P: Real>(model: &Model<P>) -> Self {
         Self::on(Arc::new(Plan::free(model)))
     }
 
-    /// Memory for a plan that was made for the model.
+    /// A matrix on a given plan of the model.
     pub fn on(plan: Arc<Plan>) -> Self {
         let saddle = Saddle::new(&plan.pattern);
         let near_singular = NearSingular::Ignore;
         Self { saddle, plan, lent: None, near_singular, regularised: false, omitted: Vec::new() }
     }
 
-    /// The plan, for others of the same model.
+    /// The plan, which other matrices of the same model can share.
     pub fn plan(&self) -> &Arc<Plan> {
         &self.plan
     }
 
-    /// Plan and numbers for an evaluation that puts its rows into the matrix piece by piece. The inertia that does not
-    /// depend on the state must be set already. The factor then has no ridge.
+    /// Plan and numbers, for an evaluation that writes its rows into the matrix one by one. The state-independent
+    /// inertia must have been set. The factors then contain no ridge.
     #[inline(always)]
     pub(super) fn parts_mut(&mut self) -> (&Plan, &mut Saddle<S>) {
         self.regularised = false;
         (&self.plan, &mut self.saddle)
     }
 
-    /// W = M at the given motions, with what is lent and added to light bodies.
+    /// Sets W = M at the given motions, including the inertia lent and added to light bodies.
     pub fn set_mass(&mut self, compiled: &Compiled<S>, motions: &[Motion<S>]) {
         self.set_inertia(compiled);
         let Self { plan, saddle, .. } = self;
@@ -82,7 +82,7 @@ impl<S: Real> Augmented<S> {
         }
     }
 
-    /// The part of W = M that does not depend on the state.
+    /// Sets the part of W = M that does not depend on the state.
     pub(super) fn set_inertia(&mut self, compiled: &Compiled<S>) {
         let lent = compiled.lent(self.plan.condenses);
         let (bodies, own) = self.saddle.masses.split_at_mut(lent.inertias.len());
@@ -98,7 +98,7 @@ impl<S: Real> Augmented<S> {
         self.lent = Some(Arc::clone(lent));
     }
 
-    /// W diagonal, shape (n_q).
+    /// Sets a diagonal W, shape (n_q).
     ///
     /// # Panics
     /// If grounded bodies are condensed.
@@ -113,7 +113,7 @@ impl<S: Real> Augmented<S> {
         self.lent = None;
     }
 
-    /// The entries of Φ_q, to be filled.
+    /// The entries of Φ_q, for writing.
     pub fn jacobian_mut(&mut self) -> &mut [S] {
         self.saddle.entries.as_flattened_mut()
     }
@@ -133,7 +133,7 @@ impl<S: Real> Augmented<S> {
         self.saddle.damping.extend(mu);
     }
 
-    /// Leaves out these rows and no others: their multipliers vanish, and nothing else depends on them.
+    /// Omits these rows and no others. Their multipliers vanish, and no other result depends on them.
     ///
     /// # Panics
     /// If grounded bodies are condensed.
@@ -145,12 +145,12 @@ impl<S: Real> Augmented<S> {
         self.omitted.extend_from_slice(rows);
     }
 
-    /// Whether redundant rows are damped, so that none is left out.
+    /// Whether redundant rows are damped, so that no row is omitted.
     pub fn damps(&self) -> bool {
         !self.saddle.damping.is_empty() && self.omitted.is_empty()
     }
 
-    /// The rows that are left out.
+    /// The omitted rows.
     pub fn omitted(&self) -> &[usize] {
         &self.omitted
     }
@@ -172,15 +172,15 @@ impl<S: Real> Augmented<S> {
         self.near_singular
     }
 
-    /// Whether the current factor is that of a near singular position, with the ridge.
+    /// Whether the current factors contain the ridge of a near singular position.
     pub fn regularised(&self) -> bool {
         self.regularised
     }
 
-    /// Factorises.
+    /// Factorises the matrix.
     ///
     /// # Errors
-    /// The row of Φ_q that depends on the others, or a coordinate without mass.
+    /// The row of Φ_q that depends on other rows, or a coordinate without mass.
     pub fn factor(&mut self) -> Result<(), Breakdown> {
         self.regularised = false;
         let refused = match self.saddle.factor(&self.plan.pattern) {
@@ -194,18 +194,18 @@ impl<S: Real> Augmented<S> {
         }
     }
 
-    /// Whether inertia is added to light bodies, so that the matrix is not that of the equations.
+    /// Whether inertia is added to light bodies, so that the matrix differs from that of the equations.
     pub fn adds_inertia(&self) -> bool {
         !self.additions().is_empty()
     }
 
-    /// What is added to W, so that the matrix is not that of the equations.
+    /// The additions to W, by which the matrix differs from that of the equations.
     #[inline(always)]
     pub(super) fn additions(&self) -> &[Addition] {
         self.lent.as_ref().map_or(&[], |lent| &lent.additions)
     }
 
-    /// Solves in place; (q part, multiplier part), shape (n_q + n_rows).
+    /// Solves in place. x has the parts (q, multipliers), shape (n_q + n_rows).
     pub fn solve(&self, x: &mut [S]) {
         let padding = self.plan.pattern.n_unknowns() + self.plan.pattern.n_rows() - x.len();
         if padding == 0 {
@@ -219,7 +219,7 @@ impl<S: Real> Augmented<S> {
         rows.copy_from_slice(&padded[q.len() + padding..]);
     }
 
-    /// The same with the unknowns that pad the last group; loans are applied.
+    /// Solves in place with the unknowns that pad the last group. Applies the loans.
     fn solve_padded(&self, x: &mut [S]) {
         let Plan { pattern, .. } = &*self.plan;
         let loans = self.lent.as_ref().map_or(&[][..], |lent| &lent.loans);
@@ -230,7 +230,7 @@ impl<S: Real> Augmented<S> {
         loans::give_back(loans, &self.saddle.entries, a, lam);
     }
 
-    /// The solution for a load at one coordinate alone, into `x`, shape (n_unknowns + n_rows).
+    /// Solves for a load at a single coordinate into `x`, shape (n_unknowns + n_rows).
     pub(super) fn put_response(&self, column: usize, load: S, x: &mut Vec<S>) {
         x.clear();
         x.resize(self.plan.pattern.n_unknowns() + self.plan.pattern.n_rows(), S::zero());
@@ -238,13 +238,13 @@ impl<S: Real> Augmented<S> {
         self.solve_padded(x);
     }
 
-    /// The loss of digits of the worst pivot: the constraint row, and the ratio of the pivot to the largest number from
+    /// The pivot that has lost most digits: its constraint row, and the ratio of the pivot to the largest number from
     /// which it was computed by subtraction.
     pub fn cancellation(&self) -> Option<(usize, f64)> {
         self.saddle.cancellation(&self.plan.pattern)
     }
 
-    /// The ratio of [`cancellation`](Self::cancellation) in each lane.
+    /// The ratio of [`cancellation`](Self::cancellation), in each lane.
     pub fn cancellations(&self) -> S {
         self.saddle.cancellations(&self.plan.pattern)
     }

@@ -1,7 +1,7 @@
-//! The residuals that implicit methods reduce to zero: r = M a + Φ_qᵀ λ - Q, Φ, Φ_q v + Φ_t, and the rates
-//! ż of first-order states, at any (q, v, a, λ, z). They are evaluated without the solution of equations.
+//! The residuals that implicit methods reduce to zero: r = M a + Φ_qᵀ λ - Q, Φ, Φ_q v + Φ_t, and the rates ż of
+//! first-order states, at any (q, v, a, λ, z). Evaluating them requires no solution of equations.
 //!
-//! Q contains the loads of joints only if forces depend on reactions; otherwise they do not change the motion.
+//! Q contains the loads of joints only if forces depend on reactions; otherwise the loads do not change the motion.
 
 use super::forces::{self, Acting};
 use super::kinematics::Motions;
@@ -9,7 +9,7 @@ use super::powers::Powers;
 use super::{constraints, mass, reactions, reactive, Compiled};
 use crate::model::Model;
 
-/// Residuals at one state, with the memory for them.
+/// Residuals at one state, and the memory for their evaluation.
 #[derive(Clone, Debug)]
 pub struct Balance {
     /// Motion of every body, ground first.

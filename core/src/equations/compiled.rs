@@ -1,7 +1,7 @@
-//! Data derived from a model: everything that evaluations need and that does not depend on the state.
+//! Data derived from a model: all state-independent data that evaluations need.
 //!
-//! A [`Model`] holds no caches. [`Compiled`] is built from it once, and shared by everything that evaluates the same
-//! model over the same scalar.
+//! A [`Model`] contains no caches. [`Compiled`] is built from it once, and shared by all evaluations of the model
+//! over the same scalar.
 
 use super::added_mass::{self, Added};
 use super::grounded::{grounded, holds, Grounded};
@@ -14,25 +14,25 @@ use std::sync::Arc;
 /// Data derived from a [`Model`]; immutable.
 #[derive(Clone, Debug)]
 pub struct Compiled<S = f64> {
-    /// Inertia of the bodies in the matrix, with free bodies and with condensed ones.
+    /// Inertia of the bodies in the matrix, without and with condensed bodies.
     lent: [Arc<Lent<S>>; 2],
-    /// The moving bodies whose mass centre is off the frame's origin, counted without ground.
+    /// The moving bodies whose mass centre is not the origin of the frame, counted without ground.
     pub off_center: Vec<usize>,
     /// Weight of the bodies as generalized force, shape (n_q).
     pub weight: Vec<S>,
-    /// Mass and inertia that must be lent or added to light bodies. One for each moving body, zero for most.
+    /// Mass and inertia that must be lent or added to light bodies. One entry for each moving body; most are zero.
     pub added: Vec<Added>,
-    /// Mass that is added to the internal coordinates of elements, kg.
+    /// Mass added to the internal coordinates of elements, kg.
     pub own_mass: f64,
-    /// Moving bodies that a joint of two rows holds to ground.
+    /// Moving bodies that a joint with two rows connects to ground.
     pub grounded: Vec<Grounded<S>>,
     /// Joints and drivers with constant fields, by type.
     pub joints: JointPools<S>,
-    /// The places of the joints and drivers with laws of time or state.
+    /// Indices of the joints and drivers with laws of time or state.
     pub joints_with_laws: Vec<usize>,
     /// Forces with constant fields, by type.
     pub forces: ForcePools<S>,
-    /// The places of the forces with laws of time or state.
+    /// Indices of the forces with laws of time or state.
     pub forces_with_laws: Vec<usize>,
 }
 
@@ -74,19 +74,19 @@ impl<S: Real> Compiled<S> {
         }
     }
 
-    /// Inertia of the bodies in the matrix of a plan that condenses bodies or not.
+    /// Inertia of the bodies in the matrix, for a plan with or without condensed bodies.
     #[inline(always)]
     pub(super) fn lent(&self, condenses: bool) -> &Arc<Lent<S>> {
         &self.lent[usize::from(condenses)]
     }
 
-    /// What light bodies borrow where grounded bodies are condensed: the numbers of loans and of additions.
+    /// The numbers of loans and additions, for condensed grounded bodies.
     pub fn lent_and_added(&self) -> [usize; 2] {
         let Lent { loans, additions, .. } = &*self.lent[1];
         [loans.len(), additions.len()]
     }
 
-    /// The largest 1/m of the moving bodies, additions included, 1/kg.
+    /// The largest 1/m of the moving bodies including additions, 1/kg.
     pub fn compliance(&self) -> S {
         self.lent[0].inertias.iter().map(|inertia| inertia.inverse[0]).fold(S::zero(), S::max)
     }

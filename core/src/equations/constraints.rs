@@ -1,8 +1,8 @@
 //! Φ, Φ_q, Φ̇ and γ of all joints and drivers (Haug 3.6).
 //!
-//! A constraint with constant fields is evaluated by its element. One with a law of time or state is
-//! derived: dual numbers over each body that it touches, and a jet in time, with the law evaluated over
-//! the same scalar.
+//! The element evaluates a constraint with constant fields. A constraint with a law of time or state is
+//! differentiated automatically: with dual numbers for each body that it touches, and with a jet in time. The law is
+//! evaluated over the same scalar.
 
 use super::gains::Gains;
 use super::kinematics::Motions;
@@ -62,7 +62,7 @@ pub fn velocity_terms<S: Real>(
     }
 }
 
-/// Φ, Φ_q q̇ + Φ_t, γ, each of shape (m), and Φ_q into `entries` as [`jacobian`].
+/// Φ, Φ_q q̇ + Φ_t and γ, each of shape (m), and Φ_q in `entries`, as [`jacobian`] stores it.
 pub fn terms_and_jacobian<S: Real>(
     model: &Model<S>,
     motions: &Motions<S>,
@@ -80,7 +80,7 @@ pub fn terms_and_jacobian<S: Real>(
     }
 }
 
-/// Φ_q into `entries` as [`jacobian`], and γ̂ = γ - 2α Φ̇ - β² Φ, shape (m), into `right`.
+/// Φ_q in `entries`, as [`jacobian`] stores it, and γ̂ = γ - 2α Φ̇ - β² Φ, shape (m), in `right`.
 pub fn linearize<S: Real>(
     model: &Model<S>,
     motions: &Motions<S>,
@@ -93,7 +93,7 @@ pub fn linearize<S: Real>(
     linearize_some(model, all, motions, t, Stabilized::new(gains), right, entries);
 }
 
-/// The same for the constraints `which` only.
+/// [`linearize`] for the constraints `which` only.
 pub(super) fn linearize_some<S: Real>(
     model: &Model<S>,
     which: impl Iterator<Item = usize>,
@@ -112,7 +112,7 @@ pub(super) fn linearize_some<S: Real>(
     }
 }
 
-/// Φ, Φ̇ and γ of one constraint, one entry for each of its equations.
+/// Φ, Φ̇ and γ of one constraint, with one entry for each equation.
 #[derive(Debug)]
 pub struct Terms<'a, S> {
     /// Φ.
@@ -141,7 +141,7 @@ impl<S: Real> Stabilized<S> {
         Self { damping, stiffness: S::constant(gains.beta * gains.beta), none }
     }
 
-    /// γ̂ of the rows of one constraint.
+    /// Computes γ̂ of the rows of one constraint.
     #[inline(always)]
     pub fn put(&self, terms: &Terms<'_, S>, right: &mut [S]) {
         if self.none {
@@ -155,11 +155,11 @@ impl<S: Real> Stabilized<S> {
     }
 }
 
-/// The rows of Φ_q of a constraint, as its blocks take them.
+/// The rows of Φ_q of a constraint.
 pub(super) enum ByBlock<'a, S> {
-    /// One for each participant of the element.
+    /// One set of rows for each participant of the element.
     Participants(&'a [BodyId], &'a [[S; 3]]),
-    /// One for each block: a law may touch more bodies than the element.
+    /// One set of rows for each block, since a law may touch more bodies than the element.
     Blocks(&'a [[S; 3]]),
 }
 
@@ -256,7 +256,7 @@ pub(super) fn linearize_one<S: Real, R>(
     )
 }
 
-/// Puts the rows of a constraint into its blocks.
+/// Adds the rows of a constraint to its blocks of Φ_q.
 pub(super) fn store<S: Real>(rows: ByBlock<'_, S>, slots: &Slots, entries: &mut [S]) {
     let m = slots.rows.len();
     for (b, block) in slots.blocks.iter().enumerate() {
@@ -278,7 +278,7 @@ pub(super) fn store<S: Real>(rows: ByBlock<'_, S>, slots: &Slots, entries: &mut 
     }
 }
 
-/// Φ, Φ̇ and γ of a constraint with a law, by a jet in time.
+/// Φ, Φ̇ and γ of a constraint with a law, from a jet in time.
 fn law_terms<S: Real>(
     model: &Model<S>,
     law: &Constraint<Tape>,
@@ -297,7 +297,7 @@ fn law_terms<S: Real>(
     terms(at, residual, out);
 }
 
-/// Derivatives of a constraint with a law by the coordinates of one owner.
+/// Derivatives of a constraint with a law with respect to the coordinates of one owner.
 fn law_columns<S: Real>(
     (model, item, law): (&Model<S>, &ConstraintItem<S>, &Constraint<Tape>),
     motions: &Motions<S>,
@@ -320,8 +320,8 @@ fn law_columns<S: Real>(
     columns_of(at, varies, block.body.is_none(), residual, rows);
 }
 
-/// Derivatives of constraint `k` by the coordinates of one body, one row for each equation, into
-/// `rows`; a body that it does not touch has zeros. Ground takes part only as a body of the element.
+/// Derivatives of constraint `k` with respect to the coordinates of one body, one row for each equation, in `rows`.
+/// They are zero if the constraint does not touch the body. Ground counts only if it is a body of the element.
 pub(super) fn columns_by_body<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -373,7 +373,7 @@ pub fn add_transposed<S: Real>(model: &Model<S>, entries: &[S], lam: &[S], y: &m
     }
 }
 
-/// Φ_q x of one constraint's rows into `out`, shape (equations).
+/// Φ_q x for the rows of one constraint, in `out`, shape (equations).
 pub fn times<S: Real>(model: &Model<S>, k: usize, entries: &[S], x: &[S], out: &mut [S]) {
     out.fill(S::zero());
     for block in &model.layout.constraints[k].blocks {

@@ -1,4 +1,4 @@
-//! Which owners of coordinates the constraints and forces of a model couple: the pattern of the tangent.
+//! The pattern of the tangent: the owners of coordinates that the constraints and forces of a model couple.
 
 use super::constraints::{linearize_one, store};
 use super::kinematics::Motions;
@@ -11,27 +11,27 @@ use std::collections::BTreeMap;
 
 type D = ByThree<f64>;
 
-/// For each block of a constraint, the pair with each of its blocks; None if they are not coupled.
+/// For each block of a constraint, its pair with each block of the constraint. None if they are not coupled.
 pub(super) type ByConstraint = Vec<Vec<Option<usize>>>;
 
 /// The quantities on which a force depends.
 #[derive(Clone, Debug)]
 pub(super) struct Participants {
-    /// The moving bodies on which it depends: its own, those of its laws, and those of the joint whose
+    /// The moving bodies on which the force depends: its own bodies, those of its laws, and those of the joint whose
     /// reaction it uses.
     pub bodies: Vec<BodyId>,
-    /// The places in z of the states on which it depends.
+    /// The indices in z of the states on which the force depends.
     pub states: Vec<usize>,
-    /// The rows of the multipliers on which it depends.
+    /// The rows of the multipliers on which the force depends.
     pub rows: Vec<usize>,
     /// The owners of internal coordinates on which its laws depend, with their columns.
     pub internals: Vec<(usize, Columns)>,
-    /// For each of the bodies, then of the internal owners, the pair with each body on which the force acts.
+    /// For each of the bodies and then of the internal owners, its pair with each body on which the force acts.
     pairs: Vec<Vec<(BodyId, usize)>>,
 }
 
 impl Participants {
-    /// The owners of coordinates on which it depends: bodies, then internal ones.
+    /// The owners of coordinates on which the force depends: first bodies, then internal owners.
     pub fn owners(&self) -> impl Iterator<Item = usize> + '_ {
         let bodies = self.bodies.iter().map(|body| body.0 - 1);
         bodies.chain(self.internals.iter().map(|(owner, _)| *owner))
@@ -43,16 +43,17 @@ impl Participants {
     }
 }
 
-/// The pairs found so far.
+/// The pairs collected so far.
 pub(super) struct Pairs(BTreeMap<(usize, usize), usize>);
 
 impl Pairs {
-    /// Each owner with itself.
+    /// The pair of each owner with itself.
     pub fn diagonal(owners: usize) -> Self {
         Self((0..owners).map(|owner| ((owner, owner), owner)).collect())
     }
 
-    /// The pair (row owner, column owner); a pattern is symmetric, so its mirror comes with it.
+    /// The index of the pair (row owner, column owner). The pattern is symmetric, so the transposed pair is added as
+    /// well.
     fn index(&mut self, row: usize, column: usize) -> usize {
         let next = self.0.len();
         let found = *self.0.entry((row, column)).or_insert(next);
@@ -128,8 +129,9 @@ fn internals(model: &Model, depends: &Dependence) -> Vec<(usize, Columns)> {
     used.map(|(owner, columns, _)| (owner, columns)).collect()
 }
 
-/// The blocks that each constraint couples. Without laws, two arbitrary poses show them: if Φ_q of one owner does
-/// not change with the other, no pair is needed. This is the case for every revolute joint.
+/// The blocks that each constraint couples. For a constraint without laws they follow from two arbitrary poses: if
+/// Φ_q of one owner does not change with the coordinates of another owner, no pair is needed. This is the case for
+/// every revolute joint.
 pub(super) fn by_constraint(lifted: &Model<D>, pairs: &mut Pairs) -> Vec<ByConstraint> {
     let trials = [0, 1].map(|trial| without_pattern(lifted, trial));
     let mut columns = vec![D::zero(); lifted.layout.n_entries];
@@ -180,7 +182,7 @@ fn changes(
     }
 }
 
-/// An arbitrary state of all bodies; ground stays at the origin.
+/// An arbitrary state of all bodies. Ground remains at the origin.
 fn without_pattern(lifted: &Model<D>, trial: usize) -> Motions<D> {
     let mut motions = Motions::new(&lifted.layout);
     let x = |b: usize, k: usize| D::lift((1.0 + (7 * b + 3 * trial + k) as f64 * 0.618_034).sin());

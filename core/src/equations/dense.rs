@@ -1,4 +1,4 @@
-//! The matrices of the equations in full, for printing.
+//! The full matrices of the equations, for printing.
 
 use super::forces::Acting;
 use super::kinematics::Motions;
@@ -6,7 +6,7 @@ use super::powers::Powers;
 use super::{constraints, forces, mass, Compiled};
 use crate::model::Model;
 
-/// Matrices row by row, and right sides, at one state.
+/// Row-major matrices and right sides at one state.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Matrices {
     /// M, (n_q, n_q).
@@ -42,7 +42,7 @@ pub fn matrices(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Matrices {
     Matrices { mass, phi, jacobian, nu, gamma, forces: q_forces, kkt }
 }
 
-/// Φ_q, row by row, shape (n_rows, n_q).
+/// Φ_q, row-major, shape (n_rows, n_q).
 pub fn jacobian(model: &Model, motions: &Motions, t: f64) -> Vec<f64> {
     let n = model.layout.n_q;
     let mut entries = vec![0.0; model.layout.n_entries];

@@ -1,13 +1,13 @@
 //! Energies and the powers that change their sum.
 //!
-//! Balance: T + V + dissipated - work of drivers - work of applied forces is constant.
+//! Energy balance: T + V + dissipated energy - work of drivers - work of applied forces is constant.
 
 use super::forces::{self, Acting};
 use super::kinematics::Motions;
 use crate::math::{Motion, Real, Twist};
 use crate::model::{Body, Model};
 
-/// Kinetic energy ½ q̇ᵀ M q̇, J: by the velocity of the mass centre and the inertia about it.
+/// Kinetic energy ½ q̇ᵀ M q̇, J, from the velocity of the mass centre and the moment of inertia about it.
 pub fn kinetic<S: Real>(model: &Model<S>, motions: &[Motion<S>]) -> S {
     let mut twice = S::zero();
     for (body, motion) in moving(model, motions) {
@@ -31,7 +31,7 @@ pub fn potential<S: Real>(model: &Model<S>, motions: &Motions<S>, z: &[S], t: S)
     sum
 }
 
-/// All bodies but ground.
+/// All bodies except ground.
 fn moving<'a, S>(
     model: &'a Model<S>,
     motions: &'a [Motion<S>],

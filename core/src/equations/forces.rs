@@ -1,5 +1,5 @@
-//! Generalized forces Q: gravity, force elements, and the φ̇² term of frames off the mass centre; and
-//! the rates of the first-order states of elements.
+//! Generalized forces Q: gravity, force elements, and the φ̇² term of bodies whose mass centre is not the origin of
+//! the frame; and the rates of the first-order states of elements.
 
 use super::kinematics::Motions;
 use super::laws::{self, Laws};
@@ -19,7 +19,7 @@ use std::borrow::Cow;
 pub struct Acting<'a, S> {
     /// First-order states of elements, shape (n_z).
     pub z: &'a [S],
-    /// Multipliers for forces that depend on reactions, shape (n_rows); without them reactions are zero.
+    /// Multipliers for forces that depend on reactions, shape (n_rows). If None, reactions are zero.
     pub lam: Option<&'a [S]>,
     /// Time, s.
     pub t: S,
@@ -43,7 +43,7 @@ pub fn generalized<S: Real>(
     }
 }
 
-/// Weight, and the centrifugal force of mass centres off the frame's origin.
+/// Weight, and the centrifugal force of mass centres that are not the origin of the frame.
 fn body_forces<S: Real>(
     model: &Model<S>,
     compiled: &Compiled<S>,
@@ -58,7 +58,7 @@ fn body_forces<S: Real>(
     }
 }
 
-/// Weight, and the centrifugal force m A c′ φ̇², of a mass centre off the frame's origin.
+/// Weight and centrifugal force m A c′ φ̇² of one body whose mass centre is not the origin of the frame.
 fn off_center<S: Real>(body: &Body<S>, motion: &Motion<S>, weight: Vec2<S>) -> Wrench<S> {
     let arm = motion.pose.global(body.center);
     let omega = motion.twist.omega;
@@ -66,7 +66,7 @@ fn off_center<S: Real>(body: &Body<S>, motion: &Motion<S>, weight: Vec2<S>) -> W
     Wrench { force: weight + centrifugal, torque: arm.cross(weight) }
 }
 
-/// Adds up forces and their powers.
+/// Sums forces and their powers.
 struct Sum<'a, S> {
     model: &'a Model<S>,
     motions: &'a Motions<S>,
@@ -89,8 +89,8 @@ impl<S: Real> VisitForces<S> for Sum<'_, S> {
 }
 
 impl<S: Real> Sum<'_, S> {
-    /// A force with a law of time or state.
-    #[inline(never)] // as in `visit`
+    /// Adds a force with a law of time or state.
+    #[inline(never)] // as for `visit`
     fn law(&mut self, item: &ForceItem<S>, k: usize) {
         let at = situation(self.model, k, self.motions, self.acting);
         let element = at_state(self.model, item, self.motions, self.acting);
@@ -108,7 +108,7 @@ impl<S: Real> Sum<'_, S> {
 struct Add<'a, 'b, S, N> {
     sum: &'a mut Sum<'b, S>,
     at: &'a Situation<'b, S>,
-    /// The nature of each part.
+    /// The nature of each part of the force.
     nature: N,
 }
 
@@ -122,7 +122,7 @@ impl<S: Real, N: Fn(usize) -> Nature> Wrenches<S> for Add<'_, '_, S, N> {
     }
 }
 
-/// The element of a force at a state: its laws replaced by their values.
+/// The element of a force at a state, with its laws replaced by their values.
 pub(super) fn at_state<'m, S: Real>(
     model: &Model<S>,
     item: &'m ForceItem<S>,
@@ -140,7 +140,7 @@ pub(super) fn at_state<'m, S: Real>(
     }
 }
 
-/// The value of a law that a host computes.
+/// The value of a law that the host program computes.
 #[cold]
 fn of_host<S: Real>(model: &Model<S>, k: usize, motions: &Motions<S>, z: &[S], t: S) -> S {
     let Some(functions) = &model.blueprint.functions else { return S::constant(f64::NAN) };
@@ -174,7 +174,7 @@ pub(super) fn situation<'a, S: Real>(
     Situation { motions, bodies, z, reaction, t, held, mode, multiplier }
 }
 
-/// The same for reports: a force that holds has its multiplier.
+/// The situation of force `k` for reports. If the force holds, it contains the multiplier.
 fn reported<'a, S: Real>(
     model: &'a Model<S>,
     k: usize,
@@ -188,13 +188,14 @@ fn reported<'a, S: Real>(
     }
 }
 
-/// The multiplier of the equation by which force `k` holds.
+/// The multiplier of the equation with which force `k` holds.
 fn multiplier<S: Real>(model: &Model<S>, k: usize, acting: Acting<'_, S>) -> S {
     let row = model.forces[k].held_row;
     row.zip(acting.lam).and_then(|(row, lam)| lam.get(row).copied()).unwrap_or(S::zero())
 }
 
-/// The effort of friction that follows another one, with opposite sign: both take the same part of their limits.
+/// The effort of a friction force that follows another one, with opposite sign. Both have the same ratio to their
+/// limits.
 #[cold]
 fn following<S: Real>(
     model: &Model<S>,
@@ -229,13 +230,13 @@ pub fn threshold<S: Real>(
     element.threshold(&reported(model, k, motions, acting))
 }
 
-/// The side at which force `k` touches.
+/// The side on which force `k` touches.
 pub fn side(model: &Model, k: usize, motions: &Motions, acting: Acting<'_, f64>) -> f64 {
     let element = at_state(model, &model.forces[k], motions, acting);
     element.side(&reported(model, k, motions, acting))
 }
 
-/// The reserve of force `k` that holds: > 0 until friction slips, or a contact separates.
+/// The reserve of a holding force `k`. It is positive until friction slips or a contact separates.
 pub fn reserve(model: &Model, k: usize, motions: &Motions, acting: Acting<'_, f64>) -> f64 {
     let item = &model.forces[k];
     let element = at_state(model, item, motions, acting);
@@ -247,7 +248,7 @@ pub fn reserve(model: &Model, k: usize, motions: &Motions, acting: Acting<'_, f6
     }
 }
 
-/// The results of force `k` beside its wrenches, into `out`.
+/// The results of force `k` in addition to its wrenches, in `out`.
 pub fn results<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -274,7 +275,7 @@ fn seen<S: Real>(
         .unwrap_or_else(Wrench::zero)
 }
 
-/// Gives every wrench of force `k` with its part and body.
+/// Calls `visit` with the part, body and value of every wrench of force `k`.
 pub fn each_wrench<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -288,7 +289,7 @@ pub fn each_wrench<S: Real>(
     element.action(&at, |part, body, w| visit(part, at.bodies[body], w));
 }
 
-/// ż of all elements into `out`, shape (n_z).
+/// Computes ż of all elements into `out`, shape (n_z).
 pub fn state_rates<S: Real>(
     model: &Model<S>,
     motions: &Motions<S>,
@@ -301,7 +302,7 @@ pub fn state_rates<S: Real>(
     model.layout.held.iter().for_each(|place| out[*place] = S::zero());
 }
 
-/// ż of force `k` alone.
+/// Computes ż of force `k` only.
 pub(super) fn state_rates_of<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -313,7 +314,7 @@ pub(super) fn state_rates_of<S: Real>(
     element.state_rates(&situation(model, k, motions, acting), out);
 }
 
-/// The functions of the switches of force `k` itself, into the first entries of `out`.
+/// Computes the switch functions of force `k` itself into the first entries of `out`.
 pub(super) fn switches<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -328,8 +329,8 @@ pub(super) fn switches<S: Real>(
     }
 }
 
-/// Potential energy of force `k`, zero where a law makes it non-conservative, and the energy stored in its
-/// states, J.
+/// Potential energy of force `k`, J, including the energy stored in its states. The potential is zero if a law makes
+/// the force non-conservative.
 pub fn potential<S: Real>(
     model: &Model<S>,
     k: usize,

@@ -1,5 +1,5 @@
-//! The equations of a joint or driver as text: Φ, Φ_q and γ from its residual, which is evaluated
-//! over [`Symbolic`](crate::symbolic::Symbolic) numbers.
+//! The equations of a joint or driver as text. Φ, Φ_q and γ follow from its residual, evaluated over
+//! [`Symbolic`](crate::symbolic::Symbolic) numbers.
 
 mod generic;
 mod names;
@@ -17,13 +17,13 @@ use names::Coordinates;
 /// The equations of one joint or driver.
 #[derive(Clone, Debug)]
 pub struct Formulas {
-    /// The unknowns by which Φ is differentiated, such as `crank.angle`.
+    /// The unknowns with respect to which Φ is differentiated, such as `crank.angle`.
     pub columns: Vec<String>,
-    /// Named parts of the equations: each name with its formula.
+    /// Named parts of the equations, as pairs of name and formula.
     pub definitions: Vec<(String, String)>,
     /// The scalar equations.
     pub rows: Vec<RowFormulas>,
-    /// All names that the equations hold, in the language of expressions.
+    /// All names in the equations, in the language of expressions.
     pub names: Vec<String>,
 }
 
@@ -32,13 +32,13 @@ pub struct Formulas {
 pub struct RowFormulas {
     /// Φ.
     pub residual: String,
-    /// ∂Φ/∂q, an entry for each column.
+    /// ∂Φ/∂q, one entry for each column.
     pub jacobian: Vec<String>,
     /// γ.
     pub gamma: String,
 }
 
-/// Evaluates Φ: the only place that calls the element.
+/// Evaluates Φ. This is the only function that calls the element.
 fn residual(
     element: &Constraint<Symbolic>,
     pose: impl Fn(BodyId) -> Pose<Symbolic>,
@@ -51,7 +51,7 @@ fn residual(
     phi
 }
 
-/// Differentiates Φ by the coordinates of the bodies `columns` and by the internal coordinates, and prints
+/// Differentiates Φ with respect to the coordinates of the bodies `columns` and the internal coordinates, and prints
 /// Φ, Φ_q and γ.
 fn print(
     record: &Record,

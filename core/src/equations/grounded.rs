@@ -1,5 +1,5 @@
-//! Bodies that a joint of two rows holds to ground. Such a body has one degree of freedom. It is condensed to this
-//! degree of freedom before everything else is eliminated (`solve/condensed.rs`).
+//! Bodies that a joint with two rows connects to ground. Such a body has one degree of freedom. It is condensed to
+//! this degree of freedom before all other unknowns are eliminated (`solve/condensed.rs`).
 
 use super::constraints;
 use super::inertia::Inertia;
@@ -9,30 +9,30 @@ use crate::math::{Motion, Real};
 use crate::model::{ConstraintItem, Model, Slots, Weighed};
 use crate::solve::{CondensedGroup, Saddle};
 
-/// A moving body that a joint of two rows holds to ground.
+/// A moving body that a joint with two rows connects to ground.
 #[derive(Clone, Copy, Debug)]
 pub struct Grounded<S = f64> {
-    /// The joint's place among the constraints.
+    /// Index of the joint among the constraints.
     pub constraint: usize,
     /// The body.
     pub body: BodyId,
-    /// W of the body in its own frame.
+    /// W of the body, in the frame of the body.
     mass: CondensedGroup<S>,
-    /// For a pin, the inverse of the moment of inertia about it, 1/(kg·m²); it does not depend on the state.
+    /// For a pin, the inverse of the moment of inertia about the pin, 1/(kg·m²). It does not depend on the state.
     about_pin: Option<S>,
 }
 
-/// A joint of two rows that holds a body to ground.
+/// A joint with two rows that connects a body to ground.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Hold {
-    /// Its place among the constraints.
+    /// Index of the joint among the constraints.
     pub constraint: usize,
-    /// Whether it is a pin.
+    /// Whether the joint is a pin.
     pub pin: bool,
 }
 
-/// The joints that hold bodies to ground, one for each body, ground first. If several joints hold one body, the first
-/// joint with constant columns is chosen, otherwise the first joint. Point masses are left out.
+/// The joints that connect bodies to ground, one for each body, ground first. If several joints connect a body to
+/// ground, the first pin is chosen, otherwise the first joint. Point masses are excluded.
 pub(super) fn holds<S: Real>(model: &Model<S>) -> Vec<Option<Hold>> {
     let mut holds: Vec<Option<Hold>> = vec![None; model.bodies.len()];
     for (k, (item, slots)) in model.constraints.iter().zip(&model.layout.constraints).enumerate() {
@@ -46,7 +46,7 @@ pub(super) fn holds<S: Real>(model: &Model<S>) -> Vec<Option<Hold>> {
     holds
 }
 
-/// The bodies that joints hold to ground, for the inertia of each body.
+/// The bodies that joints connect to ground. `bodies` contains the inertia of each body.
 pub(super) fn grounded<S: Real>(
     model: &Model<S>,
     holds: &[Option<Hold>],
@@ -60,7 +60,7 @@ pub(super) fn grounded<S: Real>(
     held.filter_map(grounded).collect()
 }
 
-/// The body that a joint of two rows with constant fields holds to ground.
+/// The body that a joint with two rows and constant fields connects to ground.
 fn held<S>(item: &ConstraintItem<S>, slots: &Slots) -> Option<BodyId> {
     let to_ground = item.bodies.len() == 2 && item.bodies.iter().any(|body| body.is_ground());
     match slots.blocks.as_slice() {
@@ -70,7 +70,7 @@ fn held<S>(item: &ConstraintItem<S>, slots: &Slots) -> Option<BodyId> {
 }
 
 impl<S: Real> Grounded<S> {
-    /// The grounded bodies, at rest in the origin.
+    /// The data of a grounded body, evaluated at rest at the origin.
     fn new(
         (model, motions): (&Model<S>, &Motions<S>),
         body: BodyId,
@@ -89,7 +89,7 @@ impl<S: Real> Grounded<S> {
         Self { constraint, body, mass, about_pin }
     }
 
-    /// Puts the numbers that do not depend on the state into the matrix.
+    /// Writes the state-independent numbers into the matrix.
     pub(super) fn set(&self, k: usize, saddle: &mut Saddle<S>) {
         let mass = &mut saddle.masses[self.body.0 - 1];
         mass.translation = [S::zero(); 2];
@@ -100,7 +100,7 @@ impl<S: Real> Grounded<S> {
         saddle.condensed[k] = self.mass;
     }
 
-    /// Turns W of the body with the body.
+    /// Updates W of the body for its current angle.
     #[inline(always)]
     pub(super) fn turn(
         &self,

@@ -1,48 +1,54 @@
-//! Equations of motion on independent rows of Φ, where constraints are redundant.
+//! The equations of motion with independent rows of Φ, if constraints are redundant.
 //!
-//! With r redundant equations, Yᵀ Φ_q = 0 for r vectors y at every position. r rows are left out, and the others are those
-//! of a mechanism without redundancy: a small pivot is that of a singular position. Each y is that of one omitted row o:
-//! y_o = 1, and 0 for the other omitted rows. The remaining parts follow from the factors,
+//! With r redundant equations, Yᵀ Φ_q = 0 for r vectors y at every position. Therefore r rows are omitted. The other
+//! rows are those of a mechanism without redundancy, in which a small pivot indicates a singular position. Each y
+//! belongs to one omitted row o: y_o = 1, and y is 0 for the other omitted rows. The remaining components follow from
+//! the factors,
 //!
 //! ```text
 //! [ M   Φ_qᵀ ] [ 0 ]   [ -Φ_q,oᵀ ]
 //! [ Φ_q  0   ] [ y ] = [    0    ]
 //! ```
 //!
-//! without the omitted rows. Where y_o vanishes relative to another y_k, the rows without o become dependent though all
-//! together do not. So o is exchanged for k before that: rows are exchanged while some |y_k| > 2, which doubles the
-//! volume of the chosen part of Y each time and ends (S. A. Goreinov, I. V. Oseledets, D. V. Savostyanov, E. E.
-//! Tyrtyshnikov, N. L. Zamarashkin, *How to find a good submatrix*, World Scientific, 2010).
+//! without the omitted rows. If y_o vanishes relative to another y_k, the rows without o become dependent although
+//! all rows together do not. Row o is exchanged for k before that. Rows are exchanged while some |y_k| > 2. Each
+//! exchange at least doubles the volume of the chosen part of Y, so that the iteration ends (S. A. Goreinov, I. V.
+//! Oseledets, D. V. Savostyanov, E. E. Tyrtyshnikov, N. L. Zamarashkin, *How to find a good submatrix*, World
+//! Scientific, 2010).
 
 use super::motion::Workspace;
 use crate::math::Real;
 use crate::model::{row_scales, Model};
 
-/// Largest part of a row in the dependence of an omitted one.
+/// Largest accepted component |y_k| in the dependence of an omitted row.
 const LARGEST: f64 = 2.0;
 
 impl<S: Real> Workspace<S> {
-    /// Leaves out these rows of Φ and no others. The others are then judged as those of a model without redundancy.
+    /// Omits these rows of Φ and no others. The pivots of the other rows are then tested as in a model without
+    /// redundancy.
     ///
     /// # Panics
-    /// If the plan of elimination is [that without redundancy](super::Plan::without_redundancy).
+    /// If the plan of elimination condenses grounded bodies, as
+    /// [`Plan::without_redundancy`](super::Plan::without_redundancy) does.
     pub fn omit(&mut self, rows: &[usize]) {
         self.matrix.omit(rows);
         self.set_direct();
     }
 
-    /// Changes the multipliers of the last evaluation to the smallest that balance the same loads, if rows are left out.
+    /// If rows are omitted, replaces the multipliers of the last evaluation by the smallest ones that balance the
+    /// same loads.
     pub fn least_multipliers(&mut self, model: &Model<S>) {
         let at = self.n_unknowns;
         subtract_parts(self.dependences(model), &mut self.solution[at..]);
     }
 
-    /// Changes multipliers of all rows, found elsewhere for the state of the last evaluation, in the same way.
+    /// Replaces given multipliers of all rows, at the state of the last evaluation, by the smallest ones in the same
+    /// way.
     pub fn least_of(&self, model: &Model<S>, lam: &mut [S]) {
         subtract_parts(self.dependences(model), lam);
     }
 
-    /// For each omitted row the y with Σ y_k Φ_q,k = 0, with the factors of the last evaluation.
+    /// For each omitted row, the vector y with Σ y_k Φ_q,k = 0, from the factors of the last evaluation.
     fn dependences(&self, model: &Model<S>) -> Vec<Vec<S>> {
         let (n, layout) = (self.n_q, &model.layout);
         let of_row = |&row: &usize| {
@@ -61,8 +67,8 @@ impl<S: Real> Workspace<S> {
 }
 
 impl Workspace {
-    /// Exchanges omitted rows that others depend on too much, with the factors of the last evaluation; returns whether
-    /// there were any. The factors are then those of the rows before.
+    /// Exchanges omitted rows on which other rows depend too strongly, with the factors of the last evaluation.
+    /// Returns whether any row was exchanged. The factors still belong to the previous rows.
     pub fn exchange_rows(&mut self, model: &Model) -> bool {
         let mut omitted = self.matrix.omitted().to_vec();
         let mut parts = self.dependences(model);
@@ -90,7 +96,7 @@ impl Workspace {
     }
 }
 
-/// The largest part above the limit: its dependence and its row.
+/// The largest component above the limit: the index of its dependence, and its row.
 fn largest(parts: &[Vec<f64>]) -> Option<(usize, usize)> {
     let all = parts.iter().enumerate().flat_map(|(k, y)| y.iter().enumerate().map(move |y| (k, y)));
     let over = all.map(|(k, (row, y))| (k, row, y.abs())).filter(|(.., y)| *y > LARGEST);
@@ -103,7 +109,7 @@ fn product<S: Real>(a: &[S], b: &[S]) -> S {
     a.iter().zip(b).fold(S::zero(), |sum, (a, b)| sum + *a * *b)
 }
 
-/// Subtracts the part of x in the span of some vectors, which are orthogonalised one after the other.
+/// Subtracts from x its component in the span of some vectors, which are orthogonalised one after the other.
 fn subtract_parts<S: Real>(vectors: Vec<Vec<S>>, x: &mut [S]) {
     let mut basis: Vec<Vec<S>> = Vec::with_capacity(vectors.len());
     for mut y in vectors {
@@ -115,7 +121,7 @@ fn subtract_parts<S: Real>(vectors: Vec<Vec<S>>, x: &mut [S]) {
     basis.iter().for_each(|unit| subtract_part(x, unit));
 }
 
-/// Subtracts the part of x along a unit vector.
+/// Subtracts from x its component along a unit vector.
 fn subtract_part<S: Real>(x: &mut [S], unit: &[S]) {
     let part = product(x, unit);
     x.iter_mut().zip(unit).for_each(|(x, unit)| *x -= part * *unit);

@@ -1,23 +1,24 @@
-//! Masses and moments of inertia of the moving bodies, inverted once.
+//! Masses and moments of inertia of the moving bodies, with precomputed inverses.
 
 use crate::math::{Local, Real};
 use crate::model::{Model, Weighed};
 
-/// Inertia of a moving body in W, with loans and additions.
+/// Inertia of a moving body in W, including loans and additions.
 #[derive(Clone, Copy, Debug)]
 pub struct Inertia<S = f64> {
-    /// 1/m and 1/J about the mass centre: 1/kg, 1/(kg·m²).
+    /// 1/m, 1/kg, and 1/J about the mass centre, 1/(kg·m²).
     pub inverse: [S; 2],
     /// Mass, kg.
     pub mass: S,
     /// Mass centre in the body frame, m.
     pub center: Local<S>,
-    /// Whether the mass centre can be off the origin of the frame; only then rotation and translation are
-    /// coupled. This follows from the formulas and does not depend on the values of parameters.
+    /// Whether the mass centre may differ from the origin of the frame. Only then are rotation and translation
+    /// coupled. This depends on the formulas, not on the values of parameters.
     pub coupled: bool,
 }
 
-/// Inertias of all moving bodies from those of all bodies, ground first; loans may have moved the mass centres of `moved`.
+/// Inertias of the moving bodies from those of all bodies, ground first. Loans may have changed the mass centres of
+/// `moved`.
 pub(super) fn inertias<S: Real>(
     model: &Model<S>,
     all: &[Weighed<S>],

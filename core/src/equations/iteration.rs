@@ -7,9 +7,9 @@
 //! ```
 //!
 //! with the [`Tangent`] of the equations of motion, real or complex. The middle row and column belong to the
-//! first-order states of elements; few models have any. M contains what is added to bodies without mass or inertia.
-//! The residual is that of the true equations, so the iteration still converges to their solution. μ = 0 except for
-//! redundant rows, which are left out by a large one.
+//! first-order states of elements; few models have any. M contains the inertia added to bodies without mass or
+//! inertia. The residual is that of the true equations, so that the iteration still converges to their solution. μ =
+//! 0 except for redundant rows, which are omitted by a large μ.
 
 use super::added_mass::{self, Added};
 use super::coupling::Participants;
@@ -20,7 +20,7 @@ use crate::model::{Model, StateLayout};
 use crate::solve::{BlockLu, LuPlan};
 use std::ops::Range;
 
-/// Damping μ of a redundant row that is left out: its multiplier does not change.
+/// Damping μ of an omitted redundant row. Its multiplier does not change.
 const OMITTED: f64 = 1e100;
 
 /// Coefficients of the parts of the matrix.
@@ -32,23 +32,23 @@ pub struct Coefficients<F> {
     pub states: [F; 4],
 }
 
-/// The places of the blocks of a tangent in the factors.
+/// The slots of the blocks of a tangent in the factors.
 #[derive(Clone, Debug)]
 pub struct Places {
-    /// Pattern, order and plan.
+    /// Pattern, elimination order and plan.
     pub plan: LuPlan,
     pairs: Vec<usize>,
     /// Number of unknowns of each group.
     groups: Vec<usize>,
-    /// For each block of Φ_q: the first entry, its rows, and the slots of Φ_q and Φ_qᵀ.
+    /// For each block of Φ_q: its first entry, its number of rows, and the slots of Φ_q and Φ_qᵀ.
     jacobian: Vec<(usize, usize, usize, usize)>,
-    /// The block of each first-order state, and its place in it.
+    /// The block of each first-order state, and the index in this block.
     states: Vec<(usize, usize)>,
-    /// The block of each row of Φ, and its place in it.
+    /// The block of each row of Φ, and the index in this block.
     rows: Vec<(usize, usize)>,
-    /// Slot of the diagonal block of each block of rows, and its rows.
+    /// Slot of the diagonal block of each block of rows, and its number of rows.
     diagonal: Vec<(usize, usize)>,
-    /// The rows that are left out.
+    /// The omitted rows.
     omitted: Vec<usize>,
     /// Mass and inertia added to the bodies.
     added: Vec<Added>,
@@ -57,7 +57,7 @@ pub struct Places {
 }
 
 impl Places {
-    /// For a model and the pattern of its tangent.
+    /// The slots for a model and the pattern of its tangent.
     pub fn new(model: &Model, tangent: &Tangent) -> Self {
         let groups: Vec<usize> = model.layout.owners.iter().map(|columns| columns.count).collect();
         let (blocks, _) = row_blocks(&model.layout);
@@ -98,14 +98,14 @@ impl Places {
         }
     }
 
-    /// Leaves out these rows and no others.
+    /// Omits these rows and no others.
     pub fn omit(&mut self, rows: &[usize]) {
         self.omitted.clear();
         self.omitted.extend_from_slice(rows);
     }
 }
 
-/// Sizes of the blocks of the states: one block for up to three states of an element, and one for the value of each
+/// Sizes of the blocks of states: one block for up to three states of an element, and one block for the value of each
 /// sampled law.
 fn state_blocks(layout: &StateLayout) -> Vec<usize> {
     let of = |own: Range<usize>| own.clone().step_by(3).map(move |k| (k, (own.end - k).min(3)));
@@ -115,13 +115,13 @@ fn state_blocks(layout: &StateLayout) -> Vec<usize> {
     all.into_iter().map(|(_, size)| size).collect()
 }
 
-/// The block of each unknown and its place in it, for blocks of these sizes from `first` on.
+/// The block of each unknown and the index in this block, for blocks of the given sizes, numbered from `first`.
 fn numbered(first: usize, sizes: &[usize]) -> Vec<(usize, usize)> {
     let blocks = sizes.iter().enumerate();
     blocks.flat_map(|(k, &size)| (0..size).map(move |place| (first + k, place))).collect()
 }
 
-/// All pairs of blocks that a force with states, or with a reaction, couples.
+/// All pairs of blocks that a force with states or with a reaction couples.
 fn coupled(
     force: &Participants,
     states: &[(usize, usize)],
@@ -143,7 +143,7 @@ pub fn assemble<F: Field>(
     let real = F::from_real;
     let [c_a, c_v, c_q, c_b] = coefficients.motion;
     lu.clear(&places.plan);
-    // rows that a short group does not have keep the identity
+    // missing rows of a smaller group keep the identity
     for (pair, &slot) in places.pairs.iter().enumerate() {
         let (stiffness, damping) = (&tangent.stiffness[pair], &tangent.damping[pair]);
         let block = lu.block_mut(slot);
@@ -153,11 +153,11 @@ pub fn assemble<F: Field>(
             }
         }
     }
-    // the diagonal blocks are the first pairs
+    // the first pairs are the diagonal blocks
     let masses = tangent.mass.iter().zip(&places.added).zip(&places.groups);
     for (((mass, added), &size), &slot) in masses.zip(&places.pairs) {
         let block = lu.block_mut(slot);
-        // added at the origin of the frame: only the solution counts, and that does not contain it
+        // added at the origin of the frame, since the solution of the iteration does not depend on the addition
         let (m, j, b) = (mass.mass + added.mass, mass.inertia + added.inertia, mass.coupling);
         let full = [[m, 0.0, b.x], [0.0, m, b.y], [b.x, b.y, j]];
         for (row, full) in block.iter_mut().zip(full).take(size) {
@@ -188,7 +188,7 @@ pub fn assemble<F: Field>(
     add_states(places, tangent, coefficients.states, lu);
 }
 
-/// The rows and columns of first-order states, and forces by multipliers.
+/// Adds the rows and columns of first-order states, and the derivatives of forces with respect to multipliers.
 fn add_states<F: Field>(
     places: &Places,
     tangent: &Tangent,

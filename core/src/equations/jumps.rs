@@ -1,4 +1,4 @@
-//! Jumps of the velocities, as at impacts: the equations of motion with impulses in place of forces.
+//! Jumps of the velocities, for instance at impacts: the equations of motion with impulses instead of forces.
 
 use super::motion::Workspace;
 use super::{constraints, refine, Gains};
@@ -7,11 +7,12 @@ use crate::model::Model;
 use crate::solve::Breakdown;
 
 impl<S: Real> Workspace<S> {
-    /// The jump of the velocities by which each row of Φ_q v changes by its entry of `rates`, shape (n_rows), without
-    /// forces: [M Φ_qᵀ; Φ_q 0] (Δv, P) = (0, rates). Returns Δv, shape (n_q), and the impulses P, shape (n_rows).
+    /// The jump of the velocities that changes each row of Φ_q v by its entry of `rates`, shape (n_rows), without
+    /// external impulses: [M Φ_qᵀ; Φ_q 0] (Δv, P) = (0, rates). Returns Δv, shape (n_q), and the impulses P, shape
+    /// (n_rows).
     ///
     /// # Errors
-    /// [`Breakdown`] where Φ_q loses rank.
+    /// [`Breakdown`] if Φ_q loses rank.
     pub fn jump(
         &mut self,
         model: &Model<S>,
@@ -22,11 +23,11 @@ impl<S: Real> Workspace<S> {
         self.jump_by(model, t, q, (&vec![S::zero(); self.n_q], rates))
     }
 
-    /// The jump of the velocities by generalized impulses, shape (n_q), on the mechanism: [M Φ_qᵀ; Φ_q 0] (Δv, P) =
-    /// (impulses, 0). Returns Δv, shape (n_q).
+    /// The jump of the velocities due to generalized impulses, shape (n_q): [M Φ_qᵀ; Φ_q 0] (Δv, P) = (impulses, 0).
+    /// Returns Δv, shape (n_q).
     ///
     /// # Errors
-    /// [`Breakdown`] where Φ_q loses rank.
+    /// [`Breakdown`] if Φ_q loses rank.
     pub fn velocity_jump(
         &mut self,
         model: &Model<S>,

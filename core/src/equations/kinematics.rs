@@ -6,7 +6,7 @@ use std::ops::Deref;
 
 /// The motion of every body, ground first, and the internal coordinates of elements.
 ///
-/// It dereferences to the motions of the bodies.
+/// Dereferences to the motions of the bodies.
 #[derive(Clone, Debug)]
 pub struct Motions<S = f64> {
     bodies: Vec<Motion<S>>,
@@ -14,7 +14,7 @@ pub struct Motions<S = f64> {
     first_own: usize,
     own: Vec<S>,
     own_rates: Vec<S>,
-    /// The piece that is held for each switch of the model during a step of an integrator; empty if none is held.
+    /// The held piece of each switch of the model during a step of an integrator; empty if no piece is held.
     pub pieces: Vec<f64>,
 }
 
@@ -26,7 +26,7 @@ impl<S> Deref for Motions<S> {
 }
 
 impl<S: Real> Motions<S> {
-    /// Memory for a model; all bodies are at rest at the origin.
+    /// Memory for a model. All bodies are at rest at the origin.
     pub fn new(layout: &StateLayout) -> Self {
         let bodies = layout.bodies.len();
         let first_own = layout.bodies.iter().map(|columns| columns.range().end).max().unwrap_or(0);
@@ -40,20 +40,20 @@ impl<S: Real> Motions<S> {
         }
     }
 
-    /// At the coordinates `q` and rates `v`, both of shape (n_q).
+    /// The motions at coordinates `q` and rates `v`, both of shape (n_q).
     pub fn at(layout: &StateLayout, q: &[S], v: &[S]) -> Self {
         let mut motions = Self::new(layout);
         motions.place(layout, q, v);
         motions
     }
 
-    /// At rest.
+    /// The motions at coordinates `q`, at rest.
     pub fn at_rest(layout: &StateLayout, q: &[S]) -> Self {
         Self::at(layout, q, &vec![S::zero(); q.len()])
     }
 
     /// Sets coordinates and rates, both of shape (n_q).
-    #[inline(always)] // in every evaluation
+    #[inline(always)] // part of every evaluation
     pub fn place(&mut self, layout: &StateLayout, q: &[S], v: &[S]) {
         for (motion, columns) in self.bodies[1..].iter_mut().zip(&layout.bodies[1..]) {
             let (pose, q) = (&mut motion.pose, &q[columns.range()]);
@@ -69,7 +69,7 @@ impl<S: Real> Motions<S> {
         }
     }
 
-    /// Sets the rates `v`, shape (n_q); positions stay.
+    /// Sets the rates `v`, shape (n_q). Positions are unchanged.
     pub fn set_rates(&mut self, layout: &StateLayout, v: &[S]) {
         for (motion, columns) in self.bodies[1..].iter_mut().zip(&layout.bodies[1..]) {
             put_rates(&v[columns.range()], &mut motion.twist);
@@ -77,7 +77,7 @@ impl<S: Real> Motions<S> {
         self.own_rates.copy_from_slice(&v[self.first_own..]);
     }
 
-    /// Adds t, q, v and z to `x`, as functions of the whole state take them.
+    /// Appends t, q, v and z to `x`, in the order of the arguments of functions of the whole state.
     pub(super) fn collect(&self, layout: &StateLayout, t: S, z: &[S], x: &mut Vec<S>) {
         let moving = || self.bodies[1..].iter().zip(&layout.bodies[1..]);
         x.push(t);
@@ -106,7 +106,7 @@ impl<S: Real> Motions<S> {
         (&self.own[range.clone()], &self.own_rates[range])
     }
 
-    /// A copy without derivatives over a scalar that contains this one.
+    /// A copy over a scalar that contains this one, without derivatives.
     pub fn lift<T: crate::math::Lift<S>>(&self) -> Motions<T> {
         let lift = |x: &[S]| x.iter().map(|x| T::lift(*x)).collect();
         Motions {
@@ -131,7 +131,7 @@ impl<S: Real> Motions<S> {
     }
 }
 
-/// Number by number: a twist that is assembled first would be copied twice.
+/// One number at a time: a twist that is assembled first would be copied twice.
 #[inline(always)]
 fn put_rates<S: Real>(v: &[S], twist: &mut Twist<S>) {
     (twist.velocity.x, twist.velocity.y) = (v[0], v[1]);
@@ -140,8 +140,8 @@ fn put_rates<S: Real>(v: &[S], twist: &mut Twist<S>) {
     }
 }
 
-/// The coordinates of given poses of all bodies, ground first, with the first values of the internal coordinates of
-/// elements at these poses; shape (n_q).
+/// The coordinates of given poses of all bodies, ground first, with the initial values of the internal coordinates of
+/// elements at these poses. Shape (n_q).
 pub fn coordinates(model: &Model, poses: &[Pose]) -> Vec<f64> {
     let layout = &model.layout;
     let mut q = vec![0.0; layout.n_q];

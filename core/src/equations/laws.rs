@@ -1,5 +1,4 @@
-//! Values that the formulas of laws may use: parameters, time, the motion of the bodies, and
-//! first-order states.
+//! The values that laws may use: parameters, time, the motion of the bodies, and first-order states.
 
 use super::kinematics::Motions;
 use crate::elements::{BodyId, Coordinate};
@@ -7,7 +6,7 @@ use crate::expression::Values;
 use crate::math::{Lift, Motion, Real};
 use crate::model::Variable;
 
-/// Parameters over `S`; time, coordinates and states over a scalar `T` that contains it.
+/// Parameters over `S`. Time, coordinates and states over a scalar `T` that contains `S`.
 pub struct Laws<'a, S, T, F> {
     /// Values of the parameters.
     pub parameters: &'a [S],
@@ -15,13 +14,13 @@ pub struct Laws<'a, S, T, F> {
     pub t: T,
     /// The value of a coordinate of a body.
     pub coordinate: F,
-    /// Internal coordinates of joints and their rates; empty where laws may not use them.
+    /// Internal coordinates of joints and their rates; empty if laws may not use them.
     pub own: [&'a [T]; 2],
-    /// First-order states; empty where laws may not use them.
+    /// First-order states; empty if laws may not use them.
     pub z: &'a [T],
-    /// The piece that is held for each switch of the model; empty if none is held.
+    /// The held piece of each switch of the model; empty if no piece is held.
     pub pieces: &'a [f64],
-    /// The value of a law that a host computes; None where laws may not use it.
+    /// The value of a law that the host program computes; None if laws may not use it.
     pub function: Option<&'a dyn Fn(usize) -> T>,
 }
 
@@ -48,7 +47,7 @@ impl<S: Real, T: Lift<S>, F: Fn(BodyId, Coordinate) -> T> Values<T> for Laws<'_,
     }
 }
 
-/// Laws at a state, without derivatives, internal coordinates and held pieces.
+/// The values at a state, without derivatives, internal coordinates and held pieces.
 pub fn at<'a, S: Real>(
     parameters: &'a [S],
     motions: &'a [Motion<S>],
@@ -62,7 +61,7 @@ pub fn at<'a, S: Real>(
     Laws { parameters, t, coordinate, own: [&[]; 2], z, pieces: &[], function: None }
 }
 
-/// Laws at a state, with internal coordinates and the pieces that are held there.
+/// The values at a state, with internal coordinates and held pieces.
 pub fn held<'a, S: Real>(
     parameters: &'a [S],
     motions: &'a Motions<S>,

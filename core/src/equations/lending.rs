@@ -1,11 +1,13 @@
-//! Which bodies lend inertia to light ones, chosen once for a model; `equations/loans.rs` has the equations.
+//! The choice of the bodies that lend inertia to light bodies, once for each model. `equations/loans.rs` contains the
+//! equations.
 //!
 //! A body lends at most half of its inertia, in equal shares to its light neighbours. A light body that has borrowed
-//! enough lends in turn. A condensed body needs inertia for its one freedom only: a piston one point mass, a link on
-//! ground one that is not at its pin. Ground lends mass at a pin, so that no link is without.
+//! enough may lend in turn. A condensed body needs inertia for its one degree of freedom only: a piston needs a point
+//! mass, and a link connected to ground needs a point mass that is not at its pin. Ground lends mass at a pin, so
+//! that no such link lacks mass.
 //!
-//! Where nobody can lend enough, as to the links of a massless dyad, inertia is added to the body that needs it at the
-//! fewest coordinates, and lending goes on from there. `equations/take_back.rs` takes the additions back.
+//! If no body can lend enough, as to the links of a massless dyad, inertia is added to the body that needs it at the
+//! fewest coordinates, and lending continues. `equations/take_back.rs` removes the effect of the additions.
 
 use super::added_mass::{self, number, Added};
 use super::grounded::Hold;
@@ -16,24 +18,24 @@ use crate::math::{Local, Real};
 use crate::model::{Body, Model, Weighed};
 use std::ops::Range;
 
-/// The part of its inertia that a body lends.
+/// The fraction of its inertia that a body lends.
 const LENT: f64 = 0.5;
-/// A moment of inertia is added so many times, so that the body can lend.
+/// Factor on an added moment of inertia, so that the body can lend.
 const AMPLE: f64 = 100.0;
 
-/// The inertia of bodies in the matrix, and how it differs from their own.
+/// The inertia of the bodies in the matrix, and its differences from their own inertia.
 #[derive(Clone, Debug)]
 pub(super) struct Lent<S> {
     pub loans: Vec<Loan>,
-    /// What is added beside the loans, also to the internal coordinates of elements.
+    /// The additions, including those to the internal coordinates of elements.
     pub additions: Vec<Addition>,
-    /// Inertia of all bodies with both, ground first.
+    /// Inertia of all bodies with loans and additions, ground first.
     pub bodies: Vec<Weighed<S>>,
-    /// The same of the moving bodies.
+    /// Inertia of the moving bodies with loans and additions.
     pub inertias: Vec<Inertia<S>>,
 }
 
-/// Lends to the light bodies of a model of which `holds` are condensed.
+/// Chooses the loans to the light bodies of a model. `holds` contains the joint with which each body is condensed.
 pub(super) fn lend<S: Real>(model: &Model<S>, added: &[Added], holds: &[Option<Hold>]) -> Lent<S> {
     let mut market = Market::new(model, added, holds);
     while market.round() || market.add() {}
@@ -49,22 +51,22 @@ pub(super) fn lend<S: Real>(model: &Model<S>, added: &[Added], holds: &[Option<H
     Lent { loans, additions, bodies, inertias }
 }
 
-/// What a joint can lend between two moving bodies.
+/// A joint at which one of two moving bodies can lend to the other.
 struct Link<S> {
     constraint: usize,
     rows: Range<usize>,
     ends: [End; 2],
-    /// The point in the frame of each body; None for an angle.
+    /// The joint point in the frame of each body; None for an angle.
     points: Option<[Local<S>; 2]>,
 }
 
-/// The freedom that a condensed joint leaves.
+/// The freedom that a condensed joint leaves to its body.
 enum Held<S> {
-    /// No joint is condensed, or its freedom may be any.
+    /// No joint is condensed, or the freedom may have any direction.
     Free,
-    /// It turns about this point, in its frame, of ground.
+    /// The body rotates about this point, in its frame. The loan is that of ground.
     Pin(Local<S>, Loan),
-    /// It does not turn.
+    /// The body translates only.
     Slide,
 }
 
@@ -73,11 +75,11 @@ struct Market<'a, S> {
     added: &'a [Added],
     links: Vec<Link<S>>,
     held: Vec<Held<S>>,
-    /// With what they have borrowed and lent.
+    /// The bodies, with the inertia that they have borrowed and lent.
     bodies: Vec<Weighed<S>>,
-    /// Whether a body has enough, and may lend.
+    /// Whether a body has enough inertia and may lend.
     sound: Vec<bool>,
-    /// What the bodies at the ends of each link may lend there.
+    /// The inertia that the bodies at the two ends of each link may lend there.
     shares: Vec<[f64; 2]>,
     loans: Vec<Loan>,
     additions: Vec<Addition>,
@@ -110,7 +112,7 @@ impl<'a, S: Real> Market<'a, S> {
         market
     }
 
-    /// Lends to the bodies that have enough then; whether there were any.
+    /// Lends to the bodies that then have enough inertia. Returns whether there were any.
     fn round(&mut self) -> bool {
         let waiting = (0..self.sound.len()).filter(|body| !self.sound[*body]);
         let offers = waiting.map(|body| (body, self.offers(body)));
@@ -122,7 +124,8 @@ impl<'a, S: Real> Market<'a, S> {
         !accepted.is_empty()
     }
 
-    /// Adds inertia to the body that needs it at the fewest coordinates, beside what it can borrow; whether there is one.
+    /// Adds inertia to the body that needs it at the fewest coordinates, in addition to its loans. Returns whether
+    /// there was one.
     fn add(&mut self) -> bool {
         let waiting = (0..self.sound.len()).filter(|body| !self.sound[*body]);
         let needs = waiting.map(|body| {
@@ -163,7 +166,7 @@ impl<'a, S: Real> Market<'a, S> {
         }
     }
 
-    /// The loans that a body can have now, with their links.
+    /// The loans that a body can receive now, with the indices of their links.
     fn offers(&self, body: usize) -> Vec<(usize, Loan)> {
         let of_link = |(k, link): (usize, &Link<S>)| {
             let place = link.ends.iter().position(|end| end.body == body)?;
@@ -181,7 +184,7 @@ impl<'a, S: Real> Market<'a, S> {
         loans.iter().fold(own, |own, (k, loan)| self.changed(own, *k, body, loan.weight))
     }
 
-    /// A body with more inertia at a link.
+    /// A body with additional inertia at a link.
     fn changed(&self, own: Weighed<S>, link: usize, body: usize, weight: f64) -> Weighed<S> {
         let Link { ends, points, .. } = &self.links[link];
         match points {
@@ -195,7 +198,7 @@ impl<'a, S: Real> Market<'a, S> {
         self.needed(body, own) == [false; 2]
     }
 
-    /// Whether a body needs mass, and a moment of inertia.
+    /// Whether a body needs mass, and whether it needs a moment of inertia.
     fn needed(&self, body: usize, own: &Weighed<S>) -> [bool; 2] {
         let Added { mass, inertia } = self.added[body];
         let short = |own: S, added: f64| !(number(own) > 0.0 && number(own) >= added);
@@ -209,7 +212,7 @@ impl<'a, S: Real> Market<'a, S> {
         }
     }
 
-    /// From now on the body may lend.
+    /// Marks a body as one that may lend, and divides its shares.
     fn accept(&mut self, body: usize) {
         self.sound[body] = true;
         self.borrow_at_pin(body);
@@ -225,7 +228,7 @@ impl<'a, S: Real> Market<'a, S> {
         }
     }
 
-    /// The largest point mass that may be taken from a body at a point, or moment of inertia at an angle.
+    /// The largest point mass that may be taken from a body at a point, or the largest moment of inertia at an angle.
     fn capacity(&self, body: usize, point: Option<Local<S>>) -> f64 {
         let own = &self.bodies[body];
         let (mass, inertia) = (number(own.mass), number(own.inertia));
@@ -245,7 +248,8 @@ impl<'a, S: Real> Market<'a, S> {
         }
     }
 
-    /// Lets ground lend mass to a light body at its pin, as much as its inertia about the pin has at its farthest point.
+    /// Adds a loan of ground to a light body at its pin, up to the mass that its inertia about the pin has at its
+    /// farthest point.
     fn borrow_at_pin(&mut self, body: usize) {
         let (Held::Pin(pin, loan), true) = (&self.held[body], self.added[body].any()) else {
             return;
@@ -266,7 +270,7 @@ impl<'a, S: Real> Market<'a, S> {
     }
 }
 
-/// Inertia of a body of its own.
+/// The own inertia of a body.
 fn weighed<S: Real>(body: &Body<S>) -> Weighed<S> {
     let Body { mass, center, inertia, .. } = *body;
     Weighed { mass, center, inertia }
@@ -278,7 +282,7 @@ fn about<S: Real>(own: &Weighed<S>, point: Local<S>) -> S {
     own.inertia + own.mass * arm.dot(arm)
 }
 
-/// With a point mass.
+/// The inertia with an additional point mass.
 fn with_point<S: Real>(own: Weighed<S>, weight: f64, point: Local<S>) -> Weighed<S> {
     let (weight, arm) = (S::constant(weight), point - own.center);
     let mass = own.mass + weight;
@@ -287,7 +291,7 @@ fn with_point<S: Real>(own: Weighed<S>, weight: f64, point: Local<S>) -> Weighed
     Weighed { mass, center: own.center + arm.scale(part), inertia }
 }
 
-/// What the joints with constant fields can lend between two moving bodies.
+/// The joints with constant fields at which one of two moving bodies can lend to the other.
 fn links<S: Real>(model: &Model<S>) -> Vec<Link<S>> {
     let mut links = Vec::new();
     for (constraint, item) in model.constraints.iter().enumerate() {

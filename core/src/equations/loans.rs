@@ -1,7 +1,7 @@
-//! Loans of inertia to light bodies, so that M can be inverted block by block without loss of digits.
+//! Loans of inertia to light bodies, with which M can be inverted block by block without loss of digits.
 //!
-//! Where a joint holds points of two bodies together, Φ_L a_L + Φ_H a_H = γ, a point mass w there may belong to either of
-//! them:
+//! If a joint makes points of two bodies coincide, Φ_L a_L + Φ_H a_H = γ, a point mass w at these points may belong
+//! to either body:
 //!
 //! ```text
 //! [ M_L + w Φ_Lᵀ Φ_L                       Φ_Lᵀ ] [ a_L ]   [ Q_L            ]
@@ -9,19 +9,19 @@
 //! [ Φ_L               Φ_H                   0   ] [ λ′  ]   [ γ              ]
 //! ```
 //!
-//! This is exact for every w, and M stays block diagonal. In the same way a joint that keeps the angle of two bodies
-//! lends a moment of inertia. `equations/lending.rs` chooses the loans of a model.
+//! This is exact for every w, and M remains block diagonal. In the same way, a joint that fixes the relative angle of
+//! two bodies can lend a moment of inertia. `equations/lending.rs` chooses the loans of a model.
 
 use crate::math::Real;
 use crate::model::Columns;
 use std::ops::Range;
 
-/// Inertia that one body lends to another at a joint of both.
+/// Inertia that one body lends to another at their common joint.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Loan {
-    /// The joint.
+    /// Index of the joint among the constraints.
     pub constraint: usize,
-    /// Its rows: the two of a point, or the one of an angle.
+    /// The rows: two for a point, or one for an angle.
     pub rows: Range<usize>,
     /// w, kg or kg·m².
     pub weight: f64,
@@ -31,23 +31,23 @@ pub(super) struct Loan {
     pub lender: Option<End>,
 }
 
-/// Mass or moment of inertia that is added at one coordinate.
+/// Mass or moment of inertia added at one coordinate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Addition {
-    /// Its place among the coordinates.
+    /// Index of the coordinate.
     pub column: usize,
     /// κ, kg or kg·m².
     pub weight: f64,
 }
 
-/// A body at a loan.
+/// One of the two bodies of a loan.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct End {
-    /// Its place among the bodies.
+    /// Index of the body.
     pub body: usize,
-    /// Its coordinates.
+    /// The coordinates of the body.
     pub columns: Columns,
-    /// The first of the rows, as a place among the rows of three entries of Φ_q.
+    /// The first of the rows, as an index into the rows of three entries of Φ_q.
     pub entry: usize,
 }
 

@@ -1,7 +1,7 @@
-//! The mass matrix, one symmetric 3 × 3 block for each body (Haug 6.2.8 with the frame off the
-//! mass centre).
+//! The mass matrix, with one symmetric 3 × 3 block for each body (Haug 6.2.8, generalized to a frame whose origin is
+//! not the mass centre).
 //!
-//! With c the mass centre and b = B c′ = (A c′)⊥:  M = [m I, m b; m bᵀ, J + m |c′|²].
+//! With the mass centre c and b = B c′ = (A c′)⊥:  M = [m I, m b; m bᵀ, J + m |c′|²].
 
 use super::Inertia;
 use crate::math::{Motion, Real, Vec2};
@@ -29,8 +29,8 @@ pub fn block<S: Real>(body: &Body<S>, motion: &Motion<S>) -> MassBlock<S> {
     }
 }
 
-/// Rotates the inverse of the block with the body: b of the mass centre gives the direction. 1/m and 1/J are set
-/// already.
+/// Updates the inverse of the block for the current angle of the body. The vector b of the mass centre gives the
+/// direction. 1/m and 1/J are already set.
 #[inline(always)]
 pub fn turn<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>, mass: &mut InverseMass<S>) {
     if inertia.coupled {
@@ -39,7 +39,7 @@ pub fn turn<S: Real>(inertia: &Inertia<S>, motion: &Motion<S>, mass: &mut Invers
     }
 }
 
-/// The same for the bodies at these places.
+/// Updates the inverses for the bodies with the indices `coupled`.
 #[inline(always)]
 pub(super) fn turn_all<S: Real>(
     coupled: &[u32],
@@ -65,7 +65,7 @@ impl<S: Real> MassBlock<S> {
     }
 }
 
-/// y += M x, shape (n_q); internal coordinates have no mass.
+/// y += M x, shape (n_q). Internal coordinates have no mass.
 pub fn add_times<S: Real>(model: &Model<S>, motions: &[Motion<S>], x: &[S], y: &mut [S]) {
     let bodies = model.bodies.iter().zip(motions).zip(&model.layout.bodies).skip(1);
     for ((body, motion), columns) in bodies {
@@ -73,7 +73,7 @@ pub fn add_times<S: Real>(model: &Model<S>, motions: &[Motion<S>], x: &[S], y: &
     }
 }
 
-/// The blocks of all moving bodies into `blocks`.
+/// Computes the blocks of all moving bodies into `blocks`.
 pub(super) fn put_blocks<S: Real>(
     model: &Model<S>,
     motions: &[Motion<S>],
@@ -84,14 +84,14 @@ pub(super) fn put_blocks<S: Real>(
     blocks.extend(bodies.map(|(body, motion)| block(body, motion)));
 }
 
-/// [`add_times`] with blocks that are known.
+/// [`add_times`] with precomputed blocks.
 pub(super) fn add_blocks<S: Real>(model: &Model<S>, blocks: &[MassBlock<S>], x: &[S], y: &mut [S]) {
     for (block, columns) in blocks.iter().zip(&model.layout.bodies[1..]) {
         columns.add(block.times(columns.of(x)), y);
     }
 }
 
-/// xᵀ M x as a sum of squares, so that nothing is cancelled.
+/// xᵀ M x as a sum of squares, which avoids cancellation.
 pub fn twice_energy<S: Real>(model: &Model<S>, motions: &[Motion<S>], x: &[S]) -> S {
     let bodies = model.bodies.iter().zip(motions).zip(&model.layout.bodies).skip(1);
     bodies.fold(S::zero(), |sum, ((body, motion), columns)| {

@@ -10,13 +10,13 @@ use crate::model::Model;
 /// An element of a model.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ElementId {
-    /// A joint or driver, by its place.
+    /// A joint or driver, by index.
     Constraint(usize),
-    /// A force, by its place.
+    /// A force, by index.
     Force(usize),
 }
 
-/// The position quantities that an element offers.
+/// The position quantities that can be measured on an element.
 pub fn offered<S>(model: &Model<S>, id: ElementId) -> &'static [Measured] {
     match id {
         ElementId::Constraint(k) => model.constraints[k].element.measured(),
@@ -24,7 +24,7 @@ pub fn offered<S>(model: &Model<S>, id: ElementId) -> &'static [Measured] {
     }
 }
 
-/// The quantities of an element with their first and second derivatives in time, in the order of [`offered`].
+/// The measured quantities of an element with their first and second time derivatives, in the order of [`offered`].
 ///
 /// `motions` contains positions and velocities, `a` the accelerations, shape (n_q).
 pub fn measured<S: Real>(
@@ -78,7 +78,7 @@ pub fn measured<S: Real>(
     values
 }
 
-/// The place of a point fixed in a body, with velocity and acceleration.
+/// The position of a body-fixed point, with velocity and acceleration.
 pub fn point<S: Real>(
     model: &Model<S>,
     body: BodyId,

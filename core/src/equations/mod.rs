@@ -1,6 +1,7 @@
-//! The equations of planar mechanics, one file per concept, over any scalar.
+//! The equations of planar multibody dynamics, one file for each concept, over any scalar.
 //!
-//! They are functions of a [`Model`](crate::model::Model) and plain slices; a [`Workspace`] has their scratch memory.
+//! The equations are functions of a [`Model`](crate::model::Model) and slices. A [`Workspace`] contains their scratch
+//! memory.
 
 mod added_mass;
 pub mod augmented;

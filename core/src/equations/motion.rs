@@ -5,7 +5,7 @@
 //! [ Φ_q  0   ] [ λ ] = [ γ ]
 //! ```
 //!
-//! For the integrator γ may be replaced by Baumgarte's γ̂ = γ - 2α Φ̇ - β² Φ (Haug 7.3.8).
+//! For the integrator, Baumgarte's γ̂ = γ - 2α Φ̇ - β² Φ (Haug 7.3.8) may replace γ.
 
 use super::augmented::{Augmented, NearSingular};
 use super::constraints::{self, Stabilized};
@@ -27,8 +27,8 @@ use std::sync::Arc;
 /// Memory for the equations of motion of one model, and the results of the last evaluation: motions, accelerations,
 /// multipliers, powers, Φ_q and the factors of the matrix.
 ///
-/// No evaluation depends on the evaluations before it. But projection and implicit methods use the factors and Φ_q of
-/// the last evaluation: there must be no other evaluation between that evaluation and such a use.
+/// No evaluation depends on earlier evaluations. But projection and implicit methods use the factors and Φ_q of the
+/// last evaluation, so there must be no other evaluation in between.
 #[derive(Clone, Debug)]
 pub struct Workspace<S = f64> {
     /// Motion of every body, ground first.
@@ -45,18 +45,18 @@ pub struct Workspace<S = f64> {
     pub(super) solution: Vec<S>,
     /// Powers of the force elements.
     powers: Powers<S>,
-    /// A constant vector that is subtracted from γ; empty if absent.
+    /// A constant vector that is subtracted from γ; empty if there is none.
     offset: Vec<S>,
-    /// Vectors of solutions by a modified matrix.
+    /// Vectors for solutions with a modified matrix.
     pub(super) memory: refine::Memory<S>,
-    /// Whether one elimination does not solve the equations: redundant rows are damped, or forces depend on reactions.
+    /// Whether one elimination is not sufficient, because redundant rows are damped or forces depend on reactions.
     modified: bool,
     /// Whether forces depend on reactions.
     depends: bool,
-    /// The rows of the multipliers on which forces, or loads of joints, depend.
+    /// The rows of the multipliers on which forces or loads of joints depend.
     reactive: Vec<usize>,
     pub(super) n_q: usize,
-    /// Number of unknowns of the solver: n_q, and the padding of a short last group.
+    /// Number of unknowns of the solver: n_q, and the padding of a last group with fewer than three unknowns.
     pub(super) n_unknowns: usize,
 }
 
@@ -70,13 +70,13 @@ fn redundant_rows<S: Real>(model: &Model<S>, compiled: &Compiled<S>) -> impl Ite
 }
 
 impl<S: Real> Workspace<S> {
-    /// All memory that evaluations of this model need.
+    /// A workspace with all memory for evaluations of this model.
     pub fn new(model: &Model<S>) -> Self {
         Self::on(model, Arc::new(Plan::of_motion(model)))
     }
 
-    /// The same with the plan of elimination of `other`, which belongs to the same model over other numbers, and
-    /// without the rows that `other` leaves out.
+    /// A workspace with the plan of elimination of `other`, which belongs to the same model with other numbers. It
+    /// omits the rows that `other` omits.
     pub fn like<P: Real>(model: &Model<S>, other: &Workspace<P>) -> Self {
         let mut workspace = Self::on(model, Arc::clone(other.matrix.plan()));
         if !other.matrix.omitted().is_empty() {
@@ -85,7 +85,7 @@ impl<S: Real> Workspace<S> {
         workspace
     }
 
-    /// The same on the plan of the model's [equations of motion](Plan::of_motion).
+    /// A workspace on the plan of the model's [equations of motion](Plan::of_motion).
     pub fn on(model: &Model<S>, plan: Arc<Plan>) -> Self {
         let (n_unknowns, m) = (plan.n_unknowns(), model.layout.n_rows);
         let compiled = Arc::new(Compiled::new(model));
@@ -129,21 +129,22 @@ impl<S: Real> Workspace<S> {
         own == others && (Arc::ptr_eq(plan, of_other) || plan.is_like(of_other))
     }
 
-    /// Whether one elimination solves the equations without damped rows.
+    /// Declares that no rows are damped, so that one elimination solves the equations unless forces depend on
+    /// reactions.
     pub(super) fn set_direct(&mut self) {
         self.modified = self.depends;
     }
 
-    /// Sets a constant `term`, shape (n_rows), that is subtracted from γ at every state.
+    /// Sets a constant `term`, shape (n_rows), which is subtracted from γ at every state.
     pub fn set_offset(&mut self, term: &[S]) {
         self.offset.clear();
         self.offset.extend_from_slice(term);
     }
 
-    /// Solves the equations of motion at a state; then [`a`](Self::a), [`lam`](Self::lam).
+    /// Solves the equations of motion at a state. The results are [`a`](Self::a) and [`lam`](Self::lam).
     ///
     /// # Errors
-    /// [`Breakdown`] where Φ_q loses rank, and where a load acts on a coordinate without mass or inertia.
+    /// [`Breakdown`] if Φ_q loses rank, or if a load acts on a coordinate without mass or inertia.
     pub fn accelerate(
         &mut self,
         model: &Model<S>,
@@ -155,7 +156,8 @@ impl<S: Real> Workspace<S> {
         self.respond(model, t, gains)
     }
 
-    /// The same with the [loads](crate::elements::Joint::load) of joints, which change multipliers only.
+    /// Solves the equations of motion including the [loads](crate::elements::Joint::load) of joints, which change
+    /// only multipliers.
     ///
     /// # Errors
     /// As [`accelerate`](Self::accelerate).
@@ -182,7 +184,7 @@ impl<S: Real> Workspace<S> {
         }
     }
 
-    /// The same at the state that was [placed](Self::place).
+    /// Solves the equations of motion at the state that was [placed](Self::place).
     ///
     /// # Errors
     /// As [`accelerate`](Self::accelerate).
@@ -198,13 +200,14 @@ impl<S: Real> Workspace<S> {
         self.solve_and_refine(model, t, gains)
     }
 
-    /// [`respond`](Self::respond) where one elimination solves the equations. Returns false elsewhere, over lanes where
-    /// one lane needs more.
+    /// As [`respond`](Self::respond), if one elimination solves the equations. Otherwise, or if one of several lanes
+    /// needs more, returns false.
     pub fn respond_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> bool {
         self.solves_directly() && self.solve_directly(model, t, gains).is_ok()
     }
 
-    /// q̈ and λ if the matrix is that of the equations: each joint is put into it when it is evaluated.
+    /// Computes q̈ and λ if the matrix is that of the equations. Each joint is added to the matrix when it is
+    /// evaluated.
     #[inline(always)]
     fn solve_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
         let Self { motions, z, compiled, roles, matrix, solution, powers, offset, .. } = self;
@@ -228,13 +231,14 @@ impl<S: Real> Workspace<S> {
         Ok(())
     }
 
-    /// Takes back what was added to light bodies; whether the solution is then as exact as without additions.
+    /// Removes the effect of the additions to light bodies. Returns whether the solution is as exact as without
+    /// additions.
     #[inline(always)]
     fn is_exact(&mut self, model: &Model<S>) -> bool {
         self.matrix.additions().is_empty() || self.take_back(model)
     }
 
-    #[inline(never)] // as below
+    #[inline(never)] // as for `solve_and_refine`
     fn take_back(&mut self, model: &Model<S>) -> bool {
         let Self { motions, matrix, solution, memory, n_unknowns, .. } = self;
         let doubts = memory.directions.find(model, motions, matrix);
@@ -243,9 +247,9 @@ impl<S: Real> Workspace<S> {
         doubts == Doubts::default()
     }
 
-    /// The same by the whole matrix; the factor may be that of a modified matrix. Forces that depend on reactions are
-    /// iterated.
-    #[inline(never)] // rare: within the common path it would take registers
+    /// Solves with the whole matrix. Its factors may be those of a modified matrix. Iterates forces that depend on
+    /// reactions.
+    #[inline(never)] // rare; inlined, it would take registers from the common path
     fn solve_and_refine(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
         let Self {
             motions, z, compiled, matrix, solution, powers, offset, reactive, memory, ..
@@ -279,7 +283,7 @@ impl<S: Real> Workspace<S> {
         Ok(())
     }
 
-    /// ż at the state that was [placed](Self::place), into `out`, shape (n_z).
+    /// Computes ż at the state that was [placed](Self::place) into `out`, shape (n_z).
     #[inline(always)]
     pub fn state_rates(&self, model: &Model<S>, t: S, out: &mut [S]) {
         if !out.is_empty() {
@@ -298,7 +302,7 @@ impl<S: Real> Workspace<S> {
         &self.solution[self.n_unknowns..]
     }
 
-    /// Powers at the state of the last [`accelerate`](Self::accelerate), drivers included.
+    /// Powers at the state of the last [`accelerate`](Self::accelerate), including those of drivers.
     #[inline]
     pub fn powers(&self, model: &Model<S>, v: &[S]) -> Powers<S> {
         match model.driven {
@@ -322,7 +326,7 @@ impl<S: Real> Workspace<S> {
     }
 }
 
-/// The equations of motion at a state, with forces at given multipliers.
+/// The equations of motion at a state, with forces that depend on given multipliers.
 struct ForGiven<'a, S> {
     model: &'a Model<S>,
     compiled: &'a Compiled<S>,
@@ -332,7 +336,7 @@ struct ForGiven<'a, S> {
     t: S,
     /// γ̂.
     right: Vec<S>,
-    /// (q̈, λ), and the place of λ.
+    /// (q̈, λ), and the index at which λ begins.
     solution: (&'a mut [S], usize),
     powers: &'a mut Powers<S>,
     /// The largest generalized force.
@@ -341,7 +345,7 @@ struct ForGiven<'a, S> {
 }
 
 impl<S: Real> ForGiven<'_, S> {
-    /// λ, shape (n_rows).
+    /// Solves the equations with forces at the multipliers `lam`. Returns λ, shape (n_rows).
     fn respond(&mut self, lam: Option<&[S]>) -> Result<Vec<S>, Breakdown> {
         let (model, n) = (self.model, self.model.layout.n_q);
         let mut x = vec![S::zero(); n];

@@ -1,4 +1,4 @@
-//! The balance of each body: reactions, applied forces and weight against m a and J α (Newton and Euler).
+//! The Newton–Euler balance of each body: reactions, applied forces and weight against m a and J α.
 //!
 //! For a body with mass m, moment of inertia J and mass centre C, the residuals are
 //!
@@ -6,9 +6,9 @@
 //! Σ F - m a_C,        Σ (T + (P - C) × F) - J α.
 //! ```
 //!
-//! Each F acts at its point P with the torque T about it, as [`reaction`] reports it for joints and drivers. The sums use
-//! neither Φ_q of the mechanism, nor the mass matrix, nor Q: they check the reported forces, not the solution of the
-//! equations of motion.
+//! Each F acts at its point P with the torque T about P, as [`reaction`] reports them for joints and drivers. The
+//! sums use neither Φ_q of the mechanism, nor the mass matrix, nor Q. They therefore check the reported forces, not
+//! the solution of the equations of motion.
 
 use super::forces::{each_wrench, Acting};
 use super::kinematics::Motions;
@@ -25,7 +25,7 @@ pub struct BodyBalance {
     pub force: f64,
     /// |Σ M - J α| about the mass centre, N·m; zero for a point mass.
     pub moment: f64,
-    /// The largest single force, weight included, N.
+    /// The largest single force including weight, N.
     pub largest_force: f64,
     /// The largest moment of a single force or torque about the mass centre, N·m.
     pub largest_moment: f64,
@@ -33,7 +33,7 @@ pub struct BodyBalance {
     pub lever: f64,
 }
 
-/// The forces on one body while they are added.
+/// The sum of the forces on one body.
 #[derive(Clone, Copy, Default)]
 struct ForceSum {
     force: [f64; 2],
@@ -54,7 +54,7 @@ impl ForceSum {
 
 /// The balances of all moving bodies, in the order of the model.
 ///
-/// `a` are the accelerations, shape (n_q); `acting` contains the multipliers.
+/// `a` contains the accelerations, shape (n_q); `acting` contains the multipliers.
 pub fn balances(
     model: &Model,
     motions: &Motions,
@@ -81,7 +81,7 @@ pub fn balances(
     sums.into_iter().enumerate().skip(1).map(balance).collect()
 }
 
-/// Adds the reactions of all joints and drivers, each at the point at which it is reported.
+/// Adds the reactions of all joints and drivers, each at its reported point.
 fn add_reactions(
     model: &Model,
     motions: &Motions,
@@ -92,7 +92,7 @@ fn add_reactions(
     let lam = acting.lam.unwrap_or_default();
     for (k, slots) in model.layout.constraints.iter().enumerate() {
         if model.constraints[k].group == Group::Forces {
-            continue; // it is reported as a force
+            continue; // reported as a force
         }
         let own = &lam[slots.rows.clone()];
         for on in touched(model, k) {

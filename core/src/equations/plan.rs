@@ -1,4 +1,4 @@
-//! The structure of the augmented matrix of a model, without its numbers: pattern and program of elimination.
+//! The structure of the augmented matrix of a model without its numbers: pattern and elimination program.
 
 use super::compiled::Compiled;
 use super::inertia::Inertia;
@@ -6,16 +6,17 @@ use crate::math::Real;
 use crate::model::{Block, Columns, Model, Slots, StateLayout};
 use crate::solve::{Group, Pattern, RowBlock};
 
-/// Most rows of a block of the solver: an element of more rows has several blocks.
+/// Largest number of rows of a block of the solver. An element with more rows has several blocks.
 const ROWS: usize = 3;
 
-/// Structure and symbolic factorisation for one model over any scalar; found once, shared by any number of matrices.
+/// Structure and symbolic factorisation for one model over any scalar. Computed once and shared by any number of
+/// matrices.
 #[derive(Debug)]
 pub struct Plan {
     pub(super) pattern: Pattern,
-    /// The constraints that are condensed with the grounded bodies that they hold, in the order of these bodies.
+    /// The constraints that are condensed with their grounded bodies, in the order of these bodies.
     pub(super) condensed: Vec<usize>,
-    /// The constraints whose rows an evaluation puts into the matrix as pins, in the order of
+    /// The constraints whose rows are added to the matrix as pins during an evaluation, in the order of
     /// [`Pattern::pin_rows`].
     pub(super) pins: Vec<usize>,
     /// The columns of every owner of coordinates.
@@ -25,18 +26,19 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// Plan of the equations of motion of a model. Grounded bodies are condensed unless redundant constraints are
+    /// The plan of the equations of motion of a model. Grounded bodies are condensed unless redundant constraints are
     /// accepted.
     pub fn of_motion<S: Real>(model: &Model<S>) -> Self {
         Self::with(model, !model.allow_redundancy)
     }
 
-    /// The same of a model whose constraints are not redundant, whether or not redundant ones are accepted.
+    /// The plan of a model whose constraints are not redundant, even if redundant constraints are accepted.
     pub fn without_redundancy<S: Real>(model: &Model<S>) -> Self {
         Self::with(model, true)
     }
 
-    /// Whether another variant of the model has the same plan: the numbers decide which bodies are condensed and coupled.
+    /// Whether another variant of the model has the same plan. The numbers determine which bodies are condensed and
+    /// coupled.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         let coupled = [self, other].map(|plan| plan.pattern.coupled());
         self.condensed == other.condensed && coupled[0] == coupled[1]
@@ -47,7 +49,8 @@ impl Plan {
         model.allow_redundancy && !self.condenses
     }
 
-    /// Eliminates bodies first, then the constraints by minimum degree: every pivot is safe while Φ_q has full rank.
+    /// A plan that eliminates bodies first, then the constraints by minimum degree. No pivot vanishes if Φ_q has full
+    /// rank.
     pub fn free<S: Real>(model: &Model<S>) -> Self {
         Self::with(model, false)
     }
@@ -65,12 +68,12 @@ impl Plan {
         Self { pattern, condensed, pins, owners: model.layout.owners.clone(), condenses }
     }
 
-    /// Number of unknowns of the solver: the coordinates, and those that pad a short last group.
+    /// Number of unknowns of the solver: the coordinates, and the padding of a last group with fewer than three.
     pub(super) fn n_unknowns(&self) -> usize {
         self.pattern.n_unknowns()
     }
 
-    /// Number of products of blocks in one elimination.
+    /// Number of block products in one elimination.
     pub fn n_products(&self) -> usize {
         self.pattern.n_products()
     }

@@ -1,7 +1,7 @@
-//! Derivatives of forces by the multipliers on which they depend, by dual numbers.
+//! Derivatives of forces with respect to the multipliers on which they depend, with dual numbers.
 //!
-//! A force depends on the reaction of one joint, which is linear in the multipliers of that joint. Friction that
-//! follows another one also depends on the multiplier and on the limit of the other.
+//! A force depends on the reaction of one joint, which is linear in the multipliers of this joint. A friction force
+//! that follows another one also depends on the multiplier and on the limit of the other force.
 
 use super::forces::{self, Acting};
 use super::kinematics::Motions;
@@ -12,7 +12,7 @@ use crate::model::Model;
 
 type D<S> = Dual<1, S>;
 
-/// ∂(Q + loads)/∂λ of one row, shape (n_q).
+/// ∂(Q + loads)/∂λ for the multiplier of one row, shape (n_q).
 pub fn by_multiplier<S: Real>(
     model: &Model<S>,
     motions: &Motions<S>,
@@ -55,14 +55,14 @@ pub fn rows_of<S>(model: &Model<S>, k: usize) -> Vec<usize> {
     all
 }
 
-/// The multiplier of one row as the variable.
+/// The multiplier of one row as the independent variable.
 #[derive(Clone, Copy)]
 struct Seed<'a, S> {
     model: &'a Model<S>,
     motions: &'a Motions<S>,
     acting: Acting<'a, S>,
     row: usize,
-    /// 1 at the row.
+    /// A vector that is 1 at the row and 0 elsewhere.
     unit: &'a [S],
 }
 
@@ -95,7 +95,7 @@ impl<S: Real> Seed<'_, S> {
         f(&element, &situation)
     }
 
-    /// The effort that force `k` takes over from another one, with opposite sign; zero if it does not follow any.
+    /// The effort that force `k` takes from the force that it follows, with opposite sign. Zero if it follows none.
     fn multiplier(&self, k: usize) -> D<S> {
         let Mode::Follows { leader, sense } = self.model.forces[k].mode else { return D::zero() };
         let limit = |k: usize| self.with(k, D::zero(), |element, at| element.limit(at));
@@ -108,7 +108,7 @@ impl<S: Real> Seed<'_, S> {
     }
 }
 
-/// A wrench with the slope of a second one.
+/// A wrench whose derivative is a second wrench.
 fn seeded<S: Real>(value: Wrench<S>, slope: Wrench<S>) -> Wrench<D<S>> {
     let both = |value: S, slope: S| D { value, slope: [slope] };
     let force = Vec2::new(both(value.force.x, slope.force.x), both(value.force.y, slope.force.y));

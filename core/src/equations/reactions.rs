@@ -8,23 +8,23 @@ use crate::elements::{At, Attachment, BodyId};
 use crate::math::{Dual, Lift, Local, Pose, Real, Rotation, Vec2, Wrench};
 use crate::model::Model;
 
-/// The frame in which a reaction's components are given.
+/// The frame in which the components of a reaction are given.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Frame {
-    /// Global.
+    /// The global frame.
     Global,
-    /// The frame of the body that the reaction acts on.
+    /// The frame of the body on which the reaction acts.
     Body,
-    /// The frame of the joint, fixed in that body: C of (6.6.8).
+    /// The joint frame, fixed in that body: C of (6.6.8).
     Joint,
 }
 
-/// Force and torque of constraint `k` on a body, reduced to the joint point; `lam` are the multipliers of
-/// its own rows. None for a body that the constraint does not touch.
+/// Force and torque of constraint `k` on a body, reduced to the joint point. `lam` contains the multipliers of its
+/// rows. None if the constraint does not touch the body.
 ///
-/// A body that occurs only in a law, such as the other wheel of a coupling by angles, has no joint point.
-/// Its reaction is reduced to the origin of its frame, and its joint frame is the body frame. The reaction on
-/// ground is opposite to the sum of the reactions on all other bodies.
+/// A body that occurs only in a law, such as the second wheel of a coupling by angles, has no joint point. Its
+/// reaction is reduced to the origin of its frame, and its joint frame is the body frame. The reaction on ground is
+/// opposite to the sum of the reactions on all other bodies.
 pub fn reaction<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -53,7 +53,7 @@ pub fn reaction<S: Real>(
 
 /// The bodies on which constraint `k` acts, each once: those of the element, i and j first, then those of its laws.
 ///
-/// Coordinates in a law are measured from ground, which takes the opposite force.
+/// Coordinates in a law are measured relative to ground, on which the opposite force acts.
 pub fn touched<S>(model: &Model<S>, k: usize) -> impl Iterator<Item = BodyId> + '_ {
     let item = &model.constraints[k];
     let all = item.bodies.iter().enumerate();
@@ -65,8 +65,8 @@ pub fn touched<S>(model: &Model<S>, k: usize) -> impl Iterator<Item = BodyId> + 
     own.chain(others).chain(ground)
 }
 
-/// The global point at which the reaction of constraint `k` on a body is given: its force acts there, and its torque is
-/// about this point.
+/// The global point at which the reaction of constraint `k` on a body is given. Its force acts at this point, and its
+/// torque is about this point.
 pub fn place<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -77,7 +77,7 @@ pub fn place<S: Real>(
     motions[body.0].pose.point(attached(model, k, body, motions, t).s)
 }
 
-/// The joint frame on a body, with its origin where the reaction acts.
+/// The joint frame on a body, with its origin at the point where the reaction acts.
 fn attached<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -91,7 +91,7 @@ fn attached<S: Real>(
     };
     let joint = item.element.attachment(place);
     match contact(model, k, motions, t) {
-        // the place where the reaction acts, seen from this body
+        // the point where the reaction acts, in the frame of this body
         Some(contact) => {
             let pose = motions[body.0].pose;
             Attachment { s: pose.rotation.inverse(contact - pose.r), ..joint }
@@ -116,7 +116,7 @@ pub fn add_loads<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, lam: &[S
     }
 }
 
-/// Adds the derivatives of the loads of all joints by the multiplier of one row, shape (n_q).
+/// Adds the derivatives of the loads of all joints with respect to the multiplier of one row, shape (n_q).
 pub fn add_load_slopes<S: Real>(
     model: &Model<S>,
     motions: &Motions<S>,
@@ -146,7 +146,7 @@ pub fn add_load_slopes<S: Real>(
     }
 }
 
-/// Gives the load of constraint `k` on each of its bodies, about the origin of its frame.
+/// Calls `visit` with the load of constraint `k` on each of its bodies, about the origin of the body frame.
 pub(super) fn each_load<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -175,15 +175,15 @@ fn positions<S: Real, R>(
     with_values(item.bodies.len(), pose, |bodies| f(&At { bodies, own, t }))
 }
 
-/// The global place where the reaction of constraint `k` acts, if it moves on body j.
+/// The global point where the reaction of constraint `k` acts, if this point moves on body j.
 fn contact<S: Real>(model: &Model<S>, k: usize, motions: &Motions<S>, t: S) -> Option<Vec2<S>> {
     let item = &model.constraints[k];
     let on_j = positions(model, k, motions, t, |at| item.element.contact(at))?;
     Some(motions[item.bodies[1].0].pose.point(on_j))
 }
 
-/// The results of constraint `k` beside its reaction, in the order of its declaration; `lam` are the multipliers of
-/// its own rows.
+/// The results of constraint `k` in addition to its reaction, in the order of its declaration. `lam` contains the
+/// multipliers of its rows.
 pub fn results<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -219,7 +219,7 @@ fn against<S: Real>(
     )
 }
 
-/// The sum of the reactions of a constraint with a law on all moving bodies, about the global origin.
+/// Minus the sum of the reactions of a constraint with a law on all moving bodies, about the global origin.
 fn on_ground<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -236,7 +236,7 @@ fn on_ground<S: Real>(
     sum
 }
 
-/// A wrench about the frame's origin, reduced to the joint point and expressed in a frame.
+/// A wrench about the origin of the frame, reduced to the joint point and expressed in the requested frame.
 fn reduced<S: Real>(w: Wrench<S>, pose: &Pose<S>, at: Attachment<S>, frame: Frame) -> Wrench<S> {
     let arm = pose.global(at.s);
     let force = match frame {
@@ -250,7 +250,7 @@ fn reduced<S: Real>(w: Wrench<S>, pose: &Pose<S>, at: Attachment<S>, frame: Fram
     Wrench { force, torque: w.torque - arm.cross(w.force) }
 }
 
-/// Components in the requested frame; the caller keeps track of the frame.
+/// Converts components to the vector type. The caller is responsible for the frame.
 fn as_vector<S: Real>(s: Local<S>) -> Vec2<S> {
     Vec2::new(s.x, s.y)
 }

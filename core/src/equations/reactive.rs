@@ -1,45 +1,47 @@
 //! Forces that depend on reactions, such as friction in a joint.
 //!
-//! With them Q depends on λ, and the equations of motion are no longer linear:
+//! With such forces Q depends on λ, and the equations of motion are no longer linear:
 //!
 //! ```text
 //! [ M   Φ_qᵀ ] [ q̈ ]   [ Q(λ) ]
 //! [ Φ_q  0   ] [ λ ] = [ γ    ]
 //! ```
 //!
-//! Only the multipliers u of the joints on which forces depend enter Q. Solving the linear equations with Q(u) gives new
-//! multipliers u′(u), and u′(u) = u is solved by Newton's method with the matrix I - ∂u′/∂u. This matrix has one row for
+//! Q depends only on the multipliers u of the joints whose reactions the forces use. The linear equations with Q(u)
+//! have new multipliers u′(u). Newton's method solves u′(u) = u with the matrix I - ∂u′/∂u, which has one row for
 //! each of the few multipliers u; its columns are exact.
 //!
-//! There may be several solutions, or none. The one of the motion is that which follows continuously from the solution
-//! u₀ without these forces, as a factor of them grows from 0 to 1: u = (1 - f) u₀ + f u′(u), because u′ is linear in Q.
-//! The determinant of I - f ∂u′/∂u is 1 at first. Where it becomes zero before f = 1, the forces outgrow the reactions
-//! that hold against them: a friction paradox (Painlevé 1895). Newton's method begins at u₀ with f = 1, and only where
-//! that fails f grows in steps. The result does not depend on earlier evaluations.
+//! There may be several solutions or none. The solution of the motion is the one that follows continuously from the
+//! solution u₀ without these forces, as a factor f on the forces grows from 0 to 1: u = (1 - f) u₀ + f u′(u), because
+//! u′ is linear in Q. The determinant of I - f ∂u′/∂u is 1 at f = 0. If it becomes zero before f = 1, the forces
+//! exceed the reactions that balance them: a friction paradox (Painlevé 1895). Newton's method begins at u₀ with f =
+//! 1. Only if it fails, f grows in steps. The result does not depend on earlier evaluations.
 
 use super::reaction_slopes::rows_of;
 use super::reactions;
 use crate::math::{Largest, Real};
 use crate::model::Model;
 
-/// Most iterations for one factor of the forces.
+/// Largest number of iterations for one factor of the forces.
 const MOST: usize = 12;
-/// Accepted change of the multipliers, relative to the largest.
+/// Accepted change of the multipliers, relative to the largest of the solved multipliers.
 const ACCEPTED: f64 = 1e-12;
-/// Accepted change of the multipliers, relative to the largest of the mechanism, if it does not become smaller.
+/// Accepted change of the multipliers, relative to the largest multiplier of the mechanism, if the change no longer
+/// decreases.
 const ROUNDING: f64 = 1e-10;
-/// Load, relative to the largest force, that is a rounding error: its direction, and the friction with it, is arbitrary.
+/// Size, relative to the largest force, of a load that is a rounding error. Its direction, and with it the friction,
+/// is arbitrary.
 const NOISE: f64 = 1e-13;
-/// The first and the least step of the factor of the forces.
+/// The first and the smallest step of the factor of the forces.
 const FIRST: f64 = 0.25;
 const LEAST: f64 = 1e-5;
 
-/// Whether forces depend on reactions; then the motion depends on the loads of joints.
+/// Whether forces depend on reactions. If so, the motion depends on the loads of joints.
 pub fn depends<S: Real>(model: &Model<S>) -> bool {
     model.forces.iter().any(|force| force.reaction.is_some())
 }
 
-/// The rows of the multipliers on which forces, or loads of joints, depend, ascending.
+/// The rows of the multipliers on which forces or loads of joints depend, ascending.
 pub fn rows<S: Real>(model: &Model<S>) -> Vec<usize> {
     let of_loads =
         reactions::loaded(model).flat_map(|joint| model.layout.constraints[joint].rows.clone());
@@ -50,22 +52,22 @@ pub fn rows<S: Real>(model: &Model<S>) -> Vec<usize> {
     rows
 }
 
-/// The linear equations for forces at given multipliers.
+/// The linear equations, with forces at given multipliers.
 pub(super) trait Response<S> {
-    /// Why they have no solution.
+    /// The reason why the linear equations have no solution.
     type Error;
-    /// All multipliers for Q at the multipliers `lam`, shape (n_rows).
+    /// All multipliers, shape (n_rows), with Q at the multipliers `lam`.
     fn multipliers(&mut self, lam: &[S]) -> Result<Vec<S>, Self::Error>;
     /// The largest generalized force at the last multipliers.
     fn largest_force(&self) -> f64;
-    /// The derivatives of all multipliers by that of one row in Q, shape (n_rows).
+    /// The derivatives of all multipliers with respect to the multiplier of one row in Q, shape (n_rows).
     fn slopes(&mut self, lam: &[S], row: usize) -> Result<Vec<S>, Self::Error>;
 }
 
-/// Solves u′(u) = u for the multipliers in `rows`. `lam`, shape (n_rows), contains the multipliers without these forces,
-/// and then the solution.
+/// Solves u′(u) = u for the multipliers in `rows`. `lam`, shape (n_rows), contains the multipliers without these
+/// forces, and on return the solution.
 ///
-/// Returns whether there is a solution that follows from the multipliers without these forces.
+/// Returns whether there is a solution that follows continuously from the multipliers without these forces.
 ///
 /// # Errors
 /// The errors of the linear equations.
@@ -112,7 +114,7 @@ impl<S: Real, R: Response<S>> Path<'_, S, R> {
         self.rows.iter().map(|row| lam[*row]).collect()
     }
 
-    /// Newton's method from `lam`, with a positive determinant on the way.
+    /// Newton's method from `lam`. Returns whether it converged with positive determinants.
     fn newton(&mut self, lam: &mut [S], factor: S) -> Result<bool, R::Error> {
         let free = self.of(self.free);
         let mut last = f64::INFINITY;
@@ -138,7 +140,7 @@ impl<S: Real, R: Response<S>> Path<'_, S, R> {
         Ok(false)
     }
 
-    /// I - f ∂u′/∂u by columns.
+    /// I - f ∂u′/∂u, by columns.
     fn columns(&mut self, lam: &[S], factor: S) -> Result<Vec<Vec<S>>, R::Error> {
         let mut columns = Vec::with_capacity(self.rows.len());
         for (k, row) in self.rows.iter().enumerate() {
@@ -152,9 +154,9 @@ impl<S: Real, R: Response<S>> Path<'_, S, R> {
     }
 }
 
-/// Solves A x = b, where A is given by its columns; None if the determinant of A is not positive.
+/// Solves A x = b, where A is given by its columns. None if the determinant of A is not positive.
 ///
-/// There is no exchange of rows: where A is far from the unit matrix, smaller steps of the factor follow.
+/// Rows are not exchanged. If A is far from the unit matrix, the factor of the forces takes smaller steps.
 fn eliminate<S: Real>(mut columns: Vec<Vec<S>>, mut b: Vec<S>) -> Option<Vec<S>> {
     let n = b.len();
     let mut determinant = S::one();
@@ -176,7 +178,7 @@ fn eliminate<S: Real>(mut columns: Vec<Vec<S>>, mut b: Vec<S>) -> Option<Vec<S>>
     (positive && x.iter().all(|x| x.is_finite())).then_some(x)
 }
 
-/// Largest magnitude over all entries and lanes; NaN where one is not a number.
+/// Largest magnitude over all entries and lanes. NaN if an entry is NaN.
 pub(super) fn largest<S: Real>(x: &[S]) -> f64 {
     let mut largest = Largest::new();
     x.iter().for_each(|x| largest.add(*x));

@@ -1,9 +1,10 @@
-//! Solutions of the true equations of motion by factors of modified ones.
+//! Solutions of the true equations of motion with the factors of modified equations.
 //!
-//! The factors may be those of a matrix W = M + E with mass added to light bodies, which `equations/take_back.rs` takes
-//! back, and with damped rows where constraints are redundant. Let K be the true matrix, and P the one of these solutions.
-//! Then x ← x + P⁻¹ (b - K x) takes back rounding errors, the error of redundant rows, which falls by their damping (the
-//! method of multipliers), and near singular positions the ridge. The remainder is computed with K, so the limit is exact.
+//! The factors may be those of a matrix W = M + E with inertia added to light bodies, whose effect
+//! `equations/take_back.rs` removes, and with damped rows if constraints are redundant. Let K be the true matrix, and
+//! P the matrix of these solutions. The iteration x ← x + P⁻¹ (b - K x) then reduces rounding errors, the error of
+//! redundant rows in proportion to their damping (the method of multipliers), and near singular positions the effect
+//! of the ridge. The remainder is computed with K, so that the limit is exact.
 
 use super::augmented::Augmented;
 use super::kinematics::Motions;
@@ -14,20 +15,20 @@ use crate::math::Real;
 use crate::model::Model;
 use crate::solve::Breakdown;
 
-/// Corrections for redundant rows, whose error falls by ten digits in each, and near singular positions, where it falls
-/// by ε² / (σ² + ε²).
+/// Number of corrections for redundant rows, each of which reduces the error by ten digits, and near singular
+/// positions, where each multiplies the error by ε² / (σ² + ε²).
 const FOR_REDUNDANCY: usize = 2;
-/// Most corrections for added mass.
+/// Largest number of corrections for added inertia.
 const MOST: usize = 6;
-/// Remainder of an equation that is rounding, relative to the terms of which it is the difference.
+/// Remainder of an equation that is a rounding error, relative to the terms of the remainder.
 const ROUNDING: f64 = 2e-15;
-/// A larger remainder is left by a coordinate that has no mass.
+/// A larger remainder indicates a load on a coordinate without mass.
 const SIGNIFICANT: f64 = 1e-9;
-/// Terms are at least this part of the largest of all, so that bodies without load are not solved to more digits than
-/// numbers have.
+/// Smallest value of the terms relative to the largest term, so that bodies without load are not solved to more
+/// digits than floating-point numbers have.
 const LEAST: f64 = 1e-10;
 
-/// Vectors of a solution, kept for the next one.
+/// Vectors of a solution, reused by the next one.
 #[derive(Clone, Debug)]
 pub struct Memory<S> {
     b: Vec<S>,
@@ -48,10 +49,10 @@ impl<S> Default for Memory<S> {
     }
 }
 
-/// Solves K x = b; `x` contains b at first and the solution afterwards, shape (n_q + n_rows).
+/// Solves K x = b. `x` contains b before and the solution afterwards, shape (n_q + n_rows).
 ///
 /// # Errors
-/// A coordinate without mass or inertia on which a load acts while no joint holds it.
+/// A load on a coordinate without mass or inertia that no joint supports.
 pub fn solve<S: Real>(
     model: &Model<S>,
     motions: &Motions<S>,
@@ -102,13 +103,13 @@ pub fn solve<S: Real>(
     }
 }
 
-/// The largest remainder relative to its terms.
+/// The largest remainder, relative to its terms.
 fn largest<S: Real>(remainder: &[S], terms: &[S]) -> f64 {
     let part = |(r, terms): (&S, &S)| S::select(*terms, *r / *terms, S::zero());
     remainder.iter().zip(terms).map(|both| part(both).largest_magnitude()).fold(0.0, f64::max)
 }
 
-/// b - K x into `out`.
+/// Computes b - K x into `out`.
 fn put_remainder<S: Real>(
     model: &Model<S>,
     masses: &[MassBlock<S>],
@@ -126,8 +127,8 @@ fn put_remainder<S: Real>(
     out.iter_mut().zip(b).for_each(|(out, b)| *out = *b - *out);
 }
 
-/// |b| + |M a| + |Φ_qᵀ| |λ| and |b| + |Φ_q| |a| into `out`, with the `magnitudes` of Φ_q: the terms of which the remainder
-/// is the difference. `sizes` is memory.
+/// Computes |b| + |M a| + |Φ_qᵀ| |λ| and |b| + |Φ_q| |a| into `out`, with the `magnitudes` of Φ_q. These are the
+/// terms whose difference is the remainder. `sizes` is scratch memory.
 fn put_terms<S: Real>(
     model: &Model<S>,
     masses: &[MassBlock<S>],

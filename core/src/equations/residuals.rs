@@ -1,4 +1,4 @@
-//! The constraint errors of a state: Φ and Φ̇ of all constraints and the largest of each, in one pass.
+//! The constraint residuals of a state: Φ and Φ̇ of all constraints and the largest of each, in one pass.
 
 use super::constraints::{self};
 use super::kinematics::Motions;
@@ -10,11 +10,11 @@ use crate::model::{row_scales, Model};
 /// Φ and Φ̇ of one model, at the last evaluated state.
 #[derive(Clone, Debug)]
 pub struct Residuals<S = f64> {
-    /// Φ and Φ̇, each of shape (n_rows), m or rad and that per s.
+    /// Φ and Φ̇, each of shape (n_rows), in m or rad, and in m/s or rad/s.
     pub rows: [Vec<S>; 2],
-    /// 1 / scale of each row: lengths over the size of the mechanism, 1/m.
+    /// 1 / scale of each row. The scale of a length is the size of the mechanism, m.
     pub per_scale: Vec<f64>,
-    /// The row with the largest Φ of those that are left out, and this number scaled; NaN is kept.
+    /// The omitted row with the largest Φ, and the scaled Φ of this row; NaN is kept.
     pub omitted: (usize, f64),
 }
 
@@ -28,8 +28,8 @@ impl<S: Real> Residuals<S> {
         }
     }
 
-    /// Fills the [`rows`](Self::rows) at a state, those that are left out with zeros. Returns the largest of Φ and of Φ̇,
-    /// scaled, over all lanes, or NaN if one is NaN.
+    /// Evaluates the [`rows`](Self::rows) at a state, and sets omitted rows to zero. Returns the largest scaled Φ and
+    /// Φ̇ over all lanes, or NaN if a residual is NaN.
     pub fn look(
         &mut self,
         (model, compiled): (&Model<S>, &Compiled<S>),
@@ -59,13 +59,13 @@ impl<S: Real> Residuals<S> {
         largest.map(|largest| largest.get())
     }
 
-    /// Stored entries of Φ_q.
+    /// Computes the stored entries of Φ_q.
     pub fn jacobian(&self, model: &Model<S>, motions: &Motions<S>, t: S, entries: &mut [S]) {
         constraints::jacobian(model, motions, t, entries);
     }
 }
 
-/// Fills the rows of one joint after the other.
+/// Evaluates the rows of one joint after the other.
 struct Look<'a, S> {
     model: &'a Model<S>,
     motions: &'a Motions<S>,
@@ -98,7 +98,7 @@ impl<S: Real> VisitJoints<S> for Look<'_, S> {
 }
 
 impl<S: Real> Look<'_, S> {
-    /// Any constraint.
+    /// Evaluates any constraint.
     fn one(&mut self, k: usize) {
         let range = self.model.layout.constraints[k].rows.clone();
         constraints::linearize_one(self.model, k, self.motions, self.t, |terms, _| {

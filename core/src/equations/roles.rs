@@ -1,9 +1,9 @@
-//! The joints and drivers of a model by the role that they have in an elimination, and by type.
+//! The joints and drivers of a model, by type and by their role in an elimination.
 //!
-//! A joint that holds a grounded body is condensed with it. A pin among bodies has rows [±I b] (Haug 3.3.12), of which
-//! only b depends on the state; its part of the matrix is computed in the same loop as its rows. Every other joint puts
-//! its rows into the entries of Φ_q. Each type has one loop for each role; all numbers come from the element's own
-//! `linearize`.
+//! A joint that connects a condensed body to ground is condensed with the body. A pin between bodies has rows [±I b]
+//! (Haug 3.3.12), of which only b depends on the state; its part of the matrix is computed in the same loop as its
+//! rows. Every other joint writes its rows into the entries of Φ_q. Each type has one loop for each role. All numbers
+//! come from the function `linearize` of the element.
 
 use super::constraints::{self, ByBlock, Stabilized, Terms};
 use super::inertia::Inertia;
@@ -18,22 +18,22 @@ use crate::solve::{PinEnd, PinRows, PinSum, Saddle};
 /// Joints and drivers by role.
 #[derive(Clone, Debug)]
 pub(super) struct Roles<S> {
-    /// Joints that hold condensed grounded bodies.
+    /// Joints that connect condensed bodies to ground.
     condensing: JointPools<S>,
-    /// Pins among bodies.
+    /// Pins between bodies.
     pins: JointPools<S>,
-    /// All others with constant fields.
+    /// All other joints and drivers with constant fields.
     others: JointPools<S>,
-    /// The places of those with laws.
+    /// Indices of the joints and drivers with laws.
     laws: Vec<usize>,
-    /// Pins at which inertia is lent, and their places among
-    /// [`Pattern::pin_rows`](crate::solve::Pattern::pin_rows). Their γ is needed before bodies are eliminated.
+    /// Pins at which inertia is lent, and their indices among [`Pattern::pin_rows`](crate::solve::Pattern::pin_rows).
+    /// Their γ is needed before bodies are eliminated.
     lending: JointPools<S>,
     slots: Vec<usize>,
 }
 
 impl<S: Real> Roles<S> {
-    /// For a model and its plan of elimination.
+    /// The roles for a model and its plan of elimination.
     pub fn new(model: &Model<S>, compiled: &Compiled<S>, plan: &Plan) -> Self {
         let mut roles = Self {
             condensing: JointPools::default(),
@@ -74,12 +74,12 @@ pub(super) struct At<'a, S> {
     pub model: &'a Model<S>,
     pub compiled: &'a Compiled<S>,
     pub plan: &'a Plan,
-    /// Those of the plan.
+    /// The inertias that belong to the plan.
     pub inertias: &'a [Inertia<S>],
     pub motions: &'a Motions<S>,
     pub t: S,
     pub stabilized: Stabilized<S>,
-    /// Subtracted from γ̂, shape (n_rows), or empty.
+    /// A vector that is subtracted from γ̂, shape (n_rows), or empty.
     pub offset: &'a [S],
 }
 
@@ -87,7 +87,7 @@ pub(super) struct At<'a, S> {
 type TwoRows<S> = ([[S; 2]; 3], [[S; 3]; 4]);
 
 impl<S: Real> At<'_, S> {
-    /// The rows of a joint of two rows between two bodies.
+    /// Evaluates the rows of a joint with two rows between two bodies.
     #[inline(always)]
     fn two_rows<E: Joint>(&self, element: &E::Over<S>, bodies: [u32; 2]) -> TwoRows<S> {
         let bodies = bodies.map(|body| self.motions[body as usize]);
@@ -104,7 +104,7 @@ impl<S: Real> At<'_, S> {
         ([residual, rate, gamma], columns)
     }
 
-    /// γ̂ of two rows.
+    /// Computes γ̂ of two rows.
     #[inline(always)]
     fn gamma(&self, [residual, rate, gamma]: &[[S; 2]; 3], row: u32) -> [S; 2] {
         let mut right = [S::zero(); 2];
@@ -117,7 +117,7 @@ impl<S: Real> At<'_, S> {
     }
 }
 
-/// Puts all joints but pins and condensing ones into the entries of Φ_q and into `right`.
+/// Writes all joints except pins and condensed joints into the entries of Φ_q and into `right`.
 pub(super) fn put_others<S: Real>(
     roles: &Roles<S>,
     at: At<'_, S>,
@@ -166,8 +166,8 @@ impl<S: Real> PutOthers<'_, S> {
         constraints::store(columns, slots, self.saddle.entries.as_flattened_mut());
     }
 
-    /// A joint with a law.
-    #[inline(never)] // as in `visit`
+    /// Writes a joint with a law.
+    #[inline(never)] // as for `visit`
     fn law(&mut self, k: usize) {
         let At { model, motions, t, .. } = self.at;
         constraints::linearize_one(model, k, motions, t, |terms, columns| {
@@ -176,7 +176,7 @@ impl<S: Real> PutOthers<'_, S> {
     }
 }
 
-/// Puts the rows of pins that lend inertia into the entries of Φ_q and into `right`.
+/// Writes the rows of pins that lend inertia into the entries of Φ_q and into `right`.
 #[inline(always)] // most models have none
 pub(super) fn put_lending<S: Real>(
     roles: &Roles<S>,
@@ -210,7 +210,7 @@ impl<S: Real> VisitJoints<S> for PutLending<'_, S> {
     }
 }
 
-/// The columns of rotation of two rows for the body at an end.
+/// The rotation columns of two rows, for the body at an end.
 #[inline(always)]
 fn turning<S: Real>(columns: &[[S; 3]; 4], end: &PinEnd) -> [S; 2] {
     let [first, second] = match end.sign > 0.0 {
@@ -222,7 +222,7 @@ fn turning<S: Real>(columns: &[[S; 3]; 4], end: &PinEnd) -> [S; 2] {
 
 /// Condenses the grounded bodies. `forces` has the length of the unknowns and `right` that of the rows;
 /// [`Saddle::condense`] changes both.
-#[inline(always)] // once in an evaluation: a call would spill registers
+#[inline(always)] // one call in an evaluation, which would spill registers
 pub(super) fn condense<S: Real>(
     roles: &Roles<S>,
     at: At<'_, S>,
@@ -260,8 +260,9 @@ impl<S: Real> VisitJoints<S> for Condense<'_, S> {
     }
 }
 
-/// Puts the rows of the pins into the matrix, with `x` = W⁻¹ Q; `right` becomes their right side.
-#[inline(always)] // as above
+/// Adds the rows of the pins to the matrix, with `x` = W⁻¹ Q. Replaces `right` by the right side of the Schur
+/// complement.
+#[inline(always)] // as for `condense`
 pub(super) fn put<S: Real>(
     roles: &Roles<S>,
     at: At<'_, S>,

@@ -1,4 +1,4 @@
-//! The functions of all switches of a model, and the laws of constraints with their time derivatives.
+//! The switch functions of a model, and the laws of constraints with their time derivatives.
 
 use super::forces::{self, Acting};
 use super::kinematics::Motions;
@@ -9,8 +9,8 @@ use crate::expression::Tape;
 use crate::math::{Jet, Lift, Real, Twist};
 use crate::model::Model;
 
-/// σ of every switch, shape (number of switches), in the order of [`Model::switches`]. The held pieces of `motions`
-/// apply to the switches inside σ.
+/// σ of every switch, in the order of [`Model::switches`]. The held pieces of `motions` apply to the switches inside
+/// σ.
 pub fn functions<S: Real>(
     model: &Model<S>,
     motions: &Motions<S>,
@@ -37,7 +37,7 @@ pub fn functions<S: Real>(
     }
 }
 
-/// The value of each formula of constraint `k` with its time derivatives along a motion without accelerations.
+/// The value of each formula of constraint `k`, with its time derivatives along a motion without accelerations.
 pub fn law_values(model: &Model, k: usize, motions: &Motions, t: f64) -> Vec<Jet> {
     let Some(law) = &model.constraints[k].law else { return Vec::new() };
     let coordinate =
@@ -50,7 +50,7 @@ pub fn law_values(model: &Model, k: usize, motions: &Motions, t: f64) -> Vec<Jet
     all
 }
 
-/// The functions of all switches with their time derivatives along the motion (v, a, ż); the second derivative of a
+/// The functions of all switches with their time derivatives along the motion (v, a, ż). The second derivative of a
 /// function of rates is incomplete.
 pub fn functions_in_time(
     model: &Model,

@@ -1,16 +1,17 @@
-//! Takes back the inertia E = Σ κ u uᵀ that is added where nothing is lent (`equations/lending.rs`); u are unit vectors of
-//! coordinates.
+//! Removes the effect of the inertia E = Σ κ u uᵀ that is added where no body can lend (`equations/lending.rs`). The
+//! vectors u are unit vectors of coordinates.
 //!
-//! Let P be the factorised matrix and K that of the equations, P = K + E. One addition after the other is taken from P
-//! (J. Sherman, W. J. Morrison, Ann. Math. Stat. 21 (1950) 124):
+//! Let P = K + E be the factorised matrix and K the matrix of the equations. The additions are subtracted from P one
+//! after the other (J. Sherman, W. J. Morrison, Ann. Math. Stat. 21 (1950) 124):
 //!
 //! ```text
 //! (P - κ u uᵀ)⁻¹ b = x + y (uᵀ x) / (1 - g),   x = P⁻¹ b,   y = P⁻¹ κ u,   g = uᵀ y
 //! ```
 //!
-//! g is near 1 where the mechanism itself has little inertia along y. Then 1 - g has lost its digits, but it is also
-//! yᵀ (P - κ u uᵀ) y / (κ g), and that is a sum of squares: twice the energy of the motion y. So a freedom whose only
-//! inertia is that of a light body keeps its digits. A motion without energy moves no mass: there, nothing is taken back.
+//! If the mechanism itself has little inertia along y, g is near 1, and 1 - g has lost its digits. But 1 - g is also
+//! yᵀ (P - κ u uᵀ) y / (κ g), which is a sum of squares: twice the kinetic energy of the motion y. A degree of
+//! freedom whose only inertia is that of a light body therefore keeps its digits. A motion without energy moves no
+//! mass; in this case the addition is not removed.
 
 use super::augmented::Augmented;
 use super::kinematics::Motions;
@@ -19,25 +20,25 @@ use super::{constraints, mass};
 use crate::math::Real;
 use crate::model::Model;
 
-/// g above which the energy decides.
+/// Value of g above which 1 - g is computed from the energy.
 const LITTLE_INERTIA: f64 = 0.5;
-/// 1 - g of a motion without mass: rounding errors leave about 1e-28.
+/// Largest 1 - g of a motion without mass. Rounding errors leave about 1e-28.
 const MASSLESS: f64 = 1e-22;
-/// Product of all 1 / (1 - g) above which rounding errors of x grow too much.
+/// Product of all 1 / (1 - g) above which the rounding errors of x grow too much.
 const AMPLIFIED: f64 = 100.0;
 
-/// The motion by which an addition is taken back.
+/// The motion with which one addition is removed.
 #[derive(Clone, Debug)]
 struct AddedMotion<S> {
-    /// Its column.
+    /// Column of the addition.
     column: usize,
-    /// y: coordinates, padding, multipliers.
+    /// y: coordinates, padding and multipliers.
     y: Vec<S>,
     /// 1 / (1 - g).
     factor: S,
 }
 
-/// The directions of all additions at one state.
+/// The directions y of all additions at one state.
 #[derive(Clone, Debug)]
 pub(super) struct Directions<S> {
     all: Vec<AddedMotion<S>>,
@@ -51,17 +52,17 @@ impl<S> Default for Directions<S> {
     }
 }
 
-/// What may be wrong with the directions.
+/// Possible faults of the directions.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Doubts {
-    /// Rounding errors grow when inertia is taken back.
+    /// Rounding errors grow when inertia is removed.
     pub amplified: bool,
     /// A coordinate of a motion without mass.
     pub massless: Option<usize>,
 }
 
 impl<S: Real> Directions<S> {
-    /// Finds the directions with the factors of the matrix.
+    /// Computes the directions with the factors of the matrix.
     pub fn find(
         &mut self,
         model: &Model<S>,
@@ -105,7 +106,7 @@ impl<S: Real> Directions<S> {
         doubts
     }
 
-    /// Turns x = P⁻¹ b into K⁻¹ b: coordinates and multipliers.
+    /// Changes x = P⁻¹ b to K⁻¹ b, for coordinates and multipliers.
     pub fn take_back(&self, a: &mut [S], lam: &mut [S]) {
         self.all.iter().for_each(|direction| direction.apply(a, lam));
     }
@@ -121,7 +122,7 @@ impl<S: Real> AddedMotion<S> {
     }
 }
 
-/// The part of yᵀ K y that damped rows add: λᵀ Φ_q y.
+/// The contribution of damped rows to yᵀ K y: λᵀ Φ_q y.
 fn stretched<S: Real>(
     model: &Model<S>,
     matrix: &Augmented<S>,
@@ -134,7 +135,7 @@ fn stretched<S: Real>(
     rows.iter().zip(lam).fold(S::zero(), |sum, (row, lam)| sum.plus_product(*row, *lam))
 }
 
-/// Whether a number is above zero in any lane.
+/// Whether a number is positive in any lane.
 fn any<S: Real>(x: S) -> bool {
     S::select(x, S::one(), S::zero()).largest_magnitude() > 0.0
 }

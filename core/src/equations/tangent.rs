@@ -5,10 +5,10 @@
 //! K = ∂r/∂q      D = ∂r/∂v      M = ∂r/∂a      B = ∂(Φ_q v + Φ_t)/∂q
 //! ```
 //!
-//! The part of bodies is in closed form. Constraints and forces, with their laws of time and state, are
-//! differentiated by dual numbers over one owner of coordinates at a time, with the same code as the equations
-//! themselves. K and D are stored as blocks (owner, owner); only the blocks that an element couples exist. Few
-//! models have derivatives by states and multipliers; these are lists of [`Entry`].
+//! The part of the bodies has a closed form. Constraints and forces, with their laws of time and state, are
+//! differentiated with dual numbers for one owner of coordinates at a time, with the same code as the equations
+//! themselves. K and D are stored as blocks (owner, owner); only the blocks of coupled owners exist. Few models have
+//! derivatives with respect to states and multipliers; these are lists of [`Entry`].
 
 use super::constraints;
 use super::coupling::{self, Pairs, Participants};
@@ -25,18 +25,18 @@ type D = ByThree<f64>;
 type Entries = [[f64; 3]; 3];
 const ZERO: Entries = [[0.0; 3]; 3];
 
-/// The three numbers of one owner of coordinates beside one row or column of another kind.
+/// The derivatives of one row or column of another kind for the three coordinates of one owner.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Entry {
     /// The owner of coordinates.
     pub owner: usize,
-    /// The place in z, or the row of Φ.
+    /// The index in z, or the row of Φ.
     pub at: usize,
     /// The derivatives, padded with zeros.
     pub values: [f64; 3],
 }
 
-/// Derivatives by and of first-order states and multipliers.
+/// Derivatives of and with respect to first-order states and multipliers.
 #[derive(Clone, Debug, Default)]
 pub struct ByStates {
     /// -∂Q/∂z.
@@ -58,7 +58,7 @@ pub struct Tangent {
     motions: Motions<D>,
     z: Vec<D>,
     lam: Vec<D>,
-    /// The owners of each block; the diagonal first.
+    /// The two owners of each block, diagonal blocks first.
     pairs: Vec<(usize, usize)>,
     /// K, one block for each pair.
     pub stiffness: Vec<Entries>,
@@ -68,13 +68,13 @@ pub struct Tangent {
     pub mass: Vec<MassBlock>,
     /// Φ_q, in the order of the layout.
     pub jacobian: Vec<f64>,
-    /// B, in the same order.
+    /// B, in the order of the layout.
     pub rate: Vec<f64>,
-    /// Derivatives by and of states and multipliers.
+    /// Derivatives of and with respect to states and multipliers.
     pub states: ByStates,
-    /// Scratch: Φ_q over duals.
+    /// Scratch memory: Φ_q over dual numbers.
     columns: Vec<D>,
-    /// Scratch: ż over duals.
+    /// Scratch memory: ż over dual numbers.
     rates: Vec<D>,
     by_constraint: Vec<coupling::ByConstraint>,
     by_force: Vec<Participants>,
@@ -83,7 +83,7 @@ pub struct Tangent {
 }
 
 impl Tangent {
-    /// Memory for a model, and the pattern of its coupling.
+    /// Memory for a model, with the pattern of its couplings.
     pub fn new(model: &Model) -> Self {
         let lifted: Model<D> = model.lift();
         let (owners, n_z) = (model.layout.owners.len(), model.layout.n_z);
@@ -117,12 +117,12 @@ impl Tangent {
         &self.by_force
     }
 
-    /// The owners of each block of K and D.
+    /// The two owners of each block of K and D.
     pub fn pairs(&self) -> &[(usize, usize)] {
         &self.pairs
     }
 
-    /// All derivatives at a state; `a` has shape (n_q), `lam` (n_rows), `z` (n_z).
+    /// Computes all derivatives at a state. `a` has shape (n_q), `lam` (n_rows), `z` (n_z).
     pub fn linearize(
         &mut self,
         model: &Model,
@@ -153,7 +153,8 @@ impl Tangent {
         }
     }
 
-    /// (M x - K s, y + ∂ż/∂q s, -B s) into `out`, shape (n_q + n_z + n_rows); x and s have shape (n_q), y has (n_z).
+    /// Computes (M x - K s, y + ∂ż/∂q s, -B s) into `out`, shape (n_q + n_z + n_rows). x and s have shape (n_q), y
+    /// has (n_z).
     pub fn times(&self, model: &Model, [x, y, s]: [&[f64]; 3], out: &mut [f64]) {
         let (upper, rest) = out.split_at_mut(x.len());
         let (states, lower) = rest.split_at_mut(y.len());
@@ -175,7 +176,7 @@ impl Tangent {
         lower.iter_mut().for_each(|row| *row = -*row);
     }
 
-    /// (Φ_qᵀ λ)_q, B and Φ_q of one constraint.
+    /// Computes (Φ_qᵀ λ)_q, B and Φ_q of one constraint.
     fn constraint(&mut self, k: usize, slots: &Slots, motions: &Motions, t: f64, lam: &[f64]) {
         let m = lam.len();
         for (seed, block) in slots.blocks.iter().enumerate() {
@@ -204,7 +205,7 @@ impl Tangent {
         }
     }
 
-    /// Derivatives of the load of one constraint by the coordinates of the block that is seeded.
+    /// Computes derivatives of the load of one constraint with respect to the coordinates of the seeded block.
     fn load(&mut self, k: usize, slots: &Slots, t: f64, seed: usize) {
         let Self { lifted, motions, lam, by_constraint, stiffness, loads, .. } = self;
         if !*loads || !lifted.constraints[k].element.has_load() {
@@ -219,7 +220,7 @@ impl Tangent {
         });
     }
 
-    /// Derivatives of the loads of all constraints by their multipliers.
+    /// Computes derivatives of the loads of all constraints with respect to their multipliers.
     fn loads_by_multipliers(&mut self, model: &Model, motions: &Motions, t: f64, lam: &[f64]) {
         for k in reactions::loaded(model) {
             let slots = &model.layout.constraints[k];
@@ -235,7 +236,7 @@ impl Tangent {
         }
     }
 
-    /// Makes the coordinates of the owner of a block the seeds.
+    /// Seeds the coordinates of the owner of a block.
     fn seed(&mut self, block: &Block, slots: &Slots, motions: &Motions) {
         match block.body {
             Some(body) => self.motions.body_mut(body.0).pose = seeded(&motions[body.0].pose),
@@ -247,7 +248,7 @@ impl Tangent {
         }
     }
 
-    /// Takes the seeds away.
+    /// Removes the seeds.
     fn unseed(&mut self, block: &Block, slots: &Slots, motions: &Motions) {
         match block.body {
             Some(body) => *self.motions.body_mut(body.0) = motions[body.0].lift(),
@@ -258,7 +259,7 @@ impl Tangent {
         }
     }
 
-    /// Derivatives of one force, and of the rates of its states.
+    /// Computes derivatives of one force, and of the rates of its states.
     fn force(&mut self, k: usize, motions: &Motions, t: f64) {
         for b in 0..self.by_force[k].bodies.len() {
             let body = self.by_force[k].bodies[b].0;
@@ -292,14 +293,14 @@ impl Tangent {
         }
     }
 
-    /// Makes internal coordinates, or their rates, the seeds; or takes the seeds away.
+    /// Seeds internal coordinates or their rates, or removes the seeds.
     fn seed_internal(&mut self, columns: Columns, which: usize, seeds: bool) {
         let (own, rates) = self.motions.own_mut(columns);
         let all = [own, rates][which].iter_mut().enumerate();
         all.for_each(|(k, u)| *u = if seeds { D::variable(u.value, k) } else { D::lift(u.value) });
     }
 
-    /// Derivatives of one force and its states by the variable that is seeded.
+    /// Computes derivatives of one force and its states with respect to the seeded variable.
     fn differentiate(&mut self, k: usize, t: f64, by: Variable) {
         let Self { lifted, motions, z, lam, by_force, rates, .. } = self;
         let acting = Acting { z, lam: Some(lam), t: D::lift(t) };
@@ -345,34 +346,34 @@ impl Tangent {
     }
 }
 
-/// The variable by which a force is differentiated.
+/// The variable with respect to which a force is differentiated.
 #[derive(Clone, Copy)]
 enum Variable {
-    /// The pose of the body, or the internal coordinates, with this place among the participants.
+    /// The pose of the body, or the internal coordinates, with this index among the participants.
     Position(usize),
-    /// The twist of the body.
+    /// The twist of the body, or the internal rates, with this index among the participants.
     Velocity(usize),
-    /// The state with this place in z.
+    /// The state with this index in z.
     State(usize),
     /// The multiplier of this row.
     Multiplier(usize),
 }
 
-/// block += factor × slopes of its rows.
+/// block += factor × derivatives of its rows.
 fn add(block: &mut Entries, rows: [&D; 3], factor: f64) {
     for (out, row) in block.iter_mut().zip(rows) {
         out.iter_mut().zip(row.slope).for_each(|(out, slope)| *out += factor * slope);
     }
 }
 
-/// A twist whose components are the seeds.
+/// A twist whose components are seeded.
 fn varied(twist: &Twist) -> Twist<D> {
     let velocity = Vec2::new(D::variable(twist.velocity.x, 0), D::variable(twist.velocity.y, 1));
     Twist { velocity, omega: D::variable(twist.omega, 2) }
 }
 
-/// ∂/∂q and ∂/∂v of M a minus weight and centrifugal force, of one body: with s = A c′ and b = s⊥,
-/// db/dφ = -s. Only φ and φ̇ enter.
+/// Derivatives with respect to q and v of M a minus weight and centrifugal force, of one body. With s = A c′ and b =
+/// s⊥, db/dφ = -s. Only φ and φ̇ occur.
 fn inertial(body: &Body, motion: &Motion, g: Vec2, a: [f64; 3]) -> (Entries, Entries) {
     let s = motion.pose.global(body.center).scale(body.mass);
     let (b, omega) = (s.perp(), motion.twist.omega);

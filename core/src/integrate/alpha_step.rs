@@ -1,24 +1,25 @@
-//! One step of the generalized-α method at index 3: Φ(q) = 0 at its end, Newton's iteration for q and λ.
+//! One step of the generalized-α method at index 3. Newton's iteration solves for q and λ with Φ(q) = 0 at the end.
 //!
-//! With x the change of q the matrix, its balance of forces multiplied by β h², is
+//! Let x be the change of q. With the balance of forces multiplied by β h², the equations of the iteration are
 //!
 //! ```text
 //! [ (1 - α_m)/(1 - α_f) M + γ h D + β h² K   Φ_qᵀ ] [    x    ]     [ β h² r ]
 //! [ Φ_q                                       0   ] [ β h² Δλ ] = - [   Φ    ]
 //! ```
 //!
-//! so that its condition does not grow as h falls (Bottasso, Bauchau and Cardona, *Time-step-size-
-//! independent conditioning and sensitivity to perturbations in the numerical solution of index three
+//! The condition number of this matrix does not grow as h decreases (Bottasso, Bauchau and Cardona,
+//! *Time-step-size-independent conditioning and sensitivity to perturbations in the numerical solution of index three
 //! differential algebraic equations*, SIAM J. Sci. Comput. 29 (2007) 397).
 //!
-//! The method keeps order 2 from the first step on and for variable steps (Arnold, Brüls and Cardona, *Error analysis
+//! The method has order 2 from the first step on, also for variable steps (Arnold, Brüls and Cardona, *Error analysis
 //! of generalized-α Lie group time integration methods for constrained mechanical systems*, Numer. Math. 129 (2015)
-//! 149). For this, two deviations pass from step to step: a belongs to t + Δ h, so a - v̇ is proportional to h; and the
-//! velocities of the method deviate from the constraints by h² C_q v̈, normal to them. They are stored divided by h and
-//! h². The reported velocities meet the constraints.
+//! 149). This requires two deviations to be carried from step to step. First, a approximates the acceleration at t +
+//! Δ h, so that a - v̇ is proportional to h. Second, the velocities of the method deviate from the constraints by h²
+//! C_q v̈, normal to them. The deviations are stored divided by h and by h². The reported velocities satisfy the
+//! constraints.
 //!
-//! First-order states z are integrated as v is, with parameters of the same damping
-//! ([`AlphaParameters::of_states`]); w takes the place of a, and their changes are unknowns beside x.
+//! First-order states z are integrated as v is, with parameters that give the same damping
+//! ([`AlphaParameters::of_states`]). Their variable w corresponds to a. Their changes are further unknowns after x.
 
 use super::alpha_parameters::AlphaParameters;
 use super::dae::{
@@ -34,17 +35,18 @@ use super::right_hand_side::all_finite;
 const MOST: usize = 10;
 /// Largest number of matrices in one step.
 const MATRICES: usize = 3;
-/// A matrix of an earlier step is renewed if it reduces the error by less.
+/// A matrix of an earlier step is replaced if one iteration does not reduce the error below this fraction.
 const SLOW: f64 = 0.2;
-/// Steps that differ by less share a matrix: differences of times are subject to rounding.
+/// Relative difference of two step sizes below which the steps share a matrix. Differences of times are subject to
+/// rounding.
 const SAME: f64 = 1e-6;
-/// Corrections below this part of the largest coordinate are rounding.
+/// Relative size of corrections that are rounding errors, compared with the largest coordinate.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
-/// Part of the tolerance that Newton's iteration may leave.
+/// Largest error that Newton's iteration may leave, as a fraction of the tolerance.
 const PART: f64 = 1e-2;
 
-/// The quantities of v or of z that pass from step to step: (a - v̇) / h and the rate of v̇ at the beginning of a
-/// step; and a, which replaces v̇ in the method, at both ends.
+/// The quantities of v or of z that are carried from step to step: (a - v̇) / h, the rate of v̇ at the beginning of a
+/// step, and the variable a, which replaces v̇ in the method, at both ends.
 pub(super) struct Carried {
     pub shift: Vec<f64>,
     pub slope: Vec<f64>,
@@ -58,8 +60,8 @@ impl Carried {
         Self { shift: row(), slope: row(), start: row(), end: row() }
     }
 
-    /// Predicts the derivative at the end by extrapolation, and a at both ends. Returns the mean of a
-    /// by which component i changes over the step, (1 - γ) a₀ + γ a₁.
+    /// Predicts the derivative at the end of the step and a at both ends by extrapolation. Returns the weighted mean
+    /// of a that changes component i over the step, (1 - γ) a₀ + γ a₁.
     fn predict(&mut self, p: &AlphaParameters, h: f64, i: usize, rate: f64, end: &mut f64) -> f64 {
         self.start[i] = rate + h * self.shift[i];
         *end = rate + h * self.slope[i];
@@ -68,7 +70,7 @@ impl Carried {
         (1.0 - p.gamma) * self.start[i] + p.gamma * self.end[i]
     }
 
-    /// The step ends with these derivatives.
+    /// Stores the slope and the shift for the next step, from the derivatives at both ends of this one.
     fn move_on(&mut self, h: f64, old: &[f64], new: &[f64]) {
         for i in 0..self.slope.len() {
             self.slope[i] = (new[i] - old[i]) / h;
@@ -77,29 +79,29 @@ impl Carried {
     }
 }
 
-/// State and memory of a run.
+/// State and work memory of an integration.
 pub(super) struct AlphaStep {
     pub parameters: AlphaParameters,
     /// The parameters for first-order states.
     pub of_states: AlphaParameters,
-    /// The beginning: q, v on the constraints, a = v̇.
+    /// The beginning of the step: q, and v on the constraints. Its field `a` stores v̇.
     pub start: ImplicitState,
-    /// The end: q, v of the method, a = v̇.
+    /// The end of the step: q, and v of the method. Its field `a` stores v̇.
     pub end: ImplicitState,
-    /// The carried derivatives of v and of z.
+    /// The carried quantities of v and of z.
     pub carried: [Carried; 2],
     /// (v of the method - v) / h² at the beginning.
     pub normal: Vec<f64>,
-    /// The step over which the slopes were computed.
+    /// Length of the step from which the slopes were computed.
     pub h_before: f64,
     x: Vec<f64>,
     dv: Vec<f64>,
     /// Estimated errors of q, v and z.
     error: [Vec<f64>; 3],
     rows: Vec<f64>,
-    /// The step of the current matrix.
+    /// Length of the step for which the current matrix was factorised.
     factored: Option<f64>,
-    /// Whether the last failure was that of a factorisation.
+    /// Whether the last step failed because the matrix was singular.
     pub singular: bool,
 }
 
@@ -123,7 +125,7 @@ impl AlphaStep {
         }
     }
 
-    /// Forgets the step before: the state has changed.
+    /// Discards the data of earlier steps after a change of the state.
     pub fn forget(&mut self) {
         self.factored = None;
         self.carried = self.carried.each_ref().map(|carried| Carried::new(carried.slope.len()));
@@ -151,7 +153,7 @@ impl AlphaStep {
         }
     }
 
-    /// Makes the matrix at the beginning of a step, for [`filter`](Self::filter).
+    /// Factorises the matrix at the beginning of a step, for [`filter`](Self::filter).
     pub fn factor_at_start<Y: Dae>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
@@ -163,7 +165,7 @@ impl AlphaStep {
         system.factor(self.coefficients(h))
     }
 
-    /// Computes the state at t + h into `end`; returns whether Newton's iteration converged.
+    /// Computes the state at t + h into `end`. Returns whether Newton's iteration converged.
     pub fn advance<Y: Dae>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
@@ -188,14 +190,14 @@ impl AlphaStep {
             if !factored || ![q, v, a, lam].into_iter().all(|x| all_finite(x)) {
                 break;
             }
-            // forces may have a kink between the first guess and the end
+            // forces may have a kink between the prediction and the end
             system.linearize(t + h, self.end.iterate());
         }
         self.factored = None;
         false
     }
 
-    /// First guess: v̇ and ż are extrapolated.
+    /// Predicts the end of the step by extrapolation of v̇ and ż.
     fn predict(&mut self, h: f64) {
         let (p, p_z) = (self.parameters, self.of_states);
         let Self { start, end, normal, carried: [of_v, of_z], .. } = self;
@@ -240,7 +242,7 @@ impl AlphaStep {
         false
     }
 
-    /// One correction of `end`; its norm.
+    /// Corrects `end` by one iteration. Returns the norm of the correction.
     fn correct<Y: Dae>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
@@ -276,7 +278,7 @@ impl AlphaStep {
         scale.norm(&self.x[..n], &self.dv, &self.x[n..both])
     }
 
-    /// Residuals at `end`: of forces and states into the first parts of x, Φ into `rows`.
+    /// Computes the residuals at `end`: those of the forces and states into the first parts of x, and Φ into `rows`.
     fn evaluate<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, t: f64) {
         let (forces, rest) = self.x.split_at_mut(self.dv.len());
         let states = &mut rest[..self.end.z.len()];
@@ -285,9 +287,10 @@ impl AlphaStep {
         system.residual(t, Iterate { q, v, a, lam, z, dz }, ConstraintLevel::Position, out);
     }
 
-    /// The estimated error of the step over its tolerance: C_q h² (a₁ - a₀) for q and C_v h³ v⃛ for v,
-    /// v⃛ from the last three accelerations; both without their part normal to the constraints, which the
-    /// constraints themselves prevent. For z as for v. Stiff motions are not filtered out: oscillations of a enter q.
+    /// The estimated error of the step relative to its tolerance: C_q h² (a₁ - a₀) for q and C_v h³ v⃛ for v, with v⃛
+    /// from the last three accelerations. The parts normal to the constraints are removed, because the constraints
+    /// prevent such errors. The error of z is estimated in the same way as that of v. Stiff motions are not filtered
+    /// out, because oscillations of a enter q.
     pub fn error<Y: Dae>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
@@ -298,7 +301,7 @@ impl AlphaStep {
         let c_z = self.of_states.velocity_error();
         let span = 0.5 * (h + self.h_before);
         let Self { start, end, carried: [of_v, of_z], error: [of_q, error_v, error_z], .. } = self;
-        // (of a the change would be less smooth where the step changes)
+        // the jerk is a difference of v̇; the variable a of the method is less smooth where the step changes
         let jerk = |change: f64, slope: f64| h * h * h * (change / h - slope) / span;
         for i in 0..self.dv.len() {
             let change = end.a[i] - start.a[i];
@@ -308,7 +311,7 @@ impl AlphaStep {
         for (i, error) in error_z.iter_mut().enumerate() {
             *error = c_z * jerk(end.dz[i] - start.dz[i], of_z.slope[i]);
         }
-        // with a whole step that is determined by the constraints nothing else shows that it is too long
+        // if the constraints determine the whole motion, only the unprojected error shows that a step is too long
         let whole = scale.norm(of_q, &[], &[]);
         for x in [of_q, error_v] {
             self.dv.copy_from_slice(x);
@@ -324,8 +327,9 @@ impl AlphaStep {
         }
     }
 
-    /// The norm of corrections that are rounding alone: of q relative to its largest component, since
-    /// the constraints are sums of all of them; of v that over h.
+    /// The norm of corrections that contain only rounding errors. The correction of q is compared with the largest
+    /// component of q, since every constraint is a sum over several components. The correction of v is that of q
+    /// multiplied by γ / (β h).
     fn rounding(&self, h: f64, scale: &mut ErrorWeights) -> f64 {
         let AlphaParameters { beta, gamma, .. } = self.parameters;
         scale.set(&self.start, &self.end);
@@ -339,8 +343,8 @@ impl AlphaStep {
         (sum / scale.weights.len() as f64).sqrt()
     }
 
-    /// (x, y) ← the solution with M x (1 - α_m)/(1 - α_f) and y on the right and Φ_q x = 0: rates without those of stiff
-    /// motions.
+    /// Solves for (x, y) with the right side (M x (1 - α_m)/(1 - α_f), y, 0), in place. The result contains the rates
+    /// without those of stiff motions; Φ_q x = 0.
     pub fn filter<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, x: &mut [f64], y: &mut [f64]) {
         let n = x.len();
         let share = self.parameters.acceleration_share();
@@ -352,7 +356,7 @@ impl AlphaStep {
         y.copy_from_slice(&self.x[n..n + y.len()]);
     }
 
-    /// Projects the end onto the constraints; the normal part of its velocities is kept for the next step.
+    /// Projects the end onto the constraints. Keeps the normal part of its velocities for the next step.
     pub fn project<Y: Dae>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
@@ -365,17 +369,17 @@ impl AlphaStep {
         for (normal, v) in self.normal.iter_mut().zip(&self.end.v) {
             *normal = (*normal - v) / (h * h);
         }
-        self.evaluate(system, t + h); // for the powers
+        self.evaluate(system, t + h); // computes the powers
         Ok(changed)
     }
 
-    /// Whether the end is finite.
+    /// Whether all numbers at the end are finite.
     pub fn finite(&self) -> bool {
         let ImplicitState { q, v, a, lam, z, dz, powers } = &self.end;
         [q, v, a, lam, z, dz, powers].into_iter().all(|x| all_finite(x))
     }
 
-    /// The end becomes the beginning of the next step.
+    /// Makes the end the beginning of the next step.
     pub fn move_on(&mut self, h: f64) {
         let Self { start, end, carried: [of_v, of_z], .. } = self;
         of_v.move_on(h, &start.a, &end.a);

@@ -2,12 +2,12 @@
 
 use super::failure::Cause;
 
-/// Largest number of steps for which neighbouring times t0 + k step still differ.
+/// Largest number of steps for which the neighbouring times t0 + k step still differ.
 const MOST_STEPS: f64 = 1e15;
-/// A remainder of the interval below this part of it is rounding, not a step.
+/// A remainder of the interval below this fraction of the interval is a rounding error and requires no step.
 pub(super) const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// Refuses an argument: its name, its value, and the condition on it.
+/// Returns an error with the name, the value and the condition `must` if the condition does not hold.
 pub(super) fn require<E>(
     holds: bool,
     name: &'static str,
@@ -20,7 +20,7 @@ pub(super) fn require<E>(
     }
 }
 
-/// Times and initial state.
+/// Checks the times and the initial state.
 pub(super) fn check_problem<E>(t0: f64, t_end: f64, y: &[f64], len: usize) -> Result<(), Cause<E>> {
     finite("t0", t0)?;
     finite("t_end", t_end)?;
@@ -43,7 +43,7 @@ pub(super) fn not_negative<E>(name: &'static str, value: f64) -> Result<(), Caus
     require(value >= 0.0, name, value, ">= 0")
 }
 
-/// Number of constant steps over an interval; a remainder of rounding does not count.
+/// Number of constant steps over an interval. A remainder that is a rounding error requires no further step.
 pub(super) fn step_count<E>(step: f64, interval: f64) -> Result<usize, Cause<E>> {
     let ratio = interval / step;
     require(ratio <= MOST_STEPS, "step", step, "at least 1e-15 of |t_end - t0|")?;

@@ -2,32 +2,32 @@
 
 use crate::math::{Lanes, Real};
 
-/// Highest degree that a method has.
+/// Highest degree of the interpolant of any method.
 pub(crate) const HIGHEST: usize = 9;
 
-/// Values of four components at the beginning, and coefficients of θ … θ⁹, over h.
+/// Values of four components at the beginning, then their coefficients of θ … θ⁹ divided by h.
 pub(super) type Four = [Lanes; HIGHEST + 1];
 
-/// The extension of a step, component by component.
+/// The continuous extension of a step, component by component.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Polynomials<'a> {
     /// The coordinates, four components in each entry.
     pub q: &'a [Four],
-    /// Everything behind the coordinates.
+    /// All components after the coordinates.
     pub rates: &'a [Four],
     /// Number of coordinates.
     pub positions: usize,
 }
 
 impl Polynomials<'_> {
-    /// The state at θ, by a time of `ahead` = h θ after the beginning.
+    /// Computes the state at θ. `ahead` = h θ is the time since the beginning.
     pub fn evaluate(&self, ahead: f64, theta: f64, out: &mut [f64]) {
         let (ahead, theta) = (Lanes::constant(ahead), Lanes::constant(theta));
         let at = |[begin, c @ .., last]: &Four| {
             let sum = c.iter().rev().fold(*last, |sum, c| c.plus_product(sum, theta));
             begin.plus_product(ahead, sum)
         };
-        // the last four of q run into the rates, which follow
+        // the last block of q overwrites the first rates, which are stored afterwards
         for (first, all) in [(0, self.q), (self.positions, self.rates)] {
             let (mut blocks, mut all) = (out[first..].chunks_exact_mut(Lanes::WIDTH), all.iter());
             for (out, four) in (&mut blocks).zip(&mut all) {
@@ -39,7 +39,7 @@ impl Polynomials<'_> {
         }
     }
 
-    /// Coefficients of θ … θ⁹ of each component, over h: row-major (len of y) × 9.
+    /// Computes the coefficients of θ … θ⁹ of each component, divided by h. `out` is row-major, (len of y) × 9.
     pub fn coefficients(&self, out: &mut [f64]) {
         let (of_q, of_rates) = out.split_at_mut(self.positions * HIGHEST);
         for (all, out) in [(self.q, of_q), (self.rates, of_rates)] {
@@ -54,7 +54,7 @@ impl Polynomials<'_> {
 
 const _: () = assert!(HIGHEST == 9, "ten numbers of q");
 
-/// Puts as many numbers as there is room for.
+/// Stores as many of the four numbers as `out` has room for.
 #[inline(always)]
 pub(super) fn store(x: Lanes, out: &mut [f64]) {
     match out.first_chunk_mut() {

@@ -1,49 +1,50 @@
-//! Where functions of the state change sign within a step, several changes in one step included.
+//! Locates the sign changes of several functions of the state within a step, including several changes of a function.
 //!
-//! The functions are sampled at [`PARTS`] + 1 times of the interpolant. A change of sign between two samples is closed
-//! in by bisection and inverse quadratic interpolation (`events`). Where the samples approach zero and turn back, the
-//! parabola through three of them shows whether zero lies beyond. An even number of changes within a
-//! [`PARTS`]-th of a step can be missed; a shorter step finds them.
+//! The functions are sampled at [`PARTS`] + 1 times of the interpolant. Bisection and inverse quadratic interpolation
+//! locate a sign change between two samples (`events`). Where the samples approach zero and turn back, a parabola
+//! through three samples shows whether the function reaches zero between them. An even number of changes within
+//! 1/[`PARTS`] of a step can be missed; a shorter step finds them.
 
 use super::events::{Bracket, Direction};
 use super::step::Step;
 
-/// Parts of a step between samples.
+/// Number of intervals between the samples of a step.
 const PARTS: usize = 12;
-/// Spacings of numbers within which changes of sign count as one time.
+/// Two sign changes count as one time if they differ by at most this number of floating-point spacings.
 const TOGETHER: f64 = 8.0;
-/// Changes within this many times that span before the first one count as simultaneous, as rounding errors of functions may
-/// shift them; those as much after one that ends a step are kept.
+/// Multiple of that time for which rounding errors may shift a sign change. A change within it before the first one
+/// counts as simultaneous; a change within it after a change that ends the step is kept.
 const NEAR: f64 = 8.0;
-/// Parabolas that are tried to find a zero between samples of one sign.
+/// Largest number of parabolas that search for a zero between samples of equal sign.
 const PARABOLAS: usize = 4;
 
 /// A change of sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Crossing {
-    /// The function.
+    /// Index of the function.
     pub index: usize,
     /// Time just past the change.
     pub t: f64,
-    /// Whether the function grows there.
+    /// Whether the function increases at `t`.
     pub rising: bool,
 }
 
 /// The signs of functions over a step.
 #[derive(Clone, Debug, Default)]
 pub struct Scan {
-    /// The changes of sign in a direction that counts that come before all others: several where functions change
-    /// together, in their order.
+    /// The earliest sign changes in the given direction. It contains several changes, in the order of the functions,
+    /// if the functions change sign together.
     pub first: Vec<Crossing>,
-    /// The functions that are below zero at all samples after the beginning.
+    /// Indices of the functions that are negative at all samples after the beginning.
     pub negative: Vec<usize>,
 }
 
-/// Evaluates functions at a time and a state, into its last argument. NaN has no sign.
+/// Evaluates functions at a time and a state and writes the values into the last argument. NaN has no sign.
 pub type Functions<'a> = &'a mut dyn FnMut(f64, &[f64], &mut [f64]);
 
-/// Samples `count` functions over a step and locates the first changes of sign, to four spacings of numbers. A change
-/// at the very beginning belongs to the step before. Changes of a function after `until` of its index do not count.
+/// Samples `count` functions over a step and locates the first sign changes to within four floating-point spacings. A
+/// change at the very beginning belongs to the step before. A change of function `i` after the time `until(i)` is
+/// ignored.
 pub fn scan(
     step: &Step<'_>,
     count: usize,
@@ -62,10 +63,10 @@ pub fn scan(
     Scan { first: sampled.first(changes, until), negative }
 }
 
-/// All changes of sign, each function with its own direction: in order of time, and at one time in the order of the
-/// functions. Those after the first change of a function that `ends` are left out. The step is divided into `parts`, and
-/// further where a parabola through three samples reaches zero or the samples do not follow a parabola, so that
-/// functions which oscillate within a step are resolved.
+/// Returns all sign changes, with a direction for each function. They are sorted by time, and simultaneous changes by
+/// function. Changes after the first change of a function that `ends` the step are omitted. The step is divided into
+/// `parts`. A part is divided further where a parabola through three samples reaches zero or the samples do not
+/// follow a parabola. This resolves functions that oscillate within a step.
 pub fn crossings(
     step: &Step<'_>,
     parts: usize,
@@ -90,12 +91,12 @@ pub fn crossings(
     all
 }
 
-/// Changes of sign within this time count as one time.
+/// Largest difference of the times of two sign changes that count as simultaneous.
 fn together(step: &Step<'_>) -> f64 {
     TOGETHER * f64::EPSILON * step.t.abs().max(step.t_old.abs())
 }
 
-/// Sorts by time, and at one time by function.
+/// Sorts by time, and simultaneous changes by function.
 fn sort(step: &Step<'_>, crossings: &mut [Crossing]) {
     let sign = (step.t - step.t_old).signum();
     crossings.sort_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)));
@@ -104,9 +105,9 @@ fn sort(step: &Step<'_>, crossings: &mut [Crossing]) {
     }
 }
 
-/// A time and the value there.
+/// A time and the value of a function at this time.
 type Point = (f64, f64);
-/// A time and the values of all functions there.
+/// A time and the values of all functions at this time.
 type Sample = (f64, Vec<f64>);
 
 /// A change of sign between two times.
@@ -119,7 +120,7 @@ struct SignChange {
 }
 
 impl SignChange {
-    /// Whether the function has changed at a value between the two times.
+    /// Whether a value lies on the new side of zero, so that the function has already changed sign.
     fn is_past(&self, value: f64) -> bool {
         if self.rising {
             value >= 0.0
@@ -133,13 +134,14 @@ impl SignChange {
     }
 }
 
-/// The place of a further sample between two; not their middle, which functions of a period may hit again.
+/// Place of a further sample between two samples. The middle is avoided because samples could repeat the period of a
+/// function.
 const BETWEEN: f64 = 0.45;
-/// Divisions of one part.
+/// Largest number of divisions of one part.
 const DEEPEST: usize = 10;
 
-/// Whether a function may have further changes of sign among three samples: a parabola through values a and b with the
-/// bend of the samples can be zero twice.
+/// Whether a function may have further sign changes among three samples. It may if a parabola through the values a
+/// and b with the curvature of the samples can have two zeros.
 fn may_turn([a, m, b]: [f64; 3]) -> bool {
     let line = a + BETWEEN * (b - a);
     let bend = (m - line).abs() / (BETWEEN * (1.0 - BETWEEN));
@@ -158,7 +160,7 @@ impl<'a, 'b> Sampled<'a, 'b> {
         Self { step, functions, y: step.y.to_vec(), values: vec![0.0; count] }
     }
 
-    /// The samples of each function.
+    /// Samples each function.
     fn points(&mut self) -> Vec<Vec<Point>> {
         let times: Vec<f64> = (0..=PARTS).map(|k| self.time(k as f64 / PARTS as f64)).collect();
         let rows: Vec<Vec<f64>> = times.iter().map(|t| self.at(*t).to_vec()).collect();
@@ -166,12 +168,12 @@ impl<'a, 'b> Sampled<'a, 'b> {
         (0..self.values.len()).map(|index| of(index).collect()).collect()
     }
 
-    /// Samples that resolve all functions.
+    /// Samples all functions so densely that they are resolved.
     fn resolved(&mut self, parts: usize) -> Vec<Sample> {
         let times: Vec<f64> = (0..=parts).map(|k| self.time(k as f64 / parts as f64)).collect();
         let mut coarse = times.into_iter().map(|t| (t, self.at(t).to_vec())).collect::<Vec<_>>();
         let mut found = vec![coarse.remove(0)];
-        // the next sample is on top, with the number of divisions before it
+        // a stack, with the next sample on top; each sample has the number of divisions before it
         let mut ahead: Vec<(Sample, usize)> = coarse.into_iter().rev().map(|s| (s, 0)).collect();
         while let Some((next, depth)) = ahead.pop() {
             let last = found.last().expect("the first sample");
@@ -199,7 +201,7 @@ impl<'a, 'b> Sampled<'a, 'b> {
         }
     }
 
-    /// The values of all functions at a time.
+    /// Evaluates all functions at a time.
     fn at(&mut self, t: f64) -> &[f64] {
         if t == self.step.t {
             self.y.copy_from_slice(self.step.y);
@@ -212,7 +214,7 @@ impl<'a, 'b> Sampled<'a, 'b> {
         &self.values
     }
 
-    /// The first `most` changes of sign of a function with the given samples.
+    /// The first `most` sign changes of a function with the given samples.
     fn changes(
         &mut self,
         index: usize,
@@ -245,7 +247,7 @@ impl<'a, 'b> Sampled<'a, 'b> {
         found
     }
 
-    /// The time just past a change.
+    /// The time just past a sign change.
     fn close(&mut self, change: &SignChange) -> Crossing {
         let SignChange { index, old, new, .. } = *change;
         if new.1 == 0.0 {
@@ -257,8 +259,8 @@ impl<'a, 'b> Sampled<'a, 'b> {
         change.at(bracket.close(4.0 * spacing, |t| sign * self.at(t)[index]))
     }
 
-    /// Samples just before and just past the earliest change. A change is located only if it comes before those found
-    /// so far, which few of many changes do unless they are simultaneous up to rounding errors.
+    /// Samples just before and just past the earliest change. A change is located only if it may come before the
+    /// changes located so far. Only few changes come earlier, unless they are simultaneous up to rounding errors.
     fn earliest<'c>(
         &mut self,
         changes: impl Iterator<Item = &'c SignChange>,
@@ -278,7 +280,7 @@ impl<'a, 'b> Sampled<'a, 'b> {
         around
     }
 
-    /// The changes that come first, without those of a function after `until` of its index.
+    /// The earliest changes. A change of a function after the time `until` of its index is ignored.
     fn first(
         &mut self,
         mut changes: Vec<SignChange>,
@@ -296,13 +298,13 @@ impl<'a, 'b> Sampled<'a, 'b> {
         together.map(|change| change.at(first.0)).collect()
     }
 
-    /// The changes up to the earliest one that ends the step, and shortly after it.
+    /// The changes up to the earliest one that ends the step, and those shortly after it.
     fn up_to(&mut self, [before, first]: &[Sample; 2], changes: &[SignChange]) -> Vec<Crossing> {
         let sign = (self.step.t - self.step.t_old).signum();
         let after = self.sample(first.0 + sign * NEAR * together(self.step));
         let mut found = Vec::new();
         for change in changes {
-            // rounding errors may hide at a later sample what the first one shows
+            // rounding errors may hide at a later sample a change that the first sample shows
             if !self.has_changed(change, before) && self.has_changed(change, first) {
                 found.push(change.at(first.0));
             } else if self.has_changed(change, before) || self.has_changed(change, &after) {
@@ -312,7 +314,7 @@ impl<'a, 'b> Sampled<'a, 'b> {
         found
     }
 
-    /// Whether a function has changed at a sample.
+    /// Whether a function has changed sign at a sample.
     fn has_changed(&self, change: &SignChange, (t, row): &Sample) -> bool {
         let sign = (self.step.t - self.step.t_old).signum();
         let (from, to) = (sign * change.old.0, sign * change.new.0);
@@ -323,7 +325,8 @@ impl<'a, 'b> Sampled<'a, 'b> {
         (t, self.at(t).to_vec())
     }
 
-    /// A point on the other side of zero between three samples of one sign, between the points next to it.
+    /// Searches between three samples of equal sign for a point on the other side of zero. Returns the point with its
+    /// two neighbours.
     fn turn(&mut self, index: usize, mut points: [Point; 3]) -> Option<[Point; 3]> {
         let sign = points[1].1.signum();
         for _ in 0..PARABOLAS {
@@ -346,7 +349,7 @@ impl<'a, 'b> Sampled<'a, 'b> {
     }
 }
 
-/// The time at which the parabola through three points is extreme, if it is near zero there.
+/// The time at which the parabola through three points has its extremum, if its value there is near zero.
 fn vertex([a, b, c]: [Point; 3]) -> Option<f64> {
     let (left, right) = ((b.1 - a.1) / (b.0 - a.0), (c.1 - b.1) / (c.0 - b.0));
     let bend = (right - left) / (c.0 - a.0);
@@ -357,7 +360,7 @@ fn vertex([a, b, c]: [Point; 3]) -> Option<f64> {
     (near && by != 0.0 && by.is_finite()).then_some(b.0 + by)
 }
 
-/// The three points around the smallest value after one more was evaluated.
+/// The three points around the smallest absolute value, after one more evaluation.
 fn around([a, b, c]: [Point; 3], latest: Point, sign: f64) -> [Point; 3] {
     let earlier = (latest.0 - b.0) * (c.0 - a.0) < 0.0;
     match (sign * latest.1 < sign * b.1, earlier) {

@@ -5,9 +5,9 @@
 //!               z′ - f(t, q, v, z) = 0
 //! ```
 //!
-//! The method forms the iterates and the coefficients of the matrices of Newton's iteration; the system
-//! evaluates residuals, stores its own tangent and factorises the matrices. Observers see y = (q, v, z,
-//! quadratures), so output, interpolants and events are those of the explicit methods.
+//! An integration method provides the iterates and the coefficients of the matrices of Newton's iteration. The system
+//! evaluates the residuals, stores its tangent and factorises the matrices. Observers receive y = (q, v, z,
+//! quadratures), so output, interpolants and events work as for the explicit methods.
 
 use crate::math::Complex;
 
@@ -35,13 +35,13 @@ impl DaeLengths {
         self.controlled() + self.quadratures
     }
 
-    /// Length of a correction of Newton's iteration: (q or v part, z part, λ part).
+    /// Length of a correction of Newton's iteration, which has the parts (q or v, z, λ).
     pub fn unknowns(&self) -> usize {
         self.coordinates + self.states + self.multipliers
     }
 }
 
-/// Coordinates, velocities, accelerations, multipliers and states, which need not satisfy any equation.
+/// Coordinates, velocities, accelerations, multipliers and states. They need not satisfy any equation.
 #[derive(Clone, Copy, Debug)]
 pub struct Iterate<'a> {
     /// Coordinates.
@@ -54,11 +54,11 @@ pub struct Iterate<'a> {
     pub lam: &'a [f64],
     /// First-order states.
     pub z: &'a [f64],
-    /// Their rates.
+    /// Rates of the first-order states.
     pub dz: &'a [f64],
 }
 
-/// The constraints that a method adds to the balance of forces.
+/// The constraint equations that a method solves together with the balance of forces.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConstraintLevel {
     /// Φ: index 3.
@@ -67,20 +67,20 @@ pub enum ConstraintLevel {
     Velocity,
 }
 
-/// Where residuals are written.
+/// Memory for the residuals.
 #[derive(Debug)]
 pub struct DaeResidual<'a> {
-    /// M a + Φ_qᵀ λ - Q, as long as q.
+    /// M a + Φ_qᵀ λ - Q, of the length of q.
     pub forces: &'a mut [f64],
-    /// z′ - f, as long as z.
+    /// z′ - f, of the length of z.
     pub states: &'a mut [f64],
-    /// The constraints at the given level, as long as λ.
+    /// The constraint equations at the given level, of the length of λ.
     pub rows: &'a mut [f64],
     /// Rates of the quadratures.
     pub powers: &'a mut [f64],
 }
 
-/// Where [`Dae::accelerate`] writes.
+/// Memory for the results of [`Dae::accelerate`].
 #[derive(Debug)]
 pub struct DaeRates<'a> {
     /// Accelerations.
@@ -101,7 +101,8 @@ pub struct DaeRates<'a> {
 /// [ Φ_q + rate B                                 0                    0  ]
 /// ```
 ///
-/// with K and D the derivatives of the balance of forces by q and v, and B that of Φ_q v + Φ_t by q.
+/// K and D are the derivatives of the balance of forces with respect to q and v. B is the derivative of Φ_q v + Φ_t
+/// with respect to q.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct NewtonCoefficients<F = f64> {
     /// Factor of M.
@@ -124,17 +125,17 @@ pub struct NewtonCoefficients<F = f64> {
 
 /// A constrained mechanical system.
 pub trait Dae {
-    /// The error of the system; it is passed on unchanged.
+    /// Error of the system, passed on unchanged.
     type Stop;
 
-    /// Lengths of its parts.
+    /// Lengths of the parts of the DAE.
     fn lengths(&self) -> DaeLengths;
 
-    /// a and λ at a state (q, v, z) that meets its constraints, from their second derivative; the rates of z and
-    /// of the quadratures.
+    /// Computes a and λ at a state (q, v, z) that satisfies the constraints, from the second derivative of the
+    /// constraints. Also computes the rates of z and of the quadratures.
     ///
     /// # Errors
-    /// Ends the integration. A state that is not finite should yield NaN instead.
+    /// An error ends the integration. For a state that is not finite, return NaN instead.
     fn accelerate(
         &mut self,
         t: f64,
@@ -142,39 +143,41 @@ pub trait Dae {
         out: DaeRates<'_>,
     ) -> Result<(), Self::Stop>;
 
-    /// Residuals at an iterate.
+    /// Computes the residuals at an iterate.
     fn residual(&mut self, t: f64, at: Iterate<'_>, level: ConstraintLevel, out: DaeResidual<'_>);
 
     /// Computes and stores M, D, K, B, Φ_q and the derivatives of Q and f at an iterate.
     fn linearize(&mut self, t: f64, at: Iterate<'_>);
 
-    /// Factorises the matrix with the last tangent. Returns false if it is singular; a shorter step may help.
+    /// Factorises the matrix with the last tangent. Returns false if the matrix is singular; a shorter step may then
+    /// help.
     fn factor(&mut self, coefficients: NewtonCoefficients) -> bool;
 
-    /// Factorises the matrix with complex coefficients; both factors are kept.
+    /// Factorises the matrix with complex coefficients. The real factors are kept as well.
     fn factor_complex(&mut self, coefficients: NewtonCoefficients<Complex>) -> bool;
 
-    /// Solves with the real factors, in place; (q part, z part, λ part).
+    /// Solves with the real factors, in place. x has the parts (q, z, λ).
     fn solve(&mut self, x: &mut [f64]);
 
     /// Solves with the complex factors, in place.
     fn solve_complex(&mut self, x: &mut [Complex]);
 
-    /// (M x - K s, y + f_q s, -B s) with the last tangent, into `out` = (q part, z part, λ part); x and s are as
-    /// long as q, y is as long as z.
+    /// Computes (M x - K s, y + f_q s, -B s) with the last tangent into `out`, which has the parts (q, z, λ). x and s
+    /// have the length of q, y has that of z.
     fn times(&self, x: &[f64], y: &[f64], s: &[f64], out: &mut [f64]);
 
-    /// Replaces x by its part normal to the constraints in the metric of M, at the state of the last
+    /// Replaces x by its component normal to the constraints in the metric of M, at the state of the last
     /// [`accelerate`](Self::accelerate).
     fn normal(&mut self, x: &mut [f64]);
 
-    /// Projects q and v onto the constraints, if that is an option of the run. Returns whether they changed.
+    /// Projects q and v onto the constraints, if the options of the integration require it. Returns whether they
+    /// changed.
     ///
     /// # Errors
-    /// Ends the integration.
+    /// An error ends the integration.
     fn project(&mut self, t: f64, state: DaeState<'_>) -> Result<bool, Self::Stop>;
 
-    /// The error with which the run ends if the matrix cannot be factorised for any step.
+    /// Error with which the integration ends if the matrix is singular for every step size.
     fn singular(&mut self, t: f64, state: [&[f64]; 3]) -> Option<Self::Stop>;
 }
 
@@ -185,6 +188,6 @@ pub struct DaeState<'a> {
     pub q: &'a mut [f64],
     /// Velocities.
     pub v: &'a mut [f64],
-    /// First-order states, which projection does not change.
+    /// First-order states. The projection does not change them.
     pub z: &'a [f64],
 }

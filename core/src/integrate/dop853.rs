@@ -1,16 +1,16 @@
-//! DOP853: explicit, adaptive, of order 8 with estimators of order 5 and 3, continuous extension of
+//! DOP853: explicit adaptive method of order 8 with error estimators of orders 5 and 3, and a continuous extension of
 //! order 7.
 //!
-//! Pair and extension: Dormand and Prince, as given by Hairer, Nørsett and Wanner, *Solving Ordinary
-//! Differential Equations I*, II.5 and II.6. The error is h e₅² / √(e₅² + 0.01 e₃²), which has order 7 and
-//! does not trust an e₅ that happens to vanish (II.10): all that of `scipy.integrate.DOP853`. Steps are chosen
-//! as there (II.4), but with a safety factor of 0.8 instead of 0.9, and held until they are short by 10 %: on
-//! 46 mechanisms 4 % fewer evaluations for the same error (`docs/performance.md`).
+//! The coefficients of Dormand and Prince are those of Hairer, Nørsett and Wanner, *Solving Ordinary Differential
+//! Equations I*, II.5 and II.6. The error estimate is h e₅² / √(e₅² + 0.01 e₃²). It has order 7 and remains reliable
+//! where e₅ happens to vanish (II.10). All this is as in `scipy.integrate.DOP853`. The step control is that of II.4,
+//! but with a safety factor of 0.8 instead of 0.9, and a step grows only if it is too short by more than 10 %. On 46
+//! mechanisms this saves 4 % of the evaluations for the same error (`docs/performance.md`).
 //!
-//! The extension needs three stages more than the step, or for a system of second order one evaluation
-//! (`hermite_birkhoff`). They are evaluated only for observers that look between the ends; for others it is the cubic
-//! Hermite polynomial. The derivative at the end is evaluated where the step stands, since the estimate does
-//! without: one evaluation less than scipy's for every step that is rejected.
+//! The extension needs three more stages than the step. For a system of second order it needs one evaluation
+//! (`hermite_birkhoff`). They are evaluated only if an observer needs states between the ends of a step; otherwise
+//! the interpolant is the cubic Hermite polynomial. The derivative at the end is evaluated only for accepted steps,
+//! since the error estimate does not use it. This saves one evaluation over scipy for each rejected step.
 
 use super::dop853_coefficients::*;
 use super::runge_kutta::{RungeKutta, TrialStages};
@@ -35,18 +35,18 @@ impl Dop853 {
     }
 }
 
-/// Stages of a step, the derivative at its end included.
+/// Number of stages of a step, including the derivative at its end.
 const STAGES: usize = 13;
-/// Stages of the extension.
+/// Number of stages of the step and its extension.
 const ALL: usize = STAGES + C_EXTRA.len();
 const DEGREE: usize = 7;
 
-/// Coefficients of θ … θ⁷ of each stage, and of the jump of a projection.
+/// Coefficients of θ … θ⁷ for each stage and for the jump of a projection.
 const TABLE: [f64; (ALL + 1) * DEGREE] = table(true);
-/// The interpolant with three of its seven parts: the cubic Hermite polynomial.
+/// The first three of the seven terms of the interpolant: the cubic Hermite polynomial.
 const HERMITE: [f64; (ALL + 1) * DEGREE] = table(false);
 
-/// The parts of the extension, θ, θ (1-θ), θ² (1-θ), θ² (1-θ)² …, by powers of θ.
+/// The basis polynomials of the extension, θ, θ (1-θ), θ² (1-θ), θ² (1-θ)² …, in powers of θ.
 #[rustfmt::skip]
 const PARTS: [[f64; DEGREE]; 7] = [
     [1.0,  0.0,  0.0,  0.0,  0.0,  0.0,  0.0],
@@ -58,7 +58,7 @@ const PARTS: [[f64; DEGREE]; 7] = [
     [0.0,  0.0,  0.0,  1.0, -3.0,  3.0, -1.0],
 ];
 
-/// Δ = Σ b k, then k₁ - Δ and 2Δ - k₁ - k₁₃ (in h), then the four of [`D`], times their parts.
+/// The factors of the basis polynomials, divided by h: Δ = Σ b k, k₁ - Δ, 2Δ - k₁ - k₁₃, and the four rows of [`D`].
 const fn table(whole: bool) -> [f64; (ALL + 1) * DEGREE] {
     let mut out = [0.0; (ALL + 1) * DEGREE];
     let mut stage = 0;
@@ -85,7 +85,7 @@ const fn table(whole: bool) -> [f64; (ALL + 1) * DEGREE] {
     out
 }
 
-/// The coefficient of a stage, counted from 0, in a row that belongs to k 1, 6, 7, …
+/// The coefficient of a stage, counted from 0, in a row with the coefficients of k₁, k₆, k₇, ….
 const fn weight(row: &[f64], stage: usize) -> f64 {
     match stage {
         0 => row[0],

@@ -1,8 +1,8 @@
-//! Coefficients of DOP853: Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*,
-//! second edition, II.5 (the method and its estimators) and II.6 (its extension), as published with
-//! their program; rounded to double precision.
+//! Coefficients of DOP853: Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, second edition,
+//! II.5 (method and error estimators) and II.6 (continuous extension), as published with their program, rounded to
+//! double precision.
 //!
-//! Zeros are left out. The comment at each row gives the stages k of its numbers, counted from 1.
+//! Zeros are omitted. The comment at each row lists the stages k of its coefficients, counted from 1.
 
 /// Nodes of stages 2 to 12; the thirteenth stage is the derivative at the end of the step.
 #[rustfmt::skip]
@@ -80,14 +80,14 @@ pub(super) const B: [f64; 8] = [
     0.054293734116568765, 4.450312892752409, 1.8915178993145003, -5.801203960010585,
     0.3111643669578199, -0.1521609496625161, 0.20136540080403034, 0.04471061572777259,
 ];
-/// Weights bᵢ (1 - cᵢ) of stages 1 to 12 for ∫ y dt over a step. They follow from the conditions of order 8 for
-/// trees with one more leaf at the root.
+/// Weights bᵢ (1 - cᵢ) of stages 1 to 12 for ∫ y dt over a step. They follow from the order conditions of order 8 for
+/// trees with an additional leaf at the root.
 #[rustfmt::skip]
 pub(super) const DOUBLE_QUADRATURE: [f64; 12] = [
     B[0], 0.0, 0.0, 0.0, 0.0, B[1] * (1.0 - C[4]), B[2] * (1.0 - C[5]), B[3] * (1.0 - C[6]),
     B[4] * (1.0 - C[7]), B[5] * (1.0 - C[8]), B[6] * (1.0 - C[9]), B[7] * (1.0 - C[10]),
 ];
-/// The solution of order 8 minus that of order 5: k 1, 6, 7, 8, 9, 10, 11, 12.
+/// The difference of the solutions of orders 8 and 5: k 1, 6, 7, 8, 9, 10, 11, 12.
 #[rustfmt::skip]
 pub(super) const E5: [f64; 8] = [
     0.01312004499419488, -1.2251564463762044, -0.4957589496572502, 1.6643771824549864,
@@ -95,7 +95,7 @@ pub(super) const E5: [f64; 8] = [
 ];
 /// The solution of order 3: k 1, 9, 12.
 const B3: [f64; 3] = [0.2440944881889764, 0.7338466882816118, 0.022058823529411766];
-/// The solution of order 8 minus it: k 1, 6, 7, 8, 9, 10, 11, 12.
+/// The difference of the solutions of orders 8 and 3: k 1, 6, 7, 8, 9, 10, 11, 12.
 #[rustfmt::skip]
 pub(super) const E3: [f64; 8] = [
     B[0] - B3[0], B[1], B[2], B[3], B[4] - B3[1], B[5], B[6], B[7] - B3[2],
@@ -118,7 +118,7 @@ pub(super) const A16: [f64; 8] = [
     -0.42889630158379194, -4.697621415361164, 7.683421196062599, 4.06898981839711,
     0.3567271874552811, -0.0013990241651590145, 2.9475147891527724, -9.15095847217987,
 ];
-/// The upper four of the seven parts of the extension: k 1, 6, 7, … 16.
+/// The last four of the seven terms of the extension: k 1, 6, 7, … 16.
 #[rustfmt::skip]
 pub(super) const D: [[f64; 12]; 4] = [
     [

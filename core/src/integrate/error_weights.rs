@@ -1,9 +1,9 @@
-//! The weights by which implicit methods measure errors: atol + rtol |y|.
+//! The error weights of implicit methods: atol + rtol |y|.
 
 use super::implicit_state::ImplicitState;
 use super::step_control::{Atol, StepControl};
 
-/// Relative error of the positions beyond which a step may end on another branch of the constraints.
+/// Relative error of the positions beyond which a step may end on another solution branch of the constraints.
 const FAR: f64 = 1e-2;
 
 /// Error weights of q, then of v, then of z.
@@ -15,7 +15,7 @@ pub(super) struct ErrorWeights {
 }
 
 impl ErrorWeights {
-    /// For so many components.
+    /// Weights for `controlled` components.
     pub fn new(control: &StepControl, controlled: usize) -> Self {
         let atol = match &control.atol {
             Atol::Scalar(atol) | Atol::Scaled(atol) => vec![*atol; controlled],
@@ -24,7 +24,7 @@ impl ErrorWeights {
         Self { rtol: control.rtol, weights: vec![1.0; atol.len()], atol }
     }
 
-    /// At the larger of two states.
+    /// Sets the weights from the larger magnitude of two states, component by component.
     pub fn set(&mut self, old: &ImplicitState, new: &ImplicitState) {
         let mut weights = self.weights.iter_mut().zip(&self.atol);
         for (old, new) in [(&old.q, &new.q), (&old.v, &new.v), (&old.z, &new.z)] {
@@ -34,12 +34,12 @@ impl ErrorWeights {
         }
     }
 
-    /// The norm beyond which errors normal to the constraints count, although the constraints remove them.
+    /// The norm above which errors normal to the constraints count, although the constraints remove them.
     pub fn far(&self) -> f64 {
         FAR / self.rtol
     }
 
-    /// √(mean (xᵢ / weightᵢ)²) over q, v and z; 0 / 0 counts as nothing.
+    /// √(mean (xᵢ / weightᵢ)²) over q, v and z. A quotient 0 / 0 counts as zero.
     pub fn norm(&self, dq: &[f64], dv: &[f64], dz: &[f64]) -> f64 {
         let n = self.weights.len().max(1);
         let parts = dq.iter().chain(dv).chain(dz).zip(&self.weights);

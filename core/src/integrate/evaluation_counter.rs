@@ -1,4 +1,4 @@
-//! Counts the evaluations of a DAE by an implicit method.
+//! Counts the evaluations of a DAE.
 
 use super::dae::{ConstraintLevel, Dae, DaeResidual, DaeState, Iterate, NewtonCoefficients};
 use super::error_weights::ErrorWeights;
@@ -18,14 +18,14 @@ pub(super) struct CountedDae<'a, Y> {
 }
 
 impl<Y: Dae> CountedDae<'_, Y> {
-    /// The derivative of a state.
+    /// Computes the derivative of a state.
     pub fn accelerate(&mut self, t: f64, state: &mut ImplicitState) -> Result<(), Cause<Y::Stop>> {
         self.counts.evaluations += 1;
         let (at, out) = state.rates();
         self.system.accelerate(t, at, out).map_err(|error| Cause::Equations { t, error })
     }
 
-    /// The derivative of a state, which must be finite.
+    /// Computes the derivative of a state and checks that it is finite.
     pub fn begin(&mut self, t: f64, state: &mut ImplicitState) -> Result<(), Cause<Y::Stop>> {
         self.accelerate(t, state)?;
         match [&state.a, &state.lam, &state.dz].into_iter().all(|x| all_finite(x)) {
@@ -34,7 +34,7 @@ impl<Y: Dae> CountedDae<'_, Y> {
         }
     }
 
-    /// Projects a state; returns whether it changed.
+    /// Projects a state. Returns whether it changed.
     pub fn project(&mut self, t: f64, state: DaeState<'_>) -> Result<bool, Cause<Y::Stop>> {
         self.system.project(t, state).map_err(|error| Cause::Equations { t, error })
     }
@@ -58,7 +58,7 @@ impl<Y: Dae> CountedDae<'_, Y> {
         Ok(first.min(control.max_step))
     }
 
-    /// Refuses another step if the allowed number was taken.
+    /// Returns an error if the allowed number of steps was taken.
     pub fn check_count(&self, control: &StepControl) -> Result<(), Cause<Y::Stop>> {
         let steps = self.counts.steps;
         match control.max_steps.is_some_and(|most| steps >= most) {
@@ -67,8 +67,8 @@ impl<Y: Dae> CountedDae<'_, Y> {
         }
     }
 
-    /// The reason for which no step from a state was found: an error of the system where the matrix was singular, or
-    /// another one.
+    /// The reason why no step from a state was found: the error of the system if the matrix was singular, otherwise
+    /// `other`.
     pub fn unsolved(
         &mut self,
         singular: bool,
@@ -81,7 +81,7 @@ impl<Y: Dae> CountedDae<'_, Y> {
         error.map_or(other, |error| Cause::Equations { t, error })
     }
 
-    /// Hairer's choice of the magnitude of the first step from `start`, at the cost of one evaluation.
+    /// Hairer's choice of the magnitude of the first step from `start`. It takes one evaluation.
     fn first_step(
         &mut self,
         (t, t_end): (f64, f64),
@@ -131,7 +131,7 @@ impl<Y: Dae> CountedDae<'_, Y> {
         self.system.linearize(t, at);
     }
 
-    /// Whether the matrix has a factorisation.
+    /// Factorises the matrix. Returns false if it is singular.
     pub fn factor(&mut self, coefficients: NewtonCoefficients) -> bool {
         self.counts.factorisations += 1;
         self.system.factor(coefficients)

@@ -1,24 +1,25 @@
-//! Where a function of the state changes sign within a step.
+//! Locates a sign change of a function of the state within a step.
 //!
-//! The root is bracketed by the ends of the step and located by the method of Chandrupatla (*A new
-//! hybrid quadratic/bisection algorithm for finding the zero of a nonlinear function without using
-//! derivatives*, Adv. Eng. Softw. 28 (1997) 145): inverse quadratic where that is safe, else bisection.
+//! The ends of the step bracket the root. The method of Chandrupatla locates it (*A new hybrid quadratic/bisection
+//! algorithm for finding the zero of a nonlinear function without using derivatives*, Adv. Eng. Softw. 28 (1997)
+//! 145): inverse quadratic interpolation where it is safe, otherwise bisection.
 
 use super::step::Step;
 
-/// Which changes of sign count, along the direction of integration.
+/// The sign changes that count, along the direction of integration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Direction {
     /// From below zero to zero or above.
     Rising,
     /// From above zero to zero or below.
     Falling,
-    /// Both.
+    /// In both directions.
     Any,
 }
 
 impl Direction {
-    /// Whether a change of sign from one value to a later one is rising, if there is one that counts.
+    /// Whether the sign change from one value to a later value is rising. `None` if there is no sign change that
+    /// counts.
     pub(super) fn counts(self, before: f64, after: f64) -> Option<bool> {
         let rising = before < 0.0 && after >= 0.0;
         let falling = before > 0.0 && after <= 0.0;
@@ -31,13 +32,13 @@ impl Direction {
     }
 }
 
-/// Time within `step` at which g(t, y) changes sign, just past the change: g has its new sign (or is
-/// zero) there, and the change is at most `tolerance` before. `None` if g has the same sign at both ends
-/// or begins at zero (that root belongs to the step before); of several changes one is found, and an
-/// even number of them is missed.
+/// Time within `step` at which g(t, y) changes sign. At this time, just past the change, g has its new sign or is
+/// zero; the change lies at most `tolerance` before. Returns `None` if g has the same sign at both ends or begins at
+/// zero, because that root belongs to the step before. Of several changes one is found; an even number of changes is
+/// missed.
 ///
-/// `y` is scratch, as long as the state, and afterwards holds the state at the time found. `tolerance`
-/// is absolute, in units of t, and never below four spacings of numbers.
+/// `y` is scratch memory of the length of the state; on return it contains the state at the time found. `tolerance`
+/// is absolute, in units of t, and is raised to four floating-point spacings.
 pub fn locate(
     step: &Step<'_>,
     y: &mut [f64],
@@ -65,7 +66,7 @@ pub fn locate(
     Some(t)
 }
 
-/// Whether g changes sign over a step in a direction that counts.
+/// Whether g changes sign over a step in the given direction.
 pub(super) fn changes_sign(
     step: &Step<'_>,
     g: &mut dyn FnMut(f64, &[f64]) -> f64,
@@ -74,7 +75,7 @@ pub(super) fn changes_sign(
     signs(step, g, direction).is_some()
 }
 
-/// The values of g at the ends of a step over which it changes sign in a direction that counts.
+/// The values of g at the ends of a step if g changes sign in the given direction.
 fn signs(
     step: &Step<'_>,
     g: &mut dyn FnMut(f64, &[f64]) -> f64,
@@ -84,18 +85,18 @@ fn signs(
     direction.counts(before, after).map(|_| (before, after))
 }
 
-/// A time and the value there, positive on the side of the new sign.
+/// A time and a value, which is positive on the side of the new sign.
 type Point = (f64, f64);
 
-/// Times around a root: below zero at the old side, not below at the new one, which may be the earlier
-/// when integrating backward.
+/// Two times around a root. The value is negative at the old time and not negative at the new time. When integrating
+/// backward, the new time is the earlier one.
 pub(super) struct Bracket {
     pub old: Point,
     pub new: Point,
 }
 
 impl Bracket {
-    /// Shortens the bracket to `tolerance`; returns its new side.
+    /// Shortens the bracket to `tolerance`. Returns the time of its new side.
     pub fn close(mut self, tolerance: f64, mut g: impl FnMut(f64) -> f64) -> f64 {
         let mut part = 0.5;
         let (mut a, mut b) = (self.new, self.old);
@@ -111,7 +112,7 @@ impl Bracket {
             let kept = if old_side { self.new } else { self.old };
             *(if old_side { &mut self.old } else { &mut self.new }) = latest;
             (a, b) = (latest, kept);
-            // half the tolerance past an estimate, so that both sides approach the root
+            // half the tolerance beyond the estimate, so that both sides approach the root
             let least = 0.5 * tolerance / (b.0 - a.0).abs();
             part = inverse_quadratic(a, b, replaced).unwrap_or(0.5).max(least).min(1.0 - least);
         }
@@ -119,8 +120,8 @@ impl Bracket {
     }
 }
 
-/// Where, from a (0) to b (1), the inverse quadratic through a, b and c is zero; `None` unless it is
-/// monotonic in between.
+/// The zero of the inverse quadratic interpolant through a, b and c, as a fraction of the way from a (0) to b (1).
+/// `None` unless the interpolant is monotonic between a and b.
 fn inverse_quadratic(a: Point, b: Point, c: Point) -> Option<f64> {
     let xi = (a.0 - b.0) / (c.0 - b.0);
     let phi = (a.1 - b.1) / (c.1 - b.1);

@@ -1,6 +1,7 @@
-//! The stepper of every explicit Runge–Kutta method: try, test the error, accept or shorten.
+//! The stepper of the explicit Runge–Kutta methods. It tries a step, tests the error, and accepts or shortens the
+//! step.
 //!
-//! With the elementary control it takes the same steps as `scipy.integrate.solve_ivp`, so that counts of steps can be
+//! With the elementary controller it takes the same steps as `scipy.integrate.solve_ivp`, so that step counts can be
 //! compared.
 
 use super::explicit_work::{Accepted, InterpolantLevel, Work};
@@ -23,13 +24,13 @@ use super::trial::Trial;
 use crate::math::{Lanes, Real};
 use std::marker::PhantomData;
 
-/// Number of rejected steps that ends a run; half of max_steps if that is more.
+/// Number of rejected steps that ends an integration with `max_steps`, or half of `max_steps` if that is larger.
 const MANY: usize = 10_000;
 
-/// Relative error of a step beyond which projection is not trusted to remove it.
+/// Relative error of a step above which projection cannot be relied on to remove the normal part.
 const FAR: f64 = 1e-1;
 
-/// A trial step: its end, and whether the end of the run shortens it.
+/// The end of a trial step, and whether the end of the integration shortened the step.
 #[derive(Clone, Copy)]
 pub(super) struct Proposal {
     pub t_new: f64,
@@ -45,12 +46,12 @@ pub(super) struct ExplicitStepper<P> {
     /// The beginning of the step.
     pub(super) t: f64,
     pub(super) t_end: f64,
-    /// The step to try next, once the first derivative was evaluated.
+    /// The size of the next trial step. None before the first derivative was evaluated.
     pub(super) size: Option<StepSize>,
     pub(super) accepted: Option<Accepted>,
     pub(super) counts: StepCounts,
     pub(super) placement: StepPlacement,
-    /// Whether the last trial was rejected, so that the next one belongs to the same step.
+    /// Whether the last trial was rejected, so that the next trial belongs to the same step.
     pub(super) rejected_before: bool,
     pub(super) work: Work,
     method: PhantomData<P>,
@@ -146,7 +147,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         (self.t_end - self.t).signum()
     }
 
-    /// The next accepted step.
+    /// Takes the next accepted step.
     fn next<Y: Ode>(&mut self, rhs: &mut RightHandSide<'_, Y>) -> Result<(), Cause<Y::Stop>> {
         let mut size = match self.size.take() {
             Some(size) => size,
@@ -165,7 +166,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         Ok(())
     }
 
-    /// The derivative at the start, and the first step.
+    /// Evaluates the derivative at the start and chooses the first step.
     fn begin<Y: Ode>(
         &mut self,
         rhs: &mut RightHandSide<'_, Y>,
@@ -192,7 +193,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         Ok(())
     }
 
-    /// A step of constant length, whatever its error.
+    /// Takes a step of constant length, whatever its error.
     fn constant_step<Y: Ode>(
         &mut self,
         rhs: &mut RightHandSide<'_, Y>,
@@ -204,7 +205,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         Ok((t_new, projected))
     }
 
-    /// Hairer's choice of the first step, at the cost of one evaluation.
+    /// Hairer's choice of the first step. It takes one evaluation.
     fn first_step<Y: Ode>(
         &mut self,
         rhs: &mut RightHandSide<'_, Y>,
@@ -222,7 +223,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         combine(y, Lanes::constant(h0 * direction), [1.0], [f0], trial);
         match rhs.at(self.t + h0 * direction, trial, f1) {
             Ok(()) => {}
-            // the probe left the domain: begin with it as a step, which rejection shortens
+            // the probe left the domain; it becomes the first trial step, which is then rejected and shortened
             Err(Cause::NotFinite { .. }) => return Ok(h0.min(most)),
             Err(stop) => return Err(stop),
         }
@@ -230,7 +231,8 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         Ok(initial_step(h0, d1, d2, P::ERROR_ORDER).min(most))
     }
 
-    /// Tries steps until error and system accept one. Its time, and whether projection changed its end.
+    /// Tries steps until the error test and the system accept one. Returns its end time and whether projection
+    /// changed the state.
     fn accepted_step<Y: Ode>(
         &mut self,
         rhs: &mut RightHandSide<'_, Y>,
@@ -276,7 +278,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         }
     }
 
-    /// Prepares the step size for the trials of a step.
+    /// Prepares the step size for the first trial of a step.
     pub(super) fn begin_trials(&mut self, size: &mut StepSize) {
         if !std::mem::take(&mut self.rejected_before) {
             size.begin(least_step(self.t, self.direction()), self.control.max_step);
@@ -285,7 +287,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         }
     }
 
-    /// The trial step of the present size; None if it is too small.
+    /// The trial step of the present size. None if the size is too small.
     pub(super) fn proposal(&self, size: &StepSize) -> Option<Proposal> {
         let direction = self.direction();
         if size.size < least_step(self.t, direction) {
@@ -296,7 +298,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         Some(Proposal { t_new: if shortened { self.t_end } else { t_new }, shortened })
     }
 
-    /// The size of the next step after an accepted one.
+    /// Chooses the size of the next step after an accepted step.
     pub(super) fn resize(
         &self,
         size: &mut StepSize,
@@ -308,7 +310,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         size.size = self.placement.resume(size.size).max(wanted);
     }
 
-    /// The step to try instead of that to `t_new`, so that no stage is near a time to avoid.
+    /// The step to try instead of the step to `t_new`, so that no stage is near a time to avoid.
     fn placed<Y: Ode>(&mut self, rhs: &mut RightHandSide<'_, Y>, t_new: f64) -> Option<f64> {
         let avoid = rhs.system.times_to_avoid()?.next(t_new)?;
         let [h, left] = [t_new, self.t_end].map(|end| (end - self.t).abs());
@@ -316,7 +318,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         self.placement.instead(P::GAP, h, self.direction() * (avoid - self.t), left)
     }
 
-    /// The error norm of a step to `t_new`.
+    /// Takes a trial step to `t_new` and returns its error norm.
     fn attempt<Y: Ode>(
         &mut self,
         rhs: &mut RightHandSide<'_, Y>,
@@ -329,7 +331,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         Ok(self.placement.strictness() * norm)
     }
 
-    /// The stages of a step to `t_new`, and the state there.
+    /// Computes the stages of a step to `t_new` and the state at `t_new`.
     fn advance<Y: Ode>(
         &mut self,
         rhs: &mut RightHandSide<'_, Y>,
@@ -347,10 +349,10 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         Ok(())
     }
 
-    /// The error norm of a rejected step by its tangential error alone, if that is smaller.
+    /// The error norm of a rejected step, computed from its tangential error alone if that is smaller.
     ///
-    /// The manifold is curved. Where the relative error exceeds [`FAR`], projection may end on another branch, so the
-    /// whole error counts.
+    /// Because the manifold is curved, projection may end on another branch where the relative error exceeds [`FAR`].
+    /// The whole error counts there.
     fn tangential<Y: Ode>(&mut self, rhs: &mut RightHandSide<'_, Y>, norm: f64, h: f64) -> f64 {
         let farthest = self.placement.strictness() * FAR / self.control.rtol;
         if norm < 1.0 || !norm.is_finite() || norm > farthest {

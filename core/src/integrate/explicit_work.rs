@@ -1,4 +1,4 @@
-//! The memory of a stepper of an explicit method, and its last accepted step.
+//! The work memory of an explicit stepper, and its last accepted step.
 
 use super::hermite_birkhoff::HermiteBirkhoff;
 use super::ode::Ode;
@@ -7,23 +7,23 @@ use super::stages::{room, width, Block};
 use super::step_control::StepControl;
 use super::tolerances::Tolerances;
 
-/// Memory of a stepper.
+/// Work memory of a stepper.
 pub(super) struct Work {
-    /// Blocks in a row.
+    /// Number of blocks in a row.
     pub width: usize,
-    /// Stages, extra ones, the jump of a projection over h, the derivative after a projection if it is not
-    /// the last stage.
+    /// Rows: the stages, the extra stages, the jump of a projection divided by h, and the derivative after a
+    /// projection if it is not the last stage.
     pub k: Vec<Block>,
     /// The state at the beginning of the step.
     pub y: Vec<Block>,
-    /// The state at its end.
+    /// The state at the end of the step.
     pub y_new: Vec<Block>,
-    /// Arguments of stages; the state before a projection.
+    /// Arguments of the stages, later the state before a projection.
     pub trial: Vec<Block>,
-    /// Tangent parts of the stages.
+    /// Tangential components of the stages.
     pub tangential: Vec<Block>,
     pub tolerances: Tolerances,
-    /// The interpolant of systems of second order, for methods whose own takes extra stages.
+    /// The interpolant of a system of second order, for methods whose own interpolant needs extra stages.
     pub hermite_birkhoff: Option<HermiteBirkhoff>,
 }
 
@@ -55,15 +55,15 @@ pub(super) struct Accepted {
     pub interpolant: InterpolantLevel,
 }
 
-/// How far the interpolant of a step is prepared.
+/// The data from which the interpolant of a step is prepared.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum InterpolantLevel {
-    /// Prepared from the ends of the step alone.
+    /// The ends of the step.
     Ends,
-    /// Prepared from the stages of the step alone.
+    /// The stages of the step.
     Plain,
-    /// Prepared with the extra stages of the method.
+    /// The stages of the step and the extra stages of the method.
     Extended,
-    /// Prepared by one evaluation inside the step.
+    /// The ends and one evaluation inside the step.
     HermiteBirkhoff,
 }

@@ -3,7 +3,8 @@
 use super::arguments::{finite, positive, step_count, ROUNDING};
 use super::failure::Cause;
 
-/// The ends of the steps: t0 + k step, by multiplication and so without drift; the last is t_end.
+/// The ends t0 + k step of the steps. They are computed by multiplication, so that errors do not accumulate; the last
+/// is t_end.
 pub(super) struct Grid {
     t0: f64,
     t_end: f64,
@@ -11,7 +12,7 @@ pub(super) struct Grid {
     step: f64,
     /// Number of steps.
     count: usize,
-    /// Steps tried.
+    /// Number of steps tried so far.
     taken: usize,
 }
 
@@ -43,7 +44,7 @@ impl Grid {
     }
 }
 
-/// Refuses an interval that `max_steps` steps of at most `step` cannot cover.
+/// Returns an error if `max_steps` steps of at most `step` cannot cover the interval.
 pub(super) fn affordable<E>(
     interval: f64,
     step: f64,

@@ -1,7 +1,7 @@
 //! The generalized-α method at index 3, with step control or a constant step.
 //!
 //! The order is 2 for q, v and λ. The cubic Hermite polynomial interpolates q and v between the steps. The method is
-//! for stiff forces and for tolerances of about 1e-2 to 1e-4; `alpha_step` contains one step.
+//! intended for stiff forces and for tolerances of about 1e-2 to 1e-4. `alpha_step` contains one step.
 
 use super::alpha_parameters::AlphaParameters;
 use super::alpha_step::AlphaStep;
@@ -18,16 +18,17 @@ use super::stepper::{BoxedStepper, ImplicitMethod};
 
 /// Order of the error estimate.
 const ERROR_ORDER: i32 = 2;
-/// Part of the first step over which the rate of the accelerations is taken.
+/// Fraction of the first step over which the rate of the accelerations is computed.
 const PROBE: f64 = 1e-3;
 /// Factor on the step after a trial without convergence.
 const SHORTEN: f64 = 0.25;
-/// Largest growth of a step. A step damps a stiff motion by the factor ρ; a longer step must not amplify it by more.
+/// Largest growth of a step. A step damps a stiff motion by the factor ρ, and a longer step must not amplify it more
+/// than that.
 const GROWTH: f64 = 1.5;
-/// The step and the matrix are kept if the step could grow by less.
+/// The step and the matrix are kept if the step could grow by less than this factor.
 const KEEP: f64 = 1.2;
 
-/// Generalized-α with its options.
+/// The generalized-α method with its options.
 #[derive(Clone, Debug, PartialEq)]
 pub struct GeneralizedAlpha {
     /// Parameters of the method.
@@ -42,7 +43,7 @@ impl GeneralizedAlpha {
         Self { parameters, control: StepControl::new(rtol, atol) }
     }
 
-    /// The method with a constant step, and Newton's iteration to `rtol` and `atol`.
+    /// The method with a constant step. Newton's iteration converges to `rtol` and `atol`.
     pub fn constant(parameters: AlphaParameters, step: f64, rtol: f64, atol: f64) -> Self {
         let control = StepControl { step: Some(step), ..StepControl::new(rtol, atol) };
         Self { parameters, control }
@@ -50,16 +51,16 @@ impl GeneralizedAlpha {
 
     fn check<E>(&self) -> Result<(), Cause<E>> {
         let AlphaParameters { alpha_m, alpha_f, beta, gamma } = self.parameters;
-        // of order 2, and with damping at infinite frequency (α_m < α_f), which index 3 needs
+        // the method has order 2; index 3 requires damping at infinite frequency (α_m < α_f)
         let holds = alpha_m < alpha_f && alpha_f < 1.0 && beta > 0.0 && gamma > 0.0;
         require(holds, "alpha_m", alpha_m, "below alpha_f, and alpha_f below 1")
     }
 }
 
-/// The state between the steps.
+/// State of the method between steps.
 struct AlphaProgress {
     step: AlphaStep,
-    /// The step to try, once the derivative at the start is known.
+    /// The size of the next trial step. None before the derivative at the start was evaluated.
     size: Option<StepSize>,
 }
 
@@ -110,7 +111,8 @@ impl ImplicitScheme for AlphaProgress {
 type AlphaStepper = ImplicitStepper<AlphaProgress>;
 
 impl AlphaStepper {
-    /// The derivative at the start, the first step, and the initial deviations that order 2 needs.
+    /// Evaluates the derivative at the start, chooses the first step, and sets the initial deviations that order 2
+    /// requires.
     fn begin<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>) -> Result<StepSize, Cause<Y::Stop>> {
         let Self { method, control, scale, steps, .. } = self;
         let AlphaStep { start, end, .. } = &mut method.step;
@@ -119,8 +121,9 @@ impl AlphaStepper {
         Ok(StepSize::new(first, ERROR_ORDER, Control::ELEMENTARY))
     }
 
-    /// a for t + Δ h, and velocities off the constraints by h² C_q v̈; v̈ by a difference of accelerations,
-    /// filtered where it is tangential, so that stiff forces do not make it large. The same for z.
+    /// Sets a for t + Δ h and velocities that deviate from the constraints by h² C_q v̈. A difference of
+    /// accelerations gives v̈. Its tangential part is filtered, so that stiff forces do not make it large. The states
+    /// z are treated in the same way.
     fn begin_rates<Y: Dae>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
@@ -143,7 +146,7 @@ impl AlphaStepper {
         let mut normal = difference(&end.a, &start.a);
         let mut of_z = difference(&end.dz, &start.dz);
         if normal.iter().chain(&of_z).any(|x| !x.is_finite()) {
-            return Ok(()); // a rough start lowers only the order of the first steps
+            return Ok(()); // the first steps then only have a lower order
         }
         let mut along = normal.clone();
         dae.begin(t, start)?;
@@ -167,7 +170,7 @@ impl AlphaStepper {
         Ok(())
     }
 
-    /// The next step of constant length, of which the last may be shorter. Returns its time.
+    /// Takes the next step of constant length; the last step may be shorter. Returns its end time.
     fn constant_step<Y: Dae>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
@@ -182,7 +185,7 @@ impl AlphaStepper {
         Err(self.gave_up(dae, h.abs()))
     }
 
-    /// Tries steps until one is accepted. Returns its time.
+    /// Tries steps until one is accepted. Returns its end time.
     fn accepted_step<Y: Dae>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
@@ -224,13 +227,13 @@ impl AlphaStepper {
         }
     }
 
-    /// One step; whether its equations could be solved.
+    /// Tries one step. Returns whether its equations were solved.
     fn attempt<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>, h: f64) -> bool {
         let step = &mut self.method.step;
         step.advance(dae, (self.steps.t, h), &mut self.scale) && step.finite()
     }
 
-    /// The reason for which no step of length `h` was found.
+    /// The reason why no step of length `h` was found.
     fn gave_up<Y: Dae>(&self, dae: &mut CountedDae<'_, Y>, h: f64) -> Cause<Y::Stop> {
         let (t, step) = (self.steps.t, &self.method.step);
         dae.unsolved(step.singular, t, &step.start, Cause::Newton { t, h })

@@ -1,21 +1,23 @@
-//! The interpolant of a step where y = (q, v, z, w), q′ = v, z are further states and w quadratures: one evaluation.
+//! Interpolant of a step for y = (q, v, z, w) with q′ = v, further states z and quadratures w. It takes one
+//! evaluation.
 //!
 //! q and its first and second derivatives are known at both ends of a step and at the beginning of the step before.
-//! They give a Hermite polynomial of degree 8, which is as accurate as the step in q, but not in v. So the second
-//! derivative is evaluated once more inside the step, at the state of this polynomial. The polynomial of degree 9 with
-//! this second derivative, and its derivative for v, form a Hermite–Birkhoff interpolation of order 9 in q and 8 in v.
-//! (Enright, Jackson, Nørsett and Thomsen, *Interpolants for Runge–Kutta formulas*, ACM Trans. Math. Software 12 (1986)
-//! 193, construct interpolants in this way from both ends.) z and w are treated as v, with ∫ z dt and ∫ w dt in the
-//! place of q; the stages give these integrals to the order of the step.
+//! They determine a Hermite polynomial of degree 8. It is as accurate as the step in q, but not in v. Therefore the
+//! second derivative is evaluated once more inside the step, at the state of this polynomial. The polynomial of
+//! degree 9 with this second derivative, and its derivative for v, form a Hermite–Birkhoff interpolation of order 9
+//! in q and 8 in v. (Enright, Jackson, Nørsett and Thomsen, *Interpolants for Runge–Kutta formulas*, ACM Trans. Math.
+//! Software 12 (1986) 193, construct interpolants in this way from both ends.) z and w are treated like v, with ∫ z
+//! dt and ∫ w dt in place of q. The stages give these integrals to the order of the step.
 //!
-//! With θ = (t - t_old) / h, after subtracting the terms of the beginning, the remainder is θ³ times a polynomial in
-//! Newton's form,
+//! Let θ = (t - t_old) / h. After the terms of the beginning are subtracted, the remainder is θ³ times a polynomial
+//! in Newton's form,
 //!
 //! ```text
 //! s₀ + s₁ x + s₂ x² + x³ (u₀ + u₁ z + u₂ z² + g z³) ,   x = θ - 1 ,   z = θ + r ,   r = h_before / h
 //! ```
 //!
-//! An error e of the node before appears as about e / r⁵: a step much longer than the one before does not use it.
+//! An error e at the node before is amplified to about e / r⁵. The data of the step before are therefore not used if
+//! this step is much longer.
 
 use super::component_polynomials::{store, Four, Polynomials, HIGHEST as DEGREE};
 use super::interpolant::Interpolant;
@@ -23,13 +25,13 @@ use super::ode::Structure;
 use super::stages;
 use crate::math::{Lanes, Real};
 
-/// Place of the second derivative, as a part of the step. For equal steps the error of v is least between 0.55 and
-/// 0.6. DOP853 has a stage here already, so its widest gap is unchanged.
+/// Place of the additional second derivative, as a fraction of the step. For equal steps the error of v is smallest
+/// between 0.55 and 0.6. DOP853 has a stage near this place already, so that its widest gap is unchanged.
 pub(super) const INSIDE: f64 = 0.6;
-/// Bounds on the length of the step before, in steps, within which its beginning is used.
+/// Range of h_before / h in which the beginning of the step before is used.
 const BEFORE: std::ops::RangeInclusive<f64> = 0.5..=2.5;
 
-/// A step that is accepted.
+/// Both ends of an accepted step.
 #[derive(Clone, Copy)]
 pub(super) struct Ends<'a> {
     pub h: f64,
@@ -60,11 +62,11 @@ struct Block {
     begin: [Lanes; 2],
     /// Coefficients of θ³ … θ⁹, over h².
     c: [Lanes; DEGREE - 2],
-    /// The second derivative inside without the last of them.
+    /// The second derivative at [`INSIDE`], without the term of the last coefficient.
     inside: Lanes,
 }
 
-/// The extension, and the data of the step before.
+/// The interpolant, with the data of the step before.
 pub(super) struct HermiteBirkhoff {
     /// Number of components of q.
     positions: usize,
@@ -79,12 +81,12 @@ pub(super) struct HermiteBirkhoff {
     gained: Vec<f64>,
     gain: Vec<f64>,
     blocks: Vec<Block>,
-    /// The finished polynomials: those of q, then those of (v, z, w).
+    /// The completed polynomials: first those of q, then those of (v, z, w).
     polynomials: Vec<Four>,
 }
 
 impl HermiteBirkhoff {
-    /// For y = (q, v, z, w).
+    /// An interpolant for y = (q, v, z, w).
     pub fn new(structure: Structure) -> Self {
         let positions = structure.positions;
         let m = structure.total() - positions;
@@ -106,18 +108,19 @@ impl HermiteBirkhoff {
         }
     }
 
-    /// Discards the step before, because the equations have changed.
+    /// Discards the step before, because the equations or the state have changed.
     pub fn forget(&mut self) {
         self.h_before = 0.0;
     }
 
-    /// Whether the step before can be used for one of length `h`.
+    /// Whether the step before can be used for a step of length `h`.
     pub fn serves(&self, h: f64) -> bool {
         BEFORE.contains(&(self.h_before / h))
     }
 
-    /// Integrals of (v, z, w) over a step: of v from q at the ends, of x = z and w by the double-quadrature
-    /// `weights` of the stages in the first rows of `k`: ∫ x dt = h x_old + h² Σ weightᵢ kᵢ.
+    /// Computes the integrals of (v, z, w) over a step. The integral of v is the change of q. The integral of x = z
+    /// or w follows from the stages in the first rows of `k` and their double-quadrature `weights`: ∫ x dt = h x_old
+    /// + h² Σ weightᵢ kᵢ.
     pub fn measure(&mut self, ends: Ends<'_>, weights: &[f64], k: &[stages::Block]) {
         let Ends { h, y_old, y, .. } = ends;
         let (n, p) = (y.len(), self.positions);
@@ -135,7 +138,7 @@ impl HermiteBirkhoff {
         }
     }
 
-    /// Continues to the next step.
+    /// Stores the data of this step for the next one.
     pub fn remember(&mut self, ends: Ends<'_>) {
         self.h_before = ends.h;
         self.rates.copy_from_slice(&ends.y_old[self.positions..]);
@@ -143,7 +146,7 @@ impl HermiteBirkhoff {
         std::mem::swap(&mut self.gained, &mut self.gain);
     }
 
-    /// (q, v, z) at [`INSIDE`] by the polynomial of degree 8; w stays open.
+    /// Computes (q, v, z) at [`INSIDE`] with the polynomial of degree 8. w is not computed.
     pub fn predict(&mut self, ends: Ends<'_>, out: &mut [f64]) {
         let Ends { h, y_old, y, dy_old, dy } = ends;
         let (p, r) = (self.positions, self.h_before / h);
@@ -156,7 +159,7 @@ impl HermiteBirkhoff {
             let of = |x: &[f64]| lanes(&x[b * Lanes::WIDTH..]);
             let (v, a) = (of(&y_old[p..]), of(&dy_old[p..]));
             let steep = v * per_h;
-            // the ends less the terms of the beginning, over h²
+            // values at the end minus the terms of the beginning, divided by h²
             let end = [
                 (of(&self.gain) * per_square - steep).minus_product(half, a),
                 (of(&y[p..]) - v) * per_h - a,
@@ -173,7 +176,7 @@ impl HermiteBirkhoff {
             block.begin = [v, a];
             block.c[..6].copy_from_slice(&c);
             block.inside = a + slope;
-            // blocks in descending order and rates last: the last four of q overlap the first rates
+            // descending blocks, and rates last, since the last block of q overlaps the first rates
             if b * Lanes::WIDTH < p {
                 let q = of(y_old).plus_product(ahead, v.plus_product(bend, a));
                 store(q.plus_product(square, position), &mut out[b * Lanes::WIDTH..]);
@@ -185,7 +188,7 @@ impl HermiteBirkhoff {
         }
     }
 
-    /// Takes the derivative at the state that was predicted.
+    /// Completes the polynomials with the derivative `inside` at the predicted state.
     pub fn complete(&mut self, ends: Ends<'_>, inside: &[f64]) {
         let (p, h) = (self.positions, Lanes::constant(ends.h));
         let last = last_term(self.h_before / ends.h);
@@ -212,14 +215,14 @@ impl HermiteBirkhoff {
         }
     }
 
-    /// The extension that was completed.
+    /// The completed interpolant.
     pub fn interpolant(&self) -> Interpolant<'_> {
         let (q, rates) = self.polynomials.split_at(self.positions.div_ceil(Lanes::WIDTH));
         Interpolant::polynomials(Polynomials { q, rates, positions: self.positions })
     }
 }
 
-/// The first numbers, zeros behind the last.
+/// The first four numbers, padded with zeros.
 #[inline(always)]
 fn lanes(x: &[f64]) -> Lanes {
     match x.first_chunk() {
@@ -228,7 +231,7 @@ fn lanes(x: &[f64]) -> Lanes {
     }
 }
 
-/// 1 / x³, 3 / x, 6 / x and 12 / x².
+/// The factors 1 / x³, 3 / x, 6 / x and 12 / x² for a node x.
 #[derive(Clone, Copy)]
 struct Cube([Lanes; 4]);
 
@@ -240,7 +243,7 @@ impl Cube {
         Self([square * over, 3.0 * over, 6.0 * over, 12.0 * square].map(Lanes::constant))
     }
 
-    /// Value, first and second derivative over the cube of the argument.
+    /// Value, first and second derivative of a function divided by the cube of its argument.
     #[inline(always)]
     fn under(&self, [f, df, ddf]: [Lanes; 3]) -> [Lanes; 3] {
         let [cube, three, six, twelve] = self.0;
@@ -249,12 +252,12 @@ impl Cube {
     }
 }
 
-/// Where a polynomial is known: at 1 and at -r.
+/// The nodes at which a polynomial is known: 1 and -r.
 #[derive(Clone, Copy)]
 struct Nodes {
     end: Cube,
     before: Cube,
-    /// From the one to the other.
+    /// The difference of the two nodes.
     between: Cube,
     x: Lanes,
     r: Lanes,
@@ -267,7 +270,7 @@ impl Nodes {
         Self { end, before, between, x: Lanes::constant(-r - 1.0), r: Lanes::constant(r) }
     }
 
-    /// Coefficients of θ³ … θ⁸ of the polynomial that has these values and derivatives there.
+    /// Coefficients of θ³ … θ⁸ of the polynomial with the given values and derivatives at the nodes.
     #[inline(always)]
     fn through(&self, end: [Lanes; 3], before: [Lanes; 3]) -> [Lanes; 6] {
         let half = Lanes::constant(0.5);
@@ -282,7 +285,7 @@ impl Nodes {
         let [u0, u1, u2] = self.between.under(left);
         let mut c = [Lanes::zero(); 6];
         c[0] = half * u2;
-        // times θ - node, plus the next number of Newton's form
+        // multiply by (θ - node) and add the next coefficient of Newton's form
         let (r, one) = (-self.r, Lanes::one());
         let next = [(r, u1), (r, u0), (one, s2), (one, s1), (one, s0)];
         for (degree, (node, number)) in (1..).zip(next) {
@@ -311,7 +314,7 @@ fn last_term(r: f64) -> [f64; 7] {
     ]
 }
 
-/// Value, first and second derivative at [`INSIDE`] of a polynomial by its coefficients of θ³, θ⁴, ….
+/// Value, first and second derivative at [`INSIDE`] of a polynomial with the coefficients `c` of θ³, θ⁴, ….
 #[inline(always)]
 fn at_inside<R: Real>(c: &[R]) -> [R; 3] {
     let (theta, mut power) = (INSIDE, 1.0);

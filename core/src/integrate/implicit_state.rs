@@ -2,14 +2,14 @@
 
 use super::dae::{DaeLengths, DaeRates, Iterate};
 
-/// A state on the constraints with its derivative.
+/// A state and its derivative.
 #[derive(Clone, Debug)]
 pub(super) struct ImplicitState {
     pub q: Vec<f64>,
     pub v: Vec<f64>,
     pub a: Vec<f64>,
     pub lam: Vec<f64>,
-    /// First-order states, and their rates.
+    /// First-order states.
     pub z: Vec<f64>,
     pub dz: Vec<f64>,
     /// Rates of the quadratures.
@@ -35,13 +35,13 @@ impl ImplicitState {
         Iterate { q, v, a, lam, z, dz }
     }
 
-    /// The state, and where its derivative is written.
+    /// The state, and the memory for its derivative.
     pub fn rates(&mut self) -> ([&[f64]; 3], DaeRates<'_>) {
         let Self { q, v, a, lam, z, dz, powers } = self;
         ([q, v, z], DaeRates { a, lam, dz, powers })
     }
 
-    /// Takes q, v and z from y.
+    /// Copies q, v and z from y.
     pub fn set(&mut self, y: &[f64]) {
         let (n, s) = (self.q.len(), self.z.len());
         self.q.copy_from_slice(&y[..n]);
@@ -49,7 +49,7 @@ impl ImplicitState {
         self.z.copy_from_slice(&y[2 * n..][..s]);
     }
 
-    /// Writes q, v and z into y.
+    /// Copies q, v and z into y.
     pub fn write(&self, y: &mut [f64]) {
         let (n, s) = (self.q.len(), self.z.len());
         y[..n].copy_from_slice(&self.q);
@@ -67,7 +67,7 @@ impl ImplicitState {
         self.powers.copy_from_slice(&other.powers);
     }
 
-    /// (v, a, z′, powers): the derivative of y.
+    /// Writes the derivative of y, (v, a, z′, powers).
     pub fn derivative(&self, out: &mut [f64]) {
         let (n, s) = (self.q.len(), self.z.len());
         out[..n].copy_from_slice(&self.v);

@@ -1,4 +1,4 @@
-//! The stepper of every implicit method: it keeps the last step, the counts and the control of steps.
+//! The stepper of the implicit methods. It stores the last step, the counts and the step control.
 
 use super::dae::{Dae, DaeLengths};
 use super::error_weights::ErrorWeights;
@@ -23,7 +23,7 @@ pub(super) struct ImplicitStepper<M> {
     pub method: M,
 }
 
-/// An implicit method, with its state between the steps.
+/// An implicit method, with its state between steps.
 pub(super) trait ImplicitScheme: Sized + 'static {
     /// Number of rows of the interpolant.
     const ROWS: usize;
@@ -39,12 +39,12 @@ pub(super) trait ImplicitScheme: Sized + 'static {
         dae: &mut CountedDae<'_, Y>,
     ) -> Result<(), Cause<Y::Stop>>;
 
-    /// Forgets earlier steps. Returns the length of the step to try next, if there was a step.
+    /// Discards data of earlier steps. Returns the size of the next trial step, if it is known.
     fn forget(&mut self) -> Option<f64>;
 }
 
 impl<M: ImplicitScheme> ImplicitStepper<M> {
-    /// Begins with `y` at the beginning of the span; evaluates nothing.
+    /// Creates a stepper at the beginning of the span with the state `y`. Evaluates nothing.
     pub fn start<Y: Dae>(
         control: StepControl,
         lengths: DaeLengths,

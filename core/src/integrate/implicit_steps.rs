@@ -1,4 +1,4 @@
-//! The last accepted step of an implicit method, and the state that it has reached.
+//! The last accepted step of an implicit method, and the state at its end.
 
 use super::interpolant::Interpolant;
 use super::step::Step;
@@ -8,18 +8,18 @@ pub(super) struct ImplicitSteps {
     /// The beginning of the step.
     pub t: f64,
     pub t_end: f64,
-    /// The end, once the step is accepted.
+    /// The end of the step. None until the step is accepted.
     accepted: Option<f64>,
     pub y: Vec<f64>,
     pub y_new: Vec<f64>,
     /// Derivatives at both ends.
     pub dy: Vec<f64>,
-    /// Rows of the interpolant, as long as y.
+    /// Rows of the interpolant, each of the length of y.
     pub rows: Vec<f64>,
 }
 
 impl ImplicitSteps {
-    /// Begins with `y` at `t0`; the interpolant has so many rows.
+    /// Begins with `y` at `t0`. `rows` is the number of rows of the interpolant.
     pub fn new((t0, t_end): (f64, f64), y: &[f64], rows: usize) -> Self {
         let len = y.len();
         Self {
@@ -37,12 +37,12 @@ impl ImplicitSteps {
         (self.t_end - self.t).signum()
     }
 
-    /// The step to `t` is accepted: all but its times is set.
+    /// Marks the step to `t` as accepted. All other data of the step are already set.
     pub fn accept(&mut self, t: f64) {
         self.accepted = Some(t);
     }
 
-    /// Goes to the beginning of the next step.
+    /// Advances to the beginning of the next step.
     pub fn move_on(&mut self) {
         if let Some(t) = self.accepted.take() {
             self.t = t;
@@ -70,7 +70,7 @@ impl ImplicitSteps {
         }
     }
 
-    /// The step, with the table of its interpolant.
+    /// The last step, with the interpolant of the given table and degree.
     pub fn view(&self, table: &'static [f64], degree: usize) -> Option<Step<'_>> {
         let (dy_old, dy) = self.dy.split_at(self.y.len());
         self.accepted.map(|t| Step {

@@ -1,20 +1,20 @@
-//! The continuous extension of a step, 0 ≤ θ ≤ 1: by the stages, y(θ) = y_old + h Σₛ wₛ(θ) kₛ, or by one
-//! polynomial for each component.
+//! The continuous extension of a step, 0 ≤ θ ≤ 1. It is either a sum over the stages, y(θ) = y_old + h Σₛ wₛ(θ) kₛ,
+//! or one polynomial for each component.
 //!
 //! kₛ are the stages of a Runge–Kutta step, and wₛ are polynomials without a constant term. Nothing is computed until
-//! the interpolant is evaluated. Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6.
+//! the interpolant is evaluated. (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6.)
 
 use super::component_polynomials::{Polynomials, HIGHEST};
 use crate::math::{Lanes, Real};
 
-/// Largest number of stages of a method, with those of its extension and the jump of a projection.
+/// Largest number of stages of a method, including those of its extension and the jump of a projection.
 const MOST: usize = 17;
 
-/// Blocks of components that are summed side by side.
+/// Number of blocks of components that are summed together.
 const TOGETHER: usize = 3;
 
-/// The cubic polynomial of Hermite, of order 3: coefficients of θ … θ⁴ of the derivative at the beginning,
-/// at the end, and the chord (y - y_old) / h.
+/// The cubic Hermite polynomial, of order 3: coefficients of θ … θ⁴ for the derivative at the beginning, the
+/// derivative at the end, and the chord (y - y_old) / h.
 pub(super) const HERMITE: [f64; 12] =
     [1.0, -2.0, 1.0, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0, 3.0, -2.0, 0.0];
 
@@ -31,32 +31,32 @@ enum Form<'a> {
     Polynomials(Polynomials<'a>),
 }
 
-/// Stages of a step with the polynomials that join them.
+/// Stages of a step, and the polynomials that weight them.
 #[derive(Clone, Copy, Debug)]
 struct Stages<'a> {
     /// Row-major (number of stages) × (len of y, or more).
     stages: &'a [f64],
-    /// Coefficients of θ, θ², … of each stage, row-major (number of stages or more) × degree.
+    /// Coefficients of θ, θ², … for each stage, row-major (number of stages or more) × degree.
     table: &'static [f64],
     len: usize,
 }
 
-/// The sum of bₖ θᵏ⁻¹, k = 1….
+/// Σ bₖ θᵏ⁻¹, k = 1, ….
 #[inline(always)]
 fn polynomial(coefficients: &[f64], theta: f64) -> f64 {
     coefficients.iter().rev().fold(0.0, |sum, b| b.plus_product(sum, theta))
 }
 
 impl<'a> Interpolant<'a> {
-    /// `stages` in rows of `len`, whose first entries are the components; the caller passes as many stages of `table`
-    /// as it needs.
+    /// An interpolant from `stages` in rows of length `len`, whose first entries are the components. The number of
+    /// rows may be less than that of `table`.
     pub(super) fn new(stages: &'a [f64], len: usize, table: &'static [f64], degree: usize) -> Self {
         assert!(degree <= HIGHEST, "a method of a higher degree");
         assert!(table.len() <= MOST * degree, "a method of more stages");
         Self { form: Form::Stages(Stages { stages, table, len }), degree }
     }
 
-    /// One polynomial of the highest degree for each component.
+    /// An interpolant with one polynomial of the highest degree for each component.
     pub(super) fn polynomials(polynomials: Polynomials<'a>) -> Self {
         Self { form: Form::Polynomials(polynomials), degree: HIGHEST }
     }
@@ -66,7 +66,7 @@ impl<'a> Interpolant<'a> {
         self.degree
     }
 
-    /// The state at θ, by a time of `ahead` = h θ after the beginning.
+    /// Computes the state at θ. `ahead` = h θ is the time since the beginning.
     pub(super) fn evaluate(&self, y_old: &[f64], ahead: f64, theta: f64, out: &mut [f64]) {
         assert_eq!(out.len(), y_old.len(), "a state");
         match self.form {
@@ -86,17 +86,18 @@ impl<'a> Interpolant<'a> {
 }
 
 impl<'a> Stages<'a> {
-    /// Each stage with its row of the table, as long as the degree.
+    /// Each stage with its row of the table, whose length is the degree.
     #[inline(always)]
     fn terms(&self, degree: usize) -> impl Iterator<Item = (&'a [f64], &'static [f64])> {
         let rows = self.table.chunks_exact(degree).map(move |row| &row[..degree]);
         self.stages.chunks_exact(self.len.max(1)).zip(rows)
     }
 
-    /// out = y_old + ahead Σₛ wₛ(θ) / θ kₛ. Not inlined, since polynomials of components need none of its registers.
+    /// out = y_old + ahead Σₛ wₛ(θ) / θ kₛ. Not inlined, because the other form, with polynomials, does not need its
+    /// registers.
     #[inline(never)]
     fn evaluate(&self, degree: usize, y_old: &[f64], at: (f64, f64), out: &mut [f64]) {
-        // with a constant degree, inner loops unroll: here and for the coefficients
+        // a constant degree lets the compiler unroll the inner loops, here and in `coefficients`
         let mut weights = [0.0; MOST];
         match degree {
             4 => self.weigh(4, at, &mut weights),
@@ -145,7 +146,7 @@ impl<'a> Stages<'a> {
         }
     }
 
-    /// The coefficients of θ, θ², … of a `component`.
+    /// The coefficients of θ, θ², … of one `component`.
     #[inline(always)]
     fn sums<R: Real>(&self, degree: usize, component: impl Fn(&[f64]) -> R) -> [R; HIGHEST] {
         let mut sums = [R::zero(); HIGHEST];
@@ -159,8 +160,8 @@ impl<'a> Stages<'a> {
     }
 }
 
-/// out = y + Σ weight stage, in passes over so many blocks of components, of which the last pass may run over the
-/// one before. There must be enough components for one.
+/// out = y + Σ weight stage, in passes over `BLOCKS` blocks of components. The last pass may overlap the one before.
+/// `out` must have at least as many components as one pass.
 #[inline(always)]
 fn blocks_of_sums<'a, const BLOCKS: usize, T>(y: &[f64], terms: impl Fn() -> T, out: &mut [f64])
 where
@@ -187,7 +188,7 @@ where
     }
 }
 
-/// The first blocks of x.
+/// The first `BLOCKS` blocks of x.
 #[inline(always)]
 fn lanes<const BLOCKS: usize>(x: &[f64]) -> [Lanes; BLOCKS] {
     let x = &x[..BLOCKS * Lanes::WIDTH];

@@ -1,10 +1,11 @@
-//! Steps of several integrations side by side, one in each lane of the vector registers.
+//! Steps of several integrations in parallel, one in each lane of the vector registers.
 //!
-//! The integrations have one method and systems of one structure. Each has its own time, step and error. The sums of a
-//! lane are those of an integration on its own, in the same order, so that the results are equal to the last bit.
+//! All integrations use one method and systems of the same structure. Each has its own time, step and error. The sums
+//! in a lane are computed in the same order as in a separate integration, so that the results are identical to the
+//! last bit.
 //!
-//! Only ordinary trial steps are taken so. Where a lane needs more, such as near a singular position, its integration
-//! takes the step alone, from the same state.
+//! Only ordinary trial steps are taken in lanes. If a lane needs more, for instance near a singular position, its
+//! integration takes the step alone, from the same state.
 
 use super::right_hand_side::all_finite;
 use super::runge_kutta::{RungeKutta, TrialStages};
@@ -16,23 +17,23 @@ use std::marker::PhantomData;
 
 const WIDTH: usize = Lanes::WIDTH;
 
-/// Whether something holds, for each lane.
+/// A Boolean for each lane.
 pub type Mask = [bool; WIDTH];
 
-/// Systems y′ = f(t, y) of one structure, one in each lane.
+/// Systems y′ = f(t, y) of the same structure, one in each lane.
 pub trait LaneOde {
     /// Number of components of y.
     fn components(&self) -> usize;
 
-    /// dy = f(t, y) in each lane; false if a lane needs more than the ordinary evaluation.
+    /// dy = f(t, y) in each lane. Returns false if a lane needs more than the ordinary evaluation.
     fn rates(&mut self, t: Lanes, y: &[Lanes], dy: &mut [Lanes]) -> bool;
 
-    /// Called after trials of `lanes` to the times `t`, near which f was evaluated last. Returns the lanes whose trials
-    /// are ordinary.
+    /// Called after trial steps of `lanes` to the times `t`, near which f was evaluated last. Returns the lanes with
+    /// an ordinary trial.
     fn on_trials(&mut self, t: [f64; WIDTH], lanes: Mask) -> Mask;
 
-    /// Projects the accepted states of `lanes` onto their manifolds; other lanes stay. For each lane whether the state
-    /// changed; None if a state needs more than the ordinary iteration.
+    /// Projects the accepted states of `lanes` onto their manifolds and leaves the other lanes unchanged. Returns for
+    /// each lane whether the state changed, or None if it needs more than the ordinary iteration.
     fn project(&mut self, t: Lanes, y: &mut [Lanes], lanes: Mask) -> [Option<bool>; WIDTH];
 
     /// Called with the ends `t` of accepted steps of `lanes`, where f was evaluated last.
@@ -42,34 +43,35 @@ pub trait LaneOde {
 /// The outcome of a trial step in a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Taken {
-    /// The stepper made a step.
+    /// The step was accepted.
     Accepted,
-    /// The step was too long; the next trial is shorter.
+    /// The step was rejected; the next trial is shorter.
     Rejected,
-    /// Nothing was done: the stepper has to take its step alone.
+    /// Nothing was done. The stepper must take its step alone.
     Alone,
 }
 
-/// A stepper that can take ordinary steps beside others. [`LaneSteps`] calls its methods.
+/// A stepper that can take ordinary steps in a lane. [`LaneSteps`] calls its methods.
 pub trait SideBySide {
-    /// Its method.
+    /// The method of the stepper.
     #[doc(hidden)]
     fn method(&self) -> &'static dyn LaneMethod;
 
-    /// Begins a trial: fills its lane, and returns the times t and t_new. None if it has to take the step alone.
+    /// Begins a trial: fills its lane and returns the times t and t_new. Returns None if the stepper must take the
+    /// step alone.
     #[doc(hidden)]
     fn propose(&mut self, at: LaneStart<'_>) -> Option<[f64; 2]>;
 
-    /// Returns whether the error norm allows the trial; if not, the next one is shorter.
+    /// Returns whether the error norm allows the trial to be accepted. If not, the next trial is shorter.
     #[doc(hidden)]
     fn judge(&mut self, norm: f64, evaluations: usize) -> bool;
 
-    /// Accepts the trial.
+    /// Accepts the trial step.
     #[doc(hidden)]
     fn accept(&mut self, norm: f64, end: LaneEnd<'_>);
 }
 
-/// The lane of a trial, to be filled with the state at its start, the derivative there, and the tolerances.
+/// The lane of a trial. The stepper fills it with the state at the start, the derivative there, and the tolerances.
 #[doc(hidden)]
 pub struct LaneStart<'a> {
     pub lane: usize,
@@ -78,7 +80,7 @@ pub struct LaneStart<'a> {
     pub tolerances: &'a mut LaneTolerances,
 }
 
-/// The state at the end of a trial, in a lane, and the derivative there.
+/// The state at the end of a trial and its derivative, in one lane.
 #[doc(hidden)]
 pub struct LaneEnd<'a> {
     pub lane: usize,
@@ -88,17 +90,17 @@ pub struct LaneEnd<'a> {
     pub evaluations: usize,
 }
 
-/// An explicit method over lanes.
+/// An explicit method that works on lanes.
 #[doc(hidden)]
 pub trait LaneMethod: Sync {
     fn id(&self) -> TypeId;
-    /// Number of stages with the derivative at the end, and whether the error contains that derivative.
+    /// The number of stages including the derivative at the end, and whether the error estimate uses that derivative.
     fn stages(&self) -> (usize, bool);
     fn advance(&self, trial: &mut LaneTrial<'_>, k: &mut [Block], y_new: &mut [Block]) -> bool;
     fn norms(&self, h: Block, k: &[Block], y: [&[Block]; 2], by: &LaneTolerances) -> Block;
 }
 
-/// The method `P` over lanes.
+/// The method `P`, applied to lanes.
 pub(super) struct OverLanes<P>(pub PhantomData<fn() -> P>);
 
 impl<P: RungeKutta> LaneMethod for OverLanes<P> {
@@ -133,7 +135,7 @@ pub struct LaneTrial<'a> {
     registers: &'a mut Registers,
 }
 
-/// A trial is not ordinary in one of its lanes.
+/// Error: a trial is not ordinary in one of its lanes.
 #[doc(hidden)]
 pub struct NotOrdinary;
 
@@ -185,7 +187,7 @@ impl TrialStages for LaneTrial<'_> {
     }
 }
 
-/// A state and its derivative as lanes.
+/// A state and its derivative, in vector registers.
 #[derive(Default)]
 struct Registers {
     y: Vec<Lanes>,
@@ -198,8 +200,8 @@ impl Registers {
         self.y.extend(y.iter().map(|y| Lanes::new(*y)));
     }
 
-    /// dy = f(t, y); whether it is ordinary.
-    #[inline(never)] // once for all stages
+    /// dy = f(t, y). Returns whether the evaluation is ordinary.
+    #[inline(never)] // one copy for all stages
     fn rates(&mut self, system: &mut dyn LaneOde, t: Lanes, y: &[Block], dy: &mut [Block]) -> bool {
         self.put(y);
         self.dy.resize(y.len(), Lanes::zero());
@@ -209,10 +211,10 @@ impl Registers {
     }
 }
 
-/// The steppers of the lanes; some lanes may be empty.
+/// The steppers of the lanes. A lane may be empty.
 pub type Steppers<'a, 's> = [Option<&'a mut (dyn SideBySide + 's)>; WIDTH];
 
-/// The times of the trials, and the lanes that have one.
+/// The times of the trials, and the lanes that have a trial.
 struct Times {
     t: Block,
     t_new: Block,
@@ -226,14 +228,14 @@ pub struct LaneSteps {
     y_new: Vec<Block>,
     argument: Vec<Block>,
     k: Vec<Block>,
-    /// The derivative at the end.
+    /// The derivative at the end of the step.
     dy: Vec<Block>,
     tolerances: LaneTolerances,
     registers: Registers,
 }
 
 impl LaneSteps {
-    /// A trial step of each stepper that is given; the lane of another one is reported as [`Taken::Alone`].
+    /// Takes one trial step of each stepper. A lane without a trial is reported as [`Taken::Alone`].
     pub fn step(
         &mut self,
         steppers: &mut Steppers<'_, '_>,
@@ -275,7 +277,8 @@ impl LaneSteps {
         taken
     }
 
-    /// The trials of the steppers; None if fewer than two have one. Empty lanes repeat a trial.
+    /// Begins the trials of the steppers. Returns None if fewer than two steppers have one. Empty lanes repeat a
+    /// trial.
     fn begin(
         &mut self,
         method: &dyn LaneMethod,
@@ -311,7 +314,7 @@ impl LaneSteps {
         Some(times)
     }
 
-    /// The stages of all trials, and their error norms; None if one is not ordinary.
+    /// Computes the stages and error norms of all trials. Returns None if a trial is not ordinary.
     fn advance(
         &mut self,
         method: &dyn LaneMethod,
@@ -326,8 +329,8 @@ impl LaneSteps {
         advanced.then(|| method.norms(h.to_array(), k, [y, y_new], tolerances))
     }
 
-    /// Projects the accepted states and evaluates f there. For each lane whether projection changed the state; None if
-    /// its stepper has to take the step alone.
+    /// Projects the accepted states and evaluates f there. Returns for each lane whether projection changed the
+    /// state, or None if the stepper must take the step alone.
     fn settle(
         &mut self,
         last_in_error: bool,

@@ -1,17 +1,17 @@
-//! Initial value problems, without mechanics: y′ = f(t, y), and constrained systems for implicit methods.
+//! Initial value problems, independent of mechanics: y′ = f(t, y), and constrained systems for implicit methods.
 //!
-//! A method ([`ExplicitMethod`], [`ImplicitMethod`]) starts a [`Stepper`], which advances the state by one accepted step
-//! at a time, can restart from another state at the same time, and locates events. It shows the last [`Step`] with its
-//! interpolant.
+//! A method ([`ExplicitMethod`], [`ImplicitMethod`]) starts a [`Stepper`]. The stepper advances the state by one
+//! accepted step at a time, can restart from another state at the same time, and locates events. It provides the last
+//! [`Step`] with its interpolant.
 //!
 //! # Properties of a system
 //!
 //! | trait | content | used for |
 //! |---|---|---|
 //! | [`Ode`] | `len`, `rate`: the required methods | every explicit method |
-//! | [`Structure`] (a value) | numbers of positions, states of first order, quadratures | error norm, cheaper interpolant |
-//! | [`Manifold`] | projects an accepted state; the tangent part of an error | drift, errors near singular positions |
-//! | [`TimesToAvoid`] | times near which f is noise | placement of steps |
+//! | [`Structure`] (a value) | numbers of positions, states and quadratures | error norm, cheaper interpolant |
+//! | [`Manifold`] | projection of a state; tangential part of an error | drift, errors near singular positions |
+//! | [`TimesToAvoid`] | times near which noise dominates f | placement of steps |
 //! | [`TrialChanges`] | changes of f before a trial step | gains that follow the step |
 //! | [`Dae`] | residuals, tangent, factorised matrices of a constrained system | every implicit method |
 //!
@@ -24,14 +24,14 @@
 //! | `failure`, `arguments` | causes of failure; checks of arguments before the first evaluation |
 //! | `step_control`, `step_size`, `fixed_step` | options of steps; choice of the step from the error; constant steps |
 //! | `events`, `crossings` | where a function of the state changes sign; several functions and changes |
-//! | `interpolant`, `hermite_birkhoff` | the state between the ends of a step; that of systems of second order |
+//! | `interpolant`, `hermite_birkhoff` | the state between the ends of a step; the same for systems of second order |
 //! | `explicit_stepper`, `explicit_work` | the stepper of explicit methods; its memory |
 //! | `step_acceptance`, `step_placement` | the end of a step; steps that avoid a time |
-//! | `side_by_side`, `lane_steps` | explicit steppers beside others; their steps, one in each lane |
+//! | `side_by_side`, `lane_steps` | steps of several explicit steppers in parallel, one in each lane |
 //! | `runge_kutta`, `rk45`, `dop853`, `rk4` | the definition of an explicit method, and three of them |
 //! | `right_hand_side`, `stages`, `tolerances` | evaluations of f, sums over stages, error norm |
 //! | `implicit_stepper` | the stepper of implicit methods |
-//! | `implicit_state`, `implicit_steps`, `error_weights`, `evaluation_counter` | its parts |
+//! | `implicit_state`, `implicit_steps`, `error_weights`, `evaluation_counter` | parts of the implicit stepper |
 //! | `alpha_parameters`, `alpha_step`, `generalized_alpha` | generalized-α at index 3 |
 //! | `radau_coefficients`, `radau_step`, `radau` | Radau IIA of order 5 at index 2 |
 

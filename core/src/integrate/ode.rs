@@ -5,7 +5,7 @@
 /// Only [`len`](Self::len) and [`rate`](Self::rate) are required. Each other method gives access to one optional
 /// property of the system.
 pub trait Ode {
-    /// The error of the system; it is passed on unchanged.
+    /// Error of the system, passed on unchanged.
     type Stop;
 
     /// Number of components of y.
@@ -16,10 +16,10 @@ pub trait Ode {
         self.len() == 0
     }
 
-    /// dy = f(t, y); both of length [`Ode::len`].
+    /// dy = f(t, y). Both y and dy have the length [`Ode::len`].
     ///
     /// # Errors
-    /// Ends the integration at once. A trial state that is too far off should yield NaN instead: a method
+    /// An error ends the integration at once. For a trial state outside the domain of f, return NaN instead: a method
     /// with step control then tries a shorter step.
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop>;
 
@@ -28,12 +28,12 @@ pub trait Ode {
         Structure::first_order(self.len())
     }
 
-    /// The manifold on which accepted states have to be.
+    /// The manifold on which accepted states must lie.
     fn manifold(&mut self) -> Option<&mut dyn Manifold<Stop = Self::Stop>> {
         None
     }
 
-    /// Times near which f is noise.
+    /// Times near which noise dominates f.
     fn times_to_avoid(&mut self) -> Option<&mut dyn TimesToAvoid> {
         None
     }
@@ -44,19 +44,19 @@ pub trait Ode {
     }
 }
 
-/// The structure of y = (q, v, z, w): positions with q′ = v, their rates, further states, and quadratures.
+/// The structure of y = (q, v, z, w): positions q with q′ = v, their rates v, further states z, and quadratures w.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Structure {
     /// Number of components of q, and of v. A system of second order allows a cheaper interpolant.
     pub positions: usize,
-    /// Number of further states z of first order.
+    /// Number of further first-order states z.
     pub states: usize,
     /// Number of quadratures w. No derivative depends on them, and they do not enter the error norm.
     pub quadratures: usize,
 }
 
 impl Structure {
-    /// A system of `n` equations of first order.
+    /// The structure of `n` first-order equations.
     pub fn first_order(n: usize) -> Self {
         Self { states: n, ..Self::default() }
     }
@@ -72,51 +72,52 @@ impl Structure {
     }
 }
 
-/// A manifold on which the states of an [`Ode`] have to be.
+/// A manifold on which the states of an [`Ode`] must lie.
 pub trait Manifold {
-    /// As that of the system.
+    /// Error of the system, as [`Ode::Stop`].
     type Stop;
 
-    /// Projects an accepted state, near which f was evaluated last. Returns whether y changed; then the derivative
-    /// there is evaluated by [`rate_projected`](Self::rate_projected), and the interpolant ends in the new y.
+    /// Projects an accepted state, near which f was evaluated last. Returns whether y changed. If it did, the
+    /// derivative is evaluated by [`rate_projected`](Self::rate_projected), and the interpolant ends in the new y.
     ///
     /// # Errors
-    /// The state is refused: a method with step control tries a shorter step, and stops with this error where
-    /// none is short enough; a method with constant steps stops at once.
+    /// An error refuses the state. A method with step control then tries shorter steps, and ends with this error if
+    /// no step is short enough. A method with constant steps ends at once.
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<bool, Self::Stop>;
 
-    /// dy = f(t, y) right after [`project`](Self::project) changed y, whose results it may use.
+    /// dy = f(t, y) immediately after [`project`](Self::project) changed y. It may use results of the projection.
     ///
     /// # Errors
     /// As [`Ode::rate`].
     fn rate_projected(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Self::Stop>;
 
-    /// Replaces a derivative at the last evaluated state by its tangent part, which [`project`](Self::project)
-    /// leaves. Returns false if it is to count as a whole. Linear in `dy`. Used to test a rejected step again with
-    /// the tangential error alone.
+    /// Replaces a derivative at the last evaluated state by its tangential component, which
+    /// [`project`](Self::project) does not remove. Linear in `dy`. Returns false if the whole derivative counts as
+    /// error. A rejected step is tested again with the tangential error alone.
     fn project_error(&mut self, dy: &mut [f64]) -> bool {
         let _ = dy;
         false
     }
 }
 
-/// Times near which f is noise. A method with step control places its steps so that no stage is near one.
+/// Times near which noise dominates f. A method with step control places its steps so that no stage is near such a
+/// time.
 pub trait TimesToAvoid {
-    /// Whether such a time may be near, by the evaluations of the trial under way. Then f is evaluated at the end
-    /// of the trial as well, where the error estimate does not need it.
+    /// Whether such a time may be near, according to the evaluations of the current trial. If so, f is also evaluated
+    /// at the end of the trial, even if the error estimate does not need this evaluation.
     fn may_be_near(&self) -> bool;
 
-    /// The next such time, if one is in reach. Called after every trial step, accepted or not, with the time of
-    /// its end, at or near which f was evaluated last.
+    /// The next such time, if one is within reach. Called after every trial step, accepted or not. `t` is the end of
+    /// the trial; f was evaluated last at or near it.
     fn next(&mut self, t: f64) -> Option<f64>;
 
-    /// Called with the end of every accepted step, where f was evaluated last.
+    /// Called at the end of every accepted step, where f was evaluated last.
     fn on_accepted_end(&mut self, t: f64);
 }
 
-/// Changes of f that depend on the step, such as gains that follow its length.
+/// Changes of f that depend on the step, such as gains that depend on the step size.
 pub trait TrialChanges {
-    /// Called before every trial step from y at t over h, which is negative when integrating backward. Returns
-    /// whether f changed; then the derivative at the beginning is evaluated again.
+    /// Called before every trial step of length h from y at t. h is negative when integrating backward. Returns
+    /// whether f changed. If it did, the derivative at the beginning is evaluated again.
     fn before_trial(&mut self, t: f64, y: &[f64], h: f64) -> bool;
 }

@@ -1,9 +1,10 @@
 //! Radau IIA of order 5 with step control, for constrained mechanical systems that may be stiff.
 //!
-//! The equations are at index 2: the velocities meet their constraints at every stage, the positions by projection at
-//! the end of a step; see `radau_step`. The predictive control of Gustafsson chooses the steps. The tangent is kept
-//! while Newton's iteration converges fast, and the factors while the step is unchanged (Hairer and Wanner, *Solving
-//! Ordinary Differential Equations II*, IV.8). The collocation polynomials interpolate between the steps.
+//! The equations are solved at index 2: the velocities satisfy their constraints at every stage, and projection
+//! corrects the positions at the end of a step (see `radau_step`). The predictive controller of Gustafsson chooses
+//! the steps. The tangent is kept while Newton's iteration converges fast, and the factors are kept while the step is
+//! unchanged (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.8). The collocation polynomials
+//! interpolate between the steps.
 
 use super::dae::{Dae, DaeState};
 use super::evaluation_counter::CountedDae;
@@ -19,22 +20,22 @@ use super::stepper::{BoxedStepper, ImplicitMethod};
 
 /// Order of the error estimate.
 const ERROR_ORDER: i32 = 3;
-/// Safety factor on the step that the error would allow.
+/// Safety factor on the step that the error estimate allows.
 const SAFETY: f64 = 0.9;
-/// Bounds on the change of the step.
+/// Bounds of the factor from one step to the next.
 const MIN_FACTOR: f64 = 0.2;
 const MAX_FACTOR: f64 = 8.0;
-/// The step and the factors are kept if the step could grow by less.
+/// The step and the factors are kept if the step could grow by less than this factor.
 const KEEP: f64 = 1.2;
-/// A tangent is kept while Newton's iteration converges at this rate.
+/// A tangent is kept while Newton's iteration converges at this rate or faster.
 const FAST: f64 = 1e-3;
 /// Factor on the step after a trial without convergence.
 const SHORTEN: f64 = 0.5;
-/// Largest number of iterations for a step of controlled length.
+/// Largest number of Newton iterations in a step of controlled length.
 const MOST: usize = 7;
 /// Limits of Newton's iteration with a constant step.
 const CONSTANT: NewtonLimits = NewtonLimits { tolerance: 1e-2, most: 25 };
-/// Least error norm that the prediction of the next step uses.
+/// Smallest error norm that the prediction of the next step uses.
 const LEAST_NORM: f64 = 1e-2;
 
 /// Radau IIA of order 5 with its options.
@@ -50,20 +51,20 @@ impl Radau {
         Self { control: StepControl::new(rtol, atol) }
     }
 
-    /// The method with a constant step, and Newton's iteration to `rtol` and `atol`.
+    /// The method with a constant step. Newton's iteration converges to `rtol` and `atol`.
     pub fn constant(step: f64, rtol: f64, atol: f64) -> Self {
         Self { control: StepControl { step: Some(step), ..StepControl::new(rtol, atol) } }
     }
 }
 
-/// The state between the steps.
+/// State of the method between steps.
 struct RadauProgress {
     step: RadauStep,
-    /// Magnitude of the step to try, once the derivative at the start is known.
+    /// Magnitude of the next trial step. None before the derivative at the start was evaluated.
     size: Option<f64>,
-    /// Whether the tangent of an earlier step is still good.
+    /// Whether the tangent of an earlier step can be used again.
     keep_tangent: bool,
-    /// Length and error of the step before.
+    /// Length and error norm of the step before.
     before: Option<(f64, f64)>,
 }
 
@@ -115,7 +116,7 @@ impl ImplicitScheme for RadauProgress {
 type RadauStepper = ImplicitStepper<RadauProgress>;
 
 impl RadauStepper {
-    /// The derivative at the start, and the first step.
+    /// Evaluates the derivative at the start and chooses the first step.
     fn begin<Y: Dae>(&mut self, dae: &mut CountedDae<'_, Y>) -> Result<f64, Cause<Y::Stop>> {
         let Self { method, control, scale, steps, .. } = self;
         let RadauStep { start, stages, .. } = &mut method.step;
@@ -124,7 +125,7 @@ impl RadauStepper {
         Ok(first)
     }
 
-    /// The next step of constant length, of which the last may be shorter. Returns its time.
+    /// Takes the next step of constant length; the last step may be shorter. Returns its end time.
     fn constant_step<Y: Dae>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
@@ -148,7 +149,7 @@ impl RadauStepper {
         Err(dae.unsolved(singular, t, &self.method.step.start, other))
     }
 
-    /// Tries steps until one is accepted. Returns its time.
+    /// Tries steps until one is accepted. Returns its end time.
     fn accepted_step<Y: Dae>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
@@ -185,7 +186,7 @@ impl RadauStepper {
                     size = SHORTEN * h.abs();
                     dae.counts.rejected += 1;
                     rejected = true;
-                    // the middle of the shorter step is elsewhere, and may have a tangent where that of this one has none
+                    // the shorter step has another midpoint, where the matrix may be regular
                     self.method.step.fresh = false;
                 }
                 self.method.keep_tangent = false;
@@ -207,8 +208,8 @@ impl RadauStepper {
         }
     }
 
-    /// The error of the step, estimated once more at the start and after rejections, where stiff
-    /// components are not yet at rest.
+    /// The error norm of the step. The error is estimated a second time at the start and after rejections, where
+    /// stiff components may not have decayed.
     fn error<Y: Dae>(
         &mut self,
         dae: &mut CountedDae<'_, Y>,
@@ -220,13 +221,12 @@ impl RadauStepper {
         if norm >= 1.0 && (rejected || self.method.before.is_none()) {
             norm = step.error(dae, span, scale, true)?;
         }
-        // the state may have left the domain: as bad as can be
+        // the state may have left the domain; reject the step
         Ok(if norm.is_finite() { norm } else { f64::MAX })
     }
 
-    /// The next step, by the error of this one and that before (Gustafsson, *Control-theoretic
-    /// techniques for stepsize selection in implicit Runge–Kutta methods*, ACM Trans. Math. Softw. 20
-    /// (1994) 496).
+    /// Chooses the next step from the errors of this step and the one before (Gustafsson, *Control-theoretic
+    /// techniques for stepsize selection in implicit Runge–Kutta methods*, ACM Trans. Math. Softw. 20 (1994) 496).
     fn accept(&mut self, (h, norm): (f64, f64), factor: f64, safety: f64, rejected: bool) {
         let mut by = factor;
         if let Some((h_before, norm_before)) = self.method.before {
@@ -238,7 +238,7 @@ impl RadauStepper {
             by = by.min(1.0);
         }
         self.method.before = Some((h, norm.max(LEAST_NORM)));
-        let wanted = self.method.size.filter(|size| h < 0.99 * size); // the last step ends at t_end
+        let wanted = self.method.size.filter(|size| h < 0.99 * size); // the last step is shortened to t_end
         let short = wanted.is_some();
         if short || !(self.method.keep_tangent && (1.0..KEEP).contains(&by)) {
             self.method.size = Some((h * by).max(wanted.unwrap_or(0.0)));
@@ -254,7 +254,7 @@ impl RadauStepper {
         let Self { method: RadauProgress { step, .. }, steps, lengths, .. } = self;
         let ImplicitSteps { t, y, y_new, dy, rows, .. } = steps;
         let (h, n, len) = (t_new - *t, lengths.coordinates, lengths.total());
-        step.evaluate(dae, (*t, h)); // for the powers
+        step.evaluate(dae, (*t, h)); // computes the powers
         step.interpolant_rows(rows);
         step.stages[2].write(y_new);
         let works = lengths.controlled();
@@ -286,13 +286,14 @@ impl RadauStepper {
     }
 }
 
-/// The factor on the step for an error norm.
+/// The factor on the step that an error norm allows.
 fn factor(norm: f64, safety: f64) -> f64 {
     let factor = safety * norm.max(f64::MIN_POSITIVE).powf(-1.0 / f64::from(ERROR_ORDER + 1));
     factor.clamp(MIN_FACTOR, MAX_FACTOR)
 }
 
-/// Residual that Newton's iteration may leave, as a part of the tolerance. It may be larger for small tolerances.
+/// Error that Newton's iteration may leave, as a fraction of the tolerance. The fraction is larger for small
+/// tolerances.
 fn newton_tolerance(rtol: f64) -> f64 {
     (10.0 * f64::EPSILON / rtol).max(rtol.sqrt().min(0.03))
 }

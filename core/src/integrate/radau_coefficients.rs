@@ -1,18 +1,19 @@
-//! Radau IIA of order 5 with three stages: nodes, matrix, its transformation, and its polynomials.
+//! Radau IIA of order 5 with three stages: nodes, coefficient matrix, its transformation, and collocation
+//! polynomials.
 //!
-//! The matrix A⁻¹ has one real and a pair of complex eigenvalues; T⁻¹ A⁻¹ T has them in its diagonal
-//! blocks, so that the equations of Newton's iteration fall apart into a real and a complex system
-//! (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.5 and IV.8).
+//! The matrix A⁻¹ has one real eigenvalue and a pair of complex eigenvalues. T⁻¹ A⁻¹ T is block diagonal with these
+//! eigenvalues, so that the equations of Newton's iteration separate into a real and a complex system (Hairer and
+//! Wanner, *Solving Ordinary Differential Equations II*, IV.5 and IV.8).
 
 use std::sync::LazyLock;
 
 /// √6.
 const ROOT: f64 = 2.449_489_742_783_178;
 
-/// Nodes.
+/// Nodes cᵢ.
 pub(super) const C: [f64; 3] = [(4.0 - ROOT) / 10.0, (4.0 + ROOT) / 10.0, 1.0];
 
-/// Matrix; its last row holds the weights.
+/// Coefficient matrix A. Its last row contains the weights bᵢ.
 pub(super) const A: [[f64; 3]; 3] = [
     [(88.0 - 7.0 * ROOT) / 360.0, (296.0 - 169.0 * ROOT) / 1800.0, (-2.0 + 3.0 * ROOT) / 225.0],
     [(296.0 + 169.0 * ROOT) / 1800.0, (88.0 + 7.0 * ROOT) / 360.0, (-2.0 - 3.0 * ROOT) / 225.0],
@@ -28,10 +29,10 @@ pub(super) const INVERSE: [[f64; 3]; 3] = [
 
 /// Real eigenvalue of A⁻¹: 3 + 3^(2/3) - 3^(1/3).
 pub(super) const REAL: f64 = 3.637_834_252_744_496;
-/// Complex eigenvalue of A⁻¹ for the pair (w₁, w₂) taken as w₁ + i w₂.
+/// Complex eigenvalue of A⁻¹, for the pair (w₁, w₂) written as w₁ + i w₂.
 pub(super) const COMPLEX: [f64; 2] = [2.681_082_873_627_752_3, -3.050_430_199_247_411];
 
-/// T.
+/// Transformation T.
 pub(super) const T: [[f64; 3]; 3] = [
     [0.094_438_762_488_975_24, -0.141_255_295_020_954_2, 0.030_029_194_105_147_42],
     [0.250_213_122_965_333_3, 0.204_129_352_293_799_94, -0.382_942_112_757_261_9],
@@ -45,17 +46,18 @@ pub(super) const T_INVERSE: [[f64; 3]; 3] = [
     [0.502_872_634_945_786_8, -2.571_926_949_855_605, 0.596_039_204_828_224_9],
 ];
 
-/// Factors of the stages in the error estimate, beside h f(y₀) over the real eigenvalue. The estimate is the difference
-/// from an embedded method of order 3.
+/// Factors of the stages in the error estimate, in addition to h f(y₀) divided by the real eigenvalue. The estimate
+/// is the difference from an embedded method of order 3.
 pub(super) const ERROR: [f64; 3] =
     [(-13.0 - 7.0 * ROOT) / (3.0 * REAL), (-13.0 + 7.0 * ROOT) / (3.0 * REAL), -1.0 / (3.0 * REAL)];
 
 /// Degree of the continuous extension.
 pub(super) const DEGREE: usize = 4;
 
-/// Coefficients of θ … θ⁴ for the rows: derivatives at the beginning and at the stages for q and the quadratures, which
-/// are the integrals of the cubic through them; derivatives at the stages for the rest, the integral of the parabola
-/// through them; and 3θ² - 2θ³ for the jump of a projection.
+/// Coefficients of θ … θ⁴ for each row. The first four rows belong to the derivatives of q and the quadratures at the
+/// beginning and at the stages; they integrate the cubic through these derivatives. The next three belong to the
+/// derivatives of the other components at the stages; they integrate the parabola through them. The last row, 3θ² -
+/// 2θ³, belongs to the jump of a projection.
 pub(super) static EXTENSION: LazyLock<[f64; 8 * DEGREE]> = LazyLock::new(|| {
     let mut table = [0.0; 8 * DEGREE];
     let four = [0.0, C[0], C[1], C[2]];
@@ -69,7 +71,7 @@ pub(super) static EXTENSION: LazyLock<[f64; 8 * DEGREE]> = LazyLock::new(|| {
     table
 });
 
-/// ∫₀^θ of the k-th polynomial of Lagrange, as coefficients of θ … θ⁴.
+/// ∫₀^θ of the k-th Lagrange polynomial, as coefficients of θ … θ⁴.
 fn integrated(nodes: &[f64], k: usize) -> [f64; DEGREE] {
     let mut polynomial = [1.0, 0.0, 0.0, 0.0];
     for (j, node) in nodes.iter().enumerate().filter(|(j, _)| *j != k) {
@@ -82,7 +84,7 @@ fn integrated(nodes: &[f64], k: usize) -> [f64; DEGREE] {
     std::array::from_fn(|power| polynomial[power] / (power + 1) as f64)
 }
 
-/// Values at θ of the polynomials of Lagrange for the nodes.
+/// Values at θ of the Lagrange polynomials for the nodes.
 pub(super) fn lagrange<const N: usize>(nodes: [f64; N], theta: f64) -> [f64; N] {
     std::array::from_fn(|k| {
         let others = nodes.iter().enumerate().filter(|(j, _)| *j != k);

@@ -1,16 +1,17 @@
 //! One step of Radau IIA of order 5 at index 2: Φ_q v + Φ_t = 0 at every stage.
 //!
-//! Unknown are the increments vᵢ - v₀ and zᵢ - z₀, and λᵢ of the stages; the positions follow as q₀ + h Σ aᵢⱼ vⱼ, the
-//! derivatives of (v, z) as Σ (A⁻¹)ᵢⱼ incrementⱼ / h. With μ an eigenvalue of A⁻¹, the equations of Newton's iteration
-//! are for the transformed unknowns, here without z,
+//! The unknowns are the increments vᵢ - v₀ and zᵢ - z₀ and the multipliers λᵢ of the stages. The positions are q₀ + h
+//! Σ aᵢⱼ vⱼ, and the derivatives of (v, z) are Σ (A⁻¹)ᵢⱼ incrementⱼ / h. For each eigenvalue μ of A⁻¹, the equations
+//! of Newton's iteration for the transformed unknowns are, without z,
 //!
 //! ```text
 //! [ M + h/μ D + (h/μ)² K   Φ_qᵀ ] [    w    ]     [ h/μ r ]
 //! [ Φ_q + h/μ B             0   ] [ h/μ Δλ ] = - [  Φ̇   ]
 //! ```
 //!
-//! once real and once complex (Hairer and Wanner, *Solving Ordinary Differential Equations II*, IV.8 and
-//! VII.6), whose condition does not grow as h falls. Of q and v the order is 5, of λ 3.
+//! They are solved once with the real and once with the complex eigenvalue (Hairer and Wanner, *Solving Ordinary
+//! Differential Equations II*, IV.8 and VII.6). The condition number does not grow as h decreases. The order is 5 for
+//! q and v, and 3 for λ.
 
 use super::dae::{ConstraintLevel, Dae, DaeLengths, DaeResidual, Iterate, NewtonCoefficients};
 use super::error_weights::ErrorWeights;
@@ -20,39 +21,40 @@ use super::implicit_state::ImplicitState;
 use super::radau_coefficients::{lagrange, A, C, COMPLEX, ERROR, INVERSE, REAL, T, T_INVERSE};
 use crate::math::{Complex, Field};
 
-/// Steps that differ by less share their matrices: differences of times are subject to rounding.
+/// Relative difference of two step sizes below which the steps share their matrices. Differences of times are subject
+/// to rounding.
 const SAME: f64 = 1e-6;
-/// Corrections of velocities below this part of the largest are rounding.
+/// Relative size of velocity corrections that are rounding errors, compared with the largest velocity.
 const ROUNDING: f64 = 16.0 * f64::EPSILON;
-/// Rows of the continuous extension: v at the beginning and the stages, derivatives at the stages, the
-/// jump of a projection.
+/// Number of rows of the continuous extension: v at the beginning and at the stages, the derivatives at the stages,
+/// and the jump of a projection.
 pub(super) const ROWS: usize = 8;
 
 /// The outcome of Newton's iteration.
 pub(super) enum NewtonOutcome {
-    /// It converged after so many iterations, with this rate of convergence.
+    /// The iteration converged, with the number of iterations and the rate of convergence.
     Converged(usize, f64),
     Diverged,
-    /// The matrix has no factorisation.
+    /// The matrix is singular.
     Singular,
 }
 
 /// The limits of Newton's iteration.
 #[derive(Clone, Copy)]
 pub(super) struct NewtonLimits {
-    /// Largest norm of the remainder.
+    /// Largest norm of the remaining error.
     pub tolerance: f64,
     /// Largest number of iterations.
     pub most: usize,
 }
 
-/// State and memory of a run.
+/// State and work memory of an integration.
 pub(super) struct RadauStep {
     pub start: ImplicitState,
     pub stages: [ImplicitState; 3],
     /// (v - v₀, z - z₀) at the stages.
     increments: [Vec<f64>; 3],
-    /// Increments of the step before, for the prediction.
+    /// Increments of the step before, from which this step is predicted.
     increments_before: [Vec<f64>; 3],
     lam_before: [Vec<f64>; 3],
     h_before: Option<f64>,
@@ -62,10 +64,10 @@ pub(super) struct RadauStep {
     dq: Vec<f64>,
     /// Estimated errors of q, v and z.
     error: [Vec<f64>; 3],
-    /// The start moved by them, and the move along it that the error estimate uses.
+    /// The start moved by these errors, and the change of q along it that the error estimate uses.
     moved: ImplicitState,
     along: Vec<f64>,
-    /// Whether the tangent is that of the beginning of this step.
+    /// Whether the tangent was computed for this step.
     pub fresh: bool,
     factored: Option<f64>,
 }
@@ -94,7 +96,7 @@ impl RadauStep {
         }
     }
 
-    /// Forgets the step before: the state has changed.
+    /// Discards the data of earlier steps after a change of the state.
     pub fn forget(&mut self) {
         (self.h_before, self.factored, self.fresh) = (None, None, false);
     }
@@ -120,8 +122,8 @@ impl RadauStep {
         self.newton(system, (t, h), scale, enough)
     }
 
-    /// Computes the tangent at the beginning of the step, with the positions at its middle: because bodies rotate, the
-    /// iteration then converges twice as fast.
+    /// Computes the tangent at the beginning of the step, but with the positions at its middle. Because bodies
+    /// rotate, this makes the iteration converge twice as fast.
     pub fn linearize<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, t: f64, h: f64) {
         let ImplicitState { q, v, .. } = &self.start;
         self.dq.iter_mut().zip(q.iter().zip(v)).for_each(|(mid, (q, v))| *mid = q + 0.5 * h * v);
@@ -130,7 +132,7 @@ impl RadauStep {
         self.factored = None;
     }
 
-    /// First guess: the polynomials of the step before are extrapolated.
+    /// Predicts the increments and multipliers by extrapolating the polynomials of the step before.
     fn predict(&mut self, h: f64) {
         let nodes = [0.0, C[0], C[1], C[2]];
         for (i, stage) in self.stages.iter_mut().enumerate() {
@@ -192,7 +194,7 @@ impl RadauStep {
         NewtonOutcome::Diverged
     }
 
-    /// q, v, z and the derivatives of the stages from the increments.
+    /// Computes q, v, z and the derivatives of the stages from the increments.
     fn update_stages(&mut self, h: f64) {
         let Self { start, stages, increments, .. } = self;
         let n = start.q.len();
@@ -212,7 +214,7 @@ impl RadauStep {
         }
     }
 
-    /// Residuals of all stages, and their powers.
+    /// Computes the residuals and powers of all stages.
     pub fn evaluate<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, (t, h): (f64, f64)) {
         let (n, states) = (self.dq.len(), self.start.z.len());
         for ((stage, residual), c) in self.stages.iter_mut().zip(&mut self.residuals).zip(C) {
@@ -225,7 +227,7 @@ impl RadauStep {
         }
     }
 
-    /// One correction of the stages; its norm.
+    /// Corrects the stages by one iteration. Returns the norm of the correction.
     fn correct<Y: Dae>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
@@ -254,7 +256,7 @@ impl RadauStep {
             };
             for (i, row) in T.iter().enumerate() {
                 let change = dot(row, &[first, pair.re, pair.im]);
-                // kept in place of the residual, for the norm
+                // overwrites the residual, for `norm`
                 self.residuals[i][k] = change;
                 if k < n {
                     self.increments[i][k] += change;
@@ -267,7 +269,7 @@ impl RadauStep {
         self.norm(h, scale)
     }
 
-    /// The norm of the last correction, as mean over the stages.
+    /// The root mean square of the norms of the last correction over the stages.
     fn norm(&mut self, h: f64, scale: &ErrorWeights) -> f64 {
         let (n, both) = (self.dq.len(), self.increments[0].len());
         let mut sum = 0.0;
@@ -282,7 +284,8 @@ impl RadauStep {
         (sum / 3.0_f64).sqrt()
     }
 
-    /// The norm of corrections that are rounding alone: of v relative to the largest, of z to its own size.
+    /// The norm of corrections that contain only rounding errors: of v relative to the largest velocity, of z to its
+    /// own size.
     fn rounding(&self, scale: &ErrorWeights) -> f64 {
         let (n, end) = (self.dq.len(), &self.stages[2]);
         let largest = end.v.iter().fold(0.0, |most: f64, v| most.max(v.abs()));
@@ -292,9 +295,9 @@ impl RadauStep {
         (sum / scale.weights.len().max(1) as f64).sqrt()
     }
 
-    /// The estimated error of the step over its tolerance: the difference from an embedded method of
-    /// order 3, filtered by the real matrix (IV.8.19 and IV.8.20 of the book). With `again`, that of a step from
-    /// the start moved by the estimate, which a stiff start needs.
+    /// The estimated error of the step relative to its tolerance. It is the difference from an embedded method of
+    /// order 3, filtered by the real matrix (IV.8.19 and IV.8.20 of the book). With `again`, the estimate is repeated
+    /// from the start moved by the first estimate. A stiff start requires this.
     pub fn error<Y: Dae>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
@@ -313,7 +316,7 @@ impl RadauStep {
         }
         let step = h / REAL;
         let rise = |k: usize| dot(&ERROR, &[increments[0][k], increments[1][k], increments[2][k]]);
-        // the memory of the error first holds what is multiplied by K and by M
+        // the memory of the error first contains the factors of K and M
         let [stiff, force, states] = error;
         for k in 0..n {
             let q = std::array::from_fn(|i| stages[i].q[k] - start.q[k]);
@@ -325,7 +328,7 @@ impl RadauStep {
             *state = step * moved.dz[k] + rise(n + k);
         }
         system.system.times(force, states, stiff, real);
-        // B comes without the h/μ that K has once more
+        // the row of B lacks the second factor h/μ of K
         let both = n + states.len();
         real[both..].iter_mut().for_each(|row| *row /= step);
         system.system.solve(real);
@@ -337,7 +340,7 @@ impl RadauStep {
         Ok(scale.norm(dq, dv, dz))
     }
 
-    /// Rows of the interpolant of y = (q, v, z, quadratures), except the last.
+    /// Sets all rows of the interpolant of y = (q, v, z, quadratures) but the last.
     pub fn interpolant_rows(&self, rows: &mut [f64]) {
         let ImplicitState { q, z, powers, .. } = &self.start;
         let (n, works) = (q.len(), 2 * q.len() + z.len());
@@ -355,12 +358,12 @@ impl RadauStep {
         }
     }
 
-    /// h Σ bᵢ powerᵢ of one quadrature.
+    /// The change h Σ bᵢ powerᵢ of one quadrature.
     pub fn work(&self, k: usize, h: f64) -> f64 {
         h * (0..3).map(|i| A[2][i] * self.stages[i].powers[k]).sum::<f64>()
     }
 
-    /// Keeps the stages for the prediction of the next step.
+    /// Stores the stages for the prediction of the next step.
     pub fn move_on(&mut self, h: f64) {
         for i in 0..3 {
             self.increments_before[i].copy_from_slice(&self.increments[i]);
@@ -371,7 +374,7 @@ impl RadauStep {
     }
 }
 
-/// Coefficients of the matrix for an eigenvalue; `step` is h over the eigenvalue.
+/// Coefficients of the matrix for an eigenvalue. `step` is h divided by the eigenvalue.
 fn coefficients<F: Field>(step: F) -> NewtonCoefficients<F> {
     NewtonCoefficients {
         mass: F::one(),
@@ -385,7 +388,7 @@ fn coefficients<F: Field>(step: F) -> NewtonCoefficients<F> {
     }
 }
 
-/// h over the complex eigenvalue.
+/// h divided by the complex eigenvalue.
 fn complex_step(h: f64) -> Complex {
     Complex::new(COMPLEX[0], COMPLEX[1]).reciprocal() * Field::from_real(h)
 }

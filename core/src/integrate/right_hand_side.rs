@@ -1,4 +1,4 @@
-//! Evaluations of f, counted and checked.
+//! Counted and checked evaluations of f.
 
 use super::failure::Cause;
 use super::ode::Ode;
@@ -12,7 +12,7 @@ pub(super) struct RightHandSide<'a, Y> {
 }
 
 impl<Y: Ode> RightHandSide<'_, Y> {
-    /// dy = f(t, y), both in blocks; whether dy is finite is not checked.
+    /// dy = f(t, y), both in blocks. Does not check that dy is finite.
     #[inline(always)]
     pub fn unchecked(
         &mut self,
@@ -26,7 +26,7 @@ impl<Y: Ode> RightHandSide<'_, Y> {
         self.system.rate(t, y, rates).map_err(|error| Cause::Equations { t, error })
     }
 
-    /// dy = f(t, y), both in blocks.
+    /// dy = f(t, y), both in blocks. Checks that dy is finite.
     #[inline]
     pub fn at(&mut self, t: f64, y: &[Block], dy: &mut [Block]) -> Result<(), Cause<Y::Stop>> {
         self.unchecked(t, y, dy)?;
@@ -54,17 +54,17 @@ impl<Y: Ode> RightHandSide<'_, Y> {
         self.finite(t, dy)
     }
 
-    /// Refuses a derivative at t that is not finite.
+    /// Returns an error if the derivative at t is not finite.
     #[inline(always)]
     pub fn finite(&self, t: f64, dy: &[Block]) -> Result<(), Cause<Y::Stop>> {
-        // without the padding: a vector load that spans two recent stores cannot be forwarded and stalls
+        // exclude the padding: a vector load that spans two recent stores cannot be forwarded and stalls
         match all_finite(&dy.as_flattened()[..self.system.len()]) {
             true => Ok(()),
             false => Err(Cause::NotFinite { t }),
         }
     }
 
-    /// Announces a trial step of length `h` from t. If that changes f, evaluates dy at the beginning again and
+    /// Announces a trial step of length `h` from t. If this changes f, evaluates dy at the beginning again and
     /// returns true.
     #[inline]
     pub fn before_trial(

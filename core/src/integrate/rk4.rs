@@ -1,5 +1,5 @@
-//! The classical Runge–Kutta method of order 4 with a constant step (Kutta, *Z. Math. Phys.* 46 (1901)
-//! 435); between steps the cubic Hermite polynomial, of order 3.
+//! The classical Runge–Kutta method of order 4 with a constant step (Kutta, *Z. Math. Phys.* 46 (1901) 435). The
+//! cubic Hermite polynomial, of order 3, interpolates between the steps.
 
 use super::runge_kutta::{RungeKutta, TrialStages};
 use super::stages::{rows_mut, Block};
@@ -10,9 +10,9 @@ use super::tolerances::Squares;
 use crate::math::{Lanes, Real};
 use std::borrow::Cow;
 
-/// Classical Runge–Kutta 4 with its options.
+/// The classical Runge–Kutta method with its options.
 ///
-/// It needs a constant step; errors are not estimated.
+/// The method requires a constant step and does not estimate errors.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Rk4 {
     /// The step, and the largest number of steps.
@@ -29,8 +29,9 @@ impl Rk4 {
 /// Weights of the stages.
 const B: [f64; 4] = [1.0 / 6.0, 1.0 / 3.0, 1.0 / 3.0, 1.0 / 6.0];
 
-/// Coefficients of θ … θ⁴ of each stage, and of the jump of a projection: θ (1 - θ)² of the derivative at the
-/// beginning, θ² (θ - 1) of that at the end, and 3θ² - 2θ³ of the chord, which is the weighted mean of the stages.
+/// Coefficients of θ … θ⁴ for each stage and for the jump of a projection. They combine θ (1 - θ)² for the derivative
+/// at the beginning, θ² (θ - 1) for the derivative at the end, and 3θ² - 2θ³ for the chord, which is the weighted
+/// mean of the stages.
 #[rustfmt::skip]
 const HERMITE: [f64; 24] = [
     1.0, -2.0 + 3.0 * B[0], 1.0 - 2.0 * B[0], 0.0,
@@ -52,7 +53,7 @@ impl RungeKutta for Rk4 {
     const TABLE: &'static [f64] = &HERMITE;
 
     fn control(&self) -> Cow<'_, StepControl> {
-        let step = Some(self.control.step.unwrap_or(f64::NAN)); // no step is refused
+        let step = Some(self.control.step.unwrap_or(f64::NAN)); // a missing step is an error
         Cow::Owned(StepControl { step, ..self.control.clone() })
     }
 
@@ -65,11 +66,11 @@ impl RungeKutta for Rk4 {
         trial.stage(0.5, [0.5], [k1], k2)?;
         trial.stage(0.5, [0.5], [k2], k3)?;
         trial.stage(1.0, [1.0], [k3], k4)?;
-        // by sixths, which are exact
+        // divided by 6, so that the weights are exact
         trial.end(6.0, [1.0, 2.0, 2.0, 1.0], [k1, k2, k3, k4], y_new)
     }
 
-    /// There is none: the step is constant.
+    /// Zero, since the step is constant.
     fn error_squares<N: Squares>(_: &[Block], states: [&[Block]; 2], norm: &N) -> [N::Sum; 2] {
         norm.squares(states, |_| [Lanes::zero(); 2])
     }

@@ -1,8 +1,8 @@
-//! Dormand–Prince 5(4): explicit, adaptive, local extrapolation, continuous extension of order 4.
+//! Dormand–Prince 5(4): explicit adaptive method with local extrapolation and a continuous extension of order 4.
 //!
-//! Pair: Dormand and Prince, *A family of embedded Runge–Kutta formulae*, J. Comput. Appl. Math. 6
-//! (1980) 19. Extension: Shampine, *Some practical Runge–Kutta formulas*, Math. Comp. 46 (1986) 135,
-//! with the optimal c₆. Control: that of `scipy.integrate.RK45`.
+//! The pair is that of Dormand and Prince, *A family of embedded Runge–Kutta formulae*, J. Comput. Appl. Math. 6
+//! (1980) 19. The extension is that of Shampine, *Some practical Runge–Kutta formulas*, Math. Comp. 46 (1986) 135,
+//! with the optimal c₆. The step control is that of `scipy.integrate.RK45`.
 
 use super::runge_kutta::{RungeKutta, TrialStages};
 use super::stages::{rows, rows_mut, sum_at, Block};
@@ -12,7 +12,7 @@ use super::step_size::Control;
 use super::tolerances::Squares;
 use std::borrow::Cow;
 
-/// Dormand–Prince 5(4) with its options.
+/// The Dormand–Prince method 5(4) with its options.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Rk45 {
     /// Tolerances and steps.
@@ -33,9 +33,9 @@ const A4: [f64; 3] = [44.0 / 45.0, -56.0 / 15.0, 32.0 / 9.0];
 const A5: [f64; 4] = [19372.0 / 6561.0, -25360.0 / 2187.0, 64448.0 / 6561.0, -212.0 / 729.0];
 const A6: [f64; 5] =
     [9017.0 / 3168.0, -355.0 / 33.0, 46732.0 / 5247.0, 49.0 / 176.0, -5103.0 / 18656.0];
-/// The fifth-order solution, without its zero second weight.
+/// Weights of the solution of order 5, without the second weight, which is zero.
 const B: [f64; 5] = [35.0 / 384.0, 500.0 / 1113.0, 125.0 / 192.0, -2187.0 / 6784.0, 11.0 / 84.0];
-/// Fourth- minus fifth-order solution, without the zero second weight.
+/// The solution of order 4 minus that of order 5, without the second weight, which is zero.
 const E: [f64; 6] = [
     -71.0 / 57600.0,
     71.0 / 16695.0,
@@ -44,7 +44,7 @@ const E: [f64; 6] = [
     -22.0 / 525.0,
     1.0 / 40.0,
 ];
-/// Coefficients of θ … θ⁴ of each stage, and of the jump of a projection.
+/// Coefficients of θ … θ⁴ for each stage and for the jump of a projection.
 #[rustfmt::skip]
 const P: [f64; 32] = [
     1.0, -8048581381.0 / 2820520608.0, 8663915743.0 / 2820520608.0, -12715105075.0 / 11282082432.0,

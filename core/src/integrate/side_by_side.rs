@@ -1,4 +1,4 @@
-//! Explicit steppers take steps side by side (`lane_steps`).
+//! Steps of explicit steppers in lanes (`lane_steps`).
 
 use super::explicit_stepper::ExplicitStepper;
 use super::explicit_work::{Accepted, InterpolantLevel, Work};
@@ -26,7 +26,7 @@ impl<P: RungeKutta> SideBySide for ExplicitStepper<P> {
         }
         let mut size = self.size.take()?;
         self.begin_trials(&mut size);
-        self.rejected_before = true; // the bounds of this step are applied
+        self.rejected_before = true; // the bounds of this step have been applied
         let proposal = self.proposal(&size);
         self.size = Some(size);
         let Work { width, k, y: own, tolerances: of, .. } = &self.work;
@@ -61,7 +61,7 @@ impl<P: RungeKutta> SideBySide for ExplicitStepper<P> {
         let Work { width, k, y: begin, y_new, hermite_birkhoff, .. } = &mut self.work;
         take(y, lane, y_new);
         take(dy, lane, row_mut(k, *width, last_row::<P>(projected)));
-        // for the interpolant, which has no stages
+        // the interpolant has no stages; it uses these rows
         take(dy, lane, row_mut(k, *width, 1));
         chord(begin, y_new, t - self.t, row_mut(k, *width, 2));
         hermite_birkhoff.iter_mut().for_each(HermiteBirkhoff::forget);

@@ -1,24 +1,25 @@
 //! Sums over the stages of a Runge–Kutta step.
 //!
-//! States and stages are rows of whole blocks with zeros behind the last number, so that sums over them are
-//! taken four numbers at once without a remainder.
+//! States and stages are rows of whole blocks, padded with zeros. Sums over them process four numbers at a time
+//! without a remainder.
 
 use crate::math::{Lanes, Real};
 
-/// Numbers side by side.
+/// Four numbers that are processed together.
 pub(super) type Block = [f64; Lanes::WIDTH];
 
-/// Room for so many rows of `n` numbers.
+/// Memory for `rows` rows of `n` numbers.
 pub(super) fn room(rows: usize, n: usize) -> Vec<Block> {
     vec![[0.0; Lanes::WIDTH]; rows * width(n)]
 }
 
-/// Blocks in a row of `n` numbers; at least one.
+/// Number of blocks in a row of `n` numbers; at least one.
 pub(super) fn width(n: usize) -> usize {
     n.div_ceil(Lanes::WIDTH).max(1)
 }
 
-/// out = y + h Σₛ aₛ kₛ, with h for each number of a block; whether that is finite, which is known here without loading it again.
+/// out = y + h Σₛ aₛ kₛ, with an h for each number of a block. Returns whether the sum is finite, without loading it
+/// again.
 #[inline(always)]
 pub(super) fn combine<const S: usize>(
     y: &[Block],
@@ -29,7 +30,7 @@ pub(super) fn combine<const S: usize>(
 ) -> bool {
     let n = out.len();
     let y = &y[..n];
-    // equal lengths: no bounds checks below; as a loop, since map() of an array is a call
+    // equal lengths remove the bounds checks below; a loop, since map() of an array is not inlined
     for k in &mut k {
         *k = &k[..n];
     }
@@ -44,7 +45,7 @@ pub(super) fn combine<const S: usize>(
     none.are_zero()
 }
 
-/// Σₛ aₛ kₛ of a block; not fused, which gains little and moves steps next to the limit of their error.
+/// Σₛ aₛ kₛ of a block. Fused operations gain little and would change steps whose error is close to the tolerance.
 #[inline(always)]
 pub(super) fn sum_at<const S: usize>(i: usize, a: [f64; S], k: [&[Block]; S]) -> Lanes {
     let mut sum = Lanes::constant(a[0]) * Lanes::new(k[0][i]);
@@ -62,16 +63,16 @@ pub(super) fn chord(from: &[Block], to: &[Block], h: f64, out: &mut [Block]) {
     }
 }
 
-/// The first S rows of `k`, `width` blocks long.
+/// The first S rows of `k`, each `width` blocks long.
 #[inline(always)]
 pub(super) fn rows<const S: usize>(k: &[Block], width: usize) -> [&[Block]; S] {
     std::array::from_fn(|s| row(k, width, s))
 }
 
-/// The same components, mutable.
+/// The first S rows of `k`, mutable.
 #[inline(always)]
 pub(super) fn rows_mut<const S: usize>(k: &mut [Block], width: usize) -> [&mut [Block]; S] {
-    // not in chunks, which begin with a division
+    // not with chunks, which begin with a division
     let mut rest = k;
     std::array::from_fn(|_| {
         let (row, others) = std::mem::take(&mut rest).split_at_mut(width);
@@ -86,7 +87,7 @@ pub(super) fn row(k: &[Block], width: usize, s: usize) -> &[Block] {
     &k[s * width..][..width]
 }
 
-/// The same components, mutable.
+/// Row `s` of `k`, mutable.
 #[inline(always)]
 pub(super) fn row_mut(k: &mut [Block], width: usize, s: usize) -> &mut [Block] {
     &mut k[s * width..][..width]

@@ -7,18 +7,18 @@ pub struct StepCounts {
     pub steps: usize,
     /// Rejected steps.
     pub rejected: usize,
-    /// Evaluations of f; for an implicit method, of residuals and accelerations.
+    /// Evaluations of f. For an implicit method, evaluations of residuals and accelerations.
     pub evaluations: usize,
-    /// Tangents; zero for an explicit method.
+    /// Evaluations of the tangent; zero for an explicit method.
     pub jacobians: u32,
-    /// Factorisations of matrices of Newton's iteration, a complex one as one.
+    /// Factorisations of matrices of Newton's iteration. A complex factorisation counts as one.
     pub factorisations: u32,
-    /// Steps of Newton's iteration.
+    /// Newton iterations.
     pub iterations: u32,
 }
 
 impl StepCounts {
-    /// The counts of two integrations together.
+    /// The sum of the counts of two integrations.
     #[must_use]
     pub fn plus(self, other: Self) -> Self {
         Self {

@@ -2,16 +2,16 @@
 
 use super::interpolant::Interpolant;
 
-/// Whether a run continues after a step.
+/// Whether an integration continues after a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flow {
-    /// The run continues.
+    /// The integration continues.
     Continue,
-    /// End here; a normal outcome.
+    /// The integration ends here; this is a normal outcome.
     Stop,
 }
 
-/// An accepted step, from `t_old` to `t` (which is earlier when integrating backward).
+/// An accepted step from `t_old` to `t`. When integrating backward, `t` is the earlier time.
 #[derive(Clone, Copy, Debug)]
 pub struct Step<'a> {
     /// Time at the beginning.
@@ -31,14 +31,14 @@ pub struct Step<'a> {
 }
 
 impl Step<'_> {
-    /// The state at a `time` within the step, into `out` (length of y).
+    /// Computes the state at a `time` within the step into `out`, which has the length of y.
     pub fn interpolate(&self, time: f64, out: &mut [f64]) {
         let (h, ahead) = (self.t - self.t_old, time - self.t_old);
         self.interpolant.evaluate(self.y_old, ahead, ahead / h, out);
     }
 
-    /// Coefficients b of y(θ) = y_old + h Σₖ bₖ θᵏ, k = 1…[`Interpolant::degree`], θ = (t - t_old) / h: into
-    /// `out`, row-major (len of y) × degree.
+    /// Computes the coefficients b of y(θ) = y_old + h Σₖ bₖ θᵏ, k = 1…[`Interpolant::degree`], θ = (t - t_old) / h,
+    /// into `out`, row-major (len of y) × degree.
     pub fn coefficients(&self, out: &mut [f64]) {
         self.interpolant.coefficients(out);
     }

@@ -1,4 +1,4 @@
-//! The end of an accepted step: it is projected, its derivative is evaluated, and its interpolant is prepared.
+//! Completion of an accepted step: projection, the derivative at its end, and its interpolant.
 
 use super::explicit_stepper::ExplicitStepper;
 use super::explicit_work::{Accepted, InterpolantLevel, Work};
@@ -14,11 +14,12 @@ use super::trial::Trial;
 use crate::math::Lanes;
 use std::mem::swap;
 
-/// Whether projection changed the state; the inner error is the reason for a shorter step.
+/// Whether projection changed the state. The inner error requires a shorter step; the outer error ends the
+/// integration.
 type Settled<E> = Result<Result<bool, Cause<E>>, Cause<E>>;
 
 impl<P: RungeKutta> ExplicitStepper<P> {
-    /// Projects the accepted state and evaluates the derivative there, where that is not known.
+    /// Projects the accepted state and evaluates its derivative, unless the derivative is known.
     pub(super) fn settle<Y: Ode>(
         &mut self,
         rhs: &mut RightHandSide<'_, Y>,
@@ -76,7 +77,8 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         Step { t_old: self.t, t: accepted.t, y_old, y, dy_old, dy, interpolant }
     }
 
-    /// Integrals of the rates over the step, which the Hermite–Birkhoff interpolants of this step and the next need.
+    /// Computes the integrals of the rates over the step, for the Hermite–Birkhoff interpolants of this step and the
+    /// next.
     pub(super) fn measure(&mut self, accepted: Accepted) {
         let Work { width, k, y, y_new, hermite_birkhoff, .. } = &mut self.work;
         let Some(hermite_birkhoff) = hermite_birkhoff else { return };
@@ -85,8 +87,8 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         hermite_birkhoff.measure(ends, P::DOUBLE_QUADRATURE, k);
     }
 
-    /// Evaluates the extra stages of the interpolant, if there are any. Where they are not finite the interpolant has
-    /// a lower order.
+    /// Evaluates the extra stages of the interpolant, if there are any. If they are not finite, the interpolant has a
+    /// lower order.
     pub(super) fn extend<Y: Ode>(
         &mut self,
         rhs: &mut RightHandSide<'_, Y>,
@@ -118,7 +120,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         match outcome {
             Ok(prepared) => accepted.interpolant = prepared,
             Err(Cause::NotFinite { .. }) => {
-                // NaN times zero is NaN
+                // zero instead of NaN, since zero times NaN is NaN
                 k[P::STAGES * *width..(P::STAGES + P::EXTRA) * *width].fill([0.0; Lanes::WIDTH]);
             }
             Err(stop) => return Err(stop),
@@ -126,7 +128,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         Ok(())
     }
 
-    /// Goes to the beginning of the next step.
+    /// Advances to the beginning of the next step.
     pub(super) fn move_on(&mut self) {
         let Some(accepted) = self.accepted.take() else { return };
         let Work { width, k, y, y_new, hermite_birkhoff, .. } = &mut self.work;
@@ -137,15 +139,15 @@ impl<P: RungeKutta> ExplicitStepper<P> {
             hermite_birkhoff.remember(ends);
         }
         swap(y, y_new);
-        // block by block: a copy by whole vectors would wait for blocks stored just before
+        // block by block: a copy of whole vectors would wait for recently stored blocks
         let (begin, others) = k.split_at_mut(*width);
         begin.iter_mut().zip(row_mut(others, *width, last - 1)).for_each(|(a, b)| swap(a, b));
         self.t = accepted.t;
     }
 }
 
-/// The row of the derivative at the end of a step: the last stage, or behind the jump where the last stage belongs
-/// to the state before a projection.
+/// The row of the derivative at the end of a step. It is the last stage, or the row after the jump if the last stage
+/// belongs to the state before a projection.
 pub(super) fn last_row<P: RungeKutta>(projected: bool) -> usize {
     match projected && P::LAST_IN_ERROR {
         false => P::STAGES - 1,

@@ -1,4 +1,4 @@
-//! Tolerances and steps, which all methods share, with their defaults.
+//! Tolerances and step options of all methods, with their defaults.
 
 use super::arguments::{check_problem, not_negative, positive, require};
 use super::failure::Cause;
@@ -7,35 +7,38 @@ use super::fixed_step::{affordable, Grid};
 /// Absolute tolerance.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Atol {
-    /// One number for every component.
+    /// One tolerance for all components.
     Scalar(f64),
-    /// One for each controlled component.
+    /// One tolerance for each controlled component.
     Each(Vec<f64>),
-    /// A part of the scale of each component. A caller with scales turns it into [`Each`](Self::Each); here each is 1.
+    /// Relative to the scale of each component. A caller that has scales converts it to [`Each`](Self::Each); here
+    /// each scale is 1.
     Scaled(f64),
 }
 
-/// Tolerances and steps of a method.
+/// Tolerances and step options of a method.
 #[derive(Clone, Debug, PartialEq)]
 pub struct StepControl {
-    /// Relative tolerance of a step; with a constant step, of Newton's iteration alone. Most methods raise it
-    /// to 100 ε ≈ 2.2e-14.
+    /// Relative tolerance of a step. With a constant step, tolerance of Newton's iteration only. Most methods raise
+    /// it to 100 ε ≈ 2.2e-14.
     pub rtol: f64,
-    /// Absolute tolerance of a step, in the units of y; a component that stays zero needs one above 0. With a
-    /// constant step, of Newton's iteration alone.
+    /// Absolute tolerance of a step, in the units of y. A component that stays zero requires a positive one. With a
+    /// constant step, tolerance of Newton's iteration only.
     pub atol: Atol,
-    /// Constant step, > 0 also backward in time, whatever its error; excludes `first_step` and `max_step`. Steps end
-    /// at t0 + k `step`, computed by multiplication; the last is shortened to end at t_end.
+    /// Constant step size, whatever the error. It is positive also when integrating backward, and excludes
+    /// `first_step` and `max_step`. Steps end at t0 + k `step`, computed by multiplication. The last step is
+    /// shortened to end at t_end.
     pub step: Option<f64>,
-    /// First step; chosen if `None`.
+    /// First step. Chosen automatically if `None`.
     pub first_step: Option<f64>,
     /// Largest step.
     pub max_step: f64,
-    /// Largest number of accepted steps. Where bounded steps need more, the run is refused before the first.
+    /// Largest number of accepted steps. If steps of length `max_step` need more, the integration fails before the
+    /// first step.
     pub max_steps: Option<usize>,
 }
 
-/// Default tolerances (rtol, atol); atol is a part of the scale of each component.
+/// Default tolerances (rtol, atol). atol is relative to the scale of each component.
 impl StepControl {
     /// Tolerances of RK45, DOP853 and Radau.
     pub const USUAL: (f64, f64) = (1e-6, 1e-9);
@@ -48,7 +51,7 @@ impl StepControl {
 }
 
 impl Default for StepControl {
-    /// [`USUAL`](Self::USUAL) tolerances, no bounds.
+    /// The tolerances [`USUAL`](Self::USUAL), without bounds.
     fn default() -> Self {
         Self::with(Self::USUAL)
     }
@@ -67,24 +70,24 @@ impl StepControl {
         }
     }
 
-    /// Step control with a pair of default tolerances.
+    /// Step control with a pair (rtol, atol) of default tolerances.
     pub fn with((rtol, atol): (f64, f64)) -> Self {
         Self { atol: Atol::Scaled(atol), ..Self::new(rtol, atol) }
     }
 
-    /// A constant step.
+    /// Step control with a constant step.
     pub fn constant(step: f64) -> Self {
         Self { step: Some(step), ..Self::with(Self::NEWTON) }
     }
 
-    /// The same with a relative tolerance of at least 100 ε, below which an estimated error is rounding. A
-    /// tolerance that is not a positive number stays, to be refused.
+    /// A copy with a relative tolerance of at least 100 ε, below which an estimated error is a rounding error. An
+    /// invalid tolerance is kept, so that the checks report it.
     pub fn usable(&self) -> Self {
         let rtol = if (0.0..MIN_RTOL).contains(&self.rtol) { MIN_RTOL } else { self.rtol };
         Self { rtol, ..self.clone() }
     }
 
-    /// Checks options, times, and that `y` has the length `len`. Returns the ends of constant steps, if the step is
+    /// Checks the options, the times, and that `y` has the length `len`. Returns the ends of the steps if the step is
     /// constant.
     pub(super) fn begin<E>(
         &self,
@@ -101,8 +104,7 @@ impl StepControl {
         }
     }
 
-    /// Checks the options of a stepper that continues from another state. A first step that was an option is not
-    /// checked again.
+    /// Checks the options of a stepper that continues from another state. The first step is not checked again.
     pub(super) fn restart<E>(
         &self,
         span: (f64, f64),
@@ -151,7 +153,7 @@ impl StepControl {
         Ok(())
     }
 
-    /// A constant step leaves nothing to choose.
+    /// Checks that no other step option is set together with a constant step.
     fn check_constant<E>(&self) -> Result<(), Cause<E>> {
         const ABSENT: &str = "absent beside a constant step";
         require(self.first_step.is_none(), "first_step", self.first_step.unwrap_or(0.0), ABSENT)?;
@@ -159,5 +161,5 @@ impl StepControl {
     }
 }
 
-/// Smallest relative tolerance in use: below it, rounding is all that is estimated.
+/// Smallest relative tolerance in use. Below it, the error estimate contains only rounding errors.
 const MIN_RTOL: f64 = 100.0 * f64::EPSILON;

@@ -1,69 +1,70 @@
-//! Steps that avoid a time near which rates are noise.
+//! Steps that avoid a time near which noise dominates the derivative.
 //!
-//! A step passes such an obstacle with its widest part without a stage; the obstacle lies in the middle of this part.
+//! A step passes such an obstacle within its widest gap between stages, with the obstacle in the middle of the gap.
 //! If the obstacle is too far ahead, a shorter step comes first and ends where the passing step must begin.
 //!
-//! Stages near the obstacle contain noise; in stages far from it a deviation from the constraints counts more. So there
-//! is a best length of the passing step. If its error is still too large, shorter steps only have more noise, and the
-//! step is accepted.
+//! Stages near the obstacle contain noise. In stages far from it, a deviation from the constraints has a larger
+//! effect. Therefore a passing step has an optimal length. If its error is still too large, shorter steps only
+//! contain more noise, and the step is accepted.
 
 use super::step_size::Control;
 
-/// Largest distance of an obstacle from the middle, as a part of the half-width.
+/// Largest distance of an obstacle from the middle of the gap, as a fraction of the half-width of the gap.
 const OFF: f64 = 0.8;
-/// A step is unchanged if it ends before an obstacle by more than this part of the distance of the middle.
+/// A step is unchanged if the obstacle lies beyond its end by at least this fraction of the distance from its start
+/// to the middle of the gap.
 const BEFORE: f64 = 0.7;
 /// Largest factor by which a step may grow to pass an obstacle.
 const LONGER: f64 = 1.1;
-/// A step is unchanged if the obstacle is within this part of the step from its start.
+/// A step is unchanged if the obstacle lies behind its start, or beyond it by at most this fraction of the step.
 const BEHIND: f64 = 0.04;
-/// Least part of a step that may become a step.
+/// Shortest placed or resumed step, as a fraction of the proposed step.
 const LEAST: f64 = 0.05;
 /// Largest number of placements of a step.
 const MOST: usize = 3;
-/// Weight of errors after an obstacle was met. Near it only the part of an error counts that projection leaves, and
+/// Factor on error norms after an obstacle was met. Near an obstacle only the tangential part of an error counts, and
 /// this part is determined at one state for all stages.
 const STRICT: f64 = 2.5;
 
-/// A shorter passing step is tried only if the last one was better than the one before by this factor.
+/// A shorter passing step is tried only if the last one was better than the best earlier one by this factor.
 const BETTER: f64 = 4.0;
-/// Largest relative error of a step that is accepted because no shorter one is better.
+/// Largest relative error of a step that is accepted because shorter steps are not better.
 const AT_BEST: f64 = 1e-6;
 
-/// The widest part of a step without a stage of scheme or extension; in parts of the step.
+/// The widest gap between the stages of a step and its extension, in fractions of the step.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Gap {
     pub middle: f64,
     pub half: f64,
 }
 
-/// Obstacles of a run, and the placement of the current step.
+/// The obstacles of an integration, and the placement of the current step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct StepPlacement {
     met: bool,
     tried: usize,
-    /// The step to continue with; 0 if the step was not placed.
+    /// The step size to resume with; 0 if the step was not placed.
     resumed: f64,
     /// Whether the current trial is placed to pass the obstacle.
     passing: bool,
-    /// Least error norm of the rejected trials to pass; None if no step was placed.
+    /// Smallest error norm of the rejected trials that pass the obstacle. None if there was no such trial.
     least: Option<f64>,
 }
 
 impl StepPlacement {
-    /// Whether no obstacle was met or is being passed.
+    /// Whether no obstacle was met and none is being passed.
     pub fn is_idle(&self) -> bool {
         *self == Self::default()
     }
 
-    /// Before the first trial of a step.
+    /// Prepares the placement before the first trial of a step.
     pub fn begin(&mut self) {
         let least = self.least.filter(|_| self.tried > 0);
         *self = Self { met: self.met, least, ..Self::default() };
     }
 
-    /// Whether the current trial is accepted although its error norm is too large: it passes, and similar trials were
-    /// not better.
+    /// Whether the current trial is accepted although its error norm is too large. It is accepted if it passes the
+    /// obstacle and similar trials were not much worse.
     pub fn at_best(&mut self, norm: f64, rtol: f64) -> bool {
         if !std::mem::take(&mut self.passing) || !norm.is_finite() {
             return false;
@@ -73,8 +74,8 @@ impl StepPlacement {
         best && norm * rtol < AT_BEST
     }
 
-    /// The step to try instead of one of magnitude `h` with an obstacle `ahead` of its start (negative if
-    /// it lies behind) and `left` to go to the end of the run.
+    /// The step to try instead of a step of magnitude `h`. The obstacle is `ahead` of the start of the step (negative
+    /// if it lies behind), and `left` is the distance to the end of the integration.
     pub fn instead(&mut self, gap: Gap, h: f64, ahead: f64, left: f64) -> Option<f64> {
         self.met |= ahead > 0.0 && ahead < h;
         let Gap { middle, half } = gap;
@@ -99,8 +100,8 @@ impl StepPlacement {
         Some(placed)
     }
 
-    /// The choice of steps: the elementary one after an obstacle was met, since noise near an obstacle defeats a low
-    /// safety factor.
+    /// The step-size controller. After an obstacle was met it is the elementary one, since noise near an obstacle
+    /// defeats a low safety factor.
     pub fn control(&self, otherwise: Control) -> Control {
         if self.met {
             Control::ELEMENTARY
@@ -118,7 +119,7 @@ impl StepPlacement {
         }
     }
 
-    /// The step after an accepted one whose error allows `next`.
+    /// The size of the step after an accepted step whose error allows `next`.
     pub fn resume(&self, next: f64) -> f64 {
         next.max(self.resumed)
     }

@@ -1,30 +1,30 @@
-//! Choice of the step from the error estimate: the elementary controller of Hairer, Nørsett and Wanner,
+//! Choice of the step size from the error estimate by the elementary controller of Hairer, Nørsett and Wanner,
 //! *Solving Ordinary Differential Equations I*, II.4,
 //!
 //! ```text
 //! h_new = h min(most, factor),   factor = safety norm^(-1/k),   k the order of the estimate + 1,
 //! ```
 //!
-//! The constants may differ from method to method. A controller may hold its step: a factor above 1 is divided by
-//! `hold`, but does not become less than 1. So a step grows only if it is too short by more than the factor `hold`.
-//! Controllers with a memory of errors (Gustafsson 1991; Söderlind, *Digital filters in adaptive time-stepping*, ACM
-//! TOMS 29 (2003) 1) were worse for mechanisms: `docs/performance.md`.
+//! The constants depend on the method. A controller may hold its step: a factor above 1 is divided by `hold`, but not
+//! below 1. A step therefore grows only if it is too short by more than the factor `hold`. Controllers with a memory
+//! of errors (Gustafsson 1991; Söderlind, *Digital filters in adaptive time-stepping*, ACM TOMS 29 (2003) 1)
+//! performed worse for mechanisms: `docs/performance.md`.
 
-/// Factor on the step after the system refused its end.
+/// Factor on the step after the system refused the state at its end.
 const REFUSED: f64 = 0.7;
-/// Least factor from one step to the next.
+/// Smallest factor from one step to the next.
 const MIN_FACTOR: f64 = 0.2;
 /// Largest factor from one step to the next.
 const MAX_FACTOR: f64 = 10.0;
-/// Least step, in spacings of numbers at t.
+/// Smallest step, as a multiple of the floating-point spacing at t.
 const MIN_SPACINGS: f64 = 10.0;
 
 /// Constants of the controller.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Control {
-    /// Part of the optimal step that is tried.
+    /// Fraction of the optimal step that is tried.
     pub safety: f64,
-    /// Factor by which a step must be too short before it grows; 1 if it grows at once.
+    /// Factor by which a step must be too short before it grows. With 1 it grows at once.
     pub hold: f64,
 }
 
@@ -33,10 +33,10 @@ impl Control {
     pub const ELEMENTARY: Self = Self { safety: 0.9, hold: 1.0 };
 }
 
-/// The step to try next, as a magnitude.
+/// The size of the next trial step, as a magnitude.
 pub(super) struct StepSize {
     pub size: f64,
-    /// Whether the current step was rejected before; then the next step may not grow.
+    /// Whether a trial of the current step was rejected. If so, the next step must not grow.
     rejected: bool,
     /// -1 / (order of the error estimate + 1).
     exponent: f64,
@@ -48,10 +48,10 @@ impl StepSize {
         Self { size, rejected: false, exponent: -1.0 / f64::from(error_order + 1), control }
     }
 
-    /// Brings the step between its bounds, at the beginning of a step.
+    /// Clips the size to its bounds, at the beginning of a step.
     pub fn begin(&mut self, least: f64, most: f64) {
         self.rejected = false;
-        // not f64::clamp: near the end of the numbers `least` may exceed `most`
+        // not f64::clamp: near the largest numbers `least` may exceed `most`
         if self.size > most {
             self.size = most;
         } else if self.size < least {
@@ -59,10 +59,10 @@ impl StepSize {
         }
     }
 
-    /// After a step of magnitude `h` with an error norm below 1.
+    /// Updates the size after an accepted step of magnitude `h` with an error norm below 1.
     pub fn accept(&mut self, h: f64, norm: f64) {
         let Control { safety, hold } = self.control;
-        let factor = safety * norm.powf(self.exponent); // ∞ without an error
+        let factor = safety * norm.powf(self.exponent); // infinite for zero error
                                                         // a division by 1 would only add latency
         let factor = match factor > 1.0 && hold != 1.0 {
             true => (factor / hold).max(1.0),
@@ -72,21 +72,21 @@ impl StepSize {
         self.size = h * factor.min(most);
     }
 
-    /// After a step of magnitude `h` with an error norm of 1 or more, or none at all (NaN).
+    /// Updates the size after a rejected step of magnitude `h`, with an error norm of at least 1 or NaN.
     pub fn reject(&mut self, h: f64, norm: f64) {
         self.rejected = true;
         self.size = h * (self.control.safety * norm.powf(self.exponent)).max(MIN_FACTOR);
     }
 
-    /// After a step of magnitude `h` whose end the system refused: the next step may grow at once, past the
-    /// refused end.
+    /// Updates the size after the system refused the end of a step of magnitude `h`. The next step may grow at once,
+    /// past the refused end.
     pub fn refuse(&mut self, h: f64) {
         self.rejected = false;
         self.size = h * REFUSED;
     }
 }
 
-/// Least magnitude of a step from t in a direction (+1 or -1).
+/// The smallest magnitude of a step from t in a direction (+1 or -1).
 pub(super) fn least_step(t: f64, direction: f64) -> f64 {
     let outward = t == 0.0 || (t > 0.0) == (direction > 0.0);
     let bits = t.abs().to_bits();
@@ -94,14 +94,14 @@ pub(super) fn least_step(t: f64, direction: f64) -> f64 {
     MIN_SPACINGS * (next - t.abs()).abs()
 }
 
-/// First guess of a step: what a first-order method would allow at the start (algorithm of II.4, its
-/// part before the trial step). `d0` and `d1` are the scaled norms of y and f.
+/// First guess of the first step, from a first-order method (the algorithm of II.4 before its trial step). `d0` and
+/// `d1` are the scaled norms of y and f.
 pub(super) fn probing_step(d0: f64, d1: f64, interval: f64) -> f64 {
     let guess = if d0 < 1e-5 || d1 < 1e-5 { 1e-6 } else { 0.01 * d0 / d1 };
     guess.min(interval)
 }
 
-/// Second guess, with `d2` the scaled norm of the second derivative found by the probing step `h0`.
+/// Second guess of the first step. `d2` is the scaled norm of the second derivative, from the probing step `h0`.
 pub(super) fn initial_step(h0: f64, d1: f64, d2: f64, error_order: i32) -> f64 {
     let h1 = if d1 <= 1e-15 && d2 <= 1e-15 {
         (h0 * 1e-3).max(1e-6)

@@ -1,7 +1,7 @@
 //! Steppers advance an initial value problem by one accepted step at a time.
 //!
-//! A [`Stepper`] is started by a method ([`ExplicitMethod`], [`ImplicitMethod`]) and works on a system `Y`, which
-//! it takes at each call.
+//! A method ([`ExplicitMethod`], [`ImplicitMethod`]) starts a [`Stepper`] for a system `Y`, which is passed to each
+//! call.
 
 use super::dae::Dae;
 use super::events::{self, Direction};
@@ -11,25 +11,25 @@ use super::ode::Ode;
 use super::statistics::StepCounts;
 use super::step::Step;
 
-/// Advances a system `Y`, whose own errors are `E`, by one accepted step at a time.
+/// Advances a system `Y` with the error type `E` by one accepted step at a time.
 pub trait Stepper<Y, E> {
-    /// Takes the next step, at most to t_end.
+    /// Takes the next step, which ends at t_end at the latest.
     ///
     /// # Errors
-    /// [`Cause`]; the stepper then stays at the last accepted state.
+    /// [`Cause`]. The stepper then remains at the last accepted state.
     ///
     /// # Panics
     /// At t_end.
     fn step(&mut self, system: &mut Y) -> Result<(), Cause<E>>;
 
-    /// Evaluates the system where only the interpolant of the last step needs it. Without this call the interpolant
-    /// has a lower order. Has to be called before the next step.
+    /// Performs the evaluations that only the interpolant of the last step needs. Without this call the interpolant
+    /// has a lower order. It must be called before the next step.
     ///
     /// # Errors
     /// [`Cause::Equations`].
     fn prepare_interpolant(&mut self, system: &mut Y) -> Result<(), Cause<E>>;
 
-    /// The last accepted step; none before the first step and after a restart.
+    /// The last accepted step. None before the first step and after a restart.
     fn last_step(&self) -> Option<Step<'_>>;
 
     /// Time reached.
@@ -42,7 +42,7 @@ pub trait Stepper<Y, E> {
     fn y(&self) -> &[f64];
 
     /// Continues from a state `y` at a time `t` within the last step, for instance after an event that changes the
-    /// velocities. The stepper then has two states at one time: the end of the last step and `y`.
+    /// velocities. The solution then has two states at this time: the end of the last step and `y`.
     ///
     /// # Errors
     /// [`Cause::Argument`].
@@ -50,7 +50,7 @@ pub trait Stepper<Y, E> {
         self.restart_until(t, y, self.t_end())
     }
 
-    /// Continues from another state, with another end of the steps.
+    /// Continues from another state with a new end time.
     ///
     /// # Errors
     /// As [`restart`](Self::restart).
@@ -59,13 +59,13 @@ pub trait Stepper<Y, E> {
     /// Counts of all steps so far.
     fn statistics(&self) -> StepCounts;
 
-    /// The stepper as one of several that take their steps [side by side](super::LaneSteps), if its method can.
+    /// The stepper for steps [in parallel with others](super::LaneSteps), if its method supports them.
     fn side_by_side(&mut self) -> Option<&mut dyn SideBySide> {
         None
     }
 
-    /// Time within the last step at which g(t, y) changes sign, with the state there; see
-    /// [`locate`](fn@super::locate). None if the signs at both ends are equal.
+    /// Time within the last step at which g(t, y) changes sign, with the state at this time; see
+    /// [`locate`](fn@super::locate). None if g does not change sign in the given direction.
     ///
     /// # Errors
     /// As [`prepare_interpolant`](Self::prepare_interpolant).
@@ -88,12 +88,12 @@ pub trait Stepper<Y, E> {
     }
 }
 
-/// A stepper of a system `Y` whose own errors are `E`.
+/// A stepper of a system `Y` with the error type `E`.
 pub type BoxedStepper<Y, E> = Box<dyn Stepper<Y, E>>;
 
 /// An explicit method with its options.
 pub trait ExplicitMethod {
-    /// A stepper from `y` at `t0` to `t_end`, forward or backward. Evaluates nothing.
+    /// Returns a stepper from `y` at `t0` to `t_end`, forward or backward. Evaluates nothing.
     ///
     /// # Errors
     /// [`Cause::Argument`] and [`Cause::TooManySteps`].
@@ -107,10 +107,10 @@ pub trait ExplicitMethod {
 
 /// An implicit method with its options.
 pub trait ImplicitMethod {
-    /// As [`ExplicitMethod::start`]; `y` = (q, v, z, quadratures).
+    /// As [`ExplicitMethod::start`], with `y` = (q, v, z, quadratures).
     ///
     /// # Errors
-    /// As there.
+    /// As [`ExplicitMethod::start`].
     fn start<Y: Dae>(
         &self,
         system: &Y,

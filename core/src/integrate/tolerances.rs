@@ -4,17 +4,17 @@ use super::stages::{room, Block};
 use super::step_control::Atol;
 use crate::math::{Lanes, Real};
 
-/// Tolerances of every component.
+/// Tolerances of all controlled components.
 pub(super) struct Tolerances {
     rtol: f64,
-    /// Absolute tolerances of the components that count; infinite behind the last one.
+    /// Absolute tolerances of the controlled components, padded with infinity.
     atol: Vec<Block>,
-    /// Number of components that count.
+    /// Number of controlled components.
     pub controlled: usize,
 }
 
 impl Tolerances {
-    /// For components of which the first `controlled` count.
+    /// Tolerances for the first `controlled` components.
     pub fn new(rtol: f64, atol: &Atol, controlled: usize) -> Self {
         let mut blocks = room(1, controlled);
         let numbers = blocks.as_flattened_mut();
@@ -27,24 +27,24 @@ impl Tolerances {
         Self { rtol, atol: blocks, controlled }
     }
 
-    /// √(Σ (xᵢ / scaleᵢ)² / n) at one state; 0 without components that count.
+    /// √(Σ (xᵢ / scaleᵢ)² / n) at one state; 0 without controlled components.
     pub fn norm(&self, y: &[Block], x: impl Fn(usize) -> Lanes) -> f64 {
         let [sum] = self.squares([y, y], |i| [x(i)]);
         (sum / self.components()).sqrt()
     }
 
-    /// The number of components that count, at least 1.
+    /// The number of controlled components, at least 1.
     pub fn components(&self) -> f64 {
         self.controlled.max(1) as f64
     }
 }
 
-/// Sums of squares over the components that count.
+/// Sums of squares over the controlled components.
 pub(super) trait Squares {
-    /// A sum, or one for each lane.
+    /// One sum, or a sum for each lane.
     type Sum: Copy;
 
-    /// Σ (xᵢ / scaleᵢ)², of blocks xᵢ of several quantities, with the scale of the states y and y_new.
+    /// Σ (xᵢ / scaleᵢ)² for blocks xᵢ of several quantities. The scale follows from the states y and y_new.
     fn squares<const Q: usize>(
         &self,
         states: [&[Block]; 2],
@@ -55,7 +55,7 @@ pub(super) trait Squares {
 impl Squares for Tolerances {
     type Sum = f64;
 
-    /// One pass over the components, four at once.
+    /// One pass over the components, four at a time.
     #[inline(always)]
     fn squares<const Q: usize>(
         &self,
@@ -92,16 +92,16 @@ fn add_squares<const Q: usize>(sums: &mut [Lanes; Q], x: [Lanes; Q], scale: Lane
     }
 }
 
-/// The tolerances of one integration in each lane; a block contains a component of all of them.
+/// The tolerances of one integration in each lane. A block contains one component of all lanes.
 #[derive(Clone, Debug, Default)]
 pub struct LaneTolerances {
     rtol: Block,
-    /// One for each component that counts.
+    /// One block for each controlled component.
     atol: Vec<Block>,
 }
 
 impl LaneTolerances {
-    /// Sets those of a lane.
+    /// Sets the tolerances of a lane.
     pub(super) fn set(&mut self, lane: usize, of: &Tolerances) {
         self.rtol[lane] = of.rtol;
         self.atol.resize(of.controlled, [f64::INFINITY; Lanes::WIDTH]);
@@ -110,13 +110,13 @@ impl LaneTolerances {
         }
     }
 
-    /// Copies those of a lane to another one.
+    /// Copies the tolerances of a lane to another lane.
     pub fn repeat(&mut self, from: usize, to: usize) {
         let blocks = self.atol.iter_mut().chain([&mut self.rtol]);
         blocks.for_each(|block| block[to] = block[from]);
     }
 
-    /// The number of components that count, at least 1.
+    /// The number of controlled components, at least 1.
     pub fn components(&self) -> f64 {
         self.atol.len().max(1) as f64
     }
@@ -125,7 +125,8 @@ impl LaneTolerances {
 impl Squares for LaneTolerances {
     type Sum = Block;
 
-    /// The same sums as for each integration alone, to the last bit: the components are added in the same order.
+    /// Computes the same sums as for each integration alone, to the last bit, because the components are added in the
+    /// same order.
     #[inline(always)]
     fn squares<const Q: usize>(
         &self,

@@ -7,22 +7,22 @@ use super::runge_kutta::TrialStages;
 use super::stages::{combine, Block};
 use crate::math::{Lanes, Real};
 
-/// A step that is tried.
+/// A trial step.
 pub(super) struct Trial<'r, 's, Y> {
     rhs: &'r mut RightHandSide<'s, Y>,
     t: f64,
     t_new: f64,
     h: f64,
-    /// The state at its beginning.
+    /// The state at the beginning of the step.
     pub y: &'r [Block],
-    /// The argument of the stage under way.
+    /// The argument of the current stage.
     work: &'r mut [Block],
-    /// When the last stage was evaluated.
+    /// Time of the last stage.
     last: f64,
 }
 
 impl<'r, 's, Y: Ode> Trial<'r, 's, Y> {
-    /// A trial from y at t to t_new; `work` is scratch memory of the length of y.
+    /// A trial step from y at t to t_new. `work` is scratch memory of the length of y.
     #[inline(always)]
     pub fn new(
         rhs: &'r mut RightHandSide<'s, Y>,

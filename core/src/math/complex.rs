@@ -1,4 +1,4 @@
-//! Complex numbers, as far as linear algebra needs them.
+//! Complex numbers for linear algebra.
 
 use super::field::Field;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
@@ -13,7 +13,7 @@ pub struct Complex {
 }
 
 impl Complex {
-    /// From its parts.
+    /// The number with the given parts.
     pub const fn new(re: f64, im: f64) -> Self {
         Self { re, im }
     }
@@ -64,7 +64,7 @@ impl Field for Complex {
     fn from_real(x: f64) -> Self {
         Self::new(x, 0.0)
     }
-    /// By Smith's method, which overflows only where the result does.
+    /// Uses Smith's method, which overflows only if the result does.
     #[inline(always)]
     fn reciprocal(self) -> Self {
         if self.re.abs() >= self.im.abs() {

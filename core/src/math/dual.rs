@@ -5,24 +5,24 @@
 use super::real::{difference, Lift, Real};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// A value with its derivatives by `N` seeds.
+/// A value with its derivatives with respect to `N` seeds.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dual<const N: usize, S = f64> {
     /// The value.
     pub value: S,
-    /// The derivative by each seed.
+    /// The derivative with respect to each seed.
     pub slope: [S; N],
 }
 
 impl<const N: usize, S: Real> Dual<N, S> {
-    /// The variable of seed `k`.
+    /// The independent variable of seed `k`.
     pub fn variable(value: S, k: usize) -> Self {
         let mut slope = [S::zero(); N];
         slope[k] = S::one();
         Self { value, slope }
     }
 
-    /// f(x) given f and f′ at the value: the chain rule.
+    /// f(x) from f and f′ at the value, by the chain rule.
     fn chain(self, f: S, df: S) -> Self {
         Self { value: f, slope: self.slope.map(|d| df * d) }
     }

@@ -1,9 +1,9 @@
-//! The operations on numbers, real or complex, that linear algebra needs.
+//! The operations on real or complex numbers that linear algebra needs.
 
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
 
-/// A field with a magnitude: the numbers that systems of linear equations are solved in.
+/// A field with a magnitude: the numbers of systems of linear equations.
 pub trait Field:
     Copy
     + Debug
@@ -21,7 +21,7 @@ pub trait Field:
     fn from_real(x: f64) -> Self;
     /// 1/x; not finite for 0.
     fn reciprocal(self) -> Self;
-    /// |x|, or an upper bound of it within a factor of √2: pivots are judged by it.
+    /// |x|, or an upper bound within a factor of √2. Pivots are compared by it.
     fn magnitude(self) -> f64;
 
     /// Zero.

@@ -1,7 +1,7 @@
 //! Bounds of a number: an interval that contains every result for operands in their intervals.
 //!
-//! Bounds are widened by the rounding of an operation. A domain error inside the interval gives the whole line. Moore,
-//! *Interval Analysis*, 1966.
+//! Bounds are widened by the rounding error of each operation. A domain error inside the interval gives the whole
+//! real line. (Moore, *Interval Analysis*, 1966.)
 
 #![allow(clippy::suspicious_arithmetic_impl)] // products and quotients of bounds
 
@@ -12,9 +12,9 @@ use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 /// All numbers from `low` to `high`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Interval {
-    /// The least number.
+    /// The lower bound.
     pub low: f64,
-    /// The largest number.
+    /// The upper bound.
     pub high: f64,
 }
 
@@ -22,22 +22,22 @@ impl Interval {
     /// Every number.
     pub const ALL: Self = Self { low: f64::NEG_INFINITY, high: f64::INFINITY };
 
-    /// From `low` to `high`, without widening.
+    /// The interval from `low` to `high`, without widening.
     pub fn new(low: f64, high: f64) -> Self {
         Self { low, high }
     }
 
-    /// Whether zero is inside or on a bound.
+    /// Whether zero is inside the interval or on a bound.
     pub fn contains_zero(self) -> bool {
         self.low <= 0.0 && self.high >= 0.0
     }
 
-    /// The common part of two intervals that both contain the result.
+    /// The intersection of two intervals that both contain the result.
     pub fn and(self, other: Self) -> Self {
         Self { low: self.low.max(other.low), high: self.high.min(other.high) }
     }
 
-    /// Bounds with their rounding; every number where one is undefined.
+    /// Bounds widened by their rounding error. The whole line if a bound is undefined.
     fn rounded(low: f64, high: f64) -> Self {
         if low.is_nan() || high.is_nan() {
             return Self::ALL;
@@ -55,12 +55,12 @@ impl Interval {
         Self::rounded(low, values.iter().copied().fold(f64::NEG_INFINITY, f64::max))
     }
 
-    /// Of a function that grows.
+    /// The bounds of an increasing function.
     fn rising(self, f: impl Fn(f64) -> f64) -> Self {
         Self::rounded(f(self.low), f(self.high))
     }
 
-    /// Whether a number of the form `first` + k 2π is inside.
+    /// Whether a number of the form `first` + 2π k is inside the interval.
     fn meets(self, first: f64) -> bool {
         let k = ((self.low - first) / TAU).ceil();
         first + k * TAU <= self.high
@@ -218,7 +218,7 @@ impl Real for Interval {
         let least = if self.contains_zero() { 0.0 } else { low.min(high) };
         Self { low: least, high: low.max(high) }
     }
-    /// Its bounds and its middle.
+    /// The bounds and the midpoint.
     fn in_lanes(self) -> [f64; 4] {
         let middle = 0.5 * (self.low + self.high);
         [self.low, self.high, middle, middle]

@@ -1,8 +1,8 @@
 //! Time derivatives to second order by truncated Taylor series.
 //!
-//! With q as the jet (q, q̇, 0) and t as (t, 1, 0), the jet of Φ(q, t) is (Φ, Φ_q q̇ + Φ_t, -γ): the
-//! right sides ν and γ of the velocity and acceleration equations (Haug 3.6.10, 3.6.11) without a
-//! formula of their own.
+//! If q is the jet (q, q̇, 0) and t is (t, 1, 0), the jet of Φ(q, t) is (Φ, Φ_q q̇ + Φ_t, -γ). It contains the right
+//! sides ν and γ of the velocity and acceleration equations (Haug 3.6.10, 3.6.11), which therefore need no separate
+//! formulas.
 
 use super::real::{Lift, Real};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -19,12 +19,12 @@ pub struct Jet<S = f64> {
 }
 
 impl<S: Real> Jet<S> {
-    /// A quantity with known time derivatives.
+    /// A quantity with given time derivatives.
     pub fn new(value: S, rate: S, second: S) -> Self {
         Self { value, rate, second }
     }
 
-    /// f(x) given f, f′ and f″ at the value (Faà di Bruno to second order).
+    /// f(x) from f, f′ and f″ at the value (Faà di Bruno to second order).
     fn chain(self, f: S, df: S, ddf: S) -> Self {
         Self::new(f, df * self.rate, ddf * self.rate * self.rate + df * self.second)
     }
@@ -196,7 +196,7 @@ impl<S: Real> Real for Jet<S> {
         self.value.in_lanes()
     }
     fn of_values(f: &dyn Fn(&[f64]) -> f64, x: &[Self]) -> Self {
-        // along x + ẋ τ + ẍ τ²/2
+        // along the path x + ẋ τ + ẍ τ²/2
         let at = |tau: f64| -> S {
             let (first, second) = (S::constant(tau), S::constant(0.5 * tau * tau));
             let moved = |x: &Self| x.value + first * x.rate + second * x.second;

@@ -1,4 +1,4 @@
-//! Several states or designs at once: the same formula on numbers side by side.
+//! Several states or designs at once: one formula evaluated for several numbers in parallel.
 
 use super::real::{Lift, Real};
 use super::sine;
@@ -7,8 +7,8 @@ use wide::f64x4;
 
 /// [`Lanes::WIDTH`] independent values of one quantity, one for each state or design.
 ///
-/// The width is that of the vector registers of the processors of today. Each lane has the very bits that
-/// `f64` would give.
+/// The width is that of the vector registers of current processors. Each lane has exactly the bits of the computation
+/// with `f64`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[repr(transparent)]
 pub struct Lanes(pub(super) f64x4);
@@ -17,7 +17,7 @@ impl Lanes {
     /// Number of lanes.
     pub const WIDTH: usize = 4;
 
-    /// From one number for each lane.
+    /// One number for each lane.
     #[inline(always)]
     pub fn new(lanes: [f64; Self::WIDTH]) -> Self {
         Self(f64x4::new(lanes))
@@ -27,10 +27,11 @@ impl Lanes {
     pub fn to_array(self) -> [f64; Self::WIDTH] {
         self.0.to_array()
     }
-    /// Several quantities as rows, one for each lane: `out` has [`WIDTH`](Self::WIDTH) rows as long as `x`.
+    /// Writes several quantities as rows, one row for each lane. `out` has [`WIDTH`](Self::WIDTH) rows of the length
+    /// of `x`.
     ///
     /// # Panics
-    /// Where it has not.
+    /// If `out` has another length.
     pub fn rows(x: &[Self], out: &mut [f64]) {
         let width = x.len();
         assert_eq!(out.len(), Self::WIDTH * width, "a row for each lane");
@@ -50,7 +51,7 @@ impl Lanes {
         if whole {
             return;
         }
-        // the last block runs over the one before
+        // the last block overlaps the one before
         if let Some(x) = x.last_chunk() {
             for (out, row) in [a, b, c, d].into_iter().zip(Self::transposed(*x, nothing)) {
                 out[width - Self::WIDTH..].copy_from_slice(&row.to_array());
@@ -61,10 +62,10 @@ impl Lanes {
             }
         }
     }
-    /// What [`rows`](Self::rows) undoes: quantities from rows, one for each lane.
+    /// The inverse of [`rows`](Self::rows): quantities from rows, one row for each lane.
     ///
     /// # Panics
-    /// Where there are not [`WIDTH`](Self::WIDTH) rows as long as `out`.
+    /// If `rows` does not consist of [`WIDTH`](Self::WIDTH) rows of the length of `out`.
     pub fn from_rows(rows: &[f64], out: &mut [Self]) {
         let width = out.len();
         assert_eq!(rows.len(), Self::WIDTH * width, "a row for each lane");
@@ -82,9 +83,9 @@ impl Lanes {
             out[k] = Self::new([a[k], b[k], c[k], d[k]]);
         }
     }
-    /// Transposes four by four numbers in registers, by pairs: compilers turn a combination of two vectors into a
-    /// shuffle. Without help they move the numbers one by one, and a vector that was stored in parts cannot be loaded
-    /// soon. The addition of [`nothing`](Self::nothing), a zero unknown to the compiler, prevents this.
+    /// Transposes 4 × 4 numbers in registers, by pairs. Compilers turn a combination of two vectors into a shuffle.
+    /// Otherwise they move the numbers one by one, and a vector that was stored in parts cannot be loaded soon after.
+    /// Adding [`nothing`](Self::nothing), a zero that the compiler cannot see, prevents this.
     #[inline(always)]
     fn transposed(rows: [Self; Self::WIDTH], nothing: Self) -> [Self; Self::WIDTH] {
         let [p, q, r, s] = rows.map(Self::to_array);
@@ -103,17 +104,17 @@ impl Lanes {
         ];
         columns.map(Self::new)
     }
-    /// -0, whose addition changes no number, not even -0. Its value is hidden from compilers.
+    /// -0. Adding it changes no number, not even -0. Its value is hidden from the compiler.
     #[inline(always)]
     fn nothing() -> Self {
         std::hint::black_box(Self::constant(-0.0))
     }
-    /// A function that is not made for several numbers at once.
+    /// Applies a function without a vector version to each lane.
     #[inline(always)]
     pub(super) fn each(self, f: impl Fn(f64) -> f64) -> Self {
         Self::new(self.to_array().map(f))
     }
-    /// Whether no lane is beyond ±`most`, or NaN.
+    /// Whether all lanes are within ±`most`; false if one is NaN.
     #[inline(always)]
     pub(super) fn are_within(self, most: f64) -> bool {
         wide::CmpLe::cmp_le(self.0.abs(), f64x4::splat(most)).all()
@@ -161,7 +162,7 @@ impl Neg for Lanes {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        // the sign alone: 0 - x would make 0 of -0
+        // changes only the sign; 0 - x would turn -0 into 0
         Self(self.0 ^ f64x4::splat(-0.0))
     }
 }
@@ -246,7 +247,7 @@ impl Real for Lanes {
     #[inline(always)]
     fn max(self, other: Self) -> Self {
         match cfg!(target_feature = "sse2") {
-            true => Self(self.0.fast_max(other.0)), // there NaN is not greater either
+            true => Self(self.0.fast_max(other.0)), // here, too, NaN is not greater
             false => Self(wide::CmpGt::cmp_gt(self.0, other.0).blend(self.0, other.0)),
         }
     }
@@ -269,7 +270,7 @@ impl Real for Lanes {
     #[inline(always)]
     fn largest_magnitude(self) -> f64 {
         let [a, b, c, d] = self.0.abs().to_array();
-        // what is not less, NaN included, stays
+        // a number that is not less is kept, NaN included
         let larger = |a: f64, b: f64| if a < b || b.is_nan() { b } else { a };
         larger(larger(a, b), larger(c, d))
     }

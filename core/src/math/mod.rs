@@ -1,10 +1,10 @@
 //! Scalars and the geometry of the plane.
 //!
-//! Every formula of the core is written once over [`Real`]; which scalar it runs on decides what it
-//! yields: `f64` a value, [`Dual`] first derivatives, [`Jet`] time derivatives, [`Lanes`] several
-//! states or designs at once. They nest: `Dual<3, Lanes>` is the Jacobian of four designs.
-//! [`Interval`] gives bounds of all values on an interval.
-//! Linear equations alone may also be [`Complex`]: what they need is a [`Field`].
+//! Every formula of the core is written once over [`Real`]. The scalar determines the result: `f64` gives a value,
+//! [`Dual`] first derivatives, [`Jet`] time derivatives, and [`Lanes`] several states or designs at once. Scalars can
+//! be nested: `Dual<3, Lanes>` gives the Jacobian of four designs. [`Interval`] gives bounds of all values on an
+//! interval.
+//! Linear equations may also be [`Complex`]; they require only a [`Field`].
 
 mod complex;
 mod dual;

@@ -1,7 +1,7 @@
 //! Geometry of the plane (Haug 2.4): A(φ) = [cos φ, -sin φ; sin φ, cos φ], B(φ) = dA/dφ.
 //!
-//! A global vector ([`Vec2`]) and a body-fixed one ([`Local`]) are different types; only a
-//! [`Rotation`] turns one into the other, so a forgotten A(φ) does not compile.
+//! Global vectors ([`Vec2`]) and body-fixed vectors ([`Local`]) are different types. Only a [`Rotation`] converts one
+//! into the other, so that a missing A(φ) is a compile error.
 
 use super::real::{Lift, Real};
 use std::ops::{Add, Mul, Neg, Sub};
@@ -98,7 +98,7 @@ impl<S: Real> Rotation<S> {
         let (sin, cos) = angle.sin_cos();
         Self { cos, sin }
     }
-    /// Aᵀ v: a global vector seen from the body.
+    /// Aᵀ v: the body-fixed components of a global vector.
     pub fn inverse(self, v: Vec2<S>) -> Local<S> {
         Local::new(self.cos * v.x + self.sin * v.y, self.cos * v.y - self.sin * v.x)
     }
@@ -112,7 +112,7 @@ impl<S: Real> Mul<Local<S>> for Rotation<S> {
     }
 }
 
-/// A body-fixed vector s′, ready for B s′: as pairs of numbers that rotate with the same steps.
+/// A body-fixed vector s′, prepared for B s′: pairs of numbers that are rotated by the same operations.
 #[derive(Clone, Copy, Debug)]
 pub struct Lever<S = f64> {
     /// (-y′, -y′).
@@ -139,7 +139,7 @@ pub struct Pose<S = f64> {
 }
 
 impl<S: Real> Pose<S> {
-    /// From coordinates.
+    /// The pose with the given coordinates.
     pub fn new(x: S, y: S, angle: S) -> Self {
         Self { r: Vec2::new(x, y), angle, rotation: Rotation::new(angle) }
     }
@@ -155,7 +155,7 @@ impl<S: Real> Pose<S> {
     pub fn global(&self, s: Local<S>) -> Vec2<S> {
         self.rotation * s
     }
-    /// B s′ = (A s′)⊥: how a body-fixed vector changes with the angle (Haug 2.6.4).
+    /// B s′ = (A s′)⊥: the derivative of a body-fixed vector with respect to the angle (Haug 2.6.4).
     #[inline(always)]
     pub fn turning(&self, s: &Lever<S>) -> Vec2<S> {
         let Rotation { cos, sin } = self.rotation;
@@ -179,7 +179,7 @@ impl<S: Real> Pose<S> {
     }
 }
 
-/// How a body frame moves: velocity of its origin and angular velocity.
+/// The velocity of a body frame: velocity of its origin, and angular velocity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Twist<S = f64> {
     /// Velocity of the frame's origin, m/s.
@@ -189,7 +189,7 @@ pub struct Twist<S = f64> {
 }
 
 impl<S: Real> Twist<S> {
-    /// At rest.
+    /// The twist at rest.
     pub fn zero() -> Self {
         Self { velocity: Vec2::zero(), omega: S::zero() }
     }
@@ -198,14 +198,14 @@ impl<S: Real> Twist<S> {
 /// Position and velocity of a body.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Motion<S = f64> {
-    /// Where it is.
+    /// The pose.
     pub pose: Pose<S>,
-    /// How it moves.
+    /// The twist.
     pub twist: Twist<S>,
 }
 
 impl<S: Real> Motion<S> {
-    /// At rest in the global frame, as ground is.
+    /// At rest in the global frame, like ground.
     pub fn ground() -> Self {
         Self { pose: Pose::identity(), twist: Twist::zero() }
     }
@@ -233,7 +233,7 @@ pub struct Wrench<S = f64> {
 }
 
 impl<S: Real> Wrench<S> {
-    /// No force, no torque.
+    /// Zero force and torque.
     pub fn zero() -> Self {
         Self { force: Vec2::zero(), torque: S::zero() }
     }
@@ -241,11 +241,11 @@ impl<S: Real> Wrench<S> {
     pub fn torque(torque: S) -> Self {
         Self { force: Vec2::zero(), torque }
     }
-    /// A force at the arm `arm` (global components, from the frame's origin).
+    /// A force at `arm`, in global components from the origin of the frame.
     pub fn at(arm: Vec2<S>, force: Vec2<S>) -> Self {
         Self { force, torque: arm.cross(force) }
     }
-    /// Power on a moving body, W.
+    /// Power of the wrench on a moving body, W.
     pub fn power(self, twist: Twist<S>) -> S {
         self.force.dot(twist.velocity) + self.torque * twist.omega
     }

@@ -3,9 +3,9 @@
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// A scalar: a real number, or a real number with further content (derivatives, other designs).
+/// A scalar: a real number, possibly with additional content (derivatives, other designs).
 ///
-/// Domain errors follow `f64`: they give NaN, never a panic.
+/// As for `f64`, a domain error gives NaN and never panics.
 pub trait Real:
     Copy
     + Debug
@@ -20,20 +20,20 @@ pub trait Real:
     + AddAssign
     + SubAssign
 {
-    /// The highest order of the derivatives that the scalar carries; 0 for one that carries none.
+    /// The highest order of the derivatives that the scalar contains; 0 if it contains none.
     const ORDER: usize = 0;
 
-    /// A constant: no derivatives, the same in every lane.
+    /// A constant, without derivatives and equal in every lane.
     fn constant(x: f64) -> Self;
 
     /// (sin x, cos x), x in rad.
     fn sin_cos(self) -> (Self, Self);
-    /// self + a b, rounded once where the processor can.
+    /// self + a b, with a single rounding if the processor supports it.
     #[inline(always)]
     fn plus_product(self, a: Self, b: Self) -> Self {
         self + a * b
     }
-    /// self - a b, rounded once where the processor can.
+    /// self - a b, with a single rounding if the processor supports it.
     #[inline(always)]
     fn minus_product(self, a: Self, b: Self) -> Self {
         self - a * b
@@ -58,29 +58,30 @@ pub trait Real:
     fn tanh(self) -> Self;
     /// x to a constant power.
     fn powc(self, exponent: f64) -> Self;
-    /// `positive` where `condition` > 0, else `otherwise`; decided lane by lane.
+    /// `positive` where `condition` > 0, otherwise `otherwise`, in each lane separately.
     fn select(condition: Self, positive: Self, otherwise: Self) -> Self;
-    /// Largest integer not above x; derivatives are zero.
+    /// Largest integer not greater than x. Derivatives are zero.
     fn floor(self) -> Self;
 
-    /// Smallest |x| over the lanes; derivatives are ignored. Pivots are judged by it.
+    /// Smallest |x| over the lanes, without derivatives. Pivots are compared by it.
     fn least_magnitude(self) -> f64;
-    /// Largest |x| over the lanes, NaN if one is; derivatives are ignored.
+    /// Largest |x| over the lanes, without derivatives. NaN if a lane is NaN.
     fn largest_magnitude(self) -> f64;
-    /// The value in each lane, derivatives ignored; a scalar without lanes repeats its value.
+    /// The value in each lane, without derivatives. A scalar without lanes repeats its value.
     fn in_lanes(self) -> [f64; 4];
-    /// The scalar with these values in its lanes, without derivatives; the first one for a scalar without lanes.
+    /// The scalar with these values in its lanes, without derivatives. A scalar without lanes takes the first value.
     fn of_lanes(values: [f64; 4]) -> Self {
         Self::constant(values[0])
     }
-    /// Whether every part, derivatives included, is finite.
+    /// Whether every part is finite, including derivatives.
     fn is_finite(self) -> bool;
-    /// A function that is known by its values alone; derivatives are differences. NaN for a scalar that has no values.
+    /// A function of which only values are available. Derivatives are finite differences. NaN for a scalar without
+    /// values.
     fn of_values(f: &dyn Fn(&[f64]) -> f64, x: &[Self]) -> Self {
         let _ = (f, x);
         Self::constant(f64::NAN)
     }
-    /// The function of a name of x, for a scalar that prints formulas; numbers have none.
+    /// The named function of x, for a scalar that prints formulas. None for numbers.
     fn named_function(self, name: &str) -> Option<Self> {
         let _ = name;
         None
@@ -141,7 +142,7 @@ impl Real for f64 {
     fn plus_product(self, a: f64, b: f64) -> f64 {
         match cfg!(target_feature = "fma") {
             true => a.mul_add(b, self),
-            false => self + a * b, // the library's fused product takes a hundred times as long
+            false => self + a * b, // the fused product of the library is a hundred times slower
         }
     }
     #[inline(always)]
@@ -179,7 +180,7 @@ impl Real for f64 {
         f64::tanh(self)
     }
     fn powc(self, exponent: f64) -> Self {
-        // powi is exact for the small integers of polynomial laws; powf may not be
+        // powi is exact for the small integer exponents of polynomial laws; powf may not be
         if exponent.fract() == 0.0 && exponent.abs() <= 16.0 {
             f64::powi(self, exponent as i32)
         } else {
@@ -221,7 +222,8 @@ impl Real for f64 {
     }
 }
 
-/// The derivative of a function that is known by its values alone, along `direction`: a difference; `value` is f(x).
+/// The derivative along `direction` of a function of which only values are available, as a finite difference. `value`
+/// is f(x).
 pub(super) fn difference<S: Real>(
     f: &dyn Fn(&[f64]) -> f64,
     x: &[S],
@@ -238,7 +240,7 @@ pub(super) fn difference<S: Real>(
     (S::of_values(f, &beside) - value) / h
 }
 
-/// A scalar that contains `S`: a quantity over `S` can be used where `Self` is computed.
+/// A scalar that contains `S`: quantities over `S` can be used in computations over `Self`.
 pub trait Lift<S: Real>: Real {
     /// `s` as a constant of `Self`.
     fn lift(s: S) -> Self;
@@ -250,24 +252,24 @@ impl<S: Real> Lift<S> for S {
     }
 }
 
-/// The largest magnitude of many numbers, in any lane; NaN if one is that.
+/// The largest magnitude of many numbers, in any lane. NaN if a number is NaN.
 ///
-/// It is found lane by lane: looking into the lanes of each number takes longer.
+/// The maximum is updated lane by lane, since extracting the lanes of each number takes longer.
 #[derive(Clone, Copy, Debug)]
 pub struct Largest<S> {
     most: S,
-    /// A maximum forgets NaN, a sum does not.
+    /// Keeps NaN, which the maximum does not.
     sum: S,
 }
 
 impl<S: Real> Largest<S> {
-    /// Of none.
+    /// The maximum of no numbers.
     #[inline(always)]
     pub fn new() -> Self {
         Self { most: S::zero(), sum: S::zero() }
     }
 
-    /// One more.
+    /// Includes one more number.
     #[inline(always)]
     pub fn add(&mut self, x: S) {
         let x = x.abs();
@@ -275,14 +277,14 @@ impl<S: Real> Largest<S> {
         self.sum += x;
     }
 
-    /// Those that another has seen.
+    /// Includes the numbers of another maximum.
     #[inline(always)]
     pub fn join(&mut self, other: Self) {
         self.most = self.most.max(other.most);
         self.sum += other.sum;
     }
 
-    /// The same of c times the numbers so far, c > 0.
+    /// The maximum of c times the numbers so far, c > 0.
     #[inline(always)]
     pub fn scaled(self, c: S) -> Self {
         Self { most: c * self.most, sum: c * self.sum }
@@ -291,7 +293,7 @@ impl<S: Real> Largest<S> {
     /// The largest magnitude so far.
     #[inline(always)]
     pub fn get(&self) -> f64 {
-        // where the sum is NaN, it is taken; where it is zero, both are
+        // if the sum is NaN, returns the sum; if it is zero, so is the maximum
         S::select(self.sum, self.most, self.sum).largest_magnitude()
     }
 }

@@ -1,24 +1,25 @@
-//! Sine and cosine of one angle together.
+//! Sine and cosine of an angle, computed together.
 //!
-//! The angle is reduced to |r| ≤ π/4 by subtracting k π/2 in three parts (Cody and Waite, *Software Manual
-//! for the Elementary Functions*, 1980); the polynomials are those of FDLIBM (Sun, 1993). What it does
-//! beyond that to come from 1.5 ulp to 1 is left out. There is no branch on the quadrant. What lies outside
-//! ±[`LARGEST`], inf and NaN included, is left to the C library.
+//! The angle is reduced to |r| ≤ π/4 by subtracting k π/2 in three parts (Cody and Waite, *Software Manual for the
+//! Elementary Functions*, 1980). The polynomials are those of FDLIBM (Sun, 1993), without the final corrections that
+//! improve its error from 1.5 ulp to 1. There is no branch on the quadrant. Angles outside ±[`LARGEST`], including
+//! inf and NaN, are passed to the C library.
 
 use super::lanes::Lanes;
 use super::real::Real;
 use std::f64::consts::FRAC_2_PI;
 use wide::{f64x4, CmpGt};
 
-/// Largest angle reduced here: k has at most 17 bits, so that its products with the first two parts are exact.
+/// Largest angle that is reduced here. k then has at most 17 bits, so that its products with the first two parts are
+/// exact.
 const LARGEST: f64 = 1e5;
-/// π/2 in three parts, of 33 bits each except the last.
+/// π/2 in three parts, each of 33 bits except the last.
 const HALF_PI: [f64; 3] = [
     f64::from_bits(0x3FF9_21FB_5440_0000),
     f64::from_bits(0x3DD0_B461_1A60_0000),
     2.022_266_248_795_950_6e-21,
 ];
-/// 1.5 × 2⁵²: added and taken away again it rounds; added alone it leaves the integer in the low bits.
+/// 1.5 × 2⁵². Adding and subtracting it rounds to an integer; adding it only leaves the integer in the low bits.
 const ROUND: f64 = 6_755_399_441_055_744.0;
 /// Coefficients of z⁵ … 1 in (sin r - r) / (r z) and in (cos r - 1 + z/2) / z², z = r².
 const SERIES: [[f64; 2]; 6] = [
@@ -39,7 +40,7 @@ pub(super) fn sin_cos(x: f64) -> (f64, f64) {
     }
 }
 
-/// The same, lane by lane.
+/// (sin x, cos x) in each lane.
 #[inline(always)]
 pub(super) fn sin_cos_of_lanes(x: Lanes) -> (Lanes, Lanes) {
     if x.are_within(LARGEST) {
@@ -58,7 +59,7 @@ fn within(x: f64) -> (f64, f64) {
     turn(s, c, shifted.to_bits())
 }
 
-/// r, and a number whose last two bits are those of k.
+/// r, and a number whose last two bits are the last two bits of k.
 #[inline(always)]
 fn reduce<S: Real>(x: S) -> (S, S) {
     let shifted = S::constant(ROUND).plus_product(x, S::constant(FRAC_2_PI));
@@ -71,17 +72,17 @@ fn reduce<S: Real>(x: S) -> (S, S) {
 /// Sine and cosine of r + k π/2 from those of r.
 #[inline(always)]
 fn turn(s: f64, c: f64, quadrant: u64) -> (f64, f64) {
-    // odd quadrants exchange the two; sine changes its sign in 2 and 3, cosine in 1 and 2
+    // odd quadrants exchange sine and cosine; the sign of sine changes in 2 and 3, that of cosine in 1 and 2
     let odd = 0u64.wrapping_sub(quadrant & 1);
     let swap = (s.to_bits() ^ c.to_bits()) & odd;
     let (turned, leading) = ((quadrant & 2) << 62, (quadrant.wrapping_add(1) & 2) << 62);
     (f64::from_bits(s.to_bits() ^ swap ^ turned), f64::from_bits(c.to_bits() ^ swap ^ leading))
 }
 
-/// The same in registers: what is `shifted` has the quadrant in its last bits.
+/// Sine and cosine of r + k π/2 in registers. The last bits of `shifted` contain the quadrant.
 #[inline(always)]
 fn turn_lanes(s: f64x4, c: f64x4, shifted: f64x4) -> (Lanes, Lanes) {
-    // a bit beside those of 1 makes it more
+    // a set bit, combined with the bits of 1, gives a number greater than 1
     let has = |bit: u64| {
         let alone = shifted & f64x4::splat(f64::from_bits(bit));
         (alone | f64x4::ONE).cmp_gt(f64x4::ONE)
@@ -96,7 +97,7 @@ fn turn_lanes(s: f64x4, c: f64x4, shifted: f64x4) -> (Lanes, Lanes) {
 fn kernel<S: Real>(r: S) -> (S, S) {
     let z = r * r;
     let w = z * z;
-    // pairs of terms do not wait for each other: all else waits for the result
+    // pairs of terms are independent of each other, which shortens the chain of dependent operations
     let series = |k: usize| {
         let [a, b, c, d, e, f] = SERIES.map(|both| S::constant(both[k]));
         let higher = d.plus_product(z, c).plus_product(w, b.plus_product(z, a));

@@ -1,14 +1,14 @@
 //! Piecewise polynomials through given points, over any scalar: linear, cubic, quintic and monotone.
 //!
-//! The natural cubic spline is C² and has the least ∫ y″² dx, the natural quintic spline is C⁴ and has the least
-//! ∫ y‴² dx (Schoenberg 1964). The unknowns are y′, and y″ of the quintic, at each knot. The condition of the
-//! minimum is a symmetric positive definite block tridiagonal system, cyclic for a periodic spline, so that it is
-//! solved without pivots. The monotone spline is that of Fritsch and Butland (1984), C¹.
+//! The natural cubic spline is C² and minimises ∫ y″² dx; the natural quintic spline is C⁴ and minimises ∫ y‴² dx
+//! (Schoenberg 1964). The unknowns at each knot are y′, and for the quintic spline also y″. The condition of the
+//! minimum is a symmetric positive definite block tridiagonal system, cyclic for a periodic spline, which is solved
+//! without pivoting. The monotone spline is that of Fritsch and Butland (1984), C¹.
 
 use super::real::Real;
 use super::spline_system::{solve, Stretch};
 
-/// How the points are joined.
+/// The interpolation between the points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Interpolation {
     /// Straight lines, C⁰.
@@ -22,18 +22,18 @@ pub enum Interpolation {
 }
 
 impl Interpolation {
-    /// All, in the order of their names in a file.
+    /// All kinds, in the order of their names.
     pub const ALL: [Self; 4] = [Self::Linear, Self::Cubic, Self::Quintic, Self::Monotone];
 
-    /// The name in a file.
+    /// The name in a case file.
     pub fn name(self) -> &'static str {
         ["linear", "cubic", "quintic", "monotone"][self as usize]
     }
-    /// From its name.
+    /// The kind with the given name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|kind| kind.name() == name)
     }
-    /// The least number of points that determines the curve; a periodic one repeats its first point.
+    /// The smallest number of points that determines the curve. A periodic curve repeats its first point.
     pub fn least(self, periodic: bool) -> usize {
         match self {
             _ if periodic => 4,
@@ -51,18 +51,18 @@ impl Interpolation {
     }
 }
 
-/// Polynomials between knots.
+/// A piecewise polynomial with its knots.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Spline<S = f64> {
     knots: Vec<S>,
-    /// Coefficients of the powers of x - knot, one row for each interval.
+    /// Coefficients of the powers of x - knot, with one row for each interval.
     pieces: Vec<[S; 6]>,
     degree: usize,
     periodic: bool,
 }
 
 impl<S: Real> Spline<S> {
-    /// Through the points (x, y) with increasing x. A periodic one has equal first and last y.
+    /// The spline through the points (x, y) with increasing x. A periodic spline has equal first and last y.
     ///
     /// # Panics
     /// If there are fewer points than [`Interpolation::least`], or x and y differ in length.
@@ -87,23 +87,23 @@ impl<S: Real> Spline<S> {
         Self { knots: x.to_vec(), pieces, degree: kind.degree(), periodic }
     }
 
-    /// The knots, increasing.
+    /// The knots, in increasing order.
     pub fn knots(&self) -> &[S] {
         &self.knots
     }
 
-    /// Whether it repeats itself.
+    /// Whether the spline is periodic.
     pub fn periodic(&self) -> bool {
         self.periodic
     }
 
-    /// The value at x. Outside of the knots the first and the last polynomial go on; a periodic spline
-    /// repeats itself. `lift` takes the numbers of the spline to the scalar of x.
+    /// The value at x. Outside the knots, the first and the last polynomial are extended; a periodic spline repeats.
+    /// `lift` converts the numbers of the spline to the scalar of x.
     pub fn value<T: Real>(&self, x: T, lift: impl Fn(S) -> T + Copy) -> T {
         self.derivatives::<T, 1>(x, lift)[0]
     }
 
-    /// The value of the polynomial from knot `k` on, which goes on beyond its knots.
+    /// The value of the polynomial that begins at knot `k`, extended beyond its interval.
     pub fn extended<T: Real>(&self, k: usize, x: T, lift: impl Fn(S) -> T) -> T {
         let [value] = self.piece(k, x, lift);
         value
@@ -130,7 +130,7 @@ impl<S: Real> Spline<S> {
         let mut result = self.piece(order[0], x, lift);
         for k in 1..order.len() {
             if order[k] != order[k - 1] {
-                // lanes on different pieces: the later piece holds where x is beyond its first knot
+                // lanes on different pieces: the later piece applies where x is beyond its first knot
                 let beyond = x - lift(self.knots[order[k]]);
                 let piece: [T; N] = self.piece(order[k], x, lift);
                 result = std::array::from_fn(|n| T::select(beyond, piece[n], result[n]));
@@ -139,14 +139,14 @@ impl<S: Real> Spline<S> {
         result
     }
 
-    /// x moved into the first period.
+    /// x shifted into the first period.
     fn wrapped<T: Real>(&self, x: T, lift: impl Fn(S) -> T) -> T {
         let first = lift(self.knots[0]);
         let period = lift(self.knots[self.knots.len() - 1]) - first;
         x - ((x - first) / period).floor() * period
     }
 
-    /// Value and derivatives of one polynomial by Horner's scheme.
+    /// Value and derivatives of one polynomial, by Horner's scheme.
     fn piece<T: Real, const N: usize>(&self, k: usize, x: T, lift: impl Fn(S) -> T) -> [T; N] {
         let t = x - lift(self.knots[k]);
         let mut result = [T::zero(); N];
@@ -166,7 +166,7 @@ impl<S: Real> Spline<S> {
 }
 
 impl<S> Spline<S> {
-    /// The same spline over another scalar.
+    /// The spline over another scalar.
     pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Spline<T> {
         Spline {
             knots: self.knots.iter().map(&mut *f).collect(),
@@ -182,7 +182,7 @@ fn linear<S: Real>(stretches: &[Stretch<S>]) -> Vec<[S; 6]> {
     stretches.iter().map(|s| [zero, s.rise / s.width, zero, zero, zero, zero]).collect()
 }
 
-/// From the slopes at the knots.
+/// The pieces of a cubic spline, from the slopes at the knots.
 fn cubic<S: Real>(stretches: &[Stretch<S>], slopes: &[[S; 1]]) -> Vec<[S; 6]> {
     let (two, three, zero) = (S::constant(2.0), S::constant(3.0), S::zero());
     let piece = |(k, s): (usize, &Stretch<S>)| {
@@ -194,7 +194,7 @@ fn cubic<S: Real>(stretches: &[Stretch<S>], slopes: &[[S; 1]]) -> Vec<[S; 6]> {
     stretches.iter().enumerate().map(piece).collect()
 }
 
-/// From the first and second derivatives at the knots.
+/// The pieces of a quintic spline, from the first and second derivatives at the knots.
 fn quintic<S: Real>(stretches: &[Stretch<S>], ends: &[[S; 2]]) -> Vec<[S; 6]> {
     let c = S::constant;
     let piece = |(k, s): (usize, &Stretch<S>)| {
@@ -210,8 +210,8 @@ fn quintic<S: Real>(stretches: &[Stretch<S>], ends: &[[S; 2]]) -> Vec<[S; 6]> {
     stretches.iter().enumerate().map(piece).collect()
 }
 
-/// Slopes without overshoot: a weighted harmonic mean of the slopes beside the knot, zero where these
-/// differ in sign.
+/// Slopes without overshoot: a weighted harmonic mean of the slopes on both sides of the knot, or zero if they differ
+/// in sign.
 fn monotone<S: Real>(stretches: &[Stretch<S>], periodic: bool) -> Vec<[S; 1]> {
     let (two, three) = (S::constant(2.0), S::constant(3.0));
     let inner = |a: &Stretch<S>, b: &Stretch<S>| {
@@ -221,7 +221,7 @@ fn monotone<S: Real>(stretches: &[Stretch<S>], periodic: bool) -> Vec<[S; 1]> {
         let divisor = S::select(product, w1 * right + w2 * left, S::one());
         S::select(product, (w1 + w2) * product / divisor, S::zero())
     };
-    // the end of a parabola through three points, limited so that it does not overshoot
+    // the end slope of a parabola through three points, limited to prevent overshoot
     let end = |a: &Stretch<S>, b: &Stretch<S>| {
         let (near, far) = (a.rise / a.width, b.rise / b.width);
         let slope = ((two * a.width + b.width) * near - a.width * far) / (a.width + b.width);

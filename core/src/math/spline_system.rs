@@ -1,5 +1,5 @@
-//! The condition of least bending for the derivatives of a spline at its knots: symmetric, positive definite, block
-//! tridiagonal, and cyclic for a periodic spline.
+//! The condition of minimum bending for the derivatives of a spline at its knots. The system is symmetric positive
+//! definite and block tridiagonal, and cyclic for a periodic spline.
 
 use super::real::Real;
 
@@ -14,7 +14,7 @@ pub(super) struct Stretch<S> {
 
 type Block<S, const M: usize> = [[S; M]; M];
 
-/// The share of one interval in the conditions at its two ends.
+/// The contribution of one interval to the conditions at its two ends.
 pub(super) struct Share<S, const M: usize> {
     first: Block<S, M>,
     /// Rows of the first end, columns of the last.
@@ -24,14 +24,14 @@ pub(super) struct Share<S, const M: usize> {
 }
 
 impl<S: Real> Stretch<S> {
-    /// Of y′, from the least ∫ y″² dx.
+    /// The contribution for y′, from the minimum of ∫ y″² dx.
     pub fn cubic(&self) -> Share<S, 1> {
         let c = |x: f64| S::constant(x) / self.width;
         let right = c(6.0) * self.rise / self.width;
         Share { first: [[c(4.0)]], across: [[c(2.0)]], last: [[c(4.0)]], right: [[right]; 2] }
     }
 
-    /// Of (y′, y″), from the least ∫ y‴² dx.
+    /// The contribution for (y′, y″), from the minimum of ∫ y‴² dx.
     pub fn quintic(&self) -> Share<S, 2> {
         let (h, c) = (self.width, S::constant);
         let (h1, h2, h3) = (c(1.0) / h, c(1.0) / (h * h), c(1.0) / (h * h * h));
@@ -45,7 +45,7 @@ impl<S: Real> Stretch<S> {
     }
 }
 
-/// The derivatives at all knots; the last knot of a periodic spline repeats the first.
+/// The derivatives at all knots. The last knot of a periodic spline repeats the first.
 pub(super) fn solve<S: Real, const M: usize>(
     stretches: &[Stretch<S>],
     periodic: bool,
@@ -80,7 +80,7 @@ pub(super) fn solve<S: Real, const M: usize>(
     solution
 }
 
-/// Blocks of a symmetric matrix by rows: the diagonal, beside it, and the last column.
+/// Blocks of a symmetric matrix by rows: the diagonal, the next block to the right, and the last column.
 struct Conditions<S, const M: usize> {
     diagonal: Vec<Block<S, M>>,
     next: Vec<Block<S, M>>,
@@ -96,7 +96,7 @@ impl<S: Real, const M: usize> Conditions<S, M> {
             if k + 1 == last {
                 add(&mut self.corner[k], &self.next[k]);
             } else {
-                // row k + 1 and the last column lose their shares of row k
+                // eliminate row k from row k + 1 and from the last column
                 let factor = times(&transposed(&self.next[k]), &inverse);
                 subtract(&mut self.diagonal[k + 1], &times(&factor, &self.next[k]));
                 let fill = times(&factor, &self.corner[k]);
@@ -150,7 +150,7 @@ fn times<S: Real, const M: usize>(a: &Block<S, M>, b: &Block<S, M>) -> Block<S, 
     })
 }
 
-/// Of a symmetric positive definite block, by elimination without pivots.
+/// The inverse of a symmetric positive definite block, by elimination without pivoting.
 fn inverse<S: Real, const M: usize>(a: &Block<S, M>) -> Block<S, M> {
     let mut a = *a;
     let mut b: Block<S, M> = std::array::from_fn(|row| {

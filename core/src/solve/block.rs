@@ -1,20 +1,20 @@
-//! Arithmetic of blocks of at most 3 × 3, in registers: sizes are constants, so loops unroll.
+//! Arithmetic of blocks of at most 3 × 3 in registers. The sizes are constants, so that loops are unrolled.
 //!
-//! A block of U is stored by rows of three numbers. A block of L below the diagonal is stored by columns, without gaps,
-//! and as L D: products with few rows are then sums of whole rows, and pairs of numbers are read as they were
-//! written. (A vector load that spans two recent scalar stores cannot be forwarded and stalls.)
+//! A block of U is stored by rows of three numbers. A block of L below the diagonal is stored by columns, without
+//! gaps, as L D. Products with few rows are then sums of whole rows, and numbers are read in the same pairs in which
+//! they were written. (A vector load that spans two recent scalar stores cannot be forwarded and stalls.)
 
 use super::mass_block::dot;
 use crate::math::Real;
 
-/// `N` items from `first`: one bounds check.
+/// `N` items from `first`, with a single bounds check.
 #[inline(always)]
 pub(super) fn part<T, const N: usize>(x: &[T], first: u32) -> &[T; N] {
     let first = first as usize;
     x[first..first + N].first_chunk().expect("as long as the range")
 }
 
-/// The same, mutable.
+/// `N` mutable items from `first`, with a single bounds check.
 #[inline(always)]
 pub(super) fn part_mut<T, const N: usize>(x: &mut [T], first: u32) -> &mut [T; N] {
     let first = first as usize;
@@ -26,11 +26,11 @@ pub(super) fn part_mut<T, const N: usize>(x: &mut [T], first: u32) -> &mut [T; N
 pub(super) struct TransformedRow<S> {
     /// a₀, a₁ and aᵀ e.
     pub plain: [S; 3],
-    /// The same times d₀⁻¹, d₁⁻¹ and d₂⁻¹.
+    /// The same components times d₀⁻¹, d₁⁻¹ and d₂⁻¹.
     pub scaled: [S; 3],
 }
 
-/// y += A x by rows.
+/// y += A x, with A given by rows.
 #[inline(always)]
 pub(super) fn add_times<S: Real, const N: usize>(rows: &[[S; 3]; N], x: &[S; 3], y: &mut [S; N]) {
     for (y, a) in y.iter_mut().zip(rows) {
@@ -52,7 +52,7 @@ pub(super) fn add<S: Real, const M: usize, const N: usize>(
     }
 }
 
-/// The `K` columns, of `M` numbers each, of a block that begins at `first`.
+/// The `K` columns, of `M` numbers each, of a block that begins at index `first`.
 #[inline(always)]
 pub(super) fn columns<S: Real, const M: usize, const K: usize>(x: &[S], first: u32) -> [[S; M]; K] {
     let x = &x[first as usize..first as usize + M * K];
@@ -72,7 +72,7 @@ pub(super) fn store<S: Real, const M: usize, const K: usize>(
     }
 }
 
-/// Columns times the inverse of D.
+/// A D⁻¹, with A given by columns.
 #[inline(always)]
 pub(super) fn scaled<S: Real, const M: usize, const K: usize>(
     a: &[[S; M]; K],
@@ -81,7 +81,7 @@ pub(super) fn scaled<S: Real, const M: usize, const K: usize>(
     std::array::from_fn(|k| a[k].map(|a| a * inverse[k]))
 }
 
-/// target -= A Bᵀ, both by their `K` columns.
+/// target -= A Bᵀ, with A and B given by their `K` columns.
 #[inline(always)]
 pub(super) fn subtract<S: Real, const M: usize, const N: usize, const K: usize>(
     target: &mut [[S; N]; M],
@@ -97,7 +97,7 @@ pub(super) fn subtract<S: Real, const M: usize, const N: usize, const K: usize>(
     }
 }
 
-/// y -= A x by the `K` columns of A.
+/// y -= A x, with A given by its `K` columns.
 #[inline(always)]
 pub(super) fn subtract_times<S: Real, const M: usize, const K: usize>(
     y: &mut [S; M],
@@ -111,7 +111,7 @@ pub(super) fn subtract_times<S: Real, const M: usize, const K: usize>(
     }
 }
 
-/// y -= Aᵀ x by the columns of A.
+/// y -= Aᵀ x, with A given by columns.
 #[inline(always)]
 pub(super) fn subtract_products<S: Real, const M: usize, const N: usize>(
     y: &mut [S; N],
@@ -125,14 +125,14 @@ pub(super) fn subtract_products<S: Real, const M: usize, const N: usize>(
     }
 }
 
-/// y += Aᵀ x by rows.
+/// y += Aᵀ x, with A given by rows.
 pub(super) fn add_transposed<S: Real>(rows: &[[S; 3]], x: &[S], y: &mut [S; 3]) {
     for (a, x) in rows.iter().zip(x) {
         (0..3).for_each(|c| y[c] = y[c].plus_product(a[c], *x));
     }
 }
 
-/// x -= W⁻¹ Aᵀ λ by rows, with e of the group.
+/// x -= W⁻¹ Aᵀ λ, with A given by rows and e of the group.
 #[inline(always)]
 pub(super) fn subtract_transposed<S: Real, const N: usize>(
     rows: &[TransformedRow<S>; N],
@@ -151,11 +151,11 @@ pub(super) fn subtract_transposed<S: Real, const N: usize>(
     }
 }
 
-/// A diagonal block of S before elimination, of which the lower triangle is summed up.
+/// A diagonal block of S before elimination. Only its lower triangle is summed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DiagonalBlock<S, const N: usize> {
     pub s: [[S; N]; N],
-    /// The sums that its pivots are judged by.
+    /// The sums with which the pivots are compared.
     pub magnitude: [S; N],
 }
 
@@ -178,7 +178,7 @@ impl<S: Real, const N: usize> DiagonalBlock<S, N> {
     }
 }
 
-/// Stores a diagonal block or its factor, in the order that [`numbers`] describes.
+/// Stores a diagonal block or its factor in the order described at [`numbers`].
 #[inline(always)]
 fn store_triangle<S: Real, const N: usize>(
     x: &mut [S],
@@ -194,7 +194,7 @@ fn store_triangle<S: Real, const N: usize>(
     }
 }
 
-/// L and 1 / D of a diagonal block: unit lower triangle without its diagonal, and the pivots.
+/// L and D⁻¹ of a diagonal block: the unit lower triangle without its diagonal, and the pivots.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct DiagonalFactor<S, const N: usize> {
     pub lower: [[S; N]; N],
@@ -202,12 +202,12 @@ pub(super) struct DiagonalFactor<S, const N: usize> {
     pub inverse: [S; N],
 }
 
-/// L D Lᵀ of a diagonal block, of which the lower triangle is read.
+/// L D Lᵀ of a diagonal block. Only the lower triangle is read.
 #[inline(always)]
 pub(super) fn factorise<S: Real, const N: usize>(mut s: [[S; N]; N]) -> DiagonalFactor<S, N> {
     let (mut pivot, mut inverse) = ([S::zero(); N], [S::zero(); N]);
     if N == 2 {
-        // by the determinant, so that the second division need not wait for the first
+        // from the determinant, so that the second division need not wait for the first
         let det = (s[0][0] * s[1][1]).minus_product(s[1][0], s[1][0]);
         let (first, second) = (S::one() / s[0][0], S::one() / det);
         (pivot[0], pivot[1]) = (s[0][0], det * first);
@@ -221,7 +221,7 @@ pub(super) fn factorise<S: Real, const N: usize>(mut s: [[S; N]; N]) -> Diagonal
         for i in j + 1..N {
             let l = s[i][j] * inverse[j];
             for c in j + 1..i {
-                s[i][c] = s[i][c].minus_product(s[i][j], s[c][j]); // s[c][j] is scaled already
+                s[i][c] = s[i][c].minus_product(s[i][j], s[c][j]); // s[c][j] is already scaled
             }
             s[i][i] = s[i][i].minus_product(s[i][j], l);
             s[i][j] = l;
@@ -245,7 +245,7 @@ impl<S: Real, const N: usize> DiagonalFactor<S, N> {
     #[inline(always)]
     pub fn back(&self, y: &mut [S; N]) {
         if N == 2 {
-            // as `backward` does
+            // as in `backward`
             let last = y[1] * self.inverse[1];
             (y[0], y[1]) = (y[0] * self.inverse[0], last);
             let l = [self.lower[1][0], S::zero()];
@@ -260,20 +260,20 @@ impl<S: Real, const N: usize> DiagonalFactor<S, N> {
         }
     }
 
-    /// Stores 1 / D and L, with the sums that its pivots were judged by.
+    /// Stores D⁻¹ and L, with the sums with which the pivots were compared.
     #[inline(always)]
     pub fn store(&self, x: &mut [S], first: u32, magnitude: &[S; N]) {
         store_triangle(x, first, [&self.inverse, magnitude], &self.lower);
     }
 }
 
-/// How many numbers are stored for a diagonal block of `n` rows: its n diagonal entries, later 1 / D; the n sums that
-/// pivots are judged by; and the entries left of the diagonal, row by row, of S and later of L.
+/// Number of values stored for a diagonal block of `n` rows: the n diagonal entries, later D⁻¹; the n sums with which
+/// the pivots are compared; and the entries left of the diagonal of S, later of L, row by row.
 pub(super) fn numbers(n: usize) -> usize {
     2 * n + n * (n - 1) / 2
 }
 
-/// x ← L⁻¹ x, for one or more right sides.
+/// y ← L⁻¹ y, for one or more right sides.
 #[inline(always)]
 pub(super) fn forward<S: Real, const M: usize, const N: usize>(
     x: &[S],
@@ -296,7 +296,7 @@ pub(super) fn forward<S: Real, const M: usize, const N: usize>(
 pub(super) fn backward<S: Real, const N: usize>(x: &[S], first: u32, y: &mut [S; N]) {
     let l = &x[first as usize..first as usize + numbers(N)][2 * N..];
     if N == 2 {
-        // both numbers by the same steps, so that they are written as a pair: they are read as one
+        // both numbers by the same operations, so that they are written as a pair; they are read as one
         let (l, last) = ([l[0], S::zero()], y[1]);
         (0..N).for_each(|i| y[i] -= l[i] * last);
         return;

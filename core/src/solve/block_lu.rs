@@ -1,30 +1,30 @@
-//! L U of a block matrix on a plan made once: numbers, without allocation, real or complex.
+//! LU factorisation of a real or complex block matrix on a precomputed plan, without allocation.
 //!
-//! Blocks are stored as 3 × 3; rows that a smaller block does not have are those of the identity, so
-//! that every loop has a constant length. Pivots are sought within a diagonal block only; a pivot that is
-//! nothing but what was cancelled in it is refused.
+//! Blocks are stored as 3 × 3. Missing rows of a smaller block are rows of the identity, so that every loop has a
+//! constant length. Pivots are chosen within a diagonal block only. A pivot that contains only cancellation errors is
+//! refused.
 
 use super::lu_symbolic::LuPlan;
 use crate::math::Field;
 
-/// A block, row by row.
+/// A block, stored row by row.
 pub type Block<F> = [[F; 3]; 3];
 
-/// A pivot below this part of its largest summand has no accurate digits.
+/// A pivot below this fraction of its largest summand has no accurate digits.
 pub const LOST: f64 = 1e-13;
 
-/// A matrix, later its factors, on an [`LuPlan`].
+/// A matrix, and later its factors, with the structure of an [`LuPlan`].
 #[derive(Clone, Debug)]
 pub struct BlockLu<F> {
-    /// Diagonal (after factorisation inverted), lower and upper blocks.
+    /// Diagonal blocks (inverted after factorisation), then lower and upper blocks.
     store: Vec<Block<F>>,
-    /// Sum of the magnitudes of the terms of each diagonal entry.
+    /// Sum of the magnitudes of the terms in each diagonal entry.
     weight: Vec<[f64; 3]>,
     x: Vec<[F; 3]>,
 }
 
 impl<F: Field> BlockLu<F> {
-    /// Memory for matrices of a pattern.
+    /// Memory for matrices with the pattern of the plan.
     pub fn new(plan: &LuPlan) -> Self {
         let zero = [[F::zero(); 3]; 3];
         Self {
@@ -34,7 +34,7 @@ impl<F: Field> BlockLu<F> {
         }
     }
 
-    /// All entries to zero.
+    /// Sets all entries to zero.
     pub fn clear(&mut self, plan: &LuPlan) {
         self.store.fill([[F::zero(); 3]; 3]);
         for k in 0..plan.blocks() {
@@ -44,7 +44,7 @@ impl<F: Field> BlockLu<F> {
         }
     }
 
-    /// The block in a slot of the plan, to be filled.
+    /// The block in a slot of the plan, for writing.
     pub fn block_mut(&mut self, slot: usize) -> &mut Block<F> {
         &mut self.store[slot]
     }
@@ -52,7 +52,7 @@ impl<F: Field> BlockLu<F> {
     /// Factorises in place.
     ///
     /// # Errors
-    /// The unknown whose pivot has no accurate digits: the matrix is singular, or nearly so.
+    /// The index of the unknown whose pivot has no accurate digits. The matrix is singular or nearly singular.
     pub fn factor(&mut self, plan: &LuPlan) -> Result<(), usize> {
         let n = plan.blocks();
         for (weight, block) in self.weight.iter_mut().zip(&self.store) {
@@ -86,7 +86,7 @@ impl<F: Field> BlockLu<F> {
         Ok(())
     }
 
-    /// Solves in place; `x` in the caller's numbering of unknowns.
+    /// Solves in place. `x` has the caller's numbering of unknowns.
     pub fn solve(&mut self, plan: &LuPlan, x: &mut [F]) {
         let n = plan.blocks();
         let upper = n + plan.below.len();
@@ -135,7 +135,7 @@ fn subtract<F: Field>(a: &mut Block<F>, b: &Block<F>) {
     a.iter_mut().flatten().zip(b.iter().flatten()).for_each(|(a, b)| *a -= *b);
 }
 
-/// The inverse by Gauss and Jordan with row exchanges; the row that has no pivot if there is none.
+/// The inverse by Gauss–Jordan elimination with row exchanges. The error is the row without a pivot.
 fn invert<F: Field>(block: &Block<F>, weight: &[f64; 3]) -> Result<Block<F>, usize> {
     let mut a = *block;
     let mut row_of = [0, 1, 2];
@@ -152,7 +152,7 @@ fn invert<F: Field>(block: &Block<F>, weight: &[f64; 3]) -> Result<Block<F>, usi
         b.swap(c, best);
         row_of.swap(c, best);
         let pivot = a[c][c].magnitude();
-        // a NaN is refused as well
+        // also refuses NaN
         if !(pivot > LOST * weight[c] && pivot.is_finite()) {
             return Err(row_of[c]);
         }

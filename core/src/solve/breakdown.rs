@@ -1,59 +1,60 @@
-//! Why a system has no usable solution.
+//! Reasons why a system has no usable solution.
 
-/// A system without a usable solution: rows are those of the constraints, columns are unknowns.
+/// A system without a usable solution. Rows are those of the constraints, columns are unknowns.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Breakdown {
-    /// This row depends on the others.
+    /// This row depends on the other rows.
     Row(usize),
     /// The pivot of this unknown in W is not positive.
     Column(usize),
-    /// No multipliers agree with the forces that depend on them; the first row of such multipliers.
+    /// No multipliers are consistent with the forces that depend on them. The index is the first row of these
+    /// multipliers.
     Reaction(usize),
-    /// This row depends on the others where a run with projection continues.
+    /// This row depends on the other rows at a position at which an integration with projection continues.
     Passable(usize),
-    /// This row depends on the others where the motion is almost at rest under load.
+    /// This row depends on the other rows where the motion is almost at rest under load.
     AtRest(usize),
-    /// This row almost depends on the others where two motions pass each other without meeting.
+    /// This row almost depends on the other rows, where two branches of motion pass each other without meeting.
     Beside {
         /// The row.
         row: usize,
-        /// Part of its pivot that is left: at least the mismatch of lengths, relative to the size.
+        /// Remaining fraction of its pivot: at least the mismatch of lengths relative to the size of the mechanism.
         left: f64,
     },
-    /// Newton's iteration leaves this row open.
+    /// Newton's iteration does not reduce the residual of this row to the tolerance.
     Open {
         /// The row with the largest residual.
         row: usize,
         /// Its residual.
         gap: f64,
     },
-    /// This row is open by more than allowed.
+    /// The residual of this row exceeds the allowed value.
     Apart {
         /// The row with the largest residual.
         row: usize,
         /// Its residual.
         gap: f64,
-        /// The largest residual that is allowed.
+        /// The largest allowed residual.
         most: f64,
     },
     /// A result is not finite.
     NotFinite,
-    /// The law of a constraint jumps.
+    /// The law of a constraint has a jump.
     Jump {
         /// The constraint.
         constraint: usize,
-        /// Whether its value jumps, not its rate.
+        /// Whether the value jumps. If not, the rate jumps.
         position: bool,
-        /// The value or rate before and after.
+        /// The value or rate before and after the jump.
         values: [f64; 2],
     },
-    /// Constant steps are too long for a contact that begins.
+    /// Constant steps are too long to resolve a contact that begins.
     Unresolved {
         /// The force.
         force: usize,
-        /// About how long it lasts, s.
+        /// Approximate duration of the contact, s.
         lasts: f64,
-        /// The step, s.
+        /// The step size, s.
         step: f64,
     },
     /// The motion returns to this switch from both sides.

@@ -1,16 +1,15 @@
-//! Static condensation: a pair of rows R of A in only one group, such as a joint to ground, is eliminated with its
-//! group before everything else.
+//! Static condensation. A pair of rows R of A at only one group, such as a joint to ground, is eliminated with its
+//! group before all other rows.
 //!
-//! A group of three unknowns with two rows has one degree of freedom, e = r₁ × r₂ (R e = 0). With a particular
-//! solution P,
-//! R P = I, and g the right side of the rows,
+//! A group of three unknowns with two rows has one degree of freedom, e = r₁ × r₂ (R e = 0). Let P be a particular
+//! solution, R P = I, and g the right side of the rows. Then
 //!
 //! ```text
 //! x = P g + e s,   (eᵀ W e) s = eᵀ (f - W P g - Σ Aₖᵀ λₖ),   λ = Pᵀ (f - W x - Σ Aₖᵀ λₖ)
 //! ```
 //!
-//! where k counts the other row blocks at the group: all that they see of it is the [`InverseMass`] (eᵀ W e)⁻¹ e eᵀ. For
-//! rows [±I b] (a pin) e = (∓b, 1) and P = [±I; 0], else P = [r₂ × e, e × r₁] / |e|².
+//! where k numbers the other row blocks at the group. They depend on the group only through its [`InverseMass`] (eᵀ W
+//! e)⁻¹ e eᵀ. For rows [±I b] (a pin), e = (∓b, 1) and P = [±I; 0]; otherwise P = [r₂ × e, e × r₁] / |e|².
 
 use super::mass_block::{dot, InverseMass, PIVOT_TOLERANCE};
 use super::structure::{index, RowBlock};
@@ -19,24 +18,24 @@ use crate::math::Real;
 /// A pair of rows that is eliminated with its group.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Condensation {
-    /// Its place among the row blocks.
+    /// Index among the row blocks.
     pub block: u32,
     /// The group.
     pub group: u32,
     /// The first unknown of the group.
     pub at: u32,
-    /// The first of its rows.
+    /// The first of the two rows.
     pub row: u32,
-    /// Its first row of three entries.
+    /// The first of their rows of three entries.
     pub(super) entry: u32,
-    /// ±1 for rows [±I b], else 0.
+    /// ±1 for rows [±I b], otherwise 0.
     pub sign: f64,
-    /// Numbers of other row blocks at the group: pairs [±I b] at a pin, and others.
+    /// Numbers of other row blocks at the group: pairs [±I b] at a pin, and all others.
     pub(super) pins: u32,
     pub(super) others: u32,
 }
 
-/// W of a condensed group, [d 0 b₀; 0 d b₁; b₀ b₁ c], and the particular solution.
+/// W = [d 0 b₀; 0 d b₁; b₀ b₁ c] of a condensed group, and the particular solution.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CondensedGroup<S = f64> {
     /// d.
@@ -45,17 +44,17 @@ pub struct CondensedGroup<S = f64> {
     pub moment: [S; 2],
     /// c.
     pub inertia: S,
-    /// The columns of P; not read for rows [±I b].
+    /// The columns of P. Unused for rows [±I b].
     particular: [[S; 3]; 2],
 }
 
 impl<S: Real> CondensedGroup<S> {
-    /// With its W.
+    /// A group with the given W.
     pub fn new(mass: S, moment: [S; 2], inertia: S) -> Self {
         Self { mass, moment, inertia, particular: [[S::zero(); 3]; 2] }
     }
 
-    /// e, and eᵀ W e, for the rows of a pin.
+    /// e and eᵀ W e for the rows of a pin.
     #[inline(always)]
     pub fn about_pin(&self, sign: f64, b: [S; 2]) -> ([S; 3], S) {
         let sign = S::constant(-sign);
@@ -69,7 +68,8 @@ impl<S: Real> CondensedGroup<S> {
         dot(e, &self.times(e))
     }
 
-    /// e, P and (eᵀ W e)⁻¹ of rows; of rows [±I b] e alone, since their owner gives the rest.
+    /// Computes e, P and (eᵀ W e)⁻¹ from the rows. For rows [±I b] it computes only e, since the owner provides the
+    /// rest.
     #[inline(always)]
     pub(super) fn reduce(
         &mut self,
@@ -85,14 +85,14 @@ impl<S: Real> CondensedGroup<S> {
         let e = cross(first, second);
         let inverse = S::one() / dot(&e, &e);
         self.particular = [cross(second, &e), cross(&e, first)].map(|p| p.map(|p| p * inverse));
-        // |e|² = |r₁|² |r₂|² sin²: without an angle between the rows the group has no usable inverse
+        // |e|² = |r₁|² |r₂|² sin²: the group has no usable inverse if the rows are nearly parallel
         let least = S::constant(PIVOT_TOLERANCE) * dot(first, first) * dot(second, second);
         let none = S::constant(f64::INFINITY);
         mass.along = S::select(dot(&e, &e) - least, S::one() / self.along(&e), none);
         mass.direction = e;
     }
 
-    /// From f of the group and g of the rows to x for λ = 0 of all others; Pᵀ f goes where g was.
+    /// Computes x with λ = 0 in all other rows, from f of the group and g of the rows. Stores Pᵀ f in place of g.
     #[inline(always)]
     pub(super) fn begin(&self, sign: f64, mass: &InverseMass<S>, f: &mut [S; 3], g: &mut [S; 2]) {
         let e = &mass.direction;
@@ -117,7 +117,7 @@ impl<S: Real> CondensedGroup<S> {
         *f = std::array::from_fn(|i| at[i].plus_product(e[i], s));
     }
 
-    /// λ of the rows from Pᵀ f, in `g`, x and Σ Aₖᵀ λₖ.
+    /// Computes λ of the rows from Pᵀ f (in `g`), x and Σ Aₖᵀ λₖ.
     #[inline(always)]
     pub(super) fn finish(&self, sign: f64, x: &[S; 3], others: &[S; 3], g: &mut [S; 2]) {
         if sign != 0.0 {
@@ -150,14 +150,14 @@ fn cross<S: Real>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
     [[1, 2], [2, 0], [0, 1]].map(|[i, j]| (a[i] * b[j]).minus_product(a[j], b[i]))
 }
 
-/// Other row blocks at condensed groups, group by group.
+/// Other row blocks at condensed groups, ordered by group.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Loads {
     pub pins: Vec<PinLoad>,
     pub others: Vec<Load>,
 }
 
-/// A pair of rows [±I b] at a pin: of its entries the sign is needed alone.
+/// A pair of rows [±I b] at a pin. Only the sign of its entries is needed.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct PinLoad {
     pub sign: f64,
@@ -170,15 +170,16 @@ pub(super) struct PinLoad {
 pub(super) struct Load {
     /// The first of the rows.
     pub row: u32,
-    /// Its first row of three entries at this group.
+    /// The first of its rows of three entries at this group.
     pub entry: u32,
     pub size: u32,
 }
 
-/// The row blocks among `blocks`, of which `rows` are the first rows, that are `condensed`, and the loads of each.
+/// The condensations of the row blocks `condensed`, and the loads of each. `rows` contains the first row of each of
+/// the `blocks`.
 ///
 /// # Panics
-/// If such a row block is not a pair of rows at one group, or shares its group with another.
+/// If such a row block is not a pair of rows at one group, or shares its group with another such row block.
 pub(super) fn condensations(
     starts: &[usize],
     blocks: &[RowBlock],

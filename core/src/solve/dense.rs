@@ -1,7 +1,7 @@
 //! Small dense systems.
 
-/// Solves A x = b by elimination with partial pivoting; `a` row by row, shape (n, n), is overwritten, and `b` becomes x.
-/// Returns false if a pivot is zero or not a number.
+/// Solves A x = b by elimination with partial pivoting. `a` is row-major, of shape (n, n), and is overwritten; `b`
+/// becomes x. Returns false if a pivot is zero or not finite.
 pub fn solve_dense(a: &mut [f64], b: &mut [f64]) -> bool {
     let n = b.len();
     assert_eq!(a.len(), n * n, "a square matrix");
@@ -35,8 +35,8 @@ pub fn solve_dense(a: &mut [f64], b: &mut [f64]) -> bool {
     true
 }
 
-/// The sign of the determinant of a matrix, row by row, shape (n, n), which is overwritten; 0 if a pivot is zero or not a
-/// number.
+/// The sign of the determinant of a row-major matrix of shape (n, n), which is overwritten. Returns 0 if a pivot is
+/// zero or not finite.
 pub fn sign_of_determinant(a: &mut [f64], n: usize) -> f64 {
     let mut sign = 1.0;
     for k in 0..n {

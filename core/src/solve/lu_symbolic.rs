@@ -1,38 +1,39 @@
-//! Symbolic LU factorisation without pivoting between blocks: order, fill, and where each product goes, found once.
+//! Symbolic LU factorisation without pivoting between blocks: elimination order, fill, and the target of each
+//! product.
 //!
-//! For a matrix of blocks of at most 3 × 3 with a symmetric pattern (its numbers need not be): bodies
-//! coupled by forces and constraints. Symbolic factorisation by the elimination tree: the pattern below
-//! column k is what k is joined to, and what its children in the tree leave (Liu, *The role of
-//! elimination trees in sparse factorization*, SIAM J. Matrix Anal. Appl. 11 (1990) 134).
+//! The matrix consists of blocks of at most 3 × 3 and has a symmetric pattern, but its values need not be symmetric.
+//! Such a matrix describes bodies coupled by forces and constraints. The factorisation uses the elimination tree: the
+//! pattern below column k is the union of its own entries and of the patterns that its children leave (Liu, *The role
+//! of elimination trees in sparse factorization*, SIAM J. Matrix Anal. Appl. 11 (1990) 134).
 
 use super::order::touched_first;
 use std::ops::Range;
 
-/// Pattern, order and plan of a block matrix [S Gᵀ; G -μ].
+/// Pattern, elimination order and plan of a block matrix [S Gᵀ; G -μ].
 #[derive(Clone, Debug)]
 pub struct LuPlan {
     /// Number of rows of each block, in the caller's numbering.
     sizes: Vec<usize>,
     /// First unknown of each block.
     starts: Vec<usize>,
-    /// `order[k]` is eliminated k-th.
+    /// The block `order[k]` is eliminated k-th.
     pub(super) order: Vec<usize>,
     position: Vec<usize>,
-    /// For each step of the elimination, its part of `below`.
+    /// For each step of the elimination, its range of `below`.
     pub(super) columns: Vec<Range<usize>>,
     /// Positions of the blocks below the diagonal, ascending in each column.
     pub(super) below: Vec<u32>,
-    /// For each column, the blocks that receive L U, row by row.
+    /// For each column, the blocks from which a product L U is subtracted, row by row.
     pub(super) targets: Vec<u32>,
 }
 
 impl LuPlan {
-    /// For blocks of `sizes` rows (1 to 3), of which the first `n_first` are to be eliminated before
-    /// those of the others that they have an entry with. `entries` are the positions (block, block) that
-    /// may differ from zero, in one triangle or both; the diagonal is always stored.
+    /// A plan for blocks with `sizes` rows (1 to 3). Each of the first `n_first` blocks is eliminated before the
+    /// later blocks with which it shares an entry. `entries` are the positions (block, block) that may be nonzero, in
+    /// one triangle or both. The diagonal is always stored.
     ///
     /// # Panics
-    /// If a size is not 1 to 3, or an index is outside the blocks.
+    /// If a size is not 1 to 3, or an index is out of range.
     pub fn new(sizes: Vec<usize>, n_first: usize, entries: &[(usize, usize)]) -> Self {
         assert!(sizes.iter().all(|size| (1..=3).contains(size)), "blocks of 1 to 3 rows");
         let n = sizes.len();
@@ -63,26 +64,26 @@ impl LuPlan {
         self.sizes.iter().sum()
     }
 
-    /// Number of blocks stored: diagonal, lower and upper.
+    /// Number of stored blocks: diagonal, lower and upper.
     pub fn stored(&self) -> usize {
         self.blocks() + 2 * self.below.len()
     }
 
-    /// Rows of the k-th eliminated block among the unknowns.
+    /// The unknowns of the k-th eliminated block.
     pub(super) fn rows(&self, k: usize) -> Range<usize> {
         let block = self.order[k];
         self.starts[block]..self.starts[block] + self.sizes[block]
     }
 
-    /// Where the block at (row, column) is stored.
+    /// The slot in which the block at (row, column) is stored.
     ///
     /// # Panics
-    /// If it is not in the pattern.
+    /// If the block is not in the pattern.
     pub fn slot(&self, row: usize, column: usize) -> usize {
         self.place(self.position[row], self.position[column])
     }
 
-    /// The same by positions in the order of elimination.
+    /// The slot of a block, by positions in the order of elimination.
     fn place(&self, i: usize, j: usize) -> usize {
         if i == j {
             return i;
@@ -108,7 +109,7 @@ impl LuPlan {
     }
 }
 
-/// Pattern of L by columns.
+/// Pattern of L, by columns.
 fn structure(position: &[usize], entries: &[(usize, usize)]) -> (Vec<Range<usize>>, Vec<u32>) {
     let n = position.len();
     let mut own = vec![Vec::new(); n];

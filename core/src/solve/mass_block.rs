@@ -1,16 +1,16 @@
-//! The block-diagonal part W of a saddle-point matrix by the inverses of its blocks.
+//! The block-diagonal part W of a saddle-point matrix, represented by the inverses of its blocks.
 
 use super::breakdown::Breakdown;
 use super::structure::Group;
 use crate::math::Real;
 
-/// Smallest ratio of a pivot to the diagonal entry it was cancelled from that is still trusted.
+/// Smallest accepted ratio of a pivot to the diagonal entry before cancellation.
 pub const PIVOT_TOLERANCE: f64 = 1e-13;
 
 /// W⁻¹ of one group: diag(d₀⁻¹, d₁⁻¹, 0) + d₂⁻¹ e eᵀ.
 ///
 /// A block [d₀ 0 b₀; 0 d₁ b₁; b₀ b₁ c] has e = (-b₀/d₀, -b₁/d₁, 1) and d₂ = c - b₀²/d₀ - b₁²/d₁. A
-/// [condensed](super::Condensation) group can move along e alone: d₀⁻¹ = d₁⁻¹ = 0.
+/// [condensed](super::Condensation) group can move only along e: d₀⁻¹ = d₁⁻¹ = 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct InverseMass<S = f64> {
     /// 1/d₀ and 1/d₁; 0 for a condensed group.
@@ -19,13 +19,14 @@ pub struct InverseMass<S = f64> {
     pub along: S,
     /// e.
     pub direction: [S; 3],
-    /// 1/d₀ of a condensed group, else 0: pivots are judged by S as it would be without condensation, since what a
-    /// condensed group adds to S may vanish.
+    /// 1/d₀ of a condensed group, otherwise 0. Pivots are compared with the diagonal of S without condensation,
+    /// because the contribution of a condensed group to S may vanish.
     pub held: S,
 }
 
 impl<S: Real> InverseMass<S> {
-    /// Of a diagonal block, by the inverses of its entries. Those that a shorter group does not have must be 1.
+    /// The inverse of a diagonal block, from the inverses of its entries. Missing entries of a smaller group must be
+    /// 1.
     #[inline(always)]
     pub fn diagonal([d0, d1, d2]: [S; 3]) -> Self {
         let zero = S::zero();
@@ -42,7 +43,8 @@ impl<S: Real> InverseMass<S> {
     }
 }
 
-/// Whether every pivot of W is positive and finite, in every lane; of groups that are not `free`, that along e.
+/// Checks that every pivot of W is positive and finite, in every lane. For groups that are not `free`, only the pivot
+/// along e is checked.
 #[inline(always)]
 pub(super) fn check<S: Real>(
     masses: &[InverseMass<S>],
@@ -69,7 +71,7 @@ pub(super) fn is_usable<S: Real>(inverse: S) -> bool {
     above_zero(inverse) && above_zero(S::constant(f64::MAX) - inverse)
 }
 
-/// x > 0 in every lane; NaN is not.
+/// Whether x > 0 in every lane. False for NaN.
 #[inline(always)]
 pub(super) fn above_zero<S: Real>(x: S) -> bool {
     S::select(x, S::one(), S::zero()).least_magnitude() > 0.0
@@ -81,7 +83,8 @@ pub(super) fn dot<S: Real>(a: &[S; 3], b: &[S; 3]) -> S {
     (a[0] * b[0]).plus_product(a[1], b[1]).plus_product(a[2], b[2])
 }
 
-/// The groups whose W is diagonal, those with coupling and those not `condensed`, by number.
+/// Indices of the groups with a diagonal block of W, of those with a coupled block, and of all groups that are not
+/// `condensed`. The first two exclude condensed groups as well.
 pub(super) fn kinds(groups: &[Group], condensed: &[bool]) -> [Vec<u32>; 3] {
     let numbers = || (0..).zip(groups.iter().zip(condensed));
     let select = |which: &dyn Fn(&Group) -> bool| {

@@ -1,34 +1,34 @@
-//! Linear and nonlinear algebra without mechanics.
+//! Linear and nonlinear algebra, independent of mechanics.
 //!
 //! # Saddle-point matrices [W Aᵀ; A -μI]
 //!
-//! A [`Pattern`] is found once for a structure (groups of one to three unknowns, blocks of one to three rows); a
-//! [`Saddle`] has the numbers of one matrix and of its factors. The order of events in one solution is:
+//! A [`Pattern`] is computed once for each structure (groups of one to three unknowns, blocks of one to three rows).
+//! A [`Saddle`] contains the numbers of one matrix and of its factors. A solution has these steps:
 //!
-//! 1. Condense: pairs of rows at one group alone, such as a joint to ground, leave their group one freedom e.
+//! 1. Condense: a pair of rows at one group only, such as a joint to ground, leaves one degree of freedom e.
 //! 2. Divide the right side of all other groups by their mass: x = W⁻¹ f.
 //! 3. Assemble the Schur complement S = A W⁻¹ Aᵀ + μ I and its right side y = A x - g, row block by row block.
-//! 4. Eliminate, S = L D Lᵀ, with y ← L⁻¹ y beside it.
+//! 4. Eliminate, S = L D Lᵀ, and compute y ← L⁻¹ y at the same time.
 //! 5. Substitute back: λ = L⁻ᵀ D⁻¹ y, x -= W⁻¹ Aᵀ λ, then λ of condensed rows.
 //!
-//! [`Saddle::factor`] does 1, 3 and 4 without right side, [`Saddle::solve`] the rest with the factors at hand. The
-//! owner of pairs of rows [±I b] ("pins") may do 1 and 3 for them by itself, while their numbers are at hand:
-//! [`Saddle::condense`], [`Saddle::divide_by_masses`], [`Saddle::add_pin`], [`Saddle::put_pin_rows`], then
-//! [`Saddle::finish`].
+//! [`Saddle::factor`] performs steps 1, 3 and 4 without a right side, and [`Saddle::solve`] the other steps with
+//! these factors. The owner of pairs of rows [±I b] ("pins") may perform steps 1 and 3 for them while it computes
+//! their numbers: [`Saddle::condense`], [`Saddle::divide_by_masses`], [`Saddle::add_pin`], [`Saddle::put_pin_rows`],
+//! then [`Saddle::finish`].
 //!
 //! | array of [`Saddle`] | contents | length | filled by | when |
 //! |---|---|---|---|---|
-//! | `masses` | W⁻¹ = diag(d₀⁻¹, d₁⁻¹, 0) + d₂⁻¹ e eᵀ: 7 numbers | groups | owner; e of condensed groups by step 1 | before 1 |
+//! | `masses` | W⁻¹ = diag(d₀⁻¹, d₁⁻¹, 0) + d₂⁻¹ e eᵀ: 7 numbers | groups | owner; condensed e by step 1 | before 1 |
 //! | `condensed` | W and the particular solution P: 10 numbers | condensed pairs | W by owner, P by step 1 | before 1 |
-//! | `entries` | A in rows of three; the columns ±I stay as they are | rows × groups touched | owner | before 1, or in 1 and 3 |
+//! | `entries` | A in rows of three; columns ±I are constant | rows × groups touched | owner | before 1, or in 1, 3 |
 //! | `damping` | μ | rows, or 0 | owner | before 3 |
 //! | `pins` | rows [±I b] with the mass of their group: 6 numbers | such rows × groups | step 3 | 3, read in 4 and 5 |
 //! | `u` | other rows, transformed by W⁻¹: 6 numbers | such rows × groups | step 3 | 3, read in 4 and 5 |
-//! | `factors` | S, then L D and D⁻¹, and the sums that pivots are judged by | blocks of L | step 3 the diagonal blocks, step 4 all | 3, 4 |
+//! | `factors` | S, then L D and D⁻¹; sums of the pivot test | blocks of L | step 3 (diagonal), step 4 | 3, 4 |
 //!
-//! The right side (f, g) is replaced by the solution (x, λ) in place; its length is [`Pattern::n_unknowns`] +
-//! [`Pattern::n_rows`]. Where a group has fewer than three unknowns, three are read and written all the same: its
-//! entries and its mass leave the unknowns behind it as they are. Only behind the last group is there padding.
+//! The solution (x, λ) replaces the right side (f, g) in place; its length is [`Pattern::n_unknowns`] +
+//! [`Pattern::n_rows`]. For a group with fewer than three unknowns, three are read and written nevertheless, and its
+//! entries and its mass leave the unknowns after the group unchanged. Only the last group is padded.
 //!
 //! | file | concept |
 //! |---|---|
@@ -37,26 +37,26 @@
 //! | `records` | the elimination program: records in the order in which they are used |
 //! | `storage` | storage map: where rows and pin blocks are stored |
 //! | `symbolic` | symbolic factorisation: fill, and the program |
-//! | `pattern` | all of that for one structure |
-//! | `mass_block` | blocks of W by their inverses |
+//! | `pattern` | the complete pattern of one structure |
+//! | `mass_block` | blocks of W, as inverses |
 //! | `block` | arithmetic of blocks of at most 3 × 3 |
-//! | `pin_block` | the same for pairs of rows [±I b] |
+//! | `pin_block` | arithmetic of pairs of rows [±I b] |
 //! | `condensed` | static condensation of a group with a pair of rows |
 //! | `saddle` | the matrix, and its elimination |
 //! | `schur` | assembly of the Schur complement |
 //! | `substitute` | the solution with the factors |
-//! | `regularised` | the policy near singular positions: regularised factors (Tikhonov) |
+//! | `regularised` | regularised factors near singular positions (Tikhonov) |
 //!
 //! # Others
 //!
 //! | file | concept |
 //! |---|---|
 //! | `lu_symbolic` | order and fill of an unsymmetric block matrix |
-//! | `block_lu` | its factors, real or complex, without allocation |
+//! | `block_lu` | its factors, real or complex |
 //! | `dense` | small dense systems |
-//! | `symmetric` | eigenvalues and vectors of dense symmetric matrices |
+//! | `symmetric` | eigenvalues and eigenvectors of dense symmetric matrices |
 //! | `newton` | damped Newton and Gauss–Newton iteration |
-//! | `breakdown` | why a system has no usable solution |
+//! | `breakdown` | reasons why a system has no usable solution |
 //! | `rank` | numerical rank, dependent rows and left null vectors |
 
 mod block;

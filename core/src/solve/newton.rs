@@ -1,33 +1,32 @@
 //! Damped Newton and Gauss–Newton iteration for F(x) = 0.
 //!
-//! The problem supplies its own linear solve, so that any structure of the Jacobian serves. A step is
-//! taken when it lowers ‖F‖; otherwise it is shortened, or the Levenberg parameter raised (Dennis and
-//! Schnabel, *Numerical Methods for Unconstrained Optimization and Nonlinear Equations*, 1983, 6.3 and
-//! 10.2). It has converged when residual *and* step are small: near a singular Jacobian one without the
-//! other means little.
+//! The problem provides its own linear solver, so that the Jacobian may have any structure. A step is accepted if it
+//! reduces ‖F‖. Otherwise it is shortened, or the Levenberg parameter is increased (Dennis and Schnabel, *Numerical
+//! Methods for Unconstrained Optimization and Nonlinear Equations*, 1983, 6.3 and 10.2). The iteration has converged
+//! when both the residual *and* the step are small: near a singular Jacobian, one of them alone is not sufficient.
 
 /// A system of equations F(x) = 0 and its linearisation.
 pub trait Equations {
-    /// Why an evaluation cannot be had at all; passed through untouched.
+    /// Error of an evaluation, passed on unchanged.
     type Stop;
 
     /// Number of unknowns.
     fn unknowns(&self) -> usize;
 
-    /// Number of equations; may differ from the unknowns (Gauss–Newton).
+    /// Number of equations; may differ from the number of unknowns (Gauss–Newton).
     fn equations(&self) -> usize;
 
-    /// F(x) into `residual`, scaled as it is to be judged. Outside its domain it should be NaN.
+    /// Computes F(x) into `residual`, scaled as for the convergence test. Outside the domain of F, return NaN.
     ///
     /// # Errors
-    /// Ends the iteration at once.
+    /// An error ends the iteration at once.
     fn residual(&mut self, x: &[f64], residual: &mut [f64]) -> Result<(), Self::Stop>;
 
-    /// The full step s into `step`: F′(x) s = -`residual`, or its least-squares or least-norm solution;
-    /// with `levenberg` > 0, (F′ᵀF′ + levenberg² I) s = -F′ᵀ `residual`, or a similar damped step.
+    /// Computes the full step s into `step`: F′(x) s = -`residual`, or its least-squares or least-norm solution. With
+    /// `levenberg` > 0, (F′ᵀF′ + levenberg² I) s = -F′ᵀ `residual`, or a similar damped step.
     ///
     /// # Errors
-    /// Ends the iteration at once. A step that is not finite ends it as [`Outcome::NotFinite`].
+    /// An error ends the iteration at once. A step that is not finite ends it as [`Outcome::NotFinite`].
     fn step(
         &mut self,
         x: &[f64],
@@ -36,12 +35,12 @@ pub trait Equations {
         step: &mut [f64],
     ) -> Result<(), Self::Stop>;
 
-    /// Size of a residual; Euclidean.
+    /// Norm of a residual; Euclidean by default.
     fn residual_norm(&self, residual: &[f64]) -> f64 {
         euclidean(residual)
     }
 
-    /// Size of a step from x; Euclidean.
+    /// Norm of a step from x; Euclidean by default.
     fn step_norm(&self, x: &[f64], step: &[f64]) -> f64 {
         let _ = x;
         euclidean(step)
@@ -50,45 +49,45 @@ pub trait Equations {
 
 fn euclidean(x: &[f64]) -> f64 {
     let largest = x.iter().fold(0.0_f64, |m, v| m.max(v.abs()));
-    // the sum of squares overflows before the norm does
+    // the sum of squares may overflow although the norm does not
     if largest > 1e150 {
         return largest * x.iter().map(|v| (v / largest) * (v / largest)).sum::<f64>().sqrt();
     }
     x.iter().map(|v| v * v).sum::<f64>().sqrt()
 }
 
-/// The remedy for a step that does not reduce the residual.
+/// The method for a step that does not reduce the residual.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Damping {
-    /// Half of it is tried, up to this many times.
+    /// The step is halved, at most this many times.
     Halving {
-        /// Most halvings of one step.
+        /// Largest number of halvings of one step.
         most: u32,
     },
-    /// The Levenberg parameter is raised tenfold, and lowered tenfold after success.
+    /// The Levenberg parameter is multiplied by 10, and divided by 10 after a success.
     Levenberg {
         /// First parameter, > 0.
         initial: f64,
-        /// Most increases for one step.
+        /// Largest number of increases in one step.
         most: u32,
     },
 }
 
-/// When the iteration has succeeded, and when it has failed.
+/// The criteria of success and failure of the iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// Largest residual norm of a solution.
     pub residual_tolerance: f64,
-    /// Largest norm of the last full step; infinite if only the residual counts.
+    /// Largest norm of the last full step; infinite if only the residual is tested.
     pub step_tolerance: f64,
-    /// Most steps.
+    /// Largest number of steps.
     pub max_iterations: usize,
-    /// Damping.
+    /// The damping of steps.
     pub damping: Damping,
 }
 
 impl Default for Options {
-    /// 1e-10 for residual and step, 50 steps, 20 halvings.
+    /// 1e-10 for residual and step, 50 steps and 20 halvings.
     fn default() -> Self {
         Self {
             residual_tolerance: 1e-10,
@@ -99,37 +98,37 @@ impl Default for Options {
     }
 }
 
-/// One iteration.
+/// The record of one iteration.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Record {
     /// Number of steps taken so far; 0 is the start.
     pub iteration: usize,
-    /// ‖F‖ after them.
+    /// ‖F‖ after these steps.
     pub residual_norm: f64,
-    /// Norm of the last step before it was shortened; 0 at the start.
+    /// Norm of the last full step; 0 at the start.
     pub step_norm: f64,
-    /// Part of it that was taken, or the Levenberg parameter; 1 or the initial one at the start.
+    /// Fraction of the step that was taken, or the Levenberg parameter; at the start 1 or the initial parameter.
     pub damping: f64,
 }
 
-/// How an iteration ended.
+/// The outcome of an iteration.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Outcome {
-    /// Residual and step are below their tolerances, or the residual was from the start.
+    /// Residual and step are below their tolerances, or the residual was below its tolerance at the start.
     Converged,
-    /// No step lowers the residual: x is at or near a local minimum of ‖F‖, or the Jacobian is wrong.
+    /// No step reduces the residual: x is at or near a local minimum of ‖F‖, or the Jacobian is wrong.
     Stalled,
-    /// Still on its way.
+    /// The largest number of steps was reached before convergence.
     MaxIterations,
-    /// Residual at the start, or a step, is not finite.
+    /// The residual at the start or a step is not finite.
     NotFinite,
 }
 
-/// Part of ‖F‖ by which a full step must lower it (Armijo); small, since a Gauss–Newton step towards a minimum
-/// that is not zero lowers it little.
+/// Fraction of ‖F‖ by which a full step must reduce it (Armijo). It is small, since a Gauss–Newton step towards a
+/// minimum with a nonzero residual reduces it little.
 const SUFFICIENT: f64 = 1e-6;
 
-/// Memory and record of an iteration; may be used again for problems of any size.
+/// Memory and history of an iteration. It can be used again for problems of any size.
 #[derive(Clone, Debug, Default)]
 pub struct Newton {
     residual: Vec<f64>,
@@ -139,7 +138,7 @@ pub struct Newton {
     history: Vec<Record>,
 }
 
-/// A step, or the reason for its failure.
+/// The accepted step, or the reason why there is none.
 enum Search {
     Found(Record),
     None,
@@ -147,12 +146,12 @@ enum Search {
 }
 
 impl Newton {
-    /// Without memory yet.
+    /// Allocates nothing.
     pub fn new() -> Self {
         Self::default()
     }
 
-    /// The iterations of the last call, the start first.
+    /// The iterations of the last call, beginning with the start.
     pub fn history(&self) -> &[Record] {
         &self.history
     }
@@ -162,15 +161,14 @@ impl Newton {
         &self.residual
     }
 
-    /// Improves `x` until F(x) = 0 to the tolerances. Afterwards x is the last accepted iterate, whatever
-    /// the outcome, and never worse than the start; a start that already satisfies the residual
-    /// tolerance is returned untouched.
+    /// Iterates `x` until F(x) = 0 within the tolerances. Afterwards x is the last accepted iterate, whatever the
+    /// outcome, and never worse than the start. A start that already satisfies the residual tolerance is not changed.
     ///
     /// # Errors
     /// The error of the equations.
     ///
     /// # Panics
-    /// If `x` has another length than the unknowns.
+    /// If the length of `x` is not the number of unknowns.
     pub fn solve<E: Equations>(
         &mut self,
         equations: &mut E,
@@ -219,7 +217,7 @@ impl Newton {
         self.history.clear();
     }
 
-    /// Searches a step that reduces the residual; the result is in `trial` and `trial_residual`.
+    /// Searches for a step that reduces the residual. The result is in `trial` and `trial_residual`.
     fn search<E: Equations>(
         &mut self,
         equations: &mut E,
@@ -255,7 +253,7 @@ impl Newton {
         Ok(Search::None)
     }
 
-    /// Residual norm after part of the step.
+    /// The residual norm after a fraction `part` of the step.
     fn try_part<E: Equations>(
         &mut self,
         equations: &mut E,
@@ -270,7 +268,7 @@ impl Newton {
     }
 }
 
-/// Whether the iteration ends after a step: solved, or with a residual that no longer falls.
+/// Whether the iteration ends after a step, because it has converged or the residual no longer decreases.
 fn judge(options: &Options, last: &Record, found: &Record) -> Option<Outcome> {
     if found.step_norm > options.step_tolerance {
         return None;

@@ -1,28 +1,28 @@
-//! Elimination order: minimum degree, with one set of unknowns kept before the rest.
+//! Elimination order by minimum degree, with one set of unknowns eliminated before the rest.
 //!
-//! In the augmented matrix [M Φᵀ; Φ 0] every coordinate is eliminated before any constraint row, so
-//! that the rows meet their pivots as the Schur complement -Φ M⁻¹ Φᵀ, which is definite for a
-//! full-rank Φ: no pivot can fail. An order free to mix the two sets would lose digits.
+//! In the augmented matrix [M Φᵀ; Φ 0] every coordinate is eliminated before any constraint row. The pivots of the
+//! rows are then those of the Schur complement -Φ M⁻¹ Φᵀ, which is definite if Φ has full rank, so that no pivot can
+//! vanish. An order that mixes the two sets would lose digits.
 //!
-//! Within a set: approximate external minimum degree on the quotient graph (Amestoy, Davis and Duff,
-//! *An approximate minimum degree ordering algorithm*, SIAM J. Matrix Anal. Appl. 17 (1996) 886),
-//! without supervariable detection, since the caller names the blocks.
+//! Within a set, the order is that of approximate external minimum degree on the quotient graph (Amestoy, Davis and
+//! Duff, *An approximate minimum degree ordering algorithm*, SIAM J. Matrix Anal. Appl. 17 (1996) 886).
+//! Supervariables are not detected, since the caller defines the blocks.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-/// Order in which the `n` unknowns are eliminated: the first `n_first` before the others.
+/// Order in which the `n` unknowns are eliminated, the first `n_first` before the others.
 ///
-/// `entries` are the structural positions of one triangle, as for [`Pattern`]. `blocks` holds the
-/// first index of each block of unknowns that stay together and in order (the coordinates of a body,
-/// the rows of a joint): ascending, beginning with 0, with `n_first` on a block boundary; `None` makes
-/// every unknown a block. Among equals the lowest index goes first: a chain is
-/// eliminated from one end, so that no pivot joins two long parts of it, which would be small by their inertia alone.
+/// `entries` are the structural positions of one triangle, as for [`Pattern`]. `blocks` contains the first index of
+/// each block of unknowns that stay together and in order (the coordinates of a body, the rows of a joint). The
+/// indices ascend and begin with 0, and `n_first` is a block boundary. With `None`, every unknown is a block. Of
+/// equal degrees, the lowest index comes first. A chain is thus eliminated from one end. Otherwise a pivot would join
+/// two long parts of the chain, and it would be small because of their inertia alone.
 ///
 /// Returns `order`, length `n`: `order[k]` is eliminated k-th. Near-linear in time for chains.
 ///
 /// # Panics
-/// If an index is outside `0..n` or `blocks` is not as described.
+/// If an index is not in `0..n`, or `blocks` is not as described.
 ///
 /// [`Pattern`]: super::Pattern
 pub fn groups_first(
@@ -50,18 +50,17 @@ pub fn groups_first(
     order
 }
 
-/// Order in which `n` blocks are eliminated: each of those from `n_first` on after all of the first
-/// `n_first` that it has an entry with, but not after the others of them.
+/// Order in which `n` blocks are eliminated. Each block from `n_first` on comes after all those of the first
+/// `n_first` blocks with which it shares an entry, but need not come after the others.
 ///
-/// For [S Gᵀ; G 0] with a definite S this is as safe as [`groups_first`]: a row of G meets its pivot as
-/// the Schur complement of those unknowns alone that its constraint touches. Where the unknowns are
-/// coupled with each other along a chain, it keeps the cost linear: with all unknowns first, G S⁻¹ Gᵀ
-/// would be dense.
+/// For [S Gᵀ; G 0] with a definite S this is as safe as [`groups_first`]. The pivot of a row of G is a Schur
+/// complement of only those unknowns that its constraint touches. If the unknowns are coupled along a chain, the cost
+/// remains linear. With all unknowns first, G S⁻¹ Gᵀ would be dense.
 ///
 /// `entries` are structural positions (block, block) of one triangle.
 ///
 /// # Panics
-/// If an index is outside `0..n`.
+/// If an index is not in `0..n`.
 pub fn touched_first(n_first: usize, n: usize, entries: &[(usize, usize)]) -> Vec<usize> {
     let starts: Vec<usize> = (0..n).collect();
     let mut graph = Graph::new(&starts, n_first, n, entries);
@@ -83,17 +82,17 @@ fn check_blocks(starts: &[usize], n_first: usize, n: usize) {
     assert!(boundary, "n_first = {n_first} cuts a block");
 }
 
-/// (not yet?, approximate degree, block): the smallest is eliminated next.
+/// (whether the block must wait, approximate degree, block). The block with the smallest key is eliminated next.
 type Key = (bool, usize, usize);
 
-/// The quotient graph: blocks not yet eliminated, and elements (cliques left by eliminated ones).
+/// The quotient graph: blocks not yet eliminated, and elements (cliques left by eliminated blocks).
 struct Graph {
     weight: Vec<usize>,
-    /// Blocks adjacent through original entries not yet covered by an element.
+    /// Blocks adjacent through original entries that no element covers yet.
     neighbours: Vec<Vec<usize>>,
-    /// Elements a block belongs to.
+    /// The elements to which a block belongs.
     elements: Vec<Vec<usize>>,
-    /// Blocks of an element; empty once the element is absorbed into a newer one.
+    /// The blocks of an element; empty once the element is absorbed into a newer element.
     members: Vec<Vec<usize>>,
     member_weight: Vec<usize>,
     absorbed: Vec<bool>,
@@ -101,11 +100,11 @@ struct Graph {
     done: Vec<bool>,
     queue: BinaryHeap<Reverse<Key>>,
     mark: Vec<usize>,
-    /// Weight of an element outside the newest one, valid where `outside_of` names that newest one.
+    /// Weight of an element outside the newest element. Valid if `outside_of` is the newest element.
     outside: Vec<usize>,
     outside_of: Vec<usize>,
-    /// The blocks of the second set that a block of the first keeps waiting, and for how many each of
-    /// them waits; empty if all wait for all.
+    /// For each block of the first set, the blocks of the second set that wait for it; and for how many blocks each
+    /// of them waits. Empty if every block of the second set waits for the whole first set.
     waiters: Vec<Vec<usize>>,
     waits_for: Vec<usize>,
 }
@@ -148,7 +147,7 @@ impl Graph {
         }
     }
 
-    /// Sets each block from `n_first` on to wait only for its own earlier neighbours.
+    /// Lets each block from `n_first` on wait only for its own neighbours in the first set.
     fn release(&mut self, n_first: usize) {
         self.waits_for = vec![0; self.weight.len()];
         self.waiters = vec![Vec::new(); n_first];
@@ -162,7 +161,7 @@ impl Graph {
         self.queue = self.key.iter().copied().map(Reverse).collect();
     }
 
-    /// The block to eliminate next; keys that have changed since they were queued are skipped.
+    /// The block to eliminate next. Outdated keys in the queue are skipped.
     fn next(&mut self) -> Option<usize> {
         while let Some(Reverse(key)) = self.queue.pop() {
             let block = key.2;
@@ -194,7 +193,7 @@ impl Graph {
         self.members[p] = members;
     }
 
-    /// The blocks adjacent to p, directly or through an element; those elements are absorbed.
+    /// The blocks adjacent to p, directly or through an element. These elements are absorbed.
     fn gather(&mut self, p: usize) -> Vec<usize> {
         self.mark[p] = p;
         let mut found = std::mem::take(&mut self.neighbours[p]);
@@ -213,7 +212,8 @@ impl Graph {
         found
     }
 
-    /// Drops what the new element p covers, and subtracts i from what other elements have outside p.
+    /// Removes the entries of i that the new element p covers, and subtracts i from the outside weights of the other
+    /// elements.
     fn detach(&mut self, i: usize, p: usize) {
         let (absorbed, mark) = (&self.absorbed, &self.mark);
         self.elements[i].retain(|&e| !absorbed[e]);
@@ -239,7 +239,7 @@ impl Graph {
     }
 }
 
-/// Sorted neighbours of each block, without itself.
+/// Sorted neighbours of each block, without the block itself.
 fn adjacency(count: usize, entries: &[(usize, usize)], block_of: &[usize]) -> Vec<Vec<usize>> {
     let mut neighbours = vec![Vec::new(); count];
     for &(row, column) in entries {

@@ -1,10 +1,10 @@
-//! The pattern of a saddle-point matrix [W Aᵀ; A -μI] and the program of its elimination, found once.
+//! The pattern of a saddle-point matrix [W Aᵀ; A -μI] and its elimination program, computed once.
 //!
-//! W is block diagonal, one block for each group of one to three unknowns. The rows of A come in blocks of one to
-//! three that touch the same groups. The matrix that is factorised is S = A W⁻¹ Aᵀ + μ I, with one block for each two
-//! row blocks that share a group, and fill (Davis, *Direct Methods for Sparse Linear Systems*, 2006, ch. 4). The
-//! program is up-looking, row by row: for every block of L it lists the products that make it, so that a block is
-//! computed in registers and written once.
+//! W is block diagonal, with one block for each group of one to three unknowns. The rows of A form blocks of one to
+//! three rows that touch the same groups. The factorised matrix S = A W⁻¹ Aᵀ + μ I has one block for each two row
+//! blocks that share a group, and fill (Davis, *Direct Methods for Sparse Linear Systems*, 2006, ch. 4). The program
+//! is up-looking, row by row. For every block of L it lists the products that contribute to the block, so that the
+//! block is computed in registers and written once.
 
 use super::condensed::{condensations, Condensation, Loads};
 use super::mass_block::kinds;
@@ -13,15 +13,15 @@ use super::storage::{is_pin_only, Source, Storage};
 use super::structure::{count_entries, group_starts, index, row_starts, Group, RowBlock};
 use super::symbolic;
 
-/// The pattern and the program, shared by any number of factors.
+/// The pattern and the program, shared by any number of matrices.
 #[derive(Clone, Debug)]
 pub struct Pattern {
     /// First unknown of each group.
     pub(super) starts: Vec<u32>,
-    /// Groups that are not condensed, with a diagonal block in W, and with a coupled one.
+    /// Groups that are not condensed, with a diagonal block of W and with a coupled one.
     pub(super) diagonal: Vec<u32>,
     pub(super) coupled: Vec<u32>,
-    /// Both.
+    /// All groups that are not condensed.
     pub(super) free: Vec<u32>,
     pub(super) condensed: Vec<Condensation>,
     /// The other row blocks at condensed groups.
@@ -30,22 +30,23 @@ pub struct Pattern {
     n_rows: usize,
     pub(super) n_entries: usize,
     pub(super) storage: Storage,
-    /// Row blocks with nothing but pin blocks, in the order of elimination.
+    /// Row blocks that consist of pin blocks only, in the order of elimination.
     pub(super) pin_rows: Vec<PinRows>,
-    /// First rows of entries of the blocks that begin with ±I, with the sign.
+    /// The first rows of entries of blocks that begin with ±I, and their signs.
     pub(super) units: Vec<(u32, f64)>,
     pub(super) program: Program,
-    /// How many numbers the factors take.
+    /// Number of values in the factors.
     pub(super) n_factors: usize,
 }
 
 impl Pattern {
-    /// For groups of unknowns and the row blocks of A; those of them to be `condensed`, by number, are pairs of rows
-    /// that touch one group alone, and no other of these touches it.
+    /// The pattern for groups of unknowns and the row blocks of A. `condensed` contains the indices of the row blocks
+    /// to be condensed. Each of these is a pair of rows at a single group, which no other condensed row block
+    /// touches.
     ///
     /// # Panics
-    /// If a row block has not 1 to 3 rows, a group does not exist or is touched twice, the entries do
-    /// not fill a list without gaps, or an index exceeds 32 bits.
+    /// If a row block does not have 1 to 3 rows, a group does not exist or is touched twice, the entries do not fill
+    /// a list without gaps, or an index exceeds 32 bits.
     pub fn new(groups: &[Group], blocks: &[RowBlock], condensed: &[usize]) -> Self {
         let (starts, n_unknowns) = group_starts(groups);
         let rows = row_starts(blocks);
@@ -81,7 +82,7 @@ impl Pattern {
         }
     }
 
-    /// Each row of three entries with its group, without those of condensed row blocks.
+    /// Each row of three entries with its group, except those of condensed row blocks.
     pub(super) fn rows_of_groups(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
         let ends = self.pin_rows.iter().flat_map(PinRows::ends).chain(&self.storage.mixed);
         let of_pins = ends.flat_map(|end| [(end.entry, end.group), (end.entry + 1, end.group)]);
@@ -89,12 +90,12 @@ impl Pattern {
         rows.chain(of_pins).map(|(entry, group)| (entry as usize, group as usize))
     }
 
-    /// The row blocks with nothing but pin blocks, in the order of elimination.
+    /// The row blocks that consist of pin blocks only, in the order of elimination.
     pub fn pin_rows(&self) -> &[PinRows] {
         &self.pin_rows
     }
 
-    /// The condensed row blocks, in the order in which they were given.
+    /// The condensed row blocks, in the given order.
     pub fn condensed(&self) -> &[Condensation] {
         &self.condensed
     }
@@ -104,7 +105,7 @@ impl Pattern {
         &self.coupled
     }
 
-    /// Number of unknowns in groups; up to two more where the last group has fewer than three.
+    /// Number of unknowns in groups, plus up to two as padding if the last group has fewer than three.
     pub fn n_unknowns(&self) -> usize {
         self.n_unknowns
     }
@@ -114,12 +115,12 @@ impl Pattern {
         self.n_rows
     }
 
-    /// Number of blocks of L below the diagonal, fill included.
+    /// Number of blocks of L below the diagonal, including fill.
     pub fn fill(&self) -> usize {
         self.program.below.len()
     }
 
-    /// Number of products of blocks in one elimination.
+    /// Number of block products in one elimination.
     pub fn n_products(&self) -> usize {
         self.program.pairs.len() + self.program.updates.len()
     }
@@ -128,9 +129,9 @@ impl Pattern {
 /// The row blocks that are not condensed.
 struct Remaining {
     blocks: Vec<RowBlock>,
-    /// The first row of each.
+    /// The first row of each block.
     rows: Vec<usize>,
-    /// Their places among all.
+    /// Their indices among all row blocks.
     numbers: Vec<u32>,
 }
 
@@ -147,7 +148,7 @@ impl Remaining {
     }
 }
 
-/// First rows of entries of the blocks that begin with ±I, with the sign.
+/// The first rows of entries of blocks that begin with ±I, and their signs.
 fn units(blocks: &[RowBlock]) -> Vec<(u32, f64)> {
     let of = |block: &RowBlock| {
         let firsts = block.touches.iter().map(|(_, first)| index(first / 3));

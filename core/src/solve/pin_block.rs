@@ -1,13 +1,13 @@
-//! Pairs of rows [±I b] of A in one group, such as those of a revolute joint: products with W⁻¹ need few numbers.
+//! Pairs of rows [±I b] of A at one group, such as those of a revolute joint. Their products with W⁻¹ need few
+//! numbers.
 //!
-//! With W⁻¹ = diag(d₀⁻¹, d₁⁻¹, 0) + d₂⁻¹ e eᵀ, the product with another such pair is ±diag(d₀⁻¹, d₁⁻¹) + d₂⁻¹ ρ ρ′ᵀ,
-//! where ρ = [±I b] e. The functions are generic in the size of blocks for the sake of their callers; they are
-//! meant for two rows.
+//! With W⁻¹ = diag(d₀⁻¹, d₁⁻¹, 0) + d₂⁻¹ e eᵀ, the product with another pair is ±diag(d₀⁻¹, d₁⁻¹) + d₂⁻¹ ρ ρ′ᵀ, where
+//! ρ = [±I b] e. The functions are generic in the block size because their callers are; they are meant for two rows.
 
 use super::mass_block::InverseMass;
 use crate::math::Real;
 
-/// Such a pair with the mass of its group.
+/// A pair of rows [±I b] with the mass of its group.
 #[derive(Clone, Copy, Debug)]
 pub struct PinBlock<S> {
     /// ρ.
@@ -25,7 +25,7 @@ impl<S: Real> PinBlock<S> {
         Self { along: zero, scaled: zero, translation: zero }
     }
 
-    /// Of [±I b] in a group.
+    /// The pin block of rows [±I b] at a group.
     #[inline(always)]
     pub(super) fn new(sign: f64, b: &[S; 2], mass: &InverseMass<S>) -> Self {
         let e = &mass.direction;
@@ -33,7 +33,7 @@ impl<S: Real> PinBlock<S> {
         Self { along, scaled: along.map(|r| r * mass.along), translation: mass.translation }
     }
 
-    /// target += U W⁻¹ Uᵀ, the lower triangle.
+    /// target += U W⁻¹ Uᵀ, in the lower triangle.
     #[inline(always)]
     pub(super) fn add_square<const N: usize>(&self, target: &mut [[S; N]; N]) {
         for (i, target) in target.iter_mut().enumerate() {
@@ -44,7 +44,7 @@ impl<S: Real> PinBlock<S> {
         }
     }
 
-    /// target += U W⁻¹ U′ᵀ with ρ′ of another pair; `sign` is the product of both signs.
+    /// target += U W⁻¹ U′ᵀ with ρ′ of another pair. `sign` is the product of both signs.
     #[inline(always)]
     pub(super) fn add_product<const M: usize, const N: usize>(
         &self,

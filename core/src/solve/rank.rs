@@ -1,17 +1,16 @@
 //! Numerical rank of a dense matrix, its independent rows and its left null vectors.
 //!
-//! Householder QR with pivoting on the rows, Aᵀ P = Q R (Golub and Van Loan, *Matrix Computations*, 4th
-//! ed., 5.4.2), with one change: of the rows that are still long enough the *earliest* is taken, not
-//! the longest, so that the later of two redundant joints is reported as dependent. A y with
-//! yᵀ A = 0 then is P [-R₁₁⁻¹ R₁₂; 1], made orthonormal; its nonzero components are all the rows that
-//! take part in the dependence.
+//! Householder QR factorisation with row pivoting, Aᵀ P = Q R (Golub and Van Loan, *Matrix Computations*, 4th ed.,
+//! 5.4.2), with one change. Of the rows that are long enough it chooses the *earliest* instead of the longest, so
+//! that the later of two redundant joints is reported as dependent. A vector y with yᵀ A = 0 is then P [-R₁₁⁻¹ R₁₂;
+//! 1], orthonormalised. Its nonzero components are the rows that take part in the dependence.
 //!
 //! Rows should have comparable length ([`normalize_rows`]). The cost is O(m n rank).
 
-/// Relative tolerance for rows of length 1 whose entries carry rounding errors only.
+/// Relative tolerance for rows of length 1 whose entries contain only rounding errors.
 pub const RANK_TOLERANCE: f64 = 1e-9;
 
-/// Part of the largest remainder a row must keep to be taken before longer ones.
+/// Smallest remainder, as a fraction of the largest, with which a row is chosen before longer rows.
 const LONG_ENOUGH: f64 = 0.1;
 
 /// Dependence of the rows of a matrix.
@@ -19,34 +18,34 @@ const LONG_ENOUGH: f64 = 0.1;
 pub struct Rank {
     /// Numerical rank.
     pub rank: usize,
-    /// Independent rows, in the order they were taken; length rank.
+    /// Independent rows, in the order in which they were chosen; length rank.
     pub independent: Vec<usize>,
     /// The other rows, ascending.
     pub dependent: Vec<usize>,
-    /// Orthonormal basis of the left null space, (m - rank) vectors of length m; the k-th has its part
-    /// in `dependent[k]` and in none of the later ones.
+    /// Orthonormal basis of the left null space, (m - rank) vectors of length m. Of the dependent rows, the k-th
+    /// vector contains `dependent[k]` and possibly earlier ones.
     pub left_null: Vec<Vec<f64>>,
-    /// |r_kk|: what was left of each independent row when it was taken; of the order of the singular
+    /// |r_kk|: the remainder of each independent row when it was chosen. The values are of the order of the singular
     /// values, but not sorted.
     pub kept: Vec<f64>,
-    /// Remainder of the largest dependent row, 0 without any.
+    /// Remainder of the largest dependent row; 0 without dependent rows.
     pub dropped: f64,
 }
 
 impl Rank {
-    /// Smallest remainder kept over largest dropped: large if the rank is beyond doubt (infinite at
-    /// full rank or with exact dependence), near 1 if the tolerance decided it.
+    /// The smallest kept remainder divided by the largest dropped one. It is large if the rank is beyond doubt
+    /// (infinite for full rank or exact dependence), and near 1 if the tolerance decided it.
     pub fn gap(&self) -> f64 {
         let least = self.kept.iter().copied().fold(f64::INFINITY, f64::min);
         least / self.dropped
     }
 }
 
-/// Divides each row of the row-major `matrix` with `columns` columns by its Euclidean length and returns
-/// the lengths; a row of zeros stays.
+/// Divides each row of the row-major `matrix` with `columns` columns by its Euclidean length. A row of zeros is not
+/// changed. Returns the lengths.
 ///
 /// # Panics
-/// If the matrix has no whole number of rows.
+/// If the matrix does not have a whole number of rows.
 pub fn normalize_rows(matrix: &mut [f64], columns: usize) -> Vec<f64> {
     count_rows(matrix, columns);
     let rows = matrix.chunks_exact_mut(columns.max(1));
@@ -60,11 +59,11 @@ pub fn normalize_rows(matrix: &mut [f64], columns: usize) -> Vec<f64> {
     .collect()
 }
 
-/// Rank of the row-major `matrix` with `columns` columns: rows whose remainder is at most `tolerance`
-/// times the length of the longest row are dependent (default: [`RANK_TOLERANCE`]).
+/// Rank of the row-major `matrix` with `columns` columns. A row is dependent if its remainder is at most `tolerance`
+/// times the length of the longest row (default: [`RANK_TOLERANCE`]).
 ///
 /// # Panics
-/// If the matrix has no whole number of rows, or an entry is not finite.
+/// If the matrix does not have a whole number of rows, or an entry is not finite.
 pub fn rank(matrix: &[f64], columns: usize, tolerance: f64) -> Rank {
     assert!(matrix.iter().all(|a| a.is_finite()), "a finite matrix");
     let m = count_rows(matrix, columns);
@@ -113,7 +112,7 @@ fn length(x: &[f64]) -> f64 {
     largest * x.iter().map(|v| (v / largest) * (v / largest)).sum::<f64>().sqrt()
 }
 
-/// The reflection that leaves of row `pivot` only component k beyond the first k, done to the `left`.
+/// Applies to the rows `left` the reflection that makes all components of row `pivot` after the k-th zero.
 fn reflect(rows: &mut [Vec<f64>], pivot: usize, left: &[usize], k: usize) {
     let mut v = rows[pivot][k..].to_vec();
     let beta = -length(&v).copysign(v[0]);
@@ -129,7 +128,7 @@ fn reflect(rows: &mut [Vec<f64>], pivot: usize, left: &[usize], k: usize) {
     rows[pivot][k] = beta;
 }
 
-/// Four sums, so that they are added at the same time.
+/// The scalar product, as four sums that are computed in parallel.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
     let (fours, others) = (a.chunks_exact(4), b.chunks_exact(4));
     let last = fours.remainder().iter().zip(others.remainder()).map(|(a, b)| a * b).sum::<f64>();
@@ -142,15 +141,15 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
     sums.iter().sum::<f64>() + last
 }
 
-/// For each dependent row d the y with y_d = 1 and, over the independent rows, R₁₁ y = -r_d; then
-/// Gram–Schmidt, twice for orthogonality to rounding.
+/// For each dependent row d, the y with y_d = 1 that satisfies R₁₁ y = -r_d over the independent rows. Gram–Schmidt
+/// follows, twice for orthogonality to rounding.
 fn left_null(rows: &[Vec<f64>], independent: &[usize], dependent: &[usize]) -> Vec<Vec<f64>> {
     let mut basis: Vec<Vec<f64>> = Vec::with_capacity(dependent.len());
     for &d in dependent {
         let mut y = vec![0.0; rows.len()];
         y[d] = 1.0;
         for k in (0..independent.len()).rev() {
-            // row k of R₁₁ is component k of the independent rows from the k-th on
+            // row k of R₁₁ consists of component k of the independent rows from the k-th on
             let later: f64 = independent[k + 1..].iter().map(|&i| rows[i][k] * y[i]).sum();
             let i = independent[k];
             y[i] = -(rows[d][k] + later) / rows[i][k];

@@ -1,10 +1,10 @@
 //! The elimination program: records in the order in which they are used.
 //!
-//! Each kind of record has one list. The elimination reads it from its first record to its last, the substitution
-//! backwards; a record has the number of records of the next list that belong to it. Nothing is looked up, so that
-//! long lists stream from memory.
+//! Each kind of record has one list. The elimination reads the list forward, the substitution backward. A record
+//! contains the number of records of the next list that belong to it. This requires no look-ups, so that long lists
+//! are read sequentially from memory.
 
-/// All records.
+/// The lists of all records.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Program {
     /// Row blocks with their diagonal blocks, except those in [`PinRows`].
@@ -15,18 +15,18 @@ pub(super) struct Program {
     pub left: Vec<Left>,
     pub pairs: Vec<Pair>,
     pub updates: Vec<Update>,
-    /// The blocks of `left` once more, column by column.
+    /// The blocks of `left` again, column by column.
     pub below: Vec<Below>,
 }
 
-/// A row block with pin blocks only: rows [±I b] at one or two groups.
+/// A row block that consists of pin blocks only: rows [±I b] at one or two groups.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PinRows {
-    /// Its place among the row blocks.
+    /// Index among the row blocks.
     pub block: u32,
-    /// The first of its rows.
+    /// The first row of the row block.
     pub row: u32,
-    /// Where its diagonal block is stored among the factors.
+    /// Index of its diagonal block among the factors.
     pub(super) diagonal: u32,
     /// Number of groups.
     count: u32,
@@ -34,7 +34,7 @@ pub struct PinRows {
 }
 
 impl PinRows {
-    /// With its place among all row blocks, and its first row.
+    /// From the index among all row blocks and the record of the row.
     pub(super) fn new(touches: &[Touch], block: u32, row: &Row) -> Self {
         let mut ends = [PinEnd::default(); 2];
         ends.iter_mut().zip(touches).for_each(|(end, touch)| *end = PinEnd::new(touch));
@@ -52,14 +52,14 @@ impl PinRows {
 /// A pin block.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct PinEnd {
-    /// Its place among the pin blocks.
+    /// Index among the pin blocks.
     pub(super) pin: u32,
     /// The first of its two rows of three entries.
     pub(super) entry: u32,
-    /// Its group, and the first unknown of that.
+    /// Its group, and the first unknown of the group.
     pub(super) group: u32,
     pub(super) at: u32,
-    /// Of the unit block.
+    /// Sign of the unit block.
     pub sign: f64,
 }
 
@@ -70,59 +70,59 @@ impl PinEnd {
     }
 }
 
-/// A row block, and its diagonal block of S.
+/// A row block and its diagonal block of S.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Start {
-    /// The first of its rows.
+    /// The first row of the row block.
     pub row: u32,
-    /// Where the diagonal block is stored among the factors.
+    /// Index of the diagonal block among the factors.
     pub diagonal: u32,
-    /// Number of groups touched.
+    /// Number of groups that the row block touches.
     pub touches: u32,
     pub size: u32,
 }
 
-/// One row of blocks of L, and the column that begins with its diagonal block.
+/// One block row of L, and the block column that begins with its diagonal block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Row {
-    /// First of the rows of its row block.
+    /// The first row of its row block.
     pub row: u32,
-    /// Where the diagonal block is stored among the factors.
+    /// Index of the diagonal block among the factors.
     pub diagonal: u32,
-    /// Number of blocks left of its diagonal block.
+    /// Number of blocks left of the diagonal block.
     pub left: u32,
-    /// Number of blocks below it.
+    /// Number of blocks below the diagonal block.
     pub below: u32,
-    /// Rows of its row block.
+    /// Number of rows of its row block.
     pub size: u8,
-    /// Whether it has nothing but pin blocks, and the blocks left of it and below have two rows and columns.
+    /// Whether it consists of pin blocks only, and all blocks left of and below its diagonal block are 2 × 2.
     pub pins: bool,
 }
 
 /// A group that a row block touches.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Touch {
-    /// First row of U, or the pin block.
+    /// First row of U, or index of the pin block.
     pub first: u32,
     /// The first row of three entries.
     pub entry: u32,
     pub group: u32,
     /// The first unknown of the group.
     pub at: u32,
-    /// Of the unit block of a pin block; 0 for rows of U.
+    /// Sign of the unit block of a pin block; 0 for rows of U.
     pub sign: f32,
 }
 
 /// A block of L left of a diagonal block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Left {
-    /// Where it begins among the factors, and the diagonal block of its column.
+    /// Index of the block among the factors, and of the diagonal block of its column.
     pub block: u32,
     pub diagonal: u32,
-    /// First row, and size, of the row block eliminated there.
+    /// First row and size of the row block eliminated in this column.
     pub row: u32,
     pub size: u32,
-    /// Number of groups shared with it.
+    /// Number of groups that both row blocks share.
     pub pairs: u32,
     /// Number of products subtracted from the block.
     pub updates: u32,
@@ -131,7 +131,7 @@ pub(super) struct Left {
 /// A block of L below the diagonal.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Below {
-    /// Where it begins among the factors.
+    /// Index of the block among the factors.
     pub block: u32,
     /// First row and size of its row block.
     pub row: u32,
@@ -141,23 +141,23 @@ pub(super) struct Below {
 /// Two row blocks in a group that they share.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Pair {
-    /// First rows of U, or pin blocks: of the row's row block, of the column's.
+    /// First rows of U, or indices of pin blocks: of the block's row, then of its column.
     pub first: [u32; 2],
     /// Product of the signs of two pin blocks; 0 for rows of U.
     pub sign: f64,
 }
 
-/// Two blocks of an earlier column whose product is subtracted.
+/// Two blocks of an earlier column whose product is subtracted from a block.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Update {
-    /// In the row of the block that is computed, and in the row of that block's column.
+    /// The blocks in the row of the computed block and in the row of its column.
     pub blocks: [u32; 2],
     /// The diagonal block of the earlier column, and its size.
     pub diagonal: u32,
     pub size: u32,
 }
 
-/// The records of blocks left of the diagonal that are still to be read.
+/// The records of blocks left of the diagonal that have not been read yet.
 #[derive(Clone, Debug)]
 pub(super) struct Ahead<'a> {
     pub left: &'a [Left],

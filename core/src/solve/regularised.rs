@@ -1,16 +1,16 @@
-//! Regularised factors of [W Aᵀ; A -μI] where rows of A come near to dependence (Tikhonov).
+//! Regularised factors of [W Aᵀ; A -μI] where rows of A are nearly dependent (Tikhonov).
 //!
-//! Where a pivot of S = A W⁻¹ Aᵀ falls below [`NEAR`] S_kk, there are two possible causes. Either W is uneven: a light
-//! body between heavy ones has small pivots in every position. Then the factor is as good as any. Or A itself is
-//! near to losing rank. The Gram matrix of A in a metric without masses decides: each body has the same mass, and
-//! the arm of its farthest row as radius of gyration. If that has a small pivot as well,
+//! A pivot of S = A W⁻¹ Aᵀ below [`NEAR`] S_kk has two possible causes. The first is an uneven W: a light body
+//! between heavy bodies has small pivots in every position, and the factor is accurate. The second is that A itself
+//! is nearly rank deficient. To decide, the Gram matrix of A is factorised with uniform masses: each body has unit
+//! mass, and the arm of its farthest row as radius of gyration. If this matrix has a small pivot as well,
 //!
 //! ```text
 //! S + ε² diag S,   ε² = ridge
 //! ```
 //!
-//! is factorised instead: multipliers along a left singular vector of the singular value σ (relative to
-//! the rows) are those of A times σ² / (σ² + ε²), so they stay bounded, and vanish with σ.
+//! is factorised instead. Multipliers along a left singular vector with the singular value σ (relative to the rows)
+//! are multiplied by σ² / (σ² + ε²). They stay bounded, and vanish with σ.
 
 use super::breakdown::Breakdown;
 use super::mass_block::{dot, InverseMass, PIVOT_TOLERANCE};
@@ -18,21 +18,21 @@ use super::pattern::Pattern;
 use super::saddle::Saddle;
 use crate::math::Real;
 
-/// Pivots below this part of S_kk are examined: σ below about 0.05.
+/// Pivots below this fraction of S_kk are examined; this corresponds to σ below about 0.05.
 const NEAR: f64 = 2e-3;
-/// In long chains, rounding errors of far positions add up: the part grows by itself with so many groups,
+/// Number of groups after which [`NEAR`] is doubled, since rounding errors accumulate in long chains.
 const LONG: f64 = 1e3;
-/// up to this multiple.
+/// Largest factor by which [`NEAR`] is increased in long chains.
 const FARTHEST: f64 = 2.5;
 
 impl<S: Real> Saddle<S> {
-    /// Refuses pivots below 2e-3 of S_kk from now on, below 5e-3 in long chains, so that the caller can turn to
-    /// [`factor_regularised`](Self::factor_regularised).
+    /// From now on, refuses pivots below 2e-3 of S_kk, and below 5e-3 in long chains, so that the caller can call
+    /// [`factor_regularised`](Self::factor_regularised) instead.
     pub fn refuse_near(&mut self) {
         self.least = NEAR * (1.0 + self.masses.len() as f64 / LONG).min(FARTHEST);
     }
 
-    /// Factorises a matrix that [`factor`](Self::factor) has refused; whether with the ridge.
+    /// Factorises a matrix that [`factor`](Self::factor) has refused. Returns whether the ridge was added.
     ///
     /// # Errors
     /// As [`factor`](Self::factor), with [`PIVOT_TOLERANCE`].
@@ -49,8 +49,8 @@ impl<S: Real> Saddle<S> {
         outcome.map(|()| geometric)
     }
 
-    /// Unit masses; radii of gyration such that no row turns its body more than it moves it, along e for condensed
-    /// groups.
+    /// Unit masses, with radii of gyration such that no row turns its body more than it moves it. Condensed groups
+    /// have a unit mass along e.
     fn even_masses(&self, pattern: &Pattern) -> Vec<InverseMass<S>> {
         let (zero, one) = (S::zero(), S::one());
         let mut even = vec![InverseMass::diagonal([one; 3]); self.masses.len()];

@@ -1,14 +1,14 @@
-//! Solving [W Aᵀ; A -μI] [x; λ] = [f; g] by its Schur complement, block by block on a static pattern.
+//! Solves [W Aᵀ; A -μI] [x; λ] = [f; g] with the Schur complement, block by block on a static pattern.
 //!
-//! The complement is the Gram matrix S = A W⁻¹ Aᵀ + μ I of the rows of A, in the scalar product of W⁻¹:
+//! The Schur complement is the Gram matrix S = A W⁻¹ Aᵀ + μ I of the rows of A, in the scalar product of W⁻¹:
 //!
 //! ```text
 //! S λ = A W⁻¹ f - g,   x = W⁻¹ (f - Aᵀ λ),   S = L D Lᵀ
 //! ```
 //!
-//! W⁻¹ = diag(d₀⁻¹, d₁⁻¹, 0) + d₂⁻¹ e eᵀ, group by group, so that S is a sum of products without cancellation on its
-//! diagonal. A pivot d of S is judged by that sum: it is refused when d ≤ [`PIVOT_TOLERANCE`] S_kk. A dependent row of A
-//! leaves a ratio near 1e-16 whatever its scale; a mechanism near a singular position leaves a small one, which
+//! With W⁻¹ = diag(d₀⁻¹, d₁⁻¹, 0) + d₂⁻¹ e eᵀ for each group, the diagonal of S is a sum without cancellation. A
+//! pivot d of S is compared with this sum, and refused if d ≤ [`PIVOT_TOLERANCE`] S_kk. A dependent row of A leaves a
+//! ratio near 1e-16, whatever its scale. A mechanism near a singular position leaves a small ratio, which
 //! [`Saddle::cancellation`] returns.
 
 use super::block::{
@@ -23,36 +23,37 @@ use super::pin_block::PinBlock;
 use super::records::{next, Ahead, Left, Row, Update};
 use crate::math::Real;
 
-/// Smallest pivot of all: its inverse is still a number, and that of a matrix with NaN or inf is refused.
+/// Smallest accepted pivot. Its inverse is finite. Pivots of a matrix with NaN or inf are refused.
 const LEAST_PIVOT: f64 = 1e-300;
 
-/// A matrix and its factors; all memory is taken in [`Saddle::new`]. The table in [`solve`](super) describes every array.
+/// A matrix and its factors. All memory is allocated in [`Saddle::new`]. The table in [`solve`](super) describes
+/// every array.
 ///
 /// The matrix must not change between a factorisation and the solutions that use it.
 #[derive(Clone, Debug)]
 pub struct Saddle<S> {
-    /// W⁻¹, one for each group.
+    /// W⁻¹, one block for each group.
     pub masses: Vec<InverseMass<S>>,
     /// W of the condensed groups.
     pub condensed: Vec<CondensedGroup<S>>,
-    /// Entries of A in rows of three, as the pattern places them.
+    /// Entries of A in rows of three, in the places that the pattern assigns.
     pub entries: Vec<[S; 3]>,
-    /// μ, one for each row; empty for none. Condensed rows are not damped.
+    /// μ of each row; empty if zero. Condensed rows are not damped.
     pub damping: Vec<S>,
-    /// Smallest ratio of a pivot to S_kk that is accepted; [`PIVOT_TOLERANCE`] at first.
+    /// Smallest accepted ratio of a pivot to S_kk; [`PIVOT_TOLERANCE`] by default.
     pub(super) least: f64,
-    /// Part of S_kk that is added to it, 0 at first.
+    /// Fraction of S_kk that is added to the diagonal; 0 by default.
     pub(super) ridge: f64,
     /// The pairs of rows [±I b].
     pub(super) pins: Vec<PinBlock<S>>,
-    /// The other rows of A, transformed.
+    /// The other rows of A, transformed by W⁻¹.
     pub(super) u: Vec<TransformedRow<S>>,
-    /// For each row of blocks L D of those left of the diagonal, then its diagonal block.
+    /// For each block row, the blocks L D left of the diagonal and then the diagonal block.
     pub(super) factors: Vec<S>,
 }
 
 impl<S: Real> Saddle<S> {
-    /// Memory for matrices of the given pattern: W = I, A = 0 except for the unit blocks, μ = 0.
+    /// A matrix of the given pattern with W = I, A = 0 except for the unit blocks, and μ = 0.
     pub fn new(pattern: &Pattern) -> Self {
         let (zero, one, none) = (S::zero(), S::one(), [S::zero(); 3]);
         let mut entries = vec![none; pattern.n_entries];
@@ -75,32 +76,32 @@ impl<S: Real> Saddle<S> {
         }
     }
 
-    /// Factorises.
+    /// Factorises the matrix.
     ///
     /// # Errors
-    /// The first pivot that is not positive, not finite or cancelled below [`PIVOT_TOLERANCE`] (in any
-    /// lane); the factor must then not be used.
+    /// The first pivot that is not positive, not finite or below [`PIVOT_TOLERANCE`] after cancellation (in any
+    /// lane). The factors must then not be used.
     ///
     /// # Panics
-    /// If the matrix is of another pattern.
+    /// If the matrix has another pattern.
     pub fn factor(&mut self, pattern: &Pattern) -> Result<(), Breakdown> {
         self.reduce_all(pattern);
         self.check(pattern)?;
         self.factor_reduced(pattern)
     }
 
-    /// The same once condensed groups are reduced.
+    /// Factorises the matrix after the condensed groups are reduced.
     pub(super) fn factor_reduced(&mut self, pattern: &Pattern) -> Result<(), Breakdown> {
         self.put_other_rows(pattern);
         self.put_all_pin_rows(pattern);
         self.eliminate::<false>(pattern, &mut []).map_err(Breakdown::Row)
     }
 
-    /// Factorises as [`factor`](Self::factor) and solves as [`solve`](Self::solve). The right side is
-    /// eliminated beside the blocks, which hides that half of the solution behind their latency.
+    /// Factorises as [`factor`](Self::factor) and solves as [`solve`](Self::solve). The right side is eliminated
+    /// together with the blocks, which hides this half of the solution behind their latency.
     ///
     /// # Errors
-    /// As [`factor`](Self::factor); `x` is then lost.
+    /// As [`factor`](Self::factor). `x` is then invalid.
     ///
     /// # Panics
     /// As [`factor`](Self::factor) and [`solve`](Self::solve).
@@ -112,7 +113,7 @@ impl<S: Real> Saddle<S> {
         self.finish(pattern, x)
     }
 
-    /// e of condensed groups from the entries, and what follows from it.
+    /// Computes e of the condensed groups from the entries, and the quantities that depend on e.
     fn reduce_all(&mut self, pattern: &Pattern) {
         assert_eq!(self.entries.len(), pattern.n_entries, "a matrix of this pattern");
         for (place, group) in pattern.condensed.iter().zip(&mut self.condensed) {
@@ -121,8 +122,8 @@ impl<S: Real> Saddle<S> {
         }
     }
 
-    /// The rows of the `k`-th condensation: keeps them, and turns f of their group and their right side `g` into x
-    /// for λ = 0 of all others, in `x`, and what λ of the rows follows from, which is returned.
+    /// Stores the rows of the `k`-th condensation. Replaces f of their group in `x` by x with λ = 0 in all other
+    /// rows. Returns Pᵀ f, from which λ of the rows is computed later; `g` is the right side of the rows.
     #[inline(always)]
     pub fn condense(
         &mut self,
@@ -140,17 +141,17 @@ impl<S: Real> Saddle<S> {
         g
     }
 
-    /// Solves once all condensed groups are [condensed](Self::condense), x = W⁻¹ f stands for the other groups, and
-    /// the diagonal blocks and right sides of [`Pattern::pin_rows`] are in place.
+    /// Solves after all condensed groups are [condensed](Self::condense), `x` contains W⁻¹ f for the other groups,
+    /// and the diagonal blocks and right sides of [`Pattern::pin_rows`] are stored.
     ///
     /// # Errors
-    /// As [`factor`](Self::factor); `x` is then lost.
-    #[inline(always)] // once in an evaluation
+    /// As [`factor`](Self::factor). `x` is then invalid.
+    #[inline(always)] // one call in an evaluation
     pub fn finish(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Breakdown> {
         self.put_other_rows(pattern);
         let (f, g) = x.split_at_mut(pattern.n_unknowns());
         self.put_other_right_sides(pattern, f, g);
-        // an unusable mass spoils a pivot, or else the unknowns of its group
+        // an unusable mass makes a pivot unusable, or else the unknowns of its group
         if let Err(row) = self.eliminate::<true>(pattern, g) {
             return self.check(pattern).and(Err(Breakdown::Row(row)));
         }
@@ -159,7 +160,7 @@ impl<S: Real> Saddle<S> {
         Ok(())
     }
 
-    /// Whether every pivot of W is usable.
+    /// Checks that every pivot of W is usable.
     fn check(&self, pattern: &Pattern) -> Result<(), Breakdown> {
         let useless = |group: u32| !is_usable(self.masses[group as usize].along);
         let mut rows = pattern.condensed.iter().filter(|place| place.sign == 0.0);
@@ -169,10 +170,10 @@ impl<S: Real> Saddle<S> {
         }
     }
 
-    /// The row whose pivot was cancelled most, and its ratio d / S_kk: 1 means nothing was lost, 1e-10
-    /// that ten digits were. `None` without rows.
+    /// The row whose pivot has lost most digits by cancellation, and its ratio d / S_kk. A ratio of 1 means that no
+    /// digits were lost, 1e-10 that ten were. `None` without rows.
     pub fn cancellation(&self, pattern: &Pattern) -> Option<(usize, f64)> {
-        // S_kk / d, of which the largest is sought: one division
+        // searches for the largest S_kk / d, so that only one division is needed
         let mut worst = None;
         for row in &pattern.program.rows {
             let (first, size) = (row.row as usize, usize::from(row.size));
@@ -187,7 +188,7 @@ impl<S: Real> Saddle<S> {
         worst.map(|(row, lost)| (row, 1.0 / lost))
     }
 
-    /// The same ratio in each lane; 1 without rows.
+    /// The smallest ratio d / S_kk in each lane; 1 without rows.
     pub fn cancellations(&self, pattern: &Pattern) -> S {
         let mut worst = S::one();
         for row in &pattern.program.rows {
@@ -200,8 +201,8 @@ impl<S: Real> Saddle<S> {
         S::one() / worst
     }
 
-    /// Row by row; with `RHS` the right side as well. The error is the row that depends on others.
-    #[inline(never)] // with few pointers, most of them stay in registers
+    /// Eliminates row by row, with `RHS` also the right side. The error is the row that depends on other rows.
+    #[inline(never)] // with few pointers, most of them remain in registers
     fn eliminate<const RHS: bool>(&mut self, pattern: &Pattern, g: &mut [S]) -> Result<(), usize> {
         let mut ahead = pattern.program.ahead();
         for row in &pattern.program.rows {
@@ -214,9 +215,9 @@ impl<S: Real> Saddle<S> {
         Ok(())
     }
 
-    /// A row of any kind, apart from those of pins alone; returns the records that are then ahead, so that the loop
-    /// over rows need not keep them in memory.
-    #[inline(never)] // as above
+    /// Eliminates a row that does not consist of pins only. Returns the remaining records, so that the loop over rows
+    /// need not store them in memory.
+    #[inline(never)] // as for `eliminate`
     fn mixed_row<'a, const RHS: bool>(
         &mut self,
         row: &Row,
@@ -231,7 +232,7 @@ impl<S: Real> Saddle<S> {
         .map(|()| ahead)
     }
 
-    /// One row of L, of N rows; with `PINS` one of pins alone.
+    /// Eliminates one block row with N rows. With `PINS` it consists of pins only.
     #[inline(always)]
     fn row<const N: usize, const RHS: bool, const PINS: bool>(
         &mut self,
@@ -242,7 +243,7 @@ impl<S: Real> Saddle<S> {
         let DiagonalBlock { mut s, magnitude } = DiagonalBlock::read(&self.factors, row.diagonal);
         let mut y = if RHS { *part(g, row.row) } else { [S::zero(); N] };
         if !RHS {
-            // a regularised matrix is never factorised and solved at once
+            // a regularised matrix is never factorised and solved in one call
             (0..N).for_each(|i| s[i][i] += magnitude[i] * S::constant(self.ridge));
         }
         for left in next(&mut ahead.left, row.left) {
@@ -258,14 +259,14 @@ impl<S: Real> Saddle<S> {
         if RHS {
             diagonal.forward(&mut y);
             if row.below == 0 {
-                diagonal.back(&mut y); // λ: nothing else is waited for
+                diagonal.back(&mut y); // λ, since nothing is below
             }
             *part_mut(g, row.row) = y;
         }
         self.keep(row, &diagonal, &magnitude)
     }
 
-    /// Judges and stores a diagonal block.
+    /// Checks the pivots of a diagonal block and stores it.
     #[inline(always)]
     fn keep<const N: usize>(
         &mut self,
@@ -283,8 +284,8 @@ impl<S: Real> Saddle<S> {
         Ok(())
     }
 
-    /// One block left of the diagonal, of K columns: S_ik - Σ L D Lᵀ of earlier columns, then · L_kk⁻ᵀ. Then the
-    /// diagonal block s -= (L D) Lᵀ, and with `RHS` y -= L y′.
+    /// Computes one block left of the diagonal, with K columns: S_ik - Σ L D Lᵀ over earlier columns, times L_kk⁻ᵀ.
+    /// Then updates the diagonal block, s -= (L D) Lᵀ, and with `RHS` the right side, y -= L y′.
     #[inline(always)]
     fn left<const N: usize, const K: usize, const RHS: bool, const PINS: bool>(
         &mut self,
@@ -293,7 +294,7 @@ impl<S: Real> Saddle<S> {
         g: &[S],
         (s, y): (&mut [[S; N]; N], &mut [S; N]),
     ) {
-        // transposed, as it is stored
+        // transposed, in the order of storage
         let mut block = [[S::zero(); N]; K];
         for pair in next(&mut ahead.pairs, left.pairs) {
             let [own, other] = pair.first;
@@ -321,7 +322,7 @@ impl<S: Real> Saddle<S> {
         }
     }
 
-    /// s -= ((L D) Lᵀ)ᵀ with two blocks of one earlier column, of K columns.
+    /// s -= ((L D) Lᵀ)ᵀ with two blocks of one earlier column, which has K columns.
     #[inline(always)]
     fn subtract_product<const M: usize, const N: usize, const K: usize>(
         &self,

@@ -1,8 +1,8 @@
-//! Assembly of the Schur complement S = A W⁻¹ Aᵀ + μ I and of its right side y = A W⁻¹ f - g: the diagonal blocks, before
-//! anything is eliminated, as sums over the groups that a row block touches.
+//! Assembly of the Schur complement S = A W⁻¹ Aᵀ + μ I and of its right side y = A W⁻¹ f - g. The diagonal blocks
+//! before elimination are sums over the groups that a row block touches.
 //!
-//! Row blocks are independent of each other here. Those of [`Pattern::pin_rows`] may be put in one by one by the
-//! owner, who has their numbers at hand; the others are read from the entries.
+//! The row blocks are independent of each other here. The owner may add the row blocks of [`Pattern::pin_rows`] one
+//! by one while it computes their numbers. The others are read from the entries.
 
 use super::block::{
     add, add_times, part, part_mut, subtract_transposed, DiagonalBlock, TransformedRow,
@@ -15,18 +15,18 @@ use super::saddle::Saddle;
 use super::storage::Source;
 use crate::math::Real;
 
-/// The diagonal block of S of two rows, of which the lower triangle is summed up, and their right side.
+/// The diagonal block of S of two rows, and their right side. Only the lower triangle is summed.
 #[derive(Clone, Copy, Debug)]
 pub struct PinSum<S> {
     s: [[S; 2]; 2],
-    /// What condensed groups would add to its diagonal.
+    /// The term that the condensed groups would add to the diagonal without condensation.
     held: S,
     /// y.
     pub right: [S; 2],
 }
 
 impl<S: Real> PinSum<S> {
-    /// Without groups yet: y = -g.
+    /// The sum without any group: y = -g.
     #[inline(always)]
     pub fn new(g: [S; 2]) -> Self {
         Self { s: [[S::zero(); 2]; 2], held: S::zero(), right: g.map(|g| -g) }
@@ -34,14 +34,14 @@ impl<S: Real> PinSum<S> {
 }
 
 impl<S: Real> Saddle<S> {
-    /// Puts b of rows [±I b] into the entries.
+    /// Writes b of rows [±I b] into the entries.
     #[inline(always)]
     pub fn put_pin_entries(&mut self, end: &PinEnd, b: [S; 2]) {
         let entry = end.entry as usize;
         (self.entries[entry][2], self.entries[entry + 1][2]) = (b[0], b[1]);
     }
 
-    /// Adds rows [±I b] at one group to a sum, with x = W⁻¹ f of all groups, and keeps them.
+    /// Adds rows [±I b] at one group to a sum and stores them. `x` contains W⁻¹ f of all groups.
     #[inline(always)]
     pub fn add_pin(&mut self, end: &PinEnd, b: [S; 2], x: &[S], sum: &mut PinSum<S>) {
         self.put_pin_entries(end, b);
@@ -58,7 +58,7 @@ impl<S: Real> Saddle<S> {
         self.pins[end.pin as usize] = pin;
     }
 
-    /// Stores the diagonal block of rows whose groups are all added.
+    /// Stores the diagonal block of rows after all their groups are added.
     #[inline(always)]
     pub fn put_pin_rows(&mut self, rows: &PinRows, sum: &PinSum<S>) {
         self.put(rows.row, rows.diagonal, sum.s, [sum.held; 2]);
@@ -76,7 +76,7 @@ impl<S: Real> Saddle<S> {
         block.store(&mut self.factors, diagonal);
     }
 
-    /// The rows of [`Pattern::pin_rows`] from the entries.
+    /// Computes the diagonal blocks of [`Pattern::pin_rows`] from the entries.
     pub(super) fn put_all_pin_rows(&mut self, pattern: &Pattern) {
         for rows in &pattern.pin_rows {
             let mut sum = PinSum::new([S::zero(); 2]);
@@ -93,7 +93,8 @@ impl<S: Real> Saddle<S> {
         part::<[S; 3], 2>(&self.entries, end.entry).map(|row| row[2])
     }
 
-    /// Rows of [`Pattern::pin_rows`] whose entries, and right sides in `g`, are known; with x = W⁻¹ f of all groups.
+    /// Adds rows of [`Pattern::pin_rows`] whose entries are stored and whose right sides are in `g`. `x` contains W⁻¹
+    /// f of all groups.
     pub fn put_known_pin(&mut self, rows: &PinRows, x: &[S], g: &mut [S]) {
         let g = part_mut::<S, 2>(g, rows.row);
         let mut sum = PinSum::new(*g);
@@ -104,7 +105,7 @@ impl<S: Real> Saddle<S> {
         *g = sum.right;
     }
 
-    /// The right sides y of [`Pattern::pin_rows`], into g, from the entries.
+    /// Computes the right sides y of [`Pattern::pin_rows`] from the entries into `g`.
     pub(super) fn put_right_sides_of_pins(&self, pattern: &Pattern, x: &[S], g: &mut [S]) {
         for rows in &pattern.pin_rows {
             let g = part_mut::<S, 2>(g, rows.row);
@@ -116,7 +117,7 @@ impl<S: Real> Saddle<S> {
         }
     }
 
-    /// The other row blocks: rows of U and pin blocks from the entries, then the diagonal blocks.
+    /// Computes the other row blocks: rows of U and pin blocks from the entries, then the diagonal blocks.
     #[inline(always)]
     pub(super) fn put_other_rows(&mut self, pattern: &Pattern) {
         for (Source { entry, group }, u) in pattern.storage.rows.iter().zip(&mut self.u) {
@@ -160,7 +161,7 @@ impl<S: Real> Saddle<S> {
         self.put(start.row, start.diagonal, s, held);
     }
 
-    /// Their right sides y, into g.
+    /// Computes the right sides y of the other row blocks into `g`.
     #[inline(always)]
     pub(super) fn put_other_right_sides(&self, pattern: &Pattern, x: &[S], g: &mut [S]) {
         let mut touches = &pattern.program.touches[..];
@@ -189,7 +190,7 @@ impl<S: Real> Saddle<S> {
         *g = y;
     }
 
-    /// x -= W⁻¹ Aᵀ λ over [`Pattern::pin_rows`].
+    /// x -= W⁻¹ Aᵀ λ over [`Pattern::pin_rows`], with λ in `g`.
     #[inline(always)]
     pub fn subtract_pin_rows(&self, pattern: &Pattern, x: &mut [S], g: &[S]) {
         for rows in pattern.pin_rows.iter().rev() {
@@ -202,7 +203,7 @@ impl<S: Real> Saddle<S> {
         }
     }
 
-    /// x -= W⁻¹ Aᵀ λ over the other row blocks.
+    /// x -= W⁻¹ Aᵀ λ over the other row blocks, with λ in `g`.
     #[inline(always)]
     pub(super) fn subtract_other_rows(&self, pattern: &Pattern, x: &mut [S], g: &[S]) {
         let mut touches = &pattern.program.touches[..];

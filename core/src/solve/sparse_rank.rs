@@ -1,16 +1,16 @@
-//! Dependent rows of a sparse matrix, by a QR factorisation row by row with Givens rotations (George and Heath, *Solution
-//! of sparse linear least squares problems using Givens rotations*, Linear Algebra Appl. 34 (1980) 69).
+//! Dependent rows of a sparse matrix from a row-wise QR factorisation with Givens rotations (George and Heath,
+//! *Solution of sparse linear least squares problems using Givens rotations*, Linear Algebra Appl. 34 (1980) 69).
 //!
-//! Each row is rotated against the rows of R until nothing is left of it, then it depends on the rows before it, or until
-//! a column without a row of R is reached. A dependent row does not change R, so that R is the factor of the independent
-//! rows alone. The cost is that of a sparse Cholesky factorisation of Aᵀ A.
+//! Each row is rotated with the rows of R. It becomes a new row of R at the first column that has none; if nothing
+//! remains before, it depends on the rows before it. A dependent row does not change R, so that R is the factor of
+//! the independent rows only. The cost is that of a sparse Cholesky factorisation of Aᵀ A.
 
 use std::collections::BTreeMap;
 
-/// Columns in ascending order with their entries.
+/// Columns in ascending order, with their entries.
 pub type SparseRow = Vec<(usize, f64)>;
 
-/// R of the independent rows, by the column of the first entry.
+/// R of the independent rows, indexed by the column of the first entry.
 pub struct SparseRank {
     triangle: Vec<Option<SparseRow>>,
     tolerance: f64,
@@ -19,7 +19,8 @@ pub struct SparseRank {
 }
 
 impl SparseRank {
-    /// Of rows of length 1 in order; what is left of a dependent row is at most `tolerance`. None if `stop` became true.
+    /// Factorises rows of length 1 in order. The remainder of a dependent row is at most `tolerance`. Returns None if
+    /// `stop` becomes true.
     pub fn new(
         rows: &[SparseRow],
         columns: usize,
@@ -38,7 +39,7 @@ impl SparseRank {
         Some(found)
     }
 
-    /// Adds a row to R; false if it depends on the rows before it.
+    /// Adds a row to R. Returns false if it depends on the rows before it.
     fn add(&mut self, mut row: SparseRow) -> bool {
         let mut before: Vec<(usize, SparseRow)> = Vec::new();
         loop {
@@ -60,8 +61,8 @@ impl SparseRank {
         false
     }
 
-    /// The row y of the dependence of a row d on independent rows: Σ y_k a_k = -a_d, as (k, y_k). By the corrected
-    /// seminormal equations: y = A x with Rᵀ R x = -a_d.
+    /// The coefficients of a dependent row d: Σ y_k a_k = -a_d over the independent rows, as pairs (k, y_k). They
+    /// follow from the corrected seminormal equations, y = A x with Rᵀ R x = -a_d.
     pub fn dependence(&self, rows: &[SparseRow], d: usize) -> SparseRow {
         let mut is_independent = vec![true; rows.len()];
         self.dependent.iter().for_each(|k| is_independent[*k] = false);
@@ -80,7 +81,7 @@ impl SparseRank {
         independent().filter(|k| y[*k] != 0.0).map(|k| (k, y[k])).collect()
     }
 
-    /// x with Rᵀ R x = b, zero in columns without a row of R.
+    /// The x with Rᵀ R x = b; zero in columns without a row of R.
     fn solve(&self, mut b: BTreeMap<usize, f64>) -> Vec<f64> {
         let mut x = vec![0.0; self.triangle.len()];
         while let Some((column, value)) = b.pop_first() {
@@ -100,7 +101,7 @@ impl SparseRank {
     }
 }
 
-/// Rotates two rows with the same first column, so that the second loses it.
+/// Rotates two rows with the same first column so that this entry of the second row vanishes.
 fn rotate(pivot: &SparseRow, row: &SparseRow) -> (SparseRow, SparseRow) {
     let h = pivot[0].1.hypot(row[0].1);
     let (c, s) = (pivot[0].1 / h, row[0].1 / h);

@@ -1,7 +1,8 @@
-//! The storage map: where the rows U of a [`Pattern`](super::Pattern) are stored, and the entries they come from.
+//! The storage map: where the rows U of a [`Pattern`](super::Pattern) are stored, and the entries from which they
+//! come.
 //!
-//! At groups where all row blocks are pairs [±I b], each of them is a pin block. At other groups rows are stored one
-//! by one. Both are stored in the order of elimination.
+//! At groups where all row blocks are pairs [±I b], each pair is a pin block. At other groups, rows are stored one by
+//! one. Both are stored in the order of elimination.
 
 use super::records::{PinEnd, Touch};
 use super::structure::{index, RowBlock};
@@ -11,13 +12,13 @@ use super::structure::{index, RowBlock};
 pub(super) struct Storage {
     /// The source of each row of U.
     pub rows: Vec<Source>,
-    /// The pin blocks of row blocks that have rows in U as well, or more than two groups.
+    /// The pin blocks of row blocks that also have rows in U, or touch more than two groups.
     pub mixed: Vec<PinEnd>,
     /// Number of pin blocks.
     pub n_pins: usize,
 }
 
-/// The row of three entries that a row of U comes from, and its group.
+/// The row of three entries from which a row of U comes, and its group.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Source {
     pub entry: u32,
@@ -25,7 +26,8 @@ pub(super) struct Source {
 }
 
 impl Storage {
-    /// For the `blocks` to be eliminated at groups with these first unknowns; with what each of them touches.
+    /// The storage of the `blocks` to be eliminated, and the groups that each of them touches. `starts` contains the
+    /// first unknown of each group.
     pub fn new(starts: &[usize], blocks: &[RowBlock], order: &[usize]) -> (Self, Vec<Vec<Touch>>) {
         let mut with_pins = vec![true; starts.len()];
         for block in blocks.iter().filter(|block| block.signs.is_empty()) {
@@ -43,7 +45,7 @@ impl Storage {
         (storage, touches)
     }
 
-    /// The rows of one block.
+    /// Assigns the storage of one row block.
     fn push(&mut self, block: &RowBlock, starts: &[usize], with_pins: &[bool]) -> Vec<Touch> {
         let touch = |(k, &(group, first)): (usize, &(usize, usize))| {
             let (entry, sign) =
@@ -63,7 +65,7 @@ impl Storage {
     }
 }
 
-/// Whether a row block has nothing but pin blocks, at one or two groups.
+/// Whether a row block consists of pin blocks only, at one or two groups.
 pub(super) fn is_pin_only(touches: &[Touch]) -> bool {
     (1..=2).contains(&touches.len()) && touches.iter().all(|touch| touch.sign != 0.0)
 }

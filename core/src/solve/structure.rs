@@ -1,9 +1,10 @@
-//! The structure of a saddle-point matrix [W Aᵀ; A -μI] as its owner describes it: groups of unknowns, blocks of rows.
+//! The structure of a saddle-point matrix [W Aᵀ; A -μI], as its owner describes it: groups of unknowns and blocks of
+//! rows.
 
-/// Most rows of a block, and unknowns of a group.
+/// Largest number of rows of a block, and of unknowns of a group.
 pub(super) const MOST: usize = 3;
 
-/// One to three unknowns that W couples with each other alone, such as the coordinates of a body.
+/// One to three unknowns that W couples only with each other, such as the coordinates of a body.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Group {
     /// Number of unknowns, 1 to 3.
@@ -13,7 +14,7 @@ pub struct Group {
 }
 
 impl Group {
-    /// Three unknowns.
+    /// A group of three unknowns.
     pub fn body(coupled: bool) -> Self {
         Self { size: MOST, coupled }
     }
@@ -24,18 +25,18 @@ impl Group {
 pub struct RowBlock {
     /// Number of rows, 1 to 3.
     pub size: usize,
-    /// The groups touched, each once, with the first of the entries of A there: `size` × 3 entries, row by row. The
-    /// index is a multiple of three. Groups of fewer unknowns have zeros behind their own entries.
+    /// The groups touched, each once, with the index of the first of the entries of A at this group: `size` × 3
+    /// entries, row by row. The index is a multiple of three. Groups with fewer unknowns are padded with zeros.
     pub touches: Vec<(usize, usize)>,
-    /// For two rows whose first two columns are I or -I in every group touched: the signs, one for each. Empty for
+    /// For two rows whose first two columns are I or -I in every group touched, the sign for each group. Empty for
     /// other rows.
     pub signs: Vec<f64>,
 }
 
-/// An index in 32 bits.
+/// Converts an index to 32 bits.
 ///
 /// # Panics
-/// If it needs more.
+/// If the index needs more than 32 bits.
 pub(super) fn index(i: usize) -> u32 {
     u32::try_from(i).expect("fewer than 2^32 entries")
 }
@@ -52,7 +53,7 @@ pub(super) fn row_starts(blocks: &[RowBlock]) -> Vec<usize> {
     starts
 }
 
-/// First unknown of each group, and the number of unknowns with those that pad the last group to three.
+/// First unknown of each group, and the number of unknowns including those that pad the last group to three.
 pub(super) fn group_starts(groups: &[Group]) -> (Vec<usize>, usize) {
     let (mut starts, mut next) = (Vec::with_capacity(groups.len()), 0);
     for group in groups {
@@ -68,7 +69,7 @@ pub(super) fn group_starts(groups: &[Group]) -> (Vec<usize>, usize) {
 /// Number of rows of three entries.
 ///
 /// # Panics
-/// If blocks share an entry, or leave one out.
+/// If blocks share an entry, or an entry belongs to no block.
 pub(super) fn count_entries(blocks: &[RowBlock]) -> usize {
     let touches = || blocks.iter().flat_map(|b| b.touches.iter().map(move |t| (b.size, t.1)));
     let mut owned = vec![false; touches().map(|(size, _)| size).sum()];

@@ -1,4 +1,5 @@
-//! The solution with the factors of a [`Saddle`]: forward through L, then back, then the unknowns of the groups.
+//! The solution with the factors of a [`Saddle`]: forward substitution, back substitution, then the unknowns of the
+//! groups.
 
 use super::block::{
     add_transposed, backward, columns, forward, part, part_mut, scaled, subtract_products,
@@ -10,7 +11,7 @@ use super::saddle::Saddle;
 use crate::math::Real;
 
 impl<S: Real> Saddle<S> {
-    /// Solves in place: (f, g) becomes (x, λ), shape (unknowns + rows).
+    /// Solves in place: (f, g) becomes (x, λ), of length unknowns + rows.
     ///
     /// # Panics
     /// If `x` has another length.
@@ -30,10 +31,10 @@ impl<S: Real> Saddle<S> {
         self.update_groups(pattern, f, g);
     }
 
-    /// x for λ = 0 of all rows but the condensed ones, where f was; with the right sides behind it.
+    /// Replaces f by x with λ = 0 in all rows but the condensed ones. Returns it with the right sides of the rows.
     ///
     /// # Panics
-    /// If `x` has another length than unknowns and rows together.
+    /// If the length of `x` is not the number of unknowns and rows.
     pub(super) fn begin<'a>(
         &self,
         pattern: &Pattern,
@@ -49,14 +50,14 @@ impl<S: Real> Saddle<S> {
         (f, g)
     }
 
-    /// f ← W⁻¹ f of all groups that are not condensed.
+    /// f ← W⁻¹ f for all groups that are not condensed.
     #[inline(always)]
     pub fn divide_by_masses(&self, pattern: &Pattern, f: &mut [S]) {
         for &group in &pattern.diagonal {
             let x = part_mut::<S, 3>(f, pattern.starts[group as usize]);
             let mass = &self.masses[group as usize];
             let ([d0, d1], d2) = (mass.translation, mass.along);
-            // all at once: numbers that are written as a pair are read as one
+            // in one assignment: numbers written as a pair are read as one
             *x = [x[0] * d0, x[1] * d1, x[2] * d2];
         }
         for &group in &pattern.coupled {
@@ -65,7 +66,7 @@ impl<S: Real> Saddle<S> {
         }
     }
 
-    /// x -= W⁻¹ Aᵀ λ, then λ of condensed rows.
+    /// x -= W⁻¹ Aᵀ λ, then computes λ of the condensed rows.
     #[inline(always)]
     pub(super) fn update_groups(&self, pattern: &Pattern, x: &mut [S], g: &mut [S]) {
         self.subtract_other_rows(pattern, x, g);
@@ -85,7 +86,7 @@ impl<S: Real> Saddle<S> {
         }
     }
 
-    /// y ← L⁻¹ y of one row block, or λ where nothing is below.
+    /// y ← L⁻¹ y for one row block. Computes λ if no block is below.
     fn forward<const N: usize>(&self, row: &Row, ahead: &mut Ahead<'_>, g: &mut [S]) {
         let mut y = *part::<S, N>(g, row.row);
         for left in next(&mut ahead.left, row.left) {
@@ -106,7 +107,7 @@ impl<S: Real> Saddle<S> {
         *part_mut(g, row.row) = y;
     }
 
-    /// y -= L y′ with the y′ of the column where the block stands.
+    /// y -= L y′ with y′ of the column of the block.
     #[inline(always)]
     fn subtract_known<const N: usize, const K: usize>(
         &self,
@@ -118,7 +119,7 @@ impl<S: Real> Saddle<S> {
         subtract_times(y, &scaled(&plain, part(&self.factors, diagonal)), part::<S, K>(g, row));
     }
 
-    /// λ = L⁻ᵀ D⁻¹ y; columns with nothing below have it already.
+    /// λ = L⁻ᵀ D⁻¹ y. Columns with no block below already contain λ.
     #[inline(always)]
     pub(super) fn substitute_back(&self, pattern: &Pattern, g: &mut [S]) {
         let mut below = &pattern.program.below[..];
@@ -144,13 +145,13 @@ impl<S: Real> Saddle<S> {
         }
     }
 
-    /// λ of one row block, into g; with `PINS` one of pins alone.
+    /// Computes λ of one row block into g. With `PINS` it consists of pins only.
     #[inline(always)]
     fn back<const N: usize, const PINS: bool>(&self, row: &Row, below: &[Below], g: &mut [S]) {
         let inverse = part::<S, N>(&self.factors, row.diagonal);
         let y = part::<S, N>(g, row.row);
         let mut lambda: [S; N] = std::array::from_fn(|i| y[i] * inverse[i]);
-        // the newest unknown enters last
+        // the most recent unknown comes last, to hide its latency
         for block in below.iter().rev() {
             match block.size {
                 _ if PINS => self.pull::<2, N>(block, inverse, g, &mut lambda),
@@ -163,7 +164,7 @@ impl<S: Real> Saddle<S> {
         *part_mut(g, row.row) = lambda;
     }
 
-    /// λ -= Lᵀ λ′ of a block whose rows are solved for in g.
+    /// λ -= Lᵀ λ′ with λ′ of a block, already solved for, in g.
     #[inline(always)]
     fn pull<const M: usize, const N: usize>(
         &self,

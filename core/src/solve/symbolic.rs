@@ -6,7 +6,7 @@ use super::records::{Below, Left, Pair, Program, Row, Start, Touch, Update};
 use super::storage::is_pin_only;
 use super::structure::{index, row_starts, RowBlock};
 
-/// The program with every product, row by row; and how many numbers the blocks of L take.
+/// The program with all products, row by row, and the number of values in the blocks of L.
 pub(super) fn program(
     blocks: &[RowBlock],
     first_rows: &[usize],
@@ -53,7 +53,7 @@ pub(super) fn program(
 }
 
 impl Program {
-    /// The row blocks with their diagonal blocks, except those with pin blocks only.
+    /// Adds the row blocks with their diagonal blocks, except those that consist of pin blocks only.
     fn starts(&mut self, order: &[usize], touches: &[Vec<Touch>]) {
         for (&own, row) in
             order.iter().zip(&self.rows).filter(|(own, _)| !is_pin_only(&touches[**own]))
@@ -65,7 +65,7 @@ impl Program {
     }
 }
 
-/// Two row blocks in each group that they share.
+/// Two row blocks, once for each group that they share.
 fn pairs<'a>(one: &'a [Touch], other: &'a [Touch]) -> impl Iterator<Item = Pair> + 'a {
     one.iter().filter_map(|own| {
         let partner = other.iter().find(|t| t.group == own.group)?;
@@ -74,19 +74,19 @@ fn pairs<'a>(one: &'a [Touch], other: &'a [Touch]) -> impl Iterator<Item = Pair>
     })
 }
 
-/// A block of L left of the diagonal: its column, its place below the diagonal there, and where it begins.
+/// A block of L left of the diagonal: its column, its position below the diagonal in this column, and its index.
 struct Place {
     column: usize,
     at: usize,
     block: u32,
 }
 
-/// The places of the blocks of L, row by row.
+/// The places of the blocks of L.
 struct Factors {
     diagonals: Vec<u32>,
-    /// Of each row.
+    /// The blocks of each row.
     left: Vec<Vec<Place>>,
-    /// The same blocks by column and place in it.
+    /// The indices of the same blocks, by column and position in it.
     below: Vec<Vec<u32>>,
 }
 
@@ -113,8 +113,8 @@ impl Factors {
         (Self { diagonals, left, below }, n)
     }
 
-    /// What is subtracted from each block below the diagonal, by column and place in it: products of two blocks
-    /// of an earlier column, one column after the other.
+    /// The products that are subtracted from each block below the diagonal, by column and position in it. Each is a
+    /// product of two blocks of an earlier column, one column after the other.
     fn updates(
         &self,
         blocks: &[RowBlock],
@@ -155,8 +155,8 @@ pub(super) fn order(groups: usize, blocks: &[RowBlock]) -> Vec<usize> {
     order.iter().filter_map(starting).collect()
 }
 
-/// For each column the rows of blocks below its diagonal, by place, ascending: later row blocks that share a
-/// group with it, and fill.
+/// For each column, the block rows below its diagonal in ascending order: later row blocks that share a group with
+/// it, and fill.
 pub(super) fn rows_below(groups: usize, blocks: &[RowBlock], order: &[usize]) -> Vec<Vec<usize>> {
     let mut place = vec![0; blocks.len()];
     order.iter().enumerate().for_each(|(k, &block)| place[block] = k);
@@ -174,7 +174,7 @@ pub(super) fn rows_below(groups: usize, blocks: &[RowBlock], order: &[usize]) ->
     fill(order.iter().enumerate().map(later).collect())
 }
 
-/// Adds the fill: the parent of a column is its first row, and inherits its other rows.
+/// Adds the fill. The parent of a column is its first row, and inherits its other rows.
 fn fill(mut rows: Vec<Vec<usize>>) -> Vec<Vec<usize>> {
     for k in 0..rows.len() {
         rows[k].sort_unstable();

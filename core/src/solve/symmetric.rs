@@ -1,7 +1,7 @@
-//! Dense symmetric matrices: eigenvalues and eigenvectors, and the test of definiteness.
+//! Dense symmetric matrices: eigenvalues, eigenvectors, and a test of positive definiteness.
 //!
-//! Cyclic Jacobi rotations (Golub and Van Loan, *Matrix Computations*, 4th ed., 8.5) keep small eigenvalues accurate
-//! beside large ones.
+//! Cyclic Jacobi rotations (Golub and Van Loan, *Matrix Computations*, 4th ed., 8.5) compute small eigenvalues
+//! accurately even if others are large.
 
 /// Largest number of sweeps; five to ten are usual.
 const SWEEPS: usize = 60;
@@ -11,12 +11,12 @@ const SWEEPS: usize = 60;
 pub struct Eigen {
     /// The eigenvalues, ascending.
     pub values: Vec<f64>,
-    /// The eigenvector of each.
+    /// The eigenvector of each eigenvalue.
     pub vectors: Vec<Vec<f64>>,
 }
 
 impl Eigen {
-    /// Of the symmetric part of a matrix of shape (n, n), row by row.
+    /// Eigenvalues and eigenvectors of the symmetric part of a row-major matrix of shape (n, n).
     pub fn of(matrix: &[f64], n: usize) -> Self {
         assert_eq!(matrix.len(), n * n, "a square matrix");
         let mut a: Vec<f64> =
@@ -43,7 +43,8 @@ impl Eigen {
     }
 }
 
-/// Makes the entry (p, q) zero by a rotation, unless it is small beside the diagonal. Returns whether it rotated.
+/// Makes the entry (p, q) zero by a rotation, unless it is negligible compared with the diagonal. Returns whether it
+/// rotated.
 fn rotate(a: &mut [f64], n: usize, (p, q): (usize, usize), vectors: &mut [Vec<f64>]) -> bool {
     let [app, aqq, apq] = [a[p * n + p], a[q * n + q], a[p * n + q]];
     if apq == 0.0 || apq.abs() <= 0.1 * f64::EPSILON * (app.abs() * aqq.abs()).sqrt() {
@@ -72,7 +73,7 @@ fn rotate(a: &mut [f64], n: usize, (p, q): (usize, usize), vectors: &mut [Vec<f6
     true
 }
 
-/// Whether all eigenvalues of a symmetric matrix, shape (n, n), are positive: Cholesky's factorisation succeeds.
+/// Whether a symmetric matrix of shape (n, n) is positive definite, so that its Cholesky factorisation succeeds.
 pub fn is_positive(matrix: &[f64], n: usize) -> bool {
     let mut l = matrix.to_vec();
     for k in 0..n {

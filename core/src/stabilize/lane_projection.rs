@@ -1,7 +1,8 @@
-//! Projection of several states at once, one in each lane.
+//! Projection of several states in parallel, one in each lane.
 //!
-//! Each lane goes through the iteration of [`Projector`](super::Projector) with a factor of a state nearby, and ends where
-//! that ends, so that the results are equal to the last bit. A lane that needs a factor of its own state fails.
+//! Each lane performs the iteration of [`Projector`](super::Projector) with the factor of a nearby state, and ends at
+//! the same iterate, so that the results are identical to the last bit. A lane that needs a factor of its own state
+//! fails.
 
 use super::projection::{Projection, CLOSED, MARGIN, MOST, SLOW};
 use crate::equations::{Residuals, Workspace};
@@ -10,10 +11,10 @@ use crate::model::{column_scales, row_scales, Model};
 
 const WIDTH: usize = Lanes::WIDTH;
 
-/// Whether something holds, for each lane.
+/// A Boolean for each lane.
 type Mask = [bool; WIDTH];
 
-/// A number of each lane.
+/// A number for each lane.
 type Numbers = [f64; WIDTH];
 
 /// Memory for projections of models of one structure.
@@ -28,9 +29,9 @@ pub struct LaneProjector {
     correction: Vec<Lanes>,
 }
 
-/// The course of an iteration in each lane.
+/// The progress of the iteration in each lane.
 struct Course {
-    /// Lanes that do not meet the tolerance yet.
+    /// Lanes that do not satisfy the tolerance yet.
     open: Mask,
     failed: Mask,
     changed: Mask,
@@ -39,7 +40,7 @@ struct Course {
 }
 
 impl LaneProjector {
-    /// For the models of the lanes, and the model over lanes.
+    /// Memory for the models of the lanes and the model over lanes.
     pub fn new(models: [&Model; WIDTH], wide: &Model<Lanes>, options: Projection) -> Self {
         let side_by_side = |scales: [Vec<f64>; WIDTH]| -> Vec<Lanes> {
             let number = |k: usize| Lanes::new(std::array::from_fn(|lane| 1.0 / scales[lane][k]));
@@ -54,8 +55,8 @@ impl LaneProjector {
         }
     }
 
-    /// Projects (q, v) of the `lanes` in place, with the factor that the workspace holds. For each lane whether the state
-    /// changed; None if the projection failed.
+    /// Projects (q, v) of the `lanes` in place, with the factor in the workspace. Returns for each lane whether the
+    /// state changed, or None if the projection failed.
     pub fn project(
         &mut self,
         (model, workspace): (&Model<Lanes>, &mut Workspace<Lanes>),
@@ -72,7 +73,7 @@ impl LaneProjector {
         std::array::from_fn(|lane| (!course.failed[lane]).then_some(course.changed[lane]))
     }
 
-    /// Brings the residuals of one level, positions or velocities, to their targets.
+    /// Reduces the residuals of one level, positions or velocities, to their targets.
     fn meet(
         &mut self,
         level: usize,
@@ -138,7 +139,7 @@ impl LaneProjector {
         })
     }
 
-    /// One step with the current factor in the open lanes.
+    /// One iteration with the current factor, in the open lanes.
     fn correct(&mut self, level: usize, workspace: &Workspace<Lanes>, x: &mut [Lanes], open: Mask) {
         let (upper, lower) = self.correction.split_at_mut(x.len());
         upper.fill(Lanes::zero());
@@ -152,7 +153,7 @@ impl LaneProjector {
     }
 }
 
-/// The largest scaled magnitude in each lane; NaN if one is that.
+/// The largest scaled magnitude in each lane. NaN if a number is not finite.
 fn largest(x: &[Lanes], per_scale: &[Lanes]) -> Numbers {
     let (mut most, mut not_finite) = (Lanes::zero(), Lanes::zero());
     for (x, per_scale) in x.iter().zip(per_scale) {

@@ -1,17 +1,17 @@
 //! Projection of states onto the constraints Φ(q, t) = 0 and Φ_q v + Φ_t = 0.
 //!
-//! Positions are projected first, then velocities. The result is the nearest state that meets the constraints in the
-//! metric of the mass matrix; for velocities this is the least kinetic energy of the difference:
+//! Positions are projected first, then velocities. The result is the nearest state that satisfies the constraints, in
+//! the metric of the mass matrix. For velocities, the difference then has the least kinetic energy:
 //!
 //! ```text
 //! [ M   Φ_qᵀ ] [ Δq ]   [  0 ]        [ M   Φ_qᵀ ] [ Δv ]   [        0        ]
 //! [ Φ_q  0   ] [ μ  ] = [ -Φ ] ,      [ Φ_q  0   ] [ μ  ] = [ -(Φ_q v + Φ_t) ]
 //! ```
 //!
-//! (Eich, *Convergence results for a coordinate projection method applied to mechanical systems with
-//! algebraic constraints*, SIAM J. Numer. Anal. 30 (1993) 1467.) The matrix is that of the equations of motion, so
-//! their last factor is used for chord iterations. Each iteration multiplies the error by about the size of the
-//! correction over the size of the mechanism. The matrix is factorised anew only if this is too slow.
+//! (Eich, *Convergence results for a coordinate projection method applied to mechanical systems with algebraic
+//! constraints*, SIAM J. Numer. Anal. 30 (1993) 1467.) The matrix is that of the equations of motion, so their last
+//! factor can be used for chord iterations. Each iteration multiplies the error by about the ratio of the correction
+//! to the size of the mechanism. The matrix is factorised again only if this is too slow.
 
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, Residuals, Workspace};
@@ -21,29 +21,29 @@ use crate::solve::Breakdown;
 
 /// Largest number of iterations for positions, and for velocities.
 pub(super) const MOST: usize = 12;
-/// The same for reported states. Beside a singular position Newton's method converges linearly: each iteration divides
-/// the residual by about 4. A step would be taken anew instead, which a reported state cannot be.
+/// Largest number of iterations for reported states, which cannot be replaced as a step can. Near a singular position
+/// Newton's method converges linearly: each iteration divides the residual by about 4.
 const MOST_REPORTED: usize = 60;
-/// If a chord iteration reduces the residual by less, the matrix is factorised anew.
+/// If a chord iteration does not reduce the residual below this fraction, the matrix is factorised again.
 pub(super) const SLOW: f64 = 1e-2;
-/// Remainder of a step for velocities with the factor of the same state, since Φ̇ is linear in the velocities.
+/// Fraction of the residual that an iteration for velocities leaves if the factor is that of the same state.
 const LINEAR: f64 = 1e-10;
-/// Safety factor on the measured convergence for a step that is not checked.
+/// Safety factor on the measured convergence if the residual after the last iteration is not evaluated.
 pub(super) const MARGIN: f64 = 10.0;
-/// A residual up to this factor of the tolerance counts as rounding if Newton's step does not reduce it.
+/// A residual up to this multiple of the tolerance is a rounding error if Newton's iteration does not reduce it.
 const ROUNDING: f64 = 1e3;
 
-/// Part of the tolerance that may remain near a singular position.
+/// Fraction of the tolerance that may remain near a singular position.
 const SHARP: f64 = 1e-3;
 
-/// A larger residual never counts as rounding, even for large coordinates: the joint is open.
+/// A larger residual never counts as a rounding error, even for large coordinates: the joint is open.
 pub(super) const CLOSED: f64 = 1e-8;
 
 /// The options of projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Projection {
-    /// Largest remaining residual. Lengths are relative to the size of the mechanism, angles are in rad, and rates are
-    /// relative to the largest rate of the state; for states between steps, to the largest rate so far.
+    /// Largest remaining residual. Lengths are relative to the size of the mechanism, angles in rad, and rates
+    /// relative to the largest rate of the state, or of all states so far for states between steps.
     pub tolerance: f64,
 }
 
@@ -54,7 +54,7 @@ impl Default for Projection {
     }
 }
 
-/// Memory for projections of one model. Over lanes, all states are projected until each meets the tolerance.
+/// Memory for projections with one model. Over lanes, all states are iterated until each satisfies the tolerance.
 #[derive(Clone, Debug)]
 pub struct Projector<'a, S = f64> {
     model: &'a Model<S>,
@@ -63,15 +63,15 @@ pub struct Projector<'a, S = f64> {
     per_scale: Vec<f64>,
     /// Φ and Φ̇.
     residuals: Residuals<S>,
-    /// The largest of each, scaled.
+    /// The largest scaled residual of Φ and of Φ̇.
     gaps: [f64; 2],
-    /// The parts of the workspace's motions and of the residuals that belong to the current state.
+    /// The data that are up to date for the current state.
     known: Known,
-    /// Factor by which the last step with the current factorisation reduced the residual.
+    /// Factor by which the last iteration with the current factorisation reduced the residual.
     lowering: f64,
-    /// Part of the tolerance that may remain.
+    /// Fraction of the tolerance that may remain.
     part: f64,
-    /// The largest rate so far; None if the tolerance is relative to the rates of each state.
+    /// The largest rate so far. None if the tolerance is relative to the rates of each state.
     fastest: Option<f64>,
     /// Right side, then (Δ, μ).
     correction: Vec<S>,
@@ -79,17 +79,17 @@ pub struct Projector<'a, S = f64> {
     pub factorisations: usize,
 }
 
-/// The quantities that are up to date for a state.
+/// The data that are up to date for a state.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum Known {
     Nothing,
-    /// The positions of its motions.
+    /// The positions in the motions.
     Positions,
-    /// Motions and residuals.
+    /// The motions and the residuals.
     All,
 }
 
-/// The constraints to be met, by their place among the residuals.
+/// The constraint equations to be satisfied, as index into the residuals.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Level {
     Position = 0,
@@ -97,7 +97,7 @@ enum Level {
 }
 
 impl<'a, S: Real> Projector<'a, S> {
-    /// For a model.
+    /// Memory for a model.
     pub fn new(model: &'a Model<S>, options: Projection) -> Self {
         let unknowns = model.layout.n_q + model.layout.n_rows;
         Self {
@@ -115,35 +115,35 @@ impl<'a, S: Real> Projector<'a, S> {
         }
     }
 
-    /// Its options.
+    /// The options of the projection.
     pub fn options(&self) -> Projection {
         Projection { tolerance: self.tolerance }
     }
 
-    /// For reported states, from which no step starts. Their tolerance is relative to the fastest rate of all states:
-    /// a state nearly at rest is not projected to digits that do not matter.
+    /// Configures the projection for reported states, from which no step starts. Their tolerance is relative to the
+    /// fastest rate of all states, so that a state nearly at rest is not projected to irrelevant digits.
     pub fn for_reports(self) -> Self {
         Self { fastest: Some(0.0), ..self }
     }
 
-    /// The fastest rate of the reported states so far, scaled as by [`Self::largest`]; otherwise 0.
+    /// The fastest rate of the reported states so far, scaled as in [`Self::largest`]; 0 for other states.
     pub fn fastest(&self) -> f64 {
         self.fastest.unwrap_or(0.0)
     }
 
-    /// The largest Φ at the last state, scaled.
+    /// The largest scaled residual of Φ at the last state.
     pub fn gap(&self) -> f64 {
         self.gaps[Level::Position as usize]
     }
 
-    /// Sets whether to project to rounding: near a singular position a residual of Φ appears in accelerations divided
-    /// by σ³.
+    /// Sets whether to project to rounding errors. Near a singular position, a residual of Φ appears in the
+    /// accelerations divided by σ³.
     pub fn sharpen(&mut self, sharp: bool) {
         self.part = if sharp { SHARP } else { 1.0 };
     }
 
-    /// Projects (q, v) in place; returns whether they changed. The motions of the workspace are then those of the
-    /// new state. With `factored`, the matrix of the workspace holds the factor of a state nearby.
+    /// Projects (q, v) in place and returns whether they changed. The motions of the workspace are then those of the
+    /// new state. With `factored`, its matrix contains the factor of a nearby state.
     ///
     /// # Errors
     /// [`Breakdown`]; q and v are then invalid.
@@ -175,7 +175,7 @@ impl<'a, S: Real> Projector<'a, S> {
         self.meet(Level::Velocity, workspace, t, (q, v), &mut false)
     }
 
-    /// Whether the state meets the tolerance, as most reported states do.
+    /// Whether the state satisfies the tolerance, as most reported states do.
     #[inline(always)]
     fn is_good(&mut self, workspace: &mut Workspace<S>, t: S, (q, v): (&[S], &[S])) -> bool {
         self.look(workspace, t, (q, v));
@@ -184,7 +184,7 @@ impl<'a, S: Real> Projector<'a, S> {
             && velocity <= self.targets(Level::Velocity, q, v, velocity).0
     }
 
-    /// Projects a state whose residuals are known.
+    /// Projects a state whose residuals have been computed.
     #[inline(never)]
     fn bring(
         &mut self,
@@ -254,7 +254,7 @@ impl<'a, S: Real> Projector<'a, S> {
         Err(self.open(level))
     }
 
-    /// Checks that the rows that are left out hold: otherwise the state is on another branch, on which they are not
+    /// Checks that the omitted rows are satisfied. If not, the state is on another branch, on which they are not
     /// redundant.
     fn omitted_hold(
         &mut self,
@@ -280,7 +280,7 @@ impl<'a, S: Real> Projector<'a, S> {
         for (row, (r, per_scale)) in rows.enumerate() {
             let gap = r.largest_magnitude();
             let scaled = gap * per_scale;
-            // NaN is kept
+            // keeps NaN
             if scaled > worst.2 || scaled.is_nan() {
                 worst = (row, gap, scaled);
             }
@@ -288,13 +288,13 @@ impl<'a, S: Real> Projector<'a, S> {
         Breakdown::Open { row: worst.0, gap: worst.1 }
     }
 
-    /// The target of the residual, and the residual that is accepted where rounding prevents the target.
+    /// The target of the residual, and the residual that is accepted if rounding errors prevent the target.
     #[inline(always)] // the level is a constant at each call
     fn targets(&mut self, level: Level, q: &[S], v: &[S], gap: f64) -> (f64, f64) {
         let (target, most) = match level {
             Level::Position => {
                 let target = self.part * self.tolerance;
-                // rounding matters only if the tolerance is not met
+                // rounding errors matter only if the tolerance is not satisfied
                 let rounding = match gap <= target {
                     true => 0.0,
                     false => 8.0 * f64::EPSILON * self.largest(q),
@@ -313,7 +313,7 @@ impl<'a, S: Real> Projector<'a, S> {
     }
 
     /// Updates motions, residuals and gaps for the current state.
-    #[inline(never)] // from several places
+    #[inline(never)] // one copy for several calls
     fn look(&mut self, workspace: &mut Workspace<S>, t: S, place: (&[S], &[S])) {
         if self.known == Known::All {
             return;
@@ -344,7 +344,7 @@ impl<'a, S: Real> Projector<'a, S> {
         matrix.factor()
     }
 
-    /// One step with the current factor.
+    /// One iteration with the current factor.
     fn correct(&mut self, level: Level, workspace: &Workspace<S>, x: &mut [S]) {
         let (upper, lower) = self.correction.split_at_mut(x.len());
         upper.fill(S::zero());
@@ -371,12 +371,12 @@ impl<'a, S: Real> Projector<'a, S> {
         x.iter_mut().zip(&self.correction).for_each(|(x, dx)| *x += *dx);
     }
 
-    /// Largest coordinate or rate, lengths over the size of the mechanism.
+    /// The largest coordinate or rate. Lengths are divided by the size of the mechanism.
     pub fn largest(&self, x: &[S]) -> f64 {
         self.largest_of(x.iter().copied())
     }
 
-    /// The largest difference of coordinates or rates, scaled as by [`Self::largest`].
+    /// The largest difference of coordinates or rates, scaled as in [`Self::largest`].
     pub fn largest_difference(&self, a: &[S], b: &[S]) -> f64 {
         self.largest_of(a.iter().zip(b).map(|(a, b)| *a - *b))
     }
@@ -389,8 +389,8 @@ impl<'a, S: Real> Projector<'a, S> {
 }
 
 impl Level {
-    /// Residual, relative as the tolerance is, that may remain near a singular position. There a deviation e leaves
-    /// residuals of order e² in positions and e in velocities.
+    /// Residual that may remain near a singular position, relative as the tolerance is. There, a deviation e leaves
+    /// residuals of order e² in positions and of order e in velocities.
     fn near(self) -> f64 {
         match self {
             Self::Position => 1e-9,

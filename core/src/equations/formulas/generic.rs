@@ -1,4 +1,4 @@
-//! The equations of a type of element, with the names of its fields.
+//! The equations of an element type, with the names of its fields.
 
 use super::names::{curve, function, internal, point, BodyName, Coordinates};
 use super::scalars::{scalars, Scalar};
@@ -11,14 +11,14 @@ use crate::expression::Tape;
 use crate::math::{Local, Pose};
 use crate::symbolic::{record, upright, Form, Name, NameKind, Record, Symbolic};
 
-/// The equations of a type of joint or driver; None if there is no such type. Bodies are i, j …, a
-/// point is s′ in its body, and a driven coordinate is the angle.
+/// The equations of a type of joint or driver. None if the type does not exist. Bodies are named i, j, …, a point is
+/// s′ in its body, and a driven coordinate is the angle.
 pub fn of_type(group: Group, kind: &str, form: Form) -> Option<Formulas> {
     let element = Constraint::read(group, kind, &mut SampleNames { bodies: 0 })??;
     Some(of_element(&element, form))
 }
 
-/// The equations of an element with the names of its fields in place of their values.
+/// The equations of an element, with the names of its fields instead of their values.
 pub fn of_element<T>(element: &Constraint<T>, form: Form) -> Formulas {
     record(|record| {
         let t = record.time();
@@ -70,7 +70,7 @@ fn symbols<T>(record: &Record, element: &Constraint<T>) -> Vec<Symbolic> {
     all
 }
 
-/// One of two numbers, for body i and for body j.
+/// One of two numbers, which belong to bodies i and j.
 fn side(record: &Record, field: &str, k: usize) -> Symbolic {
     let body = BodyName::letter(k);
     let name = Name::new(
@@ -82,7 +82,7 @@ fn side(record: &Record, field: &str, k: usize) -> Symbolic {
     record.symbol(Name { owner: Some(k), ..name })
 }
 
-/// An element of a type between different bodies, with all numbers zero.
+/// Source of an element between different bodies in which all numbers are zero.
 struct SampleNames {
     bodies: usize,
 }

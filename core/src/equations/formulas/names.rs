@@ -5,11 +5,11 @@ use crate::expression::is_identifier;
 use crate::math::{Local, Pose, Real};
 use crate::symbolic::{upright, Axis, Name, NameKind, Record, Symbolic};
 
-/// Letters of the bodies of an element, and as indices in Unicode.
+/// Letters for the bodies of an element, and the same letters as Unicode subscripts.
 const LETTERS: [(&str, &str); 6] =
     [("i", "ᵢ"), ("j", "ⱼ"), ("k", "ₖ"), ("l", "ₗ"), ("m", "ₘ"), ("n", "ₙ")];
 
-/// A body's name in the three forms: for `i.x`, xᵢ and x_{i}.
+/// The name of a body in three forms, for `i.x`, xᵢ and x_{i}.
 pub(super) struct BodyName {
     pub text: String,
     pub unicode: String,
@@ -22,13 +22,13 @@ impl BodyName {
         Self { text: quoted(name), unicode: format!("_{name}"), latex: upright(name) }
     }
 
-    /// The body at a position among those of an element.
+    /// The letter for a position among the bodies of an element.
     pub fn letter(position: usize) -> Self {
         let (letter, index) = LETTERS[position % LETTERS.len()];
         Self { text: letter.into(), unicode: index.into(), latex: letter.into() }
     }
 
-    /// The name of the field of an element that holds a point: `i` as an index, others in full.
+    /// The name of an element field that contains a point: `i` as a subscript, other names in full.
     pub fn field(name: &str) -> Self {
         match LETTERS.iter().position(|(letter, _)| *letter == name) {
             Some(position) => Self::letter(position),
@@ -37,14 +37,14 @@ impl BodyName {
     }
 }
 
-/// The coordinates of a body and its rates.
+/// The coordinates of a body and their rates.
 pub(super) struct Coordinates {
     pub position: [Symbolic; 3],
     rates: [Symbolic; 3],
 }
 
 impl Coordinates {
-    /// With names.
+    /// Creates named symbols.
     pub fn new(record: &Record, body: &BodyName, owner: usize) -> Self {
         let symbol = |k: usize, rate: Symbolic| {
             let name = coordinate(Coordinate::ALL[k], body, owner);
@@ -54,13 +54,13 @@ impl Coordinates {
         Self { position: [0, 1, 2].map(|k| symbol(k, rates[k])), rates }
     }
 
-    /// Where the body is.
+    /// The pose of the body.
     pub fn pose(&self) -> Pose<Symbolic> {
         let [x, y, angle] = self.position;
         Pose::new(x, y, angle)
     }
 
-    /// A coordinate or rate.
+    /// One coordinate or rate.
     pub fn of(&self, coordinate: Coordinate) -> Symbolic {
         let from = if coordinate.is_rate() { self.rates } else { self.position };
         from[coordinate.column()]
@@ -87,8 +87,8 @@ fn coordinate(coordinate: Coordinate, body: &BodyName, owner: usize) -> Name {
     }
 }
 
-/// The components of a body-fixed point; those marked in `zero` are zero. In the global frame the vector
-/// to the point is written a with the field as index: aᵢ = Aᵢ s′ᵢ.
+/// The components of a body-fixed point. The components marked in `zero` are zero. In the global frame, the vector to
+/// the point is written a with the field as subscript: aᵢ = Aᵢ s′ᵢ.
 pub(super) fn point(
     record: &Record,
     field: &str,
@@ -123,7 +123,7 @@ pub(super) fn point(
     s
 }
 
-/// A curve by the names of C and its derivatives by `u`; `label` is its name in a model.
+/// A curve as the names of C and its derivatives at `u`. `label` is its name in a model.
 pub(super) fn curve(record: &Record, label: Option<&str>, u: Symbolic) -> Curve<Symbolic> {
     let component = |axis: Axis| {
         let c = ["x", "y"][axis as usize];
@@ -145,7 +145,7 @@ pub(super) fn curve(record: &Record, label: Option<&str>, u: Symbolic) -> Curve<
     Curve::Near { at: u, terms: std::array::from_fn(|n| Local { x: x[n], y: y[n] }) }
 }
 
-/// A given function of time.
+/// A given function of time, with its derivatives.
 pub(super) fn function(record: &Record, name: &str) -> Symbolic {
     let latex = upright(name);
     let derivative = |order: &str, dots: &str, rate: Symbolic| {
@@ -163,7 +163,7 @@ pub(super) fn function(record: &Record, name: &str) -> Symbolic {
     derivative("", "", first)
 }
 
-/// The internal coordinates of an element: u, or u1, u2 and so on.
+/// The internal coordinates of an element: u, or u1, u2, ….
 pub(super) fn internal(record: &Record, count: usize) -> Vec<Symbolic> {
     let one = |k: usize| {
         let (text, index) = match count {
@@ -179,7 +179,7 @@ pub(super) fn internal(record: &Record, count: usize) -> Vec<Symbolic> {
     (0..count).map(one).collect()
 }
 
-/// A part of a name in the language of expressions.
+/// A part of a name, quoted in the language of expressions where necessary.
 fn quoted(name: &str) -> String {
     if is_identifier(name) {
         name.to_string()

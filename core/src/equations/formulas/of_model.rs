@@ -10,10 +10,10 @@ use crate::math::{Pose, Real};
 use crate::model::{Dependence, Model};
 use crate::symbolic::{record, Form, Name, Record, Symbolic};
 
-/// The equations of constraint `k`. Numbers and laws are inserted as written; a point has the name that
-/// `written` contains for its field, such as `crank.B`.
+/// The equations of constraint `k`. Numbers and laws are inserted as in the model. A point has the name that
+/// `written` returns for its field, such as `crank.B`.
 ///
-/// A law may depend on the coordinates of other bodies: these have columns too.
+/// A law may depend on the coordinates of other bodies. These bodies have columns as well.
 pub fn of_constraint(
     model: &Model,
     k: usize,
@@ -63,7 +63,7 @@ pub fn of_constraint(
     })
 }
 
-/// The moving bodies that a constraint and its laws depend on, each once.
+/// The moving bodies on which a constraint and its laws depend, each once.
 fn touched(element: &Constraint<Tape>) -> Vec<BodyId> {
     let mut depends = Dependence::default();
     element.map(&mut |tape| depends.add(tape));
@@ -77,8 +77,8 @@ fn touched(element: &Constraint<Tape>) -> Vec<BodyId> {
     once
 }
 
-/// The components of an element's points, in the order in which its scalars are visited; None for
-/// each scalar that belongs to no point.
+/// The components of the points of an element, in the order in which its scalars are visited. None for each scalar
+/// that is not a component of a point.
 fn points(
     record: &Record,
     model: &Model,

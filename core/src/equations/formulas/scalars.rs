@@ -2,21 +2,21 @@
 
 use crate::elements::{catalogue, Constraint, Shape};
 
-/// A field that holds scalars: two for a point or a pair.
+/// A field that contains scalars; a point or a pair contains two.
 pub(super) enum Scalar {
     Point(String),
     Pair(String),
     Number(String),
     Law(String),
-    /// Numbers by their places within the field.
+    /// Several numbers, named by their index in the field.
     Numbers(String, usize),
-    /// A curve with this number of scalars; it is printed by the names of C and its derivatives.
+    /// A curve with the given number of scalars. It is printed as the names of C and its derivatives.
     Curve(usize),
-    /// Laws by their numbers within the field.
+    /// Several laws, named by their index in the field.
     Laws(String, usize),
 }
 
-/// The fields of an element that hold scalars; a field that is left out holds none.
+/// The fields of an element that contain scalars. An absent optional field contains none.
 pub(super) fn scalars<T>(element: &Constraint<T>) -> Vec<Scalar> {
     let tables = catalogue().into_iter().map(|(_, table)| table);
     let fields = tables.filter(|table| table.name == element.kind()).flat_map(|table| table.fields);
