@@ -66,7 +66,7 @@ def place_texts(
 ) -> Floats:
     """Offsets from anchors to the centres of texts that cover neither lines nor each other.
 
-    All in points of print, in an area from (0, 0) to its width and height.
+    All lengths are in points of print, in an area from (0, 0) to its width and height.
 
     Args:
         anchors: (n, 2).
