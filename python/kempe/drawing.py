@@ -56,7 +56,7 @@ def display_list(
 
 
 def view_around(bounds: Sequence[float], size: tuple[float, float]) -> View:
-    """The view of bounds, m, with room around them on an area of a size in points of print."""
+    """The view of bounds, m, with a margin, on an area of a size in points of print."""
     left, bottom, right, top = map(float, bounds)
     return _core.view_around((left, bottom, right, top), size)
 

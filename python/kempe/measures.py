@@ -37,7 +37,7 @@ class MeasureInfo:
         expression: the expression, as written.
         quantities: names of the quantities that it uses, each once.
         unit: its SI unit; "1" for a number, "SI" if it does not follow from the expression.
-        is_of_run: whether it uses energies or residuals of a run, which exist at the outputs only.
+        is_of_run: whether it uses energies or balances of a run, which exist at the outputs only.
         solves: whether it needs accelerations or multipliers.
     """
 
