@@ -131,7 +131,7 @@ class CompiledModel:
         return other
 
     def variant(self, setting: Setting) -> CompiledModel:
-        """A copy of the model in another setting; see ``kempe.phases``."""
+        """The model in another setting; see ``kempe.phases``."""
         if not any(setting):
             return self
         other = CompiledModel(self.core.variant(*setting), self._case, self._model)
