@@ -125,10 +125,8 @@ def dynamics(
         events: events by name: conditions such as ``"rocker.angle > 270*deg"``, or ``kp.Event``
             with a direction, a stop or an action; see ``Solution.events``.
         stop: condition at which the run ends, the event ``stop``.
-        release: drivers that are released: they no longer act in this run, nor in runs that start
-            from its states.
-        parameters: other values of parameters in this run; the start must satisfy the constraints
-            with these values.
+        release: drivers that no longer act, in this run and in runs that start from its states.
+        parameters: other values of parameters; the start must satisfy the constraints with them.
         progress: function that is called repeatedly with the time reached, s; an exception in it
             ends the simulation.
 
