@@ -17,22 +17,22 @@ A first example, a pendulum that is released from rest::
     sol(0.5)["rod.B.x"]  # m, at any time
     kp.animate(sol, "pendulum.html")
 
-Numbers are in SI units and angles in rad. A text is a formula, such as "2*L" or "30 deg".
+Numbers are in SI units and angles in rad. A string is a formula, such as "2*L" or "30 deg".
 
 Build:
     Model                   bodies, joints, drivers and forces
-    Sampled                 a controller that is computed with a period
+    Sampled                 a controller that is evaluated at a fixed sampling period
     load, Case              files with a model, a start and analyses
 
 Compute:
     assemble                a state in which all joints are closed
     dynamics                the motion from a state
     kinematics              the motion that drivers determine
-    inverse_dynamics        the same with efforts and reactions
-    equilibrium             the rest position, its stability, paths over a parameter
-    stiffness_at            the stiffness felt at a point
-    modes                   frequencies, damping and shapes about a state, and its state space
-    limits                  how far a driver goes, or whether it turns fully
+    inverse_dynamics        the driven motion with driver efforts and joint reactions
+    equilibrium             equilibrium positions, their stability, paths over a parameter
+    stiffness_at            the stiffness of the mechanism at a point
+    modes                   frequencies, damping, mode shapes and state space about a state
+    limits                  the range of a driver, or whether it makes a full turn
     mobility                freedoms, redundant joints, singular positions, four-bar loops
     configurations          all positions in which the mechanism closes
     study                   comparison of methods and stabilizations
@@ -44,7 +44,7 @@ Results:
     Solution, State, Motion quantities by name, bodies, joints, forces, energies
     show, equations         matrices and equations with the names of the model
     report.summary          peaks, settling times, energy balance
-    load_solution           a solution that was saved
+    load_solution           read a saved solution
 
     design                  coupler curves, transmission angles, motors, flywheels, pin loads
 
@@ -54,7 +54,7 @@ Show:
     write_report            a report with data, equations, figures, as HTML or PDF
     units                   units of tables, figures and CSV files
 
-All errors are KempeErrors. ``help(kp.Model)`` and the like describe each name.
+All errors are KempeErrors. ``help`` describes each name, for example ``help(kp.Model)``.
 """
 
 from __future__ import annotations

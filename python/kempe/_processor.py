@@ -1,8 +1,8 @@
-"""The core that suits the processor.
+"""Select the core that is compiled for the instructions of the processor.
 
-A wheel for x86-64 contains the core twice: ``_core`` for every processor, and in the folder
-``_x86_64_v3`` the same source compiled with AVX2 and FMA. The second becomes ``kempe._core`` where
-the processor has these instructions. A build from source has one core only.
+A wheel for x86-64 contains the core twice. ``_core`` runs on every processor. The folder
+``_x86_64_v3`` contains the same source compiled with AVX2 and FMA; this build becomes
+``kempe._core`` if the processor has these instructions. A build from source has only one core.
 """
 
 import os

@@ -49,10 +49,10 @@ def assemble(
         model: the mechanism.
         set: prescribed coordinates and rates, m, rad, per s: ``{"crank.angle": "70*deg"}``.
         guess: starting values of coordinates and rates; can be incomplete.
-        t: time, s; None means that of ``from_state``, or 0.
-        from_state: a state of the same bodies, from which the mechanism moves as little as it can:
-            of another set of parameters, or one that drifted. ``set`` and ``guess`` come before it.
-            Drivers that were released in it remain released.
+        t: time, s; None means the time of ``from_state``, or 0.
+        from_state: a state of the same bodies, for example with other parameters or with joints
+            that drifted. The mechanism moves from it as little as possible. ``set`` and ``guess``
+            have priority over it. Drivers that were released in this state remain released.
         redundancy: "allow" accepts redundant constraints in the assembly and in simulations that
             start from the state; None uses the setting of the model.
         from_guess: start the Newton iteration from the guess with open loops, without closing
@@ -112,7 +112,7 @@ def dynamics(
         start: the initial state, for example from ``assemble``. Its joints must be closed, to 1e-9
             of the size of the mechanism.
         t_end: end time, s.
-        output_step: time between outputs, s; None makes every step an output.
+        output_step: time between outputs, s; None stores an output after every step.
         method: the integrator.
         stabilization: stabilization of the constraints; None for no stabilization.
         max_steps: largest number of steps. None means 1 000 000 divided by the number of moving
@@ -125,16 +125,16 @@ def dynamics(
         events: events by name: conditions such as ``"rocker.angle > 270*deg"``, or ``kp.Event``
             with a direction, a stop or an action; see ``Solution.events``.
         stop: condition at which the run ends, the event ``stop``.
-        release: drivers that no longer act, in this run and in those that start from its states.
-        parameters: other values of parameters in this run; the start must meet the constraints.
+        release: drivers that no longer act, in this run and in runs that start from its states.
+        parameters: other values of parameters; the start must satisfy the constraints with them.
         progress: function that is called repeatedly with the time reached, s; an exception in it
             ends the simulation.
 
     Raises:
-        AssemblyError: the start does not meet the constraints;
-            ``assemble(model, from_state=start)`` assembles it anew.
-        IntegrationError: the integrator cannot continue. ``solution`` holds the solution up to that
-            time, as it does for a SingularityError and an interruption (``KeyboardInterrupt``).
+        AssemblyError: the start does not satisfy the constraints;
+            ``assemble(model, from_state=start)`` assembles it again.
+        IntegrationError: the integrator cannot continue. Its ``solution`` contains the solution up
+            to that time. A SingularityError and a ``KeyboardInterrupt`` contain it too.
         SingularityError: the motion is not unique in a singular position.
         ModelError: an option is invalid.
     """
@@ -208,7 +208,7 @@ class Acting:
 
     Args:
         model: the model of the run.
-        start: its first state.
+        start: first state of the run.
         actions: the actions by the name of their event.
     """
 
@@ -272,7 +272,7 @@ def _time(t: float) -> float:
 
 
 def refuse_foreign(model: CompiledModel, state: State) -> None:
-    """Refuse a state with other bodies. The core refuses one that does not meet the constraints."""
+    """Refuse a state with other bodies. The core refuses states that violate the constraints."""
     if not isinstance(state, State):
         raise ModelError(f"from_state: {state!r} is not a State")
     if list(state.compiled.bodies) != list(model.bodies):

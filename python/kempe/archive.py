@@ -1,7 +1,8 @@
 """Files of solutions: NumPy arrays and one JSON text that contains the case, without pickle.
 
-A file is checked before its data are read: the names, types and sizes of the arrays in its
-directory and their headers, then the numbers. Arrays that a solution has not are never read.
+A file is checked before its data are read. The names, types and sizes of the arrays in its
+directory and their headers are checked first, then the numbers. Arrays that do not belong to a
+solution are never read.
 """
 
 from __future__ import annotations
@@ -35,7 +36,7 @@ LAYOUT = 1
 #: The largest JSON text, bytes: a case has at most 16 MiB, and NumPy takes 4 bytes for a letter.
 _LARGEST_TEXT = 16 * files.LARGEST_TEXT
 _HIGHEST_DEGREE = 32
-#: Accelerations of a file agree with its model to this share of the largest.
+#: Accelerations of a file agree with its model within this fraction of the largest.
 _AGREEMENT = 1e-6
 _SAMPLES = 9
 #: Statistics that are counts.
@@ -80,7 +81,7 @@ def _about(solution: Solution) -> dict[str, Any]:
 
 
 def _event_arrays(solution: Solution) -> dict[str, Floats]:
-    """The states of all events, one event after the other; absent without any."""
+    """The states of all events, one event after the other; empty if no event occurred."""
     if not any(len(t) for _, t, *_ in solution._run.events):
         return {}
     columns = list(zip(*solution._run.events, strict=True))[1:]
@@ -114,7 +115,7 @@ def load_solution(path: Path | str) -> Solution:
 
 
 class _UnfitError(ValueError):
-    """The content is not that of a solution."""
+    """The content is not a valid solution."""
 
 
 def _refuse(why: str) -> NoReturn:
@@ -123,7 +124,7 @@ def _refuse(why: str) -> NoReturn:
 
 @contextmanager
 def _only_file_errors(path: Path) -> Iterator[None]:
-    """Errors of numpy, zipfile, json and the core as a FileError."""
+    """Convert errors of numpy, zipfile, json and the core to a FileError."""
     try:
         yield
     except FileError as error:
@@ -214,7 +215,7 @@ def _shapes(stored: zipfile.ZipFile, model: CompiledModel) -> dict[str, _Shape]:
 def _check_header(
     name: str, found: tuple[int, ...], kind: np.dtype[Any], shape: _Shape, sizes: dict[str, int]
 ) -> None:
-    """Compare an array with its shape; letters get their values when they first occur."""
+    """Compare the shape of an array with the expected one; new letters get their values here."""
     if kind != np.dtype(np.float64):
         _refuse(f"{name} has numbers of type {kind}; must be float64")
     for size, count in zip(shape, found, strict=False):
@@ -261,7 +262,7 @@ def _run(about: Mapping[str, Any], arrays: Mapping[str, Floats]) -> StoredRun:
 
 
 def _settings(about: Mapping[str, Any], count: int) -> Settings:
-    """The phases; files of version 0.1 have one."""
+    """The phases of the run; files of version 0.1 have only one phase."""
     found = []
     for row, parameters, released, *rest in about.get("settings", [[0, [], []]]):
         numbers = all(isinstance(x, int | float) for _, x in parameters)
@@ -326,7 +327,7 @@ def _entry(about: Mapping[str, Any], name: str, kind: type) -> Any:
 
 
 def _check_agreement(solution: Solution) -> None:
-    """Compare accelerations with those of the model at some times, so that parameters fit."""
+    """Check that the accelerations at some times follow from the model and its parameters."""
     rows = np.unique(np.linspace(0, len(solution.t) - 1, _SAMPLES).round().astype(int))
     for k in rows:
         t, q, v, z = (

@@ -1,4 +1,4 @@
-"""The report of an assembly: its course, the assembly mode, and the unset coordinates."""
+"""The report of an assembly: its iterations, the assembly mode, and the unset coordinates."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from kempe.names import few
 
 #: Largest number of modes that a report lists.
 MOST_MODES = 20
-#: Numbers of other assemblies from here on are given as a power of two.
+#: From this number on, the number of other assemblies is given as a power of two.
 MOST_COUNTED = 1_000_000
-#: Most coordinates and rates that a report names.
+#: Largest number of coordinates and rates that a report names.
 _MOST_CHOICES = 4
-#: The remarks about the sources of values, where they are not the names.
+#: The remarks about the sources of values that differ from the names of the sources.
 _SOURCES = {
     "guesses": "from the guesses",
     "drawing": "as drawn",
@@ -32,7 +32,7 @@ class Iteration:
     Attributes:
         residual: norm of Φ after the iteration, with lengths relative to the size of the mechanism;
             the first entry is the residual of the start.
-        step: norm of the full Newton step, with lengths relative to the same size; 0 for the start.
+        step: norm of the full Newton step, with lengths relative to this size; 0 for the start.
         damping: applied fraction of the full Newton step.
     """
 
@@ -43,10 +43,10 @@ class Iteration:
 
 @dataclass(frozen=True)
 class Mode:
-    """The side on which a dyad was closed, or a body on two rods (``distance``).
+    """The side on which a dyad, or a body on two rods (``distance``), was closed.
 
     Attributes:
-        bodies: the bodies of the dyad, or the one on two rods.
+        bodies: the bodies of the dyad, or the body on two rods.
         joint: the joint between them, or the body on two rods.
         anchors: the outer joints of the dyad, or the rods.
         side: side of the line from the first to the second anchor on which the joint lies, "left"
@@ -72,11 +72,12 @@ class Choice:
         name: such as ``crank.angle`` or ``crank.omega``.
         value: m, rad or per s.
         unit: SI unit.
-        source: "guess"; "near guess": as near to it as the joints allow; "guesses": quantities of
-            points or joints were guessed; "drawing": the body was drawn there; "nothing": nothing
-            was given; of a rate also "rest": nothing moves, and "least energy": of all motions with
-            the rates that are set, the one with the least kinetic energy.
-        guess: the guess that was not met.
+        source: "guess"; "near guess": as near to the guess as the joints allow; "guesses":
+            quantities of points or joints were guessed; "drawing": the body was drawn there;
+            "nothing": no value was given. A rate can also have the sources "rest": nothing moves,
+            and "least energy": the motion has the least kinetic energy of all motions with the
+            rates that are set.
+        guess: the guess, if the value differs from it.
     """
 
     name: str
@@ -99,11 +100,11 @@ class Unset:
     """The coordinates and rates that a request for an assembly did not set.
 
     Attributes:
-        freedoms: number of degrees of freedom that neither drivers nor ``set`` hold.
-        free_rates: the same for the velocities.
-        coordinates: a coordinate for each freedom; to set these determines the position. Empty in a
-            model with more than 120 coordinates.
-        rates: a rate for each; to set these determines the velocities.
+        freedoms: number of degrees of freedom that neither drivers nor ``set`` determine.
+        free_rates: number of degrees of freedom of the velocities that neither determine.
+        coordinates: one coordinate for each freedom; setting them determines the position. Empty
+            in a model with more than 120 coordinates.
+        rates: one rate for each free rate; setting them determines the velocities.
     """
 
     freedoms: int = 0

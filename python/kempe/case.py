@@ -1,4 +1,4 @@
-"""A case: a model, a start and any number of analyses; the content of a file."""
+"""A case: a model, a start and any number of analyses. A file contains one case."""
 
 from __future__ import annotations
 
@@ -60,8 +60,8 @@ class Results(Mapping[str, Any]):
         """A ``Solution`` or ``Result`` by the name of its analysis or by its position.
 
         Raises:
-            ModelError: there is no analysis of that name; it is a ``KeyError`` too.
-            IndexError: there are not so many.
+            ModelError: there is no analysis of that name; the error is a ``KeyError`` too.
+            IndexError: there is no analysis at that position.
         """
         if isinstance(key, int):
             return list(self._solutions.values())[key]
@@ -79,20 +79,20 @@ class Results(Mapping[str, Any]):
 
 
 class Case:
-    """A model, a start and analyses, each of which starts where the one before it ended.
+    """A model, a start and analyses. Each analysis starts where the one before it ended.
 
     Args:
         model: the mechanism.
         start: a ``Start``, or a mapping with ``set`` and ``guess``.
-        analyses: ``Dynamics`` and the like, in order; or a mapping of names to entries as in a
-            file.
+        analyses: ``Dynamics`` or other analyses, in order; or a mapping of names to entries as in
+            a file.
         sweep: the default sweep of the case, as in a file: ``{"variables": …, "measures": …}``.
 
     Attributes:
         model: the mechanism.
 
     Raises:
-        FileError, ModelError: with all that is wrong.
+        FileError, ModelError: the case is invalid; the error contains all ``problems``.
     """
 
     def __init__(
@@ -121,7 +121,7 @@ class Case:
         return case
 
     def __copy__(self) -> Case:
-        """A case with a model of its own, which can be changed without changing this one."""
+        """A case with a copy of the model, which can be changed without changing this case."""
         return copy.deepcopy(self)
 
     @property
@@ -135,10 +135,10 @@ class Case:
         return copy.deepcopy(self._sweep)
 
     def tree(self) -> dict[str, Any]:
-        """The case as nested mappings, structured as a file; a copy.
+        """A copy of the case as nested mappings, structured as a file.
 
         Raises:
-            ModelError: a law is a Python function, which no file contains.
+            ModelError: a law is a Python function, which a file cannot contain.
         """
         return self._with_rest(self.model.tree())
 
@@ -154,8 +154,8 @@ class Case:
         """The assembled mechanism.
 
         Raises:
-            AssemblyError: it does not close. If drivers contradict each other, ``problems`` gives
-                their lines in the file.
+            AssemblyError: the mechanism does not close. If drivers contradict each other,
+                ``problems`` gives their lines in the file.
         """
         try:
             return assemble(self.model, self._start.set, self._start.guess)
@@ -180,17 +180,17 @@ class Case:
 
     @property
     def held(self) -> Mapping[str, Number]:
-        """The coordinates and rates that hold at the start."""
+        """The coordinates and rates that are set at the start."""
         return dict(self._start.set)
 
     def run(self, progress: Progress | None = None) -> Results:
         """Run all analyses, in order.
 
         Args:
-            progress: called now and then with the time reached, s.
+            progress: called repeatedly with the time reached, s.
 
         Raises:
-            KempeError: an analysis failed; an IntegrationError has its ``solution``.
+            KempeError: an analysis failed; an IntegrationError contains its ``solution``.
         """
         return Results(dict(self.each(progress)))
 
@@ -199,12 +199,12 @@ class Case:
     ) -> Iterator[tuple[str, Solution | Result]]:
         """Run the analyses one by one and yield each solution or other result at once.
 
-        An analysis starts in the state in which the one before it ended. If the joints drifted
-        until then, as they do with Baumgarte's stabilization, it starts in the nearest state that
-        meets the constraints, with an ``AssemblyWarning`` that names the gap.
+        An analysis starts in the state in which the one before it ended. Joints can drift in an
+        analysis, for example with Baumgarte's stabilization. The next analysis then starts in the
+        nearest state that satisfies the constraints, and an ``AssemblyWarning`` gives the gap.
 
         Args:
-            progress: called now and then with the time reached, s.
+            progress: called repeatedly with the time reached, s.
             start: the assembled mechanism; assembled here when None.
         """
         compiled = self.model.compile()
@@ -235,7 +235,7 @@ class Case:
             state = ends[name] = solution.final
 
     def with_parameters(self, parameters: Mapping[str, Number]) -> Case:
-        """The same case with other values of some parameters; ``start()`` uses them.
+        """A copy of the case with other values of some parameters; ``start()`` uses them.
 
         Raises:
             ModelError: a value is invalid, or there is no parameter of that name.
@@ -243,12 +243,12 @@ class Case:
         return self._with(model=self.model.with_parameters(parameters))
 
     def _with(self, **parts: Any) -> Case:
-        """The same case with another ``model``, ``start`` or ``analyses``."""
+        """A copy of the case with another ``model``, ``start`` or ``analyses``."""
         kept = {"model": self.model, "start": self._start, "analyses": self._entries}
         return Case(**{**kept, **parts}, sweep=self._sweep)
 
     def with_analysis(self, name: str, **changes: Any) -> Case:
-        """The same case with some fields of one analysis changed, as ``t_end=30``.
+        """A copy of the case with some fields of one analysis changed, such as ``t_end=30``.
 
         Raises:
             ModelError: there is no analysis of that name, or a field has an invalid value.
@@ -261,15 +261,15 @@ class Case:
         return self._with(analyses={**self._entries, name: {**self._entries[name], **given}})
 
     def of_type(self, kind: str, absent: Mapping[str, Number] | None = None) -> Case:
-        """The same case with the analyses of one type and those that they start from.
+        """A copy of the case with the analyses of one type and the analyses that they start from.
 
         Args:
             kind: the type.
-            absent: fields of an analysis from the start that is added if there is none of this
-                type.
+            absent: fields of the analysis that is added, from the start of the case, if the case
+                has no analysis of this type.
 
         Raises:
-            ModelError: there is none, and one with the given fields lacks others.
+            ModelError: the case has no such analysis, and ``absent`` lacks required fields.
         """
         entries = of_type(self._entries, kind)
         if entries:
@@ -283,9 +283,10 @@ class Case:
             raise ModelError(f"{told}: {error.args[0]}", hint=hint) from error
 
     def with_start(self, coordinates: Coordinates) -> Case:
-        """The same case with other coordinates and rates set at the start: ``{"crank.angle": 1}``.
+        """A copy with other coordinates and rates set at the start: ``{"crank.angle": 1}``.
 
-        They replace those of the same name in ``set`` and in ``guess``; all others remain.
+        They replace the values of the same names in ``set`` and in ``guess``; all other values
+        remain.
 
         Raises:
             ModelError: there is no such coordinate, or a value is not a number or a formula.
@@ -294,12 +295,12 @@ class Case:
         return self._with(start=Start({**self._start.set, **coordinates}, guess))
 
     def save(self, path: Path | str) -> None:
-        """Write the case as TOML or JSON, by the suffix of the name; nothing is lost.
+        """Write the complete case as TOML or JSON, by the suffix of the name.
 
-        Files of tables stay where they are; the case refers to them relative to its own folder.
+        Files of tables are not copied; the case refers to them relative to its own folder.
 
         Raises:
-            FileError: the file cannot be written; an old one is then left as it was.
+            FileError: the file cannot be written; an existing file is then unchanged.
         """
         form = _format(path, "write")
         tree = self.model.beside(self.tree(), Path(path).parent)
@@ -310,7 +311,7 @@ class Case:
         """The case as TOML, as ``save`` writes it.
 
         Raises:
-            ModelError: a law is a Python function, which no file contains.
+            ModelError: a law is a Python function, which a file cannot contain.
         """
         self.tree()
         return self._core().write("toml")
@@ -335,8 +336,9 @@ def load(path: Path | str, *, parameters: Mapping[str, Number] | None = None) ->
         parameters: other values for some of its parameters.
 
     Raises:
-        FileError: the file cannot be read, or is not a case; with all ``problems``.
-        ModelError: the model is wrong; with all ``problems``, each with line and column.
+        FileError: the file cannot be read, or is not a case; the error contains all ``problems``.
+        ModelError: the model is invalid; the error contains all ``problems``, each with line and
+            column.
     """
     form = _format(path, "read")
     return parsed(files.read_text(path), form, str(path), parameters, Path(path).parent)
@@ -356,10 +358,10 @@ def parsed(
         form: "toml" or "json".
         origin: name of the file, for messages.
         parameters: other values for some of its parameters.
-        folder: the folder of the files of tables; the current one if absent.
+        folder: the folder of the files of tables; by default the current folder.
 
     Raises:
-        FileError, ModelError: as ``load``.
+        FileError, ModelError: as in ``load``.
     """
     core = _core.Case(text, form, origin)
     case = Case._loaded(core, folder or Path())

@@ -18,12 +18,12 @@ def declared(group: str) -> Mapping[str, Mapping[str, Any]]:
         group: such as "forces", "joints", "drivers", "methods", "stabilizations" or "analyses".
 
     Returns:
-        Of each type ``doc``, a text, and ``fields``: name, unit, default and doc of each field.
+        For each type its text ``doc``, and ``fields``: name, unit, default and doc of each field.
     """
     entries: list[dict[str, Any]] = json.loads(_core.catalogue())[group]
     return {entry["name"]: entry for entry in entries}
 
 
 def about(group: str, kind: str) -> str:
-    """The description of a type on one line, without marks of code."""
+    """The description of a type on one line, without the backticks of code."""
     return " ".join(declared(group)[kind]["doc"].replace("`", "").split())

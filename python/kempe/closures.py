@@ -31,7 +31,7 @@ class ConfigurationsResult(Result, Sequence[State]):
     """The positions in which a mechanism closes, as a sequence of states.
 
     Attributes:
-        complete: whether there are no others; true only where it is proven.
+        complete: whether there are no other configurations; true only if this is proven.
         states: the states.
     """
 
@@ -44,7 +44,7 @@ class ConfigurationsResult(Result, Sequence[State]):
 
     @property
     def final(self) -> State:
-        """The state from which the analysis started; the first configuration without one."""
+        """The state from which the analysis started, or the first configuration by default."""
         return self._final
 
     @overload

@@ -73,13 +73,13 @@ class CompiledModel:
         return cls(_core.Case(case, "json", None).model("{}"), case)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        """Pickled as text; compiled again when it is read."""
+        """Pickle the model as text; it is compiled again when it is read."""
         self._refuse_functions()
         return _restored, (self.model, self._case, self._analyses, self.core.setting)
 
     @property
     def model(self) -> Model:
-        """The model that was compiled; made from the case where there was none."""
+        """The model that was compiled; if there was none, it is built from the case."""
         if self._model is None:
             from kempe.model import Model
 
@@ -91,7 +91,7 @@ class CompiledModel:
         """JSON of a case from which the model can be compiled again.
 
         Raises:
-            ModelError: a law is a Python function, which no case contains.
+            ModelError: a law is a Python function, which a case cannot contain.
         """
         self._refuse_functions()
         if self._analyses is None:
@@ -104,7 +104,7 @@ class CompiledModel:
 
     @cached_property
     def tree(self) -> Mapping[str, Any]:
-        """The case as nested mappings, with a text in the place of each Python function."""
+        """The case as nested mappings, with a text in place of each Python function."""
         tree: dict[str, Any] = json.loads(self._case)
         return MappingProxyType(tree)
 
@@ -131,7 +131,7 @@ class CompiledModel:
         return other
 
     def variant(self, setting: Setting) -> CompiledModel:
-        """The same model in another setting; see ``kempe.phases``."""
+        """The model in another setting; see ``kempe.phases``."""
         if not any(setting):
             return self
         other = CompiledModel(self.core.variant(*setting), self._case, self._model)
@@ -148,8 +148,8 @@ class CompiledModel:
     def is_plain(self) -> bool:
         """Whether it is the model of the case, without redundant constraints.
 
-        Only then a quantity follows from the state by its name alone: the rows of a released driver
-        have no multiplier, and a redundant joint may have no unique reaction.
+        Only then does the name of a quantity and the state determine its value: the rows of a
+        released driver have no multiplier, and a redundant joint may have no unique reaction.
         """
         return self.redundancy == "refuse" and not any(self.core.setting)
 
@@ -196,7 +196,7 @@ class CompiledModel:
 
     @property
     def n_multipliers(self) -> int:
-        """Number of multipliers: those of the constraints, then of forces that stick or rest."""
+        """Number of multipliers: of the constraints, then of forces that stick or rest."""
         return int(self._about["n_multipliers"])
 
     @cached_property
@@ -241,7 +241,7 @@ class CompiledModel:
 
     @cached_property
     def symbols(self) -> tuple[dict[str, Any], ...]:
-        """The symbols of joints, drivers and forces in a drawing, in their order.
+        """The symbols of joints, drivers and forces in a drawing, in the order of the elements.
 
         Each has ``element`` (its name), ``mark`` (a word of the scene's vocabulary), ``i`` and
         ``j`` (``body``: number, ``point``: place in its frame or None, ``axis``: angle) and
@@ -265,7 +265,7 @@ class CompiledModel:
         return self._column_names(COORDINATES, "")
 
     def column_units(self) -> list[str]:
-        """Units of the coordinates in the order of q: m, rad, or that of an internal coordinate."""
+        """Units of the coordinates in the order of q: m, rad, or units of internal coordinates."""
         of_bodies = [("m", "m", "rad")[k] for b in self.bodies.values() for k in range(b.count)]
         return of_bodies + [unit for c in self.constraints.values() for _, unit in c.coordinates]
 
@@ -286,7 +286,7 @@ class CompiledModel:
 
     @cached_property
     def places(self) -> Mapping[str, tuple[str, int]]:
-        """The array, q, v or z, and the place in it of each coordinate, rate and state by name."""
+        """The array (q, v or z) and the index in it of each coordinate, rate and state, by name."""
         arrays = {"q": self.column_names(), "v": self.rate_names(), "z": self.state_names()}
         return {name: (of, k) for of, names in arrays.items() for k, name in enumerate(names)}
 
@@ -348,7 +348,7 @@ def _restored(
     analyses: Mapping[str, Any] | None,
     setting: Setting = ([], [], []),
 ) -> CompiledModel:
-    """A compiled model from its text; that of the user's model if the text is the same."""
+    """A compiled model from its text; the compiled ``model`` itself if its text is equal."""
     made = model.compile() if model.json() == case else CompiledModel.from_case(case)
     made._model = model
     made = made if analyses is None else made.with_analyses(analyses)

@@ -10,7 +10,7 @@ from kempe import _core
 from kempe.arrays import Floats
 from kempe.errors import ModelError
 
-#: Number of the works that the integrator integrates with the motion.
+#: Number of work integrals that the integrator computes with the motion.
 WORKS = 3
 
 
@@ -19,10 +19,10 @@ class DenseOutput:
     """y(t_old + θ h) = y_old + h Σ_k c_k θ^(k+1) in every step, with y = [q, v, z, works].
 
     Attributes:
-        t: boundaries of the k steps, (k + 1,), s; descending for a motion over a quantity that
-            falls.
+        t: boundaries of the k steps, (k + 1,), s; descending if the motion is computed over a
+            decreasing quantity.
         y: y at the start of each step, (k, n_y).
-        c: coefficients, (k, n_y, degree): degree 4, with DOP853 9.
+        c: coefficients, (k, n_y, degree); the degree is 4, or 9 with DOP853.
     """
 
     t: Floats
@@ -31,7 +31,7 @@ class DenseOutput:
 
     @classmethod
     def of_an_instant(cls, t: float, y: Floats) -> DenseOutput:
-        """The interpolant of a simulation without steps."""
+        """The interpolant of a simulation that makes no steps."""
         return cls(np.array([t, t]), y[None], np.zeros((1, len(y), 1)))
 
     def __repr__(self) -> str:

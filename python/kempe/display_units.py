@@ -1,8 +1,8 @@
 """The units in which tables, figures and CSV files show their numbers.
 
-Arrays, saved solutions and the JSON summary are always in SI units and rad; only what is shown
-for reading is converted. A chosen unit of length or angle also gives the units of velocity and
-acceleration: "mm" gives mm/s and mm/s^2.
+Arrays, saved solutions and the JSON summary are always in SI units and rad; only displayed numbers
+are converted. A chosen unit of length or angle also determines the units of velocity and
+acceleration: "mm" implies mm/s and mm/s^2.
 """
 
 from __future__ import annotations
@@ -20,8 +20,7 @@ from kempe import _core
 from kempe.errors import ModelError
 from kempe.names import unknown
 
-#: The unit of SI that each combination of base units stands for. A torque is written as a product,
-#: an energy with a unit of its own.
+#: The SI unit of each combination of base units. A torque has the unit N*m, an energy the unit J.
 _QUANTITIES: Mapping[str, str] = {
     "m": "m",
     "rad": "rad",
@@ -51,8 +50,8 @@ class Shown:
     """The unit in which a quantity is shown.
 
     Attributes:
-        unit: in plain letters, such as "mm/s^2" or "deg".
-        divisor: divides a value in SI units.
+        unit: the unit in plain letters, such as "mm/s^2" or "deg".
+        divisor: divisor of values in SI units.
     """
 
     unit: str
@@ -69,10 +68,10 @@ class Shown:
 
 @dataclass(frozen=True)
 class Units:
-    """The display units in force; in a ``with`` statement, the earlier ones return at its end.
+    """The current display units; a ``with`` statement restores the earlier units at its end.
 
     Attributes:
-        chosen: the units that were chosen, in their order; empty for SI units.
+        chosen: the units that were chosen, in the order of the choice; empty for SI units.
     """
 
     chosen: tuple[str, ...] = ()
@@ -101,7 +100,7 @@ _current = SI
 def units(*names: str) -> Units:
     """Choose the units of tables, figures and CSV files.
 
-    For example ``kp.units("mm", "deg", "rpm")``, or the same in one text, ``"mm,deg,rpm"``.
+    For example, ``kp.units("mm", "deg", "rpm")``, or ``kp.units("mm,deg,rpm")``.
     Quantities without a chosen unit are shown in SI units. Arrays are always in SI units.
 
     Args:
@@ -110,7 +109,7 @@ def units(*names: str) -> Units:
             power, mass or current. ``"SI"`` returns to SI units; no name changes nothing.
 
     Returns:
-        The units now in force. ``with kp.units("mm"): …`` limits them to a block.
+        The current units. ``with kp.units("mm"): …`` limits them to a block.
 
     Raises:
         ModelError: a unit is unknown, measures no shown quantity, or repeats a quantity.

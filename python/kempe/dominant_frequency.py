@@ -1,10 +1,10 @@
 """The frequency of the strongest oscillation of a series.
 
-A sinusoid that grows or decays, beside a line, c + d t + e^(σ t) (A cos ω t + B sin ω t), is fitted
-by least squares with the weights of Hann's window. The iteration of Gauss and Newton starts at the
-largest peak of the spectrum, with and without the window; the better fit counts. A sinusoid, also a
-decaying one, is found to rounding. Of a periodic series with several harmonics the strongest is
-found, and the window suppresses the others.
+A straight line with a sinusoid that grows or decays, c + d t + e^(σ t) (A cos ω t + B sin ω t), is
+fitted by least squares with the weights of Hann's window. The Gauss–Newton iteration starts at the
+largest peak of the spectrum with the window and at that without the window; the better fit is
+returned. The frequency of a single sinusoid, decaying or not, is found to rounding accuracy. In a
+periodic series with several harmonics, the strongest is found; the window suppresses the others.
 """
 
 from __future__ import annotations
@@ -14,11 +14,11 @@ import numpy as np
 from kempe import _core
 from kempe.arrays import Floats
 
-#: A series that crosses its mean less often has no whole oscillation.
+#: A series with fewer crossings of its mean contains no whole oscillation.
 CROSSINGS = 3
 #: Smaller changes are rounding errors, relative to the largest value.
 NOISE = 1e-12
-#: Points of the spectrum for each output, at most so many points.
+#: Points of the spectrum for each output, and their largest number.
 _PADDING, _MOST = 8, 1 << 20
 #: Iterations, and the change of ω T that ends them.
 _ITERATIONS, _SMALL = 200, 1e-13
@@ -29,15 +29,15 @@ _FASTEST = 300.0
 
 
 def dominant_frequency(t: Floats, values: Floats) -> float:
-    """The frequency of the strongest oscillation, Hz; NaN without one.
+    """The frequency of the strongest oscillation, Hz; NaN if there is no oscillation.
 
     Args:
         t: (n_t,), s.
         values: (n_t,), at most half an oscillation apart.
 
     Returns:
-        The frequency. NaN if the values cross their mean less than three times: there is no whole
-        oscillation.
+        The frequency. NaN if the values cross their mean fewer than three times, so that they
+        contain no whole oscillation.
     """
     mean = _core.mean(t, values)
     side = np.sign(values - mean)[np.abs(values - mean) > NOISE * np.abs(values).max(initial=0.0)]
@@ -58,13 +58,13 @@ def _spectral_peak(s: Floats, y: Floats, power: int) -> float:
     size = min(_PADDING * n, max(_MOST, n))
     spectrum = np.abs(np.fft.rfft(level * np.cos(np.pi * uniform) ** power, size))
     omega = 2.0 * np.pi * np.arange(len(spectrum)) / size * (n - 1)
-    slowest = 2.0 * np.pi  # a window of this length mixes slower ones with the mean
+    slowest = 2.0 * np.pi  # slower oscillations are mixed with the mean
     allowed = omega >= slowest
     return float(omega[allowed][spectrum[allowed].argmax()])
 
 
 def _fitted(s: Floats, y: Floats, start: float) -> tuple[float, float]:
-    """The error of the fit and ω; the start if the iteration leaves its surroundings."""
+    """The error of the fit and ω; the start if the iteration moves too far from it."""
     weights = np.cos(np.pi * s) + 1e-3
     sigma, omega = 0.0, start
     error = float("inf")

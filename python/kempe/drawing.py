@@ -56,7 +56,7 @@ def display_list(
 
 
 def view_around(bounds: Sequence[float], size: tuple[float, float]) -> View:
-    """The view of bounds, m, with room around them on an area of a size in points of print."""
+    """The view of bounds, m, with a margin, on an area of a size in points of print."""
     left, bottom, right, top = map(float, bounds)
     return _core.view_around((left, bottom, right, top), size)
 
@@ -66,7 +66,7 @@ def place_texts(
 ) -> Floats:
     """Offsets from anchors to the centres of texts that cover neither lines nor each other.
 
-    All in points of print, in an area from (0, 0) to its width and height.
+    All lengths are in points of print, in an area from (0, 0) to its width and height.
 
     Args:
         anchors: (n, 2).

@@ -1,4 +1,4 @@
-"""Kinematics and inverse dynamics: the motion that drivers determine, and the efforts for it."""
+"""Kinematics and inverse dynamics: the motion that drivers determine, and its efforts."""
 
 from __future__ import annotations
 
@@ -43,12 +43,13 @@ def kinematics(
 ) -> Solution:
     """Positions, velocities and accelerations of a mechanism whose drivers determine its motion.
 
-    Over time (``t_end``), or over the value of a driver or position quantity (``over`` and
-    ``range``). Then ``sol.t`` contains the values, so that rates are derivatives by the value; the
-    law of the driver is not used, and laws of other drivers keep their value at the start.
+    The motion is computed over time (``t_end``), or over the value of a driver or position quantity
+    (``over`` and ``range``). In the second case, ``sol.t`` contains the values, and rates are
+    derivatives with respect to the value. The law of the driver is not used, and the laws of other
+    drivers keep their value at the start.
 
-    The motion is followed by short steps, so that it stays on its branch. At each output the
-    constraints Φ(q, t) = 0, Φ_q v = ν and Φ_q a = γ hold to rounding (Haug 3.6).
+    The motion is followed by short steps, so that it stays on its branch. At each output, the
+    constraints Φ(q, t) = 0, Φ_q v = ν and Φ_q a = γ are satisfied to rounding (Haug 3.6).
 
     Args:
         model: the mechanism.
@@ -62,8 +63,8 @@ def kinematics(
 
     Raises:
         SingularityError: the motion ends at a limit, such as a dead point. ``value`` is the time or
-            value of the limit, ``solution`` the motion until then.
-        AssemblyError: the start does not meet the constraints.
+            value of the limit, ``solution`` the motion up to this limit.
+        AssemblyError: the start does not satisfy the constraints.
         ModelError: the drivers leave a freedom, or an argument is invalid.
     """
     entry = Kinematics(t_end, output_step, over, range, n).tree()
@@ -83,12 +84,12 @@ def inverse_dynamics(
 ) -> Solution:
     """Efforts of the drivers and reactions of the joints for the motion that the drivers prescribe.
 
-    The motion is that of ``kinematics``, with the same arguments and errors. The multipliers follow
-    from M a + Φ_qᵀ λ = Q at each output, and works from the powers by adaptive quadrature. Over a
-    value instead of time, masses are moved with unit rate of this value.
+    ``kinematics`` computes the motion; its arguments and errors apply here too. The multipliers
+    follow from M a + Φ_qᵀ λ = Q at each output. Work is the integral of power by adaptive
+    quadrature. In a motion over a value instead of time, this value changes at unit rate.
 
     Raises:
-        ModelError: a force has states of its own, such as the current of a motor: they do not
+        ModelError: a force has first-order states, such as the current of a motor, which do not
             follow from the motion.
     """
     entry = InverseDynamics(t_end, output_step, over, range, n).tree()
@@ -121,7 +122,7 @@ def follow(
 def follow_with_forces(
     model: CompiledModel, start: State, entry: Mapping[str, Any], progress: Progress | None
 ) -> Solution:
-    """The same with reactions; see ``inverse_dynamics``."""
+    """The motion with reactions and efforts; see ``inverse_dynamics``."""
     names = [info.name for info in model.forces.values() if info.states]
     if names:
         raise ModelError(

@@ -11,7 +11,7 @@ from kempe.arrays import Floats
 
 Complexes: TypeAlias = NDArray[np.complex128]
 
-#: Largest part of a matrix that counts as rounding.
+#: Largest relative part of a matrix that counts as a rounding error.
 _ROUNDING = 1e-12
 
 
@@ -20,11 +20,12 @@ def eigenmodes(
 ) -> tuple[Complexes, Complexes]:
     """Eigenvalues, 1/s, and the part of the independent coordinates in their vectors.
 
-    Of two conjugate eigenvalues only that with the positive imaginary part is returned. The
-    eigenvalues ascend by magnitude.
+    Of two conjugate eigenvalues, only the one with the positive imaginary part is returned. The
+    eigenvalues are sorted by ascending magnitude.
 
-    Without damping and first-order states, and with a symmetric stiffness, s² are the eigenvalues
-    of a symmetric matrix, which keeps all digits; otherwise s are those of A.
+    Without damping and first-order states, and with a symmetric stiffness, the squares s² are
+    computed as eigenvalues of a symmetric matrix, which is more accurate. Otherwise the eigenvalues
+    s of A are computed.
 
     Args:
         mass: M, (f, f).
@@ -76,7 +77,7 @@ def _undamped(mass: Floats, stiffness: Floats) -> tuple[Complexes, Complexes]:
 
 
 def _rounding_of(squares: Floats) -> float:
-    """Rounding of eigenvalues of a symmetric matrix; none for a single one."""
+    """Rounding error of the eigenvalues of a symmetric matrix; zero for a single eigenvalue."""
     if len(squares) == 1:
         return 0.0
     return float(4.0 * len(squares) * np.finfo(float).eps * np.abs(squares).max())

@@ -72,9 +72,9 @@ class Energy:
     def scale(self) -> float:
         """The energy to which the balance is relative, J.
 
-        The largest of the kinetic energy and of the ranges of the potential energy, of the
-        dissipated energy and of the works. It is at least a millionth of the largest potential
-        energy, which rounding changes, and 1 J without any energy.
+        It is the largest of the kinetic energy and of the ranges of the potential energy, the
+        dissipated energy and the work. It is at least a millionth of the largest potential energy,
+        because of rounding errors, and 1 J if all energies are zero.
         """
         if not len(self.kinetic):
             return 1.0

@@ -19,11 +19,11 @@ from typing import Any
 
 @dataclass(frozen=True)
 class Problem:
-    """One of possibly many things that are wrong with a model or a file.
+    """A fault of a model or a file.
 
     Attributes:
         message: the fault and its remedy.
-        path: where in the model, such as ``joints.C.i``; may be empty.
+        path: the place in the model, such as ``joints.C.i``; may be empty.
         line: line in the file, from 1; None for a model built in Python.
         column: column in the file, from 1; None for a model built in Python.
     """
@@ -48,7 +48,7 @@ class KempeError(Exception):
         name: the joint or body at fault, or None.
         t: the time of the failure in s, or None.
         hint: the remedy, or None.
-        problems: all that is wrong, in the order of the file; may be empty.
+        problems: all faults, in the order of the file; may be empty.
     """
 
     def __init__(
@@ -73,7 +73,7 @@ class KempeError(Exception):
 
 
 class ModelError(KempeError):
-    """The model, or the file it was read from, is wrong."""
+    """The model, or the file from which it was read, is invalid."""
 
 
 class AssemblyError(KempeError):
@@ -81,11 +81,11 @@ class AssemblyError(KempeError):
 
 
 class RedundancyError(KempeError):
-    """Some constraints repeat others in every position."""
+    """Some constraints are redundant: other constraints imply them in every position."""
 
 
 class SingularityError(KempeError):
-    """In this position the task has no unique answer, as in a dead point.
+    """The solution is not unique in this position, for example at a dead point.
 
     Attributes:
         solution: the results before the position, or None.

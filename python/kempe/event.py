@@ -25,17 +25,17 @@ _FIELDS = ("condition", "direction", "stop")
 
 @dataclass(frozen=True)
 class Event:
-    """An event that a run looks for.
+    """An event that a run detects.
 
     Attributes:
-        condition: a comparison such as ``"C.force > 900"``, which has an event whenever it becomes
-            true, but none if it is true at the start; or an expression such as
-            ``"rocker.angle - 270*deg"``, which has an event at each zero.
-        direction: the zeros of an expression that count: "rising", "falling" or "both".
+        condition: a comparison or an expression. A comparison such as ``"C.force > 900"`` has an
+            event whenever it becomes true, but no event if it is true at the start. An expression
+            such as ``"rocker.angle - 270*deg"`` has an event at each zero.
+        direction: the zeros of an expression that are events: "rising", "falling" or "both".
         stop: whether the run ends at the first event.
         action: a function that is called with the state at the event. It returns None to change
             nothing, a mapping of parameters to their new values, or a state at the same time with
-            other positions or velocities. The run continues from there. Only in ``kp.dynamics``.
+            other positions or velocities. The run continues with them. Only in ``kp.dynamics``.
     """
 
     condition: str

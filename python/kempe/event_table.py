@@ -15,8 +15,8 @@ def write_events(solution: Solution, path: Path | str) -> bool:
     """Write one line for each event as CSV with 17 digits, in the order of time.
 
     The columns are the name of the event, its time, and the coordinates, rates and first-order
-    states there, in display units; where a contact hits, those before the impact. Without events
-    no file is written, and one of an earlier run is removed.
+    states, in display units. At the impact of a contact, they are the values before the impact.
+    Without events, no file is written, and the file of an earlier run is removed.
 
     Returns:
         Whether there are events.

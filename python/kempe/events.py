@@ -1,8 +1,9 @@
-"""Events of a run: those that it looked for, and those that its joints declare.
+"""Events of a run: events that were requested, and events that its joints declare.
 
-The core locates the first kind. An element declares results that become negative in its own source
-file: a normal force of a roller that becomes negative is the event ``lift_off``, since the curve
-would have to pull from there on. The run continues.
+The core locates requested events. The declared events are found here: the source file of an element
+declares an event for a result that becomes negative. For example, a roller whose normal force
+becomes negative has the event ``lift_off``, since the curve would have to pull the roller. The run
+continues.
 """
 
 from __future__ import annotations
@@ -25,9 +26,9 @@ if TYPE_CHECKING:
     from kempe.solution import Solution
     from kempe.state import State
 
-#: A value counts as negative below this share of the largest multiplier of the run.
+#: A value counts as negative if its magnitude exceeds this fraction of the largest multiplier.
 _NOISE = 1e-9
-#: A bracket is divided until it is this short, s, so often at most.
+#: A bracket is divided until it is this short, s; and the largest number of divisions.
 _SHORTEST, _ROUNDS = 1e-13, 60
 
 Read = Callable[["Motion"], Floats]
@@ -44,7 +45,7 @@ class EventTimes:
     Attributes:
         name: its name, such as ``hit``, or joint and event, such as ``cam.lift_off``.
         t: its times, (n_events,), s.
-        states: the state at each of them; where a contact hits, before the impact.
+        states: the state at each time; at the impact of a contact, the state before the impact.
     """
 
     name: str
@@ -79,8 +80,8 @@ class EventTimes:
 def events(solution: Solution) -> Mapping[str, EventTimes]:
     """All events of a run by name; an event that did not occur is empty.
 
-    Times of results that become negative are found on the interpolant of the integrator. Without
-    one, they are the outputs at which the value is negative for the first time.
+    Times of results that become negative are found on the interpolant of the integrator. Without an
+    interpolant, they are the outputs at which the value is negative for the first time.
     """
     found = {}
     for name, t, q, v, z, impulses in solution._run.events:
@@ -116,7 +117,7 @@ def warnings_of(solution: Solution) -> list[str]:
 
 
 def true_at_start(solution: Solution, entry: Mapping[str, Any]) -> list[str]:
-    """A warning for each stop and release that did not happen and was true at the start.
+    """A warning for each stop and release that had no effect because it was true at the start.
 
     Args:
         solution: the solution.

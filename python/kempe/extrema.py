@@ -27,8 +27,8 @@ class Extreme(NamedTuple):
     """An extreme value.
 
     Attributes:
-        value: in the unit of the quantity.
-        t: the time at which it is reached first, s.
+        value: the value, in the unit of the quantity.
+        t: the first time at which it is reached, s.
     """
 
     value: float
@@ -39,13 +39,14 @@ def largest(motion: Motion, quantity: Quantity) -> Extreme:
     """The largest value of a quantity.
 
     Args:
-        motion: a solution is searched on its interpolant; any other motion at its own times.
+        motion: a solution, which is searched on its interpolant, or another motion, which is
+            searched at its times.
         quantity: a function of a motion that returns a value for each time, (n_t,).
 
     Returns:
-        The value and its time. Values beside a singular position do not count if they have no
-        bound there, or if they are errors of the state divided by little; see ``unbounded``.
-        Otherwise the value is never below the largest one at the outputs.
+        The value and its time. Values beside a singular position are ignored if they have no bound
+        there, or if they are errors of the state divided by a small number; see ``unbounded``.
+        Otherwise the value is never below the largest value at the outputs.
     """
     return _extreme(motion, quantity, 1.0)
 
@@ -76,7 +77,7 @@ def unbounded(motion: Motion, quantity: Quantity) -> Floats:
 
 
 def passes_singular(motion: Motion) -> bool:
-    """Whether a run passes positions beside which multipliers mean nothing."""
+    """Whether a run passes positions beside which multipliers are meaningless."""
     if fine(motion) is motion:
         return False
     assert isinstance(motion, Solution)
@@ -85,7 +86,7 @@ def passes_singular(motion: Motion) -> bool:
 
 
 def singular_times(solution: Solution) -> Floats:
-    """Times of positions beside which multipliers mean nothing, s; none without an interpolant."""
+    """Times of positions beside which multipliers are meaningless, s; needs an interpolant."""
     found = None if fine(solution) is solution else _singular(solution)
     return np.empty(0) if found is None else np.sort(found.near_t)
 

@@ -1,7 +1,7 @@
 """Reading and writing of files: completely or not at all; errors contain a remedy.
 
-A file is written beside its place under another name, flushed to the disk and then moved over the
-old one, so that a reader gets the old or the new content and never a part (POSIX rename).
+A file is written under a temporary name in the same folder, flushed to the disk and then renamed.
+A reader therefore receives either the old or the new content, never a part (POSIX rename).
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from typing import BinaryIO
 
 from kempe.errors import FileError
 
-#: A case is written by hand or by a program for a person; the core reads no more than this.
+#: Largest size of a case; the core reads no larger text.
 LARGEST_TEXT = 16 * 1024 * 1024
 
 _REMEDIES: tuple[tuple[type[OSError], str, str], ...] = (
@@ -45,10 +45,10 @@ def trouble(path: Path | str, doing: str, error: OSError) -> FileError:
 
 
 def refuse_pipe(path: Path | str) -> None:
-    """Refuse a pipe or a device, since reading it may wait forever.
+    """Refuse a pipe or a device, since reading from it may block forever.
 
     Raises:
-        FileError: it is one.
+        FileError: the file is a pipe or a device.
         OSError, ValueError: the file is missing, or its name is impossible.
     """
     mode = Path(path).stat().st_mode
@@ -62,7 +62,7 @@ def refuse_pipe(path: Path | str) -> None:
 
 
 def checked_path(path: object, doing: str) -> Path:
-    """A path that the operating system can take.
+    """A path that is valid for the operating system.
 
     Raises:
         FileError: the argument is not a path, or contains a character that no name can contain.
@@ -83,7 +83,7 @@ def read_text(path: Path | str) -> str:
     """The text of a UTF-8 file.
 
     Raises:
-        FileError: missing, a folder, a pipe, not permitted, too large or not UTF-8.
+        FileError: the file is missing, a folder, a pipe, not permitted, too large or not UTF-8.
     """
     where = checked_path(path, "read")
     try:
@@ -103,7 +103,7 @@ def decoded(data: bytes, path: Path | str) -> str:
         path: the file, for messages.
 
     Raises:
-        FileError: too large or not UTF-8.
+        FileError: the text is too large or not UTF-8.
     """
     if len(data) > LARGEST_TEXT:
         megabytes = LARGEST_TEXT // 2**20
@@ -119,9 +119,9 @@ def decoded(data: bytes, path: Path | str) -> str:
 
 
 def csv_cell(text: str) -> str:
-    """A text as a field of a CSV file (RFC 4180) that no spreadsheet takes for a formula.
+    """A text as a field of a CSV file (RFC 4180) that a spreadsheet does not read as a formula.
 
-    A text that begins with = + - @ or a control character gets an apostrophe before it.
+    An apostrophe is put before a text that begins with = + - @ or a control character.
     """
     safe = f"'{text}" if text[:1] in {*"=+-@\t\r\n"} else text
     return '"' + safe.replace('"', '""') + '"' if set(safe) & set(',"\r\n') else safe
@@ -129,10 +129,10 @@ def csv_cell(text: str) -> str:
 
 @contextmanager
 def writing(path: Path | str) -> Iterator[BinaryIO]:
-    """A binary file that appears at ``path`` when the block ends well, and not otherwise.
+    """A binary file that appears at ``path`` only if the block ends without an error.
 
-    Missing folders are made. A symbolic link stays one: its target is replaced. Devices and
-    pipes are refused, since a rename would put a file in their place.
+    Missing folders are created. A symbolic link is kept, and its target is replaced. Devices and
+    pipes are refused, since a rename would replace them by a file.
 
     Raises:
         FileError: the file cannot be written.
@@ -175,7 +175,7 @@ def _clear(target: Path) -> None:
 
 
 def _is_alive(process: int) -> bool:
-    """Whether a process of this machine runs; True where that cannot be known."""
+    """Whether a process of this machine runs; True if this cannot be determined."""
     if os.name != "posix":
         return True
     try:
@@ -188,7 +188,7 @@ def _is_alive(process: int) -> bool:
 
 
 def _keep_mode(target: Path, draft: Path) -> None:
-    """Give the new file the permissions of the one that it replaces."""
+    """Give the new file the permissions of the file that it replaces."""
     with suppress(FileNotFoundError):
         draft.chmod(target.stat().st_mode & 0o7777)
 

@@ -18,13 +18,13 @@ _known: WeakKeyDictionary[Solution, Motion] = WeakKeyDictionary()
 
 
 def fine(motion: Motion) -> Motion:
-    """The motion of a solution between its outputs too.
+    """The motion of a solution, including instants between its outputs.
 
     The instants are the boundaries of the integrator's steps and 3 to 31 instants in each step, at
     most 50 000 in total. They do not depend on the output times.
 
     Args:
-        motion: a solution; any other motion is returned as it is.
+        motion: a solution; any other motion is returned unchanged.
 
     Returns:
         The motion at these instants. It is the solution itself if there is no interpolant, or if
@@ -54,12 +54,12 @@ def _instants(solution: Solution) -> Floats:
 
 
 def jumps(t: Floats) -> NDArray[np.intp]:
-    """The places in times of a motion before which its values jump."""
+    """The indices of the times of a motion before which its values jump."""
     return np.flatnonzero(np.abs(np.diff(t)) <= np.spacing(np.abs(t[1:]))) + 1
 
 
 def fine_energies(solution: Solution) -> tuple[Floats, Energy]:
-    """Times and energies on the interpolant; those at the outputs if there is no interpolant."""
+    """Times and energies on the interpolant, or at the outputs if there is no interpolant."""
     motion = fine(solution)
     if motion is solution:
         return solution.t, solution.energy

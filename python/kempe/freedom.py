@@ -32,18 +32,19 @@ _KINDS = {
 
 @dataclass(frozen=True)
 class Remedy:
-    """The equations that may be freed in one joint of a redundancy.
+    """The equations of one joint that may be removed to resolve a redundancy.
 
     Its ``str`` is a text such as ``B along x``.
 
     Attributes:
         joint: the joint or driver.
-        equations: its equations that take part, such as ``B.x``.
-        axis: of a pin: the direction that may be freed, rad from the x axis of ``body``. A
-            A slot with this axis in ``body`` leaves it free. None of others.
-        body: the body with which the direction turns, "ground" where it stays; None if it turns
-            with neither body, so that ``axis``, from ground, is that of this position only.
-        text: as in reports.
+        equations: the equations of the joint that take part, such as ``B.x``.
+        axis: for a pin, the direction that may be freed, rad from the x axis of ``body``; a slot
+            with this axis in ``body`` leaves it free. None for other joints.
+        body: the body with which the direction turns, or "ground" if it is constant. None if the
+            direction turns with neither body; ``axis`` is then measured from ground and valid in
+            this position only.
+        text: the text in reports.
     """
 
     joint: str
@@ -58,17 +59,17 @@ class Remedy:
 
 @dataclass(frozen=True)
 class Redundancy:
-    """An equation that others imply, permanently or at this position.
+    """A redundant equation: other equations imply it, permanently or at this position.
 
     Attributes:
         joints: the joints and drivers that take part.
         equations: their equations that take part, such as ``C.x``. Any one of them may be removed.
-        remedies: the equations that may be freed in each joint instead of removing it; one
-            of them is enough.
-        remove: one of them; those of all redundancies together may be removed.
-        consistent: whether the rates that drivers prescribe agree with it.
-        kind: "dead point", "change point" or "uncertainty" if it holds at this position only; empty
-            if it is permanent.
+        remedies: for each joint the equations that may be removed while the joint is kept; one
+            remedy is enough.
+        remove: one of ``equations``; these choices of all redundancies may be removed together.
+        consistent: whether the rates that drivers prescribe satisfy the redundant equation.
+        kind: "dead point", "change point" or "uncertainty" if the equation is redundant at this
+            position only; empty if it is permanently redundant.
     """
 
     joints: tuple[str, ...]
@@ -90,12 +91,12 @@ class FourBar:
 
     Attributes:
         bodies: the bodies, each next to its neighbours; ground first if it takes part.
-        pins: the joints: of the first and second body, and so on.
+        pins: the joints between consecutive bodies, beginning with the first and second body.
         lengths: the distances of the two pins of each body, m.
         kind: "crank-rocker", "double crank", "double rocker", "triple rocker", "change point", or
             "Grashof" if ground does not take part.
-        turning: the bodies that turn fully against their neighbours; None at a change point, where
-            it depends on the branch.
+        turning: the bodies that turn fully relative to their neighbours; None for a change-point
+            loop, where this depends on the branch.
     """
 
     bodies: tuple[str, ...]
@@ -109,16 +110,16 @@ class MobilityResult(Result):
     """The freedoms and redundant constraints of a mechanism at a position.
 
     Attributes:
-        gruebler: coordinates less constraint equations, drivers included.
-        degrees_of_freedom: coordinates less independent constraint equations.
+        gruebler: number of coordinates minus number of constraint equations, including drivers.
+        degrees_of_freedom: number of coordinates minus number of independent constraint equations.
         rank: number of independent constraint equations.
         driven: number of equations of drivers.
-        redundant: equations that others imply at every position.
-        singular: equations that others imply at this position only.
+        redundant: equations that are redundant at every position.
+        singular: equations that are redundant at this position only.
         locked: bodies that cannot move, even if the drivers are released.
         loose: bodies that no chain of joints connects with ground.
-        undetermined: massless bodies whose motion the mechanism does not determine, by name, each
-            with the message with which ``dynamics`` refuses the mechanism.
+        undetermined: massless bodies whose motion is not determined, by name, with the message of
+            the error that ``dynamics`` raises.
         four_bars: closed loops of four pins.
     """
 
@@ -191,12 +192,14 @@ class MobilityResult(Result):
 def mobility(model: Model | CompiledModel, state: State) -> MobilityResult:
     """Find the freedoms and redundant constraints of a mechanism at an assembled position.
 
-    Degrees of freedom by Grübler's count and by rank; redundant equations with all joints that take
-    part; singular positions with their kind; locked and loose bodies; massless bodies whose motion
-    is not determined; four-bar loops by Grashof. Forces are not needed.
+    The result contains the degrees of freedom by Grübler's count and by rank, redundant equations
+    with all joints that take part, the kind of a singular position, locked and loose bodies,
+    massless bodies whose motion is not determined, and four-bar loops with their Grashof type.
+    Forces are not needed.
 
     Args:
-        model: the mechanism. ``redundancy="allow"`` lets one with redundant joints be assembled.
+        model: the mechanism. A model with redundant joints needs ``redundancy="allow"`` to be
+            assembled.
         state: an assembled state.
     """
     return find_mobility(compiled_model(model), state, {}, None)

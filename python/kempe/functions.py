@@ -20,10 +20,10 @@ Function: TypeAlias = "Callable[[float, State], float]"
 
 @dataclass(frozen=True)
 class Sampled:
-    """A law that is computed at ``start + k * period``, k = 0, 1, 2, …, and held between.
+    """A law that is evaluated at ``start + k * period``, k = 0, 1, 2, …, and constant in between.
 
-    Steps of every method end at these times. The value that is held is a first-order state of the
-    force, such as ``controller.torque_held``; it is 0 before the first sample.
+    Steps of every method end at these times. The held value is a first-order state of the force,
+    such as ``controller.torque_held``; it is 0 before the first sample.
 
     Args:
         f: the function ``f(t, state)``, called once at each sample with the state there.
@@ -54,7 +54,7 @@ class Sampled:
 
 
 class FunctionLaw:
-    """A Python function in the place of a law in the tree of a model.
+    """A Python function in place of a law in the tree of a model.
 
     Attributes:
         path: such as ``forces.controller.torque``.
@@ -80,7 +80,7 @@ class FunctionLaw:
 
 
 def refuse_saving(laws: list[FunctionLaw]) -> NoReturn:
-    """Raise the ``ModelError`` for a model with Python functions that should be written."""
+    """Raise the ``ModelError`` for saving a model with Python functions."""
     named = ", ".join(law.path for law in laws)
     is_one = len(laws) == 1
     what = f"is a Python function, {laws[0]!r}" if is_one else "are Python functions"
@@ -93,7 +93,7 @@ def refuse_saving(laws: list[FunctionLaw]) -> NoReturn:
 
 
 def without(value: Any) -> Any:
-    """A tree with a text in the place of each function."""
+    """A tree with a text in place of each function."""
     if isinstance(value, Mapping):
         return {key: without(entry) for key, entry in value.items()}
     if isinstance(value, list | tuple):
@@ -121,7 +121,7 @@ class Functions:
         return [(*place, law.f, law.sampling) for *place, law in self.laws]
 
     def belong_to(self, compiled: CompiledModel) -> None:
-        """States are those of this model; it is not kept alive by its own functions."""
+        """Use this model for states; the reference to it is weak, to avoid a reference cycle."""
         self._compiled = weakref.ref(compiled)
 
     def state(self, x: Floats) -> State:

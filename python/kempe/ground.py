@@ -36,7 +36,7 @@ class Ground:
     def outline(self, outline: Outline) -> None:
         """Draw ground as points, circle or path, m: ``m.ground.outline({"circle": (0, 0, 1)})``.
 
-        It changes no number.
+        The outline does not affect any result.
 
         Raises:
             ModelError: the outline has a value of the wrong kind.
@@ -60,7 +60,7 @@ def with_ground(
         bodies: the bodies so far.
         what: "point" or "curve".
         given: the new points or curves by name.
-        check: checks them, given their path.
+        check: function that checks them; it receives their path.
 
     Raises:
         ModelError: a name is taken, or a value is of the wrong kind.

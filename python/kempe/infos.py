@@ -85,7 +85,7 @@ class Measured:
 
     @property
     def units(self) -> tuple[str, str, str]:
-        """SI units of the position, its rate and its acceleration."""
+        """SI units of the position, the rate and the acceleration."""
         return self.unit, f"{self.unit}/s", f"{self.unit}/s^2"
 
 
@@ -106,7 +106,7 @@ class ConstraintInfo:
         columns: slice of its internal coordinates in q; empty for most joints.
         coordinates: names and units of its internal coordinates.
         results: names and units of its results beside the reaction, such as ``("normal", "N")``.
-        events: for each of these results the event where it becomes negative, or None.
+        events: for each of these results the event that occurs when it becomes negative, or None.
         measured: its position quantities.
     """
 
@@ -146,7 +146,7 @@ class ForceInfo:
             other forces.
         places: slice of its first-order states in z; empty for most forces.
         states: names and units of its first-order states, such as ``("current", "A")``.
-        reaction: the joint whose reaction enters it; None for most forces.
+        reaction: the joint on whose reaction it depends; None for most forces.
         reads_multipliers: whether it depends on multipliers.
         results: names and units of its results beside its wrenches, such as ``("load", "N")``.
         measured: its position quantities.

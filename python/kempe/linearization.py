@@ -33,9 +33,10 @@ _AT_REST = 1e-6
 class ModesResult(Result):
     """Small motions about a state, from the linear equations on independent coordinates u.
 
-    M ü + C u̇ + K u = 0, and with first-order states z of forces ẋ = A x + B w, y = C x + D w for
-    x = (u, u̇, z). All are differences from the state. The derivatives are exact and include the
-    curvature of the constraints; drivers hold their coordinates.
+    The equations are M ü + C u̇ + K u = 0. With inputs w, outputs y and first-order states z of
+    forces, they are ẋ = A x + B w and y = C x + D w with x = (u, u̇, z). All variables are
+    differences from the state. The derivatives are exact and include the curvature of the
+    constraints; drivers hold their coordinates.
 
     Attributes:
         state: the state.
@@ -49,11 +50,11 @@ class ModesResult(Result):
         values: values of the outputs at the state.
         rates, acceleration: rates and accelerations of the independent coordinates at the state,
             (f); zero at an equilibrium.
-        basis: motion of all coordinates with each independent one, (f, n_q).
-        eigenvalues: (n_modes,), 1/s, ascending by magnitude. Of two conjugate ones that with the
-            positive imaginary part is listed; a real one is a mode by itself.
+        basis: motion of all coordinates with each independent coordinate, (f, n_q).
+        eigenvalues: (n_modes,), 1/s, ascending by magnitude. Of two conjugate eigenvalues, only the
+            one with the positive imaginary part is listed; a real eigenvalue is a mode by itself.
         shapes: (n_modes, n_q): the change of all coordinates in each mode; the largest number of
-            each is 1. Complex, because the coordinates of a damped mode have phases.
+            each mode is 1. Complex, because the coordinates of a damped mode have phases.
     """
 
     kind: ClassVar[str] = "modes"
@@ -137,11 +138,11 @@ class ModesResult(Result):
 
         Args:
             k: number of the mode, from 0.
-            amplitude: largest change of an angle, rad, or of a place, as a share of the size of
-                the mechanism; 0.15 when None.
+            amplitude: largest change of an angle, rad, or of a position, as a fraction of the size
+                of the mechanism; 0.15 when None.
 
         Raises:
-            ModelError: there are not so many modes.
+            ModelError: there is no mode with this number.
         """
         if not -len(self.eigenvalues) <= k < len(self.eigenvalues):
             raise ModelError(f"mode {k}: there are {len(self.eigenvalues)} modes, from 0")
@@ -254,12 +255,12 @@ def modes(
 ) -> ModesResult:
     """Frequencies, damping and shapes of small motions about a state, and its state space.
 
-    The state may be an equilibrium, any other pose, or a state of a motion, ``sol(0.5)``; it
-    remains as it is in time, also where it is not an equilibrium.
+    The state may be an equilibrium, any other position, or a state of a motion such as
+    ``sol(0.5)``. The equations have constant coefficients, also if it is not an equilibrium.
 
     Args:
         model: the mechanism.
-        state: a state that meets the constraints.
+        state: a state that satisfies the constraints.
         n: number of modes, the slowest first; all when None.
         inputs: parameters of forces, or position quantities such as ``"crank.angle"``, whose input
             is their generalized force.
@@ -267,7 +268,7 @@ def modes(
 
     Raises:
         SingularityError: the position is singular, or no mass moves with a coordinate.
-        AssemblyError: the state does not meet the constraints.
+        AssemblyError: the state does not satisfy the constraints.
         ModelError: an unknown input or output, or a parameter that changes the geometry.
     """
     entry = Modes(n, inputs, outputs).tree()
@@ -294,7 +295,7 @@ def _scaled(shapes: Complexes) -> Complexes:
     if not shapes.size:
         return np.zeros_like(shapes)
     largest = np.take_along_axis(shapes, np.abs(shapes).argmax(axis=1)[:, None], axis=1)
-    # a mode of states alone, such as a current, moves nothing
+    # a mode of first-order states alone, such as a current, moves no coordinate
     found: Complexes = shapes / np.where(np.abs(largest) > 0.0, largest, 1.0) + 0.0
     return found
 

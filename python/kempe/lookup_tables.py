@@ -1,4 +1,4 @@
-"""Tables: functions through given points, which formulas call by name."""
+"""Tables: functions through given points. Formulas call them by name."""
 
 from __future__ import annotations
 
@@ -28,15 +28,15 @@ class Table:
     """A table as it is written.
 
     Attributes:
-        name: formulas call it as ``name(x)``.
-        x: places, increasing, in ``x_unit``.
+        name: formulas call the table as ``name(x)``.
+        x: arguments, increasing, in ``x_unit``.
         y: values, one for each x, in ``y_unit``.
         file: a CSV file with the points, in place of x and y.
-        columns: names of the columns of x and y; the first two if absent.
-        x_unit: such as "deg"; SI and rad if absent.
-        y_unit: such as "mm"; SI and rad if absent.
+        columns: names of the columns of x and y; by default the first two columns.
+        x_unit: unit of x, such as "deg"; by default SI and rad.
+        y_unit: unit of y, such as "mm"; by default SI and rad.
         interpolation: "linear" (C⁰), "monotone" (C¹), "cubic" (C²) or "quintic" (C⁴).
-        periodic: whether the table repeats itself; the last y is the first one.
+        periodic: whether the table is periodic; the last y must equal the first.
         outside: "refuse", "hold" or "linear".
 
     Raises:
@@ -90,7 +90,7 @@ class TableFile:
 
     Attributes:
         path: the file.
-        x: places, in the unit of the table.
+        x: arguments, in the unit of the table.
         y: values, in the unit of the table.
     """
 
@@ -100,7 +100,7 @@ class TableFile:
 
     @classmethod
     def read(cls, name: str, entry: Mapping[str, Any], folder: Path) -> TableFile:
-        """The points of the table of a name.
+        """Read the points of a table.
 
         Args:
             name: name of the table, for messages.
@@ -200,8 +200,8 @@ class TableInfo:
     Attributes:
         name: its name.
         interpolation: the curve between the points.
-        range: first and last place, in SI units.
-        period: the period of a periodic table, else None.
+        range: first and last argument, in SI units.
+        period: the period of a periodic table; otherwise None.
     """
 
     def __init__(self, core: _core.Model, about: Mapping[str, Any]) -> None:
@@ -215,11 +215,11 @@ class TableInfo:
         """Values, or those of a derivative, in the shape of x.
 
         Args:
-            x: places, in SI units.
+            x: arguments, in SI units.
             derivative: order of the derivative, from 0 to 5.
 
         Returns:
-            values in SI units; NaN outside the range of a table that refuses it.
+            Values in SI units; NaN outside the range of a table with ``outside="refuse"``.
         """
         places = np.asarray(x, dtype=float)
         flat = np.ascontiguousarray(places.reshape(-1))

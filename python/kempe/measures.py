@@ -1,7 +1,7 @@
 """Measures: named expressions of quantities over a motion, and their statistics.
 
 A measure such as ``pin = "C.force"`` is declared in ``[measures]`` of a file or by ``m.measures``.
-``sol["pin"]`` is its values at the outputs, ``sol.measure("pin")`` has its statistics.
+``sol["pin"]`` contains its values at the outputs, ``sol.measure("pin")`` its statistics.
 """
 
 from __future__ import annotations
@@ -37,8 +37,7 @@ class MeasureInfo:
         expression: the expression, as written.
         quantities: names of the quantities that it uses, each once.
         unit: its SI unit; "1" for a number, "SI" if it does not follow from the expression.
-        is_of_run: whether it uses energies of a run or checks of it, which exist at the outputs
-            only.
+        is_of_run: whether it uses energies or balances of a run, which exist at the outputs only.
         solves: whether it needs accelerations or multipliers.
     """
 
@@ -60,7 +59,7 @@ def measure_info(model: CompiledModel, expression: str, name: str = "") -> Measu
     """An expression of quantities as a measure; its name is the expression by default.
 
     Raises:
-        ModelError: a fault of the expression, or an unknown name.
+        ModelError: the expression is invalid or contains an unknown name.
     """
     used, unit, is_of_run, solves = _core.measure(model.core, expression)
     return MeasureInfo(name or expression, expression, tuple(used), unit, is_of_run, solves)
@@ -103,9 +102,9 @@ def values_of(motion: Motion, info: MeasureInfo) -> Floats:
 class Measure:
     """A measure of a solution: its values at the outputs and their statistics.
 
-    ``max``, ``min`` and ``peak`` are those of the interpolant, as in the summary: they are also
-    found between the outputs. ``mean`` and ``rms`` are integrals by the trapezoidal rule over the
-    outputs. Over a value instead of time, ``t`` is this value.
+    ``max``, ``min`` and ``peak`` are found on the interpolant, also between the outputs, as in the
+    summary. ``mean`` and ``rms`` are integrals by the trapezoidal rule over the outputs. In a
+    motion over a value instead of time, ``t`` is this value.
 
     Attributes:
         info: the measure.
@@ -163,12 +162,12 @@ class Measure:
 
     @property
     def t_max(self) -> float:
-        """The time at which the largest value is reached first, s."""
+        """The first time at which the largest value is reached, s."""
         return self._highest.t
 
     @property
     def t_min(self) -> float:
-        """The time at which the least value is reached first, s."""
+        """The first time at which the least value is reached, s."""
         return self._lowest.t
 
     @property
@@ -193,11 +192,11 @@ class Measure:
 
     @cached_property
     def settling(self) -> float:
-        """Settling time, s: from then on the values stay near the last one.
+        """Settling time, s: from this time on the values stay in a band about the last value.
 
-        The band is 0.5 % of the largest deviation from the last value.
-        NaN if the values do not stay in this band during the last tenth of the time; the first
-        time if they do not change.
+        The band is 0.5 % of the largest deviation from the last value. The settling time is NaN if
+        the values leave this band in the last tenth of the time, and the first time if they do not
+        change.
         """
         from kempe.settling import settling
 
@@ -214,7 +213,7 @@ class Measure:
 
     @cached_property
     def frequency(self) -> float:
-        """Frequency of the strongest oscillation, Hz; NaN without one.
+        """Frequency of the strongest oscillation, Hz; NaN if there is no oscillation.
 
         See ``kempe.dominant_frequency``.
         """

@@ -9,22 +9,22 @@ from kempe.arrays import Floats
 from kempe.eigenmodes import Complexes
 from kempe.state import State
 
-#: Largest change of an angle, rad, and of a place as a share of the size of the mechanism.
+#: Largest change of an angle, rad, or of a position, as a fraction of the size of the mechanism.
 AMPLITUDE = 0.15
 #: Remaining residual of the constraints, relative to the size of the mechanism.
 _CLOSED = 1e-9
 
 
 class ModeShape:
-    """A mode about a state, with an amplitude that can be seen.
+    """A mode about a state, with a visible amplitude.
 
     Attributes:
         state: the state.
         shape: (n_q,), the change of all coordinates, complex.
         eigenvalue: s, 1/s.
         number: number of the mode, from 0.
-        amplitude: largest change of an angle, rad, or of a place as a share of the size of the
-            mechanism.
+        amplitude: largest change of an angle, rad, or of a position, as a fraction of the size of
+            the mechanism.
     """
 
     def __init__(
@@ -50,7 +50,7 @@ class ModeShape:
         return State(model, self.state.t, closed[0], none[0], z=self.state.z)
 
     def states(self, count: int) -> list[State]:
-        """States evenly spread over one period, the first one at the largest change."""
+        """States evenly spaced over one period, the first at the largest change."""
         return [self.at(float(phase)) for phase in np.arange(count) * 2.0 * np.pi / count]
 
     @property

@@ -51,9 +51,9 @@ class Model(BodyMethods, ElementMethods, MeasureMethods, TreeMethods):
         m.bar("rod", mass=2, length="L", ends=("A", "B"))
         m.revolute("A", "ground.A", "rod.A")
 
-    Numbers are in SI units and angles in rad. A text is a formula in the parameters. The order of
+    Numbers are in SI units and angles in rad. A string is a formula in the parameters. The order of
     the calls determines the order in q and Φ. Every type of joint, driver and force has a method
-    of the same name; see ``kempe.elements``.
+    of that name; see ``kempe.elements``.
 
     Args:
         title: title of the model.
@@ -153,7 +153,7 @@ class Model(BodyMethods, ElementMethods, MeasureMethods, TreeMethods):
         Args:
             tree: the case as nested mappings, structured as the file.
             source: the case in the core with the same tree; its errors contain line numbers.
-            folder: the folder of the files of tables; the current one if absent.
+            folder: the folder of the files of tables; by default the current folder.
 
         Raises:
             FileError: the file of a table cannot be read.
@@ -174,7 +174,7 @@ class Model(BodyMethods, ElementMethods, MeasureMethods, TreeMethods):
 
     @classmethod
     def of_compiled(cls, compiled: CompiledModel) -> Model:
-        """The model of a compiled one that was made from a text."""
+        """The model of a compiled model that was made from a text."""
         model = cls.from_tree(json.loads(compiled.case))
         model._compiled = compiled
         return model

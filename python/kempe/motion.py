@@ -1,4 +1,4 @@
-"""Motion at one time or many: positions, velocities and the quantities derived from them."""
+"""Motion at one or many times: positions, velocities and the quantities derived from them."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ from kempe.phases import Phases
 from kempe.variable import TIME, Variable
 from kempe.views import BodyView, ConstraintView, ForceView
 
-#: Most states at which the uniqueness of reactions is examined.
+#: Largest number of states at which the uniqueness of reactions is examined.
 _EXAMINED = 11
 
 
@@ -80,7 +80,7 @@ class Motion:
 
     @property
     def a(self) -> Floats:
-        """Accelerations, same shape as ``q``, m/s² and rad/s²; with γ, without stabilization.
+        """Accelerations, shaped as ``q``, m/s² and rad/s², from Φ_q a = γ without stabilization.
 
         Raises:
             SingularityError: the accelerations are not unique at one of the times.
@@ -118,7 +118,7 @@ class Motion:
 
     @cached_property
     def newton_euler(self) -> NewtonEuler:
-        """Newton's and Euler's equations of each body with the reported reactions.
+        """Residuals of the Newton–Euler equations of each body with the reported reactions.
 
         At a single time the arrays have one row.
 
@@ -286,8 +286,8 @@ class Motion:
     def __getitem__(self, name: str) -> Any:
         """A body, joint, driver or force, a quantity such as ``rocker.angle``, or a measure.
 
-        Quantities have the names that they have in files and in tables. A quantity or measure is an
-        array (n_t,), in a state a float, in SI units and rad.
+        Quantities have the same names as in files and tables. A quantity or measure is an array
+        (n_t,), or a float in a state, in SI units and rad.
 
         Raises:
             ModelError: the name is unknown; the error is also a ``KeyError``.

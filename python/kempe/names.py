@@ -15,7 +15,7 @@ _MOST = 24
 
 
 class UnknownNameError(ModelError, KeyError):
-    """The model has no such name. This is also a ``KeyError``, as for any mapping."""
+    """The model has no such name. The error is also a ``KeyError``, as for any mapping."""
 
 
 def unknown(what: str, name: object, known: Iterable[str]) -> UnknownNameError:
@@ -39,14 +39,14 @@ def unknown(what: str, name: object, known: Iterable[str]) -> UnknownNameError:
 
 
 def _nearest(name: str, names: list[str]) -> str | None:
-    """The most similar name; capital letters count little."""
+    """The most similar name; differences of case have a small weight."""
     same = [known for known in names if known.casefold() == name.casefold()]
     near = same or get_close_matches(name, names, n=1)
     return near[0] if near else None
 
 
 def few(names: Iterable[str], most: int = 6) -> str:
-    """Names in one line: all of a few, or the first ones and the number of the others."""
+    """Names in one line: all names, or the first names and the number of the others."""
     given = list(names)
     more = f" and {len(given) - most} more" if len(given) > most else ""
     return ", ".join(given[:most]) + more

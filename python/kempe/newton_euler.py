@@ -1,7 +1,7 @@
-"""Newton's and Euler's equations of each body, with the reactions that a motion reports.
+"""The Newton–Euler equations of each body, with the reactions that a motion reports.
 
 For a body with mass m, moment of inertia J and mass centre C, Σ F - m a_C and
-Σ (T + (P - C) × F) - J α vanish. Each F acts at the point P where it is reported, with the torque T
+Σ (T + (P - C) × F) - J α are zero. Each force F acts at the reported point P, with the torque T
 about P. The sums use the reported forces, not the equations that the analysis has solved.
 """
 
@@ -13,8 +13,8 @@ import numpy as np
 
 from kempe.arrays import Floats, fixed
 
-#: Part of the largest force or moment in the mechanism below which those on one body are rounding
-#: errors of the others: a scale is at least this part.
+#: A scale is at least this fraction of the largest force or moment in the mechanism. Smaller forces
+#: and moments on a body are rounding errors of the larger ones.
 RESOLVED = 1e-4
 #: Numbers for each body from the core.
 WIDTH = 5
@@ -40,7 +40,7 @@ class NewtonEuler:
 
     @property
     def relative(self) -> Floats:
-        """The larger of both residuals, each relative to its scale, (n_t, n_bodies)."""
+        """The larger of the two relative residuals, (n_t, n_bodies)."""
         parts = (self.force, self.force_scale), (self.moment, self.moment_scale)
         shares = [of / np.where(scale > 0.0, scale, 1.0) for of, scale in parts]
         return fixed(np.maximum(*shares))
@@ -62,9 +62,9 @@ class NewtonEuler:
 def newton_euler(bodies: tuple[str, ...], rows: Floats) -> NewtonEuler:
     """The residuals from the rows of the core, (n_t, 5 n_bodies).
 
-    A force on a body can be a rounding error of others, as on a wheel that turns about its mass
-    centre. Each scale is therefore at least 1e-4 of the largest one in the mechanism, where
-    the largest lever turns forces into moments and moments into forces.
+    A force on a body can be a rounding error of other forces, for example on a wheel that turns
+    about its mass centre. Each scale is therefore at least 1e-4 of the largest scale in the
+    mechanism. The largest lever arm converts forces to moments and moments to forces.
     """
     of = rows.reshape(len(rows), len(bodies), WIDTH)
     force, moment, forces, moments, levers = np.moveaxis(of, -1, 0)

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 #: Width of a drawing, pixels.
 _WIDTH = 480
-#: A table has at most so many rows; the last row gives the number of the others.
+#: Largest number of rows of a table; the last row gives the number of omitted rows.
 _MOST_ROWS = 30
 
 

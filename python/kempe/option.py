@@ -1,6 +1,6 @@
 """The base of all options and analyses: fields of declared shapes, written as in a file.
 
-The core checks the numbers, so that a file and a program are refused in the same words.
+The core checks the numbers, so that a file and a program receive the same error messages.
 """
 
 from __future__ import annotations
@@ -75,7 +75,7 @@ def core_options(entry: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _written(choice: Any) -> str:
-    """The call that makes the choice, with the fields that differ from their defaults."""
+    """The constructor call, with the fields that differ from their defaults."""
     given = (
         f"{field.name}={getattr(choice, field.name)!r}"
         for field in fields(choice)

@@ -23,7 +23,7 @@ Settings: TypeAlias = "Sequence[tuple[int, Setting]]"
 
 
 class Phases:
-    """Models of rows.
+    """The models of the rows of a run.
 
     Attributes:
         models: the model of each phase.
@@ -35,7 +35,7 @@ class Phases:
         self.of_row = of_row
 
     def at(self, of_row: NDArray[np.intp]) -> Phases:
-        """The same models for other rows."""
+        """The phases for a selection of rows."""
         return Phases(self.models, of_row)
 
     def evaluate(
@@ -54,7 +54,7 @@ class Phases:
 
 
 def phases(compiled: CompiledModel, settings: Settings, count: int) -> Phases:
-    """The phases of a run with so many rows."""
+    """The phases of a run with a given number of rows."""
     models = [compiled.variant(setting) for _, setting in settings]
     firsts = np.array([first for first, _ in settings], dtype=np.intp)
     of_row = np.searchsorted(firsts, np.arange(count), side="right") - 1

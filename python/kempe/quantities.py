@@ -1,8 +1,8 @@
-"""Quantities by name, such as ``crank.angle``: the same text in files, tables and Python.
+"""Quantities by name, such as ``crank.angle``; names are equal in files, tables and Python.
 
 The first part of a name is a body, a point of a body, a joint, driver or force element, ``energy``
-or ``drift``; the last part is the quantity. A measure has one part. Quantities of a joint or force
-element are those of body j as seen from body i; a force or torque is that on body j.
+or ``drift``. The last part is the quantity. The name of a measure has only one part. Coordinates of
+a joint or force element describe body j as seen from body i; its force or torque acts on body j.
 """
 
 from __future__ import annotations
@@ -32,8 +32,8 @@ if TYPE_CHECKING:
 
 UNITS = (("m", "m", "rad"), ("m/s", "m/s", "rad/s"), ("m/s^2", "m/s^2", "rad/s^2"))
 ENERGIES = ("kinetic", "potential", "dissipated", "work", "total")
-#: A force times its coordinate, or a multiplier times its residual, is an energy: its unit is J per
-#: unit of the other.
+#: A force times its coordinate, or a multiplier times its residual, is an energy. The unit of the
+#: force or multiplier is therefore J per unit of the coordinate or residual.
 FORCE_UNITS = {"m": "N", "rad": "N*m"}
 
 
@@ -58,7 +58,7 @@ def named(motion: Motion, name: str) -> Quantity:
     """A quantity by name.
 
     Raises:
-        ModelError: there is no such quantity; it is also a ``KeyError``.
+        ModelError: there is no such quantity; the error is also a ``KeyError``.
     """
     if name in motion.compiled.measures:
         return _measure_of(motion, name)

@@ -1,4 +1,4 @@
-"""Limits of motion: how far a driver or quantity goes, or whether it turns fully."""
+"""Limits of motion: the range of a driver or quantity, or whether it makes full turns."""
 
 from __future__ import annotations
 
@@ -34,8 +34,8 @@ class LimitsResult(Result):
         start: its value at the start.
         lower: its least value; None if it has no limit.
         upper: its largest value; None if it has no limit.
-        reasons: why it cannot go further, the lower end first; or why it has no limit.
-        turns: number of turns after which the mechanism is as at the start; None unless it turns
+        reasons: the reason of the lower and of the upper limit, or why there is no limit.
+        turns: number of turns after which the mechanism returns to its start; None unless it turns
             fully.
         path: the motion between both limits; ``path.t`` contains the values, ascending.
     """
@@ -134,11 +134,11 @@ def limits(
     over: str | None = None,
     progress: Progress | None = None,
 ) -> LimitsResult:
-    """How far a driver or position quantity goes both ways from a state.
+    """The range of a driver or position quantity in both directions from a state.
 
-    The motion is followed as by ``kinematics``, up and down, until a dead point or the end of a
-    curve, which is found to 1e-9. An angle without a limit turns fully: the mechanism is again as
-    at the start after one turn or several. A length without a limit is followed for 100 times the
+    The motion is followed as by ``kinematics`` in both directions until a dead point or the end of
+    a curve, which is found to 1e-9. An angle without a limit turns fully: the mechanism returns to
+    its start after one or several turns. A length without a limit is followed for 100 times the
     size of the mechanism. Masses are not needed, and the law of the driver is not used.
 
     Args:
@@ -150,7 +150,7 @@ def limits(
 
     Raises:
         SingularityError: the start is a dead point itself, or the motion cannot be followed.
-        AssemblyError: the start does not meet the constraints.
+        AssemblyError: the start does not satisfy the constraints.
         ModelError: ``over`` is unknown or missing, or the drivers leave another freedom.
     """
     return find_limits(compiled_model(model), start, Limits(over).tree(), progress)

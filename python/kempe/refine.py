@@ -1,9 +1,10 @@
-"""Local maxima on the interpolant, and the singular positions beside which values mean nothing.
+"""Local maxima on the interpolant, and singular positions beside which values are meaningless.
 
-A run passes positions in which constraints lose their rank. Beside such a position a multiplier is
-the quotient of two small numbers: it may have a pole there, and the errors of the state, divided by
-little, exceed it. A maximum that a search finds there depends on how close to it the search comes.
-The core searches; here a quantity without a pole is continued across such positions.
+A run can pass positions in which the constraint Jacobian loses rank. Beside such a position a
+multiplier is the quotient of two small numbers. It may have a pole there, and it is dominated by
+the errors of the state divided by a small number. A maximum that is found there depends on the
+distance of the samples from the position. The core searches for maxima; this module continues
+quantities without a pole across singular positions.
 """
 
 from __future__ import annotations
@@ -21,7 +22,7 @@ from kempe.arrays import Floats
 _NEAR, _FAR = 8, 40
 #: Degree of polynomials for the smooth part of a quantity beside a singular position.
 _DEGREE = 6
-#: A pole is worth this share of the values around it, ``_NEAR`` instants beside it.
+#: Least part of a pole in the values ``_NEAR`` instants beside it, as a fraction of these values.
 _POLE = 0.02
 
 #: A quantity at some times, with the sign that makes the wanted extreme value a maximum.
@@ -30,12 +31,12 @@ Indices = NDArray[np.intp]
 
 
 class Maxima:
-    """The largest local maxima of a quantity, without those beside singular positions.
+    """The largest local maxima of a quantity, excluding maxima beside singular positions.
 
     Attributes:
-        values: the largest maxima that were found, (n,); none if all are beside such positions.
+        values: the largest maxima that were found, (n,); empty if all are beside such positions.
         t: their times, s.
-        near: the indices of singular positions, those met on the way too.
+        near: the indices of singular positions, including those found during the search.
         near_t: closer times of these positions, s.
     """
 

@@ -32,7 +32,7 @@ class Request(NamedTuple):
     Attributes:
         entry: its options as in a file.
         text: the options that the core reads, as JSON.
-        t_end: end of the simulation, s; it replaces that of the text unless it is None.
+        t_end: end of the simulation, s; it replaces the end time in the text unless it is None.
     """
 
     entry: Mapping[str, Any]
@@ -60,7 +60,7 @@ def request(
         asked: the first fields of ``Dynamics``, in their order.
         dense_output: as in ``Dynamics``.
         singularity: as in ``Dynamics``.
-        more: other fields of ``Dynamics``; requests with them are not kept.
+        more: other fields of ``Dynamics``; requests with such fields are not cached.
 
     Raises:
         ModelError: a value is not allowed in its field.
@@ -78,7 +78,7 @@ def request(
 
 
 def _key(asked: Asked, dense_output: bool, singularity: str) -> _Key | None:
-    """Options but t_end, each with its type, since 1 == True; None where a value is mutable."""
+    """Options except t_end, each with its type, since 1 == True; None if a value is mutable."""
     _, output_step, method, stabilization, max_steps = asked
     chosen = _NONE if stabilization is None else stabilization
     kinds = type(method), type(chosen)

@@ -1,4 +1,4 @@
-"""Results of statics: a rest position, or a path of them over a parameter."""
+"""Results of statics: an equilibrium position, or a path of equilibria over a parameter."""
 
 from __future__ import annotations
 
@@ -31,33 +31,34 @@ _ENDS = {
 
 
 class EquilibriumResult(Result):
-    """A rest position with its stability and efforts, or a path of them over a parameter.
+    """An equilibrium position with its stability and efforts, or a path over a parameter.
 
     On a path, ``stable``, ``eigenvalues`` and the efforts have one entry for each point. A path may
-    turn back, so that a value can occur several times.
+    turn back, so that a parameter value can occur several times.
 
     Attributes:
         start: the state from which the search started.
-        over: the parameter of a path, else None.
+        over: the parameter of a path; otherwise None.
         hold: the quantities that a holder keeps.
         coordinates: names of the independent coordinates of the stiffness, (f).
-        states: the states of all points; one without a path. Reactions and efforts that are read
-            from them are those of statics.
+        states: the states of all points; a single state without a path. Their reactions and efforts
+            are static.
         values: (n,), the values of the parameter; empty without a path.
         folds: (n_folds,), values of the parameter at which the path turns back.
         branches: values at which the stability changes without a fold: other paths cross there.
-        fold_points, branch_points: places of these among the states.
+        fold_points, branch_points: indices of the folds and branches among the states.
         stable: whether all eigenvalues are positive; (n,) on a path.
         eigenvalues: (f,) or (n, f): eigenvalues of the reduced stiffness on the independent
-            coordinates, ascending. It is the Hessian of the potential where forces have one. Where
-            they have none, the real parts. N*m/rad for an angle, N/m for a length.
+            coordinates, ascending. The stiffness is the Hessian of the potential if all forces have
+            a potential; otherwise the real parts are returned. N*m/rad for an angle, N/m for a
+            length.
         stiffness: (f, f) or (n, f, f): the reduced stiffness.
         effort: the force or torque of a holder that keeps each quantity of ``hold``, and the
             effort of each driver by its name; positive if it increases the coordinate. (n,) on
             a path.
-        residual: the largest force that is left, relative to the largest single force.
+        residual: the largest unbalanced force, relative to the largest single force.
         steps, relaxed: steps of Newton's method and of dynamic relaxation; 0 on a path.
-        end: the end of a path in words, else "".
+        end: text about the end of a path; otherwise "".
         complete: whether a path ended at an end of its range; True without a path.
     """
 
@@ -211,7 +212,7 @@ class EquilibriumResult(Result):
         return found
 
     def tables(self) -> Mapping[str, Sequence[Column]]:
-        """``equilibrium.csv``: positions, stability, eigenvalues and efforts, a row each."""
+        """``equilibrium.csv``: positions, stability, eigenvalues and efforts of each point."""
         model = self.state.compiled
         units = model.column_units()
         q = np.array([state.q for state in self.states])

@@ -34,8 +34,9 @@ def settling(
     Args:
         t: (n_t,), s.
         values: (n_t,).
-        between: the quantity at any times; with it the time is that at which the quantity enters
-            the band, otherwise the first of ``t`` in the band.
+        between: function that returns the quantity at any times. With it, the settling time is the
+            time at which the quantity enters the band; otherwise it is the first of ``t`` in the
+            band.
         noise: the largest deviation of a quantity that does not change; 1e-12 of the largest value
             by default, at least 1e-12.
     """

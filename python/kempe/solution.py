@@ -154,7 +154,7 @@ class Solution(Motion):
 
     @contextmanager
     def _keeping_what_is_before(self) -> Iterator[None]:
-        """Attach the solution before the failing state to an error, as for an error of a run."""
+        """Attach the solution before the failing state to an error, as in errors of a run."""
         try:
             yield
         except (IntegrationError, SingularityError) as error:
@@ -257,8 +257,8 @@ class Solution(Motion):
     def __call__(self, t: float | Floats) -> Motion:
         """The motion at any time within the solution, from the interpolant of the integrator.
 
-        If the states of the solution are projected, so are these: they are the states that an
-        output at these times reports.
+        If the states of the solution are projected, these states are projected too. They equal the
+        states of outputs at these times.
 
         Args:
             t: s; one time gives a ``State``, an array (n,) gives a ``Motion``.
@@ -290,7 +290,7 @@ class Solution(Motion):
         return self._state(model, float(at), q[0], v[0], z[0])
 
     def _phases_at(self, t: Floats) -> Phases | None:
-        """The phases at times: at the time of a change the one after."""
+        """The phases at times; at the time of a change, the phase after it."""
         if self._phases is None:
             return None
         begins = np.array([self.t[first] for first, _ in self._run.settings])
@@ -320,7 +320,7 @@ class Solution(Motion):
     ) -> pandas.DataFrame:
         """A pandas data frame with a column for each quantity, such as ``rocker.angle``.
 
-        Units are those chosen by ``kp.units``; they are in ``attrs["units"]``.
+        Values are in the units chosen by ``kp.units``; ``attrs["units"]`` contains the units.
 
         Args:
             frames: frames of the reactions, as in ``to_csv``.
@@ -342,7 +342,7 @@ class Solution(Motion):
     ) -> None:
         """Write all quantities as CSV, one line per time, with units in the header.
 
-        Units are those chosen by ``kp.units``. The name of each column is valid in ``sol[name]``.
+        Values are in the units chosen by ``kp.units``. Each column name is valid in ``sol[name]``.
 
         Args:
             path: the file.

@@ -30,7 +30,7 @@ class Start:
 
 
 def read_start(start: Start | Mapping[str, Coordinates] | None) -> Start:
-    """The request, given as a ``Start`` or as a mapping like that of a file."""
+    """The request, given as a ``Start`` or as a mapping structured as in a file."""
     if isinstance(start, Start):
         return start
     given = mapping(start, "start", "{'set': {…}, 'guess': {…}}")

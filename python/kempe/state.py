@@ -30,7 +30,8 @@ _COLUMNS = (
 class State(Motion):
     """A mechanism at one time: ``state["crank.angle"]``, ``state["C"].residual``.
 
-    ``kp.State(model, t, q, v)`` makes a state from numbers, ``kp.assemble`` one that closes.
+    ``kp.State(model, t, q, v)`` makes a state from numbers. ``kp.assemble`` returns a state with
+    closed joints.
 
     Args:
         model: the mechanism.

@@ -1,4 +1,4 @@
-"""Statics: the rest position of a mechanism, and the stiffness felt at a point."""
+"""Statics: the equilibrium position of a mechanism, and its stiffness at a point."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from kempe.values import Number, texts
 
 __all__ = ["EquilibriumResult", "PointStiffness", "equilibrium", "rest", "stiffness_at"]
 
-#: Compliance in a direction, relative to the largest one, that counts as none.
+#: Compliance in a direction, relative to the largest compliance, that counts as zero.
 _RIGID = 1e-12
 
 
@@ -40,22 +40,22 @@ def equilibrium(
 ) -> EquilibriumResult:
     """The position in which a mechanism comes to rest, or a path of such positions.
 
-    At rest the rates are zero, drivers hold their coordinates at the time of the start, and
-    first-order states such as currents have the value at which they rest. The search goes down the
-    potential from the start, so that it leaves maxima and saddles; a start that is at rest itself
-    is returned, stable or not.
+    At rest, the rates are zero, drivers hold their coordinates at the time of the start, and
+    first-order states such as currents have their stationary values. The search descends the
+    potential from the start, so that it leaves maxima and saddles. A start that is itself an
+    equilibrium is returned, stable or not.
 
-    With ``over`` and ``range``, the path of equilibria over a parameter is followed by its length
-    from the one at the first value. It passes folds, where it turns back, and ends where it leaves
-    the range.
+    With ``over`` and ``range``, the path of equilibria over a parameter is followed by arc length
+    from the equilibrium at the first value. The path passes folds, where it turns back, and ends
+    where it leaves the range.
 
     Args:
         model: the mechanism.
-        start: an assembled state; its rates do not count.
+        start: an assembled state; its rates are ignored.
         hold: position quantities that a holder keeps at their values of the start, such as
             ``["crank.angle"]``; ``effort`` gives the force or torque of the holder.
         over: a parameter of the model.
-        range: its first and last value, in SI units and rad.
+        range: first and last value of the parameter, in SI units and rad.
         nearest: find the equilibrium nearest to the start by plain Newton iteration, stable or not.
         progress: function that is called repeatedly, with the number of steps or with the value of
             the parameter.
@@ -87,14 +87,14 @@ def rest(
 
 @dataclass(frozen=True)
 class PointStiffness:
-    """The stiffness felt at a point: a small force moves it by ``compliance @ force``.
+    """The stiffness at a point: a small force displaces the point by ``compliance @ force``.
 
     Where the point cannot move, the stiffness is infinite and the compliance zero.
 
     Attributes:
         compliance: (2, 2), m/N, global axes.
         stiffnesses: (2,), N/m, along the principal directions, ascending; ``inf`` where the point
-            cannot move, negative where it runs away.
+            cannot move, negative where the position of the point is unstable.
         directions: (2, 2), the principal directions as rows, unit vectors.
     """
 
@@ -116,11 +116,11 @@ class PointStiffness:
 def stiffness_at(
     model: Model | CompiledModel, state: State, point: str, *, hold: Sequence[str] = ()
 ) -> PointStiffness:
-    """The stiffness felt at a point of a mechanism at rest, by the exact reduced stiffness.
+    """The stiffness at a point of a mechanism at rest, from the exact reduced stiffness.
 
     Args:
         model: the mechanism.
-        state: a state at rest, such as that of ``equilibrium``.
+        state: a state at rest, such as the result of ``equilibrium``.
         point: a point of a body, such as ``"crank.B"``.
         hold: position quantities that a holder keeps; the state must be at rest with the holder.
 

@@ -1,7 +1,7 @@
 """The equations of joints and drivers as formulas with the names of a model.
 
-The core evaluates the residual of each joint over symbolic numbers, simplifies and differentiates
-it, and prints the result. This module lays out the texts.
+The core evaluates the residual of each joint with symbolic numbers, simplifies and differentiates
+it, and prints the result. This module arranges the texts.
 """
 
 from __future__ import annotations
@@ -47,8 +47,9 @@ class Equations:
         type: the ``type`` in the file.
         rows: names of the equations, such as ``C.x``.
         expressions: the equations in the language of expressions, which can be evaluated.
-        symbols: the same in LaTeX.
-        points: the joint's points that occur, as ``coupler.C``, in the frames of their bodies, m.
+        symbols: the equations in LaTeX.
+        points: the points of the joint that occur, such as ``coupler.C``, in the frames of their
+            bodies, m.
     """
 
     name: str

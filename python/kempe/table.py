@@ -35,8 +35,8 @@ class Column:
         name: such as ``rocker.angle``.
         unit: display unit, such as ``rad``.
         values: (n_t,), in this unit.
-        unique: False for a reaction or multiplier that redundant constraints leave open; its values
-            are those of minimum norm.
+        unique: False for a reaction or multiplier that is not unique because of redundant
+            constraints; its values then have minimum norm.
     """
 
     name: str
@@ -68,7 +68,7 @@ class Extent:
 def columns(solution: Solution, extent: Extent | None = None) -> list[Column]:
     """Time, coordinates, multipliers, reactions, states, forces, energies and measures.
 
-    The values of a driven quantity are in the place of the time in a motion over this quantity.
+    In a motion over a driven quantity, its values replace the time.
 
     Raises:
         ModelError: there is no such frame or point.

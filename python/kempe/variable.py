@@ -1,4 +1,4 @@
-"""The variable that the rows of a motion follow: the time, or the value of a driven quantity."""
+"""The independent variable of a motion: the time, or the value of a driven quantity."""
 
 from __future__ import annotations
 

@@ -133,7 +133,7 @@ def _parts(
     """The analyses in a range of time, each with its part of the range.
 
     Raises:
-        ModelError: the range leaves the time of the analyses.
+        ModelError: the range extends beyond the times of the analyses.
     """
     first, last = float(found[0][1].t[0]), float(found[-1][1].t[-1])
     wanted = first if begin is None else begin, last if end is None else end

@@ -37,7 +37,7 @@ from kempe.cli.study import study as study_command
 from kempe.cli.sweep import EXAMPLES as SWEEP_EXAMPLES
 from kempe.cli.sweep import sweep as sweep_command
 
-#: Commands that run the analyses of one type in a case, with those that they start from.
+#: Commands that run the analyses of one type, and the analyses that these start from.
 ANALYSES = {
     "dynamics": "Simulate the motion under the forces of a case.",
     "kinematics": "Compute the motion that the drivers of a case determine.",

@@ -113,7 +113,7 @@ class Changes:
         return case
 
     def of_type(self, case: Case, kind: str) -> Case:
-        """The case with the analyses of one type; one from the start if the file has none."""
+        """The case with the analyses of one type; if it has none, one from the start is added."""
         from kempe.option import Analysis
 
         end = {} if self.t_end is None else {"t_end": number_or_formula(self.t_end)}
@@ -123,7 +123,7 @@ class Changes:
     def _method(self, old: dict[str, Any]) -> dict[str, Any] | None:
         """The changed method of an analysis; None if it does not change.
 
-        Another method keeps the tolerances if it has any.
+        Another method keeps the tolerances if it has tolerances.
         """
         names = ("rtol", "atol", "step")
         given = {name: getattr(self, name) for name in names if getattr(self, name) is not None}

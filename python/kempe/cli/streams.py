@@ -1,4 +1,4 @@
-"""Standard output and standard error that report lost output in one way.
+"""Standard output and standard error that report lost output with one error.
 
 A reader such as ``head`` may close a pipe early, and a disk may be full. Libraries handle both
 differently: rich ends the process with code 1. These streams raise ``OutputLost``, which no library
@@ -89,7 +89,7 @@ def _guarded() -> Iterator[None]:
 
 
 def _guard(stream: TextIO | None) -> Any:
-    """The guarded stream; a stream that was closed before the start swallows everything."""
+    """The guarded stream; output to a stream that was closed before the start is discarded."""
     if stream is None:
         return open(os.devnull, "w", encoding="utf-8")  # noqa: PTH123 - no path; never closed
     if isinstance(stream, io.TextIOWrapper):

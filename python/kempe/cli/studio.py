@@ -39,8 +39,8 @@ def studio(
 ) -> None:
     """Draw a linkage in a browser, drag its crank, let it go.
 
-    The page is served on this machine only, until Ctrl-C. It loads nothing from elsewhere and
-    sends nothing.
+    The page is served on this machine only, until Ctrl-C. It loads no files from other hosts and
+    sends no data.
     """
     from kempe.studio import page
     from kempe.studio.case_text import case_text

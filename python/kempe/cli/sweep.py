@@ -133,7 +133,7 @@ def _range(text: str) -> tuple[str, Mapping[str, Any]]:
 
 @contextmanager
 def _told(title: str) -> Iterator[Callable[[int, int, int, float], None]]:
-    """Display variants done, failures and the time left while the block runs."""
+    """Display finished variants, failures and the time left while the block runs."""
     console = remarks()
     columns = (
         TextColumn("{task.description}", markup=False),

@@ -1,9 +1,10 @@
 """Instantaneous centres of velocity of two bodies.
 
-Seen from body i, body j turns about the point P at which both have the same velocity. With
-u = ṙ - φ̇ B r, the velocity of a body at the global origin, B the turn by 90°, and the differences
-Δu and Δφ̇ of j and i: Δu + Δφ̇ B P = 0, so P = B Δu / Δφ̇ (Bottema and Roth, *Theoretical
-Kinematics*, 1979, ch. VIII). The centres of three bodies are on one line (Aronhold and Kennedy).
+Seen from body i, body j turns about the point P at which both have the same velocity. Let
+u = ṙ - φ̇ B r be the velocity of a body at the global origin, with the rotation B by 90°, and let
+Δu and Δφ̇ be the differences between j and i. Then Δu + Δφ̇ B P = 0, so P = B Δu / Δφ̇ (Bottema
+and Roth, *Theoretical Kinematics*, 1979, ch. VIII). The centres of three bodies are on one line
+(Aronhold and Kennedy).
 """
 
 from __future__ import annotations
@@ -17,9 +18,9 @@ from kempe.arrays import Floats, fixed
 from kempe.errors import ModelError
 from kempe.motion import Motion
 
-#: A centre is at infinity if it is farther than the mechanism is large by this factor.
+#: A centre is at infinity if its distance exceeds the size of the mechanism by this factor.
 _FAR = 1e12
-#: Bodies rest against each other if they move less than this share of the fastest body.
+#: Bodies are relatively at rest below this fraction of the speed of the fastest body.
 _STILL = 1e-13
 
 
@@ -30,10 +31,10 @@ class InstantCentre:
     Attributes:
         i, j: the bodies.
         t: (n_t,), s; without a time axis in a state.
-        position: global position, (n_t, 2), m; infinite where the bodies only shift.
-        at_infinity: whether the bodies only shift against each other, (n_t,).
-        direction: unit vector towards the centre where it is at infinity, elsewhere from the centre
-            of the mechanism, (n_t, 2); a direction to infinity and its opposite are the same.
+        position: global position, (n_t, 2), m; infinite where the relative motion is a translation.
+        at_infinity: whether the relative motion of the bodies is a translation, (n_t,).
+        direction: unit vector from the middle of the mechanism towards the centre, (n_t, 2); for a
+            centre at infinity, the opposite direction is equivalent.
         omega: rate of body j seen from body i, (n_t,), rad/s.
     """
 
@@ -47,10 +48,10 @@ class InstantCentre:
     _motion: Motion
 
     def seen_from(self, body: str) -> Floats:
-        """Its path in the frame of a body, (n_t, 2), m: a centrode, if the body is i or j.
+        """The path of the centre in the frame of a body, (n_t, 2), m.
 
-        The fixed centrode is that on i, the moving centrode that on j; the second rolls on the
-        first.
+        On body i this path is the fixed centrode, on body j the moving centrode. The moving
+        centrode rolls on the fixed centrode.
 
         Raises:
             ModelError: there is no such body.
@@ -77,8 +78,8 @@ def instant_centre(motion: Motion, i: str, j: str) -> InstantCentre:
         j: the other body.
 
     Raises:
-        ModelError: there is no such body, both are the same, or they are at rest against each other
-            at an instant.
+        ModelError: there is no such body, both names are the same, or the bodies are relatively at
+            rest at an instant.
     """
     if motion.body(i).info.number == motion.body(j).info.number:
         raise ModelError(f"instant_centre: {i} has none against itself", name=i)
@@ -107,7 +108,7 @@ def instant_centre(motion: Motion, i: str, j: str) -> InstantCentre:
 
 
 def _extent(motion: Motion) -> tuple[Floats, float]:
-    """A place amid the mechanism, and the size of the mechanism, m."""
+    """The middle of the mechanism and its size over the motion, m."""
     places = [
         motion.body(name).at(s).position
         for name, info in motion.compiled.all_bodies.items()
@@ -120,7 +121,7 @@ def _extent(motion: Motion) -> tuple[Floats, float]:
 
 
 def _at(motion: Motion, name: str, place: Floats) -> tuple[Floats, Floats]:
-    """Velocity of a body at a global place, (n_t, 2), and its rate, (n_t,)."""
+    """Velocity of a body at a global place, (n_t, 2), and its angular velocity, (n_t,)."""
     view = motion.body(name)
     omega = np.asarray(view.omega, dtype=np.float64)
     x, y = place[0] - view.x, place[1] - view.y

@@ -1,8 +1,8 @@
 """The path of a point of a body: its length, its area, its cusps.
 
-Length ∫ |v| dt; area ½ ∫ (x ẏ - y ẋ) dt by Green's theorem, positive if the path runs
-counter-clockwise. A cusp is an instant at which the point stands still and returns with the
-opposite direction (Hunt, *Kinematic Geometry of Mechanisms*, 1978, ch. 7).
+The length is ∫ |v| dt. The area is ½ ∫ (x ẏ - y ẋ) dt by Green's theorem, positive if the path
+runs counter-clockwise. A cusp is an instant at which the velocity of the point is zero and reverses
+its direction (Hunt, *Kinematic Geometry of Mechanisms*, 1978, ch. 7).
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from kempe.motion import Motion
 from kempe.solution import Solution
 from kempe.variable import Variable
 
-#: A path is closed if its ends are closer than this share of its size.
+#: A path is closed if the distance of its ends is less than this fraction of its size.
 _CLOSED = 1e-9
-#: A path smaller than this share of the mechanism is rounding.
+#: A path smaller than this fraction of the mechanism is a rounding error.
 _NOTHING = 1e-12
-#: A speed under this share of the largest one is a standstill.
+#: A speed below this fraction of the largest speed counts as zero.
 _STILL = 1e-7
 
 
@@ -36,13 +36,13 @@ class CouplerCurve:
         variable: the quantity in ``t``.
         t: instants close enough for a smooth curve, (n,), s.
         position: the path at these instants, (n, 2), m.
-        length: length of the path, m, to about 1e-12 of itself for smooth paths.
+        length: length of the path, m, with a relative error of about 1e-12 for smooth paths.
         closed: whether the path ends where it begins, to 1e-9 of its size.
         area: the enclosed area, m², positive if the path runs counter-clockwise, negative if
             clockwise; parts of a path that crosses itself count with their signs. None for a path
             that is not closed.
         cusps: instants of the cusps, (n_cusps,), s.
-        cusp_positions: where they are, (n_cusps, 2), m.
+        cusp_positions: positions of the cusps, (n_cusps, 2), m.
     """
 
     point: str
@@ -65,7 +65,7 @@ def coupler_curve(solution: Solution, point: Place) -> CouplerCurve:
 
     Args:
         solution: the motion, such as a turn of the crank.
-        point: a named point, "coupler.P", or a body with coordinates in its frame,
+        point: a named point, such as "coupler.P", or a body with coordinates in its frame, such as
             ``("coupler", (0.1, 0.2))``, m.
 
     Raises:

@@ -1,9 +1,10 @@
-"""The demand on a drive over a motion: efforts, powers, work, and the flywheel that evens it out.
+"""The demand on a drive over a motion: efforts, powers, work, and the flywheel that smooths it.
 
-Work ∫ P dt, root mean square √(∫ T² dt / ∫ dt). At the flywheel, the energy E(θ) = ∫ (T - T_m) dθ
-with the mean T_m over the cycle has the range ΔE; a flywheel of the inertia J = ΔE / (C_s ω²) keeps
-the speed within C_s = (ω_max - ω_min)/ω of its mean ω (Norton, *Design of Machinery*, 11.11;
-Shigley and Uicker, *Theory of Machines and Mechanisms*, ch. 18).
+The work is ∫ P dt, the root mean square of the effort √(∫ T² dt / ∫ dt). For the flywheel, ΔE is
+the range of the energy E(θ) = ∫ (T - T_m) dθ, where T_m is the mean of T over the cycle. A flywheel
+of inertia J = ΔE / (C_s ω²) keeps the fluctuation of the speed at C_s = (ω_max - ω_min)/ω about its
+mean ω (Norton, *Design of Machinery*, 11.11; Shigley and Uicker, *Theory of Machines and
+Mechanisms*, ch. 18).
 """
 
 from __future__ import annotations
@@ -33,20 +34,20 @@ class Duty:
 
     Attributes:
         name: the driver or force element.
-        variable: the quantity in ``t``. Over a driven quantity its rate is 1, and so are the powers
-            those at this rate.
-        unit: of the effort, "N*m" or "N".
+        variable: the quantity in ``t``. In a motion over a driven quantity, the rate of this
+            quantity is 1, and the powers refer to this rate.
+        unit: unit of the effort, "N*m" or "N".
         t: instants close enough for a smooth curve, (n,), s.
-        rate: of its coordinate, (n,), rad/s or m/s.
+        rate: rate of the coordinate of the driver or motor, (n,), rad/s or m/s.
         effort: (n,), N·m or N; positive if it increases the coordinate.
-        power: effort × rate, (n,), W; negative where it brakes.
+        power: effort × rate, (n,), W; negative where the drive brakes.
         peak: the effort of largest magnitude with its sign, and its instant.
         peak_power: the power of largest magnitude with its sign, and its instant.
         rms: root mean square of the effort over t.
         mean: mean of the effort over t.
         mean_power: mean of the power over t, W.
         work: work over the whole motion, J.
-        driving_work, braking_work: its positive and its negative part, J.
+        driving_work, braking_work: the positive and the negative part of the work, J.
     """
 
     name: str
@@ -67,7 +68,7 @@ class Duty:
 
     @property
     def points(self) -> Floats:
-        """Speed and effort at each instant, (n, 2), as a motor's catalogue draws them."""
+        """Speed and effort at each instant, (n, 2), as in the diagrams of motor catalogues."""
         return fixed(np.column_stack([self.rate, self.effort]))
 
     @property
@@ -93,10 +94,10 @@ def duty(solution: Solution, name: str) -> Duty:
 
     Args:
         solution: the motion, such as one cycle, of ``inverse_dynamics`` or ``dynamics``.
-        name: a driver, or a force element that measures the coordinate it acts on.
+        name: a driver, or a force element that measures the coordinate on which it acts.
 
     Raises:
-        ModelError: there is no such driver or element, or it has no effort and rate.
+        ModelError: there is no such driver or element, or the element has no effort and rate.
     """
     effort, rate, unit = _reads(interpolated(solution), name)
 
@@ -174,15 +175,15 @@ class Flywheel:
 
     Attributes:
         inertia: its moment of inertia, kg·m².
-        energy: ΔE, the energy that it must give and take, J.
+        energy: ΔE, the energy that the flywheel must release and store, J.
         speed: mean speed, rad/s.
         fluctuation: C_s = (ω_max - ω_min)/ω.
-        mean_torque: mean over the angle of the cycle, which the motor then delivers, N·m.
+        mean_torque: mean of the torque over the angle of the cycle, which the motor delivers, N·m.
         slowest, fastest: instants of the least and the largest speed, s, or values of the driven
             quantity.
         variable, t: the quantity in t, and instants close enough for a smooth curve, (n,).
         torque: torque on the shaft without a flywheel, (n,), N·m.
-        stored: energy that the flywheel has taken up since the first instant, (n,), J.
+        stored: energy that the flywheel has stored since the first instant, (n,), J.
     """
 
     inertia: float
@@ -206,15 +207,16 @@ def flywheel(
 ) -> Flywheel:
     """The flywheel on the shaft of a driver that keeps the speed nearly constant.
 
-    The motion is a cycle at constant speed by ``inverse_dynamics``. The torque of the driver is
-    what the mechanism and its loads take; a motor with the flywheel delivers its mean. The inertia
-    is that of the flywheel in addition to the mechanism.
+    The motion is a cycle at constant speed, computed by ``inverse_dynamics``. The mechanism and its
+    loads need the torque of the driver; a motor with the flywheel delivers the mean of this torque.
+    The returned inertia does not include the inertia of the mechanism.
 
     Args:
         solution: one or more whole cycles.
         driver: the driver of the shaft.
         fluctuation: C_s = (ω_max - ω_min)/ω, such as 0.02.
-        speed: mean speed ω, rad/s; that of the solution when None, which must then be over time.
+        speed: mean speed ω, rad/s. When None, the mean speed of the solution, which must then be a
+            motion over time.
 
     Raises:
         ModelError: the driver does not turn a shaft in one direction, the fluctuation is not
@@ -241,7 +243,7 @@ def flywheel(
     omega = _speed(solution, angle, speed)
 
     def excess(motion: Motion) -> Floats:
-        """Rate of the energy that the flywheel gives."""
+        """Rate of the energy that the flywheel releases."""
         return np.asarray((effort(motion) - mean) * rate(motion))
 
     marks = np.array([ends[0], *_inner(zeros(solution, excess), t), ends[1]])

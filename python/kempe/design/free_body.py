@@ -1,9 +1,10 @@
-"""A body cut free at an instant: all forces on it, its inertia loads, and files of them.
+"""The free-body diagram of a body at an instant: all forces on it, its inertia loads, and files.
 
-In the file each load is a row in the axes of the body. Its last rows are the weight and the inertia
-load, as resultants at the mass centre and as fields for finite elements: gravity g, and the
-acceleration a + α × (p - c) - ω² (p - c) of a point p, with a at the mass centre c. D'Alembert's
-load is minus density times this acceleration. All rows together are in balance.
+In the file each load is a row in the axes of the body. The last rows are the weight and the inertia
+load, both as resultants at the mass centre and as fields for finite elements. The fields are
+gravity g and the acceleration a + α × (p - c) - ω² (p - c) of a point p, with the acceleration a of
+the mass centre c. D'Alembert's load is minus density times this acceleration. All loads together
+are in balance.
 """
 
 from __future__ import annotations
@@ -38,7 +39,7 @@ class FreeBody:
 
     Attributes:
         body: the body.
-        name: name of the load case, such as "A_max"; empty for an instant of the caller.
+        name: name of the load case, such as "A_max"; empty by default.
         variable, t: the quantity that defines the instant, and its value, s.
         state: the whole mechanism at the instant.
         loads: the forces of joints, drivers and elements, and the weight, in global axes.
@@ -61,7 +62,7 @@ class FreeBody:
         return _turned_back(vector, float(self.state.body(self.body).angle))
 
     def place(self, load: Load) -> Floats:
-        """Where a load acts, in the frame of the body, (2,), m."""
+        """The point at which a load acts, in the frame of the body, (2,), m."""
         view = self.state.body(self.body)
         return _turned_back(load.place - view.r, float(view.angle))
 
@@ -133,7 +134,7 @@ def free_body(
     Args:
         solution_or_state: a solution or a state.
         body: a moving body.
-        t: the instant in a solution, s; its first when None.
+        t: the instant in a solution, s; the first instant when None.
         name: name of the load case.
 
     Raises:

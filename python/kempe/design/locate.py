@@ -18,19 +18,20 @@ from kempe.values import instance
 #: A quantity of a motion, (n_t,).
 Read = Callable[[Motion], Floats]
 
-#: Instants of a solution: in each step at least, for all steps at least and at most.
+#: Numbers of instants: least in each step; least and largest for the whole solution.
 _LEAST, _WISHED, _MOST = 4, 721, 20_000
-#: Brackets shrink to one of so many parts, so often: by 1e-15 together.
+#: Parts into which a bracket is divided, and number of divisions; together a factor of 1e-15.
 _PARTS, _ROUNDS = 32, 10
-#: A maximum is bracketed by two of so many parts; its value has converged after four rounds.
+#: Parts into which the bracket of a maximum is divided; two of them form the next bracket. The
+#: value converges in four rounds.
 _TOPS = 6
-#: Nodes of Gauss in a panel, panels at first and, of all parts together, at most.
+#: Gauss nodes in a panel, initial number of panels, and largest number of panels in all parts.
 _NODES, _PANELS, _MOST_PANELS = 16, 8, 1024
-#: How often the points of the trapezoidal rule double at most.
+#: Largest number of times that the points of the trapezoidal rule are doubled.
 _DOUBLINGS = 9
-#: A quantity below this share of its largest value is zero.
+#: A quantity below this fraction of its largest value counts as zero.
 _NOISE = 1e-12
-#: An integral has converged when it changes by less than this share of that of the magnitude.
+#: An integral converges when its change is below this fraction of the integral of the magnitude.
 _CONVERGED = 1e-13
 
 
@@ -38,7 +39,7 @@ class Limits(NamedTuple):
     """The least and the largest value of a quantity over a motion.
 
     Attributes:
-        least, largest: value and time, or value of the driven quantity.
+        least, largest: the value and its time, or its value of the driven quantity.
     """
 
     least: Extreme
@@ -49,7 +50,7 @@ def interpolated(solution: Solution) -> Solution:
     """The solution, if it has values between its outputs.
 
     Raises:
-        ModelError: it is not a solution, has less than two outputs, or no interpolant.
+        ModelError: the argument is not a solution, or has fewer than two outputs or no interpolant.
     """
     instance(solution, Solution, "a solution")
     if solution.dense is None:
@@ -60,7 +61,7 @@ def interpolated(solution: Solution) -> Solution:
 
 
 def instants(solution: Solution) -> Floats:
-    """Times close enough for smooth curves, ascending or descending as those of the solution."""
+    """Times close enough for smooth curves, in the order of the times of the solution."""
     dense = interpolated(solution).dense
     assert dense is not None
     bounds = np.unique(dense.t)
@@ -72,9 +73,10 @@ def instants(solution: Solution) -> Floats:
 
 
 def zeros(solution: Solution, read: Read) -> Floats:
-    """All instants at which a quantity changes its sign or is zero, refined to rounding.
+    """All instants at which a quantity changes its sign or is zero, to rounding accuracy.
 
-    Of a part of the motion in which it is zero all the time, the first and the last instant.
+    If the quantity is zero over a part of the motion, only the first and the last instant of this
+    part are returned.
     """
     t = instants(solution)
     values = np.asarray(read(solution(t)))
@@ -98,7 +100,7 @@ def zeros(solution: Solution, read: Read) -> Floats:
 
 
 def limits(solution: Solution, read: Read) -> Limits:
-    """The least and the largest value of a smooth quantity; of equal ones the first."""
+    """The least and the largest value of a smooth quantity; of equal values, the first."""
     t = instants(solution)
     values = np.asarray(read(solution(t)))
     low, high = (_top(solution, read, t, values, sign) for sign in (-1.0, 1.0))
@@ -134,15 +136,15 @@ def integral(
 ) -> Floats:
     """Integrals of a quantity over t between neighbouring instants, (n - 1,).
 
-    A smooth periodic quantity over its period is integrated by the trapezoidal rule, which
-    converges exponentially; any other by Gauss's rule in panels. The number of points is doubled
-    until the value no longer changes.
+    A smooth periodic quantity is integrated over its period by the trapezoidal rule, which
+    converges exponentially. Any other quantity is integrated by Gauss's rule in panels. The number
+    of points is doubled until the value no longer changes.
 
     Args:
         solution: the solution.
-        read: the quantity; kinks are at the ends only.
+        read: the quantity; it is smooth between neighbouring instants.
         ends: instants, ascending or descending.
-        periodic: whether the quantity is smooth and periodic over the whole of the ends.
+        periodic: whether the quantity is smooth and periodic from the first to the last instant.
     """
     if periodic and len(ends) == 2:
         return np.array([_trapezoid(solution, read, ends[0], ends[1])])
@@ -164,7 +166,7 @@ def _trapezoid(solution: Solution, read: Read, a: float, b: float) -> float:
 
 
 def _gauss(solution: Solution, read: Read, ends: tuple[float, float], most: int) -> float:
-    """Gauss's rule in equal panels, so many at most."""
+    """Gauss's rule in equal panels, up to a largest number of panels."""
     if ends[0] == ends[1]:
         return 0.0
     nodes, weights = np.polynomial.legendre.leggauss(_NODES)

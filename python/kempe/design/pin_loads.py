@@ -1,7 +1,7 @@
 """Pin loads: the force of each joint on its bodies over a motion, in the frame of the body.
 
-In the frame of a body the force shows where a pin or bearing is loaded, and by how much. The load
-cases are the instants at which its magnitude or one of its components is extreme.
+In the frame of a body the force shows where and by how much a pin or bearing is loaded. The load
+cases are the instants at which the magnitude or a component of the force is extreme.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class PinLoad:
         variable: the quantity in ``t``.
         t: instants close enough for a smooth curve, (n,), s.
         force: (n, 2), N, in the axes of the body.
-        moment: about the joint point, (n,), N·m.
+        moment: moment about the joint point, (n,), N·m.
         extremes: the extreme values with their instants, found on the interpolant: "max" of the
             magnitude, "x_max", "x_min", "y_max" and "y_min" of the components.
     """
@@ -56,7 +56,7 @@ class PinLoad:
 
     @property
     def magnitude(self) -> Floats:
-        """(n,), N."""
+        """Magnitude of the force, (n,), N."""
         return fixed(np.hypot(*self.force.T))
 
     @property
@@ -77,8 +77,8 @@ def pin_load(solution: Solution, joint: str, on: str | None = None) -> PinLoad:
         on: the body; body j when None.
 
     Raises:
-        ModelError: there is no such joint, or it does not touch the body.
-        SingularityError: its reaction is not unique.
+        ModelError: there is no such joint, or the joint does not act on the body.
+        SingularityError: the reaction of the joint is not unique.
     """
     info = interpolated(solution).constraint(joint).info
     body = checked_body(info, info.j if on is None else on)
@@ -164,10 +164,11 @@ def load_cases(solution: Solution, body: str, joint: str | None = None) -> list[
     Args:
         solution: a motion of ``inverse_dynamics`` or ``dynamics``.
         body: a moving body.
-        joint: one of its joints; all when None.
+        joint: a joint of the body; all of its joints when None.
 
     Returns:
-        For each joint "JOINT_max", "JOINT_x_max", "JOINT_x_min", "JOINT_y_max", "JOINT_y_min".
+        For each joint the load cases "JOINT_max", "JOINT_x_max", "JOINT_x_min", "JOINT_y_max" and
+        "JOINT_y_min".
 
     Raises:
         ModelError: there is no such body or joint.
@@ -188,14 +189,14 @@ def load_cases(solution: Solution, body: str, joint: str | None = None) -> list[
 def export_load_cases(
     solution: Solution, folder: Path | str, bodies: list[str] | None = None
 ) -> list[Path]:
-    """Write the load cases of bodies for finite elements, one CSV for each body and case.
+    """Write the load cases of bodies for finite elements, one CSV file for each body and case.
 
     Each file is in balance with the inertia loads to 1e-9 of its largest load; this is checked.
 
     Args:
         solution: a motion of ``inverse_dynamics`` or ``dynamics``.
-        folder: the folder, made if missing; the files are ``BODY/CASE.csv``.
-        bodies: the bodies; all moving ones when None.
+        folder: the folder, created if missing; the files are ``BODY/CASE.csv``.
+        bodies: the bodies; all moving bodies when None.
 
     Raises:
         ModelError: there is no such body, or a load case is not in balance.
@@ -217,5 +218,5 @@ def _written(into: Path, case: FreeBody) -> Path:
 
 
 def _plain(name: str) -> str:
-    """A name fit for a file."""
+    """A name that can be the name of a file."""
     return "".join(c if c.isalnum() or c in "-_" else "_" for c in name)

@@ -48,7 +48,7 @@ def point_of(motion: Motion, place: Place) -> PointView:
 
 
 def is_pin(info: ConstraintInfo) -> bool:
-    """Whether a joint holds two points together, so that its bodies can only turn against it."""
+    """Whether a joint keeps two points coincident, so that its bodies can only turn about it."""
     turns = bool(info.measured) and info.measured[0].names[0] == "angle"
     return info.group == "joints" and turns and not info.coordinates
 
@@ -63,16 +63,16 @@ def mass_and_inertia(motion: Motion, body: str) -> tuple[Floats, Floats]:
 
 
 def others_at(model: CompiledModel, body: str, joint: str) -> list[ConstraintInfo]:
-    """The joints of a body besides one, that hold a point or guide it along a line."""
+    """The other joints of a body that fix a point or guide it along a line."""
     names, _ = _core.line_at(model.core, joint, body)
     return [model.constraints[name] for name in names]
 
 
 def line_at(model: CompiledModel, body: str, joint: str) -> float:
-    """The direction of the line of a link from a pin, in its frame, rad.
+    """The direction of the line of a link from a pin, in the frame of the link, rad.
 
     Raises:
-        ModelError: it has no other pin or slide, or several.
+        ModelError: the link has no other pin or slide, or several.
     """
     names, angle = _core.line_at(model.core, joint, body)
     if angle is None:

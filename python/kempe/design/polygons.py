@@ -1,11 +1,11 @@
 """Velocity and acceleration polygons of a mechanism at an instant.
 
 Each point of the mechanism has an image: the tip of its velocity, drawn from the pole o, or of its
-acceleration from o′ (Mehmke's and Burmester's theorems: the image of a body is similar to it).
-Between the images of two points of a body are the relative velocity ω × r and the relative
-acceleration, with its normal part -ω² r and its tangential part α × r; between a point of a slide
-and the point under it the slip and Coriolis' acceleration 2 ω × v (Norton, *Design of Machinery*,
-ch. 6 and 7).
+acceleration, drawn from o′. The image of a body is similar to the body (theorems of Mehmke and
+Burmester). The images of two points of a body are connected by the relative velocity ω × r, or by
+the relative acceleration with its normal part -ω² r and its tangential part α × r. The images of a
+point of a slide and of the coincident point below it are connected by the sliding velocity, or by
+the relative acceleration with Coriolis' part 2 ω × v (Norton, *Design of Machinery*, ch. 6 and 7).
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from kempe.variable import Variable
 
 #: Names of the pole.
 POLE = "o"
-#: Points nearer than this share of the size of the mechanism are one point.
+#: Points closer than this fraction of the size of the mechanism are one point.
 _SAME = 1e-9
 
 
@@ -37,10 +37,10 @@ class Side:
     """A vector of a polygon.
 
     Attributes:
-        name: such as "B" for the velocity of B from the pole, "BA" for that of B seen from A.
+        name: such as "B" for the velocity of B, "BA" for the velocity of B relative to A.
         part: "absolute", "relative", "normal", "tangential", "slip" or "coriolis".
-        body: the body to which the vector belongs; empty for absolute ones.
-        start: where it begins in the polygon, (2,), m/s or m/s².
+        body: the body to which the vector belongs; empty for absolute vectors.
+        start: the point of the polygon where the vector begins, (2,), m/s or m/s².
         vector: the vector, (2,), m/s or m/s².
     """
 
@@ -52,7 +52,7 @@ class Side:
 
     @property
     def end(self) -> Floats:
-        """Where it ends in the polygon, (2,), m/s or m/s²."""
+        """The point of the polygon where the vector ends, (2,), m/s or m/s²."""
         return fixed(self.start + self.vector)
 
     def __repr__(self) -> str:
@@ -68,7 +68,7 @@ class Polygon:
         unit: "m/s" or "m/s²".
         variable, t: the quantity that defines the instant, and its value, s.
         images: the image of each point by name, (2,), seen from the pole; "o" is the pole.
-        sides: the vectors, absolute ones first.
+        sides: the vectors, absolute vectors first.
         state: the mechanism at the instant.
     """
 
@@ -161,7 +161,7 @@ def _polygon(
 
 
 def state_at(solution_or_state: Solution | State, t: float | None) -> State:
-    """The state at an instant of a solution, its first when None; a state as it is."""
+    """The state at an instant of a solution, by default the first; a given state is unchanged."""
     instance(solution_or_state, (Solution, State), "a solution or a state")
     if isinstance(solution_or_state, State):
         if t is not None and t != solution_or_state.t:
@@ -219,7 +219,7 @@ def _points(state: State) -> list[_Point]:
 
 
 def _repeats(point: _Point, before: list[_Point]) -> bool:
-    """Whether the same place of the same body has a name already."""
+    """Whether this point of the body already has a name."""
     return any(p.body == point.body and _near(p.s, point.s) for p in before)
 
 
@@ -232,7 +232,7 @@ def _slides_along(measured: object) -> bool:
 
 
 def _seen(state: State, body: str, place: Floats) -> Vector:
-    """Coordinates of a global place in the frame of a body."""
+    """Coordinates of a global point in the frame of a body."""
     view = state.body(body)
     x, y = np.asarray(place) - view.r
     cos, sin = np.cos(view.angle), np.sin(view.angle)
@@ -240,7 +240,7 @@ def _seen(state: State, body: str, place: Floats) -> Vector:
 
 
 def _pairs(model: CompiledModel, points: list[_Point]) -> Iterator[tuple[_Point, _Point]]:
-    """The first point of each turning body with each of its others."""
+    """The first point of each turning body with each of its other points."""
     for body, info in model.bodies.items():
         own = [p for p in points if p.body == body]
         first = min(own, key=lambda p: p.name != POLE, default=None)

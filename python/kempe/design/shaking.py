@@ -1,9 +1,9 @@
 """Shaking force and shaking moment, which the moving masses exert on the foundation.
 
-The force of all joints, drivers and force elements on ground is Σ m g - Σ m a. Without the weight
-it is the shaking force, -Σ m a = -dp/dt of the momentum; the shaking moment about a point of ground
-is -Σ ((r - r₀) × m a + J α) (Norton, *Design of Machinery*, section 11.8). A force element between
-ground and a body, such as a gas force, acts on ground too.
+The force of all joints, drivers and force elements on ground is Σ m g - Σ m a. Without the weight,
+it is the shaking force -Σ m a = -dp/dt, with the momentum p. The shaking moment about the point r₀
+of ground is -Σ ((r - r₀) × m a + J α) (Norton, *Design of Machinery*, section 11.8). A force
+element between ground and a body, such as a gas force, acts on ground too.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Shaking:
         force: shaking force, (n, 2), N.
         moment: shaking moment about the point, (n,), N·m.
         weight: force on ground by the weight of all bodies, (n, 2), N.
-        weight_moment: its moment about the point, (n,), N·m.
+        weight_moment: moment of this weight about the point, (n,), N·m.
     """
 
     about: tuple[float, float]
@@ -47,12 +47,12 @@ class Shaking:
 
     @property
     def on_ground(self) -> Floats:
-        """Force of the whole mechanism on ground, weight included, (n, 2), N."""
+        """Force of the whole mechanism on ground, including weight, (n, 2), N."""
         return fixed(self.force + self.weight)
 
     @property
     def moment_on_ground(self) -> Floats:
-        """Moment of the whole mechanism on ground, weight included, (n,), N·m."""
+        """Moment of the whole mechanism on ground, including weight, (n,), N·m."""
         return fixed(self.moment + self.weight_moment)
 
     def __repr__(self) -> str:
@@ -65,12 +65,12 @@ def shaking(
 ) -> Shaking:
     """Shaking force and moment of a mechanism on ground.
 
-    They are summed over all forces on ground, so that they contain all reactions.
+    Both are sums over all forces on ground, so that they include all reactions.
 
     Args:
         motion: a solution, or the motion at some times.
         about: a point of ground, "ground.O", or its coordinates, m.
-        fine: whether a solution is evaluated between its outputs too, for smooth curves.
+        fine: whether to evaluate a solution between its outputs too, for smooth curves.
 
     Raises:
         ModelError: there is no such point.

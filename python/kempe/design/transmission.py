@@ -1,8 +1,8 @@
-"""How well a mechanism transmits motion: transmission angle, velocity ratio, toggle positions.
+"""Transmission of motion: transmission angle, velocity ratio, toggle positions.
 
 The transmission angle μ at the joint of a coupler and an output link is the angle between their
-lines (Alt, 1932; Norton, *Design of Machinery*, section 3.3). For a slide the line of the
-output is the normal of the slide. 90° is best; textbooks recommend at least 40°.
+lines (Alt, 1932; Norton, *Design of Machinery*, section 3.3). If the output is guided by a slide,
+its line is the normal of the slide. 90° is best; textbooks recommend at least 40°.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from kempe.variable import Variable
 
 #: Links are in line if the sine of the angle between them is below this.
 _IN_LINE = 1e-6
-#: A rate below this share of the largest one is zero.
+#: A rate below this fraction of the largest rate counts as zero.
 _STILL = 1e-12
 
 
@@ -55,12 +55,12 @@ class TransmissionAngle:
 
     @property
     def deviation(self) -> Floats:
-        """Deviation of the angle from π/2, positive above, (n,), rad."""
+        """Deviation of the angle from π/2, positive for larger angles, (n,), rad."""
         return fixed(self.angle - np.pi / 2.0)
 
     @property
     def transmission(self) -> Floats:
-        """The acute angle, (n,), rad."""
+        """The acute angle between the lines, (n,), rad."""
         return fixed(np.pi / 2.0 - np.abs(self.deviation))
 
     def __repr__(self) -> str:
@@ -107,7 +107,7 @@ def transmission_angle(
 
 
 def transmitting(model: CompiledModel) -> list[str]:
-    """Pins at which a link without a driver, guided by ground, is moved by another link."""
+    """Pins at which another link moves a link that is guided by ground and has no driver."""
     return _core.transmitting(model.core)
 
 
@@ -133,19 +133,19 @@ def _line(motion: Motion, joint: str, body: str, place: Place | None) -> Floats:
 def velocity_ratio(motion: Motion, output: str, input: str) -> Floats:  # noqa: A002
     """Rate of the output over rate of the input, (n_t,).
 
-    For example ``velocity_ratio(sol, "rocker.angle", "crank.angle")``: dφ_rocker/dφ_crank, and
-    with a length, in m/rad.
+    For example, ``velocity_ratio(sol, "rocker.angle", "crank.angle")`` is dφ_rocker/dφ_crank. The
+    ratio of a length and an angle is in m/rad.
 
     Args:
         motion: a solution, or the motion at some times.
         output: a position quantity or its rate, such as "slider.x" or "slider.vx".
-        input: the same for the input.
+        input: a position quantity or its rate.
 
     Returns:
-        The ratio; ±∞ where only the input stands still.
+        The ratio; ±∞ where only the rate of the input is zero.
 
     Raises:
-        ModelError: there is no such quantity, or both stand still at an instant.
+        ModelError: there is no such quantity, or both rates are zero at an instant.
     """
     return _ratio(motion, output, input)
 
@@ -153,17 +153,17 @@ def velocity_ratio(motion: Motion, output: str, input: str) -> Floats:  # noqa: 
 def mechanical_advantage(motion: Motion, output: str, input: str) -> Floats:  # noqa: A002
     """Effort at the output over effort at the input of a mechanism without losses, (n_t,).
 
-    By virtual power it is the rate of the input over that of the output (Norton, *Design of
-    Machinery*, section 6.5), negative if a positive effort at the input pushes the output back. At
-    a toggle position it is ±∞.
+    By the principle of virtual power, it equals the rate of the input over the rate of the output
+    (Norton, *Design of Machinery*, section 6.5). It is negative if a positive effort at the input
+    causes a negative effort at the output. At a toggle position it is ±∞.
 
     Args:
         motion: a solution, or the motion at some times.
         output: a position quantity or its rate, such as "slider.x".
-        input: the same for the input.
+        input: a position quantity or its rate.
 
     Raises:
-        ModelError: there is no such quantity, or both stand still at an instant.
+        ModelError: there is no such quantity, or both rates are zero at an instant.
     """
     return _ratio(motion, input, output)
 
@@ -192,7 +192,7 @@ def _rate(motion: Motion, name: str) -> Floats:
 
 
 def rate_name(model: CompiledModel, name: str) -> str:
-    """The rate of a position quantity, such as "crank.omega" of "crank.angle"; a rate as it is."""
+    """The rate of a position quantity, such as "crank.omega" of "crank.angle"; rates unchanged."""
     owner, _, quantity = name.rpartition(".")
     rates = {"x": "vx", "y": "vy", "angle": "omega"}
     element = model.constraints.get(owner) or model.forces.get(owner)
@@ -211,13 +211,13 @@ def element_coordinates(model: CompiledModel, name: str) -> tuple[tuple[str, str
 
 @dataclass(frozen=True, repr=False)
 class Toggle:
-    """An instant at which the output stands still: the mechanical advantage has no bound.
+    """An instant at which the rate of the output is zero: the mechanical advantage is unbounded.
 
     Attributes:
         t: the instant, s, or the value of the driven quantity.
-        value: the output there, m or rad.
-        in_line: pairs of links that are in line there, such as ``("crank", "coupler")``.
-        state: the whole mechanism there.
+        value: value of the output at this instant, m or rad.
+        in_line: pairs of links that are in line, such as ``("crank", "coupler")``.
+        state: the state of the mechanism at this instant.
     """
 
     t: float
@@ -238,7 +238,7 @@ def toggles(solution: Solution, output: str) -> list[Toggle]:
         output: a position quantity, such as "rocker.angle" or "slider.x".
 
     Raises:
-        ModelError: there is no such quantity, or it does not move.
+        ModelError: there is no such quantity, or it is constant.
     """
     rate = rate_name(solution.compiled, output)
     motion = solution(instants(solution))

@@ -1,7 +1,8 @@
-"""All forces on a body with the places where they act, and their balance with inertia.
+"""All forces on a body with their points of application, and their balance with inertia.
 
-The balance is Newton's and Euler's: Σ F + m g = m a of the mass centre, and Σ M about it equals
-J α. Forces are those of joints, drivers and force elements.
+The balance is that of the Newton–Euler equations: Σ F + m g = m a with the acceleration a of the
+mass centre, and Σ M = J α with moments about the mass centre. Joints, drivers and force elements
+exert the forces F.
 """
 
 from __future__ import annotations
@@ -25,8 +26,8 @@ class Load:
         name: the joint, driver or force element; "gravity" for the weight.
         kind: "joint", "driver", "element" or "gravity".
         force: (n_t, 2), N, global.
-        moment: about the place, (n_t,), N·m.
-        place: where it is reduced to, (n_t, 2), m, global.
+        moment: moment about ``place``, (n_t,), N·m.
+        place: point of application, (n_t, 2), m, global.
     """
 
     name: str
@@ -36,7 +37,7 @@ class Load:
     place: Floats
 
     def about(self, place: Floats) -> Floats:
-        """Moment about another place, (n_t,), N·m."""
+        """Moment about another point, (n_t,), N·m."""
         arm = self.place - place
         return np.asarray(self.moment + cross(arm, self.force))
 
@@ -45,12 +46,12 @@ class Load:
 
 
 def cross(a: Floats, b: Floats) -> Floats:
-    """Z component of the product of vectors of the plane, (…)."""
+    """Z component of the cross product of plane vectors, (…)."""
     return np.asarray(a[..., 0] * b[..., 1] - a[..., 1] * b[..., 0])
 
 
 def loads(motion: Motion, body: str, *, gravity: bool = True) -> list[Load]:
-    """All forces on a body, joints first; those that are zero by nature too.
+    """All forces on a body, joints first, including forces that are always zero.
 
     Raises:
         ModelError: there is no such body.
@@ -69,7 +70,7 @@ def loads(motion: Motion, body: str, *, gravity: bool = True) -> list[Load]:
 
 
 def _of_joint(motion: Motion, info: ConstraintInfo, body: str) -> Load:
-    """Its reaction at the joint point of the body; without one at the origin of the frame."""
+    """The reaction of a joint at its point on the body, or at the origin of the body's frame."""
     view = motion.constraint(info.name)
     force, moment = view.force(on=body), np.asarray(view.torque(on=body))
     kind = info.group.rstrip("s")
@@ -82,7 +83,7 @@ def _of_joint(motion: Motion, info: ConstraintInfo, body: str) -> Load:
 
 
 def _of_element(motion: Motion, info: ForceInfo, body: str) -> Load:
-    """Its action about the origin of the frame; at its own point, if it has one there."""
+    """The action of an element at its point on the body, or at the origin of the body's frame."""
     view, own = motion.force(info.name), motion.body(body)
     force, moment = view.force(on=body), np.asarray(view.torque(on=body))
     place = own.r
@@ -96,9 +97,10 @@ def _of_element(motion: Motion, info: ForceInfo, body: str) -> Load:
 def _by_multipliers(
     motion: Motion, info: ConstraintInfo, body: str, force: Floats, place: Floats
 ) -> Floats:
-    """Moment of a joint on a curve, whose point of contact moves, about a place, (n_t,).
+    """Moment about a point of a joint on a curve, whose point of contact moves, (n_t,).
 
-    It follows from -Φ_qᵀ λ, the force and moment about the origin of the frame of the body.
+    It follows from -Φ_qᵀ λ, which contains the force and the moment about the origin of the frame
+    of the body.
     """
     about = motion.compiled.all_bodies[body]
     if not about.number:
@@ -147,9 +149,10 @@ def inertia(motion: Motion, body: str) -> Inertia:
 
 
 def imbalance(found: list[Load], of: Inertia) -> float:
-    """Largest error of Newton's and Euler's equations of a body, relative.
+    """Largest relative error of the Newton–Euler equations of a body.
 
-    It is relative to the largest single force, or moment about the mass centre, of all instants.
+    The error is relative to the largest single force at all instants; the error of the moments is
+    relative to the largest single moment about the mass centre.
     """
     force = sum((one.force for one in found), -of.force)
     moments = [one.about(of.centre) for one in found]

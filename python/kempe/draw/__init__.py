@@ -1,4 +1,4 @@
-"""Drawings of a motion: one description of the scene, and programs that show it."""
+"""Drawings of a motion: a description of the scene, and programs that display it."""
 
 from kempe.draw.animate import animate
 from kempe.draw.player import player

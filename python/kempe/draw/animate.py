@@ -21,7 +21,7 @@ from kempe.mode_shape import ModeShape
 from kempe.solution import Solution
 
 FORMATS = ("html", "mp4", "gif")
-#: Called with the frames drawn and the frames there are.
+#: A function that is called with the number of drawn frames and the number of all frames.
 Progress = Callable[[int, int], None]
 
 _MOST_PICTURES = 20_000
@@ -65,18 +65,18 @@ def animate(
     """Write a motion as a page, a video or a GIF, chosen by the ending of the path.
 
     Args:
-        solution: the motion, or a mode, ``modes.shape(0)``, of which one slow period is shown as
-            MP4 or GIF.
+        solution: the motion, or a mode such as ``modes.shape(0)``. An MP4 or GIF of a mode shows
+            one slow period.
         path: ending in ``.html``, ``.mp4`` or ``.gif``.
-        fps: pictures per second, 30 for MP4 and 20 for GIF by default; a page has no use for it.
+        fps: pictures per second, 30 for MP4 and 20 for GIF by default; not used for a page.
         speed: 2 plays twice as fast. 1 is real time, except for motions shorter than 2 s or longer
             than a minute; those are slowed down or sped up by a round factor.
         size: width and height, pixels; 1280 × 720 for MP4 and 640 × 360 for GIF by default. A page
-            fits its window and has no size.
+            adapts to its window and has no size.
         begin: first time that is shown, s; the start of the motion when None.
         end: last time that is shown, s; the end of the motion when None.
         labels: whether to write the numbers of bodies and the names of joints and elements.
-        progress: called with the number of pictures drawn and of all pictures.
+        progress: called with the number of drawn pictures and the number of all pictures.
 
     Returns:
         The path.
@@ -136,7 +136,7 @@ def _write(kind: str, path: Path, film: Film, pictures: Callable[[], Iterator[Pi
 
 
 def _pieces(count: int, each: float) -> int:
-    """How many frames of the scene there are for a picture, so that paths are smooth."""
+    """Number of frames of the scene for each picture, so that paths are smooth."""
     wished = math.ceil(each * FRAMES_PER_SECOND)
     return max(1, min(wished, _MOST_PICTURES // count))
 

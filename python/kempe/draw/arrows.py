@@ -1,6 +1,6 @@
 """The vectors of a motion from which arrows take their directions and their scale.
 
-As in figures, values beside a singular position do not count if they have no bound there. Only a
+As in figures, values beside a singular position are ignored if they have no bound there. Only a
 run that passes such a position is searched between its frames.
 """
 
@@ -54,7 +54,7 @@ def peaks(drawn: Solution | State, motion: Motion, points: list[Tracked]) -> dic
     Args:
         drawn: the whole motion.
         motion: the motion at the frames.
-        points: those with arrows.
+        points: the points with arrows.
     """
     whole = drawn if isinstance(drawn, Solution) and passes_singular(drawn) else None
     names = list(motion.compiled.all_bodies)
@@ -67,7 +67,7 @@ def peaks(drawn: Solution | State, motion: Motion, points: list[Tracked]) -> dic
 
 
 def _peak(whole: Solution | None, motion: Motion, quantity: Quantity) -> float:
-    """The largest finite value, searched in the whole motion if there is one."""
+    """The largest finite value, of the whole motion if it is given, otherwise at the frames."""
     found = float("inf")
     if whole is not None:
         once = lru_cache(maxsize=3)(quantity)  # a search reads the same motion several times

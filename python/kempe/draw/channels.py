@@ -113,7 +113,7 @@ def _coordinates(motion: Motion) -> Iterator[_Channel]:
 def _acting(
     group: str, name: str, force: Floats, torque: Floats, *, whole: bool
 ) -> Iterator[_Channel]:
-    """The torque, and the force if ``whole``, where there is such a thing."""
+    """The torque, and the force if ``whole``, if the element has them."""
     magnitude = np.hypot(force[:, 0], force[:, 1])
     most = max(float(magnitude.max(initial=0.0)), float(np.abs(torque).max(initial=0.0)))
     if np.abs(torque).max(initial=0.0) > _NOTHING * most:

@@ -1,4 +1,4 @@
-"""The display list of a scene, which figures, frames and the page paint; the core makes it."""
+"""The display list of a scene. The core makes it; figures, frames and the page paint it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from kempe.drawing import display_list
 
 
 class Display:
-    """A display list in the making.
+    """A display list that is being assembled.
 
     Args:
         scene: the scene.

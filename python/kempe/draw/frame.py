@@ -30,11 +30,11 @@ Picture: TypeAlias = NDArray[np.uint8]
 
 #: Inches, width and height.
 Size: TypeAlias = tuple[float, float]
-#: The page and frames without another size are laid out for this one.
+#: The size for which the page, and frames without another size, are laid out.
 SIZE: Size = (7.2, 4.05)
 #: Dots for each inch of a still picture, which is then 1440 × 810.
 DOTS_PER_INCH = 200.0
-#: In how many pieces a path is drawn between two frames.
+#: Number of pieces of a path between two frames.
 _PIECES = 4
 #: Left edge of the title, as a share of the width; height of captions and width of the time,
 #: points.
@@ -73,18 +73,18 @@ def _captions(scene: Scene, view: View) -> Floats:
 
 
 def _scale_bar(view: View) -> tuple[float, float]:
-    """A round length for the scale bar, and that of the bar with its inset, m."""
+    """A round length for the scale bar, and the length of the bar with its inset, m."""
     length = round_below(float(view.size[1]) / view.scale / 6.0)
     return length, length + 8.0 / view.scale
 
 
 class Frame:
-    """A picture whose moving parts can be put at any frame of a scene.
+    """A picture whose moving parts can be placed as in any frame of a scene.
 
     Args:
         scene: the scene.
         dpi: dots for each inch of a picture.
-        size: of a picture, inches.
+        size: size of a picture, inches.
         labels: whether to write the numbers of bodies and the names of joints and elements.
     """
 
@@ -149,7 +149,7 @@ class Frame:
         return smooth(poses, rates, np.array(frames["t"]), _PIECES)
 
     def put(self, k: int) -> None:
-        """Move everything to where it is at frame k."""
+        """Move all parts to their places at frame k."""
         self.painting.poses = self._poses[k]
         of = self._scene["variable"]
         gap = "" if of["shown"] == "°" else " "

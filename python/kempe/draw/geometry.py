@@ -1,4 +1,4 @@
-"""Where the lines of a drawing run, in the plane of the mechanism."""
+"""Positions of the lines of a drawing in the plane of the mechanism."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from kempe.arrays import Floats
 
 
 def placed(poses: Floats, points: Floats | Sequence[float]) -> Floats:
-    """Global places r + A(φ) s; poses (…, 3) and points (…, 2) of which one may be many, m."""
+    """Global positions r + A(φ) s, m; poses (…, 3) and points (…, 2) are broadcast."""
     s = np.asarray(points, dtype=np.float64)
     cos, sin = np.cos(poses[..., 2]), np.sin(poses[..., 2])
     x = poses[..., 0] + cos * s[..., 0] - sin * s[..., 1]
@@ -26,7 +26,7 @@ def smooth(poses: Floats, rates: Floats, t: Floats, pieces: int) -> Floats:
         poses: at the frames, (n_t, 3), m and rad.
         rates: their time derivatives, (n_t, 3).
         t: times of the frames, (n_t,), s.
-        pieces: in how many pieces the motion between two frames is cut.
+        pieces: number of pieces into which the motion between two frames is divided.
     """
     s = (np.arange(pieces) / pieces)[None, :, None]
     r = 1.0 - s

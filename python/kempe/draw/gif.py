@@ -1,4 +1,4 @@
-"""GIF by Pillow, which matplotlib brings along."""
+"""GIF by Pillow, a dependency of matplotlib."""
 
 from __future__ import annotations
 
@@ -21,7 +21,8 @@ _NEARLY_WHITE = 245
 def write_gif(path: Path | str, pictures: Iterable[Picture], fps: float) -> None:
     """Write RGBA pictures of the same size as a GIF that repeats, whole or not at all.
 
-    A GIF counts in hundredths of a second, and browsers slow down below two of them.
+    A GIF counts time in hundredths of a second, and browsers play frames shorter than two
+    hundredths more slowly.
 
     Raises:
         FileError: the file cannot be written.
@@ -41,7 +42,7 @@ def write_gif(path: Path | str, pictures: Iterable[Picture], fps: float) -> None
 
 
 def _with_one_palette(pictures: Iterable[Picture]) -> Iterator[Image]:
-    """The pictures in the colours of the first, so that nothing flickers."""
+    """The pictures with the palette of the first picture, so that colours do not flicker."""
     from PIL import Image
 
     palette: Image.Image | None = None
@@ -52,7 +53,7 @@ def _with_one_palette(pictures: Iterable[Picture]) -> Iterator[Image]:
 
 
 def _quantized(image: Image) -> Image:
-    """The picture in a palette of 128 colours, in which all that is nearly white is white.
+    """The picture in a palette of 128 colours; colours that are nearly white become white.
 
     Pillow looks colours up with reduced precision and may take a near neighbour.
     """

@@ -1,7 +1,7 @@
 """The items of a display list: lines, fills and texts that follow the bodies.
 
-An item is plain data. Its ``frame`` names the body that it follows; each of its ``points`` is a row
-``[x, y, px, py]``: lengths of the mechanism and lengths of print, which stay the same whatever the
+An item is plain data. Its ``frame`` names the body that it follows. Each of its ``points`` is a row
+``[x, y, px, py]``: lengths of the mechanism, and lengths of print, which do not depend on the
 scale. There are four frames:
 
 * ``body``: origin at the point ``at`` of ``body``, turned by the angle of the body ``turns_with``
@@ -9,12 +9,12 @@ scale. There are four frames:
 * ``line``: from a point of one body to a point of another. x is the share of the distance, y is in
   m to the left of the line, px is along the line and py to its left. On distances below ``room``
   px shrinks in proportion.
-* ``ray``: from a point of one body towards a point of another. x is in m from the first point,
-  otherwise as ``line``.
+* ``ray``: from a point of one body towards a point of another. x is in m from the first point;
+  otherwise as for ``line``.
 * ``twist``: around the point ``at`` of body j. x is the share of the angle from body i to body j
   plus ``turn``, px is the radius.
 
-A text is centred at its one row, moved by ``offset``, which does not turn.
+A text has one row. It is centred at this point, moved by ``offset``, which does not turn.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ ORIGIN = (0.0, 0.0)
 def on_body(
     body: int, at: At = ORIGIN, *, turns_with: int | None = None, turn: float = 0.0
 ) -> Frame:
-    """A frame at a point of a body; it turns with the body if no other is named."""
+    """A frame at a point of a body; it turns with this body unless another body is named."""
     turning = body if turns_with is None else turns_with
     return {"type": "body", "body": body, "at": [*at], "turns_with": turning, "turn": turn}
 

@@ -1,4 +1,4 @@
-"""MP4 (H.264) by ffmpeg: the one of the system, or that of the package imageio-ffmpeg."""
+"""MP4 (H.264) by the ffmpeg of the system or of the package imageio-ffmpeg."""
 
 from __future__ import annotations
 
@@ -17,10 +17,10 @@ _REMEDY = "install ffmpeg (Debian, Ubuntu: apt install ffmpeg), or pip install '
 
 
 def find_ffmpeg() -> str:
-    """Where ffmpeg is.
+    """The path of ffmpeg.
 
     Raises:
-        FileError: it is neither installed in the system nor as imageio-ffmpeg.
+        FileError: ffmpeg is neither installed in the system nor as imageio-ffmpeg.
     """
     found = shutil.which("ffmpeg")
     if found is not None:
@@ -58,7 +58,7 @@ def _with_first(first: Picture, others: Iterator[Picture]) -> Iterator[Picture]:
 
 
 def _feed(pipe: IO[bytes], pictures: Iterable[Picture]) -> bool:
-    """Give the pictures to ffmpeg; whether it stopped listening."""
+    """Write the pictures to ffmpeg; return whether ffmpeg closed its input early."""
     try:
         for picture in pictures:
             pipe.write(picture.data)
@@ -69,7 +69,7 @@ def _feed(pipe: IO[bytes], pictures: Iterable[Picture]) -> bool:
 
 
 def _encoder(ffmpeg: str) -> list[str]:
-    """H.264 where this ffmpeg has it, which some distributions leave out; MPEG-4 otherwise."""
+    """H.264 if this ffmpeg contains it; MPEG-4 otherwise, as in some distributions."""
     asked = subprocess.run(
         [ffmpeg, "-hide_banner", "-encoders"], capture_output=True, text=True, check=False
     )

@@ -14,7 +14,7 @@ def plain(values: Floats, digits: int = 9) -> Any:
 
 
 def rounded_all(data: Any, digits: int = 9) -> Any:
-    """The same data with every fraction to nine significant digits."""
+    """The data with every fractional number rounded to nine significant digits."""
     if isinstance(data, dict):
         return {key: rounded_all(value, digits) for key, value in data.items()}
     if isinstance(data, list):

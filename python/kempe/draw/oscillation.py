@@ -12,12 +12,12 @@ from kempe.draw.pixels import Pixels, format_of
 from kempe.draw.scene import Scene, scene
 from kempe.mode_shape import ModeShape
 
-#: A period takes so many seconds on the screen.
+#: Duration of a period on the screen, s.
 PERIOD = 2.0
 
 
 def bounds_of(scenes: Sequence[Scene]) -> list[float]:
-    """The area that contains all of them: least x and y, largest x and y, m."""
+    """The area that contains all bounds: least x and y, largest x and y, m."""
     all_bounds = np.array([shown["bounds"] for shown in scenes])
     return [*all_bounds[:, :2].min(axis=0).tolist(), *all_bounds[:, 2:].max(axis=0).tolist()]
 

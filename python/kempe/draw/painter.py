@@ -24,10 +24,10 @@ from kempe.draw.placing import HATCH_WIDTH, View, direction, hatching, place
 class Painting(Artist):
     """The items of a display list on axes, at the poses of one instant.
 
-    Lengths of print keep their size whatever the limits and the resolution of the axes.
+    Lengths of print do not depend on the limits and the resolution of the axes.
 
     Args:
-        axes: where to, with limits that are set.
+        axes: the axes, with limits that are set.
         found: items of a display list.
         poses: x, y and angle of each body, ground first, (n_bodies, 3).
         metres: unit of the axes.
@@ -64,7 +64,7 @@ class Painting(Artist):
 
     @allow_rasterization  # type: ignore[untyped-decorator]
     def draw(self, renderer: Any) -> None:
-        """Paint lines and fills, and put the texts in their places; these are painted next."""
+        """Paint lines and fills, and place the texts, which are painted next."""
         if not self.get_visible():
             return
         view, dots = self.view(), renderer.points_to_pixels(1.0)
@@ -147,7 +147,7 @@ def _paint(renderer: Any, item: Item, points: Floats, dots: float) -> None:
 
 @contextmanager
 def any_character() -> Iterator[None]:
-    """A character that the font does not have is drawn as a box, which is no reason to warn."""
+    """Draw a character that the font does not contain as a box, without a warning."""
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", message=r"(?s)Glyph .* missing", category=UserWarning)
         yield

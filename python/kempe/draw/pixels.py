@@ -15,7 +15,7 @@ LEAST, MOST = 64, 8192
 
 @dataclass(frozen=True)
 class Format:
-    """How large a picture is drawn.
+    """The size and resolution of a picture.
 
     Attributes:
         dpi: dots for each inch.
@@ -27,7 +27,7 @@ class Format:
 
 
 def format_of(size: Pixels) -> Format:
-    """A picture of so many pixels, with the area of the usual one, so that texts are as large.
+    """The format of a picture of this many pixels; its area is the usual one, as is its text size.
 
     Raises:
         ModelError: the size is impossible.

@@ -23,7 +23,7 @@ _SPACING, _STROKE, HATCH_WIDTH = 4.0, 5.0, 0.7
 
 @dataclass(frozen=True)
 class View:
-    """The part of the plane that is seen.
+    """The visible part of the plane.
 
     Attributes:
         low: least x and y, m.
@@ -41,7 +41,7 @@ class View:
         return found
 
     def plain(self) -> tuple[tuple[float, float], float, tuple[float, float]]:
-        """The same as numbers: lower left corner, scale, width and height."""
+        """The view as plain numbers: lower left corner, scale, width and height."""
         (left, bottom), (width, height) = map(float, self.low), map(float, self.size)
         return (left, bottom), float(self.scale), (width, height)
 

@@ -1,8 +1,8 @@
-"""The player: a page that shows a motion, whole in one file that needs no network.
+"""The player: a page that shows a motion, in a single file that needs no network.
 
-Everything that a user named is data: the scene is JSON in a script element that no browser runs,
-with every ``<`` escaped, and the page puts names in place as text. A policy in the page forbids all
-scripts but its own, which is known by its hash, and all requests.
+All names of a user are data: the scene is JSON in a script element that no browser executes, with
+every ``<`` escaped, and the page inserts names as text. The content security policy of the page
+forbids all requests, and all scripts except its own, which the policy identifies by a hash.
 
 The script and the style are bundled from ``studio/src/player``, which shares its painters with the
 studio; ``npm run build`` in ``studio/`` writes them.
@@ -38,11 +38,11 @@ def player(
     span: Span | None = None,
     labels: bool = True,
 ) -> Path:
-    """Write a page that plays a motion; any browser opens it, also without a network.
+    """Write a page that plays a motion; any browser can open it, also without a network.
 
     Args:
         solution: the motion; a state is shown at rest.
-        path: where to, such as ``animation.html``.
+        path: the file, such as ``animation.html``.
         speed: 2 plays twice as fast at the start; it can be changed on the page.
         span: first and last time that are shown, s; the whole motion by default.
         labels: whether to write the numbers of bodies and the names of joints and elements.
@@ -51,7 +51,7 @@ def player(
         The path.
 
     Raises:
-        FileError: the file cannot be written; an old one is then left as it was.
+        FileError: the file cannot be written; an existing file is then unchanged.
     """
     shown = scene(solution, span=span)
     shown["playback"]["rate"] *= speed
@@ -79,7 +79,7 @@ def page(shown: Scene, *, labels: bool = True) -> str:
 
 
 def _remarked(shown: Scene) -> Scene:
-    """The scene with a remark behind the names of joints and drivers without a unique reaction."""
+    """The scene with a remark after the names of joints and drivers without a unique reaction."""
     open_ones = shown["minimum_norm"]
 
     def remarked(one: dict[str, Any], key: str) -> dict[str, Any]:

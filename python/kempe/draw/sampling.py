@@ -1,4 +1,4 @@
-"""Which instants of a motion are drawn."""
+"""Selection of the instants of a motion that are drawn."""
 
 from __future__ import annotations
 
@@ -18,10 +18,11 @@ from kempe.state import State
 
 FRAMES_PER_SECOND = 60
 MOST_FRAMES = 1200
-#: A mechanism of many bodies has fewer frames, so that a scene stays a few megabytes large.
+#: A mechanism with many bodies has fewer frames, so that a scene has only a few megabytes.
 _MOST_NUMBERS = 600_000
 _FEWEST_FRAMES = 60
-#: The player may interpolate where that misplaces no point by more than this share of the drawing.
+#: Largest error of interpolated points for which the player may interpolate, as a fraction of the
+#: size of the drawing.
 _INVISIBLE = 1e-3
 
 
@@ -37,13 +38,13 @@ def sampled(
 ) -> Motion:
     """The motion at the frames, in the order of time.
 
-    Evenly spread where the solution can be evaluated anywhere, otherwise at the outputs.
+    The frames are evenly spaced if the solution has an interpolant; otherwise they are outputs.
 
     Args:
         drawn: a solution, or a state, which is one frame.
-        frames: how many; chosen when None.
-        numbers_per_frame: how many numbers a frame has.
-        span: the part of the time that is drawn; all when None.
+        frames: number of frames; chosen when None.
+        numbers_per_frame: number of numbers in a frame.
+        span: the part of the time that is drawn; the whole motion when None.
 
     Raises:
         ModelError: ``frames`` is less than 1, or the span is not in the solution.
@@ -141,7 +142,7 @@ def accuracy(drawn: Solution | State, motion: Motion) -> float | None:
     one unit are compared with their largest value.
 
     Returns:
-        The largest error half-way between frames, as a share of the largest value; None if the
+        The largest error half-way between frames, as a fraction of the largest value; None if the
         solution has no interpolant, or its reactions are undefined half-way.
     """
     if isinstance(drawn, State) or isinstance(motion, _Outputs) or len(motion.t) < 3:
@@ -163,7 +164,7 @@ def accuracy(drawn: Solution | State, motion: Motion) -> float | None:
 
 
 def _error_half_way(t: Floats, frames: Floats, exact: Floats) -> float:
-    """The largest error as a share of the largest value, for columns of one unit."""
+    """The largest error as a fraction of the largest value, for columns of one unit."""
     largest = float(np.abs(frames).max(initial=0.0))
     h = np.diff(t)[:, None]
     inner = (frames[2:] - frames[:-2]) / (h[1:] + h[:-1])
@@ -187,9 +188,9 @@ def interpolation(drawn: Solution | State, motion: Motion, size: float) -> str:
     that is too fast for the number of frames is not interpolated.
 
     Args:
-        drawn: where the frames came from.
+        drawn: the solution or state from which the frames were taken.
         motion: the motion at the frames.
-        size: of the drawing, m.
+        size: size of the drawing, m.
     """
     if isinstance(drawn, State) or isinstance(motion, _Outputs) or len(motion.t) < 2:
         return "none"
@@ -202,7 +203,7 @@ def interpolation(drawn: Solution | State, motion: Motion, size: float) -> str:
 
 
 def _misplaced(guess: Floats, exact: Floats, motion: Motion, name: str) -> float:
-    """How far the points of a body are from where they should be, at most, m."""
+    """Largest error of the positions of the points of a body, m."""
     info = motion.compiled.bodies[name]
     error = (guess - exact)[:, info.columns]
     shift = np.hypot(error[:, 0], error[:, 1])

@@ -32,11 +32,11 @@ FORMAT = 2
 UNITS = {"time": "s", "length": "m", "angle": "rad", "force": "N", "torque": "N·m"}
 #: Points are computed from poses; after many turns, angles need more digits than other numbers.
 _DIGITS_OF_POSES = 12
-#: Length of the arrow of the largest reaction, as a share of the size of the drawing.
+#: Length of the arrow of the largest reaction, as a fraction of the size of the drawing.
 _LONGEST_ARROW = 0.3
-#: Points no farther apart than this share of the drawing are seen as one.
+#: Points whose distance is at most this fraction of the drawing are drawn as one.
 _SAME_PLACE = 1e-3
-#: Events that are marked, at most.
+#: Largest number of events that are marked.
 _MOST_EVENTS = 200
 #: Shortest and longest motion that is shown in real time, s.
 _SHORTEST, _LONGEST = 2.0, 60.0
@@ -53,10 +53,10 @@ def scene(
 
     Args:
         solution_or_state: the motion or the state.
-        frames: number of frames, evenly spread; by default 60 for each second, at most 1200, and
-            fewer for a mechanism of very many bodies.
-        traces: points whose paths are drawn, such as ``["coupler.P"]``; by default every named
-            point of a moving body that moves, once where several bodies share it.
+        frames: number of frames, evenly spaced; by default 60 for each second, at most 1200, and
+            fewer for a mechanism with very many bodies.
+        traces: points whose paths are drawn, such as ``["coupler.P"]``; by default every moving
+            named point of a body. A point that several bodies share is drawn once.
         span: first and last time that are drawn, s; the whole motion by default.
 
     Returns:
@@ -155,7 +155,7 @@ def _reaction_scale(largest: float, size: float) -> dict[str, float | None]:
 
 
 def playback_rate(duration: float) -> float:
-    """Simulated seconds for each second of the screen: 1 unless that is too short or too long."""
+    """Simulated seconds for each second on the screen: 1 unless the motion is too short or long."""
     if duration <= 0.0 or _SHORTEST <= duration <= _LONGEST:
         return 1.0
     return round_below(duration / (_SHORTEST if duration < _SHORTEST else _LONGEST))
@@ -184,7 +184,7 @@ def _trace(model: CompiledModel, body: str, point: str) -> dict[str, Any]:
 
 
 def _moving_points(motion: Motion, size: float) -> list[dict[str, Any]]:
-    """Points that move, without those that go with one before them."""
+    """Moving points, without points that coincide with an earlier one."""
     near = _SAME_PLACE * size
     # A few frames show whether two points coincide; all of them would take long for many bodies.
     some = np.unique(np.linspace(0, len(motion.t) - 1, 16).round().astype(int))

@@ -11,7 +11,7 @@ from kempe.errors import ModelError
 from kempe.solution import Solution
 from kempe.state import State
 
-#: Pixels of a picture without another size.
+#: Default size of a picture, pixels.
 USUAL: Pixels = (1440, 810)
 
 
@@ -28,7 +28,7 @@ def still(
     Args:
         drawn: the motion, or a state.
         path: ending in ``.png``.
-        t: the instant, s; the start when None. Not for a state.
+        t: the instant, s; the start when None. Not allowed for a state.
         size: width and height, pixels.
         labels: whether to write the numbers of bodies and the names of joints and elements.
 

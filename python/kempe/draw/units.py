@@ -10,7 +10,7 @@ from kempe.display_units import chosen_for
 
 #: SI prefixes by the power of ten.
 _PREFIXES = {9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n"}
-#: The powers that engineers write before each unit; others are written as 10³ before it.
+#: The usual powers of ten for each unit; other powers are written as a factor such as 10³.
 _CUSTOM = {
     "s": (0, -3, -6, -9),
     "m": (0, -3, -6, -9),
@@ -23,16 +23,16 @@ _CUSTOM = {
 }
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
-#: Under this, in SI units, a quantity is rounding noise and shown as the zero that it means.
+#: Below this value, in SI units, a quantity is a rounding error and is shown as zero.
 NOISE = 1e-9
 
 
 @dataclass(frozen=True)
 class Scale:
-    """How an axis counts.
+    """The scale of an axis.
 
     Attributes:
-        divisor: divisor of the values in SI units.
+        divisor: divisor of values in SI units.
         unit: unit on the axis, such as "kN".
     """
 
@@ -55,7 +55,7 @@ def scale(unit: str, peak: float) -> Scale:
 
     Args:
         unit: SI unit of the values.
-        peak: largest magnitude in that unit.
+        peak: largest magnitude in SI units.
     """
     chosen = chosen_for(unit)
     if chosen is not None:

@@ -35,7 +35,7 @@ class Formula:
 
 #: Tables with more rows may break between pages.
 SHORT = 24
-#: Tables with so many columns have smaller letters.
+#: Tables with at least this many columns have smaller letters.
 WIDE = 7
 
 Cell: TypeAlias = "str | Number | Formula"
@@ -75,7 +75,7 @@ class Table:
 
     @property
     def texts(self) -> list[bool]:
-        """Of each column, whether it contains texts, which begin at the left."""
+        """For each column, whether it contains texts, which are left-aligned."""
         columns = zip(*self.rows, strict=True)
         return [not any(isinstance(cell, Number) for cell in column) for column in columns]
 
@@ -96,7 +96,7 @@ class Matrix:
 
     Attributes:
         caption: one line.
-        groups: name and number of columns of each group of columns, such as those of a body.
+        groups: name and number of columns of each group of columns, such as the columns of a body.
         columns: full name and short name of each column.
         rows: the name of each row, and its cells.
     """
@@ -145,7 +145,7 @@ Block: TypeAlias = "Paragraph | Points | Table | Matrix | Formulas | Picture | L
 
 @dataclass(frozen=True)
 class Section:
-    """A section, or a part of one; those without blocks and parts are left out.
+    """A section or a subsection; sections without blocks and parts are left out.
 
     Attributes:
         title: its heading.

@@ -53,10 +53,10 @@ _LONGEST = 120.0
 
 
 def find_browser() -> str:
-    """The browser that ``$CHROMIUM`` names, or one of the system.
+    """The browser that ``$CHROMIUM`` names, or a browser of the system.
 
     Raises:
-        FileError: there is none.
+        FileError: there is no browser.
     """
     named = os.environ.get(VARIABLE)
     if named:

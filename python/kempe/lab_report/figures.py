@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from kempe.result import Result
     from kempe.solution import Solution
 
-#: Most figures of one kind, such as those of the joints.
+#: Largest number of figures of one kind, such as the figures of the joints.
 MOST = 12
 #: Identifiers in an SVG picture and the references to them, which are unique in one picture only.
 _IDS = re.compile(r'(\bid="|href="#|url\(#)')
@@ -81,7 +81,7 @@ class Figures:
         return self._drawn(page for page in self._pages if page.name in names)
 
     def beginning(self, *beginnings: str) -> list[Picture]:
-        """The figures whose names begin so."""
+        """The figures whose names begin with a text."""
         return self._drawn(page for page in self._pages if page.name.startswith(beginnings))
 
     def about(self, captions: Mapping[str, str]) -> list[Picture]:

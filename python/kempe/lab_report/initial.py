@@ -18,7 +18,7 @@ from kempe.matrices import show as labelled
 from kempe.matrices.writing import number as entry
 from kempe.state import State
 
-#: Most columns of a matrix in the report, and of one part of it, as wide as a page.
+#: Largest number of columns of a matrix in the report, and of a part that fits on a page.
 _MOST_COLUMNS, _WIDTH = 45, 9
 _SYMBOLS = {"angle": "φ"}
 _ACCELERATIONS = (("ax", "m/s^2"), ("ay", "m/s^2"), ("alpha", "rad/s^2"))
@@ -78,7 +78,7 @@ def _further(state: State) -> Iterator[Block]:
 
 
 def _closure(state: State) -> Iterator[Block]:
-    """By how much the joints are open, and their rates wrong."""
+    """The residuals of the constraints and of their rates."""
     if not state.compiled.n_rows:
         return
     rows: list[tuple[Cell, ...]] = []
@@ -117,7 +117,7 @@ def _assembly(subject: Subject) -> Iterator[Block]:
 
 
 def _mass(state: State) -> Iterator[Block]:
-    """The matrix; of many bodies, the diagonal by body."""
+    """The mass matrix; for many bodies, only its diagonal, by body."""
     shown = labelled(state.compiled, state, "M")
     full, model = shown.values, state.compiled
     if not model.bodies:
@@ -215,7 +215,7 @@ def _short(name: str) -> str:
 
 
 def _loads(state: State) -> Iterator[Block]:
-    """q̈ and λ at the start; nothing for masses or positions that do not determine them."""
+    """q̈ and λ at the start; empty if masses or the position do not determine them."""
     try:
         acceleration = tidy(state.a, max(map(abs, state.compiled.gravity)))
         multipliers = tidy(state.lam)

@@ -11,7 +11,7 @@ from kempe.lab_report.subject import Subject
 from kempe.matrices.writing import named
 from kempe.symbolic import Equations, equations
 
-#: Joints and drivers whose equations are printed; models with more have many of one type.
+#: Largest number of joints and drivers whose equations are printed; larger models repeat types.
 _MOST = 40
 _ABOUT = (
     "Φ = 0 are the equations of the joints and drivers; all partial derivatives that are not "
@@ -62,7 +62,7 @@ def _equations(subject: Subject) -> Iterator[Block]:
 
 
 def _lines(of: Equations) -> Iterator[list[Formula]]:
-    """Definitions, Φ, derivatives and γ of a joint; an empty list for one that is too long."""
+    """Definitions, Φ, derivatives and γ of a joint; an empty list if they are too long."""
     told = of.symbols
     for name, definition in told.definitions:
         yield _shown(f"{name} = {definition}")

@@ -157,7 +157,7 @@ def _plain(value: Any) -> str:
 
 
 def _cost(found: Solution) -> Table:
-    """The cost of a run, without its time, which is never the same."""
+    """The cost of a run, without its computing time, which is not reproducible."""
     cost = found.statistics
     names = ("steps", "rejected", "evaluations", "jacobians", "iterations", "factorisations")
     rows = [(name, str(cost[name])) for name in names if cost.get(name)]

@@ -38,7 +38,7 @@ class Told:
         self.usual = "deg" if self.unit == "rad" else None
 
     def peaks(self, kind: str) -> list[dict[str, Any]]:
-        """The largest "reactions" or "forces", with zeros in the place of rounding errors."""
+        """The largest "reactions" or "forces", with rounding errors replaced by zeros."""
         least = {"force": self._least, "torque": self._least * self._size}
         return [
             {**of, **{name: 0.0 for name, small in least.items() if abs(of[name]) <= small}}
@@ -50,7 +50,7 @@ class Told:
         return number(value, self.unit, self.usual)
 
     def place(self, value: float) -> str:
-        """The same in a sentence."""
+        """A time, or a value of the driven quantity, in a sentence."""
         return quantity(value, self.unit, self.usual)
 
     def header(self, word: str = "at") -> str:
@@ -178,7 +178,7 @@ def _measures(told: Told) -> Table:
 
 
 def _design(solution: Solution, figures: Figures) -> list[Block]:
-    """Coupler curves, transmission angles, efforts and the like."""
+    """Coupler curves, transmission angles, efforts and other results for design."""
     model = solution.compiled
     known = {*_LEFT_OUT, "motion", "residual", "energy", "reactions", *model.bodies}
     beginnings = ("torque_", "reactions_", "measure_", "x_", "y_", "angle_")

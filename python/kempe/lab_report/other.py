@@ -49,7 +49,7 @@ def other(name: str, found: Result) -> Section:
 
 
 def _table(name: str, columns: Sequence[Column]) -> Block:
-    """A table with a quantity in each line; of many values, their number."""
+    """A table with a quantity in each line; many values are replaced by their number."""
     count = max((len(column.values) for column in columns), default=0)
     if count == 1:
         rows = [(of.name, number(float(value)), of.unit) for of in columns for value in of.values]

@@ -36,11 +36,11 @@ def number(value: float, unit: str = "", usual: str | None = None, digits: int =
 
 
 def tidy(values: Floats, scale: float = 0.0) -> list[float]:
-    """Numbers of one kind, with zeros in the place of rounding errors.
+    """Numbers of one kind, with rounding errors replaced by zeros.
 
     Args:
         values: the numbers.
-        scale: a natural size of them; that of the largest number if this is larger.
+        scale: a natural magnitude of the numbers; the largest number is used if it is larger.
     """
     least = ROUNDING * float(np.abs(values).max(initial=scale))
     tidied: list[float] = np.where(np.abs(values) <= least, 0.0, values).tolist()

@@ -61,7 +61,7 @@ class Subject:
 
     @property
     def held(self) -> Mapping[str, Any]:
-        """The quantities that hold at the start, as in a file."""
+        """The quantities that are set at the start, as in a file."""
         return self._start("set")
 
     @property
@@ -111,7 +111,7 @@ def of_solution(solution: Solution, listing: str | None, study: Study | None) ->
 
 
 def _case(solution: Solution) -> Case:
-    """The case of a solution; laws that are Python functions are in its model only."""
+    """The case of a solution; only its model contains laws that are Python functions."""
     model = solution.compiled
     try:
         return parsed(model.case, "json", "the solution")

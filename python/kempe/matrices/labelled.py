@@ -50,18 +50,18 @@ ROUNDING = 1e-13
 
 @dataclass(frozen=True, repr=False)
 class Labelled:
-    """A matrix or a column with names; ``print`` shows it aligned.
+    """A matrix or a column with names; ``print`` shows it with aligned columns.
 
-    Printed numbers have the display units (``kp.units``): of the numbers in a column, and of the
-    quantities that a matrix connects. In other units than SI, the names have their units.
+    Numbers are printed in display units (``kp.units``): in the units of the numbers of a column, or
+    of the quantities that a matrix connects. Units other than SI are printed after the names.
 
     Attributes:
-        name: such as ``Phi_q``.
+        name: the name, such as ``Phi_q``.
         values: (rows, columns), or (rows,) for a column; always in SI units.
         rows: names of the rows, such as ``A.x``.
         columns: names of the columns, such as ``crank.angle``; empty for a column.
-        row_units: SI units of the rows of the product, such as m/s² in M a.
-        column_units: SI units of the factors of the columns.
+        row_units: SI units of the rows of the product of matrix and vector.
+        column_units: SI units of the components of the vector.
     """
 
     name: str
@@ -88,7 +88,7 @@ class Labelled:
         return any(chosen_for(unit) for unit in (*self.row_units, *self.column_units))
 
     def _names(self, names: Sequence[str], of: Sequence[str]) -> list[str]:
-        """Names, with units if those are not of SI."""
+        """Names, with units other than SI."""
         if not self._is_converted:
             return list(names)
         return [f"{name} [{display(unit).unit}]" for name, unit in zip(names, of, strict=True)]
@@ -170,8 +170,8 @@ def show(
         model: the mechanism.
         state: the state at which the matrix is evaluated.
         what: "Phi_q", "M", "Phi", "nu", "gamma", "Q", "kkt", "rhs", "a" or "lam".
-        assembly: coordinates that an assembly would hold by ``set``. Each adds the row of a driver,
-            so that "Phi_q" is the matrix of the Newton iteration.
+        assembly: coordinates that an assembly prescribes by ``set``. Each adds a row as a driver
+            does, so that "Phi_q" is the matrix of the Newton iteration.
 
     Returns:
         The matrix; ``text()``, ``csv()`` and ``latex()`` write it.
@@ -227,7 +227,7 @@ def _acceleration(unit: str) -> str:
 
 
 def _duals(coordinates: Iterable[str]) -> list[str]:
-    """Units of forces: their work on a coordinate is an energy."""
+    """Units of generalized forces: force times coordinate is an energy."""
     return [FORCE_UNITS.get(unit, f"J/{unit}") for unit in coordinates]
 
 

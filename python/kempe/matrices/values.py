@@ -28,8 +28,8 @@ class Matrices:
         nu: -Φ_t, (m,).
         gamma: right side of the acceleration equation, (m,).
         Q: (n_q,), N and N·m.
-        kkt: the whole matrix of (6.3.18), (n_q + m, n_q + m).
-        rows: names of the equations, such as ``A.x``; those of ``set=`` come last.
+        kkt: the coefficient matrix of (6.3.18), (n_q + m, n_q + m).
+        rows: names of the equations, such as ``A.x``; the rows of ``set=`` come last.
         columns: names of the coordinates, such as ``crank.angle``.
     """
 

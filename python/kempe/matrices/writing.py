@@ -36,7 +36,7 @@ def number(value: float) -> str:
 
 
 def text(rows: Sequence[str], columns: Sequence[str], values: Floats) -> str:
-    """Lines of equal columns: names to the left, decimal points under each other."""
+    """Lines with aligned columns: names to the left, decimal points below each other."""
     body = [_aligned([number(value) for value in column]) for column in values.T.tolist()]
     header = list(columns) or [""] * len(body)
     widths = [
@@ -81,8 +81,8 @@ def csv(rows: Sequence[str], columns: Sequence[str], values: Floats) -> str:
 def latex(name: str, rows: Sequence[str], columns: Sequence[str], values: Floats) -> str:
     """A displayed formula for amsmath: names of the rows, the matrix, names of the columns.
 
-    The names of the columns stand as the column that the matrix is multiplied with, which keeps
-    wide matrices narrow.
+    The names of the columns are written as the column vector by which the matrix is multiplied, so
+    that the columns can be narrow.
     """
     wide = f"\\setcounter{{MaxMatrixCols}}{{{len(columns)}}}\n" if len(columns) > 10 else ""
     body = latex_body(name, rows, columns, values)

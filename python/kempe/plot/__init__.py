@@ -1,7 +1,7 @@
-"""Figures of solutions, drawn with matplotlib; one file for each.
+"""Figures of solutions, drawn with matplotlib; one file for each figure.
 
-Every function takes ``ax=``, draws in a figure of its own without it, and returns the axes. Time
-axes are compressed after ``cut=``, which ``transient(solution)`` finds.
+Every function takes ``ax=`` and returns the axes. Without ``ax=`` it draws in a new figure. Time
+axes are compressed after ``cut=``; ``transient(solution)`` returns a suitable time.
 """
 
 from kempe.plot.body_motion import accelerations, positions, velocities

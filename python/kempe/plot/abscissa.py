@@ -1,4 +1,4 @@
-"""The horizontal axis of design figures: the angle of a crank, or else the time."""
+"""The horizontal axis of design figures: the angle of a crank, or the time."""
 
 from __future__ import annotations
 
@@ -64,8 +64,8 @@ def abscissa(solution: Solution, over: str | None = None) -> Abscissa:
 
     Args:
         solution: the motion.
-        over: a position quantity, or "t"; when None the driven quantity or, over time, the
-            coordinate of the only driver if it changes in one direction.
+        over: a position quantity, or "t". When None, it is the driven quantity, or in a motion over
+            time the coordinate of the only driver if this changes in one direction only.
     """
     t = instants(solution)
     chosen = over if over is not None else _only_driver(solution)

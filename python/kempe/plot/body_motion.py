@@ -50,7 +50,7 @@ def positions(
     cut: float | None = None,
     index_base: int = 1,
 ) -> Axes:
-    """Draw x and y of a body over time, and its angle on an axis of its own to the right.
+    """Draw x and y of a body over time, and its angle on a separate axis to the right.
 
     A point mass has no angle.
 
@@ -63,7 +63,7 @@ def positions(
         index_base: number of the first body.
 
     Returns:
-        The axes; that of the angle is its twin.
+        The axes; the axes of the angle are their twin.
 
     Raises:
         ModelError: there is no such body or quantity.
@@ -160,7 +160,7 @@ def _draw(
 
 
 def add_degrees(axes: Axes, panel: Panel) -> SecondaryAxis | None:
-    """The same angle in degrees, to the right, if the panel has such an axis."""
+    """Add an axis in degrees to the right, if the panel requests it."""
     if not panel.degrees:
         return None
     rad = 1e-3 if "mrad" in axes.get_ylabel() else 1.0
@@ -182,7 +182,7 @@ def add_degrees(axes: Axes, panel: Panel) -> SecondaryAxis | None:
 def _draw_all(
     axes: Axes, motion: Motion, body: str, names: Sequence[str], *, title: str, cut: float | None
 ) -> None:
-    """Both directions on the axes, the turning, if any, on a twin of them."""
+    """Draw both translations on the axes, and the rotation, if any, on their twin."""
     x, y, *turn = (_curve(motion, body, name, style.line(k)) for k, name in enumerate(names))
     t, unit = times(motion), QUANTITIES[names[0]][1]
     both = Panel(f"{x.label}, {y.label}", unit, [x, y], title, variable=motion.variable)

@@ -80,7 +80,7 @@ def instant_centres(
 
 
 def _centres(state: State, index_base: int) -> dict[str, Floats]:
-    """The centre of each pair of bodies that move against each other."""
+    """The centre of each pair of bodies in relative motion."""
     numbers = {
         name: body.number - 1 + index_base if body.number else 0
         for name, body in state.compiled.all_bodies.items()

@@ -23,11 +23,11 @@ def configuration(
     ax: Axes | None = None,
     index_base: int = 1,
 ) -> Axes:
-    """Draw where all bodies are, with numbers and names.
+    """Draw the positions of all bodies, with numbers and names.
 
     Args:
         solution_or_state: the solution or the state.
-        t: the time within a solution, s; its first when None.
+        t: the time within a solution, s; the first time when None.
         ax: where to; a figure of its own when None.
         index_base: number of the first body.
 
@@ -54,7 +54,7 @@ def instant(state: State) -> str:
 
 
 def state_at(solution_or_state: Solution | State, t: float | None) -> State:
-    """A state as it is, or that of a solution at a time, at its first by default."""
+    """A given state, or the state of a solution at a time, by default the first time."""
     if not isinstance(solution_or_state, Solution):
         return solution_or_state
     for state in (solution_or_state.initial, solution_or_state.final):

@@ -19,7 +19,7 @@ from kempe.solution import Solution
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: Marks on the curve: so many parts of the motion.
+#: Number of parts into which the marks on the curve divide the motion.
 _MARKS = 24
 _HEIGHT = 110.0
 _CURVE: dict[str, Any] = {"color": "#C2184B", "linewidth": 1.5, "zorder": 3.2}

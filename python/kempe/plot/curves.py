@@ -20,7 +20,7 @@ from kempe.plot.time_axis import TimeAxis, show_time
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: Room above and below the curves, as a share of their range.
+#: Margin above and below the curves, as a fraction of their range.
 _MARGIN = 0.06
 
 
@@ -40,8 +40,8 @@ def draw(
         t: (n_t,), s.
         panel: the curves.
         cut: time after which the time axis is compressed, s; never when None.
-        chosen: unit of the axis; one that keeps the numbers short when None.
-        span: range of the axis, SI units; that of the curves when None.
+        chosen: unit of the axis; a unit with short numbers when None.
+        span: range of the axis, SI units; the range of the curves when None.
     """
     unit = chosen or scale(panel.unit, panel.peak)
     time = TimeAxis.of(t, cut, panel.variable)
@@ -57,7 +57,7 @@ def draw(
 def add_lines(
     axes: Axes, t: Floats, curves: Sequence[Curve], *, time: TimeAxis, divisor: float = 1.0
 ) -> None:
-    """One line for each curve; points where there are too few times for a line."""
+    """One line for each curve; points if there are too few times for a line."""
     instants = np.atleast_1d(t) / time.unit.divisor
     marker = {"marker": "o"} if len(instants) < 3 else {}
     breaks = jumps(np.atleast_1d(t))
@@ -72,7 +72,7 @@ def add_lines(
 def _limit(
     axes: Axes, span: tuple[float, float], divisor: float, sides: list[int], shared: bool
 ) -> None:
-    """Room for the peaks; the rounding noise of constant curves is not magnified."""
+    """Limits with room for the peaks; rounding errors of constant curves are not magnified."""
     low, high = span
     most = max(abs(low), abs(high))
     if most < NOISE:

@@ -35,12 +35,12 @@ _SAME = 1e-12
 
 
 def families(solution: Solution, index_base: int, most: int | None) -> Iterator[list[Page]]:
-    """The pages of a driven motion; none for others. Those with forces only where these are unique.
+    """The pages of a driven motion; none for others. Forces are drawn only if they are unique.
 
     Args:
         solution: the solution.
         index_base: number of the first body.
-        most: of figures of one kind; any number when None.
+        most: largest number of figures of one kind; no limit when None.
     """
     if solution.statistics.get("method") != _DRIVEN or len(solution.t) < 2:
         return

@@ -36,7 +36,7 @@ def of_mechanism(state: State) -> Page:
 
 
 def of_configuration(name: str, state: State, index_base: int) -> Page:
-    """Where all bodies are at one time."""
+    """The positions of all bodies at one time."""
 
     def draw() -> Figure:
         figure, axes = _paper(state)

@@ -48,12 +48,12 @@ def draw_envelope(axes: Axes, t: Floats, y: Floats, label: str, look: Mapping[st
 
 
 def logarithmic(axes: Axes, drawn: list[Floats], most: int = _MOST) -> None:
-    """A logarithmic axis that leaves out zeros; linear where there is nothing else.
+    """Make the axis logarithmic, without zeros; it is linear if all values are zero.
 
     Args:
-        axes: where to.
-        drawn: the values that must be seen.
-        most: decades of the axis, at most; the largest ones are shown.
+        axes: the axes.
+        drawn: the values that must be visible.
+        most: largest number of decades of the axis; the highest decades are shown.
     """
     positive = [values[values > 0.0] for values in drawn]
     lowest = min((float(values.min()) for values in positive if len(values)), default=None)

@@ -1,8 +1,8 @@
 """The free-body diagram of a body: all forces and moments on it, with values, and -m a.
 
-Arrows begin where the force acts, or end there if it pushes on the body. Their lengths are
-proportional to the forces, but a small one keeps a least length, so that it is seen. With
-d'Alembert's force -m a, drawn dashed at the mass centre, all forces are in balance.
+An arrow begins at the point where the force acts, or ends there if the force pushes on the body.
+The lengths are proportional to the forces, but each arrow has a minimum length, so that it is
+visible. With d'Alembert's force -m a, drawn dashed at the mass centre, all forces are in balance.
 """
 
 from __future__ import annotations
@@ -38,11 +38,11 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _HEIGHT = 110.0
-#: Room around the body for arrows, as a share of its larger side.
+#: Margin around the body for arrows, as a fraction of its larger side.
 _ROOM = 0.32
 #: Longest and shortest arrow, radius of a moment, its width, points.
 _LONGEST, _SHORTEST, _RADIUS, _WIDTH = 64.0, 15.0, 13.0, 1.5
-#: Loads below this share of the largest are not drawn.
+#: Loads below this fraction of the largest are not drawn.
 _NOTHING = 1e-9
 _COLOURS = {"joint": "reaction", "driver": "drive", "element": "force", "gravity": "ink"}
 

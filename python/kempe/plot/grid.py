@@ -40,7 +40,7 @@ class Sheet:
         columns: 1 or 2; an odd last panel is as wide as the page.
         note: a sentence below the panels; empty for none.
         shared: whether all panels of one unit have the same range.
-        legend: whether one legend above all panels serves them all.
+        legend: whether all panels share one legend above them.
     """
 
     panels: Sequence[Panel]
@@ -99,7 +99,7 @@ def _row_height(rows: Sequence[Sequence[Panel]], k: int) -> float:
 
 
 def _timed(rows: Sequence[Sequence[Panel]], k: int) -> bool:
-    """Whether the times are written below a row: where the next row has other widths, or none."""
+    """Whether the times are written below a row: if the next row has other widths or is missing."""
     return k + 1 == len(rows) or len(rows[k + 1]) != len(rows[k])
 
 

@@ -1,4 +1,4 @@
-"""The place of a legend: where no line can be."""
+"""The place of a legend, outside the area of the lines."""
 
 from __future__ import annotations
 

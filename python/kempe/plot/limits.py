@@ -31,7 +31,7 @@ def pages(result: LimitsResult, _: int = 1) -> list[Page]:
 
 
 def limits(result: LimitsResult) -> Figure:
-    """Draw the mechanism at both limits, or at the start if it has none."""
+    """Draw the mechanism at both limits, or at the start if there are no limits."""
     states = _states(result)
     paths = _paths(result.path)
     bounds = _bounds([at_rest(state)["bounds"] for _, state in states], paths)

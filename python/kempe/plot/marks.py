@@ -17,7 +17,7 @@ from kempe.solution import Solution
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-#: More lines of one event than this are not drawn.
+#: Largest number of lines of an event; the lines of a more frequent event are not drawn.
 _MOST = 40
 _COLOUR = "#777777"
 #: Name and dashes of singular positions; events have whole lines.

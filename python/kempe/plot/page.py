@@ -25,11 +25,11 @@ class Page:
     """A figure that can be drawn.
 
     Attributes:
-        number: its place in the report; figures of one family share it.
-        name: such as "reactions_C", fit for a file.
-        about: the same with names as the model has them.
-        draw: draws it, as a figure without a window.
-        key: whether it belongs to the few that show a run at a glance.
+        number: its number in the report; figures of one family have the same number.
+        name: a name such as "reactions_C", valid as the name of a file.
+        about: the name with the unchanged names of the model.
+        draw: function that draws the page as a figure without a window.
+        key: whether it is one of the key figures of a run.
     """
 
     number: int
@@ -57,7 +57,7 @@ def save(
     folder: Path | str,
     formats: Sequence[Format] | Sequence[str] | Format = ("png", "svg"),
 ) -> list[Path]:
-    """Write figures into a folder, which is made if missing; returns the files.
+    """Write figures to a folder, which is created if missing; return the files.
 
     Args:
         chosen: one page or several, such as ``kp.plot.pages(sol)``.
@@ -66,7 +66,7 @@ def save(
 
     Raises:
         FileError: a file cannot be written.
-        ModelError: there is no such format, or ``chosen`` contains something else than pages.
+        ModelError: there is no such format, or ``chosen`` contains an object that is not a page.
     """
     into = files.checked_path(folder, "write")
     wanted = [formats] if isinstance(formats, str) else texts(formats, "formats")
@@ -94,7 +94,7 @@ def select(known: Sequence[Page], names: Sequence[str]) -> list[Page]:
 
 
 def file_names(names: Iterable[str]) -> list[str]:
-    """Names of the model made fit for files: plain letters and digits, short, all different."""
+    """Names of the model as valid file names: plain letters and digits, short, all different."""
     taken: set[str] = set()
     found = []
     for name in names:
@@ -102,7 +102,7 @@ def file_names(names: Iterable[str]) -> list[str]:
         kept = "".join(c if c.isalnum() or c in "-_" else "_" for c in plain)
         stem = kept.strip("_")[:_LONGEST] or "unnamed"
         count, unique = 1, stem
-        while unique.casefold() in taken:  # some file systems do not tell a from A
+        while unique.casefold() in taken:  # some file systems do not distinguish a and A
             count += 1
             unique = f"{stem}_{count}"
         taken.add(unique.casefold())

@@ -1,4 +1,4 @@
-"""The figures of a solution, in the order in which one looks at them."""
+"""The figures of a solution, in the order of reading."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ def pages(
     Args:
         solution: the solution or result.
         index_base: number of the first body.
-        most: of figures of one kind, such as those of the joints; any number when None.
+        most: largest number of figures of one kind, such as the joints; no limit when None.
         compressed: whether time axes are compressed after ``transient(solution)``, if the motion
             settles; the axes name this time.
 
     Returns:
-        The figures; those of one family, such as the joints, have the same number.
+        The figures; figures of one family, such as the joints, have the same number.
     """
     if isinstance(solution, Result):
         return result_pages(solution, index_base)
@@ -102,5 +102,5 @@ def _families(
 
 
 def _filed(names: Iterable[str]) -> list[tuple[str, str]]:
-    """Each name with the one that it has in the name of a file."""
+    """Each name with its form in the name of a file."""
     return list(zip(names, file_names(names), strict=True))

@@ -16,7 +16,7 @@ from kempe.variable import TIME, Variable
 if TYPE_CHECKING:
     from kempe.motion import Motion
 
-#: A line that varies by less than this share of its value is a constant.
+#: A line that varies by less than this fraction of its value is a constant.
 CONSTANT = 1e-6
 
 
@@ -29,7 +29,7 @@ class Curve:
         values: (n_t,), SI units.
         line: colour, dashes and width; chosen by its place in the panel when empty.
         high, low: its largest and its least value, if they are known.
-        marked: whether these may be marked.
+        marked: whether these values may be marked.
     """
 
     label: str
@@ -41,7 +41,7 @@ class Curve:
 
     @property
     def span(self) -> tuple[float, float]:
-        """The least and the largest value, SI units, without those beside singular positions."""
+        """The least and the largest value, SI units, excluding values beside singular positions."""
         least, most = float(np.min(self.values)), float(np.max(self.values))
         if self.low is not None and self.high is not None:
             return max(least, self.low.value), min(most, self.high.value)
@@ -58,7 +58,7 @@ class Panel:
         curves: the curves.
         title: title above the panel, to the left.
         name: its name in a sentence on the page.
-        legend: whether to write one, above the panel to the right.
+        legend: whether to draw a legend above the panel to the right.
         degrees: whether an axis to the right gives an angle in degrees.
         turning_points: whether extreme values at the first and the last time stay unmarked.
         variable: the quantity on the horizontal axis.

@@ -21,7 +21,7 @@ ROOM, _GAP = 17.0, 4.0
 #: Its least distance from the sides of the axes, points.
 _INSET = 2.0
 _SIZE = 8.0
-#: Of two opposite peaks the smaller one is marked too from this share of the larger one on.
+#: Of two opposite peaks, the smaller is also marked if it is at least this fraction of the larger.
 _WORTH = 0.3
 
 #: A peak, the side of the curve on which its text is (1 above, -1 below), and its colour.
@@ -29,9 +29,9 @@ Mark = tuple[Extreme, int, Any]
 
 
 def chosen_peaks(curves: Sequence[Curve], *, turning_points: bool) -> list[Mark]:
-    """The peaks of a panel that are marked: of several curves only the largest magnitude.
+    """The marked peaks of a panel; if it has several curves, only the largest magnitude is marked.
 
-    The text of a chosen peak is above or below all curves, so that it covers none.
+    The text of a marked peak is above or below all curves, so that it covers no curve.
 
     Args:
         curves: the curves.

@@ -19,14 +19,14 @@ from kempe.state import State
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-#: Room around the mechanism, as a share of its larger side.
+#: Margin around the mechanism, as a fraction of its larger side.
 _MARGIN = 0.17
-#: A drawing is at least so high for its width, and so wide for its height.
+#: Least height of a drawing relative to its width, and least width relative to its height.
 _LEAST_SIDE = 0.45
 
 
 def at_rest(state: State) -> Scene:
-    """The scene of a position alone, without forces: also where these are not unique."""
+    """The scene of a position without forces, which may not be unique in this position."""
     still = State(state.compiled, state.t, state.q, np.zeros_like(state.v), z=state.z)
     # in place of what follows from the equations of motion
     vars(still)["_dynamics"] = (np.zeros_like(still.q), np.zeros(still.compiled.n_multipliers))
@@ -34,7 +34,7 @@ def at_rest(state: State) -> Scene:
 
 
 def frame(scene: Scene) -> tuple[Floats, Floats]:
-    """Least and largest x and y of the axes, m: the mechanism and room around it."""
+    """Least and largest x and y of the axes, m: the mechanism with a margin."""
     low, high = np.array(scene["bounds"]).reshape(2, 2)
     middle, sides = (low + high) / 2.0, high - low
     sides = sides + 2.0 * _MARGIN * (float(sides.max()) or 1.0)

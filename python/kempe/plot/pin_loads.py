@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 _HEIGHT = 110.0
-#: Parts of the motion that dots on the curve divide, and how many of them are named.
+#: Number of parts into which dots on the curve divide the motion, and number of named dots.
 _MARKS, _NAMED = 24, 4
 
 
@@ -45,7 +45,7 @@ def pin_load(
         ax: where to; a figure of its own when None.
 
     Raises:
-        ModelError: there is no such joint, or it does not touch the body.
+        ModelError: there is no such joint, or the joint does not act on the body.
     """
     found, across = load_of(solution, joint, on), abscissa(solution, over)
     most = found.extremes["max"]

@@ -38,7 +38,7 @@ _WORDS = {
     "slip": "slip",
     "coriolis": "Coriolis (2 ω × v)",
 }
-#: Sides shorter than this share of the longest are not drawn.
+#: Sides shorter than this fraction of the longest side are not drawn.
 _LEAST = 1e-6
 
 
@@ -81,7 +81,7 @@ def _draw(polygon: Polygon, ax: Axes | None) -> Axes:
     unit = scale(polygon.unit, longest)
     pairs = zip(polygon.sides, sizes, strict=True)
     sides = [side for side, size in pairs if size > _LEAST * longest]
-    # about a pin on ground, the velocity from the pole is the relative one
+    # relative to a pin on ground, the velocity is the one from the pole
     sides = [side for side in sides if side.part != "relative" or not side.name.endswith(POLE)]
     with style.on(ax, _HEIGHT) as axes:
         _frame(axes, sides, unit)

@@ -25,9 +25,9 @@ if TYPE_CHECKING:
     from kempe.arrays import Floats
     from kempe.views.frames import ReactionFrame
 
-#: How a component is written in each frame: x″ is along the joint's axis, x′ along the body's.
+#: Symbols of the axes in each frame: x″ is the axis of the joint, x′ the axis of the body.
 _PRIMES = {"global": "", "body": "′", "joint": "″"}
-#: More peaks than these do not fit into a legend.
+#: Largest number of peaks in a legend.
 _MOST_PEAKS = 16
 
 
@@ -102,7 +102,7 @@ def torque_panel(motion: Motion, joint: str, body: str, *, remarked: bool = True
 
 
 def remark(motion: Motion, joint: str) -> str:
-    """The remark at a reaction that redundant constraints leave open."""
+    """The remark for a reaction that is not unique because of redundant constraints."""
     return "" if motion.constraint(joint).unique else f", {MINIMUM_NORM}"
 
 
@@ -120,7 +120,7 @@ def _magnitude(joint: str, at: Motion) -> Floats:
 
 
 def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
-    """Draw the magnitude of the force of every joint and driver that has one.
+    """Draw the magnitude of the force of every joint and driver that exerts a force.
 
     The legend gives the largest magnitudes with their times.
 

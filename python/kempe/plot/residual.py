@@ -1,4 +1,4 @@
-"""By how much the constraints are not met, over time."""
+"""The residual of the constraints over time."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 def residual(solution: Solution, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
     """Draw the envelopes of the largest |Φ| and |Φ_q q̇ + Φ_t| on a logarithmic axis.
 
-    They are in display units if all constraints have the same unit, otherwise in SI units.
+    The values are in display units if all constraints have the same unit, otherwise in SI units.
 
     Args:
         solution: the solution.

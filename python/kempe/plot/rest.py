@@ -64,7 +64,7 @@ def rest_pages(result: EquilibriumResult, index_base: int) -> list[Page]:
 def rest_position(result: EquilibriumResult, *, ax: Axes | None = None) -> Axes:
     """Draw the mechanism at rest, and pale lines through the points of its bodies at the start.
 
-    Of a path, the last position is drawn over the first one and those of the folds.
+    For a path, the last position is drawn over the first position and the positions of the folds.
 
     Args:
         result: the result of ``equilibrium``.
@@ -192,7 +192,7 @@ def _title(result: EquilibriumResult) -> str:
 
 
 def _earlier(result: EquilibriumResult) -> list[State]:
-    """The positions that are drawn pale."""
+    """The earlier positions, which are drawn pale."""
     if result.over is None:
         return [result.start]
     return [result.states[0], *(result.states[k] for k in result.fold_points)]

@@ -1,4 +1,4 @@
-"""Panels without information: all zero, constant, or equal to another one."""
+"""Panels without information: all zero, constant, or equal to another panel."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from kempe.plot.panel import CONSTANT, Panel
 if TYPE_CHECKING:
     from kempe.motion import Motion
 
-#: Under this share of the largest value of its kind in the mechanism a quantity is zero.
+#: A quantity below this fraction of the largest value of its kind in the mechanism is zero.
 _NOTHING = 1e-9
 
 
@@ -40,7 +40,7 @@ def largest_values(motion: Motion) -> dict[str, float]:
             note("N·m", reaction.torque(on=on))
     for name, info in motion.compiled.forces.items():
         note("N·m", motion.force(name).torque(on=info.j))
-    # A torque about a point follows from forces at distances, and so does its rounding error.
+    # A torque and its rounding error follow from forces and their lever arms.
     turning = found.get("N", 0.0) * found.get("m", 0.0)
     found["N·m"] = max(found.get("N·m", 0.0), turning)
     return found
@@ -49,9 +49,10 @@ def largest_values(motion: Motion) -> dict[str, float]:
 def drawn_and_left_out(
     panels: Sequence[Panel], largest: Mapping[str, float], fixed: Mapping[str, Scale]
 ) -> tuple[list[Panel], str]:
-    """The panels that show something, and a sentence about the others.
+    """The panels with information, and a sentence about the other panels.
 
-    Constants are drawn if the page has nothing else, and of several that are zero the first one.
+    Constants are drawn if the page has no other panels. If all panels are zero, only the first is
+    drawn.
 
     Args:
         panels: the panels of a page.

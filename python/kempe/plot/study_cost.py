@@ -30,7 +30,7 @@ def steps(study: Study, ax: Axes) -> None:
 
 
 def work_precision(study: Study, ax: Axes) -> None:
-    """Evaluations of the accelerations against error: nearer to the lower left is better."""
+    """Evaluations of the accelerations over the error; the lower left corner is best."""
     curves: dict[tuple[str, str], list[Outcome]] = {}
     for outcome in (*study.group("step"), *study.group("tolerance")):
         way = outcome.variant

@@ -25,7 +25,7 @@ FIGURES: dict[str, Callable[[Study, Axes], None]] = {
     "gaps": gaps,
 }
 
-#: Heights of those that are not as high as a panel, mm.
+#: Heights of figures that differ from the height of a panel, mm.
 HEIGHTS = {"gaps": 110.0, "work_precision": 90.0}
 
 

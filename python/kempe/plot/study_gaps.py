@@ -1,4 +1,4 @@
-"""How far the joints open, drawn on the linkage and magnified so that it can be seen."""
+"""The gaps of the joints, drawn on the linkage at a visible magnification."""
 
 from __future__ import annotations
 
@@ -22,15 +22,15 @@ if TYPE_CHECKING:
     from kempe.state import State
     from kempe.studies import Study
 
-#: The largest gap is drawn about this long, as a share of the drawing.
+#: Approximate drawn length of the largest gap, as a fraction of the drawing.
 LENGTH = 0.25
-#: A gap below this share of the largest one is not drawn.
+#: A gap below this fraction of the largest gap is not drawn.
 _CLOSED = 1e-3
 _WIDTH, _HEAD = 2.2, 10.0  # of an arrow, points
 
 
 def gaps(study: Study, ax: Axes) -> None:
-    """The linkage where the joints of the classical weak stabilization are widest open.
+    """The linkage when the gaps of the joints with the classical weak stabilization are largest.
 
     Each joint has an arrow from its point on body i to its point on body j, magnified by the factor
     in the title.
@@ -76,8 +76,8 @@ def gaps(study: Study, ax: Axes) -> None:
 def joint_gaps(state: State) -> tuple[Floats, Floats]:
     """Points of the joints on body i, and from there to the points on body j, (n, 2) each, m.
 
-    Along a slide the points may be apart; only the motion that the joint forbids counts as its gap,
-    from the point of the rail beside that of body j.
+    The points of a slide may have a distance along it. The gap is only the displacement that the
+    joint forbids, from the nearest point of the rail to the point on body j.
     """
     begin, along = [], []
     for info in state.compiled.joints.values():

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 #: Least value of the logarithmic axis, in its unit.
 FLOOR = 1e-16
 _DECADES = 18
-#: Distance of the markers of a curve, as a share of its length.
+#: Distance of the markers of a curve, as a fraction of its length.
 _MARKED = 0.12
 
 

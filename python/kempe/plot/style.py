@@ -1,4 +1,4 @@
-"""The style of all figures: sizes for print, fonts, colours that everybody can distinguish."""
+"""The style of all figures: sizes for print, fonts, colours suitable for any colour vision."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ _FONTS: dict[Any, Any] = {
     "font.sans-serif": ["DejaVu Sans"],
     "font.size": 9.0,
     "axes.titlesize": 9.0,
-    "axes.titley": 1.0,  # a fixed place; to look for one takes as long as to draw the axes
+    "axes.titley": 1.0,  # a fixed place; the search for a place takes as long as drawing the axes
     "axes.labelsize": 9.0,
     "xtick.labelsize": 8.0,
     "ytick.labelsize": 8.0,
@@ -68,18 +68,18 @@ _FILES: dict[Any, Any] = {"svg.hashsalt": "kempe", "svg.fonttype": "path", "pdf.
 
 @contextmanager
 def applied() -> Iterator[None]:
-    """Everything drawn in the block has the style of kempe; the user's own is left as it is."""
+    """Apply the style of kempe in the block; the user's own style is not changed."""
     import matplotlib
 
     with matplotlib.rc_context({**_FONTS, **_LINES, **_FILES}), warnings.catch_warnings():
-        # A name may hold signs that the font lacks; they are shown as boxes.
+        # A name may contain characters that the font lacks; they are drawn as boxes.
         warnings.filterwarnings("ignore", message=r"Glyph \d+")
         yield
 
 
 @contextmanager
 def on(ax: Axes | None, height: float = HEIGHT) -> Iterator[Axes]:
-    """The axes to draw in, in the style of kempe: those given, or new ones of a height, mm."""
+    """The axes for a figure, in the style of kempe: given axes, or new axes of a height, mm."""
     with applied():
         yield new_axes(height) if ax is None else ax
 
@@ -179,7 +179,7 @@ def svg(made: Figure) -> str:
 
 
 def lay_out(made: Figure) -> None:
-    """Find the places of the axes now, and not at every drawing."""
+    """Lay out the axes once, and not again at every drawing."""
     engine = made.get_layout_engine()
     if engine is not None:
         engine.execute(made)

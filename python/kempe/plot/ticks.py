@@ -21,7 +21,7 @@ DEGREES = (1, 1.5, 3, 4.5, 6, 9, 10)
 
 
 def set_ticks(axis: Axis, steps: Sequence[float] = STEPS) -> None:
-    """Put ticks within the limits of a linear axis, apart by such steps times a power of ten."""
+    """Put ticks within the limits of a linear axis; their step is a step times a power of ten."""
     from matplotlib.ticker import MaxNLocator
 
     low, high = sorted(axis.get_view_interval())
@@ -46,7 +46,7 @@ def labels(ticks: Sequence[float]) -> list[str]:
 
 
 def _minus(text: str) -> str:
-    """The sign of print, and none before a zero."""
+    """The typographic minus sign, and no sign before a zero."""
     return text.lstrip("-") if not text.strip("-0.") else text.replace("-", "−")
 
 

@@ -1,6 +1,6 @@
 """The horizontal axis: the time, or a driven quantity.
 
-Where a motion comes to rest early, the quiet rest can be compressed.
+If a motion comes to rest early, the later part of the axis can be compressed.
 """
 
 from __future__ import annotations
@@ -23,11 +23,11 @@ if TYPE_CHECKING:
 
     from kempe.motion import Motion
 
-#: The share of the axis that shows the transient when the rest is compressed.
+#: The fraction of the axis for the transient when the later part is compressed.
 SHARE = 0.72
-#: A transient longer than this share of the time is shown on a plain axis.
+#: A transient longer than this fraction of the time is shown on an axis without compression.
 _LONGEST = 0.4
-#: Coordinates that move less than this share of the one that moves most do not count.
+#: Coordinates are ignored if they move less than this fraction of the largest movement.
 _STILL = 1e-3
 
 
@@ -63,10 +63,10 @@ class TimeAxis:
 
 
 def transient(motion: Motion) -> float | None:
-    """The time until which most happens, s, rounded up; None where the motion does not settle.
+    """The time by which the motion has settled, s, rounded up; None if it does not settle early.
 
     Args:
-        motion: at many times that increase; for instance a solution.
+        motion: a motion at many increasing times, such as a solution.
     """
     t = np.atleast_1d(motion.t)
     duration = float(t[-1] - t[0])
@@ -97,10 +97,10 @@ def _rounded_up(value: float) -> float:
 
 
 def show_time(axes: Axes, time: TimeAxis, *, label: bool = True) -> None:
-    """Give axes, whose values are in the unit of the time axis, that time axis.
+    """Draw a time axis on axes whose values are in its unit.
 
     Args:
-        axes: where to.
+        axes: the axes.
         time: the time axis; the compressed part has a grey background.
         label: whether to write the label of the axis.
     """
@@ -144,7 +144,7 @@ def _compress(axes: Axes, first: float, cut: float, last: float) -> None:
 
 
 def _ticks(first: float, cut: float, last: float) -> list[float]:
-    """Round times in both parts, none so near after the cut that the numbers would touch."""
+    """Round times in both parts; after the cut, a minimum distance separates the numbers."""
     from matplotlib.ticker import MaxNLocator
 
     early = MaxNLocator(5, steps=[1, 2, 5, 10]).tick_values(first, cut)

@@ -29,9 +29,9 @@ if TYPE_CHECKING:
 
     from kempe.solution import Solution
 
-#: More panels than this do not fit on a page.
+#: Largest number of panels on a page.
 _MOST_PANELS = 12
-#: More lines than this cannot be distinguished.
+#: Largest number of lines that can be distinguished.
 _MOST_BODIES = 24
 
 
@@ -41,7 +41,7 @@ class TimePages:
 
     Attributes:
         solution: the solution.
-        length: unit of lengths, that of the drawings.
+        length: unit of lengths in the drawings.
         cut: time after which the time axis is compressed, s; never when None.
         index_base: number of the first body.
     """
@@ -151,7 +151,7 @@ class TimePages:
         )
 
     def _together(self, quantity: str, bodies: Sequence[str]) -> Panel:
-        """One coordinate of several bodies; none is marked."""
+        """One coordinate of several bodies, without marked peaks."""
         infos = [self.solution.compiled.bodies[name] for name in bodies]
         curves = [
             Curve(
@@ -176,7 +176,7 @@ class TimePages:
         return figure
 
     def of_residual(self) -> Page:
-        """By how much the constraints are not met."""
+        """The residual of the constraints."""
 
         def draw() -> Figure:
             figure = style.figure(style.HEIGHT, layout=None)

@@ -1,9 +1,9 @@
 """The singular positions that a run passed, and the accuracy that is lost beside them.
 
-With the smallest singular value σ of Phi_q relative to its rows, an error e of the constraints is
-an error of about e/σ² in accelerations and reactions. The run notes the positions that its steps
-met. A long step may cross one without a sample beside it; the multipliers on the interpolant show
-that position.
+Let σ be the smallest singular value of Phi_q with rows scaled to length 1. An error e of the
+constraints causes an error of about e/σ² in accelerations and reactions. The run records the
+singular positions that its steps meet. A long step may cross a position without a sample beside it;
+such a position is found from the multipliers on the interpolant.
 """
 
 from __future__ import annotations
@@ -19,24 +19,24 @@ from kempe.state import State
 
 #: The smallest σ that counts: beside a singular position, factors have a ridge of its square.
 _LEAST = 1e-5
-#: Errors of constraints that projection leaves at least, relative to the size of the mechanism.
+#: Least constraint error after projection, relative to the size of the mechanism.
 _ROUNDING = 1e-15
-#: Times nearer to each other than this part of the run are those of one position.
+#: Times closer than this fraction of the run belong to one position.
 _SAME_TIME = 1e-3
-#: σ of a position that counts as singular, and of a redundant equation.
+#: Largest σ of a singular position, and of a redundant equation.
 _SINGULAR, _REDUNDANT = 0.02, 1e-9
-#: Equations of the largest model whose singular values are computed; those of others follow from
-#: the pivots of the run.
+#: Largest number of equations for which singular values are computed; for larger models, the pivots
+#: of the run are used.
 _MOST_ROWS = 120
-#: Share of the largest part in a dependence below which an equation does not take part.
+#: An equation with less than this fraction of the largest part in a dependence does not take part.
 _PART = 1e-3
 
 
 def singular_positions(solution: Solution) -> list[dict[str, Any]]:
     """The positions, in order: time, joints, and the accuracy at the output nearest to it.
 
-    ``amplification`` is 1/σ² at this ``output``, and ``error`` that of the residual there, with
-    lengths in m.
+    ``amplification`` is 1/σ² at this ``output``. ``error`` is the error that the residual at this
+    output causes, with lengths in m.
     """
     noted = [dict(of) for of in solution.statistics.get("singular", ())]
     if solution.compiled.n_rows <= _MOST_ROWS:

@@ -27,10 +27,9 @@ _NO_ANGLE = 1e-9
 def summary(solution: Solution) -> dict[str, Any]:
     """Mechanism, initial and final state, peak values, energy balance, events, settling times.
 
-    Peaks and settling times are those of the interpolant, also between the outputs; those of the
-    residual are the largest at the outputs and the states at which steps begin, since between them
-    the interpolant has an error of its own. The result can be written as JSON. Units: m, rad, N,
-    N·m, J, s.
+    Peaks and settling times are found on the interpolant, also between the outputs. The residual is
+    the largest at the outputs and at the beginnings of steps, since elsewhere it includes the error
+    of the interpolant. The result can be written as JSON. Units: m, rad, N, N·m, J, s.
     """
     instance(solution, Solution, "a solution")
     sampled = Sampled(solution)
@@ -66,7 +65,7 @@ def summary(solution: Solution) -> dict[str, Any]:
 
 
 def measure(solution: Solution, name: str) -> dict[str, Any]:
-    """The statistics of a measure; None for those that it does not have."""
+    """The statistics of a measure; None for statistics without a value."""
     found = solution.measure(name)
     about = {"name": name, "expression": found.info.expression, "unit": found.unit}
     return {**about, **found.statistics()}
@@ -90,8 +89,8 @@ def reaction(sampled: Sampled, name: str) -> dict[str, Any]:
     """Largest reaction of a joint or driver on its body j, with its time.
 
     ``unbounded_at`` are the times of singular positions beside which the force has no bound. The
-    peaks are those of the other times. ``unique`` is False if redundant constraints leave the
-    reaction open: its values are those of minimum norm.
+    peaks exclude these times. ``unique`` is False if the reaction is not unique because of
+    redundant constraints; its values then have minimum norm.
     """
     on = sampled.solution.compiled.constraints[name].j
     read = partial(_force, name, on)

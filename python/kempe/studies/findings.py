@@ -19,7 +19,7 @@ DOUBT = 1e-9
 
 
 def findings(study: Outcomes) -> list[str]:
-    """Sentences, each from the data; those that do not apply are left out."""
+    """Sentences computed from the data; sentences that do not apply are left out."""
     return [
         *_stabilization(study),
         *_sweep(study),
@@ -64,7 +64,7 @@ def _sweep(study: Outcomes) -> Iterator[str]:
 
 
 def _steps(study: Outcomes) -> Iterator[str]:
-    """Where weak gains beat strong ones with constant steps, and where they do not."""
+    """Comparison of weak and strong gains at each constant step."""
     strong, weak = (_at(study, *gains) for gains in ((10.0, 200.0), (1.0, 20.0)))
     for h in sorted(set(strong) & set(weak)):
         a, b = strong[h], weak[h]
@@ -103,7 +103,7 @@ def _divergence(study: Outcomes) -> Iterator[str]:
 
 
 def growth(alpha: float, beta: float, step: float) -> float:
-    """Factor of one step of RK4 for Φ̈ + 2α Φ̇ + β² Φ = 0; above 1 it grows without end."""
+    """Growth factor of a step of RK4 for Φ̈ + 2α Φ̇ + β² Φ = 0; above 1, Φ grows without bound."""
     root = np.sqrt(complex(alpha**2 - beta**2))
     steps = [step * (-alpha + root), step * (-alpha - root)]
     return float(max(abs(1.0 + z + z**2 / 2.0 + z**3 / 6.0 + z**4 / 24.0) for z in steps))
@@ -146,7 +146,7 @@ def instant(outcome: Outcome, digits: int) -> str:
 
 
 def length(value: float) -> str:
-    """A length in the chosen display unit, or in one that suits it."""
+    """A length in the chosen display unit, or in a unit that suits its magnitude."""
     chosen = chosen_for("m")
     if chosen is not None:
         return f"{value / chosen.divisor:.3g} {chosen.symbol}"

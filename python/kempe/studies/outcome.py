@@ -20,15 +20,15 @@ class Outcome:
 
     Attributes:
         variant: its options.
-        solution: on the common output times, or until it diverged; None if not even the start
-            could be computed.
+        solution: the solution at the common output times, or until it diverged; None if even the
+            start could not be computed.
         diverged_at: time of the divergence, s; None if it reached the end.
         reason: why it diverged; empty if it did not.
         angle_error: largest difference of any body's angle from the reference, rad; NaN if
             it diverged.
-        position_error: the same of any body's position, m.
+        position_error: largest difference of any body's position from the reference, m.
         residual: largest |Φ| over time, of lengths and of angles, m and rad; NaN if diverged.
-        residual_at: when, s.
+        residual_at: time of the largest residual, s.
         imbalance: largest error of the energy balance, relative to ``Energy.scale``.
         steps: steps taken.
         evaluations: evaluations of the accelerations.

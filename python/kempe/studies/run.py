@@ -23,9 +23,9 @@ from kempe.values import instance
 if TYPE_CHECKING:
     from kempe.state import State
 
-#: Output times where the analysis names no output_step.
+#: Number of output times if the analysis has no output_step.
 OUTPUTS = 1500
-#: A variant that needs more steps counts as one that does not get through.
+#: A variant that needs more steps counts as failed.
 MOST_STEPS = 300_000
 
 
@@ -64,8 +64,8 @@ def study(
 ) -> Study:
     """Compute one analysis of a case in many ways and compare them.
 
-    The error of a variant is its largest difference from the first, most accurate one, over all
-    bodies and output times.
+    The error of a variant is its largest difference from the first and most accurate variant, over
+    all bodies and output times.
 
     Args:
         case: the case.
@@ -75,7 +75,7 @@ def study(
 
     Raises:
         ModelError: the case has no such analysis.
-        KempeError: the mechanism does not go together, or the reference itself fails.
+        KempeError: the mechanism cannot be assembled, or the reference fails.
     """
     instance(case, Case, "a case")
     names = [name for name, entry in case.analyses.items() if entry["type"] == "dynamics"]

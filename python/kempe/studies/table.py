@@ -44,7 +44,7 @@ def header() -> tuple[str, ...]:
 
 
 def cells(outcome: Outcome) -> tuple[str, ...]:
-    """One row; where the variant diverged, when and why."""
+    """One row; for a variant that diverged, the time and the reason."""
     seconds = outcome.seconds / display("s", "ms").divisor
     cost = (str(outcome.steps), str(outcome.evaluations), f"{seconds:.3g}")
     if outcome.diverged:

@@ -6,14 +6,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
-#: α and β in 1/s: those of the books, none at all, and critically damped ones, α = β.
+#: α and β in 1/s: textbook values and zeros, then critically damped values, α = β.
 CLASSICAL = ((10.0, 200.0), (1.0, 20.0), (0.0, 0.0))
 CRITICAL = ((5.0, 5.0), (20.0, 20.0), (50.0, 50.0), (200.0, 200.0))
 #: β in 1/s beside α = 10/s.
 BETAS = (10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0)
 #: Constant steps of RK4, s.
 STEPS = (1e-3, 2e-3, 5e-3, 1e-2, 2e-2)
-#: Relative tolerances of RK45 and DOP853; the absolute one is a thousandth of it.
+#: Relative tolerances of RK45 and DOP853; the absolute tolerance is a thousandth of them.
 TOLERANCES = (1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9)
 #: Tolerances of the classical course, of a careful one, and of the most accurate run.
 COARSE, FINE, FINEST = 1e-3, 1e-6, 1e-11
@@ -86,7 +86,7 @@ class Variant:
 
 
 def variants() -> list[Variant]:
-    """All that a study computes, the run that the others are held against first."""
+    """All variants that a study computes; the first is the reference."""
     return [Variant("reference", *CLASSICAL[0], "RK45", FINEST), *_all()]
 
 

@@ -14,8 +14,8 @@ from kempe.lookup_tables import TableFile
 def case_text(path: Path) -> str:
     """The text of a case as TOML.
 
-    A TOML file stays as it is, with its comments. A case in JSON, or with tables in other files, is
-    written anew; it then contains the points of these tables.
+    A TOML file is returned unchanged, with its comments. A case in JSON, or with tables in other
+    files, is converted; the text then contains the points of these tables.
 
     Raises:
         FileError: a file cannot be read, or is not a case.

@@ -1,7 +1,7 @@
 """A sweep on the machines of a Dask cluster.
 
-A worker gets blocks of rows and runs them on its threads. A block whose worker is killed runs
-again on another one. Blocks are sized by the measured time of a row.
+A worker receives blocks of rows and runs them on its threads. A block whose worker is killed runs
+again on another worker. The size of a block follows from the measured time of a row.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from kempe.errors import ModelError
 from kempe.sweeps.plan import Block, Plan
 from kempe.sweeps.table import Table
 
-#: Wanted time of a block, s, and most rows in it: one message costs some milliseconds.
+#: Target time of a block, s, and its largest number of rows; a message costs some milliseconds.
 _PACE, _MOST = 2.0, 20_000
 #: Blocks that wait for each thread, so that none is idle between two blocks.
 _AHEAD = 2
@@ -105,7 +105,7 @@ def connected(address: str) -> Any:
 
 @contextmanager
 def _client_of(scheduler: Any, workers: int | None) -> Iterator[Any]:
-    """The client; that of a cluster on this machine ends with the block."""
+    """The given client, or the client of a cluster on this machine that ends with the block."""
     distributed = _distributed()
     if isinstance(scheduler, distributed.Client):
         yield scheduler

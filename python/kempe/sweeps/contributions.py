@@ -20,9 +20,10 @@ _GROUPS, _LEAST = 20, 5
 def contributions(result: SweepResult, measure: str) -> dict[str, float]:
     """The share of each variable in the variance of a measure: its correlation ratio.
 
-    The ratio is the variance of the mean at one value of the variable over the whole variance (the
-    first-order index of Sobol). The rest to 1 is due to several variables together. Values
-    of a distribution are taken in groups. Only variants that succeeded count.
+    The ratio is the variance of the conditional mean at each value of the variable, divided by the
+    total variance (the first-order Sobol index). The remainder up to 1 is due to interactions of
+    variables. Values of a distribution are divided into groups. Only variants that succeeded are
+    used.
 
     Raises:
         ModelError: there is no such measure.

@@ -15,7 +15,7 @@ from kempe.values import refuse
 
 #: The designs; the last three place points in the unit cube.
 DESIGNS = ("grid", "paired", "random", "latin", "sobol")
-#: Most variants of a sweep: their table alone has some gigabytes.
+#: Largest number of variants of a sweep; their table alone has some gigabytes.
 MOST = 100_000_000
 
 

@@ -1,6 +1,6 @@
-"""The plan of a sweep: all that a worker needs for any of its rows.
+"""The plan of a sweep: all data that a worker needs for any row.
 
-A plan can be pickled. Its rows do not depend on each other, so that their numbers are the same in
+A plan can be pickled. Its rows do not depend on each other. Their numbers are therefore equal in
 any order, on any thread and in any process of one kind of machine.
 """
 
@@ -108,7 +108,7 @@ class Plan:
     def is_native(self) -> bool:
         """Whether the core runs the variants on its threads.
 
-        It runs a simulation from the start of the case. Any other analysis, a frequency, and a
+        The core runs simulations from the start of the case. Any other analysis, a frequency, and a
         measure of a whole run are computed by single runs, one after the other.
         """
         entry = self.case.analyses[self.analysis]
@@ -135,7 +135,7 @@ class Plan:
             self.case.with_start(start)
 
     def key_of(self, given: Floats) -> str:
-        """A fingerprint of the sweep of these rows: equal ones have equal results."""
+        """A fingerprint of the sweep of these rows: equal fingerprints imply equal results."""
         try:
             tree = self.case.model.with_points(self.case.tree())
         except KempeError as error:
@@ -217,7 +217,7 @@ def chosen(case: Case, analysis: str | None) -> str:
 
 
 def without_later(case: Case, analysis: str) -> Case:
-    """The case without the analyses after one, which do not concern it."""
+    """The case without the analyses after a given one, which does not depend on them."""
     from kempe.case import Case
 
     names = list(case.analyses)

@@ -141,7 +141,7 @@ class SweepResult:
         return self._plan.variant(self._design[self._place(k)])
 
     def run(self, k: int) -> Solution | Result:
-        """The result of the analysis of a row, computed anew.
+        """The result of the analysis of a row, computed again.
 
         Raises:
             IndexError: there is no such row.

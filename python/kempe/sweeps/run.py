@@ -37,7 +37,7 @@ def sweep(
     out: Path | str | None = None,
     progress: Progress | None = None,
 ) -> SweepResult:
-    """Run many variants of a case, with the numbers of single runs to the last bit.
+    """Run many variants of a case; the results equal those of single runs to the last bit.
 
     A variant that fails is a row with its reason. Without arguments, ``[sweep]`` of the case runs.
 
@@ -46,21 +46,22 @@ def sweep(
         variables: values by the name of a parameter (``L2``) or of a coordinate or rate at the
             start (``crank.omega``): a list, ``{"from": 1e3, "to": 1e5, "n": 50, "scale": "log"}``,
             ``{"normal": [mean, deviation]}`` or ``{"uniform": [least, most]}``, SI units and rad.
-        measures: statistics of measures and quantities, such as ``"pin.max"``; for an analysis
-            without motion numbers of its result, such as ``"frequency[0]"``.
-        design: "grid" (default), "paired", "random", "latin" or "sobol"; SciPy for the last two.
-        n: number of variants of the last three.
+        measures: statistics of measures and quantities, such as ``"pin.max"``; for an analysis that
+            is not a motion, numbers of its result, such as ``"frequency[0]"``.
+        design: "grid" (default), "paired", "random", "latin" or "sobol"; the last two need SciPy.
+        n: number of variants of the last three designs.
         seed: number from which values are drawn.
         analysis: name of the analysis; the last one of the case by default.
         workers: number of threads, or of processes with ``scheduler="dask"``.
         scheduler: a client of Dask, or "dask" for a cluster on this machine.
-        out: file to which results are written as they come. A sweep resumes from its file.
-        progress: called with the variants done, the failures, all variants, and the seconds left.
+        out: file to which results are written during the sweep. A sweep resumes from its file.
+        progress: called with the numbers of finished, failed and all variants, and the seconds
+            left.
 
     Raises:
         ModelError: a variable, a measure or the design is invalid.
-        FileError: ``out`` cannot be written, or holds another sweep.
-        KeyboardInterrupt: of Ctrl-C; ``result`` has the finished rows.
+        FileError: ``out`` cannot be written, or contains another sweep.
+        KeyboardInterrupt: Ctrl-C was pressed; ``result`` contains the finished rows.
     """
     asked = _asked(case, variables, measures, design, n, seed, analysis)
     plan, known, given = _planned(case, asked)

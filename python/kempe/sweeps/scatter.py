@@ -17,7 +17,7 @@ from kempe.values import mapping, numbers
 if TYPE_CHECKING:
     from kempe.case import Case
 
-#: Deviations to both sides of the nominal value at which the slope is taken.
+#: Number of standard deviations to both sides of the nominal value for the central difference.
 _STEP = 0.5
 
 
@@ -28,11 +28,11 @@ class Tolerances:
     Attributes:
         measure: its text, such as ``pin.max``.
         unit: its SI unit.
-        nominal: its value in the case itself.
+        nominal: its value in the unchanged case.
         mean: mean of the variants.
         deviation: standard deviation of the variants.
-        first_order: the standard deviation that slopes give: √Σ (slope × deviation)².
-        slopes: change of the measure with each variable, in SI units.
+        first_order: the standard deviation from slopes: √Σ (slope × deviation)².
+        slopes: derivative of the measure with respect to each variable, in SI units.
         contributions: share of each variable in ``first_order`` squared; they sum to 1.
         sample: the variants.
     """
@@ -68,8 +68,8 @@ def tolerances(
     """The scatter of a measure: by random variants, and to first order.
 
     Every variable has a normal distribution about its value in the case. The first-order estimate
-    takes slopes from central differences over one standard deviation; where the two estimates
-    differ, the measure is not linear within its tolerances.
+    uses slopes from central differences over one standard deviation. If the two estimates differ,
+    the measure is not linear within the tolerances.
 
     Args:
         case: the case.

@@ -1,7 +1,7 @@
 """Finished rows of a sweep in a file, from which it resumes.
 
-The file is an SQLite database: a block of rows is in it completely or not at all, also after the
-process was killed. The numbers are stored as their eight bytes.
+The file is an SQLite database. It contains a block of rows either completely or not at all, even
+after the process was killed. Each number is stored as its eight bytes.
 """
 
 from __future__ import annotations
@@ -34,7 +34,7 @@ class Storage:
         key: the fingerprint of the sweep.
 
     Raises:
-        FileError: it cannot be written, or contains another sweep.
+        FileError: the file cannot be written, or contains another sweep.
     """
 
     def __init__(self, path: Path | str, key: str) -> None:

@@ -13,7 +13,7 @@ from kempe.arrays import Floats
 from kempe.sweeps.plan import Block
 from kempe.sweeps.storage import Storage
 
-#: Called with the variants done, the failures among them, all variants, and the seconds left.
+#: Called with the numbers of finished, failed and all variants, and the seconds left.
 Progress: TypeAlias = "Callable[[int, int, int, float], object]"
 #: The reason of a row that was not computed before an interruption.
 UNFINISHED = "not computed: the sweep was interrupted"
@@ -71,5 +71,5 @@ class Table:
         self._progress(done, len(self.reasons), total, left)
 
     def interrupted(self) -> None:
-        """Give the rows that are not finished their reason."""
+        """Mark the rows that are not finished with the reason of an interruption."""
         self.reasons.update(dict.fromkeys(self.left.tolist(), UNFINISHED))

@@ -24,7 +24,7 @@ _FORMS = (
     "a list of numbers, {'from': 1, 'to': 2, 'n': 11}, {'normal': [mean, deviation]} or "
     "{'uniform': [least, most]}"
 )
-#: A share of the unit interval nearer to its ends than this has no value of a normal distribution.
+#: Least distance from the ends of the unit interval for values of a normal distribution.
 _EDGE = 2.0**-54
 
 
@@ -37,8 +37,8 @@ class Variable:
             ``crank.omega``.
         levels: the values of a list or a range; None for a distribution, and for a range without
             ``n``.
-        ends: least and largest value of a range or a uniform distribution; mean and deviation of a
-            normal one; None for a list.
+        ends: least and largest value of a range or a uniform distribution; mean and standard
+            deviation of a normal distribution; None for a list.
         kind: "list", "linear", "log", "uniform" or "normal".
     """
 
@@ -58,9 +58,9 @@ class Variable:
         return self.kind == "log"
 
     def at(self, share: Floats) -> Floats:
-        """Its values at shares of the unit interval: the inverse of its distribution.
+        """Its values at points of the unit interval: the inverse of its distribution function.
 
-        A list and a range are distributed evenly, a range of logarithmic scale over it.
+        Lists and ranges have an even distribution, logarithmic ranges on the logarithmic scale.
         """
         if self.kind == "list":
             assert self.levels is not None

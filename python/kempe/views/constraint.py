@@ -58,14 +58,14 @@ class ConstraintView(Generic[S]):
         """Force and torque that the joint exerts on a body, with point, frame and sign.
 
         Args:
-            on: the body; one of those that the joint or driver touches.
-            frame: axes of the components: "global"; "body", those of this body; "joint", those of
-                the joint on this body; "i" or "j", those of body i or j; "radial", along the line
-                to the joint from the other joint of this body, and to the left of it. The
-                components on two bodies are opposite in the frames "global", "i" and "j" only.
-            about: of the frame "radial", the point of the body from which the line comes. By
-                default it is the other joint of a body with two joints; of any other body it is the
-                mass centre.
+            on: a body on which the joint or driver acts.
+            frame: axes of the components: "global"; "body" for the axes of this body; "joint" for
+                the axes of the joint on this body; "i" or "j" for the axes of body i or j;
+                "radial" for the axis from the point ``about`` to the joint, and the axis to its
+                left. The components on two bodies are opposite only in the frames "global", "i"
+                and "j".
+            about: the point of the body at which the axis of the frame "radial" begins. The default
+                is the other joint of a body with two joints, and the mass centre of any other body.
 
         Raises:
             ModelError: ``on``, ``frame`` or ``about`` has another value, or the joint lies at the
@@ -81,9 +81,9 @@ class ConstraintView(Generic[S]):
     def unique(self) -> bool:
         """Whether the reaction is unique.
 
-        If not, redundant constraints share the loads, and its values are those of the smallest
-        multipliers. Accepted redundant constraints (``redundancy="allow"``) are examined at the
-        outputs, of a long motion at eleven of them.
+        If not, redundant constraints share the loads, and the values follow from the multipliers of
+        minimum norm. Accepted redundant constraints (``redundancy="allow"``) are examined at the
+        outputs; in a long motion, at eleven of them.
         """
         return self.name not in self._motion.not_unique
 

@@ -55,7 +55,7 @@ class ForceView(Generic[S]):
         """Force on a body, (n_t, 2), N.
 
         Args:
-            on: the body; one of those that the element connects.
+            on: a body on which the element acts.
             frame: "global" or "body" (axes of this body).
             part: name of one part; the sum of all parts by default.
 
@@ -88,12 +88,12 @@ class ForceView(Generic[S]):
 
     @property
     def energy(self) -> S:
-        """Energy that it stores, (n_t,), J; zero for a spring with a law of time or state."""
+        """Stored energy, (n_t,), J; zero for a spring whose law depends on time or state."""
         return cast(S, scalar(self._motion.force_energy(self.name)[..., 0]))
 
     @property
     def dissipated(self) -> Floats:
-        """Energy that it has dissipated since the start, (n_t,), J; only of a solution.
+        """Energy dissipated since the start, (n_t,), J; available only for a solution.
 
         Raises:
             ModelError: the motion is not a solution with an interpolant.

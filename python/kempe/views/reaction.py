@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from kempe.compiled import ConstraintInfo
     from kempe.motion import Motion
 
-#: A lever below this part of the largest coordinate of its ends has no direction.
+#: A lever arm below this fraction of the largest coordinate of its ends has no direction.
 _SHORT = 1e-12
 
 
@@ -23,8 +23,8 @@ _SHORT = 1e-12
 class Reaction:
     """Force and torque that a joint or driver exerts on a body; arrays have time first.
 
-    The opposite force and torque act on the other bodies of the joint: for a joint of two bodies at
-    the same point on the other one.
+    The opposite force and torque act on the other bodies of the joint. If the joint connects two
+    bodies, they act on the other body at the same point.
 
     Attributes:
         joint: the joint or driver.
@@ -32,10 +32,10 @@ class Reaction:
         frame: the frame of the components: "global", "body", "joint", "i", "j" or "radial".
         point: the point at which the force acts, (n_t, 2), global, m.
         axis: angle of the first axis of the frame from the global x axis, (n_t,), rad.
-        force: components along the first axis and the one to its left, (n_t, 2), N.
+        force: components along the first axis and the axis to its left, (n_t, 2), N.
         torque: torque about the point, counter-clockwise, (n_t,), N·m.
-        unique: False if redundant constraints leave the values open; they are then those of the
-            smallest multipliers that carry the loads.
+        unique: False if the values are not unique because of redundant constraints; they then
+            follow from the smallest multipliers that carry the loads.
     """
 
     joint: str
