@@ -1,7 +1,8 @@
 """Sweeps: runs per second beside the floor program, and memory over many small variants.
 
     .venv/bin/python benchmarks/many_variants.py           # 2000 flagships, 100 000 small variants
-    .venv/bin/python benchmarks/many_variants.py --runs 100000 --small 1000000
+    .venv/bin/python benchmarks/many_variants.py --small 1000000 \\
+        --runs 100000 --only "default, final"
     .venv/bin/python benchmarks/many_variants.py --dask       # what a block on a cluster costs
     .venv/bin/python benchmarks/many_variants.py --mujoco     # beside RK4 of MuJoCo at 1 ms
 
@@ -37,7 +38,9 @@ METHODS: dict[str, dict[str, Any]] = {
 _TURNS = 4
 #: The integrator and solver of MuJoCo.
 MUJOCO = {"integrator": "RK4", "solver": "Newton"}
-MEASURES = {"no peak": ["rocker.angle.final"], "peak": ["C.force.max"]}
+MEASURES = {"final": ["rocker.angle.final"], "peak": ["C.force.max"]}
+#: Both, as in "default, peak".
+KINDS = [f"{method}, {name}" for method in METHODS for name in MEASURES]
 
 
 def flagship(changes: dict[str, Any]) -> kp.Case:
@@ -73,11 +76,13 @@ def by_hand(program: Path) -> float:
     return statistics.mean(one[1]["chain"]["seconds"] for one in found)
 
 
-def runs(n: int, floor: Path | None) -> None:
+def runs(n: int, floor: Path | None, only: str | None) -> None:
     """Times of a run by kempe's sweep and by the floor, in alternation."""
     program = floor or build()
     for method, changes in METHODS.items():
         for name, measures in MEASURES.items():
+            if only not in (None, f"{method}, {name}"):
+                continue
             case = flagship(changes)
             turns = [(by_hand(program), spent(case, n // _TURNS, measures)) for _ in range(_TURNS)]
             least = statistics.median(at for at, _ in turns)
@@ -127,7 +132,7 @@ def mujoco(n: int) -> None:
             began = time.process_time()
             run()
             told = time.process_time() - began
-            turns.append((told, spent(flagship(changes), n // _TURNS, MEASURES["no peak"])[0]))
+            turns.append((told, spent(flagship(changes), n // _TURNS, MEASURES["final"])[0]))
         theirs, ours = (statistics.median(times) for times in zip(*turns, strict=True))
         print(
             f"{method:22} {1e3 * ours:7.3f} ms CPU  MuJoCo {1e3 * theirs:7.1f} ms CPU: "
@@ -144,6 +149,7 @@ def main() -> None:
     parser.add_argument("--floor", type=Path, help="the floor program, if it is built")
     parser.add_argument("--dask", action="store_true", help="compare threads and a cluster")
     parser.add_argument("--mujoco", action="store_true", help="compare with MuJoCo")
+    parser.add_argument("--only", choices=KINDS, help="one method and statistic")
     words = parser.parse_args()
     if words.dask:
         cluster(words.runs)
@@ -152,7 +158,7 @@ def main() -> None:
         mujoco(words.runs)
         return
     memory(words.small)
-    runs(words.runs, words.floor)
+    runs(words.runs, words.floor, words.only)
 
 
 if __name__ == "__main__":
