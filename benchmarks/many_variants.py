@@ -1,8 +1,8 @@
 """Sweeps: runs per second beside the floor program, and memory over many small variants.
 
     .venv/bin/python benchmarks/many_variants.py           # 2000 flagships, 100 000 small variants
-    .venv/bin/python benchmarks/many_variants.py --small 1000000 \\
-        --runs 100000 --only "default, final"
+    .venv/bin/python benchmarks/many_variants.py --small 1000000
+    .venv/bin/python benchmarks/many_variants.py --runs 100000 --only "default, final"
     .venv/bin/python benchmarks/many_variants.py --dask       # what a block on a cluster costs
     .venv/bin/python benchmarks/many_variants.py --mujoco     # beside RK4 of MuJoCo at 1 ms
 
