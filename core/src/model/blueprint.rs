@@ -14,6 +14,9 @@ use crate::elements::{
 use crate::expression::{Expression, Inferred, Symbol, Table, Tape};
 use std::sync::Arc;
 
+/// A force over formulas: its name, first-order states and element.
+pub type LinkedForce = (String, &'static [OwnState], ForceElement<Tape>);
+
 /// The linked content of a file: elements over [`Tape`]. A clone shares its lists until they change.
 #[derive(Clone, Debug)]
 pub struct Blueprint {
@@ -36,7 +39,7 @@ pub struct Blueprint {
     /// Joints, then drivers.
     pub constraints: Arc<Vec<(String, Group, Constraint<Tape>)>>,
     /// Forces, with their first-order states.
-    pub forces: Arc<Vec<(String, &'static [OwnState], ForceElement<Tape>)>>,
+    pub forces: Arc<Vec<LinkedForce>>,
     /// The modes of forces in a phase of a run. Forces that hold have the last constraints, in this order.
     pub modes: Vec<ForceMode>,
     /// Laws that the host computes.

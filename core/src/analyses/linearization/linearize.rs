@@ -5,9 +5,9 @@
 //! ẋ = A x + B w,   y = C x + D w,   x = (δu, δu̇, δz)
 //! ```
 //!
-//! The constraints extend a direction of x to all coordinates: δq = N δu and δv = N δu̇ + S δu with Φ_q S = -∂(Φ_q v
-//! + Φ_t)/∂q N. The changes of the accelerations follow from the derivatives of the equations of motion, so that A,
-//! B, C and D are exact at any state, also in motion.
+//! The constraints extend a direction of x to all coordinates: δq = N δu and δv = N δu̇ + S δu, where
+//! Φ_q S = -∂(Φ_q v + Φ_t)/∂q N. The changes of the accelerations follow from the derivatives of the equations of
+//! motion, so that A, B, C and D are exact at any state, also in motion.
 
 use super::failure::Failure;
 use super::freedoms::Freedoms;
