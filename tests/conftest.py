@@ -1,4 +1,4 @@
-"""Figures that a test opens are closed after it, and one browser serves all tests."""
+"""Figures are closed after each test, one browser serves all tests, and examples have no time limit."""
 
 import os
 import sys
@@ -7,6 +7,11 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+from hypothesis import settings
+
+# The limit of 200 ms for one example depends on the load of the machine.
+settings.register_profile("kempe", deadline=None)
+settings.load_profile("kempe")
 
 
 @pytest.fixture(scope="session")
