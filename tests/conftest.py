@@ -1,4 +1,4 @@
-"""Figures are closed after each test, one browser serves all tests, and examples have no time limit."""
+"""Figures are closed after each test, one browser serves all tests, examples have no time limit."""
 
 import os
 import sys
@@ -10,7 +10,7 @@ import pytest
 from hypothesis import settings
 
 # The limit of 200 ms for one example depends on the load of the machine.
-settings.register_profile("kempe", deadline=None)
+settings.register_profile("kempe", settings.default, deadline=None)
 settings.load_profile("kempe")
 
 
