@@ -18,33 +18,36 @@ HEAD = """\
 
 This page compares results of kempe with published results. The published numbers are in
 `tests/reference/` and are independent of kempe. Each row of a table represents several numbers of
-one kind and shows the pair with the largest difference. The tests repeat all computations. The
-command
+one kind and shows the pair with the largest difference. The tests repeat all computations. This
+command uses the public Python interface to generate the page, its figures and
+`benchmarks/validation/results.json`:
 
     python -m benchmarks.validation
 
-generates this page, its figures and `benchmarks/validation/results.json` with the public Python
-interface. Its exit code is 1 if a difference exceeds the tolerance.
+The exit code is 1 if a difference exceeds the tolerance.
 """
 
 CONVERGENCE = """
 ## Observed orders
 
-The tables show errors of all integrators with constant steps and projection, for the coarsest step
-and three halvings. The error is the largest error over the common times of all runs, relative to
-the largest value. The reference is DOP853 at rtol 1e-14. The observed order is the slope of log
-error over log step by least squares. It must agree with theory within {tolerance}. The multipliers
-in the output are computed from the state, so they converge with the order of the coordinates.
+The tables show errors of all integrators with constant steps and projection. The steps are the
+coarsest step and three halvings of it. The error is the largest error over the common times of all
+runs, relative to the largest value. The reference is DOP853 at rtol 1e-14. The observed order is
+the slope of log error over log step, fitted by least squares. It must agree with theory within
+{tolerance}. The multipliers in the output are computed from the state, so they converge with the
+order of the coordinates.
 """
 
 CONSERVATION = """\
 ## Conservation
 
+This command repeats the run of one method:
+
     python -m benchmarks.validation.conservation --method DOP853
 
 The flagship without its spring-damper is released from rest with the crank at -60° and swings
 through 83° without damping. The constant step is 1/{steps} of the period of {period:.6f} s. The
-states are projected onto the constraints. The residual is the largest |Φ|; it must not exceed
+states are projected onto the constraints. The residual is the largest |Φ| and must not exceed
 {closed:.0e} m. The drift is the largest change of the energy relative to the largest kinetic
 energy.
 """
