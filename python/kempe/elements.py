@@ -460,8 +460,9 @@ class CoordinateDriver(Element):
 class TorsionSpring(Element):
     """An element of type ``torsion_spring``.
 
-    Rotational spring-damper: torque on j is -(stiffness (θ - free_angle) + damping θ̇ +
-    preload) with θ = angle_j - angle_i, continuous; opposite on i (Haug 6.2.18).
+    Rotational spring-damper (Haug 6.2.18): the torque on body j is -(stiffness (θ - free_angle)
+    + damping θ̇ + preload), where θ = angle_j - angle_i is continuous. The opposite torque acts
+    on body i.
 
     Attributes:
         i: Body i.
@@ -469,7 +470,7 @@ class TorsionSpring(Element):
         stiffness: Torque per angle [N*m/rad].
         damping: Torque per angular velocity [N*m*s/rad].
         free_angle: Relative angle at which the spring is relaxed [rad].
-        preload: Torque of the relaxed spring, > 0 clockwise on j [N*m].
+        preload: Torque of the relaxed spring; a positive value acts clockwise on body j [N*m].
     """
 
     i: str
@@ -494,12 +495,13 @@ class TorsionSpring(Element):
 class SpringDamper(Element):
     """An element of type ``spring_damper``.
 
-    Translational spring-damper between two points: with l their distance, the force on j is
-    -(stiffness (l - free_length) + damping dl/dt + preload) along the line from i to j;
-    opposite on i (Haug 6.2.10). Where the points meet the line has no direction: the stiffness
-    force is zero there, and the damping force is -damping times the relative velocity. With
-    `only`, the force is 0 where the element is slack, l < free_length for tension and l >
-    free_length for compression, and it is never of the other sense.
+    Translational spring-damper between two points (Haug 6.2.10). With their distance l, the
+    force on body j along the line from i to j is -(stiffness (l - free_length) + damping dl/dt
+    + preload). The opposite force acts on body i. Where the points meet, the line has no
+    direction: the stiffness force is then zero, and the damping force is -damping times the
+    relative velocity. With `only`, the force is zero where the element is slack, at l <
+    free_length for tension and at l > free_length for compression. Elsewhere the force never
+    has the opposite sense.
 
     Attributes:
         i: Point of body i, as `body.point`.
@@ -507,7 +509,7 @@ class SpringDamper(Element):
         stiffness: Force per length [N/m].
         damping: Force per velocity [N*s/m].
         free_length: Distance of the points at which the spring is relaxed [m].
-        preload: Force of the relaxed spring, > 0 pulls [N].
+        preload: Force of the relaxed spring; a positive value pulls the points together [N].
         only: The only sense of the force: `tension` pulls, `compression` pushes.
     """
 
@@ -535,13 +537,13 @@ class SpringDamper(Element):
 class Torque(Element):
     """An element of type ``torque``.
 
-    Applied torque on body j, counter-clockwise; opposite on body i, which is ground unless
-    given.
+    Applied torque on body j, positive counter-clockwise. The opposite torque acts on body i,
+    which is ground by default.
 
     Attributes:
         j: Body j.
         torque: Torque on body j; may use `t` and the state [N*m].
-        i: Body i, which takes the opposite torque.
+        i: Body i, on which the opposite torque acts.
     """
 
     j: str
@@ -560,15 +562,15 @@ class Torque(Element):
 class Force(Element):
     """An element of type ``force``.
 
-    Force at a point of body j; the opposite force acts on body i, which is ground unless given,
-    at the same place. Its power is force × (velocity of the point - velocity of body i at that
-    place).
+    Force at a point of body j. The opposite force acts at the same place on body i, which is
+    ground by default. The power of the force is force × (velocity of the point - velocity of
+    body i at that place).
 
     Attributes:
         j: Point of body j, as `body.point`.
         force: Components of the force on body j; may use `t` and the state [N].
-        i: Body i, which takes the opposite force.
-        frame: Frame of the components: `global`, or that of body `i` or `j`.
+        i: Body i, on which the opposite force acts.
+        frame: Frame of the components: `global`, or the frame of body `i` or `j`.
     """
 
     j: str
@@ -589,9 +591,9 @@ class Force(Element):
 class Actuator(Element):
     """An element of type ``actuator``.
 
-    Actuator: a force along the line between two points; > 0 pushes the points apart. Its power
-    is force × rate with rate that of their distance, `length`. Where the points meet, the force
-    is zero.
+    Actuator: a force along the line between two points. A positive force pushes the points
+    apart. Its power is force × rate, where rate is the derivative of their distance `length`.
+    The force is zero where the points meet.
 
     Attributes:
         i: Point of body i, as `body.point`.
@@ -615,10 +617,11 @@ class Actuator(Element):
 class Bushing(Element):
     """An element of type ``bushing``.
 
-    Bushing: with x, y the components of point_j - point_i in the frame of body i and angle =
-    angle_j - angle_i, the force and torque on j at point j are -stiffness × [x, y, angle] -
-    damping × [vx, vy, omega] in the frame of body i, with vx, vy, omega the derivatives in
-    time; the opposite acts on i at the same place.
+    Bushing: a spring and damper in two directions and in rotation. x and y are the components
+    of point_j - point_i in the frame of body i, and angle = angle_j - angle_i. vx, vy and omega
+    are the time derivatives of x, y and angle. The force and torque on body j at point j are
+    -stiffness × [x, y, angle] - damping × [vx, vy, omega], in the frame of body i. The opposite
+    force and torque act on body i at the same place.
 
     Attributes:
         i: Point of body i, as `body.point`.
@@ -645,9 +648,10 @@ class Bushing(Element):
 class GeneralizedForce(Element):
     """An element of type ``generalized_force``.
 
-    Generalized force: an effort on a position quantity, > 0 increases it. Its power is value ×
-    rate of the quantity. It acts on both bodies of the quantity, opposite; on ground for that
-    of a single body.
+    Generalized force: an effort on a position quantity. A positive effort increases the
+    quantity. The power is value × rate of the quantity. The effort acts on both bodies of the
+    quantity in opposite directions. If the quantity has a single body, the opposite effort acts
+    on ground.
 
     Attributes:
         coordinate: The quantity, such as `crank.angle`, `crank.B.x` or `slide.displacement`.
@@ -669,22 +673,22 @@ class GeneralizedForce(Element):
 class Motor(Element):
     """An element of type ``motor``.
 
-    Direct-current motor: torque = torque_constant × current on body j, opposite on body i,
-    which is ground unless given. inductance × d current/dt = voltage - resistance × current -
-    torque_constant × omega with omega = omega_j - omega_i. With an inductance, `current` is a
-    state of the motor, 0 at the start unless set. In its second form, torque = stall_torque
-    (command - omega / free_speed).
+    Direct-current motor: the torque on body j is torque_constant × current. The opposite torque
+    acts on body i, which is ground by default. The current satisfies inductance × d current/dt
+    = voltage - resistance × current - torque_constant × omega, where omega = omega_j - omega_i.
+    With an inductance, `current` is a state of the motor, which is 0 at the start unless it is
+    set. In the second form of the motor, torque = stall_torque (command - omega / free_speed).
 
     Attributes:
         j: Body j, the rotor.
         voltage: Voltage; may use `t` and the state [V].
-        resistance: Resistance of the winding, with voltage [Ohm].
-        torque_constant: Torque over current, which is also voltage over rate; with voltage
-            [N*m/A].
+        resistance: Resistance of the winding; required with `voltage` [Ohm].
+        torque_constant: Torque per current, equal to voltage per angular velocity; required
+            with `voltage` [N*m/A].
         inductance: Inductance of the winding [H].
-        stall_torque: Torque at rest, in place of voltage [N*m].
-        free_speed: Rate without torque, with stall_torque [rad/s].
-        command: Share of the full voltage, with stall_torque; may use `t` and the state.
+        stall_torque: Torque at rest, in place of `voltage` [N*m].
+        free_speed: Angular velocity without torque; required with `stall_torque` [rad/s].
+        command: Fraction of the full voltage, with `stall_torque`; may use `t` and the state.
         i: Body i, the stator.
     """
 
@@ -717,10 +721,11 @@ class Friction(Element):
     """An element of type ``friction``.
 
     Friction in a joint: the force on body j along the slide, or around the pin, is -(load μ s +
-    viscous v), opposite on body i at the same place; × radius as a torque. v is the rate of the
-    slide, or radius × omega of the pin. μ = kinetic + (static - kinetic) exp(-(v/stribeck)²),
-    and without stribeck kinetic. s = tanh(v/velocity), and without velocity the sign of v. load
-    is the magnitude of the reaction of the joint.
+    viscous v). For a pin, this force times the radius is a torque. The opposite force or torque
+    acts on body i at the same place. v is the rate of the slide, or radius × omega of the pin.
+    Without `stribeck`, μ = kinetic; with it, μ = kinetic + (static - kinetic)
+    exp(-(v/stribeck)²). With `velocity`, s = tanh(v/velocity); without it, s is the sign of v.
+    By default, load is the magnitude of the reaction of the joint.
 
     Attributes:
         joint: The joint: revolute, translational or pin_in_slot.
@@ -731,11 +736,11 @@ class Friction(Element):
             and 2 |T| / guide [m].
         stribeck: Speed of the Stribeck curve, at which most of the difference between static
             and kinetic is gone [m/s].
-        viscous: Force per speed, without load [N*s/m].
-        velocity: Speed at which the friction is 76 % of its full value; without it the joint
+        viscous: Viscous force per speed, independent of the load [N*s/m].
+        velocity: Speed at which the friction is 76 % of its full value. Without it, the joint
             may stick [m/s].
-        load: Load in place of the reaction, such as that of a brake; may use `t` and the state;
-            below 0 it counts as 0 [N].
+        load: Load that replaces the reaction, as in a brake; may use `t` and the state.
+            Negative loads count as 0 [N].
     """
 
     joint: str
@@ -766,26 +771,26 @@ class Friction(Element):
 class Stop(Element):
     """An element of type ``stop``.
 
-    Stop: pushes a position quantity back where it exceeds a limit, by N = max(0, stiffness ×
-    depth^exponent × (1 + damping × d depth/dt)); or, with `restitution`, the quantity leaves
-    the limit with -restitution times the rate of its arrival, or rests there. The effort acts
-    on both bodies of the quantity, opposite; on ground for the quantity of a single body. Give
-    one limit or both, and either `stiffness` or `restitution`.
+    Stop: a position quantity has a lower limit, an upper limit or both. Beyond a limit, the
+    effort N = max(0, stiffness × depth^exponent × (1 + damping × d depth/dt)) pushes the
+    quantity back. With `restitution`, the quantity instead leaves the limit with -restitution
+    times the rate of its arrival, or rests at the limit. The effort acts on both bodies of the
+    quantity in opposite directions. If the quantity has a single body, the opposite effort acts
+    on ground. Give one limit or both, and either `stiffness` or `restitution`.
 
     Attributes:
         coordinate: The quantity, such as `crank.angle`, `crank.B.x` or `slide.displacement`.
-        lower: Its least value [m or rad].
-        upper: Its largest value [m or rad].
-        stiffness: Force or torque over depth^exponent, SI: N/m or N*m/rad for an exponent of 1,
-            else the force or torque at a depth of 1 m or 1 rad, as a number without a unit
-            [any].
+        lower: Lower limit of the quantity [m or rad].
+        upper: Upper limit of the quantity [m or rad].
+        stiffness: Force or torque at a depth of 1 m or 1 rad, as a number without a unit; N/m
+            or N*m/rad for an exponent of 1 [any].
         exponent: Exponent of the depth.
         damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth [s/m
             or s/rad].
-        restitution: Rate after an impact over the rate before it, from 0 to 1, in place of
-            stiffness.
-        rest_speed: With restitution: the rate below which it rests, instead of leaving again
-            [m/s or rad/s].
+        restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
+            `stiffness`.
+        rest_speed: With `restitution`: rate below which the quantity rests at the limit [m/s or
+            rad/s].
     """
 
     coordinate: str
@@ -814,29 +819,29 @@ class Stop(Element):
 class Contact(Element):
     """An element of type ``contact``.
 
-    Contact of a point or circle of body i with a curve of its body j. gap = distance from the
-    curve, > 0 on its side, - radius. With the depth -gap > 0, the force stiffness ×
-    depth^exponent × (1 + damping × d depth/dt), if > 0, pushes the bodies apart along the
-    normal at the nearest point of the curve, and friction × that force × tanh(v/velocity) acts
-    there against the tangential velocity v. With `restitution`, the bodies leave each other
-    with -restitution times the rate of their approach, or rest on each other, without friction.
+    Contact of a point or circle of body i with a curve of body j. The gap is the distance of
+    the point from the curve, positive on its `side`, minus `radius`. The depth is -gap. At a
+    positive depth, the force stiffness × depth^exponent × (1 + damping × d depth/dt), if
+    positive, pushes the bodies apart. It acts at the nearest point of the curve along the
+    normal. The friction force at this point is friction × normal force × tanh(v/velocity),
+    opposite to the tangential velocity v. With `restitution`, there is no friction: the bodies
+    separate with -restitution times the rate of their approach, or rest on each other.
 
     Attributes:
         i: Point of body i, as `body.point`.
         curve: Curve of body j, as `body.curve`.
-        radius: Radius of the circle around the point, 0 for the point itself [m].
-        side: Side of the curve on which the point is, seen along growing u.
-        stiffness: Force over depth^exponent, SI: the force at a depth of 1 m, as a number
-            without a unit; N/m for an exponent of 1 [any].
+        radius: Radius of the circle around the point; 0 for the point itself [m].
+        side: Side of the curve on which the point lies, seen in the direction of growing u.
+        stiffness: Force in N at a depth of 1 m, as a number without a unit; in N/m for an
+            exponent of 1 [any].
         exponent: Exponent of the depth; 1.5 for a sphere on a plane (Hertz).
         damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
             [s/m].
-        friction: Coefficient of friction, with velocity.
-        velocity: Tangential velocity at which friction has 76 % of its full value [m/s].
-        restitution: Rate after an impact over the rate before it, from 0 to 1, in place of
-            stiffness.
-        rest_speed: With restitution: the rate below which it rests, instead of leaving again
-            [m/s].
+        friction: Coefficient of friction; a value above 0 requires `velocity`.
+        velocity: Tangential velocity at which the friction has 76 % of its full value [m/s].
+        restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
+            `stiffness`.
+        rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
     """
 
     i: str
@@ -1219,8 +1224,9 @@ class ElementMethods:
     ) -> TorsionSpring:
         """Add an element of type ``torsion_spring`` and return it.
 
-        Rotational spring-damper: torque on j is -(stiffness (θ - free_angle) + damping θ̇ +
-        preload) with θ = angle_j - angle_i, continuous; opposite on i (Haug 6.2.18).
+        Rotational spring-damper (Haug 6.2.18): the torque on body j is -(stiffness (θ - free_angle)
+        + damping θ̇ + preload), where θ = angle_j - angle_i is continuous. The opposite torque acts
+        on body i.
 
         Args:
             name: its name in the model.
@@ -1229,7 +1235,7 @@ class ElementMethods:
             stiffness: Torque per angle [N*m/rad].
             damping: Torque per angular velocity [N*m*s/rad].
             free_angle: Relative angle at which the spring is relaxed [rad].
-            preload: Torque of the relaxed spring, > 0 clockwise on j [N*m].
+            preload: Torque of the relaxed spring; a positive value acts clockwise on body j [N*m].
         """
         return self._add(
             TorsionSpring(
@@ -1257,12 +1263,13 @@ class ElementMethods:
     ) -> SpringDamper:
         """Add an element of type ``spring_damper`` and return it.
 
-        Translational spring-damper between two points: with l their distance, the force on j is
-        -(stiffness (l - free_length) + damping dl/dt + preload) along the line from i to j;
-        opposite on i (Haug 6.2.10). Where the points meet the line has no direction: the stiffness
-        force is zero there, and the damping force is -damping times the relative velocity. With
-        `only`, the force is 0 where the element is slack, l < free_length for tension and l >
-        free_length for compression, and it is never of the other sense.
+        Translational spring-damper between two points (Haug 6.2.10). With their distance l, the
+        force on body j along the line from i to j is -(stiffness (l - free_length) + damping dl/dt
+        + preload). The opposite force acts on body i. Where the points meet, the line has no
+        direction: the stiffness force is then zero, and the damping force is -damping times the
+        relative velocity. With `only`, the force is zero where the element is slack, at l <
+        free_length for tension and at l > free_length for compression. Elsewhere the force never
+        has the opposite sense.
 
         Args:
             name: its name in the model.
@@ -1271,7 +1278,7 @@ class ElementMethods:
             stiffness: Force per length [N/m].
             damping: Force per velocity [N*s/m].
             free_length: Distance of the points at which the spring is relaxed [m].
-            preload: Force of the relaxed spring, > 0 pulls [N].
+            preload: Force of the relaxed spring; a positive value pulls the points together [N].
             only: The only sense of the force: `tension` pulls, `compression` pushes.
         """
         return self._add(
@@ -1290,14 +1297,14 @@ class ElementMethods:
     def torque(self, name: str, j: str, *, torque: Law, i: str = "ground") -> Torque:
         """Add an element of type ``torque`` and return it.
 
-        Applied torque on body j, counter-clockwise; opposite on body i, which is ground unless
-        given.
+        Applied torque on body j, positive counter-clockwise. The opposite torque acts on body i,
+        which is ground by default.
 
         Args:
             name: its name in the model.
             j: Body j.
             torque: Torque on body j; may use `t` and the state [N*m].
-            i: Body i, which takes the opposite torque.
+            i: Body i, on which the opposite torque acts.
         """
         return self._add(Torque(name, j=j, torque=torque, i=i))
 
@@ -1312,25 +1319,25 @@ class ElementMethods:
     ) -> Force:
         """Add an element of type ``force`` and return it.
 
-        Force at a point of body j; the opposite force acts on body i, which is ground unless given,
-        at the same place. Its power is force × (velocity of the point - velocity of body i at that
-        place).
+        Force at a point of body j. The opposite force acts at the same place on body i, which is
+        ground by default. The power of the force is force × (velocity of the point - velocity of
+        body i at that place).
 
         Args:
             name: its name in the model.
             j: Point of body j, as `body.point`.
             force: Components of the force on body j; may use `t` and the state [N].
-            i: Body i, which takes the opposite force.
-            frame: Frame of the components: `global`, or that of body `i` or `j`.
+            i: Body i, on which the opposite force acts.
+            frame: Frame of the components: `global`, or the frame of body `i` or `j`.
         """
         return self._add(Force(name, j=j, force=force, i=i, frame=frame))
 
     def actuator(self, name: str, i: str, j: str, *, force: Law) -> Actuator:
         """Add an element of type ``actuator`` and return it.
 
-        Actuator: a force along the line between two points; > 0 pushes the points apart. Its power
-        is force × rate with rate that of their distance, `length`. Where the points meet, the force
-        is zero.
+        Actuator: a force along the line between two points. A positive force pushes the points
+        apart. Its power is force × rate, where rate is the derivative of their distance `length`.
+        The force is zero where the points meet.
 
         Args:
             name: its name in the model.
@@ -1351,10 +1358,11 @@ class ElementMethods:
     ) -> Bushing:
         """Add an element of type ``bushing`` and return it.
 
-        Bushing: with x, y the components of point_j - point_i in the frame of body i and angle =
-        angle_j - angle_i, the force and torque on j at point j are -stiffness × [x, y, angle] -
-        damping × [vx, vy, omega] in the frame of body i, with vx, vy, omega the derivatives in
-        time; the opposite acts on i at the same place.
+        Bushing: a spring and damper in two directions and in rotation. x and y are the components
+        of point_j - point_i in the frame of body i, and angle = angle_j - angle_i. vx, vy and omega
+        are the time derivatives of x, y and angle. The force and torque on body j at point j are
+        -stiffness × [x, y, angle] - damping × [vx, vy, omega], in the frame of body i. The opposite
+        force and torque act on body i at the same place.
 
         Args:
             name: its name in the model.
@@ -1368,9 +1376,10 @@ class ElementMethods:
     def generalized_force(self, name: str, coordinate: str, *, value: Law) -> GeneralizedForce:
         """Add an element of type ``generalized_force`` and return it.
 
-        Generalized force: an effort on a position quantity, > 0 increases it. Its power is value ×
-        rate of the quantity. It acts on both bodies of the quantity, opposite; on ground for that
-        of a single body.
+        Generalized force: an effort on a position quantity. A positive effort increases the
+        quantity. The power is value × rate of the quantity. The effort acts on both bodies of the
+        quantity in opposite directions. If the quantity has a single body, the opposite effort acts
+        on ground.
 
         Args:
             name: its name in the model.
@@ -1396,23 +1405,23 @@ class ElementMethods:
     ) -> Motor:
         """Add an element of type ``motor`` and return it.
 
-        Direct-current motor: torque = torque_constant × current on body j, opposite on body i,
-        which is ground unless given. inductance × d current/dt = voltage - resistance × current -
-        torque_constant × omega with omega = omega_j - omega_i. With an inductance, `current` is a
-        state of the motor, 0 at the start unless set. In its second form, torque = stall_torque
-        (command - omega / free_speed).
+        Direct-current motor: the torque on body j is torque_constant × current. The opposite torque
+        acts on body i, which is ground by default. The current satisfies inductance × d current/dt
+        = voltage - resistance × current - torque_constant × omega, where omega = omega_j - omega_i.
+        With an inductance, `current` is a state of the motor, which is 0 at the start unless it is
+        set. In the second form of the motor, torque = stall_torque (command - omega / free_speed).
 
         Args:
             name: its name in the model.
             j: Body j, the rotor.
             voltage: Voltage; may use `t` and the state [V].
-            resistance: Resistance of the winding, with voltage [Ohm].
-            torque_constant: Torque over current, which is also voltage over rate; with voltage
-                [N*m/A].
+            resistance: Resistance of the winding; required with `voltage` [Ohm].
+            torque_constant: Torque per current, equal to voltage per angular velocity; required
+                with `voltage` [N*m/A].
             inductance: Inductance of the winding [H].
-            stall_torque: Torque at rest, in place of voltage [N*m].
-            free_speed: Rate without torque, with stall_torque [rad/s].
-            command: Share of the full voltage, with stall_torque; may use `t` and the state.
+            stall_torque: Torque at rest, in place of `voltage` [N*m].
+            free_speed: Angular velocity without torque; required with `stall_torque` [rad/s].
+            command: Fraction of the full voltage, with `stall_torque`; may use `t` and the state.
             i: Body i, the stator.
         """
         return self._add(
@@ -1447,10 +1456,11 @@ class ElementMethods:
         """Add an element of type ``friction`` and return it.
 
         Friction in a joint: the force on body j along the slide, or around the pin, is -(load μ s +
-        viscous v), opposite on body i at the same place; × radius as a torque. v is the rate of the
-        slide, or radius × omega of the pin. μ = kinetic + (static - kinetic) exp(-(v/stribeck)²),
-        and without stribeck kinetic. s = tanh(v/velocity), and without velocity the sign of v. load
-        is the magnitude of the reaction of the joint.
+        viscous v). For a pin, this force times the radius is a torque. The opposite force or torque
+        acts on body i at the same place. v is the rate of the slide, or radius × omega of the pin.
+        Without `stribeck`, μ = kinetic; with it, μ = kinetic + (static - kinetic)
+        exp(-(v/stribeck)²). With `velocity`, s = tanh(v/velocity); without it, s is the sign of v.
+        By default, load is the magnitude of the reaction of the joint.
 
         Args:
             name: its name in the model.
@@ -1462,11 +1472,11 @@ class ElementMethods:
                 and 2 |T| / guide [m].
             stribeck: Speed of the Stribeck curve, at which most of the difference between static
                 and kinetic is gone [m/s].
-            viscous: Force per speed, without load [N*s/m].
-            velocity: Speed at which the friction is 76 % of its full value; without it the joint
+            viscous: Viscous force per speed, independent of the load [N*s/m].
+            velocity: Speed at which the friction is 76 % of its full value. Without it, the joint
                 may stick [m/s].
-            load: Load in place of the reaction, such as that of a brake; may use `t` and the state;
-                below 0 it counts as 0 [N].
+            load: Load that replaces the reaction, as in a brake; may use `t` and the state.
+                Negative loads count as 0 [N].
         """
         return self._add(
             Friction(
@@ -1498,27 +1508,27 @@ class ElementMethods:
     ) -> Stop:
         """Add an element of type ``stop`` and return it.
 
-        Stop: pushes a position quantity back where it exceeds a limit, by N = max(0, stiffness ×
-        depth^exponent × (1 + damping × d depth/dt)); or, with `restitution`, the quantity leaves
-        the limit with -restitution times the rate of its arrival, or rests there. The effort acts
-        on both bodies of the quantity, opposite; on ground for the quantity of a single body. Give
-        one limit or both, and either `stiffness` or `restitution`.
+        Stop: a position quantity has a lower limit, an upper limit or both. Beyond a limit, the
+        effort N = max(0, stiffness × depth^exponent × (1 + damping × d depth/dt)) pushes the
+        quantity back. With `restitution`, the quantity instead leaves the limit with -restitution
+        times the rate of its arrival, or rests at the limit. The effort acts on both bodies of the
+        quantity in opposite directions. If the quantity has a single body, the opposite effort acts
+        on ground. Give one limit or both, and either `stiffness` or `restitution`.
 
         Args:
             name: its name in the model.
             coordinate: The quantity, such as `crank.angle`, `crank.B.x` or `slide.displacement`.
-            lower: Its least value [m or rad].
-            upper: Its largest value [m or rad].
-            stiffness: Force or torque over depth^exponent, SI: N/m or N*m/rad for an exponent of 1,
-                else the force or torque at a depth of 1 m or 1 rad, as a number without a unit
-                [any].
+            lower: Lower limit of the quantity [m or rad].
+            upper: Upper limit of the quantity [m or rad].
+            stiffness: Force or torque at a depth of 1 m or 1 rad, as a number without a unit; N/m
+                or N*m/rad for an exponent of 1 [any].
             exponent: Exponent of the depth.
             damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth [s/m
                 or s/rad].
-            restitution: Rate after an impact over the rate before it, from 0 to 1, in place of
-                stiffness.
-            rest_speed: With restitution: the rate below which it rests, instead of leaving again
-                [m/s or rad/s].
+            restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
+                `stiffness`.
+            rest_speed: With `restitution`: rate below which the quantity rests at the limit [m/s or
+                rad/s].
         """
         return self._add(
             Stop(
@@ -1552,30 +1562,30 @@ class ElementMethods:
     ) -> Contact:
         """Add an element of type ``contact`` and return it.
 
-        Contact of a point or circle of body i with a curve of its body j. gap = distance from the
-        curve, > 0 on its side, - radius. With the depth -gap > 0, the force stiffness ×
-        depth^exponent × (1 + damping × d depth/dt), if > 0, pushes the bodies apart along the
-        normal at the nearest point of the curve, and friction × that force × tanh(v/velocity) acts
-        there against the tangential velocity v. With `restitution`, the bodies leave each other
-        with -restitution times the rate of their approach, or rest on each other, without friction.
+        Contact of a point or circle of body i with a curve of body j. The gap is the distance of
+        the point from the curve, positive on its `side`, minus `radius`. The depth is -gap. At a
+        positive depth, the force stiffness × depth^exponent × (1 + damping × d depth/dt), if
+        positive, pushes the bodies apart. It acts at the nearest point of the curve along the
+        normal. The friction force at this point is friction × normal force × tanh(v/velocity),
+        opposite to the tangential velocity v. With `restitution`, there is no friction: the bodies
+        separate with -restitution times the rate of their approach, or rest on each other.
 
         Args:
             name: its name in the model.
             i: Point of body i, as `body.point`.
             curve: Curve of body j, as `body.curve`.
-            radius: Radius of the circle around the point, 0 for the point itself [m].
-            side: Side of the curve on which the point is, seen along growing u.
-            stiffness: Force over depth^exponent, SI: the force at a depth of 1 m, as a number
-                without a unit; N/m for an exponent of 1 [any].
+            radius: Radius of the circle around the point; 0 for the point itself [m].
+            side: Side of the curve on which the point lies, seen in the direction of growing u.
+            stiffness: Force in N at a depth of 1 m, as a number without a unit; in N/m for an
+                exponent of 1 [any].
             exponent: Exponent of the depth; 1.5 for a sphere on a plane (Hertz).
             damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
                 [s/m].
-            friction: Coefficient of friction, with velocity.
-            velocity: Tangential velocity at which friction has 76 % of its full value [m/s].
-            restitution: Rate after an impact over the rate before it, from 0 to 1, in place of
-                stiffness.
-            rest_speed: With restitution: the rate below which it rests, instead of leaving again
-                [m/s].
+            friction: Coefficient of friction; a value above 0 requires `velocity`.
+            velocity: Tangential velocity at which the friction has 76 % of its full value [m/s].
+            restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
+                `stiffness`.
+            rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
         """
         return self._add(
             Contact(
