@@ -17,13 +17,13 @@ E = TypeVar("E", bound=Element)
 class Revolute(Element):
     """An element of type ``revolute``.
 
-    Revolute joint: two points coincide, Φ = point_j - point_i (Haug 3.3.10). The force of the
-    joint on body i is +λ, on body j is -λ, in the global frame.
+    Revolute joint: point i and point j coincide, Φ = point_j - point_i (Haug 3.3.10). The force
+    of the joint is +λ on body i and -λ on body j, in the global frame.
 
     Attributes:
         i: Point of body i, as `body.point`.
         j: Point of body j, as `body.point`.
-        axes: Angle of the joint frame's x axis in the frame of body i and of body j [rad].
+        axes: Angles of the x axis of the joint frame in the frames of body i and body j [rad].
     """
 
     i: str
@@ -42,16 +42,17 @@ class Revolute(Element):
 class Translational(Element):
     """An element of type ``translational``.
 
-    Translational joint: point j stays on the line through point i along the slide, and the
-    bodies do not turn against each other (Haug 3.3.13, 3.3.14). Φ1 is the distance of point j
-    from that line, to its left; Φ2 = angle_j + axes_j - angle_i - axes_i. The force of the
-    joint is normal to the slide: on body i +λ1 along the normal, on body j -λ1.
+    Translational joint: body j slides along a line of body i and does not rotate relative to
+    body i (Haug 3.3.13, 3.3.14). The line passes through point i along the slide. Φ1 is the
+    distance of point j from the line, positive on its left. Φ2 = angle_j + axes_j - angle_i -
+    axes_i. The force of the joint is normal to the slide: +λ1 along the normal on body i, and
+    -λ1 on body j.
 
     Attributes:
         i: Point of body i on the slide, as `body.point`.
         j: Point of body j on the slide, as `body.point`.
-        axes: Angle of the slide, the joint frame's x axis, in the frame of body i and of body j
-            [rad].
+        axes: Angles of the slide, the x axis of the joint frame, in the frames of body i and
+            body j [rad].
     """
 
     i: str
@@ -70,15 +71,15 @@ class Translational(Element):
 class Distance(Element):
     """An element of type ``distance``.
 
-    Distance: a massless rod between two points, Φ = (d² - length²) / (2 length) with d the
-    distance from point i to point j (Haug 3.3.8). The force of the rod on body i is +λ along
-    the line from i to j, on body j -λ: λ > 0 is tension.
+    Distance: a massless rod connects two points, Φ = (d² - length²) / (2 length), where d is
+    the distance from point i to point j (Haug 3.3.8). The force of the rod along the line from
+    i to j is +λ on body i and -λ on body j. A positive λ is tension.
 
     Attributes:
         i: Point of body i, as `body.point`.
         j: Point of body j, as `body.point`.
-        length: Length of the rod; may use `t` and positions, as the length of a cylinder does
-            [m].
+        length: Length of the rod; may use `t` and positions, for example for a hydraulic
+            cylinder [m].
     """
 
     i: str
@@ -97,15 +98,15 @@ class Distance(Element):
 class Weld(Element):
     """An element of type ``weld``.
 
-    Weld: two points coincide and the bodies do not turn against each other, Φ = (point_j -
-    point_i, angle_j - angle_i - angle). The force of the weld on body i is +(λ1, λ2), on body j
-    is -(λ1, λ2), in the global frame; its torque about the points is +λ3 on body i, -λ3 on body
-    j.
+    Weld: two points coincide, and the bodies do not rotate relative to each other. Φ = (point_j
+    - point_i, angle_j - angle_i - angle). The force of the weld is +(λ1, λ2) on body i and
+    -(λ1, λ2) on body j, in the global frame. Its torque about the points is +λ3 on body i and
+    -λ3 on body j.
 
     Attributes:
         i: Point of body i, as `body.point`.
         j: Point of body j, as `body.point`.
-        angle: Angle of body j against body i [rad].
+        angle: Angle of body j relative to body i [rad].
     """
 
     i: str
@@ -124,9 +125,9 @@ class Weld(Element):
 class PinInSlot(Element):
     """An element of type ``pin_in_slot``.
 
-    Pin in a slot: point j stays on the line through point i along the slot, Φ = n·d with n the
-    left normal of the slot and d = point_j - point_i (Haug 3.3.13). The force of the slot is
-    normal to it and acts at the pin: on body i +λ along n, on body j -λ.
+    Pin in a slot: point j stays on the line through point i along the slot (Haug 3.3.13). Φ =
+    n·d, where n is the left normal of the slot and d = point_j - point_i. The force of the slot
+    acts at the pin, normal to the slot: +λ along n on body i, and -λ on body j.
 
     Attributes:
         i: Point of body i on the line of the slot, as `body.point`.
@@ -150,21 +151,21 @@ class PinInSlot(Element):
 class Gear(Element):
     """An element of type ``gear``.
 
-    Gear pair: two wheels whose pitch circles roll on each other, Φ = r_i (angle_i - θ) + σ r_j
-    (angle_j - θ) - offset, nearest 0 modulo 2π (r_i + σ r_j), with θ the direction from centre
-    i to centre j and σ = 1, for internal teeth -1. The joints of the mechanism hold the centres
-    r_i + r_j apart, for internal teeth |r_i - r_j|. λ is the tangential force of the teeth; on
-    wheel j act -σ λ r_j about its centre and a force of magnitude |λ| normal to the line of
-    centres.
+    Gear pair: the pitch circles of two wheels roll on each other. Φ = r_i (angle_i - θ) + σ r_j
+    (angle_j - θ) - offset, reduced modulo 2π (r_i + σ r_j) to the value nearest 0. θ is the
+    direction from centre i to centre j. σ is 1 for external and -1 for internal teeth. The
+    joints of the mechanism hold the centres at the distance r_i + r_j, or |r_i - r_j| for
+    internal teeth. λ is the tangential force of the teeth. Wheel j carries the torque -σ λ r_j
+    about its centre and a force of magnitude |λ| normal to the line of centres.
 
     Attributes:
         i: Centre of wheel i, as `body.point`.
         j: Centre of wheel j, as `body.point`.
         radii: Radii of the pitch circles [m].
         teeth: Numbers of teeth, in place of radii.
-        module: Module, with teeth: each radius is module × teeth / 2 [m].
+        module: Module, if `teeth` is given: each radius is module × teeth / 2 [m].
         internal: Whether one wheel is inside the other.
-        offset: Φ of the wheels without it [m].
+        offset: Constant that is subtracted in Φ [m].
         pressure_angle: Pressure angle of the teeth: the force |λ| tan(pressure_angle) along the
             line of centres pushes them apart [rad].
     """
@@ -195,18 +196,19 @@ class Gear(Element):
 class Belt(Element):
     """An element of type ``belt``.
 
-    Belt: two wheels joined by a belt or chain without slip, Φ = r_i (angle_i - θ) + σ r_j
-    (angle_j - θ) - offset, nearest 0 modulo 2π (r_i + σ r_j), with θ the direction from centre
-    i to centre j and σ = -1, for a crossed belt 1. The joints of the mechanism hold the
-    distance of the centres. λ is the difference of the forces of the strands; on wheel j act -σ
-    λ r_j about its centre and a force normal to the line of centres, λ (r_i + σ r_j)/distance.
+    Belt: a belt or chain connects two wheels without slip. Φ = r_i (angle_i - θ) + σ r_j
+    (angle_j - θ) - offset, reduced modulo 2π (r_i + σ r_j) to the value nearest 0. θ is the
+    direction from centre i to centre j. σ is -1 for an open belt and 1 for a crossed belt. The
+    joints of the mechanism hold the distance of the centres. λ is the difference of the forces
+    of the two strands. Wheel j carries the torque -σ λ r_j about its centre and the force λ
+    (r_i + σ r_j)/distance normal to the line of centres.
 
     Attributes:
         i: Centre of wheel i, as `body.point`.
         j: Centre of wheel j, as `body.point`.
         radii: Radii of the wheels [m].
         crossed: Whether the strands cross, so that the wheels turn in opposite senses.
-        offset: Φ of the wheels without it [m].
+        offset: Constant that is subtracted in Φ [m].
     """
 
     i: str
@@ -229,10 +231,11 @@ class Belt(Element):
 class Rack(Element):
     """An element of type ``rack``.
 
-    Rack and pinion: wheel j rolls on a line of body i, Φ = u·d + radius (angle_j - angle_i) -
-    offset with u along the line and d = point_j - point_i. The joints of the mechanism hold the
-    centre at the distance radius to the left of the line. λ is the tangential force of the
-    teeth: on body i +λ along u at the pitch point, on body j -λ.
+    Rack and pinion: wheel j rolls on a line of body i. Φ = u·d + radius (angle_j - angle_i) -
+    offset, where u is the direction of the line and d = point_j - point_i. The joints of the
+    mechanism hold the centre at the distance radius to the left of the line. λ is the
+    tangential force of the teeth. It acts at the pitch point: +λ along u on body i, and -λ on
+    body j.
 
     Attributes:
         i: Point of body i on the pitch line, as `body.point`.
@@ -240,7 +243,7 @@ class Rack(Element):
         radius: Radius of the pitch circle; > 0 for a pinion on the left of the line, < 0 on its
             right [m].
         axis: Angle of the line in the frame of body i [rad].
-        offset: Φ of the bodies without it [m].
+        offset: Constant that is subtracted in Φ [m].
     """
 
     i: str
@@ -263,10 +266,10 @@ class Rack(Element):
 class Rolling(Element):
     """An element of type ``rolling``.
 
-    Rolling: wheel j rolls on a line of body i without slip, Φ1 = n·d - radius, Φ2 = u·d +
-    radius (angle_j - angle_i) - offset with u along the line, n its left normal and d = point_j
-    - point_i. The force on body i at the point of contact is +λ1 along n and +λ2 along u, on
-    body j the opposite.
+    Rolling: wheel j rolls on a line of body i without slip. Φ1 = n·d - radius and Φ2 = u·d +
+    radius (angle_j - angle_i) - offset, where u is the direction of the line, n is its left
+    normal and d = point_j - point_i. The force on body i at the point of contact is +λ1 along n
+    and +λ2 along u. The opposite force acts on body j.
 
     Attributes:
         i: Point of body i on the line, as `body.point`.
@@ -274,7 +277,7 @@ class Rolling(Element):
         radius: Radius of the wheel; > 0 for a wheel on the left of the line, < 0 on its right
             [m].
         axis: Angle of the line in the frame of body i [rad].
-        offset: Φ2 of the bodies without it [m].
+        offset: Constant that is subtracted in Φ2 [m].
     """
 
     i: str
@@ -297,9 +300,9 @@ class Rolling(Element):
 class PointOnCurve(Element):
     """An element of type ``point_on_curve``.
 
-    Point on a curve: Φ = P_i - C(u), with the curve C(u) in the frame of its body j and the
-    parameter u of the contact as an unknown. The force on body j is +λ, on body i -λ, normal to
-    the curve.
+    Point on a curve: a point of body i stays on a curve of body j. Φ = P_i - C(u), where C(u)
+    is the curve in the frame of body j. The parameter u of the contact is an unknown. The force
+    is normal to the curve: +λ on body j, and -λ on body i.
 
     Attributes:
         i: Point of body i, as `body.point`.
@@ -320,16 +323,17 @@ class PointOnCurve(Element):
 class RollerOnCurve(Element):
     """An element of type ``roller_on_curve``.
 
-    Roller on a curve: Φ = P_i - C(u) - radius ν(u), with the curve C(u) in the frame of its
-    body j and ν the unit normal to the right of growing u, which is the outside of a counter-
-    clockwise rim. The force on body j is +λ, on body i -λ, normal to the curve at the point of
-    contact; `normal` > 0 presses the roller onto the curve.
+    Roller on a curve: a circle of body i touches a curve of body j. Φ = P_i - C(u) - radius
+    ν(u), where C(u) is the curve in the frame of body j and ν is its unit normal towards
+    `side`. The right side of growing u is the outside of a counter-clockwise rim. The force is
+    normal to the curve and acts at the point of contact: +λ on body j, and -λ on body i. A
+    positive `normal` presses the roller onto the curve.
 
     Attributes:
         i: Centre of the roller on body i, as `body.point`.
         curve: Curve of body j, as `body.curve`.
         radius: Radius of the roller [m].
-        side: Side of the curve on which the roller is, seen along growing u.
+        side: Side of the curve on which the roller lies, seen in the direction of growing u.
     """
 
     i: str
@@ -350,10 +354,10 @@ class RollerOnCurve(Element):
 class FlatOnCurve(Element):
     """An element of type ``flat_on_curve``.
 
-    Flat face on a curve: the straight line of body i through P_i, at the angle `axis`, touches
-    the curve C(u) of body j. With n the normal of the line, to its left: Φ1 = n·(C(u) - P_i)
-    and Φ2 = n·C'/|C'|. The force on body j is -λ1 n, on body i +λ1 n, at the point of contact;
-    `normal` > 0 presses the face onto the curve.
+    Flat face on a curve: a straight line of body i touches the curve C(u) of body j. The line
+    passes through P_i at the angle `axis`, and n is its left normal. Φ1 = n·(C(u) - P_i) and Φ2
+    = n·C'/|C'|. The force acts at the point of contact: -λ1 n on body j, and +λ1 n on body i. A
+    positive `normal` presses the face onto the curve.
 
     Attributes:
         i: Point of the face on body i, as `body.point`.
@@ -378,14 +382,14 @@ class Coupling(Element):
     """An element of type ``coupling``.
 
     Coupling: a linear relation of position quantities, Φ = Σ factor × quantity - value. The
-    effort on each quantity is -λ × factor: on body j of the quantity, the opposite on its body
+    effort -λ × factor acts on body j of each quantity, and the opposite effort acts on its body
     i.
 
     Attributes:
         terms: Factors of position quantities, such as `{ "A.angle" = 2, "S.displacement" = -1
             }`.
-        value: The value of the sum; may use `t` and positions [m or rad].
-        unit: Unit of the sum, `m` or `rad`; that of the first quantity unless given.
+        value: Value of the sum; may use `t` and positions [m or rad].
+        unit: Unit of the sum, `m` or `rad`; the unit of the first quantity if absent.
     """
 
     terms: Terms
@@ -404,8 +408,9 @@ class Coupling(Element):
 class Constraint(Element):
     """An element of type ``constraint``.
 
-    Constraint by formulas: Φ = residual, one formula of positions and `t` for each equation.
-    The force and torque on a body are -Φ_qᵀ λ in its columns, about the origin of its frame.
+    Constraint by formulas: Φ = residual, with one formula of positions and `t` for each
+    equation. The force and torque on a body are the entries of -Φ_qᵀ λ for its coordinates,
+    about the origin of its frame.
 
     Attributes:
         residual: Formulas that must be zero; may use `t` and positions [any].
@@ -427,14 +432,16 @@ class CoordinateDriver(Element):
     """An element of type ``coordinate_driver``.
 
     Coordinate driver: a position quantity is a given function of time, Φ = coordinate - value
-    (Haug 3.5.1, 3.5.2). The driving force or torque on body j of the quantity is -λ, on body i
-    +λ; the coordinates of a body are measured from ground.
+    (Haug 3.5.1, 3.5.2). The driving force or torque is -λ on body j of the quantity and +λ on
+    body i. The coordinates of a body are measured from ground.
 
     Attributes:
         coordinate: Driven quantity: `body.x`, `body.y`, `body.angle`, `body.point.x`,
             `joint.angle`, `joint.displacement` and so on.
-        value: Its value, m or rad; may use `t` and the positions of other bodies [m or rad].
-        release: Condition on any quantities; once it became true, the driver no longer acts.
+        value: Value of the quantity, m or rad; may use `t` and the positions of other bodies [m
+            or rad].
+        release: Condition on any quantities. Once it has become true, the driver no longer
+            acts.
     """
 
     coordinate: str
@@ -453,8 +460,9 @@ class CoordinateDriver(Element):
 class TorsionSpring(Element):
     """An element of type ``torsion_spring``.
 
-    Rotational spring-damper: torque on j is -(stiffness (θ - free_angle) + damping θ̇ +
-    preload) with θ = angle_j - angle_i, continuous; opposite on i (Haug 6.2.18).
+    Rotational spring-damper (Haug 6.2.18): the torque on body j is -(stiffness (θ - free_angle)
+    + damping θ̇ + preload), where θ = angle_j - angle_i is continuous. The opposite torque acts
+    on body i.
 
     Attributes:
         i: Body i.
@@ -462,7 +470,7 @@ class TorsionSpring(Element):
         stiffness: Torque per angle [N*m/rad].
         damping: Torque per angular velocity [N*m*s/rad].
         free_angle: Relative angle at which the spring is relaxed [rad].
-        preload: Torque of the relaxed spring, > 0 clockwise on j [N*m].
+        preload: Torque of the relaxed spring; a positive value acts clockwise on body j [N*m].
     """
 
     i: str
@@ -487,12 +495,13 @@ class TorsionSpring(Element):
 class SpringDamper(Element):
     """An element of type ``spring_damper``.
 
-    Translational spring-damper between two points: with l their distance, the force on j is
-    -(stiffness (l - free_length) + damping dl/dt + preload) along the line from i to j;
-    opposite on i (Haug 6.2.10). Where the points meet the line has no direction: the stiffness
-    force is zero there, and the damping force is -damping times the relative velocity. With
-    `only`, the force is 0 where the element is slack, l < free_length for tension and l >
-    free_length for compression, and it is never of the other sense.
+    Translational spring-damper between two points (Haug 6.2.10). With their distance l, the
+    force on body j along the line from i to j is -(stiffness (l - free_length) + damping dl/dt
+    + preload). The opposite force acts on body i. Where the points meet, the line has no
+    direction: the stiffness force is then zero, and the damping force is -damping times the
+    relative velocity. With `only`, the force is zero where the element is slack, at l <
+    free_length for tension and at l > free_length for compression. Elsewhere the force never
+    has the opposite sense.
 
     Attributes:
         i: Point of body i, as `body.point`.
@@ -500,7 +509,7 @@ class SpringDamper(Element):
         stiffness: Force per length [N/m].
         damping: Force per velocity [N*s/m].
         free_length: Distance of the points at which the spring is relaxed [m].
-        preload: Force of the relaxed spring, > 0 pulls [N].
+        preload: Force of the relaxed spring; a positive value pulls the points together [N].
         only: The only sense of the force: `tension` pulls, `compression` pushes.
     """
 
@@ -528,13 +537,13 @@ class SpringDamper(Element):
 class Torque(Element):
     """An element of type ``torque``.
 
-    Applied torque on body j, counter-clockwise; opposite on body i, which is ground unless
-    given.
+    Applied torque on body j, positive counter-clockwise. The opposite torque acts on body i,
+    which is ground by default.
 
     Attributes:
         j: Body j.
         torque: Torque on body j; may use `t` and the state [N*m].
-        i: Body i, which takes the opposite torque.
+        i: Body i, on which the opposite torque acts.
     """
 
     j: str
@@ -553,15 +562,15 @@ class Torque(Element):
 class Force(Element):
     """An element of type ``force``.
 
-    Force at a point of body j; the opposite force acts on body i, which is ground unless given,
-    at the same place. Its power is force × (velocity of the point - velocity of body i at that
-    place).
+    Force at a point of body j. The opposite force acts at the same place on body i, which is
+    ground by default. The power of the force is force × (velocity of the point - velocity of
+    body i at that place).
 
     Attributes:
         j: Point of body j, as `body.point`.
         force: Components of the force on body j; may use `t` and the state [N].
-        i: Body i, which takes the opposite force.
-        frame: Frame of the components: `global`, or that of body `i` or `j`.
+        i: Body i, on which the opposite force acts.
+        frame: Frame of the components: `global`, or the frame of body `i` or `j`.
     """
 
     j: str
@@ -582,9 +591,9 @@ class Force(Element):
 class Actuator(Element):
     """An element of type ``actuator``.
 
-    Actuator: a force along the line between two points; > 0 pushes the points apart. Its power
-    is force × rate with rate that of their distance, `length`. Where the points meet, the force
-    is zero.
+    Actuator: a force along the line between two points. A positive force pushes the points
+    apart. Its power is force × rate, where rate is the derivative of their distance `length`.
+    The force is zero where the points meet.
 
     Attributes:
         i: Point of body i, as `body.point`.
@@ -608,10 +617,11 @@ class Actuator(Element):
 class Bushing(Element):
     """An element of type ``bushing``.
 
-    Bushing: with x, y the components of point_j - point_i in the frame of body i and angle =
-    angle_j - angle_i, the force and torque on j at point j are -stiffness × [x, y, angle] -
-    damping × [vx, vy, omega] in the frame of body i, with vx, vy, omega the derivatives in
-    time; the opposite acts on i at the same place.
+    Bushing: a spring and damper in two directions and in rotation. x and y are the components
+    of point_j - point_i in the frame of body i, and angle = angle_j - angle_i. vx, vy and omega
+    are the time derivatives of x, y and angle. The force and torque on body j at point j are
+    -stiffness × [x, y, angle] - damping × [vx, vy, omega], in the frame of body i. The opposite
+    force and torque act on body i at the same place.
 
     Attributes:
         i: Point of body i, as `body.point`.
@@ -638,9 +648,10 @@ class Bushing(Element):
 class GeneralizedForce(Element):
     """An element of type ``generalized_force``.
 
-    Generalized force: an effort on a position quantity, > 0 increases it. Its power is value ×
-    rate of the quantity. It acts on both bodies of the quantity, opposite; on ground for that
-    of a single body.
+    Generalized force: an effort on a position quantity. A positive effort increases the
+    quantity. The power is value × rate of the quantity. The effort acts on both bodies of the
+    quantity in opposite directions. If the quantity has a single body, the opposite effort acts
+    on ground.
 
     Attributes:
         coordinate: The quantity, such as `crank.angle`, `crank.B.x` or `slide.displacement`.
@@ -662,22 +673,22 @@ class GeneralizedForce(Element):
 class Motor(Element):
     """An element of type ``motor``.
 
-    Direct-current motor: torque = torque_constant × current on body j, opposite on body i,
-    which is ground unless given. inductance × d current/dt = voltage - resistance × current -
-    torque_constant × omega with omega = omega_j - omega_i. With an inductance, `current` is a
-    state of the motor, 0 at the start unless set. In its second form, torque = stall_torque
-    (command - omega / free_speed).
+    Direct-current motor: the torque on body j is torque_constant × current. The opposite torque
+    acts on body i, which is ground by default. The current satisfies inductance × d current/dt
+    = voltage - resistance × current - torque_constant × omega, where omega = omega_j - omega_i.
+    With an inductance, `current` is a state of the motor, which is 0 at the start unless it is
+    set. In the second form of the motor, torque = stall_torque (command - omega / free_speed).
 
     Attributes:
         j: Body j, the rotor.
         voltage: Voltage; may use `t` and the state [V].
-        resistance: Resistance of the winding, with voltage [Ohm].
-        torque_constant: Torque over current, which is also voltage over rate; with voltage
-            [N*m/A].
+        resistance: Resistance of the winding; required with `voltage` [Ohm].
+        torque_constant: Torque per current, equal to voltage per angular velocity; required
+            with `voltage` [N*m/A].
         inductance: Inductance of the winding [H].
-        stall_torque: Torque at rest, in place of voltage [N*m].
-        free_speed: Rate without torque, with stall_torque [rad/s].
-        command: Share of the full voltage, with stall_torque; may use `t` and the state.
+        stall_torque: Torque at rest, in place of `voltage` [N*m].
+        free_speed: Angular velocity without torque; required with `stall_torque` [rad/s].
+        command: Fraction of the full voltage, with `stall_torque`; may use `t` and the state.
         i: Body i, the stator.
     """
 
@@ -710,10 +721,11 @@ class Friction(Element):
     """An element of type ``friction``.
 
     Friction in a joint: the force on body j along the slide, or around the pin, is -(load μ s +
-    viscous v), opposite on body i at the same place; × radius as a torque. v is the rate of the
-    slide, or radius × omega of the pin. μ = kinetic + (static - kinetic) exp(-(v/stribeck)²),
-    and without stribeck kinetic. s = tanh(v/velocity), and without velocity the sign of v. load
-    is the magnitude of the reaction of the joint.
+    viscous v). For a pin, this force times the radius is a torque. The opposite force or torque
+    acts on body i at the same place. v is the rate of the slide, or radius × omega of the pin.
+    Without `stribeck`, μ = kinetic; with it, μ = kinetic + (static - kinetic)
+    exp(-(v/stribeck)²). With `velocity`, s = tanh(v/velocity); without it, s is the sign of v.
+    By default, load is the magnitude of the reaction of the joint.
 
     Attributes:
         joint: The joint: revolute, translational or pin_in_slot.
@@ -724,11 +736,11 @@ class Friction(Element):
             and 2 |T| / guide [m].
         stribeck: Speed of the Stribeck curve, at which most of the difference between static
             and kinetic is gone [m/s].
-        viscous: Force per speed, without load [N*s/m].
-        velocity: Speed at which the friction is 76 % of its full value; without it the joint
+        viscous: Viscous force per speed, independent of the load [N*s/m].
+        velocity: Speed at which the friction is 76 % of its full value. Without it, the joint
             may stick [m/s].
-        load: Load in place of the reaction, such as that of a brake; may use `t` and the state;
-            below 0 it counts as 0 [N].
+        load: Load that replaces the reaction, as in a brake; may use `t` and the state.
+            Negative loads count as 0 [N].
     """
 
     joint: str
@@ -759,26 +771,26 @@ class Friction(Element):
 class Stop(Element):
     """An element of type ``stop``.
 
-    Stop: pushes a position quantity back where it exceeds a limit, by N = max(0, stiffness ×
-    depth^exponent × (1 + damping × d depth/dt)); or, with `restitution`, the quantity leaves
-    the limit with -restitution times the rate of its arrival, or rests there. The effort acts
-    on both bodies of the quantity, opposite; on ground for the quantity of a single body. Give
-    one limit or both, and either `stiffness` or `restitution`.
+    Stop: a position quantity has a lower limit, an upper limit or both. Beyond a limit, the
+    effort N = max(0, stiffness × depth^exponent × (1 + damping × d depth/dt)) pushes the
+    quantity back. With `restitution`, the quantity instead leaves the limit with -restitution
+    times the rate of its arrival, or rests at the limit. The effort acts on both bodies of the
+    quantity in opposite directions. If the quantity has a single body, the opposite effort acts
+    on ground. Give one limit or both, and either `stiffness` or `restitution`.
 
     Attributes:
         coordinate: The quantity, such as `crank.angle`, `crank.B.x` or `slide.displacement`.
-        lower: Its least value [m or rad].
-        upper: Its largest value [m or rad].
-        stiffness: Force or torque over depth^exponent, SI: N/m or N*m/rad for an exponent of 1,
-            else the force or torque at a depth of 1 m or 1 rad, as a number without a unit
-            [any].
+        lower: Lower limit of the quantity [m or rad].
+        upper: Upper limit of the quantity [m or rad].
+        stiffness: Force or torque at a depth of 1 m or 1 rad, as a number without a unit; N/m
+            or N*m/rad for an exponent of 1 [any].
         exponent: Exponent of the depth.
         damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth [s/m
             or s/rad].
-        restitution: Rate after an impact over the rate before it, from 0 to 1, in place of
-            stiffness.
-        rest_speed: With restitution: the rate below which it rests, instead of leaving again
-            [m/s or rad/s].
+        restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
+            `stiffness`.
+        rest_speed: With `restitution`: rate below which the quantity rests at the limit [m/s or
+            rad/s].
     """
 
     coordinate: str
@@ -807,29 +819,29 @@ class Stop(Element):
 class Contact(Element):
     """An element of type ``contact``.
 
-    Contact of a point or circle of body i with a curve of its body j. gap = distance from the
-    curve, > 0 on its side, - radius. With the depth -gap > 0, the force stiffness ×
-    depth^exponent × (1 + damping × d depth/dt), if > 0, pushes the bodies apart along the
-    normal at the nearest point of the curve, and friction × that force × tanh(v/velocity) acts
-    there against the tangential velocity v. With `restitution`, the bodies leave each other
-    with -restitution times the rate of their approach, or rest on each other, without friction.
+    Contact of a point or circle of body i with a curve of body j. The gap is the distance of
+    the point from the curve, positive on its `side`, minus `radius`. The depth is -gap. At a
+    positive depth, the force stiffness × depth^exponent × (1 + damping × d depth/dt), if
+    positive, pushes the bodies apart. It acts at the nearest point of the curve along the
+    normal. The friction force at this point is friction × normal force × tanh(v/velocity),
+    opposite to the tangential velocity v. With `restitution`, there is no friction: the bodies
+    separate with -restitution times the rate of their approach, or rest on each other.
 
     Attributes:
         i: Point of body i, as `body.point`.
         curve: Curve of body j, as `body.curve`.
-        radius: Radius of the circle around the point, 0 for the point itself [m].
-        side: Side of the curve on which the point is, seen along growing u.
-        stiffness: Force over depth^exponent, SI: the force at a depth of 1 m, as a number
-            without a unit; N/m for an exponent of 1 [any].
+        radius: Radius of the circle around the point; 0 for the point itself [m].
+        side: Side of the curve on which the point lies, seen in the direction of growing u.
+        stiffness: Force in N at a depth of 1 m, as a number without a unit; in N/m for an
+            exponent of 1 [any].
         exponent: Exponent of the depth; 1.5 for a sphere on a plane (Hertz).
         damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
             [s/m].
-        friction: Coefficient of friction, with velocity.
-        velocity: Tangential velocity at which friction has 76 % of its full value [m/s].
-        restitution: Rate after an impact over the rate before it, from 0 to 1, in place of
-            stiffness.
-        rest_speed: With restitution: the rate below which it rests, instead of leaving again
-            [m/s].
+        friction: Coefficient of friction; a value above 0 requires `velocity`.
+        velocity: Tangential velocity at which the friction has 76 % of its full value [m/s].
+        restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
+            `stiffness`.
+        rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
     """
 
     i: str
@@ -869,72 +881,73 @@ class ElementMethods:
     def revolute(self, name: str, i: str, j: str, *, axes: Pair = (0.0, 0.0)) -> Revolute:
         """Add an element of type ``revolute`` and return it.
 
-        Revolute joint: two points coincide, Φ = point_j - point_i (Haug 3.3.10). The force of the
-        joint on body i is +λ, on body j is -λ, in the global frame.
+        Revolute joint: point i and point j coincide, Φ = point_j - point_i (Haug 3.3.10). The force
+        of the joint is +λ on body i and -λ on body j, in the global frame.
 
         Args:
             name: its name in the model.
             i: Point of body i, as `body.point`.
             j: Point of body j, as `body.point`.
-            axes: Angle of the joint frame's x axis in the frame of body i and of body j [rad].
+            axes: Angles of the x axis of the joint frame in the frames of body i and body j [rad].
         """
         return self._add(Revolute(name, i=i, j=j, axes=axes))
 
     def translational(self, name: str, i: str, j: str, *, axes: Pair = (0.0, 0.0)) -> Translational:
         """Add an element of type ``translational`` and return it.
 
-        Translational joint: point j stays on the line through point i along the slide, and the
-        bodies do not turn against each other (Haug 3.3.13, 3.3.14). Φ1 is the distance of point j
-        from that line, to its left; Φ2 = angle_j + axes_j - angle_i - axes_i. The force of the
-        joint is normal to the slide: on body i +λ1 along the normal, on body j -λ1.
+        Translational joint: body j slides along a line of body i and does not rotate relative to
+        body i (Haug 3.3.13, 3.3.14). The line passes through point i along the slide. Φ1 is the
+        distance of point j from the line, positive on its left. Φ2 = angle_j + axes_j - angle_i -
+        axes_i. The force of the joint is normal to the slide: +λ1 along the normal on body i, and
+        -λ1 on body j.
 
         Args:
             name: its name in the model.
             i: Point of body i on the slide, as `body.point`.
             j: Point of body j on the slide, as `body.point`.
-            axes: Angle of the slide, the joint frame's x axis, in the frame of body i and of body j
-                [rad].
+            axes: Angles of the slide, the x axis of the joint frame, in the frames of body i and
+                body j [rad].
         """
         return self._add(Translational(name, i=i, j=j, axes=axes))
 
     def distance(self, name: str, i: str, j: str, *, length: Number) -> Distance:
         """Add an element of type ``distance`` and return it.
 
-        Distance: a massless rod between two points, Φ = (d² - length²) / (2 length) with d the
-        distance from point i to point j (Haug 3.3.8). The force of the rod on body i is +λ along
-        the line from i to j, on body j -λ: λ > 0 is tension.
+        Distance: a massless rod connects two points, Φ = (d² - length²) / (2 length), where d is
+        the distance from point i to point j (Haug 3.3.8). The force of the rod along the line from
+        i to j is +λ on body i and -λ on body j. A positive λ is tension.
 
         Args:
             name: its name in the model.
             i: Point of body i, as `body.point`.
             j: Point of body j, as `body.point`.
-            length: Length of the rod; may use `t` and positions, as the length of a cylinder does
-                [m].
+            length: Length of the rod; may use `t` and positions, for example for a hydraulic
+                cylinder [m].
         """
         return self._add(Distance(name, i=i, j=j, length=length))
 
     def weld(self, name: str, i: str, j: str, *, angle: Number = 0.0) -> Weld:
         """Add an element of type ``weld`` and return it.
 
-        Weld: two points coincide and the bodies do not turn against each other, Φ = (point_j -
-        point_i, angle_j - angle_i - angle). The force of the weld on body i is +(λ1, λ2), on body j
-        is -(λ1, λ2), in the global frame; its torque about the points is +λ3 on body i, -λ3 on body
-        j.
+        Weld: two points coincide, and the bodies do not rotate relative to each other. Φ = (point_j
+        - point_i, angle_j - angle_i - angle). The force of the weld is +(λ1, λ2) on body i and
+        -(λ1, λ2) on body j, in the global frame. Its torque about the points is +λ3 on body i and
+        -λ3 on body j.
 
         Args:
             name: its name in the model.
             i: Point of body i, as `body.point`.
             j: Point of body j, as `body.point`.
-            angle: Angle of body j against body i [rad].
+            angle: Angle of body j relative to body i [rad].
         """
         return self._add(Weld(name, i=i, j=j, angle=angle))
 
     def pin_in_slot(self, name: str, i: str, j: str, *, axis: Number = 0.0) -> PinInSlot:
         """Add an element of type ``pin_in_slot`` and return it.
 
-        Pin in a slot: point j stays on the line through point i along the slot, Φ = n·d with n the
-        left normal of the slot and d = point_j - point_i (Haug 3.3.13). The force of the slot is
-        normal to it and acts at the pin: on body i +λ along n, on body j -λ.
+        Pin in a slot: point j stays on the line through point i along the slot (Haug 3.3.13). Φ =
+        n·d, where n is the left normal of the slot and d = point_j - point_i. The force of the slot
+        acts at the pin, normal to the slot: +λ along n on body i, and -λ on body j.
 
         Args:
             name: its name in the model.
@@ -959,12 +972,12 @@ class ElementMethods:
     ) -> Gear:
         """Add an element of type ``gear`` and return it.
 
-        Gear pair: two wheels whose pitch circles roll on each other, Φ = r_i (angle_i - θ) + σ r_j
-        (angle_j - θ) - offset, nearest 0 modulo 2π (r_i + σ r_j), with θ the direction from centre
-        i to centre j and σ = 1, for internal teeth -1. The joints of the mechanism hold the centres
-        r_i + r_j apart, for internal teeth |r_i - r_j|. λ is the tangential force of the teeth; on
-        wheel j act -σ λ r_j about its centre and a force of magnitude |λ| normal to the line of
-        centres.
+        Gear pair: the pitch circles of two wheels roll on each other. Φ = r_i (angle_i - θ) + σ r_j
+        (angle_j - θ) - offset, reduced modulo 2π (r_i + σ r_j) to the value nearest 0. θ is the
+        direction from centre i to centre j. σ is 1 for external and -1 for internal teeth. The
+        joints of the mechanism hold the centres at the distance r_i + r_j, or |r_i - r_j| for
+        internal teeth. λ is the tangential force of the teeth. Wheel j carries the torque -σ λ r_j
+        about its centre and a force of magnitude |λ| normal to the line of centres.
 
         Args:
             name: its name in the model.
@@ -972,9 +985,9 @@ class ElementMethods:
             j: Centre of wheel j, as `body.point`.
             radii: Radii of the pitch circles [m].
             teeth: Numbers of teeth, in place of radii.
-            module: Module, with teeth: each radius is module × teeth / 2 [m].
+            module: Module, if `teeth` is given: each radius is module × teeth / 2 [m].
             internal: Whether one wheel is inside the other.
-            offset: Φ of the wheels without it [m].
+            offset: Constant that is subtracted in Φ [m].
             pressure_angle: Pressure angle of the teeth: the force |λ| tan(pressure_angle) along the
                 line of centres pushes them apart [rad].
         """
@@ -1004,11 +1017,12 @@ class ElementMethods:
     ) -> Belt:
         """Add an element of type ``belt`` and return it.
 
-        Belt: two wheels joined by a belt or chain without slip, Φ = r_i (angle_i - θ) + σ r_j
-        (angle_j - θ) - offset, nearest 0 modulo 2π (r_i + σ r_j), with θ the direction from centre
-        i to centre j and σ = -1, for a crossed belt 1. The joints of the mechanism hold the
-        distance of the centres. λ is the difference of the forces of the strands; on wheel j act -σ
-        λ r_j about its centre and a force normal to the line of centres, λ (r_i + σ r_j)/distance.
+        Belt: a belt or chain connects two wheels without slip. Φ = r_i (angle_i - θ) + σ r_j
+        (angle_j - θ) - offset, reduced modulo 2π (r_i + σ r_j) to the value nearest 0. θ is the
+        direction from centre i to centre j. σ is -1 for an open belt and 1 for a crossed belt. The
+        joints of the mechanism hold the distance of the centres. λ is the difference of the forces
+        of the two strands. Wheel j carries the torque -σ λ r_j about its centre and the force λ
+        (r_i + σ r_j)/distance normal to the line of centres.
 
         Args:
             name: its name in the model.
@@ -1016,7 +1030,7 @@ class ElementMethods:
             j: Centre of wheel j, as `body.point`.
             radii: Radii of the wheels [m].
             crossed: Whether the strands cross, so that the wheels turn in opposite senses.
-            offset: Φ of the wheels without it [m].
+            offset: Constant that is subtracted in Φ [m].
         """
         return self._add(Belt(name, i=i, j=j, radii=radii, crossed=crossed, offset=offset))
 
@@ -1032,10 +1046,11 @@ class ElementMethods:
     ) -> Rack:
         """Add an element of type ``rack`` and return it.
 
-        Rack and pinion: wheel j rolls on a line of body i, Φ = u·d + radius (angle_j - angle_i) -
-        offset with u along the line and d = point_j - point_i. The joints of the mechanism hold the
-        centre at the distance radius to the left of the line. λ is the tangential force of the
-        teeth: on body i +λ along u at the pitch point, on body j -λ.
+        Rack and pinion: wheel j rolls on a line of body i. Φ = u·d + radius (angle_j - angle_i) -
+        offset, where u is the direction of the line and d = point_j - point_i. The joints of the
+        mechanism hold the centre at the distance radius to the left of the line. λ is the
+        tangential force of the teeth. It acts at the pitch point: +λ along u on body i, and -λ on
+        body j.
 
         Args:
             name: its name in the model.
@@ -1044,7 +1059,7 @@ class ElementMethods:
             radius: Radius of the pitch circle; > 0 for a pinion on the left of the line, < 0 on its
                 right [m].
             axis: Angle of the line in the frame of body i [rad].
-            offset: Φ of the bodies without it [m].
+            offset: Constant that is subtracted in Φ [m].
         """
         return self._add(Rack(name, i=i, j=j, radius=radius, axis=axis, offset=offset))
 
@@ -1060,10 +1075,10 @@ class ElementMethods:
     ) -> Rolling:
         """Add an element of type ``rolling`` and return it.
 
-        Rolling: wheel j rolls on a line of body i without slip, Φ1 = n·d - radius, Φ2 = u·d +
-        radius (angle_j - angle_i) - offset with u along the line, n its left normal and d = point_j
-        - point_i. The force on body i at the point of contact is +λ1 along n and +λ2 along u, on
-        body j the opposite.
+        Rolling: wheel j rolls on a line of body i without slip. Φ1 = n·d - radius and Φ2 = u·d +
+        radius (angle_j - angle_i) - offset, where u is the direction of the line, n is its left
+        normal and d = point_j - point_i. The force on body i at the point of contact is +λ1 along n
+        and +λ2 along u. The opposite force acts on body j.
 
         Args:
             name: its name in the model.
@@ -1072,16 +1087,16 @@ class ElementMethods:
             radius: Radius of the wheel; > 0 for a wheel on the left of the line, < 0 on its right
                 [m].
             axis: Angle of the line in the frame of body i [rad].
-            offset: Φ2 of the bodies without it [m].
+            offset: Constant that is subtracted in Φ2 [m].
         """
         return self._add(Rolling(name, i=i, j=j, radius=radius, axis=axis, offset=offset))
 
     def point_on_curve(self, name: str, i: str, curve: str) -> PointOnCurve:
         """Add an element of type ``point_on_curve`` and return it.
 
-        Point on a curve: Φ = P_i - C(u), with the curve C(u) in the frame of its body j and the
-        parameter u of the contact as an unknown. The force on body j is +λ, on body i -λ, normal to
-        the curve.
+        Point on a curve: a point of body i stays on a curve of body j. Φ = P_i - C(u), where C(u)
+        is the curve in the frame of body j. The parameter u of the contact is an unknown. The force
+        is normal to the curve: +λ on body j, and -λ on body i.
 
         Args:
             name: its name in the model.
@@ -1101,27 +1116,28 @@ class ElementMethods:
     ) -> RollerOnCurve:
         """Add an element of type ``roller_on_curve`` and return it.
 
-        Roller on a curve: Φ = P_i - C(u) - radius ν(u), with the curve C(u) in the frame of its
-        body j and ν the unit normal to the right of growing u, which is the outside of a counter-
-        clockwise rim. The force on body j is +λ, on body i -λ, normal to the curve at the point of
-        contact; `normal` > 0 presses the roller onto the curve.
+        Roller on a curve: a circle of body i touches a curve of body j. Φ = P_i - C(u) - radius
+        ν(u), where C(u) is the curve in the frame of body j and ν is its unit normal towards
+        `side`. The right side of growing u is the outside of a counter-clockwise rim. The force is
+        normal to the curve and acts at the point of contact: +λ on body j, and -λ on body i. A
+        positive `normal` presses the roller onto the curve.
 
         Args:
             name: its name in the model.
             i: Centre of the roller on body i, as `body.point`.
             curve: Curve of body j, as `body.curve`.
             radius: Radius of the roller [m].
-            side: Side of the curve on which the roller is, seen along growing u.
+            side: Side of the curve on which the roller lies, seen in the direction of growing u.
         """
         return self._add(RollerOnCurve(name, i=i, curve=curve, radius=radius, side=side))
 
     def flat_on_curve(self, name: str, i: str, curve: str, *, axis: Number = 0.0) -> FlatOnCurve:
         """Add an element of type ``flat_on_curve`` and return it.
 
-        Flat face on a curve: the straight line of body i through P_i, at the angle `axis`, touches
-        the curve C(u) of body j. With n the normal of the line, to its left: Φ1 = n·(C(u) - P_i)
-        and Φ2 = n·C'/|C'|. The force on body j is -λ1 n, on body i +λ1 n, at the point of contact;
-        `normal` > 0 presses the face onto the curve.
+        Flat face on a curve: a straight line of body i touches the curve C(u) of body j. The line
+        passes through P_i at the angle `axis`, and n is its left normal. Φ1 = n·(C(u) - P_i) and Φ2
+        = n·C'/|C'|. The force acts at the point of contact: -λ1 n on body j, and +λ1 n on body i. A
+        positive `normal` presses the face onto the curve.
 
         Args:
             name: its name in the model.
@@ -1142,23 +1158,24 @@ class ElementMethods:
         """Add an element of type ``coupling`` and return it.
 
         Coupling: a linear relation of position quantities, Φ = Σ factor × quantity - value. The
-        effort on each quantity is -λ × factor: on body j of the quantity, the opposite on its body
+        effort -λ × factor acts on body j of each quantity, and the opposite effort acts on its body
         i.
 
         Args:
             name: its name in the model.
             terms: Factors of position quantities, such as `{ "A.angle" = 2, "S.displacement" = -1
                 }`.
-            value: The value of the sum; may use `t` and positions [m or rad].
-            unit: Unit of the sum, `m` or `rad`; that of the first quantity unless given.
+            value: Value of the sum; may use `t` and positions [m or rad].
+            unit: Unit of the sum, `m` or `rad`; the unit of the first quantity if absent.
         """
         return self._add(Coupling(name, terms=terms, value=value, unit=unit))
 
     def constraint(self, name: str, *, residual: Numbers, units: Words) -> Constraint:
         """Add an element of type ``constraint`` and return it.
 
-        Constraint by formulas: Φ = residual, one formula of positions and `t` for each equation.
-        The force and torque on a body are -Φ_qᵀ λ in its columns, about the origin of its frame.
+        Constraint by formulas: Φ = residual, with one formula of positions and `t` for each
+        equation. The force and torque on a body are the entries of -Φ_qᵀ λ for its coordinates,
+        about the origin of its frame.
 
         Args:
             name: its name in the model.
@@ -1178,15 +1195,17 @@ class ElementMethods:
         """Add an element of type ``coordinate_driver`` and return it.
 
         Coordinate driver: a position quantity is a given function of time, Φ = coordinate - value
-        (Haug 3.5.1, 3.5.2). The driving force or torque on body j of the quantity is -λ, on body i
-        +λ; the coordinates of a body are measured from ground.
+        (Haug 3.5.1, 3.5.2). The driving force or torque is -λ on body j of the quantity and +λ on
+        body i. The coordinates of a body are measured from ground.
 
         Args:
             name: its name in the model.
             coordinate: Driven quantity: `body.x`, `body.y`, `body.angle`, `body.point.x`,
                 `joint.angle`, `joint.displacement` and so on.
-            value: Its value, m or rad; may use `t` and the positions of other bodies [m or rad].
-            release: Condition on any quantities; once it became true, the driver no longer acts.
+            value: Value of the quantity, m or rad; may use `t` and the positions of other bodies [m
+                or rad].
+            release: Condition on any quantities. Once it has become true, the driver no longer
+                acts.
         """
         return self._add(
             CoordinateDriver(name, coordinate=coordinate, value=value, release=release)
@@ -1205,8 +1224,9 @@ class ElementMethods:
     ) -> TorsionSpring:
         """Add an element of type ``torsion_spring`` and return it.
 
-        Rotational spring-damper: torque on j is -(stiffness (θ - free_angle) + damping θ̇ +
-        preload) with θ = angle_j - angle_i, continuous; opposite on i (Haug 6.2.18).
+        Rotational spring-damper (Haug 6.2.18): the torque on body j is -(stiffness (θ - free_angle)
+        + damping θ̇ + preload), where θ = angle_j - angle_i is continuous. The opposite torque acts
+        on body i.
 
         Args:
             name: its name in the model.
@@ -1215,7 +1235,7 @@ class ElementMethods:
             stiffness: Torque per angle [N*m/rad].
             damping: Torque per angular velocity [N*m*s/rad].
             free_angle: Relative angle at which the spring is relaxed [rad].
-            preload: Torque of the relaxed spring, > 0 clockwise on j [N*m].
+            preload: Torque of the relaxed spring; a positive value acts clockwise on body j [N*m].
         """
         return self._add(
             TorsionSpring(
@@ -1243,12 +1263,13 @@ class ElementMethods:
     ) -> SpringDamper:
         """Add an element of type ``spring_damper`` and return it.
 
-        Translational spring-damper between two points: with l their distance, the force on j is
-        -(stiffness (l - free_length) + damping dl/dt + preload) along the line from i to j;
-        opposite on i (Haug 6.2.10). Where the points meet the line has no direction: the stiffness
-        force is zero there, and the damping force is -damping times the relative velocity. With
-        `only`, the force is 0 where the element is slack, l < free_length for tension and l >
-        free_length for compression, and it is never of the other sense.
+        Translational spring-damper between two points (Haug 6.2.10). With their distance l, the
+        force on body j along the line from i to j is -(stiffness (l - free_length) + damping dl/dt
+        + preload). The opposite force acts on body i. Where the points meet, the line has no
+        direction: the stiffness force is then zero, and the damping force is -damping times the
+        relative velocity. With `only`, the force is zero where the element is slack, at l <
+        free_length for tension and at l > free_length for compression. Elsewhere the force never
+        has the opposite sense.
 
         Args:
             name: its name in the model.
@@ -1257,7 +1278,7 @@ class ElementMethods:
             stiffness: Force per length [N/m].
             damping: Force per velocity [N*s/m].
             free_length: Distance of the points at which the spring is relaxed [m].
-            preload: Force of the relaxed spring, > 0 pulls [N].
+            preload: Force of the relaxed spring; a positive value pulls the points together [N].
             only: The only sense of the force: `tension` pulls, `compression` pushes.
         """
         return self._add(
@@ -1276,14 +1297,14 @@ class ElementMethods:
     def torque(self, name: str, j: str, *, torque: Law, i: str = "ground") -> Torque:
         """Add an element of type ``torque`` and return it.
 
-        Applied torque on body j, counter-clockwise; opposite on body i, which is ground unless
-        given.
+        Applied torque on body j, positive counter-clockwise. The opposite torque acts on body i,
+        which is ground by default.
 
         Args:
             name: its name in the model.
             j: Body j.
             torque: Torque on body j; may use `t` and the state [N*m].
-            i: Body i, which takes the opposite torque.
+            i: Body i, on which the opposite torque acts.
         """
         return self._add(Torque(name, j=j, torque=torque, i=i))
 
@@ -1298,25 +1319,25 @@ class ElementMethods:
     ) -> Force:
         """Add an element of type ``force`` and return it.
 
-        Force at a point of body j; the opposite force acts on body i, which is ground unless given,
-        at the same place. Its power is force × (velocity of the point - velocity of body i at that
-        place).
+        Force at a point of body j. The opposite force acts at the same place on body i, which is
+        ground by default. The power of the force is force × (velocity of the point - velocity of
+        body i at that place).
 
         Args:
             name: its name in the model.
             j: Point of body j, as `body.point`.
             force: Components of the force on body j; may use `t` and the state [N].
-            i: Body i, which takes the opposite force.
-            frame: Frame of the components: `global`, or that of body `i` or `j`.
+            i: Body i, on which the opposite force acts.
+            frame: Frame of the components: `global`, or the frame of body `i` or `j`.
         """
         return self._add(Force(name, j=j, force=force, i=i, frame=frame))
 
     def actuator(self, name: str, i: str, j: str, *, force: Law) -> Actuator:
         """Add an element of type ``actuator`` and return it.
 
-        Actuator: a force along the line between two points; > 0 pushes the points apart. Its power
-        is force × rate with rate that of their distance, `length`. Where the points meet, the force
-        is zero.
+        Actuator: a force along the line between two points. A positive force pushes the points
+        apart. Its power is force × rate, where rate is the derivative of their distance `length`.
+        The force is zero where the points meet.
 
         Args:
             name: its name in the model.
@@ -1337,10 +1358,11 @@ class ElementMethods:
     ) -> Bushing:
         """Add an element of type ``bushing`` and return it.
 
-        Bushing: with x, y the components of point_j - point_i in the frame of body i and angle =
-        angle_j - angle_i, the force and torque on j at point j are -stiffness × [x, y, angle] -
-        damping × [vx, vy, omega] in the frame of body i, with vx, vy, omega the derivatives in
-        time; the opposite acts on i at the same place.
+        Bushing: a spring and damper in two directions and in rotation. x and y are the components
+        of point_j - point_i in the frame of body i, and angle = angle_j - angle_i. vx, vy and omega
+        are the time derivatives of x, y and angle. The force and torque on body j at point j are
+        -stiffness × [x, y, angle] - damping × [vx, vy, omega], in the frame of body i. The opposite
+        force and torque act on body i at the same place.
 
         Args:
             name: its name in the model.
@@ -1354,9 +1376,10 @@ class ElementMethods:
     def generalized_force(self, name: str, coordinate: str, *, value: Law) -> GeneralizedForce:
         """Add an element of type ``generalized_force`` and return it.
 
-        Generalized force: an effort on a position quantity, > 0 increases it. Its power is value ×
-        rate of the quantity. It acts on both bodies of the quantity, opposite; on ground for that
-        of a single body.
+        Generalized force: an effort on a position quantity. A positive effort increases the
+        quantity. The power is value × rate of the quantity. The effort acts on both bodies of the
+        quantity in opposite directions. If the quantity has a single body, the opposite effort acts
+        on ground.
 
         Args:
             name: its name in the model.
@@ -1382,23 +1405,23 @@ class ElementMethods:
     ) -> Motor:
         """Add an element of type ``motor`` and return it.
 
-        Direct-current motor: torque = torque_constant × current on body j, opposite on body i,
-        which is ground unless given. inductance × d current/dt = voltage - resistance × current -
-        torque_constant × omega with omega = omega_j - omega_i. With an inductance, `current` is a
-        state of the motor, 0 at the start unless set. In its second form, torque = stall_torque
-        (command - omega / free_speed).
+        Direct-current motor: the torque on body j is torque_constant × current. The opposite torque
+        acts on body i, which is ground by default. The current satisfies inductance × d current/dt
+        = voltage - resistance × current - torque_constant × omega, where omega = omega_j - omega_i.
+        With an inductance, `current` is a state of the motor, which is 0 at the start unless it is
+        set. In the second form of the motor, torque = stall_torque (command - omega / free_speed).
 
         Args:
             name: its name in the model.
             j: Body j, the rotor.
             voltage: Voltage; may use `t` and the state [V].
-            resistance: Resistance of the winding, with voltage [Ohm].
-            torque_constant: Torque over current, which is also voltage over rate; with voltage
-                [N*m/A].
+            resistance: Resistance of the winding; required with `voltage` [Ohm].
+            torque_constant: Torque per current, equal to voltage per angular velocity; required
+                with `voltage` [N*m/A].
             inductance: Inductance of the winding [H].
-            stall_torque: Torque at rest, in place of voltage [N*m].
-            free_speed: Rate without torque, with stall_torque [rad/s].
-            command: Share of the full voltage, with stall_torque; may use `t` and the state.
+            stall_torque: Torque at rest, in place of `voltage` [N*m].
+            free_speed: Angular velocity without torque; required with `stall_torque` [rad/s].
+            command: Fraction of the full voltage, with `stall_torque`; may use `t` and the state.
             i: Body i, the stator.
         """
         return self._add(
@@ -1433,10 +1456,11 @@ class ElementMethods:
         """Add an element of type ``friction`` and return it.
 
         Friction in a joint: the force on body j along the slide, or around the pin, is -(load μ s +
-        viscous v), opposite on body i at the same place; × radius as a torque. v is the rate of the
-        slide, or radius × omega of the pin. μ = kinetic + (static - kinetic) exp(-(v/stribeck)²),
-        and without stribeck kinetic. s = tanh(v/velocity), and without velocity the sign of v. load
-        is the magnitude of the reaction of the joint.
+        viscous v). For a pin, this force times the radius is a torque. The opposite force or torque
+        acts on body i at the same place. v is the rate of the slide, or radius × omega of the pin.
+        Without `stribeck`, μ = kinetic; with it, μ = kinetic + (static - kinetic)
+        exp(-(v/stribeck)²). With `velocity`, s = tanh(v/velocity); without it, s is the sign of v.
+        By default, load is the magnitude of the reaction of the joint.
 
         Args:
             name: its name in the model.
@@ -1448,11 +1472,11 @@ class ElementMethods:
                 and 2 |T| / guide [m].
             stribeck: Speed of the Stribeck curve, at which most of the difference between static
                 and kinetic is gone [m/s].
-            viscous: Force per speed, without load [N*s/m].
-            velocity: Speed at which the friction is 76 % of its full value; without it the joint
+            viscous: Viscous force per speed, independent of the load [N*s/m].
+            velocity: Speed at which the friction is 76 % of its full value. Without it, the joint
                 may stick [m/s].
-            load: Load in place of the reaction, such as that of a brake; may use `t` and the state;
-                below 0 it counts as 0 [N].
+            load: Load that replaces the reaction, as in a brake; may use `t` and the state.
+                Negative loads count as 0 [N].
         """
         return self._add(
             Friction(
@@ -1484,27 +1508,27 @@ class ElementMethods:
     ) -> Stop:
         """Add an element of type ``stop`` and return it.
 
-        Stop: pushes a position quantity back where it exceeds a limit, by N = max(0, stiffness ×
-        depth^exponent × (1 + damping × d depth/dt)); or, with `restitution`, the quantity leaves
-        the limit with -restitution times the rate of its arrival, or rests there. The effort acts
-        on both bodies of the quantity, opposite; on ground for the quantity of a single body. Give
-        one limit or both, and either `stiffness` or `restitution`.
+        Stop: a position quantity has a lower limit, an upper limit or both. Beyond a limit, the
+        effort N = max(0, stiffness × depth^exponent × (1 + damping × d depth/dt)) pushes the
+        quantity back. With `restitution`, the quantity instead leaves the limit with -restitution
+        times the rate of its arrival, or rests at the limit. The effort acts on both bodies of the
+        quantity in opposite directions. If the quantity has a single body, the opposite effort acts
+        on ground. Give one limit or both, and either `stiffness` or `restitution`.
 
         Args:
             name: its name in the model.
             coordinate: The quantity, such as `crank.angle`, `crank.B.x` or `slide.displacement`.
-            lower: Its least value [m or rad].
-            upper: Its largest value [m or rad].
-            stiffness: Force or torque over depth^exponent, SI: N/m or N*m/rad for an exponent of 1,
-                else the force or torque at a depth of 1 m or 1 rad, as a number without a unit
-                [any].
+            lower: Lower limit of the quantity [m or rad].
+            upper: Upper limit of the quantity [m or rad].
+            stiffness: Force or torque at a depth of 1 m or 1 rad, as a number without a unit; N/m
+                or N*m/rad for an exponent of 1 [any].
             exponent: Exponent of the depth.
             damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth [s/m
                 or s/rad].
-            restitution: Rate after an impact over the rate before it, from 0 to 1, in place of
-                stiffness.
-            rest_speed: With restitution: the rate below which it rests, instead of leaving again
-                [m/s or rad/s].
+            restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
+                `stiffness`.
+            rest_speed: With `restitution`: rate below which the quantity rests at the limit [m/s or
+                rad/s].
         """
         return self._add(
             Stop(
@@ -1538,30 +1562,30 @@ class ElementMethods:
     ) -> Contact:
         """Add an element of type ``contact`` and return it.
 
-        Contact of a point or circle of body i with a curve of its body j. gap = distance from the
-        curve, > 0 on its side, - radius. With the depth -gap > 0, the force stiffness ×
-        depth^exponent × (1 + damping × d depth/dt), if > 0, pushes the bodies apart along the
-        normal at the nearest point of the curve, and friction × that force × tanh(v/velocity) acts
-        there against the tangential velocity v. With `restitution`, the bodies leave each other
-        with -restitution times the rate of their approach, or rest on each other, without friction.
+        Contact of a point or circle of body i with a curve of body j. The gap is the distance of
+        the point from the curve, positive on its `side`, minus `radius`. The depth is -gap. At a
+        positive depth, the force stiffness × depth^exponent × (1 + damping × d depth/dt), if
+        positive, pushes the bodies apart. It acts at the nearest point of the curve along the
+        normal. The friction force at this point is friction × normal force × tanh(v/velocity),
+        opposite to the tangential velocity v. With `restitution`, there is no friction: the bodies
+        separate with -restitution times the rate of their approach, or rest on each other.
 
         Args:
             name: its name in the model.
             i: Point of body i, as `body.point`.
             curve: Curve of body j, as `body.curve`.
-            radius: Radius of the circle around the point, 0 for the point itself [m].
-            side: Side of the curve on which the point is, seen along growing u.
-            stiffness: Force over depth^exponent, SI: the force at a depth of 1 m, as a number
-                without a unit; N/m for an exponent of 1 [any].
+            radius: Radius of the circle around the point; 0 for the point itself [m].
+            side: Side of the curve on which the point lies, seen in the direction of growing u.
+            stiffness: Force in N at a depth of 1 m, as a number without a unit; in N/m for an
+                exponent of 1 [any].
             exponent: Exponent of the depth; 1.5 for a sphere on a plane (Hertz).
             damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth
                 [s/m].
-            friction: Coefficient of friction, with velocity.
-            velocity: Tangential velocity at which friction has 76 % of its full value [m/s].
-            restitution: Rate after an impact over the rate before it, from 0 to 1, in place of
-                stiffness.
-            rest_speed: With restitution: the rate below which it rests, instead of leaving again
-                [m/s].
+            friction: Coefficient of friction; a value above 0 requires `velocity`.
+            velocity: Tangential velocity at which the friction has 76 % of its full value [m/s].
+            restitution: Rate after an impact over the rate before it, from 0 to 1; in place of
+                `stiffness`.
+            rest_speed: With `restitution`: rate below which the bodies rest on each other [m/s].
         """
         return self._add(
             Contact(

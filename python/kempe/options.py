@@ -16,16 +16,17 @@ from kempe.values import Number, Pair, Terms, Tolerance, Words
 class Auto(Option):
     """Method of integration ``auto``.
 
-    DOP853, and Radau where the model is stiff. At the start the fastest damped motion of the
-    linearised equations is compared with the pace of the other motions: if it is far faster and
-    has decayed, Radau begins, otherwise DOP853. If a damped motion holds the steps of DOP853 at
-    the limit of stability, Radau takes over; if this does not lengthen the steps, DOP853
-    returns. The statistics contain the last method and the reason.
+    Automatic choice of the method: DOP853, or Radau where the model is stiff. At the start, the
+    fastest damped motion of the linearised equations is compared with the pace of the other
+    motions. If this motion is far faster and has decayed, Radau begins; otherwise DOP853
+    begins. If a damped motion keeps the steps of DOP853 at the limit of stability, Radau
+    replaces it. If this does not lengthen the steps, DOP853 returns. The statistics contain the
+    last method and the reason.
 
     Attributes:
         rtol: Relative tolerance of one step.
-        atol: Absolute tolerance of one step, a number or a table as for `rk45`. What is absent
-            is 1e-11, for lengths times the size of the mechanism.
+        atol: Absolute tolerance of one step, a number or a table as for `rk45`. A missing
+            tolerance is 1e-11; for lengths, it is multiplied by the size of the mechanism.
         first_step: First step; if absent, the solver chooses it [s].
         max_step: Largest step; no limit if absent [s].
     """
@@ -51,12 +52,13 @@ class RK45(Option):
 
     Attributes:
         rtol: Relative tolerance of one step.
-        atol: Absolute tolerance of one step. A number holds for every component, in its unit. A
-            table such as `{ length = 1e-9, angle = 1e-9, z = 1e-9 }` has one for lengths,
-            angles and first-order states, and for their rates per second. What is absent is
-            1e-9, for lengths times the size of the mechanism.
-        step: Constant step, independent of the tolerances; if absent, the step is controlled.
-            Not together with first_step and max_step [s].
+        atol: Absolute tolerance of one step. A number applies to every component, in its unit.
+            A table such as `{ length = 1e-9, angle = 1e-9, z = 1e-9 }` contains one tolerance
+            each for lengths, angles and first-order states, and for their rates per second. A
+            missing tolerance is 1e-9; for lengths, it is multiplied by the size of the
+            mechanism.
+        step: Constant step, independent of the tolerances; if absent, the tolerances control
+            the step. Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
         max_step: Largest step; no limit if absent [s].
     """
@@ -81,18 +83,19 @@ class DOP853(Option):
     """Method of integration ``dop853``.
 
     Explicit Runge-Kutta method of order 8(5,3) of Dormand and Prince (Hairer et al. 1993), with
-    step control: for tolerances below about 1e-6 and smooth forces. Between the steps it
-    interpolates with order 8; at the start, and where the lengths of steps differ much, with
-    order 7.
+    step control. It is suitable for tolerances below about 1e-6 and smooth forces. Between the
+    steps, the method interpolates with order 8. At the start, and where the lengths of the
+    steps differ much, it interpolates with order 7.
 
     Attributes:
         rtol: Relative tolerance of one step.
-        atol: Absolute tolerance of one step. A number holds for every component, in its unit. A
-            table such as `{ length = 1e-9, angle = 1e-9, z = 1e-9 }` has one for lengths,
-            angles and first-order states, and for their rates per second. What is absent is
-            1e-9, for lengths times the size of the mechanism.
-        step: Constant step, independent of the tolerances; if absent, the step is controlled.
-            Not together with first_step and max_step [s].
+        atol: Absolute tolerance of one step. A number applies to every component, in its unit.
+            A table such as `{ length = 1e-9, angle = 1e-9, z = 1e-9 }` contains one tolerance
+            each for lengths, angles and first-order states, and for their rates per second. A
+            missing tolerance is 1e-9; for lengths, it is multiplied by the size of the
+            mechanism.
+        step: Constant step, independent of the tolerances; if absent, the tolerances control
+            the step. Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
         max_step: Largest step; no limit if absent [s].
     """
@@ -134,21 +137,22 @@ class GeneralizedAlpha(Option):
     """Method of integration ``generalized_alpha``.
 
     Implicit generalized-alpha method of order 2 (Chung and Hulbert 1993) at index 3 (Arnold and
-    Bruels 2007): for stiff forces and moderate accuracy. The constraints are among its
-    equations, so that positions meet them at every step; projection, the default stabilization,
-    does the same for velocities. Between the steps it interpolates with a cubic polynomial.
+    Bruels 2007). It is suitable for stiff forces and moderate accuracy. The equations of the
+    method include the constraints, so that the positions satisfy them at every step.
+    Projection, the default stabilization, does the same for the velocities. Between the steps,
+    the method interpolates with a cubic polynomial.
 
     Attributes:
-        rho: Spectral radius at infinite frequency, in [0, 1): a smaller one damps high
+        rho: Spectral radius at infinite frequency, in [0, 1); a smaller value damps high
             frequencies more.
-        rtol: Relative tolerance of one step, 1e-6 if absent, 1e-4 for methods of order 2. With
-            a constant step, the tolerance of Newton's iteration, 1e-10 if absent.
-        atol: Absolute tolerance of one step, a number or a table as for `rk45`. What is absent
-            is 1e-9, for methods of order 2 1e-7, for lengths times the size of the mechanism.
-            With a constant step, the tolerance of Newton's iteration, 1e-12 if absent, for
-            lengths times the size.
-        step: Constant step, without control of the error; if absent, the step is controlled.
-            Not together with first_step and max_step [s].
+        rtol: Relative tolerance of one step. If absent, 1e-6, or 1e-4 for methods of order 2.
+            With a constant step, it is the tolerance of Newton's iteration, 1e-10 if absent.
+        atol: Absolute tolerance of one step, a number or a table as for `rk45`. A missing
+            tolerance is 1e-9, or 1e-7 for methods of order 2. With a constant step, it is the
+            tolerance of Newton's iteration, 1e-12 if absent. For lengths, these defaults are
+            multiplied by the size of the mechanism.
+        step: Constant step, without control of the error; if absent, the tolerances control the
+            step. Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
         max_step: Largest step; no limit if absent [s].
     """
@@ -178,15 +182,15 @@ class HHT(Option):
     at index 3.
 
     Attributes:
-        alpha: In [-1/3, 0): a smaller one damps high frequencies more.
-        rtol: Relative tolerance of one step, 1e-6 if absent, 1e-4 for methods of order 2. With
-            a constant step, the tolerance of Newton's iteration, 1e-10 if absent.
-        atol: Absolute tolerance of one step, a number or a table as for `rk45`. What is absent
-            is 1e-9, for methods of order 2 1e-7, for lengths times the size of the mechanism.
-            With a constant step, the tolerance of Newton's iteration, 1e-12 if absent, for
-            lengths times the size.
-        step: Constant step, without control of the error; if absent, the step is controlled.
-            Not together with first_step and max_step [s].
+        alpha: Parameter in [-1/3, 0); a smaller value damps high frequencies more.
+        rtol: Relative tolerance of one step. If absent, 1e-6, or 1e-4 for methods of order 2.
+            With a constant step, it is the tolerance of Newton's iteration, 1e-10 if absent.
+        atol: Absolute tolerance of one step, a number or a table as for `rk45`. A missing
+            tolerance is 1e-9, or 1e-7 for methods of order 2. With a constant step, it is the
+            tolerance of Newton's iteration, 1e-12 if absent. For lengths, these defaults are
+            multiplied by the size of the mechanism.
+        step: Constant step, without control of the error; if absent, the tolerances control the
+            step. Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
         max_step: Largest step; no limit if absent [s].
     """
@@ -212,20 +216,20 @@ class HHT(Option):
 class Radau(Option):
     """Method of integration ``radau``.
 
-    Implicit Radau IIA method of order 5 at index 2 (Hairer and Wanner 1996), with step control:
-    for stiff forces. Velocities meet the constraints at every stage; projection, the default
-    stabilization, does the same for positions. Between the steps it interpolates positions with
-    order 4 and velocities with order 3.
+    Implicit Radau IIA method of order 5 at index 2 (Hairer and Wanner 1996), with step control.
+    It is suitable for stiff forces. The velocities satisfy the constraints at every stage.
+    Projection, the default stabilization, does the same for the positions. Between the steps,
+    the method interpolates positions with order 4 and velocities with order 3.
 
     Attributes:
-        rtol: Relative tolerance of one step, 1e-6 if absent, 1e-4 for methods of order 2. With
-            a constant step, the tolerance of Newton's iteration, 1e-10 if absent.
-        atol: Absolute tolerance of one step, a number or a table as for `rk45`. What is absent
-            is 1e-9, for methods of order 2 1e-7, for lengths times the size of the mechanism.
-            With a constant step, the tolerance of Newton's iteration, 1e-12 if absent, for
-            lengths times the size.
-        step: Constant step, without control of the error; if absent, the step is controlled.
-            Not together with first_step and max_step [s].
+        rtol: Relative tolerance of one step. If absent, 1e-6, or 1e-4 for methods of order 2.
+            With a constant step, it is the tolerance of Newton's iteration, 1e-10 if absent.
+        atol: Absolute tolerance of one step, a number or a table as for `rk45`. A missing
+            tolerance is 1e-9, or 1e-7 for methods of order 2. With a constant step, it is the
+            tolerance of Newton's iteration, 1e-12 if absent. For lengths, these defaults are
+            multiplied by the size of the mechanism.
+        step: Constant step, without control of the error; if absent, the tolerances control the
+            step. Not together with first_step and max_step [s].
         first_step: First step; if absent, the solver chooses it [s].
         max_step: Largest step; no limit if absent [s].
     """
@@ -250,13 +254,13 @@ class Projection(Option):
     """Stabilization ``projection``.
 
     Projection of accepted and of reported states onto Phi = 0 and Phi_q v + Phi_t = 0 (Eich
-    1993): the nearest state in the metric of the mass matrix. The interpolant between the steps
-    leaves the constraints by the error of integration. The energy balance shows the change of
-    energy by projection.
+    1993). The result is the nearest state in the metric of the mass matrix. Between the steps,
+    the interpolant deviates from the constraints by the error of integration. The energy
+    balance shows the change of energy by projection.
 
     Attributes:
-        tolerance: Largest remaining residual, relative to the size of the mechanism; of angles
-            in rad.
+        tolerance: Largest remaining residual, relative to the size of the mechanism, or in rad
+            for angles.
     """
 
     tolerance: Number = 1e-12
@@ -270,16 +274,18 @@ class Projection(Option):
 class Baumgarte(Option):
     """Stabilization ``baumgarte``.
 
-    Stabilization of Baumgarte (1972; Haug 7.3.8) for explicit methods: gamma - 2 alpha (Phi_q v
-    + Phi_t) - beta^2 Phi replaces gamma.
+    Stabilization of Baumgarte (1972; Haug 7.3.8) for explicit methods: gamma is replaced by
+    gamma - 2 alpha (Phi_q v + Phi_t) - beta^2 Phi.
 
     Attributes:
-        alpha: Factor of the rate of the constraints, as 2 alpha; 10 if absent [1/s].
-        beta: Factor of the constraints, as beta^2; 200 if absent. Stability limits the step to
-            about 3/beta [1/s].
-        gains: "step" computes them from each trial step h, alpha = 7/(12 h) and beta =
-            1/(sqrt(3) h), and holds the term over the step. This neither limits the step nor
-            lowers the order of the method. Not together with alpha and beta.
+        alpha: Gain of the rate of the constraints, which is multiplied by 2 alpha; 10 if absent
+            [1/s].
+        beta: Gain of the constraints, which are multiplied by beta^2; 200 if absent. Stability
+            limits the step to about 3/beta [1/s].
+        gains: "step" computes both gains from each trial step h: alpha = 7/(12 h) and beta =
+            1/(sqrt(3) h). The stabilizing term is constant over the step. This choice neither
+            limits the step nor lowers the order of the method. Not together with alpha and
+            beta.
     """
 
     alpha: Number | None = None
@@ -308,7 +314,7 @@ class NoStabilization(Option):
 class Dynamics(Analysis):
     """Analysis of type ``dynamics``, an entry of ``[analyses]``.
 
-    Motion under forces, by integration of the equations of motion.
+    Motion under forces, computed by integration of the equations of motion.
 
     Attributes:
         t_end: Time at which the simulation ends [s].
@@ -316,24 +322,27 @@ class Dynamics(Analysis):
             reported. Not together with output [s].
         method: Method of integration.
         stabilization: Stabilization of the constraints against drift.
-        max_steps: Largest number of steps. The run fails when it needs more, or at once if so
-            many steps of the largest allowed length cannot reach t_end. If absent, 1 000 000
-            over the number of moving bodies, at least 50 000. Half as many rejected steps, if
-            over 10 000, end the run too.
+        max_steps: Largest number of steps. The run fails if it needs more steps. It fails at
+            once if this number of steps of the largest allowed length cannot reach t_end. If
+            absent, 1 000 000 divided by the number of moving bodies, but at least 50 000. With
+            explicit methods, half of this number of rejected steps, but at least 10 000, also
+            ends the run.
         dense_output: Whether the solution can be evaluated at any time.
         t_start: Time at which the simulation starts; if absent, the time of the first state
             [s].
-        singularity: At a singular position where the motion does not decide its branch: "stop"
-            with an error, or "pass".
-        output: "steps" reports the steps of the solver, as without this option.
-        after: State at which it starts: "start", or the name of an earlier analysis for the end
-            of that analysis. If absent, the end of the analysis before it.
-        events: Events by name, each with its condition: a comparison (an event where it becomes
-            true) or an expression (an event at each zero). A table has more: `{ condition =
-            "C.force - 900", direction = "rising", stop = true }`.
+        singularity: Behaviour at a singular position where the motion does not determine its
+            branch. "stop" ends the run with an error. "pass" continues, and rounding determines
+            the branch.
+        output: "steps" reports the steps of the solver, which is also the default without
+            `output_step`.
+        after: State at which the analysis starts: "start", or the name of an earlier analysis
+            to use its final state. If absent, the final state of the previous analysis.
+        events: Events by name, each with its condition. A comparison is an event where it
+            becomes true. An expression is an event at each of its zeros. A table has more
+            fields: `{ condition = "C.force - 900", direction = "rising", stop = true }`.
         stop: Condition at which the run ends.
-        release: Drivers that no longer act, here and in analyses that start from this one.
-        parameters: Other values of parameters for this analysis.
+        release: Drivers that are released in this analysis and in analyses that start from it.
+        parameters: Values of parameters that replace those of the model in this analysis.
         name: its name in the case.
     """
 
@@ -375,18 +384,19 @@ class Dynamics(Analysis):
 class Kinematics(Analysis):
     """Analysis of type ``kinematics``, an entry of ``[analyses]``.
 
-    Positions, velocities and accelerations of a mechanism whose drivers determine its motion,
-    without integration: over time, or over the value of a driver or position quantity.
+    Positions, velocities and accelerations of a mechanism whose drivers determine its motion.
+    They are computed without integration: over time, or over the value of a driver or position
+    quantity.
 
     Attributes:
         t_end: Time at which the motion ends [s].
         output_step: Time between the reported states; if absent, 1/360 of the interval [s].
-        over: A driver, or a position quantity such as `crank.angle`, whose value takes the
-            place of the time. Not together with t_end and output_step.
+        over: Driver, or position quantity such as `crank.angle`, whose value replaces the time
+            as the independent variable. Not together with t_end and output_step.
         range: First and last value of `over`, in SI units and rad.
-        n: Number of values in the range, both ends included.
-        after: State at which it starts: "start", or the name of an earlier analysis for the end
-            of that analysis. If absent, the end of the analysis before it.
+        n: Number of values in the range, including both ends.
+        after: State at which the analysis starts: "start", or the name of an earlier analysis
+            to use its final state. If absent, the final state of the previous analysis.
         name: its name in the case.
     """
 
@@ -412,18 +422,18 @@ class Kinematics(Analysis):
 class InverseDynamics(Analysis):
     """Analysis of type ``inverse_dynamics``, an entry of ``[analyses]``.
 
-    Efforts of drivers and reactions of joints for the motion that the drivers prescribe, which
-    is that of `kinematics`.
+    Efforts of drivers and reactions of joints in the motion that the drivers prescribe, as
+    computed by `kinematics`.
 
     Attributes:
         t_end: Time at which the motion ends [s].
         output_step: Time between the reported states; if absent, 1/360 of the interval [s].
-        over: A driver, or a position quantity such as `crank.angle`, whose value takes the
-            place of the time. Not together with t_end and output_step.
+        over: Driver, or position quantity such as `crank.angle`, whose value replaces the time
+            as the independent variable. Not together with t_end and output_step.
         range: First and last value of `over`, in SI units and rad.
-        n: Number of values in the range, both ends included.
-        after: State at which it starts: "start", or the name of an earlier analysis for the end
-            of that analysis. If absent, the end of the analysis before it.
+        n: Number of values in the range, including both ends.
+        after: State at which the analysis starts: "start", or the name of an earlier analysis
+            to use its final state. If absent, the final state of the previous analysis.
         name: its name in the case.
     """
 
@@ -449,17 +459,16 @@ class InverseDynamics(Analysis):
 class Equilibrium(Analysis):
     """Analysis of type ``equilibrium``, an entry of ``[analyses]``.
 
-    The position in which a mechanism comes to rest, with its stability; or all positions of
-    rest along a path over a parameter.
+    Position in which a mechanism comes to rest, with its stability; or all positions of rest
+    along a path over a parameter.
 
     Attributes:
-        hold: Position quantities that a holder keeps at their values of the start, such as
-            `crank.angle`.
-        over: A parameter of the model, over which a path of equilibria is followed.
+        hold: Position quantities that are held at their initial values, such as `crank.angle`.
+        over: Parameter of the model over which a path of equilibria is followed.
         range: First and last value of `over`, in SI units and rad.
-        nearest: Whether the equilibrium nearest to the start is wanted, stable or not.
-        after: State at which it starts: "start", or the name of an earlier analysis for the end
-            of that analysis. If absent, the end of the analysis before it.
+        nearest: Whether to find the equilibrium nearest to the start, stable or not.
+        after: State at which the analysis starts: "start", or the name of an earlier analysis
+            to use its final state. If absent, the final state of the previous analysis.
         name: its name in the case.
     """
 
@@ -487,12 +496,13 @@ class Modes(Analysis):
     matrices of named inputs and outputs.
 
     Attributes:
-        n: Number of modes, the slowest first; if absent, all.
+        n: Number of modes, the slowest first; if absent, all modes.
         inputs: Parameters of forces, or position quantities such as `crank.angle` for their
             generalized force.
         outputs: Quantities.
         after: State about which the motions are small: "start", or the name of an earlier
-            analysis for the end of that analysis. If absent, the end of the analysis before it.
+            analysis to use its final state. If absent, the final state of the previous
+            analysis.
         name: its name in the case.
     """
 
@@ -514,14 +524,13 @@ class Modes(Analysis):
 class Limits(Analysis):
     """Analysis of type ``limits``, an entry of ``[analyses]``.
 
-    How far a driver or position quantity can go both ways until a dead point or the end of a
-    curve, or whether it turns fully.
+    Limits of a driver or position quantity in both directions. A limit is a dead point or the
+    end of a curve. An angle without limits makes full turns.
 
     Attributes:
-        over: A driver, or a position quantity such as `crank.angle`. If absent, the only
-            driver.
-        after: State at which it starts: "start", or the name of an earlier analysis for the end
-            of that analysis. If absent, the end of the analysis before it.
+        over: Driver, or position quantity such as `crank.angle`. If absent, the only driver.
+        after: State at which the analysis starts: "start", or the name of an earlier analysis
+            to use its final state. If absent, the final state of the previous analysis.
         name: its name in the case.
     """
 
@@ -543,8 +552,8 @@ class Mobility(Analysis):
     bar loops.
 
     Attributes:
-        after: State that is examined: "start", or the name of an earlier analysis for the end
-            of that analysis. If absent, the end of the analysis before it.
+        after: State that is examined: "start", or the name of an earlier analysis to use its
+            final state. If absent, the final state of the previous analysis.
         name: its name in the case.
     """
 
@@ -563,11 +572,11 @@ class Configurations(Analysis):
     All positions in which the mechanism closes, for given values of its drivers and of `set`.
 
     Attributes:
-        set: Coordinates and other position quantities that hold exactly, as in `start.set`; if
-            absent, those of the start.
+        set: Values of coordinates and other position quantities that hold exactly, as in
+            `start.set`. If absent, the values of the start.
         limit: Largest number of configurations.
-        after: State whose time is used: "start", or the name of an earlier analysis for the end
-            of that analysis. If absent, the end of the analysis before it.
+        after: State whose time is used: "start", or the name of an earlier analysis to use its
+            final state. If absent, the final state of the previous analysis.
         name: its name in the case.
     """
 

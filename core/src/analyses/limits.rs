@@ -24,13 +24,13 @@ const SAME: f64 = 1e-5;
 const LOCATED: f64 = 1e-14;
 
 options! {
-    /// How far a driver or position quantity can go both ways until a dead point or the end of a curve, or whether it
-    /// turns fully.
+    /// Limits of a driver or position quantity in both directions. A limit is a dead point or the
+    /// end of a curve. An angle without limits makes full turns.
     Options, "limits", "Limits" () {
-        /// A driver, or a position quantity such as `crank.angle`. If absent, the only driver.
+        /// Driver, or position quantity such as `crank.angle`. If absent, the only driver.
         over: Option<name> = None,
-        /// State at which it starts: "start", or the name of an earlier analysis for the end of that analysis. If
-        /// absent, the end of the analysis before it.
+        /// State at which the analysis starts: "start", or the name of an earlier analysis to use
+        /// its final state. If absent, the final state of the previous analysis.
         from: Option<name> = None,
     }
 }

@@ -271,7 +271,7 @@ macro_rules! words {
 }
 
 words! {
-    /// A side of a curve, seen along it.
+    /// A side of a curve, seen in the direction of the curve.
     side: Side {
         /// To the right.
         Right = "right",
@@ -303,11 +303,11 @@ words! {
 }
 
 words! {
-    /// The only sense of a force along a line.
+    /// The only sense in which a force may act along a line.
     only: Only {
-        /// It pulls.
+        /// The force pulls.
         Tension = "tension",
-        /// It pushes.
+        /// The force pushes.
         Compression = "compression",
     }
 }

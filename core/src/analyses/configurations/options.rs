@@ -29,13 +29,13 @@ kind! {
 options! {
     /// All positions in which the mechanism closes, for given values of its drivers and of `set`.
     Options, "configurations", "Configurations" () {
-        /// Coordinates and other position quantities that hold exactly, as in `start.set`; if absent, those of the
-        /// start.
+        /// Values of coordinates and other position quantities that hold exactly, as in
+        /// `start.set`. If absent, the values of the start.
         set: coordinates = Vec::new(),
         /// Largest number of configurations.
         limit: count = LIMIT,
-        /// State whose time is used: "start", or the name of an earlier analysis for the end of that analysis. If
-        /// absent, the end of the analysis before it.
+        /// State whose time is used: "start", or the name of an earlier analysis to use its final
+        /// state. If absent, the final state of the previous analysis.
         from: Option<name> = None,
     }
 }

@@ -35,8 +35,8 @@ const ROUNDING: f64 = 1e-9;
 options! {
     /// Degrees of freedom, redundant and singular constraints, locked and loose bodies, and four-bar loops.
     Options, "mobility", "Mobility" () {
-        /// State that is examined: "start", or the name of an earlier analysis for the end of that analysis. If absent,
-        /// the end of the analysis before it.
+        /// State that is examined: "start", or the name of an earlier analysis to use its final
+        /// state. If absent, the final state of the previous analysis.
         from: Option<name> = None,
     }
 }

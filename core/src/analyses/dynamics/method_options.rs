@@ -17,11 +17,14 @@ macro_rules! explicit {
             $Name, $name, $class () {
                 /// Relative tolerance of one step.
                 rtol: not_negative = StepControl::USUAL.0,
-                /// Absolute tolerance of one step. A number holds for every component, in its unit. A table such as
-                /// `{ length = 1e-9, angle = 1e-9, z = 1e-9 }` has one for lengths, angles and first-order states, and
-                /// for their rates per second. What is absent is 1e-9, for lengths times the size of the mechanism.
+                /// Absolute tolerance of one step. A number applies to every component, in its
+                /// unit. A table such as `{ length = 1e-9, angle = 1e-9, z = 1e-9 }` contains one
+                /// tolerance each for lengths, angles and first-order states, and for their rates
+                /// per second. A missing tolerance is 1e-9; for lengths, it is multiplied by the
+                /// size of the mechanism.
                 atol: Option<absolute_tolerance> = None,
-                /// Constant step, independent of the tolerances; if absent, the step is controlled.
+                /// Constant step, independent of the tolerances; if absent, the tolerances control
+                /// the step.
                 step: Option<positive> [s] = None,
                 /// First step; if absent, the solver chooses it.
                 first_step: Option<positive> [s] = None,
@@ -42,7 +45,7 @@ macro_rules! explicit {
     };
 }
 
-/// Declares an implicit method, with an option of its own if it has one, and its parameters from that.
+/// Declares an implicit method. It may have one option of its own, which determines its parameters.
 macro_rules! implicit {
     ($(#[doc = $doc:literal])* $Name:ident, $name:literal, $class:literal, $tolerances:expr,
         { $($(#[doc = $about:literal])* $own:ident: $kind:ident = $default:expr)? },
@@ -52,14 +55,17 @@ macro_rules! implicit {
             $(#[doc = $doc])*
             $Name, $name, $class () {
                 $($(#[doc = $about])* $own: $kind = $default,)?
-                /// Relative tolerance of one step, 1e-6 if absent, 1e-4 for methods of order 2. With a constant step,
-                /// the tolerance of Newton's iteration, 1e-10 if absent.
+                /// Relative tolerance of one step. If absent, 1e-6, or 1e-4 for methods of order 2.
+                /// With a constant step, it is the tolerance of Newton's iteration, 1e-10 if
+                /// absent.
                 rtol: Option<not_negative> = None,
-                /// Absolute tolerance of one step, a number or a table as for `rk45`. What is absent is 1e-9, for
-                /// methods of order 2 1e-7, for lengths times the size of the mechanism. With a constant step, the
-                /// tolerance of Newton's iteration, 1e-12 if absent, for lengths times the size.
+                /// Absolute tolerance of one step, a number or a table as for `rk45`. A missing
+                /// tolerance is 1e-9, or 1e-7 for methods of order 2. With a constant step, it is
+                /// the tolerance of Newton's iteration, 1e-12 if absent. For lengths, these
+                /// defaults are multiplied by the size of the mechanism.
                 atol: Option<absolute_tolerance> = None,
-                /// Constant step, without control of the error; if absent, the step is controlled.
+                /// Constant step, without control of the error; if absent, the tolerances control
+                /// the step.
                 step: Option<positive> [s] = None,
                 /// First step; if absent, the solver chooses it.
                 first_step: Option<positive> [s] = None,
@@ -93,22 +99,25 @@ explicit! {
 }
 
 explicit! {
-    /// Explicit Runge-Kutta method of order 8(5,3) of Dormand and Prince (Hairer et al. 1993), with step control:
-    /// for tolerances below about 1e-6 and smooth forces. Between the steps it interpolates with order 8; at the
-    /// start, and where the lengths of steps differ much, with order 7.
+    /// Explicit Runge-Kutta method of order 8(5,3) of Dormand and Prince (Hairer et al. 1993), with
+    /// step control. It is suitable for tolerances below about 1e-6 and smooth forces. Between the
+    /// steps, the method interpolates with order 8. At the start, and where the lengths of the
+    /// steps differ much, it interpolates with order 7.
     Dop853, "dop853", "DOP853"
 }
 
 options! {
-    /// DOP853, and Radau where the model is stiff. At the start the fastest damped motion of the linearised
-    /// equations is compared with the pace of the other motions: if it is far faster and has decayed, Radau begins,
-    /// otherwise DOP853. If a damped motion holds the steps of DOP853 at the limit of stability, Radau takes over; if
-    /// this does not lengthen the steps, DOP853 returns. The statistics contain the last method and the reason.
+    /// Automatic choice of the method: DOP853, or Radau where the model is stiff. At the start, the
+    /// fastest damped motion of the linearised equations is compared with the pace of the other
+    /// motions. If this motion is far faster and has decayed, Radau begins; otherwise DOP853
+    /// begins. If a damped motion keeps the steps of DOP853 at the limit of stability, Radau
+    /// replaces it. If this does not lengthen the steps, DOP853 returns. The statistics contain the
+    /// last method and the reason.
     Auto, "auto", "Auto" () {
         /// Relative tolerance of one step.
         rtol: not_negative = StepControl::AUTO.0,
-        /// Absolute tolerance of one step, a number or a table as for `rk45`. What is absent is 1e-11, for lengths
-        /// times the size of the mechanism.
+        /// Absolute tolerance of one step, a number or a table as for `rk45`. A missing tolerance
+        /// is 1e-11; for lengths, it is multiplied by the size of the mechanism.
         atol: Option<absolute_tolerance> = None,
         /// First step; if absent, the solver chooses it.
         first_step: Option<positive> [s] = None,
@@ -139,12 +148,14 @@ impl From<Rk4> for Scheme {
 }
 
 implicit! {
-    /// Implicit generalized-alpha method of order 2 (Chung and Hulbert 1993) at index 3 (Arnold and Bruels 2007):
-    /// for stiff forces and moderate accuracy. The constraints are among its equations, so that positions meet them
-    /// at every step; projection, the default stabilization, does the same for velocities. Between the steps it
-    /// interpolates with a cubic polynomial.
+    /// Implicit generalized-alpha method of order 2 (Chung and Hulbert 1993) at index 3 (Arnold and
+    /// Bruels 2007). It is suitable for stiff forces and moderate accuracy. The equations of the
+    /// method include the constraints, so that the positions satisfy them at every step.
+    /// Projection, the default stabilization, does the same for the velocities. Between the steps,
+    /// the method interpolates with a cubic polynomial.
     GeneralizedAlpha, "generalized_alpha", "GeneralizedAlpha", StepControl::LOW_ORDER, {
-        /// Spectral radius at infinite frequency, in [0, 1): a smaller one damps high frequencies more.
+        /// Spectral radius at infinite frequency, in [0, 1); a smaller value damps high frequencies
+        /// more.
         rho: spectral_radius = 0.8
     }, |control, rho| {
         let parameters = AlphaParameters::chung_hulbert(rho);
@@ -155,7 +166,7 @@ implicit! {
 implicit! {
     /// Implicit method of order 2 of Hilber, Hughes and Taylor (1977), a case of generalized-alpha, at index 3.
     Hht, "hht", "HHT", StepControl::LOW_ORDER, {
-        /// In [-1/3, 0): a smaller one damps high frequencies more.
+        /// Parameter in [-1/3, 0); a smaller value damps high frequencies more.
         alpha: hht_alpha = -0.1
     }, |control, alpha| {
         let parameters = AlphaParameters::hht(alpha);
@@ -164,9 +175,10 @@ implicit! {
 }
 
 implicit! {
-    /// Implicit Radau IIA method of order 5 at index 2 (Hairer and Wanner 1996), with step control: for stiff
-    /// forces. Velocities meet the constraints at every stage; projection, the default stabilization, does the same
-    /// for positions. Between the steps it interpolates positions with order 4 and velocities with order 3.
+    /// Implicit Radau IIA method of order 5 at index 2 (Hairer and Wanner 1996), with step control.
+    /// It is suitable for stiff forces. The velocities satisfy the constraints at every stage.
+    /// Projection, the default stabilization, does the same for the positions. Between the steps,
+    /// the method interpolates positions with order 4 and velocities with order 3.
     Radau, "radau", "Radau", StepControl::USUAL, {}, |control| {
         Self::Radau(integrate::Radau { control })
     }

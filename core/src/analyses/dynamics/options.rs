@@ -37,7 +37,7 @@ words!(Output { "steps" => Self::Steps });
 words!(Singularity { "stop" => Self::Stop, "pass" => Self::Pass });
 
 options! {
-    /// Motion under forces, by integration of the equations of motion.
+    /// Motion under forces, computed by integration of the equations of motion.
     Options, "dynamics", "Dynamics" (
         /// Time at which the simulation ends.
         t_end: number [s]
@@ -48,29 +48,33 @@ options! {
         method: Scheme = Scheme::default(),
         /// Stabilization of the constraints against drift.
         stabilization: Stabilization = Stabilization::default(),
-        /// Largest number of steps. The run fails when it needs more, or at once if so many steps of the largest
-        /// allowed length cannot reach t_end. If absent, 1 000 000 over the number of moving bodies, at least 50 000.
-        /// Half as many rejected steps, if over 10 000, end the run too.
+        /// Largest number of steps. The run fails if it needs more steps. It fails at once if this
+        /// number of steps of the largest allowed length cannot reach t_end. If absent, 1 000 000
+        /// divided by the number of moving bodies, but at least 50 000. With explicit methods, half
+        /// of this number of rejected steps, but at least 10 000, also ends the run.
         max_steps: Option<count> = None,
         /// Whether the solution can be evaluated at any time.
         dense_output: flag = true,
         /// Time at which the simulation starts; if absent, the time of the first state.
         t_start: Option<number> [s] = None,
-        /// At a singular position where the motion does not decide its branch: "stop" with an error, or "pass".
+        /// Behaviour at a singular position where the motion does not determine its branch. "stop"
+        /// ends the run with an error. "pass" continues, and rounding determines the branch.
         singularity: Singularity = Singularity::Stop,
-        /// "steps" reports the steps of the solver, as without this option.
+        /// "steps" reports the steps of the solver, which is also the default without
+        /// `output_step`.
         output: Option<Output> = None,
-        /// State at which it starts: "start", or the name of an earlier analysis for the end of that analysis. If
-        /// absent, the end of the analysis before it.
+        /// State at which the analysis starts: "start", or the name of an earlier analysis to use
+        /// its final state. If absent, the final state of the previous analysis.
         from: Option<name> = None,
-        /// Events by name, each with its condition: a comparison (an event where it becomes true) or an expression (an
-        /// event at each zero). A table has more: `{ condition = "C.force - 900", direction = "rising", stop = true }`.
+        /// Events by name, each with its condition. A comparison is an event where it becomes true.
+        /// An expression is an event at each of its zeros. A table has more fields:
+        /// `{ condition = "C.force - 900", direction = "rising", stop = true }`.
         events: events = Vec::new(),
         /// Condition at which the run ends.
         stop: Option<condition> = None,
-        /// Drivers that no longer act, here and in analyses that start from this one.
+        /// Drivers that are released in this analysis and in analyses that start from it.
         release: drivers = Vec::new(),
-        /// Other values of parameters for this analysis.
+        /// Values of parameters that replace those of the model in this analysis.
         parameters: values = Vec::new(),
     }
     excludes { output_step: output; }

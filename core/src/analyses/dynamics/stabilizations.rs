@@ -33,15 +33,17 @@ pub enum AutomaticGains {
 words!(AutomaticGains { "step" => Self::Step });
 
 options! {
-    /// Stabilization of Baumgarte (1972; Haug 7.3.8) for explicit methods:
-    /// gamma - 2 alpha (Phi_q v + Phi_t) - beta^2 Phi replaces gamma.
+    /// Stabilization of Baumgarte (1972; Haug 7.3.8) for explicit methods: gamma is replaced by
+    /// gamma - 2 alpha (Phi_q v + Phi_t) - beta^2 Phi.
     Baumgarte, "baumgarte", "Baumgarte" () {
-        /// Factor of the rate of the constraints, as 2 alpha; 10 if absent.
+        /// Gain of the rate of the constraints, which is multiplied by 2 alpha; 10 if absent.
         alpha: Option<not_negative> [1/s] = None,
-        /// Factor of the constraints, as beta^2; 200 if absent. Stability limits the step to about 3/beta.
+        /// Gain of the constraints, which are multiplied by beta^2; 200 if absent. Stability limits
+        /// the step to about 3/beta.
         beta: Option<not_negative> [1/s] = None,
-        /// "step" computes them from each trial step h, alpha = 7/(12 h) and beta = 1/(sqrt(3) h), and holds the term
-        /// over the step. This neither limits the step nor lowers the order of the method.
+        /// "step" computes both gains from each trial step h: alpha = 7/(12 h) and beta =
+        /// 1/(sqrt(3) h). The stabilizing term is constant over the step. This choice neither
+        /// limits the step nor lowers the order of the method.
         gains: Option<AutomaticGains> = None,
     }
     excludes { gains: alpha, beta; }
@@ -60,11 +62,12 @@ impl From<Baumgarte> for Stabilization {
 }
 
 options! {
-    /// Projection of accepted and of reported states onto Phi = 0 and Phi_q v + Phi_t = 0 (Eich 1993):
-    /// the nearest state in the metric of the mass matrix. The interpolant between the steps leaves the constraints
-    /// by the error of integration. The energy balance shows the change of energy by projection.
+    /// Projection of accepted and of reported states onto Phi = 0 and Phi_q v + Phi_t = 0 (Eich
+    /// 1993). The result is the nearest state in the metric of the mass matrix. Between the steps,
+    /// the interpolant deviates from the constraints by the error of integration. The energy
+    /// balance shows the change of energy by projection.
     Projection, "projection", "Projection" () {
-        /// Largest remaining residual, relative to the size of the mechanism; of angles in rad.
+        /// Largest remaining residual, relative to the size of the mechanism, or in rad for angles.
         tolerance: positive = stabilize::Projection::default().tolerance,
     }
 }

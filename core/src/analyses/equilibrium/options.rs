@@ -19,19 +19,19 @@ kind! {
 }
 
 options! {
-    /// The position in which a mechanism comes to rest, with its stability; or all positions of rest along a path over a
-    /// parameter.
+    /// Position in which a mechanism comes to rest, with its stability; or all positions of rest
+    /// along a path over a parameter.
     Options, "equilibrium", "Equilibrium" () {
-        /// Position quantities that a holder keeps at their values of the start, such as `crank.angle`.
+        /// Position quantities that are held at their initial values, such as `crank.angle`.
         hold: positions = Vec::new(),
-        /// A parameter of the model, over which a path of equilibria is followed.
+        /// Parameter of the model over which a path of equilibria is followed.
         over: Option<name> = None,
         /// First and last value of `over`, in SI units and rad.
         range: Option<interval> = None,
-        /// Whether the equilibrium nearest to the start is wanted, stable or not.
+        /// Whether to find the equilibrium nearest to the start, stable or not.
         nearest: flag = false,
-        /// State at which it starts: "start", or the name of an earlier analysis for the end of that analysis. If
-        /// absent, the end of the analysis before it.
+        /// State at which the analysis starts: "start", or the name of an earlier analysis to use
+        /// its final state. If absent, the final state of the previous analysis.
         from: Option<name> = None,
     }
     conflict conflict;

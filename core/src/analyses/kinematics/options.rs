@@ -15,14 +15,15 @@ macro_rules! driven_motion {
                 t_end: Option<number> [s] = None,
                 /// Time between the reported states; if absent, 1/360 of the interval.
                 output_step: Option<positive> [s] = None,
-                /// A driver, or a position quantity such as `crank.angle`, whose value takes the place of the time.
+                /// Driver, or position quantity such as `crank.angle`, whose value replaces the
+                /// time as the independent variable.
                 over: Option<name> = None,
                 /// First and last value of `over`, in SI units and rad.
                 range: Option<interval> = None,
-                /// Number of values in the range, both ends included.
+                /// Number of values in the range, including both ends.
                 n: count = VALUES,
-                /// State at which it starts: "start", or the name of an earlier analysis for the end of that analysis.
-                /// If absent, the end of the analysis before it.
+                /// State at which the analysis starts: "start", or the name of an earlier analysis
+                /// to use its final state. If absent, the final state of the previous analysis.
                 from: Option<name> = None,
             }
             excludes { over: t_end, output_step; }
@@ -41,13 +42,14 @@ macro_rules! driven_motion {
 }
 
 driven_motion! {
-    /// Positions, velocities and accelerations of a mechanism whose drivers determine its motion, without integration:
-    /// over time, or over the value of a driver or position quantity.
+    /// Positions, velocities and accelerations of a mechanism whose drivers determine its motion.
+    /// They are computed without integration: over time, or over the value of a driver or position
+    /// quantity.
     Options, "kinematics", "Kinematics"
 }
 
 driven_motion! {
-    /// Efforts of drivers and reactions of joints for the motion that the drivers prescribe, which is that of
-    /// `kinematics`.
+    /// Efforts of drivers and reactions of joints in the motion that the drivers prescribe, as
+    /// computed by `kinematics`.
     InverseOptions, "inverse_dynamics", "InverseDynamics"
 }

@@ -4,7 +4,8 @@ use super::names::{output, Input};
 use crate::analyses::options::{count, kind, name, options};
 
 kind! {
-    /// Names of inputs.
+    /// Parameters of forces, or position quantities such as `crank.angle`. The input at a quantity
+    /// is its generalized force.
     inputs: Vec<String>, Quantities, |reader, key| {
         let what = "parameters and position quantities";
         reader.names(key, what, |model, name, _| Input::named(model, name).map(|_| ()))
@@ -12,7 +13,7 @@ kind! {
 }
 
 kind! {
-    /// Names of outputs.
+    /// Quantities of the mechanism, such as `crank.angle`.
     outputs: Vec<String>, Quantities, |reader, key| {
         reader.names(key, "quantities", |model, name, _| output(model, name).map(|_| ()))
     }
@@ -22,14 +23,14 @@ options! {
     /// Frequencies, damping and shapes of small motions about a state, with the state-space matrices of named inputs and
     /// outputs.
     Options, "modes", "Modes" () {
-        /// Number of modes, the slowest first; if absent, all.
+        /// Number of modes, the slowest first; if absent, all modes.
         n: Option<count> = None,
         /// Parameters of forces, or position quantities such as `crank.angle` for their generalized force.
         inputs: inputs = Vec::new(),
         /// Quantities.
         outputs: outputs = Vec::new(),
-        /// State about which the motions are small: "start", or the name of an earlier analysis for the end of that
-        /// analysis. If absent, the end of the analysis before it.
+        /// State about which the motions are small: "start", or the name of an earlier analysis to
+        /// use its final state. If absent, the final state of the previous analysis.
         from: Option<name> = None,
     }
 }

@@ -11,14 +11,14 @@ use crate::math::Real;
 
 element! {
     /// Coordinate driver: a position quantity is a given function of time, Φ = coordinate - value
-    /// (Haug 3.5.1, 3.5.2). The driving force or torque on body j of the quantity is -λ, on body i +λ; the
-    /// coordinates of a body are measured from ground.
+    /// (Haug 3.5.1, 3.5.2). The driving force or torque is -λ on body j of the quantity and +λ on
+    /// body i. The coordinates of a body are measured from ground.
     CoordinateDriver, "coordinate_driver" {
         /// Driven quantity: `body.x`, `body.y`, `body.angle`, `body.point.x`, `joint.angle`, `joint.displacement` and so on.
         coordinate: coordinate,
-        /// Its value, m or rad; may use `t` and the positions of other bodies.
+        /// Value of the quantity, m or rad; may use `t` and the positions of other bodies.
         value: law [m|rad],
-        /// Condition on any quantities; once it became true, the driver no longer acts.
+        /// Condition on any quantities. Once it has become true, the driver no longer acts.
         release: optional_condition,
     }
 }

@@ -12,8 +12,9 @@ use crate::elements::{
 use crate::math::{Local, Real};
 
 element! {
-    /// Actuator: a force along the line between two points; > 0 pushes the points apart. Its power is
-    /// force × rate with rate that of their distance, `length`. Where the points meet, the force is zero.
+    /// Actuator: a force along the line between two points. A positive force pushes the points
+    /// apart. Its power is force × rate, where rate is the derivative of their distance `length`.
+    /// The force is zero where the points meet.
     Actuator, "actuator" {
         /// Point of body i, as `body.point`.
         i: point,

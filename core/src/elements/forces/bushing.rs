@@ -12,10 +12,11 @@ use crate::elements::{
 use crate::math::{Local, Real, Wrench};
 
 element! {
-    /// Bushing: with x, y the components of point_j - point_i in the frame of body i and
-    /// angle = angle_j - angle_i, the force and torque on j at point j are
-    /// -stiffness × [x, y, angle] - damping × [vx, vy, omega] in the frame of body i, with vx, vy, omega the derivatives
-    /// in time; the opposite acts on i at the same place.
+    /// Bushing: a spring and damper in two directions and in rotation. x and y are the components
+    /// of point_j - point_i in the frame of body i, and angle = angle_j - angle_i. vx, vy and omega
+    /// are the time derivatives of x, y and angle. The force and torque on body j at point j are
+    /// -stiffness × [x, y, angle] - damping × [vx, vy, omega], in the frame of body i. The opposite
+    /// force and torque act on body i at the same place.
     Bushing, "bushing" {
         /// Point of body i, as `body.point`.
         i: point,

@@ -1,7 +1,7 @@
 //! Contact of a point or circle of body i with a curve of body j.
 //!
-//! The gap is the distance of Pᵢ from the nearest point C(u) of the curve, which is positive on the `side` of the
-//! curve, minus the radius. For a compliant contact with the depth δ = -gap, N = max(0, k δⁿ (1 + c δ̇)) (n = 1.5:
+//! The gap is the distance of Pᵢ from the nearest point C(u) of the curve, minus the radius. The distance is positive
+//! on the `side` of the curve. For a compliant contact with the depth δ = -gap, N = max(0, k δⁿ (1 + c δ̇)) (n = 1.5:
 //! Hertz; the factor with c: Hunt and Crossley). N acts at C(u), on body j along -ν and on body i along ν, where ν is
 //! the normal towards the side. The friction force on body i at C(u) is -μ N tanh(v/v₀) along growing u, with the
 //! tangential velocity v of body i relative to body j.
@@ -22,39 +22,41 @@ use crate::expression::Tape;
 use crate::math::{Local, Pose, Real, Vec2, Wrench};
 
 element! {
-    /// Contact of a point or circle of body i with a curve of its body j. gap = distance from the curve, > 0 on its side,
-    /// - radius. With the depth -gap > 0, the force stiffness × depth^exponent × (1 + damping × d depth/dt), if > 0, pushes
-    /// the bodies apart along the normal at the nearest point of the curve, and friction × that force × tanh(v/velocity)
-    /// acts there against the tangential velocity v. With `restitution`, the bodies leave each other with
-    /// -restitution times the rate of their approach, or rest on each other, without friction.
+    /// Contact of a point or circle of body i with a curve of body j. The gap is the distance of
+    /// the point from the curve, positive on its `side`, minus `radius`. The depth is -gap. At a
+    /// positive depth, the force stiffness × depth^exponent × (1 + damping × d depth/dt), if
+    /// positive, pushes the bodies apart. It acts at the nearest point of the curve along the
+    /// normal. The friction force at this point is friction × normal force × tanh(v/velocity),
+    /// opposite to the tangential velocity v. With `restitution`, there is no friction: the bodies
+    /// separate with -restitution times the rate of their approach, or rest on each other.
     Contact, "contact" {
         /// Point of body i, as `body.point`.
         i: point,
         /// Curve of body j, as `body.curve`.
         curve: rim,
-        /// Radius of the circle around the point, 0 for the point itself.
+        /// Radius of the circle around the point; 0 for the point itself.
         radius: number [m] = 0.0,
-        /// Side of the curve on which the point is, seen along growing u.
+        /// Side of the curve on which the point lies, seen in the direction of growing u.
         side: side = "right",
-        /// Force over depth^exponent, SI: the force at a depth of 1 m, as a number without a unit; N/m for an exponent of 1.
+        /// Force in N at a depth of 1 m, as a number without a unit; in N/m for an exponent of 1.
         stiffness: optional_number [any],
         /// Exponent of the depth; 1.5 for a sphere on a plane (Hertz).
         exponent: number = 1.5,
         /// Damping factor: the force is multiplied by 1 + damping × rate of the depth.
         damping: number [s/m] = 0.0,
-        /// Coefficient of friction, with velocity.
+        /// Coefficient of friction; a value above 0 requires `velocity`.
         friction: number = 0.0,
-        /// Tangential velocity at which friction has 76 % of its full value.
+        /// Tangential velocity at which the friction has 76 % of its full value.
         velocity: optional_number [m/s],
-        /// Rate after an impact over the rate before it, from 0 to 1, in place of stiffness.
+        /// Rate after an impact over the rate before it, from 0 to 1; in place of `stiffness`.
         restitution: optional_number,
-        /// With restitution: the rate below which it rests, instead of leaving again.
+        /// With `restitution`: rate below which the bodies rest on each other.
         rest_speed: number [m/s] = 1e-9,
     }
 }
 
 element! {
-    /// Equation of a contact that rests: gap = 0. The force on body j is -λ ∂gap/∂q.
+    /// Equation of a contact at rest: gap = 0. The force on body j is -λ ∂gap/∂q.
     Resting, "contact (at rest)" {
         /// Point of body i.
         i: point,

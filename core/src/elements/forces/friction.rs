@@ -21,10 +21,12 @@ use crate::expression::Tape;
 use crate::math::{Real, Wrench};
 
 element! {
-    /// Friction in a joint: the force on body j along the slide, or around the pin, is
-    /// -(load μ s + viscous v), opposite on body i at the same place; × radius as a torque. v is the rate of the slide,
-    /// or radius × omega of the pin. μ = kinetic + (static - kinetic) exp(-(v/stribeck)²), and without stribeck kinetic.
-    /// s = tanh(v/velocity), and without velocity the sign of v. load is the magnitude of the reaction of the joint.
+    /// Friction in a joint: the force on body j along the slide, or around the pin, is -(load μ s +
+    /// viscous v). For a pin, this force times the radius is a torque. The opposite force or torque
+    /// acts on body i at the same place. v is the rate of the slide, or radius × omega of the pin.
+    /// Without `stribeck`, μ = kinetic; with it, μ = kinetic + (static - kinetic)
+    /// exp(-(v/stribeck)²). With `velocity`, s = tanh(v/velocity); without it, s is the sign of v.
+    /// By default, load is the magnitude of the reaction of the joint.
     Friction, "friction" {
         /// The joint: revolute, translational or pin_in_slot.
         joint: bearing,
@@ -38,11 +40,11 @@ element! {
         guide: number [m] = 0.0,
         /// Speed of the Stribeck curve, at which most of the difference between static and kinetic is gone.
         stribeck: optional_number [m/s],
-        /// Force per speed, without load.
+        /// Viscous force per speed, independent of the load.
         viscous: number [N*s/m] = 0.0,
-        /// Speed at which the friction is 76 % of its full value; without it the joint may stick.
+        /// Speed at which the friction is 76 % of its full value. Without it, the joint may stick.
         velocity: optional_number [m/s],
-        /// Load in place of the reaction, such as that of a brake; may use `t` and the state; below 0 it counts as 0.
+        /// Load that replaces the reaction, as in a brake; may use `t` and the state. Negative loads count as 0.
         load: optional_law [N],
     }
 }

@@ -10,8 +10,10 @@ use crate::elements::{
 use crate::math::{Real, Vec2, Wrench};
 
 element! {
-    /// Generalized force: an effort on a position quantity, > 0 increases it. Its power is value × rate of the
-    /// quantity. It acts on both bodies of the quantity, opposite; on ground for that of a single body.
+    /// Generalized force: an effort on a position quantity. A positive effort increases the
+    /// quantity. The power is value × rate of the quantity. The effort acts on both bodies of the
+    /// quantity in opposite directions. If the quantity has a single body, the opposite effort acts
+    /// on ground.
     GeneralizedForce, "generalized_force" {
         /// The quantity, such as `crank.angle`, `crank.B.x` or `slide.displacement`.
         coordinate: acted,

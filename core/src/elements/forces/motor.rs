@@ -21,26 +21,28 @@ use crate::elements::{
 use crate::math::{Real, Wrench};
 
 element! {
-    /// Direct-current motor: torque = torque_constant × current on body j, opposite on body i, which is ground
-    /// unless given. inductance × d current/dt = voltage - resistance × current - torque_constant × omega with
-    /// omega = omega_j - omega_i. With an inductance, `current` is a state of the motor, 0 at the start unless set.
-    /// In its second form, torque = stall_torque (command - omega / free_speed).
+    /// Direct-current motor: the torque on body j is torque_constant × current. The opposite torque
+    /// acts on body i, which is ground by default. The current satisfies inductance × d
+    /// current/dt = voltage - resistance × current - torque_constant × omega, where omega =
+    /// omega_j - omega_i. With an inductance, `current` is a state of the motor, which is 0 at the
+    /// start unless it is set. In the second form of the motor, torque = stall_torque (command -
+    /// omega / free_speed).
     Motor, "motor" {
         /// Body j, the rotor.
         j: body,
         /// Voltage; may use `t` and the state.
         voltage: optional_law [V],
-        /// Resistance of the winding, with voltage.
+        /// Resistance of the winding; required with `voltage`.
         resistance: optional_number [Ohm],
-        /// Torque over current, which is also voltage over rate; with voltage.
+        /// Torque per current, equal to voltage per angular velocity; required with `voltage`.
         torque_constant: optional_number [N*m/A],
         /// Inductance of the winding.
         inductance: number [H] = 0.0,
-        /// Torque at rest, in place of voltage.
+        /// Torque at rest, in place of `voltage`.
         stall_torque: optional_number [N*m],
-        /// Rate without torque, with stall_torque.
+        /// Angular velocity without torque; required with `stall_torque`.
         free_speed: optional_number [rad/s],
-        /// Share of the full voltage, with stall_torque; may use `t` and the state.
+        /// Fraction of the full voltage, with `stall_torque`; may use `t` and the state.
         command: law = 1.0,
         /// Body i, the stator.
         i: body = "ground",

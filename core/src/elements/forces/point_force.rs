@@ -11,16 +11,17 @@ use crate::elements::{
 use crate::math::{Local, Real, Vec2, Wrench};
 
 element! {
-    /// Force at a point of body j; the opposite force acts on body i, which is ground unless given, at the same
-    /// place. Its power is force × (velocity of the point - velocity of body i at that place).
+    /// Force at a point of body j. The opposite force acts at the same place on body i, which is
+    /// ground by default. The power of the force is force × (velocity of the point - velocity of
+    /// body i at that place).
     PointForce, "force" {
         /// Point of body j, as `body.point`.
         j: point,
         /// Components of the force on body j; may use `t` and the state.
         force: law_pair [N],
-        /// Body i, which takes the opposite force.
+        /// Body i, on which the opposite force acts.
         i: body = "ground",
-        /// Frame of the components: `global`, or that of body `i` or `j`.
+        /// Frame of the components: `global`, or the frame of body `i` or `j`.
         frame: frame = "global",
     }
 }

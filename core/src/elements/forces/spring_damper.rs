@@ -20,11 +20,13 @@ use crate::elements::{
 use crate::math::{Local, Real, Vec2};
 
 element! {
-    /// Translational spring-damper between two points: with l their distance, the force on j is
-    /// -(stiffness (l - free_length) + damping dl/dt + preload) along the line from i to j; opposite on i (Haug
-    /// 6.2.10). Where the points meet the line has no direction: the stiffness force is zero there,
-    /// and the damping force is -damping times the relative velocity. With `only`, the force is 0 where the element is
-    /// slack, l < free_length for tension and l > free_length for compression, and it is never of the other sense.
+    /// Translational spring-damper between two points (Haug 6.2.10). With their distance l, the
+    /// force on body j along the line from i to j is -(stiffness (l - free_length) + damping
+    /// dl/dt + preload). The opposite force acts on body i. Where the points meet, the line has no
+    /// direction: the stiffness force is then zero, and the damping force is -damping times the
+    /// relative velocity. With `only`, the force is zero where the element is slack, at l <
+    /// free_length for tension and at l > free_length for compression. Elsewhere the force never
+    /// has the opposite sense.
     SpringDamper, "spring_damper" {
         /// Point of body i, as `body.point`.
         i: point,
@@ -36,7 +38,7 @@ element! {
         damping: law [N*s/m] = 0.0,
         /// Distance of the points at which the spring is relaxed.
         free_length: law [m] = 0.0,
-        /// Force of the relaxed spring, > 0 pulls.
+        /// Force of the relaxed spring; a positive value pulls the points together.
         preload: law [N] = 0.0,
         /// The only sense of the force: `tension` pulls, `compression` pushes.
         only: optional_only,

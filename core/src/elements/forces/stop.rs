@@ -8,7 +8,7 @@
 //! the limit with the rate -e ṡ after an impact of the whole mechanism, or it rests at the limit, held by one
 //! equation.
 //!
-//! The gap is the smaller of s - lower and upper - s, > 0 apart.
+//! The gap is the smaller of s - lower and upper - s. It is positive between the limits.
 
 use crate::elements::hertz::{self, Depth, Hertz, SWITCHES};
 use crate::elements::{
@@ -20,27 +20,28 @@ use crate::math::{Local, Real, Vec2, Wrench};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 element! {
-    /// Stop: pushes a position quantity back where it exceeds a limit, by N = max(0, stiffness × depth^exponent
-    /// × (1 + damping × d depth/dt)); or, with `restitution`, the quantity leaves the limit with -restitution times the
-    /// rate of its arrival, or rests there. The effort acts on both bodies of the quantity, opposite; on ground for the
-    /// quantity of a single body. Give one limit or both, and either `stiffness` or `restitution`.
+    /// Stop: a position quantity has a lower limit, an upper limit or both. Beyond a limit, the
+    /// effort N = max(0, stiffness × depth^exponent × (1 + damping × d depth/dt)) pushes the
+    /// quantity back. With `restitution`, the quantity instead leaves the limit with -restitution
+    /// times the rate of its arrival, or rests at the limit. The effort acts on both bodies of the
+    /// quantity in opposite directions. If the quantity has a single body, the opposite effort acts
+    /// on ground. Give one limit or both, and either `stiffness` or `restitution`.
     Stop, "stop" {
         /// The quantity, such as `crank.angle`, `crank.B.x` or `slide.displacement`.
         coordinate: acted,
-        /// Its least value.
+        /// Lower limit of the quantity.
         lower: optional_number [m|rad],
-        /// Its largest value.
+        /// Upper limit of the quantity.
         upper: optional_number [m|rad],
-        /// Force or torque over depth^exponent, SI: N/m or N*m/rad for an exponent of 1, else the force or torque at a
-        /// depth of 1 m or 1 rad, as a number without a unit.
+        /// Force or torque at a depth of 1 m or 1 rad, as a number without a unit; N/m or N*m/rad for an exponent of 1.
         stiffness: optional_number [any],
         /// Exponent of the depth.
         exponent: number = 1.0,
         /// Damping factor: the force is multiplied by 1 + damping × rate of the depth.
         damping: number [s/m|s/rad] = 0.0,
-        /// Rate after an impact over the rate before it, from 0 to 1, in place of stiffness.
+        /// Rate after an impact over the rate before it, from 0 to 1; in place of `stiffness`.
         restitution: optional_number,
-        /// With restitution: the rate below which it rests, instead of leaving again.
+        /// With `restitution`: rate below which the quantity rests at the limit.
         rest_speed: number [m/s|rad/s] = 1e-9,
     }
 }

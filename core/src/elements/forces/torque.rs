@@ -10,13 +10,14 @@ use crate::elements::{
 use crate::math::{Real, Wrench};
 
 element! {
-    /// Applied torque on body j, counter-clockwise; opposite on body i, which is ground unless given.
+    /// Applied torque on body j, positive counter-clockwise. The opposite torque acts on body i,
+    /// which is ground by default.
     Torque, "torque" {
         /// Body j.
         j: body,
         /// Torque on body j; may use `t` and the state.
         torque: law [N*m],
-        /// Body i, which takes the opposite torque.
+        /// Body i, on which the opposite torque acts.
         i: body = "ground",
     }
 }

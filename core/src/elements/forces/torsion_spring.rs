@@ -10,8 +10,9 @@ use crate::elements::{
 use crate::math::{Real, Wrench};
 
 element! {
-    /// Rotational spring-damper: torque on j is -(stiffness (θ - free_angle) + damping θ̇ + preload) with
-    /// θ = angle_j - angle_i, continuous; opposite on i (Haug 6.2.18).
+    /// Rotational spring-damper (Haug 6.2.18): the torque on body j is -(stiffness (θ -
+    /// free_angle) + damping θ̇ + preload), where θ = angle_j - angle_i is continuous. The opposite
+    /// torque acts on body i.
     TorsionSpring, "torsion_spring" {
         /// Body i.
         i: body,
@@ -23,7 +24,7 @@ element! {
         damping: law [N*m*s/rad] = 0.0,
         /// Relative angle at which the spring is relaxed.
         free_angle: law [rad] = 0.0,
-        /// Torque of the relaxed spring, > 0 clockwise on j.
+        /// Torque of the relaxed spring; a positive value acts clockwise on body j.
         preload: law [N*m] = 0.0,
     }
 }

@@ -14,11 +14,12 @@ use crate::elements::{
 use crate::math::Real;
 
 element! {
-    /// Belt: two wheels joined by a belt or chain without slip,
-    /// Φ = r_i (angle_i - θ) + σ r_j (angle_j - θ) - offset, nearest 0 modulo 2π (r_i + σ r_j), with θ the
-    /// direction from centre i to centre j and σ = -1, for a crossed belt 1. The joints of the mechanism hold
-    /// the distance of the centres. λ is the difference of the forces of the strands; on wheel j act
-    /// -σ λ r_j about its centre and a force normal to the line of centres, λ (r_i + σ r_j)/distance.
+    /// Belt: a belt or chain connects two wheels without slip. Φ = r_i (angle_i - θ) + σ r_j
+    /// (angle_j - θ) - offset, reduced modulo 2π (r_i + σ r_j) to the value nearest 0. θ is the
+    /// direction from centre i to centre j. σ is -1 for an open belt and 1 for a crossed belt. The
+    /// joints of the mechanism hold the distance of the centres. λ is the difference of the forces
+    /// of the two strands. Wheel j carries the torque -σ λ r_j about its centre and the force λ
+    /// (r_i + σ r_j)/distance normal to the line of centres.
     Belt, "belt" {
         /// Centre of wheel i, as `body.point`.
         i: point,
@@ -28,7 +29,7 @@ element! {
         radii: pair [m],
         /// Whether the strands cross, so that the wheels turn in opposite senses.
         crossed: flag = false,
-        /// Φ of the wheels without it.
+        /// Constant that is subtracted in Φ.
         offset: number [m] = 0.0,
     }
 }

@@ -9,14 +9,15 @@ use crate::elements::{
 use crate::math::{Local, Real};
 
 element! {
-    /// Coupling: a linear relation of position quantities, Φ = Σ factor × quantity - value. The effort on each
-    /// quantity is -λ × factor: on body j of the quantity, the opposite on its body i.
+    /// Coupling: a linear relation of position quantities, Φ = Σ factor × quantity - value. The
+    /// effort -λ × factor acts on body j of each quantity, and the opposite effort acts on its body
+    /// i.
     Coupling, "coupling" {
         /// Factors of position quantities, such as `{ "A.angle" = 2, "S.displacement" = -1 }`.
         terms: terms,
-        /// The value of the sum; may use `t` and positions.
+        /// Value of the sum; may use `t` and positions.
         value: law [m|rad] = 0.0,
-        /// Unit of the sum, `m` or `rad`; that of the first quantity unless given.
+        /// Unit of the sum, `m` or `rad`; the unit of the first quantity if absent.
         unit: optional_unit,
     }
 }

@@ -13,15 +13,15 @@ use crate::elements::{
 use crate::math::{Real, Vec2};
 
 element! {
-    /// Distance: a massless rod between two points, Φ = (d² - length²) / (2 length) with d the
-    /// distance from point i to point j (Haug 3.3.8). The force of the rod on body i is +λ along the
-    /// line from i to j, on body j -λ: λ > 0 is tension.
+    /// Distance: a massless rod connects two points, Φ = (d² - length²) / (2 length), where d is
+    /// the distance from point i to point j (Haug 3.3.8). The force of the rod along the line from
+    /// i to j is +λ on body i and -λ on body j. A positive λ is tension.
     Distance, "distance" {
         /// Point of body i, as `body.point`.
         i: point,
         /// Point of body j, as `body.point`.
         j: point,
-        /// Length of the rod; may use `t` and positions, as the length of a cylinder does.
+        /// Length of the rod; may use `t` and positions, for example for a hydraulic cylinder.
         length: law [m],
     }
 }

@@ -13,10 +13,10 @@ use crate::elements::{
 use crate::math::{Local, Pose, Real, Rotation, Vec2};
 
 element! {
-    /// Flat face on a curve: the straight line of body i through P_i, at the angle `axis`, touches the
-    /// curve C(u) of body j. With n the normal of the line, to its left: Φ1 = n·(C(u) - P_i) and
-    /// Φ2 = n·C'/|C'|. The force on body j is -λ1 n, on body i +λ1 n, at the point of contact;
-    /// `normal` > 0 presses the face onto the curve.
+    /// Flat face on a curve: a straight line of body i touches the curve C(u) of body j. The line
+    /// passes through P_i at the angle `axis`, and n is its left normal. Φ1 = n·(C(u) - P_i) and
+    /// Φ2 = n·C'/|C'|. The force acts at the point of contact: -λ1 n on body j, and +λ1 n on body
+    /// i. A positive `normal` presses the face onto the curve.
     FlatOnCurve, "flat_on_curve" {
         /// Point of the face on body i, as `body.point`.
         i: point,

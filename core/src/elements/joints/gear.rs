@@ -24,11 +24,12 @@ use crate::math::{Real, Wrench};
 use std::f64::consts::FRAC_PI_2;
 
 element! {
-    /// Gear pair: two wheels whose pitch circles roll on each other,
-    /// Φ = r_i (angle_i - θ) + σ r_j (angle_j - θ) - offset, nearest 0 modulo 2π (r_i + σ r_j), with θ the
-    /// direction from centre i to centre j and σ = 1, for internal teeth -1. The joints of the mechanism hold the
-    /// centres r_i + r_j apart, for internal teeth |r_i - r_j|. λ is the tangential force of the teeth; on
-    /// wheel j act -σ λ r_j about its centre and a force of magnitude |λ| normal to the line of centres.
+    /// Gear pair: the pitch circles of two wheels roll on each other. Φ = r_i (angle_i - θ) + σ r_j
+    /// (angle_j - θ) - offset, reduced modulo 2π (r_i + σ r_j) to the value nearest 0. θ is the
+    /// direction from centre i to centre j. σ is 1 for external and -1 for internal teeth. The
+    /// joints of the mechanism hold the centres at the distance r_i + r_j, or |r_i - r_j| for
+    /// internal teeth. λ is the tangential force of the teeth. Wheel j carries the torque -σ λ r_j
+    /// about its centre and a force of magnitude |λ| normal to the line of centres.
     Gear, "gear" {
         /// Centre of wheel i, as `body.point`.
         i: point,
@@ -38,11 +39,11 @@ element! {
         radii: optional_pair [m],
         /// Numbers of teeth, in place of radii.
         teeth: optional_pair,
-        /// Module, with teeth: each radius is module × teeth / 2.
+        /// Module, if `teeth` is given: each radius is module × teeth / 2.
         module: optional_number [m],
         /// Whether one wheel is inside the other.
         internal: flag = false,
-        /// Φ of the wheels without it.
+        /// Constant that is subtracted in Φ.
         offset: number [m] = 0.0,
         /// Pressure angle of the teeth: the force |λ| tan(pressure_angle) along the line of centres pushes them apart.
         pressure_angle: number [rad] = 0.0,

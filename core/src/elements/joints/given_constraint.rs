@@ -7,8 +7,9 @@ use crate::elements::{element, At, Attachment, BodyId, Equation, Joint};
 use crate::math::{Local, Real};
 
 element! {
-    /// Constraint by formulas: Φ = residual, one formula of positions and `t` for each equation. The force and torque
-    /// on a body are -Φ_qᵀ λ in its columns, about the origin of its frame.
+    /// Constraint by formulas: Φ = residual, with one formula of positions and `t` for each
+    /// equation. The force and torque on a body are the entries of -Φ_qᵀ λ for its coordinates,
+    /// about the origin of its frame.
     GivenConstraint, "constraint" {
         /// Formulas that must be zero; may use `t` and positions.
         residual: laws [any],

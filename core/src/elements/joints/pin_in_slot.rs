@@ -11,9 +11,9 @@ use crate::elements::{
 use crate::math::Real;
 
 element! {
-    /// Pin in a slot: point j stays on the line through point i along the slot, Φ = n·d with n the
-    /// left normal of the slot and d = point_j - point_i (Haug 3.3.13). The force of the slot is
-    /// normal to it and acts at the pin: on body i +λ along n, on body j -λ.
+    /// Pin in a slot: point j stays on the line through point i along the slot (Haug 3.3.13). Φ =
+    /// n·d, where n is the left normal of the slot and d = point_j - point_i. The force of the slot
+    /// acts at the pin, normal to the slot: +λ along n on body i, and -λ on body j.
     PinInSlot, "pin_in_slot" {
         /// Point of body i on the line of the slot, as `body.point`.
         i: point,

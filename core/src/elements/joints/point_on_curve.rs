@@ -10,8 +10,9 @@ use crate::elements::{
 use crate::math::{Local, Pose, Real};
 
 element! {
-    /// Point on a curve: Φ = P_i - C(u), with the curve C(u) in the frame of its body j and the parameter
-    /// u of the contact as an unknown. The force on body j is +λ, on body i -λ, normal to the curve.
+    /// Point on a curve: a point of body i stays on a curve of body j. Φ = P_i - C(u), where C(u)
+    /// is the curve in the frame of body j. The parameter u of the contact is an unknown. The force
+    /// is normal to the curve: +λ on body j, and -λ on body i.
     PointOnCurve, "point_on_curve" {
         /// Point of body i, as `body.point`.
         i: point,

@@ -13,10 +13,11 @@ use crate::elements::{
 use crate::math::Real;
 
 element! {
-    /// Rack and pinion: wheel j rolls on a line of body i, Φ = u·d + radius (angle_j - angle_i) - offset with u
-    /// along the line and d = point_j - point_i. The joints of the mechanism hold the centre at the distance radius
-    /// to the left of the line. λ is the tangential force of the teeth: on body i +λ along u at the pitch
-    /// point, on body j -λ.
+    /// Rack and pinion: wheel j rolls on a line of body i. Φ = u·d + radius (angle_j - angle_i) -
+    /// offset, where u is the direction of the line and d = point_j - point_i. The joints of the
+    /// mechanism hold the centre at the distance radius to the left of the line. λ is the
+    /// tangential force of the teeth. It acts at the pitch point: +λ along u on body i, and -λ on
+    /// body j.
     Rack, "rack" {
         /// Point of body i on the pitch line, as `body.point`.
         i: point,
@@ -26,7 +27,7 @@ element! {
         radius: number [m],
         /// Angle of the line in the frame of body i.
         axis: number [rad] = 0.0,
-        /// Φ of the bodies without it.
+        /// Constant that is subtracted in Φ.
         offset: number [m] = 0.0,
     }
 }

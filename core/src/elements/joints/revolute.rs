@@ -9,14 +9,14 @@ use crate::elements::{
 use crate::math::Real;
 
 element! {
-    /// Revolute joint: two points coincide, Φ = point_j - point_i (Haug 3.3.10).
-    /// The force of the joint on body i is +λ, on body j is -λ, in the global frame.
+    /// Revolute joint: point i and point j coincide, Φ = point_j - point_i (Haug 3.3.10). The force
+    /// of the joint is +λ on body i and -λ on body j, in the global frame.
     Revolute, "revolute" {
         /// Point of body i, as `body.point`.
         i: point,
         /// Point of body j, as `body.point`.
         j: point,
-        /// Angle of the joint frame's x axis in the frame of body i and of body j.
+        /// Angles of the x axis of the joint frame in the frames of body i and body j.
         axes: pair [rad] = [0.0, 0.0],
     }
 }

@@ -13,10 +13,11 @@ use crate::elements::{
 use crate::math::{Local, Pose, Real};
 
 element! {
-    /// Roller on a curve: Φ = P_i - C(u) - radius ν(u), with the curve C(u) in the frame of its body j and
-    /// ν the unit normal to the right of growing u, which is the outside of a counter-clockwise rim. The
-    /// force on body j is +λ, on body i -λ, normal to the curve at the point of contact; `normal` > 0
-    /// presses the roller onto the curve.
+    /// Roller on a curve: a circle of body i touches a curve of body j. Φ = P_i - C(u) - radius
+    /// ν(u), where C(u) is the curve in the frame of body j and ν is its unit normal towards
+    /// `side`. The right side of growing u is the outside of a counter-clockwise rim. The force is
+    /// normal to the curve and acts at the point of contact: +λ on body j, and -λ on body i. A
+    /// positive `normal` presses the roller onto the curve.
     RollerOnCurve, "roller_on_curve" {
         /// Centre of the roller on body i, as `body.point`.
         i: point,
@@ -24,7 +25,7 @@ element! {
         curve: curve,
         /// Radius of the roller.
         radius: number [m],
-        /// Side of the curve on which the roller is, seen along growing u.
+        /// Side of the curve on which the roller lies, seen in the direction of growing u.
         side: side = "right",
     }
 }

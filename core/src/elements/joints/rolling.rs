@@ -13,10 +13,10 @@ use crate::elements::{
 use crate::math::Real;
 
 element! {
-    /// Rolling: wheel j rolls on a line of body i without slip, Φ1 = n·d - radius,
-    /// Φ2 = u·d + radius (angle_j - angle_i) - offset with u along the line, n its left normal and
-    /// d = point_j - point_i. The force on body i at the point of contact is +λ1 along n and +λ2 along u, on
-    /// body j the opposite.
+    /// Rolling: wheel j rolls on a line of body i without slip. Φ1 = n·d - radius and Φ2 = u·d +
+    /// radius (angle_j - angle_i) - offset, where u is the direction of the line, n is its left
+    /// normal and d = point_j - point_i. The force on body i at the point of contact is +λ1 along n
+    /// and +λ2 along u. The opposite force acts on body j.
     Rolling, "rolling" {
         /// Point of body i on the line, as `body.point`.
         i: point,
@@ -26,7 +26,7 @@ element! {
         radius: number [m],
         /// Angle of the line in the frame of body i.
         axis: number [rad] = 0.0,
-        /// Φ2 of the bodies without it.
+        /// Constant that is subtracted in Φ2.
         offset: number [m] = 0.0,
     }
 }

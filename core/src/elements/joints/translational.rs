@@ -13,16 +13,17 @@ use crate::elements::{
 use crate::math::{Local, Pose, Real, Rotation, Vec2};
 
 element! {
-    /// Translational joint: point j stays on the line through point i along the slide, and the
-    /// bodies do not turn against each other (Haug 3.3.13, 3.3.14). Φ1 is the distance of point j
-    /// from that line, to its left; Φ2 = angle_j + axes_j - angle_i - axes_i. The force of the joint
-    /// is normal to the slide: on body i +λ1 along the normal, on body j -λ1.
+    /// Translational joint: body j slides along a line of body i and does not rotate relative to
+    /// body i (Haug 3.3.13, 3.3.14). The line passes through point i along the slide. Φ1 is the
+    /// distance of point j from the line, positive on its left. Φ2 = angle_j + axes_j - angle_i -
+    /// axes_i. The force of the joint is normal to the slide: +λ1 along the normal on body i, and
+    /// -λ1 on body j.
     Translational, "translational" {
         /// Point of body i on the slide, as `body.point`.
         i: point,
         /// Point of body j on the slide, as `body.point`.
         j: point,
-        /// Angle of the slide, the joint frame's x axis, in the frame of body i and of body j.
+        /// Angles of the slide, the x axis of the joint frame, in the frames of body i and body j.
         axes: pair [rad] = [0.0, 0.0],
     }
 }

@@ -9,15 +9,16 @@ use crate::elements::{
 use crate::math::Real;
 
 element! {
-    /// Weld: two points coincide and the bodies do not turn against each other, Φ = (point_j - point_i,
-    /// angle_j - angle_i - angle). The force of the weld on body i is +(λ1, λ2), on body j is -(λ1, λ2), in
-    /// the global frame; its torque about the points is +λ3 on body i, -λ3 on body j.
+    /// Weld: two points coincide, and the bodies do not rotate relative to each other. Φ =
+    /// (point_j - point_i, angle_j - angle_i - angle). The force of the weld is +(λ1, λ2) on body i
+    /// and -(λ1, λ2) on body j, in the global frame. Its torque about the points is +λ3 on body i
+    /// and -λ3 on body j.
     Weld, "weld" {
         /// Point of body i, as `body.point`.
         i: point,
         /// Point of body j, as `body.point`.
         j: point,
-        /// Angle of body j against body i.
+        /// Angle of body j relative to body i.
         angle: number [rad] = 0.0,
     }
 }
