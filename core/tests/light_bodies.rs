@@ -304,13 +304,18 @@ fn the_time_of_light_bodies() {
             massless / heavy
         );
     }
-    let names: Vec<String> = (0..10).map(|k| format!("b{k}.angle")).collect();
-    let hints: Vec<(&str, &str)> = names.iter().map(|name| (&name[..], "0.3")).collect();
-    let [heavy, light] = ["1", "1e-9"].map(|mass| {
-        let masses: Vec<&str> = (0..10).map(|k| if k % 2 == 0 { "1" } else { mass }).collect();
-        time(&chain(&masses), &hints)
-    });
-    println!("chain of ten: {heavy:.2} us; 1e-9 kg {:.2}", light / heavy);
+    for (name, n, every) in [("single links", 10, 2), ("dyads", 30, 3)] {
+        let names: Vec<String> = (0..n).map(|k| format!("b{k}.angle")).collect();
+        let angles = ["0.3", "-0.6", "1.1"]; // no two neighbours in a line
+        let hints = names.iter().enumerate().map(|(k, name)| (&name[..], angles[k % 3]));
+        let hints: Vec<(&str, &str)> = hints.collect();
+        let [heavy, light] = ["1", "1e-9"].map(|mass| {
+            let own = |k| if k % every == 0 { "1" } else { mass };
+            let masses: Vec<&str> = (0..n).map(own).chain(["1"]).collect();
+            time(&chain(&masses), &hints)
+        });
+        println!("chain with {name}: {heavy:.2} us; 1e-9 kg {:.2}", light / heavy);
+    }
 }
 
 /// The least time of an evaluation, us.

@@ -3,6 +3,7 @@
 //! With W = M and μ = 0 it is the matrix of the equations of motion (Haug 6.3.18). With W = I it gives the smallest
 //! step of Newton's method, and with μ > 0 a damped step.
 
+use super::downdates::Downdate;
 use super::lending::Lent;
 use super::loans::{self, Addition};
 use super::plan::Plan;
@@ -38,6 +39,8 @@ pub struct Augmented<S = f64> {
     saddle: Saddle<S>,
     /// The inertia that is lent or added to light bodies in W.
     lent: Option<Arc<Lent<S>>>,
+    /// Whether the rows of the downdates remove all additions.
+    downdated: bool,
     near_singular: NearSingular,
     /// Whether the current factors contain the ridge.
     regularised: bool,
@@ -55,7 +58,8 @@ impl<S: Real> Augmented<S> {
     pub fn on(plan: Arc<Plan>) -> Self {
         let saddle = Saddle::new(&plan.pattern);
         let near_singular = NearSingular::Ignore;
-        Self { saddle, plan, lent: None, near_singular, regularised: false, omitted: Vec::new() }
+        let (lent, omitted) = (None, Vec::new());
+        Self { saddle, plan, lent, downdated: false, near_singular, regularised: false, omitted }
     }
 
     /// The plan, which other matrices of the same model can share.
@@ -64,10 +68,14 @@ impl<S: Real> Augmented<S> {
     }
 
     /// Plan and numbers, for an evaluation that writes its rows into the matrix one by one. The state-independent
-    /// inertia must have been set. The factors then contain no ridge.
+    /// inertia must have been set. The factors then contain no ridge, and the additions are removed if there are
+    /// [rows](Self::removes_additions) for this.
     #[inline(always)]
     pub(super) fn parts_mut(&mut self) -> (&Plan, &mut Saddle<S>) {
         self.regularised = false;
+        if !self.downdated && !self.plan.downdates.is_empty() {
+            self.set_downdates(true);
+        }
         (&self.plan, &mut self.saddle)
     }
 
@@ -82,7 +90,29 @@ impl<S: Real> Augmented<S> {
         }
     }
 
-    /// Sets the part of W = M that does not depend on the state.
+    /// Whether an evaluation removes all additions.
+    #[inline(always)]
+    pub(super) fn removes_additions(&self) -> bool {
+        let additions = self.lent.as_ref().map_or(&[][..], |lent| &lent.additions);
+        additions.len() == self.plan.downdates.len()
+    }
+
+    /// Fills the rows that remove the additions, or omits these rows.
+    #[inline(never)] // rare
+    fn set_downdates(&mut self, active: bool) {
+        let Self { plan, saddle, lent, .. } = self;
+        let all = lent.as_ref().map_or(&[][..], |lent| &lent.additions);
+        let mut mu = vec![S::zero(); plan.pattern.n_rows() - plan.downdates.len()];
+        mu.extend(plan.downdates.iter().map(|Downdate { column, entry: [row, place] }| {
+            saddle.entries[*row][*place] = S::one();
+            let own = all.iter().find(|addition| addition.column == *column && active);
+            S::constant(own.map_or(OMITTED, |Addition { weight, .. }| -1.0 / weight))
+        }));
+        saddle.damping = mu;
+        self.downdated = active;
+    }
+
+    /// Sets the part of W = M that does not depend on the state. The matrix then contains the additions.
     pub(super) fn set_inertia(&mut self, compiled: &Compiled<S>) {
         let lent = compiled.lent(self.plan.condenses);
         let (bodies, own) = self.saddle.masses.split_at_mut(lent.inertias.len());
@@ -96,6 +126,9 @@ impl<S: Real> Augmented<S> {
             grounded.set(k, &mut self.saddle);
         }
         self.lent = Some(Arc::clone(lent));
+        if !self.plan.downdates.is_empty() {
+            self.set_downdates(false);
+        }
     }
 
     /// Sets a diagonal W, shape (n_q).
@@ -147,7 +180,7 @@ impl<S: Real> Augmented<S> {
 
     /// Whether redundant rows are damped, so that no row is omitted.
     pub fn damps(&self) -> bool {
-        !self.saddle.damping.is_empty() && self.omitted.is_empty()
+        !self.plan.condenses && !self.saddle.damping.is_empty() && self.omitted.is_empty()
     }
 
     /// The omitted rows.
@@ -199,27 +232,29 @@ impl<S: Real> Augmented<S> {
         !self.additions().is_empty()
     }
 
-    /// The additions to W, by which the matrix differs from that of the equations.
+    /// The additions to W, by which the matrix differs from that of the equations. None if they are removed.
     #[inline(always)]
     pub(super) fn additions(&self) -> &[Addition] {
-        self.lent.as_ref().map_or(&[], |lent| &lent.additions)
+        self.lent.as_ref().filter(|_| !self.downdated).map_or(&[], |lent| &lent.additions)
     }
 
     /// Solves in place. x has the parts (q, multipliers), shape (n_q + n_rows).
     pub fn solve(&self, x: &mut [S]) {
-        let padding = self.plan.pattern.n_unknowns() + self.plan.pattern.n_rows() - x.len();
-        if padding == 0 {
+        let (n, all) = (self.plan.pattern.n_unknowns(), self.plan.pattern.n_rows());
+        let m = all - self.plan.downdates.len();
+        if x.len() == n + all {
             return self.solve_padded(x);
         }
-        let (q, rows) = x.split_at_mut(self.plan.pattern.n_unknowns() - padding);
-        let zeros = vec![S::zero(); padding];
-        let mut padded = [&*q, &zeros, &*rows].concat();
+        let (q, rows) = x.split_at_mut(x.len() - m);
+        let mut padded = vec![S::zero(); n + all];
+        padded[..q.len()].copy_from_slice(q);
+        padded[n..n + m].copy_from_slice(rows);
         self.solve_padded(&mut padded);
         q.copy_from_slice(&padded[..q.len()]);
-        rows.copy_from_slice(&padded[q.len() + padding..]);
+        rows.copy_from_slice(&padded[n..n + m]);
     }
 
-    /// Solves in place with the unknowns that pad the last group. Applies the loans.
+    /// Solves in place with the unknowns that pad the last group and the rows of the downdates. Applies the loans.
     fn solve_padded(&self, x: &mut [S]) {
         let Plan { pattern, .. } = &*self.plan;
         let loans = self.lent.as_ref().map_or(&[][..], |lent| &lent.loans);
@@ -230,12 +265,13 @@ impl<S: Real> Augmented<S> {
         loans::give_back(loans, &self.saddle.entries, a, lam);
     }
 
-    /// Solves for a load at a single coordinate into `x`, shape (n_unknowns + n_rows).
+    /// Solves for a load at a single coordinate into `x`, shape (n_unknowns + n_rows), without rows of downdates.
     pub(super) fn put_response(&self, column: usize, load: S, x: &mut Vec<S>) {
         x.clear();
         x.resize(self.plan.pattern.n_unknowns() + self.plan.pattern.n_rows(), S::zero());
         x[column] = load;
         self.solve_padded(x);
+        x.truncate(x.len() - self.plan.downdates.len());
     }
 
     /// The pivot that has lost most digits: its constraint row, and the ratio of the pivot to the largest number from

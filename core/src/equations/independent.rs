@@ -39,7 +39,8 @@ impl<S: Real> Workspace<S> {
     /// same loads.
     pub fn least_multipliers(&mut self, model: &Model<S>) {
         let at = self.n_unknowns;
-        subtract_parts(self.dependences(model), &mut self.solution[at..]);
+        let rows = at..at + self.n_rows;
+        subtract_parts(self.dependences(model), &mut self.solution[rows]);
     }
 
     /// Replaces given multipliers of all rows, at the state of the last evaluation, by the smallest ones in the same

@@ -10,6 +10,7 @@ mod compiled;
 pub mod constraints;
 mod coupling;
 pub mod dense;
+mod downdates;
 pub mod energy;
 pub mod forces;
 pub mod formulas;

@@ -17,7 +17,6 @@ use super::plan::Plan;
 use super::powers::Powers;
 use super::reaction_slopes::by_multiplier;
 use super::roles::{self, Roles};
-use super::take_back::Doubts;
 use super::{loans, mass, reactions, reactive, refine, Compiled};
 use crate::math::Real;
 use crate::model::Model;
@@ -56,6 +55,8 @@ pub struct Workspace<S = f64> {
     /// The rows of the multipliers on which forces or loads of joints depend.
     reactive: Vec<usize>,
     pub(super) n_q: usize,
+    /// Number of rows of Φ_q. The solution contains the rows of downdates after them.
+    pub(super) n_rows: usize,
     /// Number of unknowns of the solver: n_q, and the padding of a last group with fewer than three unknowns.
     pub(super) n_unknowns: usize,
 }
@@ -87,7 +88,7 @@ impl<S: Real> Workspace<S> {
 
     /// A workspace on the plan of the model's [equations of motion](Plan::of_motion).
     pub fn on(model: &Model<S>, plan: Arc<Plan>) -> Self {
-        let (n_unknowns, m) = (plan.n_unknowns(), model.layout.n_rows);
+        let (n_unknowns, plan_rows) = (plan.n_unknowns(), plan.pattern.n_rows());
         let compiled = Arc::new(Compiled::new(model));
         let roles = Roles::new(model, &compiled, &plan);
         let reactive = reactive::rows(model);
@@ -107,26 +108,29 @@ impl<S: Real> Workspace<S> {
             depends,
             reactive,
             compiled,
-            solution: vec![S::zero(); n_unknowns + m],
+            solution: vec![S::zero(); n_unknowns + plan_rows],
             powers: Powers::zero(),
             offset: Vec::new(),
             memory: refine::Memory::default(),
             n_q: model.layout.n_q,
+            n_rows: model.layout.n_rows,
             n_unknowns,
         }
     }
 
-    /// Whether one elimination solves the equations.
+    /// Whether one elimination solves the equations at almost all states.
+    #[inline(always)]
     pub fn solves_directly(&self) -> bool {
-        !self.modified && self.matrix.additions().is_empty()
+        !self.modified && self.matrix.removes_additions()
     }
 
     /// Whether the equations of another variant of the model, over any scalar, have the same structure.
     pub fn is_like<P: Real>(&self, other: &Workspace<P>) -> bool {
         let (plan, of_other) = (self.matrix.plan(), other.matrix.plan());
-        let [own, others] =
-            [&self.compiled.lent(plan.condenses).loans, &other.compiled.lent(plan.condenses).loans];
-        own == others && (Arc::ptr_eq(plan, of_other) || plan.is_like(of_other))
+        let own = self.compiled.lent(plan.condenses);
+        let others = other.compiled.lent(plan.condenses);
+        let lent = own.loans == others.loans && own.additions == others.additions;
+        lent && (Arc::ptr_eq(plan, of_other) || plan.is_like(of_other))
     }
 
     /// Declares that no rows are damped, so that one elimination solves the equations unless forces depend on
@@ -190,9 +194,10 @@ impl<S: Real> Workspace<S> {
     /// As [`accelerate`](Self::accelerate).
     #[inline(always)]
     pub fn respond(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
-        if !self.modified {
+        if self.solves_directly() {
             match self.solve_directly(model, t, gains) {
-                Ok(()) if !self.is_exact(model) => {}
+                // the row of a downdate
+                Err(Breakdown::Row(row)) if row >= model.layout.n_rows => {}
                 Err(Breakdown::Row(_)) if self.matrix.near_singular() != NearSingular::Ignore => {}
                 outcome => return outcome,
             }
@@ -217,6 +222,7 @@ impl<S: Real> Workspace<S> {
         let at = roles::At { model, compiled, plan, inertias, motions, t, stabilized, offset };
         mass::turn_all(plan.pattern.coupled(), inertias, motions, &mut saddle.masses);
         let (x, right) = solution.split_at_mut(self.n_unknowns);
+        right[model.layout.n_rows..].fill(S::zero());
         let acting = Acting { z, lam: None, t };
         forces::generalized(model, compiled, motions, acting, x, powers);
         roles::put_others(roles, at, saddle, right);
@@ -229,22 +235,6 @@ impl<S: Real> Workspace<S> {
         let (a, lam) = solution.split_at_mut(self.n_unknowns);
         loans::give_back(loans, &saddle.entries, a, lam);
         Ok(())
-    }
-
-    /// Removes the effect of the additions to light bodies. Returns whether the solution is as exact as without
-    /// additions.
-    #[inline(always)]
-    fn is_exact(&mut self, model: &Model<S>) -> bool {
-        self.matrix.additions().is_empty() || self.take_back(model)
-    }
-
-    #[inline(never)] // as for `solve_and_refine`
-    fn take_back(&mut self, model: &Model<S>) -> bool {
-        let Self { motions, matrix, solution, memory, n_unknowns, .. } = self;
-        let doubts = memory.directions.find(model, motions, matrix);
-        let (a, lam) = solution.split_at_mut(*n_unknowns);
-        memory.directions.take_back(a, lam);
-        doubts == Doubts::default()
     }
 
     /// Solves with the whole matrix. Its factors may be those of a modified matrix. Iterates forces that depend on
@@ -299,7 +289,7 @@ impl<S: Real> Workspace<S> {
 
     /// λ, shape (n_rows).
     pub fn lam(&self) -> &[S] {
-        &self.solution[self.n_unknowns..]
+        &self.solution[self.n_unknowns..self.n_unknowns + self.n_rows]
     }
 
     /// Powers at the state of the last [`accelerate`](Self::accelerate), including those of drivers.
@@ -360,7 +350,7 @@ impl<S: Real> ForGiven<'_, S> {
         let outcome = refine::solve(model, self.motions, self.matrix, &mut x, self.memory);
         let (solution, padded) = &mut self.solution;
         solution[..n].copy_from_slice(&x[..n]);
-        solution[*padded..].copy_from_slice(&x[n..]);
+        solution[*padded..*padded + model.layout.n_rows].copy_from_slice(&x[n..]);
         outcome.map(|()| x.split_off(n))
     }
 }

@@ -1,7 +1,9 @@
 //! The structure of the augmented matrix of a model without its numbers: pattern and elimination program.
 
 use super::compiled::Compiled;
+use super::downdates::{downdates, Downdate};
 use super::inertia::Inertia;
+use super::lending::Lent;
 use crate::math::Real;
 use crate::model::{Block, Columns, Model, Slots, StateLayout};
 use crate::solve::{Group, Pattern, RowBlock};
@@ -23,6 +25,8 @@ pub struct Plan {
     pub(super) owners: Vec<Columns>,
     /// Whether grounded bodies are condensed.
     pub(super) condenses: bool,
+    /// The rows after those of the constraints, which remove inertia added to light bodies.
+    pub(super) downdates: Vec<Downdate>,
 }
 
 impl Plan {
@@ -41,7 +45,8 @@ impl Plan {
     /// coupled.
     pub(super) fn is_like(&self, other: &Self) -> bool {
         let coupled = [self, other].map(|plan| plan.pattern.coupled());
-        self.condensed == other.condensed && coupled[0] == coupled[1]
+        let same = self.condensed == other.condensed && self.downdates == other.downdates;
+        same && coupled[0] == coupled[1]
     }
 
     /// Whether redundant constraints are accepted.
@@ -57,15 +62,19 @@ impl Plan {
 
     fn with<S: Real>(model: &Model<S>, condenses: bool) -> Self {
         let compiled = Compiled::new(model);
-        let (blocks, owners) = row_blocks(&model.layout);
+        let (mut blocks, owners) = row_blocks(&model.layout);
         let first = |k: usize| owners.partition_point(|owner| *owner < k);
         let grounded = compiled.grounded.iter().filter(|_| condenses);
         let condensed: Vec<usize> = grounded.map(|grounded| grounded.constraint).collect();
         let condensed_blocks: Vec<usize> = condensed.iter().map(|k| first(*k)).collect();
-        let inertias = &compiled.lent(condenses).inertias;
-        let pattern = Pattern::new(&groups(model, inertias), &blocks, &condensed_blocks);
+        let Lent { inertias, additions, .. } = &**compiled.lent(condenses);
+        let additions = if condenses { &additions[..] } else { &[] };
+        let (rows, before) = downdates(&model.layout, &compiled.added, additions, &mut blocks);
+        let groups = groups(model, inertias);
+        let pattern = Pattern::with_downdates(&groups, &blocks, &condensed_blocks, &before);
         let pins = pattern.pin_rows().iter().map(|rows| owners[rows.block as usize]).collect();
-        Self { pattern, condensed, pins, owners: model.layout.owners.clone(), condenses }
+        let owners = model.layout.owners.clone();
+        Self { pattern, condensed, pins, owners, condenses, downdates: rows }
     }
 
     /// Number of unknowns of the solver: the coordinates, and the padding of a last group with fewer than three.

@@ -66,7 +66,7 @@ pub fn solve<S: Real>(
     b.extend_from_slice(x);
     mass::put_blocks(model, motions, masses);
     let damped = matrix.regularised() || matrix.damps();
-    let massless = directions.find(model, motions, matrix).massless;
+    let massless = directions.find(model, motions, matrix);
     let respond = |x: &mut [S]| {
         matrix.solve(x);
         let (a, lam) = x.split_at_mut(n);

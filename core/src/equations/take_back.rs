@@ -24,8 +24,6 @@ use crate::model::Model;
 const LITTLE_INERTIA: f64 = 0.5;
 /// Largest 1 - g of a motion without mass. Rounding errors leave about 1e-28.
 const MASSLESS: f64 = 1e-22;
-/// Product of all 1 / (1 - g) above which the rounding errors of x grow too much.
-const AMPLIFIED: f64 = 100.0;
 
 /// The motion with which one addition is removed.
 #[derive(Clone, Debug)]
@@ -52,27 +50,19 @@ impl<S> Default for Directions<S> {
     }
 }
 
-/// Possible faults of the directions.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub(super) struct Doubts {
-    /// Rounding errors grow when inertia is removed.
-    pub amplified: bool,
-    /// A coordinate of a motion without mass.
-    pub massless: Option<usize>,
-}
-
 impl<S: Real> Directions<S> {
-    /// Computes the directions with the factors of the matrix.
+    /// Computes the directions with the factors of the matrix. Returns the coordinate of a motion without mass, if there
+    /// is any.
     pub fn find(
         &mut self,
         model: &Model<S>,
         motions: &Motions<S>,
         matrix: &Augmented<S>,
-    ) -> Doubts {
+    ) -> Option<usize> {
         let additions = matrix.additions();
         let none = || AddedMotion { column: 0, y: Vec::new(), factor: S::zero() };
         self.all.resize_with(additions.len(), none);
-        let (mut doubts, mut growth) = (Doubts::default(), S::one());
+        let mut massless = None;
         for (k, Addition { column, weight }) in additions.iter().enumerate() {
             let (before, after) = self.all.split_at_mut(k);
             let own = &mut after[0];
@@ -97,13 +87,11 @@ impl<S: Real> Directions<S> {
                 let factor = S::select(moves, all / energy, S::zero());
                 own.factor = S::select(little, factor, own.factor);
                 if any(S::select(little, S::select(moves, S::zero(), S::one()), S::zero())) {
-                    doubts.massless = Some(*column);
+                    massless = Some(*column);
                 }
             }
-            growth = growth * own.factor.max(S::one());
         }
-        doubts.amplified = any(growth - S::constant(AMPLIFIED));
-        doubts
+        massless
     }
 
     /// Changes x = P⁻¹ b to K⁻¹ b, for coordinates and multipliers.

@@ -48,15 +48,36 @@ impl Pattern {
     /// If a row block does not have 1 to 3 rows, a group does not exist or is touched twice, the entries do not fill
     /// a list without gaps, or an index exceeds 32 bits.
     pub fn new(groups: &[Group], blocks: &[RowBlock], condensed: &[usize]) -> Self {
+        Self::with_downdates(groups, blocks, condensed, &[])
+    }
+
+    /// As [`new`](Self::new), with downdates: the last row blocks, each of one row u at one group, have a negative μ =
+    /// -1/κ. With such a row, the solution is that for the matrix W - κ uᵀ u, without the digits that its inverse would
+    /// lose. A downdate is eliminated after the row blocks that `downdates` contains for it. These rows should leave the
+    /// group no freedom without inertia.
+    ///
+    /// # Panics
+    /// As [`new`](Self::new), or if a downdate has more than one row.
+    pub fn with_downdates(
+        groups: &[Group],
+        blocks: &[RowBlock],
+        condensed: &[usize],
+        downdates: &[Vec<usize>],
+    ) -> Self {
         let (starts, n_unknowns) = group_starts(groups);
         let rows = row_starts(blocks);
         let (condensed_blocks, loads) = condensations(&starts, blocks, &rows, condensed);
         let remaining = Remaining::new(blocks, &rows, condensed);
-        let order = symbolic::order(groups.len(), &remaining.blocks);
+        let n = downdates.len();
+        assert!(
+            blocks[blocks.len() - n..].iter().all(|block| block.size == 1),
+            "downdates of one row"
+        );
+        let order = symbolic::order(groups.len(), &remaining.blocks, &remaining.after(downdates));
         let rows_below = symbolic::rows_below(groups.len(), &remaining.blocks, &order);
-        let (storage, touches) = Storage::new(&starts, &remaining.blocks, &order);
+        let (storage, touches) = Storage::new(&starts, &remaining.blocks, &order, n);
         let (program, n_factors) =
-            symbolic::program(&remaining.blocks, &remaining.rows, &order, &rows_below, &touches);
+            symbolic::program(&remaining.blocks, &remaining.rows, &order, &rows_below, &touches, n);
         let pin_only = |(own, _): &(&usize, &Row)| is_pin_only(&touches[**own]);
         let record =
             |(own, row): (&usize, &Row)| PinRows::new(&touches[*own], remaining.numbers[*own], row);
@@ -145,6 +166,16 @@ impl Remaining {
             rows: numbers().map(|k| starts[k]).collect(),
             numbers: numbers().map(index).collect(),
         }
+    }
+
+    /// The downdates, with the remaining row blocks that are eliminated before them.
+    fn after(&self, downdates: &[Vec<usize>]) -> Vec<(usize, Vec<usize>)> {
+        let first = self.blocks.len() - downdates.len();
+        let place = |block: &usize| self.numbers.binary_search(&index(*block)).ok();
+        let of_one = |(k, before): (usize, &Vec<usize>)| {
+            (first + k, before.iter().filter_map(place).collect())
+        };
+        downdates.iter().enumerate().map(of_one).collect()
     }
 }
 

@@ -61,6 +61,20 @@ impl<S: Real> PinBlock<S> {
         }
     }
 
+    /// target += U W⁻¹ aᵀ with a row a, transformed and scaled by W⁻¹.
+    #[inline(always)]
+    pub(super) fn add_product_with_row<const M: usize, const N: usize>(
+        &self,
+        row: &[S; 3],
+        sign: f64,
+        target: &mut [[S; N]; M],
+    ) {
+        for (i, target) in target.iter_mut().enumerate().take(2) {
+            let along = (self.along[i] * row[2]).plus_product(S::constant(sign), row[i]);
+            target[0] += along;
+        }
+    }
+
     /// x -= W⁻¹ Uᵀ λ, with e of the group.
     #[inline(always)]
     pub(super) fn subtract_transposed<const N: usize>(

@@ -97,6 +97,8 @@ pub(super) struct Row {
     pub size: u8,
     /// Whether it consists of pin blocks only, and all blocks left of and below its diagonal block are 2 × 2.
     pub pins: bool,
+    /// Whether it is a downdate, whose pivot is negative.
+    pub downdate: bool,
 }
 
 /// A group that a row block touches.
@@ -143,7 +145,7 @@ pub(super) struct Below {
 pub(super) struct Pair {
     /// First rows of U, or indices of pin blocks: of the block's row, then of its column.
     pub first: [u32; 2],
-    /// Product of the signs of two pin blocks; 0 for rows of U.
+    /// Product of the signs of two pin blocks, or the sign of one pin block beside a row of U; 0 for rows of U.
     pub sign: f64,
 }
 

@@ -23,6 +23,8 @@ use super::pin_block::PinBlock;
 use super::records::{next, Ahead, Left, Row, Update};
 use crate::math::Real;
 
+/// Smallest accepted pivot of a downdate, relative to its terms. Rounding errors grow by the inverse of this number.
+const LEAST_DOWNDATE: f64 = 0.01;
 /// Smallest accepted pivot. Its inverse is finite. Pivots of a matrix with NaN or inf are refused.
 const LEAST_PIVOT: f64 = 1e-300;
 
@@ -38,7 +40,7 @@ pub struct Saddle<S> {
     pub condensed: Vec<CondensedGroup<S>>,
     /// Entries of A in rows of three, in the places that the pattern assigns.
     pub entries: Vec<[S; 3]>,
-    /// μ of each row; empty if zero. Condensed rows are not damped.
+    /// μ of each row; empty if zero. Condensed rows are not damped. Negative for downdates.
     pub damping: Vec<S>,
     /// Smallest accepted ratio of a pivot to S_kk; [`PIVOT_TOLERANCE`] by default.
     pub(super) least: f64,
@@ -175,7 +177,7 @@ impl<S: Real> Saddle<S> {
     pub fn cancellation(&self, pattern: &Pattern) -> Option<(usize, f64)> {
         // searches for the largest S_kk / d, so that only one division is needed
         let mut worst = None;
-        for row in &pattern.program.rows {
+        for row in pattern.program.rows.iter().filter(|row| !row.downdate) {
             let (first, size) = (row.row as usize, usize::from(row.size));
             let (inverse, rest) = self.factors[row.diagonal as usize..].split_at(size);
             for (k, (inverse, magnitude)) in inverse.iter().zip(rest).enumerate() {
@@ -191,7 +193,7 @@ impl<S: Real> Saddle<S> {
     /// The smallest ratio d / S_kk in each lane; 1 without rows.
     pub fn cancellations(&self, pattern: &Pattern) -> S {
         let mut worst = S::one();
-        for row in &pattern.program.rows {
+        for row in pattern.program.rows.iter().filter(|row| !row.downdate) {
             let size = usize::from(row.size);
             let (inverse, rest) = self.factors[row.diagonal as usize..].split_at(size);
             for (inverse, magnitude) in inverse.iter().zip(rest) {
@@ -275,8 +277,12 @@ impl<S: Real> Saddle<S> {
         magnitude: &[S; N],
     ) -> Result<(), usize> {
         for (i, magnitude) in magnitude.iter().enumerate() {
-            let least = *magnitude * S::constant(self.least) + S::constant(LEAST_PIVOT);
-            if !above_zero(diagonal.pivot[i] - least) {
+            let (pivot, least) = match N == 1 && row.downdate {
+                true => (diagonal.pivot[i].abs(), LEAST_DOWNDATE),
+                false => (diagonal.pivot[i], self.least),
+            };
+            let least = *magnitude * S::constant(least) + S::constant(LEAST_PIVOT);
+            if !above_zero(pivot - least) {
                 return Err(row.row as usize + i);
             }
         }
@@ -301,6 +307,9 @@ impl<S: Real> Saddle<S> {
             if PINS || N == 2 && K == 2 && pair.sign != 0.0 {
                 let [own, other] = [own, other].map(|pin| &self.pins[pin as usize]);
                 other.add_product(&own.along, pair.sign, &mut block);
+            } else if N == 1 && K == 2 && pair.sign != 0.0 {
+                let (pin, row) = (&self.pins[other as usize], &self.u[own as usize]);
+                pin.add_product_with_row(&row.scaled, pair.sign, &mut block);
             } else {
                 add(&mut block, part(&self.u, other), part(&self.u, own));
             }

@@ -70,7 +70,7 @@ impl<S: Real> Saddle<S> {
         if let Some(damping) = self.damping.get(row as usize..row as usize + N) {
             for (i, mu) in damping.iter().enumerate() {
                 block.s[i][i] += *mu;
-                block.magnitude[i] += *mu;
+                block.magnitude[i] += mu.abs();
             }
         }
         block.store(&mut self.factors, diagonal);

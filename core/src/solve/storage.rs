@@ -1,8 +1,8 @@
 //! The storage map: where the rows U of a [`Pattern`](super::Pattern) are stored, and the entries from which they
 //! come.
 //!
-//! At groups where all row blocks are pairs [±I b], each pair is a pin block. At other groups, rows are stored one by
-//! one. Both are stored in the order of elimination.
+//! At groups where all row blocks but downdates are pairs [±I b], each pair is a pin block. Downdates, and the rows at
+//! other groups, are stored one by one. Both are stored in the order of elimination.
 
 use super::records::{PinEnd, Touch};
 use super::structure::{index, RowBlock};
@@ -27,10 +27,16 @@ pub(super) struct Source {
 
 impl Storage {
     /// The storage of the `blocks` to be eliminated, and the groups that each of them touches. `starts` contains the
-    /// first unknown of each group.
-    pub fn new(starts: &[usize], blocks: &[RowBlock], order: &[usize]) -> (Self, Vec<Vec<Touch>>) {
+    /// first unknown of each group. The last `n_downdates` blocks are downdates.
+    pub fn new(
+        starts: &[usize],
+        blocks: &[RowBlock],
+        order: &[usize],
+        n_downdates: usize,
+    ) -> (Self, Vec<Vec<Touch>>) {
         let mut with_pins = vec![true; starts.len()];
-        for block in blocks.iter().filter(|block| block.signs.is_empty()) {
+        let rows = &blocks[..blocks.len() - n_downdates];
+        for block in rows.iter().filter(|block| block.signs.is_empty()) {
             block.touches.iter().for_each(|&(group, _)| with_pins[group] = false);
         }
         let mut storage = Self::default();
@@ -48,9 +54,8 @@ impl Storage {
     /// Assigns the storage of one row block.
     fn push(&mut self, block: &RowBlock, starts: &[usize], with_pins: &[bool]) -> Vec<Touch> {
         let touch = |(k, &(group, first)): (usize, &(usize, usize))| {
-            let (entry, sign) =
-                (index(first / 3), if with_pins[group] { block.signs[k] } else { 0.0 });
-            let stored = if with_pins[group] {
+            let (entry, sign) = (index(first / 3), block.signs.get(k).filter(|_| with_pins[group]));
+            let stored = if sign.is_some() {
                 self.n_pins += 1;
                 self.n_pins - 1
             } else {
@@ -59,7 +64,13 @@ impl Storage {
                 self.rows.len() - block.size
             };
             let (first, at) = (index(stored), index(starts[group]));
-            Touch { first, entry, group: index(group), at, sign: sign as f32 }
+            Touch {
+                first,
+                entry,
+                group: index(group),
+                at,
+                sign: sign.map_or(0.0, |sign| *sign as f32),
+            }
         };
         block.touches.iter().enumerate().map(touch).collect()
     }

@@ -1,18 +1,20 @@
 //! Symbolic factorisation: elimination order, fill, and the elimination program.
 
 use super::block::numbers;
-use super::order::groups_first;
+use super::order::groups_first_after;
 use super::records::{Below, Left, Pair, Program, Row, Start, Touch, Update};
 use super::storage::is_pin_only;
 use super::structure::{index, row_starts, RowBlock};
 
-/// The program with all products, row by row, and the number of values in the blocks of L.
+/// The program with all products, row by row, and the number of values in the blocks of L. The last `n_downdates` row
+/// blocks are downdates.
 pub(super) fn program(
     blocks: &[RowBlock],
     first_rows: &[usize],
     order: &[usize],
     rows_below: &[Vec<usize>],
     touches: &[Vec<Touch>],
+    n_downdates: usize,
 ) -> (Program, usize) {
     let (of_rows, n_factors) = Factors::new(blocks, order, rows_below);
     let updates = of_rows.updates(blocks, order, rows_below);
@@ -45,6 +47,7 @@ pub(super) fn program(
             left: index(left.len()),
             below: index(below.len()),
             size: blocks[own].size as u8,
+            downdate: own >= blocks.len() - n_downdates,
             pins: is_pin_only(&touches[own]) && pairs.into_iter().all(|size| size == 2),
         });
     }
@@ -65,11 +68,12 @@ impl Program {
     }
 }
 
-/// Two row blocks, once for each group that they share.
+/// Two row blocks, once for each group that they share. A downdate is paired with pin blocks as well.
 fn pairs<'a>(one: &'a [Touch], other: &'a [Touch]) -> impl Iterator<Item = Pair> + 'a {
     one.iter().filter_map(|own| {
         let partner = other.iter().find(|t| t.group == own.group)?;
-        let sign = f64::from(own.sign) * f64::from(partner.sign);
+        let [sign, of_partner] = [own, partner].map(|touch| f64::from(touch.sign));
+        let sign = if sign == 0.0 { of_partner } else { sign * of_partner };
         Some(Pair { first: [own.first, partner.first], sign })
     })
 }
@@ -137,8 +141,13 @@ impl Factors {
     }
 }
 
-/// The order in which row blocks are eliminated, after all groups.
-pub(super) fn order(groups: usize, blocks: &[RowBlock]) -> Vec<usize> {
+/// The order in which row blocks are eliminated, after all groups. Each item of `after` contains a row block and those
+/// that are eliminated before it.
+pub(super) fn order(
+    groups: usize,
+    blocks: &[RowBlock],
+    after: &[(usize, Vec<usize>)],
+) -> Vec<usize> {
     let (n_first, starts) = (3 * groups, row_starts(blocks));
     let first: Vec<usize> = (0..n_first)
         .step_by(3)
@@ -150,7 +159,11 @@ pub(super) fn order(groups: usize, blocks: &[RowBlock]) -> Vec<usize> {
         .flat_map(|(b, s)| b.touches.iter().map(move |&(group, _)| (n_first + s, 3 * group)))
         .collect();
     let n = n_first + starts[blocks.len()];
-    let order = groups_first(n_first, n, &entries, Some(&first));
+    let of_block = |(block, others): &(usize, Vec<usize>)| {
+        (groups + block, others.iter().map(|other| groups + other).collect())
+    };
+    let after: Vec<(usize, Vec<usize>)> = after.iter().map(of_block).collect();
+    let order = groups_first_after(n_first, n, &entries, Some(&first), &after);
     let starting = |i: &usize| i.checked_sub(n_first).and_then(|i| starts.binary_search(&i).ok());
     order.iter().filter_map(starting).collect()
 }
