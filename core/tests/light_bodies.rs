@@ -281,6 +281,32 @@ const MECHANISMS: [(&str, Hints); 8] = [
     (SIX_BAR, &[("crank.angle", "1"), ("rocker.angle", "2"), ("output.angle", "1.5")]),
 ];
 
+/// A crank that drives light couplers and rockers.
+fn dyads(n: usize, mass: &str) -> String {
+    let mut pivots = String::from("A = [0, 0]");
+    let mut bodies =
+        String::from("[bodies.crank]\ntype = 'bar'\nmass = 1\nlength = 1\nends = ['A', 'B']\n");
+    let mut joints =
+        String::from("[joints]\nA = { type = 'revolute', i = 'ground.A', j = 'crank.A' }\n");
+    for k in 0..n {
+        pivots += &format!(", D{k} = [{}, {}]", 4.0 + 0.05 * k as f64, 0.02 * k as f64);
+        for (name, length, ends) in [("coupler", 3.5, "['B', 'C']"), ("rocker", 2.5, "['D', 'C']")]
+        {
+            bodies += &format!(
+                "[bodies.{name}{k}]\ntype = 'bar'\nmass = {mass}\nlength = {length}\nends = {ends}\n"
+            );
+        }
+        for (name, i, j) in [
+            ("B", "crank.B".to_string(), format!("coupler{k}.B")),
+            ("C", format!("coupler{k}.C"), format!("rocker{k}.C")),
+            ("D", format!("ground.D{k}"), format!("rocker{k}.D")),
+        ] {
+            joints += &format!("{name}{k} = {{ type = 'revolute', i = '{i}', j = '{j}' }}\n");
+        }
+    }
+    format!("{GRAVITY}[bodies.ground]\npoints = {{ {pivots} }}\n{bodies}{joints}")
+}
+
 /// The time of an evaluation with light bodies, and with heavy ones in their place.
 #[test]
 #[ignore = "a measurement: cargo test --release -p kempe --test light_bodies -- --ignored --nocapture"]
@@ -304,6 +330,19 @@ fn the_time_of_light_bodies() {
             massless / heavy
         );
     }
+    let [heavy, light] = ["1", "1e-9"].map(|mass| {
+        let names: Vec<String> = (0..10).map(|k| format!("rocker{k}.angle")).collect();
+        let rockers = names.iter().map(|name| (&name[..], "2"));
+        let hints: Vec<(&str, &str)> =
+            std::iter::once(("crank.angle", "1")).chain(rockers).collect();
+        time(&model(&dyads(10, mass)), &hints)
+    });
+    println!("ten dyads on one crank: {heavy:.2} us; 1e-9 kg {:.2}", light / heavy);
+    let hints = [("left.angle", "-1.2"), ("right.angle", "-1.7"), ("first.angle", "-0.6")];
+    let hints: Vec<(&str, &str)> = hints.into_iter().chain([("third.angle", "-0.5")]).collect();
+    let [heavy, light] = ["1", "1e-9"]
+        .map(|mass| time(&model(&(GRAVITY.to_string() + &SLACK.replace("LIGHT", mass))), &hints));
+    println!("three links with their own freedom: {heavy:.2} us; 1e-9 kg {:.2}", light / heavy);
     for (name, n, every) in [("single links", 10, 2), ("dyads", 30, 3)] {
         let names: Vec<String> = (0..n).map(|k| format!("b{k}.angle")).collect();
         let angles = ["0.3", "-0.6", "1.1"]; // no two neighbours in a line
