@@ -102,13 +102,12 @@ impl<S: Real> Augmented<S> {
     fn set_downdates(&mut self, active: bool) {
         let Self { plan, saddle, lent, .. } = self;
         let all = lent.as_ref().map_or(&[][..], |lent| &lent.additions);
-        let mut mu = vec![S::zero(); plan.pattern.n_rows() - plan.downdates.len()];
-        mu.extend(plan.downdates.iter().map(|Downdate { column, entry: [row, place] }| {
+        for (mu, downdate) in saddle.downdates.iter_mut().zip(&plan.downdates) {
+            let Downdate { column, entry: [row, place] } = downdate;
             saddle.entries[*row][*place] = S::one();
             let own = all.iter().find(|addition| addition.column == *column && active);
-            S::constant(own.map_or(OMITTED, |Addition { weight, .. }| -1.0 / weight))
-        }));
-        saddle.damping = mu;
+            *mu = S::constant(own.map_or(OMITTED, |Addition { weight, .. }| -1.0 / weight));
+        }
         self.downdated = active;
     }
 
@@ -180,7 +179,7 @@ impl<S: Real> Augmented<S> {
 
     /// Whether redundant rows are damped, so that no row is omitted.
     pub fn damps(&self) -> bool {
-        !self.plan.condenses && !self.saddle.damping.is_empty() && self.omitted.is_empty()
+        !self.saddle.damping.is_empty() && self.omitted.is_empty()
     }
 
     /// The omitted rows.

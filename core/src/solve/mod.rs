@@ -22,6 +22,7 @@
 //! | `condensed` | W and the particular solution P: 10 numbers | condensed pairs | W by owner, P by step 1 | before 1 |
 //! | `entries` | A in rows of three; columns ±I are constant | rows × groups touched | owner | before 1, or in 1, 3 |
 //! | `damping` | μ | rows, or 0 | owner | before 3 |
+//! | `downdates` | μ < 0 of the last rows, which remove parts of W | downdates | owner | before 3 |
 //! | `pins` | rows [±I b] with the mass of their group: 6 numbers | such rows × groups | step 3 | 3, read in 4 and 5 |
 //! | `u` | other rows, transformed by W⁻¹: 6 numbers | such rows × groups | step 3 | 3, read in 4 and 5 |
 //! | `factors` | S, then L D and D⁻¹; sums of the pivot test | blocks of L | step 3 (diagonal), step 4 | 3, 4 |

@@ -28,6 +28,8 @@ pub struct Pattern {
     pub(super) loads: Loads,
     n_unknowns: usize,
     n_rows: usize,
+    /// The first row of the downdates.
+    pub(super) first_downdate: usize,
     pub(super) n_entries: usize,
     pub(super) storage: Storage,
     /// Row blocks that consist of pin blocks only, in the order of elimination.
@@ -52,7 +54,7 @@ impl Pattern {
     }
 
     /// As [`new`](Self::new), with downdates: the last row blocks, each of one row u at one group, have a negative μ =
-    /// -1/κ. With such a row, the solution is that for the matrix W - κ uᵀ u, without the digits that its inverse would
+    /// -1/κ ([`Saddle::downdates`](super::Saddle::downdates)). With such a row, the solution is that for the matrix W - κ uᵀ u, without the digits that its inverse would
     /// lose. A downdate is eliminated after the row blocks that `downdates` contains for it. These rows should leave the
     /// group no freedom without inertia.
     ///
@@ -94,6 +96,7 @@ impl Pattern {
             loads,
             n_unknowns,
             n_rows: rows[blocks.len()],
+            first_downdate: rows[blocks.len()] - n,
             n_entries: count_entries(blocks),
             storage,
             pin_rows,

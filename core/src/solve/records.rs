@@ -95,8 +95,10 @@ pub(super) struct Row {
     pub below: u32,
     /// Number of rows of its row block.
     pub size: u8,
-    /// Whether it consists of pin blocks only, and all blocks left of and below its diagonal block are 2 × 2.
+    /// Whether it consists of pin blocks only, and all blocks left of its diagonal block are 2 × 2.
     pub pins: bool,
+    /// Whether in addition all blocks below its diagonal block are 2 × 2.
+    pub pins_below: bool,
     /// Whether it is a downdate, whose pivot is negative.
     pub downdate: bool,
 }

@@ -40,8 +40,10 @@ pub struct Saddle<S> {
     pub condensed: Vec<CondensedGroup<S>>,
     /// Entries of A in rows of three, in the places that the pattern assigns.
     pub entries: Vec<[S; 3]>,
-    /// μ of each row; empty if zero. Condensed rows are not damped. Negative for downdates.
+    /// μ of each row except downdates; empty if zero. Condensed rows are not damped.
     pub damping: Vec<S>,
+    /// μ of each downdate: -1/κ, or a large positive number if the downdate is omitted.
+    pub downdates: Vec<S>,
     /// Smallest accepted ratio of a pivot to S_kk; [`PIVOT_TOLERANCE`] by default.
     pub(super) least: f64,
     /// Fraction of S_kk that is added to the diagonal; 0 by default.
@@ -70,6 +72,7 @@ impl<S: Real> Saddle<S> {
             condensed: vec![condensed; pattern.condensed.len()],
             entries,
             damping: Vec::new(),
+            downdates: vec![one; pattern.n_rows() - pattern.first_downdate],
             least: PIVOT_TOLERANCE,
             ridge: 0.0,
             pins: vec![PinBlock::zero(); n_pins],

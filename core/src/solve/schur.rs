@@ -70,7 +70,7 @@ impl<S: Real> Saddle<S> {
         if let Some(damping) = self.damping.get(row as usize..row as usize + N) {
             for (i, mu) in damping.iter().enumerate() {
                 block.s[i][i] += *mu;
-                block.magnitude[i] += mu.abs();
+                block.magnitude[i] += *mu;
             }
         }
         block.store(&mut self.factors, diagonal);
@@ -136,14 +136,14 @@ impl<S: Real> Saddle<S> {
         for start in &pattern.program.starts {
             let own = next(&mut touches, start.touches);
             match start.size {
-                1 => self.put_rows::<1>(start, own),
-                2 => self.put_rows::<2>(start, own),
-                _ => self.put_rows::<3>(start, own),
+                1 => self.put_rows::<1>(start, own, pattern.first_downdate),
+                2 => self.put_rows::<2>(start, own, pattern.first_downdate),
+                _ => self.put_rows::<3>(start, own, pattern.first_downdate),
             }
         }
     }
 
-    fn put_rows<const N: usize>(&mut self, start: &Start, touches: &[Touch]) {
+    fn put_rows<const N: usize>(&mut self, start: &Start, touches: &[Touch], downdates: usize) {
         let (mut s, mut held) = ([[S::zero(); N]; N], [S::zero(); N]);
         for Touch { first, group, sign, .. } in touches {
             let of_group = self.masses[*group as usize].held;
@@ -157,6 +157,11 @@ impl<S: Real> Saddle<S> {
                     *held += of_group * (*x * *x + *y * *y);
                 }
             }
+        }
+        if N == 1 && start.row as usize >= downdates {
+            let mu = self.downdates[start.row as usize - downdates];
+            s[0][0] += mu;
+            held[0] += mu.abs() - mu; // s is part of the magnitude
         }
         self.put(start.row, start.diagonal, s, held);
     }

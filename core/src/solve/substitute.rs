@@ -128,7 +128,7 @@ impl<S: Real> Saddle<S> {
                 continue;
             }
             let below = last(&mut below, row.below);
-            if row.pins {
+            if row.pins_below {
                 self.back::<2, true>(row, below, g);
             } else {
                 self.mixed_back(row, below, g);

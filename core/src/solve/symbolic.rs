@@ -40,7 +40,7 @@ pub(super) fn program(
             program.below.push(Below { block, row: row(order[r]), size: size(order[r]) });
         }
         let (left, below) = (&program.left[first.0..], &program.below[first.1..]);
-        let pairs = left.iter().map(|left| left.size).chain(below.iter().map(|below| below.size));
+        let pins = is_pin_only(&touches[own]) && left.iter().all(|left| left.size == 2);
         program.rows.push(Row {
             row: row(own),
             diagonal: of_rows.diagonals[place],
@@ -48,7 +48,8 @@ pub(super) fn program(
             below: index(below.len()),
             size: blocks[own].size as u8,
             downdate: own >= blocks.len() - n_downdates,
-            pins: is_pin_only(&touches[own]) && pairs.into_iter().all(|size| size == 2),
+            pins,
+            pins_below: pins && below.iter().all(|below| below.size == 2),
         });
     }
     program.starts(order, touches);

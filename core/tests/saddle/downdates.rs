@@ -18,8 +18,7 @@ fn with_additions(m: &Matrix, additions: &[(usize, usize, f64)]) -> (Pattern, Sa
     let before = vec![all; additions.len()];
     let pattern = more.pattern_with_downdates(&before);
     let mut saddle = more.saddle(&pattern);
-    saddle.damping = vec![0.0; m.rows()];
-    saddle.damping.extend(additions.iter().map(|(.., weight)| -1.0 / weight));
+    saddle.downdates = additions.iter().map(|(.., weight)| -1.0 / weight).collect();
     (pattern, saddle)
 }
 
