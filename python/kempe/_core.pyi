@@ -307,8 +307,8 @@ def limits(
 ) -> tuple[str, _F, _F]:
     """The limits of the value of t: JSON, the values on the way, and the positions (n, n_q)."""
 
-def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False) -> tuple[_F, _F]:
-    """Accelerations (n_t, n_q) and multipliers (n_t, n_rows) at states, with γ, not γ̂.
+def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False) -> tuple[_F, _F, _F]:
+    """Accelerations (n_t, n_q), multipliers (n_t, n_rows), with γ, not γ̂; regularity (n_t, 1).
 
     With ``passing`` near singular positions as well, as in runs that pass them.
     """

@@ -19,6 +19,15 @@ def instants(bounds: _F, outputs: _F, numbers: int) -> _F:
 def interpolate(t: _F, y: _F, c: _F, times: _F) -> _F:
     """The rows y of an interpolant, as in ``Run``, at times: (n, n_y)."""
 
+def singular_instants(
+    t: _F, regularity: _F, read: Callable[[_F], _F]
+) -> tuple[list[int], list[int], list[float]]:
+    """The singular positions at instants ``t``; ``read`` gives the regularity at times.
+
+    Returns:
+        Places of the instants that are kept; places among them, and times, of the positions.
+    """
+
 def maxima(
     t: _F,
     sampled: _F,

@@ -13,14 +13,30 @@ from kempe import _core
 from kempe.arrays import Floats
 from kempe.fine import fine
 from kempe.motion import Motion
-from kempe.refine import Maxima
+from kempe.refine import Indices, Maxima
 from kempe.solution import Solution
 
 #: A quantity of a motion, (n_t,), such as ``lambda motion: motion.body("crank").omega``.
 Quantity = Callable[[Motion], Floats]
 
-#: For each solution, the maxima of its multipliers.
-_passed: WeakKeyDictionary[Solution, Maxima | None] = WeakKeyDictionary()
+
+
+class _Passed(NamedTuple):
+    """The singular positions of a run, and the instants at which its quantities are searched.
+
+    Attributes:
+        t: the instants, (n,), s.
+        keep: their places among the instants of ``fine``, (n,).
+        maxima: the maxima of all multipliers together; None if nothing changes or is singular.
+    """
+
+    t: Floats
+    keep: Indices
+    maxima: Maxima | None
+
+
+#: The singular positions of each solution that was searched.
+_passed: WeakKeyDictionary[Solution, _Passed] = WeakKeyDictionary()
 
 
 class Extreme(NamedTuple):
@@ -81,13 +97,13 @@ def passes_singular(motion: Motion) -> bool:
     if fine(motion) is motion:
         return False
     assert isinstance(motion, Solution)
-    found = _singular(motion)
+    found = _singular(motion).maxima
     return found is not None and len(found.near) > 0
 
 
 def singular_times(solution: Solution) -> Floats:
     """Times of positions beside which multipliers are meaningless, s; needs an interpolant."""
-    found = None if fine(solution) is solution else _singular(solution)
+    found = None if fine(solution) is solution else _singular(solution).maxima
     return np.empty(0) if found is None else np.sort(found.near_t)
 
 
@@ -97,9 +113,7 @@ def _extreme(motion: Motion, quantity: Quantity, sign: float) -> Extreme:
     outputs = sign * np.atleast_1d(quantity(motion))
     between = None
     if (maxima := _maxima(motion, quantity, sign)) is not None:
-        dense = fine(motion)
-        samples = sign * np.atleast_1d(quantity(dense))
-        between = dense.t, samples, maxima.values, maxima.t, len(maxima.near) > 0
+        between = (*maxima.samples, maxima.values, maxima.t, len(maxima.near) > 0)
     return Extreme(*_core.extreme(sign, t, outputs, between))
 
 
@@ -109,11 +123,12 @@ def _maxima(motion: Motion, quantity: Quantity, sign: float) -> Maxima | None:
     if dense is motion:
         return None
     assert isinstance(motion, Solution)
-    values = sign * np.atleast_1d(quantity(dense))
+    passed = _singular(motion)
+    values = sign * np.atleast_1d(quantity(dense))[passed.keep]
     if not _core.changes(values):
         return None
     read = partial(_read, motion, quantity, sign)
-    return Maxima(read, dense.t, values, _singular(motion), resolved=_resolved(motion))
+    return Maxima(read, passed.t, values, passed.maxima, resolved=_resolved(motion))
 
 
 def _read(solution: Solution, quantity: Quantity, sign: float, t: Floats) -> Floats:
@@ -121,15 +136,19 @@ def _read(solution: Solution, quantity: Quantity, sign: float, t: Floats) -> Flo
     return found
 
 
-def _singular(solution: Solution) -> Maxima | None:
-    """The maxima of all multipliers together, which find the singular positions of a run."""
+def _singular(solution: Solution) -> _Passed:
+    """The singular positions of a run: where it is not regular, or all multipliers have a pole."""
     if solution not in _passed:
         dense = fine(solution)
-        size = _multipliers(dense)
-        changes = _core.changes(size)
-        read = partial(_read, solution, _multipliers, 1.0)
-        found = Maxima(read, dense.t, size, resolved=_resolved(solution)) if changes else None
-        _passed[solution] = found
+        read = partial(_read, solution, lambda motion: motion.regularity, 1.0)
+        keep, near, near_t = _core.singular_instants(dense.t, dense.regularity, read)
+        places = np.array(keep, dtype=np.intp)
+        t, size = dense.t[places], _multipliers(dense)[places]
+        found = None
+        if near or _core.changes(size):
+            read, known = partial(_read, solution, _multipliers, 1.0), (near, near_t)
+            found = Maxima(read, t, size, known, resolved=_resolved(solution))
+        _passed[solution] = _Passed(t, places, found)
     return _passed[solution]
 
 

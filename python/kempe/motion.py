@@ -86,7 +86,7 @@ class Motion:
             SingularityError: the accelerations are not unique at one of the times.
             IntegrationError: an acceleration is not finite.
         """
-        return self._dynamics[0]
+        return self._solved[0]
 
     @property
     def lam(self) -> Floats:
@@ -96,10 +96,15 @@ class Motion:
             SingularityError: the multipliers are not unique at one of the times.
             IntegrationError: a multiplier is not finite.
         """
-        return self._dynamics[1]
+        return self._solved[1]
+
+    @property
+    def regularity(self) -> Floats:
+        """Regularity of each position, (n_t,): near a singular position, proportional to its distance."""
+        return np.atleast_2d(self._solved[2])[:, 0]
 
     @cached_property
-    def _dynamics(self) -> tuple[Floats, Floats]:
+    def _solved(self) -> tuple[Floats, ...]:
         rows = *self._rows(), np.atleast_2d(self.z)
         passing = self._passing
 
@@ -107,8 +112,7 @@ class Motion:
             t, q, v, z = of
             return _core.evaluate(core, t, q, v, z, passing)
 
-        a, lam = self._by_phase(evaluate, *rows)
-        return self._as_given(a), self._as_given(lam)
+        return tuple(self._as_given(values) for values in self._by_phase(evaluate, *rows))
 
     @cached_property
     def residuals(self) -> tuple[Floats, Floats]:

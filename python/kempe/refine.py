@@ -38,6 +38,7 @@ class Maxima:
         t: their times, s.
         near: the indices of singular positions, including those found during the search.
         near_t: closer times of these positions, s.
+        samples: the instants and the values there.
     """
 
     def __init__(
@@ -45,13 +46,16 @@ class Maxima:
         read: Read,
         t: Floats,
         values: Floats,
-        known: Maxima | None = None,
+        known: Maxima | tuple[list[int], list[float]] | None = None,
         *,
         resolved: bool = True,
     ) -> None:
         self._t, self._sampled = t, values
-        near = [] if known is None else known.near.tolist()
-        near_t: Floats = np.empty(0) if known is None else known.near_t
+        self.samples = t, values
+        if isinstance(known, Maxima):
+            known = known.near.tolist(), known.near_t.tolist()
+        near, times = known or ([], [])
+        near_t: Floats = np.array(times, dtype=float)
         self.values: Floats
         self.t: Floats
         self.near_t: Floats

@@ -92,7 +92,7 @@ class Solution(Motion):
         accelerations: tuple[Floats, Floats] | KempeError
         energy: Floats | KempeError
         try:
-            accelerations = self._dynamics
+            accelerations = self._solved
         except KempeError as error:
             accelerations = error
         try:
@@ -147,7 +147,7 @@ class Solution(Motion):
         return DenseOutput(fixed(run.dense_t), fixed(run.dense_y), fixed(run.dense_c))
 
     @cached_property
-    def _dynamics(self) -> tuple[Floats, Floats]:
+    def _solved(self) -> tuple[Floats, ...]:
         with self._keeping_what_is_before():
             a, lam = self._run.responses()
         return fixed(a), fixed(lam)

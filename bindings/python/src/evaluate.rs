@@ -54,7 +54,8 @@ impl Rates {
     }
 }
 
-/// Accelerations and multipliers at states, without stabilization. With `passing`, also near singular positions.
+/// Accelerations, multipliers and regularity at states, without stabilization. With `passing`, also near singular
+/// positions.
 #[pyfunction]
 #[pyo3(signature = (model, t, q, v, z, passing=false))]
 pub fn evaluate<'py>(
@@ -65,13 +66,15 @@ pub fn evaluate<'py>(
     v: Rows<'py>,
     z: Rows<'py>,
     passing: bool,
-) -> PyResult<(Table<'py>, Table<'py>)> {
+) -> PyResult<(Table<'py>, Table<'py>, Table<'py>)> {
     guard("evaluate", || {
         let Rates { t, q, v } = &Rates::read(py, &model.model, &t, &q, &v)?;
         let z = &rows(py, "z", &z, (t.len(), model.model.layout.n_z))?;
-        let [a, lam] = responses(py, &model.active, core::States { t, q, v, z }, passing)?;
+        let states = core::States { t, q, v, z };
+        let [a, lam, regularity] = responses(py, &model.active, states, passing)?;
         let (n, m, count) = (model.model.layout.n_q, model.active.n_multipliers(), t.len());
-        Ok((table(py, a, (count, n))?, table(py, lam, (count, m))?))
+        let regularity = table(py, regularity, (count, 1))?;
+        Ok((table(py, a, (count, n))?, table(py, lam, (count, m))?, regularity))
     })
 }
 

@@ -87,6 +87,7 @@ fn add_drawing_and_sweeps(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(statistics::instants, module)?)?;
     module.add_function(wrap_pyfunction!(statistics::interpolate, module)?)?;
     module.add_function(wrap_pyfunction!(statistics::maxima, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::singular_instants, module)?)?;
     module.add_function(wrap_pyfunction!(statistics::extreme, module)?)?;
     module.add_function(wrap_pyfunction!(statistics::changes, module)?)?;
     module.add_function(wrap_pyfunction!(statistics::mean, module)?)?;

@@ -10,21 +10,22 @@ use pyo3::prelude::*;
 /// Rows of numbers, time first.
 pub type Table<'py> = Bound<'py, PyArray2<f64>>;
 
-/// Accelerations and multipliers at states in rows, without stabilization. With `passing`, also near singular
-/// positions.
+/// Accelerations, multipliers and regularity at states in rows, without stabilization. With `passing`, also near
+/// singular positions.
 pub fn responses(
     py: Python<'_>,
     model: &Active,
     states: core::States<'_>,
     passing: bool,
-) -> PyResult<[Vec<f64>; 2]> {
+) -> PyResult<[Vec<f64>; 3]> {
     let mut watch = Watch::new(None);
     let found = py.detach(|| model.prepared.accelerations(states, passing, |t| watch.look(t)));
     if let Some(error) = watch.raised {
         return Err(error);
     }
-    let core::Accelerations { a, lam } = found.map_err(|failure| missing(py, failure.reason))?;
-    Ok([a, model.expand(lam, states.t.len())])
+    let found = found.map_err(|failure| missing(py, failure.reason))?;
+    let core::Accelerations { a, lam, regularity } = found;
+    Ok([a, model.expand(lam, states.t.len()), regularity])
 }
 
 /// Energies at states in rows, with the works up to them.

@@ -3,7 +3,7 @@
 use crate::convert::{refuse, Row, Rows};
 use crate::guard::guard;
 use kempe::analyses::dynamics::Steps;
-use kempe::analyses::statistics::{self as core, Maxima, Samples, Settling};
+use kempe::analyses::statistics::{self as core, Maxima, Samples, Settling, SingularInstants};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 
@@ -135,6 +135,27 @@ pub fn maxima<'py>(
                     [found.values, found.t, found.near_t].map(|x| x.into_pyarray(py));
                 Ok((values, t, found.near, near_t))
             }
+        }
+    })
+}
+
+/// The singular positions at instants, from the regularity there. `read` returns the regularity at times. Returns the
+/// indices of the instants that are kept, and the indices among them and the times of the positions.
+#[pyfunction]
+#[pyo3(signature = (t, regularity, read))]
+pub fn singular_instants<'py>(
+    py: Python<'py>,
+    t: Row<'py>,
+    regularity: Row<'py>,
+    read: Bound<'py, PyAny>,
+) -> PyResult<(Vec<usize>, Vec<usize>, Vec<f64>)> {
+    guard("singular_instants", || {
+        let (t, regularity) = series(py, &t, &regularity)?;
+        let mut caller = Caller::new(read);
+        let found = SingularInstants::find(&t, &regularity, &mut |t: &[f64]| caller.read(t));
+        match caller.raised {
+            Some(error) => Err(error),
+            None => Ok((found.keep, found.near, found.near_t)),
         }
     })
 }

@@ -26,6 +26,9 @@ pub struct Accelerations {
     pub a: Vec<f64>,
     /// Multipliers, rows of n_rows.
     pub lam: Vec<f64>,
+    /// Regularity of each position: the square root of the fraction of its magnitude that the worst pivot keeps. Near
+    /// a singular position it is proportional to the distance.
+    pub regularity: Vec<f64>,
 }
 
 impl Run {
@@ -87,7 +90,7 @@ pub(super) fn accelerations(
 impl Accelerations {
     fn with_room(model: &Model, count: usize) -> Self {
         let room = |width: usize| Vec::with_capacity(count * width);
-        Self { a: room(model.layout.n_q), lam: room(model.layout.n_rows) }
+        Self { a: room(model.layout.n_q), lam: room(model.layout.n_rows), regularity: room(1) }
     }
 }
 
@@ -112,10 +115,13 @@ fn one_by_one(
         workspace.least_multipliers(model);
         found.a.extend_from_slice(workspace.a());
         found.lam.extend_from_slice(workspace.lam());
+        let mut kept = workspace.matrix.cancellation();
         if let Some(independent) = &mut independent {
             let lam = found.lam.len() - model.layout.n_rows;
             take_smallest(model, independent, (t, [q, v, z]), &mut found.lam[lam..]);
+            kept = independent.matrix.cancellation();
         }
+        found.regularity.push(kept.map_or(1.0, |(_, kept)| kept.max(0.0).sqrt()));
     }
     Ok(())
 }
@@ -184,6 +190,10 @@ impl<'a> Many<'a> {
             to.resize(start + Lanes::WIDTH * lanes.len(), 0.0);
             Lanes::rows(lanes, &mut to[start..]);
         }
+        let kept = [workspace.matrix.cancellations().sqrt()];
+        let start = found.regularity.len();
+        found.regularity.resize(start + Lanes::WIDTH, 0.0);
+        Lanes::rows(&kept, &mut found.regularity[start..]);
         true
     }
 }

@@ -6,6 +6,7 @@ use super::quintic::{Quintic, DEGREE};
 use super::solution::Point;
 use crate::analyses::dynamics::{PiecewiseInterpolant, Trajectory};
 use crate::analyses::State;
+use crate::equations::augmented::NearSingular;
 use crate::equations::{energy, Gains, Workspace};
 use crate::model::{Model, WORKS};
 
@@ -20,8 +21,8 @@ const DEPTH: usize = 8;
 /// A motion, recorded in the form that dynamics uses.
 #[derive(Clone, Debug, Default)]
 pub struct Recorded {
-    /// States at the chosen times, and the works since the start. The works are NaN where the forces cannot be
-    /// computed, such as at a singular position.
+    /// States at the chosen times, and the works since the start. At a singular position, the forces of drivers are
+    /// those of a regularised position.
     pub trajectory: Trajectory,
     /// Polynomials between the steps of the continuation.
     pub dense: PiecewiseInterpolant,
@@ -60,7 +61,10 @@ type Three = [f64; WORKS];
 
 impl<'a> Works<'a> {
     fn new(model: &'a Model, start: &State) -> Self {
-        let (workspace, z) = (Workspace::new(model), start.z.clone());
+        let (mut workspace, z) = (Workspace::new(model), start.z.clone());
+        if !model.allow_redundancy {
+            workspace.matrix.set_near_singular(NearSingular::Regularise);
+        }
         Self { model, workspace, z, total: vec![0.0; WORKS], scale: 0.0 }
     }
 

@@ -97,9 +97,9 @@ impl Maxima {
 }
 
 /// The largest value in a bracket and its time.
-struct Best {
-    value: f64,
-    t: f64,
+pub(super) struct Best {
+    pub value: f64,
+    pub t: f64,
 }
 
 /// Indices of the local maxima, the largest first.
@@ -115,7 +115,7 @@ fn local_maxima(values: &[f64]) -> Vec<usize> {
 /// The largest value in each bracket and its time; ∞ if the quantity has no value.
 ///
 /// Each bracket shrinks to the intervals next to its largest value.
-fn refine(mut brackets: Vec<[f64; 2]>, read: Read<'_>) -> Vec<Best> {
+pub(super) fn refine(mut brackets: Vec<[f64; 2]>, read: Read<'_>) -> Vec<Best> {
     let start = |bracket: &[f64; 2]| Best { value: f64::NEG_INFINITY, t: bracket[0] };
     let mut found: Vec<Best> = brackets.iter().map(start).collect();
     for _ in 0..ROUNDS {

@@ -1,7 +1,7 @@
 //! The measures of a run at closely spaced instants.
 
 use super::readings::{Missing, ReadRows, Readings};
-use crate::analyses::statistics::{changes, instants, row_norms, Maxima};
+use crate::analyses::statistics::{changes, instants, row_norms, Maxima, SingularInstants};
 use std::cell::OnceCell;
 
 /// Number of instants that are read together, so that their states, accelerations and multipliers fit into the
@@ -38,6 +38,8 @@ pub struct Fine {
     pub values: Vec<Vec<f64>>,
     /// The maxima of the norm of all multipliers. They locate singular positions, near which values are meaningless.
     pub near: Maxima,
+    /// Whether each step has an instant.
+    pub resolved: bool,
 }
 
 impl Fine {
@@ -48,19 +50,29 @@ impl Fine {
         let layout = &readings.model().layout;
         let t = instants(&dense.t, outputs, 4 * layout.n_q + layout.n_rows + 1);
         let mut values = vec![Vec::new(); readings.measures.len()];
-        let mut sizes = Vec::with_capacity(t.len());
+        let [mut sizes, mut regularity] = [(); 2].map(|()| Vec::with_capacity(t.len()));
         for block in blocks(&t, readings.run.projection.is_some()) {
             // if multipliers are missing at an instant, a single run uses its outputs only
             let rows = readings.at(block, true).ok_or(Missing::Single)?;
             sizes.extend(norms(&rows));
+            regularity.extend_from_slice(rows.regularity());
             for ((measure, is_wanted), values) in readings.measures.iter().zip(&mut values) {
                 if *is_wanted {
                     values.extend(readings.values(measure, &rows).ok_or(Missing::Single)?);
                 }
             }
         }
-        let near = singular(readings, &t, &sizes);
-        Ok(Some(Self { t, values, near }))
+        let mut read = |t: &[f64]| readings.at(t, true).map(|rows| rows.regularity().to_vec());
+        let found = SingularInstants::find(&t, &regularity, &mut read);
+        let select = |values: Vec<f64>| match values.is_empty() {
+            true => values,
+            false => found.keep.iter().map(|k| values[*k]).collect(),
+        };
+        let resolved = readings.resolved(&t);
+        let (t, sizes) = (select(t), select(sizes));
+        let values = values.into_iter().map(select).collect();
+        let near = singular(readings, (&t, &sizes), &found, resolved);
+        Ok(Some(Self { t, values, near, resolved }))
     }
 }
 
@@ -78,12 +90,18 @@ fn blocks(t: &[f64], projected: bool) -> impl Iterator<Item = &[f64]> {
 }
 
 /// The maxima of the norm of all multipliers, which locate the singular positions of a run.
-fn singular(readings: &Readings<'_>, t: &[f64], sizes: &[f64]) -> Maxima {
+fn singular(
+    readings: &Readings<'_>,
+    (t, sizes): (&[f64], &[f64]),
+    known: &SingularInstants,
+    resolved: bool,
+) -> Maxima {
     if !changes(sizes) {
-        return Maxima::default();
+        let (near, near_t) = (known.near.clone(), known.near_t.clone());
+        return Maxima { near, near_t, ..Maxima::default() };
     }
     let mut read = |t: &[f64]| readings.at(t, true).map(|rows| norms(&rows));
-    Maxima::search((t, sizes), (&[], &[]), readings.resolved(t), &mut read)
+    Maxima::search((t, sizes), (&known.near, &known.near_t), resolved, &mut read)
 }
 
 /// The norm of the multipliers of each row.

@@ -33,6 +33,11 @@ impl ReadRows {
     pub fn multipliers(&self) -> &[f64] {
         self.solved.as_ref().map_or(&[], |solved| &solved.lam)
     }
+
+    /// Regularity of each position; empty if it was not computed.
+    pub fn regularity(&self) -> &[f64] {
+        self.solved.as_ref().map_or(&[], |solved| &solved.regularity)
+    }
 }
 
 /// A run whose measures are evaluated.

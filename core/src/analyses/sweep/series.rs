@@ -73,7 +73,7 @@ impl<'a> Series<'a> {
         let signed = |values: &[f64]| -> Vec<f64> { values.iter().map(|x| sign * x).collect() };
         let signed_outputs = signed(&self.outputs);
         let outputs = Samples { t: &self.readings.run.trajectory.t, values: &signed_outputs };
-        let Some(Fine { t, values, near }) = self.between.fine()? else {
+        let Some(Fine { t, values, near, resolved }) = self.between.fine()? else {
             return Ok(extreme(sign, outputs, None));
         };
         let values = signed(&values[self.place]);
@@ -83,7 +83,7 @@ impl<'a> Series<'a> {
         let mut read = |t: &[f64]| Some(signed(&self.read(t)?));
         let samples = Samples { t, values: &values };
         let known = (&near.near[..], &near.near_t[..]);
-        let found = Maxima::search((t, &values), known, self.readings.resolved(t), &mut read);
+        let found = Maxima::search((t, &values), known, *resolved, &mut read);
         match found.near.is_empty() {
             true => Ok(extreme(sign, outputs, Some((samples, &found)))),
             // a single run of the case continues the quantity across the singular positions
