@@ -19,7 +19,7 @@ fn run(m: &Model, s: &State, options: &Options, h: f64) -> Run {
 fn difference(m: &Model, many: &Run, few: &Run, ratio: usize) -> f64 {
     let rows = few.trajectory.t.len();
     let tables = |run: &Run| {
-        let Accelerations { a, lam } = run.accelerations(m).unwrap();
+        let Accelerations { a, lam, .. } = run.accelerations(m).unwrap();
         let Trajectory { q, v, works, .. } = run.trajectory.clone();
         [q, v, works, a, lam]
     };

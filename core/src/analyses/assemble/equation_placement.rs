@@ -66,7 +66,7 @@ impl Placer<'_> {
             (None, Some((_, rail))) => Freedom::Slide(rail),
             (None, None) => {
                 if let Some(angle) = self.targets.hard[b][2] {
-                    self.close_rods_of(b, angle);
+                    let _ = self.close_rods_of(b, angle) || self.close_slots_of(b, angle);
                 }
                 return;
             }
@@ -88,7 +88,8 @@ impl Placer<'_> {
         if fixes.contains(&Fixes::Contact) {
             return (self.contacts(k, b, freedom), false);
         }
-        if let Some(poses) = self.at_rod(k, b, freedom) {
+        let exact = self.at_rod(k, b, freedom);
+        if let Some(poses) = exact.or_else(|| self.at_slot(k, b, freedom)) {
             return (poses, true);
         }
         let Some(m) = self.phi(k, b, &freedom.pose(0.0)).map(|phi| phi.len()) else {

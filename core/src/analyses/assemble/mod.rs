@@ -29,6 +29,7 @@ mod report;
 mod request;
 mod rod_placement;
 mod slider_placement;
+mod slot_placement;
 mod target;
 mod targets;
 mod unset;

@@ -7,6 +7,8 @@
 //! * a dyad with a neighbour: two bodies pinned to each other and to placed bodies. The joint between them is
 //!   an intersection of two circles, so there are two closures;
 //! * a slide on a placed body, and a pin, a coordinate or a link to a placed body;
+//! * a slide between two bodies with pins on placed bodies, or with a pin and a slide; a pin between two slides;
+//! * a point on a line, such as a pin in a slot, and a pin, a slide or a second line;
 //! * its angle and two rods;
 //! * a pin or a slide on a placed body, and an equation to placed bodies, such as that of a gear.
 //!
@@ -34,7 +36,7 @@ pub(super) const ON_LINE: f64 = 1e-9;
 pub(super) struct Placer<'a> {
     pub targets: &'a Targets,
     pub legs: Vec<Vec<Leg>>,
-    slides: Vec<Vec<Slide>>,
+    pub slides: Vec<Vec<Slide>>,
     pub equations: ByEquation<'a>,
     /// Whether each body has a constraint.
     joined: Vec<bool>,
@@ -91,6 +93,8 @@ impl Placer<'_> {
                 self.close_dyad_of(b);
             } else if let Some(b) = self.waiting.slides.pop() {
                 self.close_slide_of(b);
+                self.close_slide_between(b);
+                self.close_pin_between_slides(b);
             } else if let Some(b) = self.next_assumed() {
                 self.assume(b);
             } else {
@@ -135,6 +139,9 @@ impl Placer<'_> {
                 self.waiting.follow.push(other);
                 self.waiting.equations.push(other);
                 self.waiting.slides.push(other);
+                // their angles are now known
+                let linked = self.slides[other].iter().map(|slide| slide.other);
+                linked.for_each(|b| self.waiting.slides.push(b));
             }
         }
     }
@@ -148,6 +155,7 @@ impl Placer<'_> {
             return;
         }
         self.waiting.equations.push(b);
+        self.waiting.slides.push(b);
         self.waiting.dyads.push(b);
         self.waiting.assumed[2].push(b);
         if self.targets.value(b, 2).is_some() {

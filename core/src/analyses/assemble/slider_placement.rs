@@ -13,10 +13,10 @@ pub(super) struct Slide {
     pub constraint: usize,
     /// The body at its other end.
     pub other: usize,
-    own: Local,
-    own_axis: f64,
-    at_other: Local,
-    other_axis: f64,
+    pub own: Local,
+    pub own_axis: f64,
+    pub at_other: Local,
+    pub other_axis: f64,
 }
 
 /// The possible positions of a body on a slide: `pose` moved along `direction`.
