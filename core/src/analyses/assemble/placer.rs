@@ -92,6 +92,7 @@ impl Placer<'_> {
             } else if let Some(b) = self.waiting.dyads.pop() {
                 self.close_dyad_of(b);
             } else if let Some(b) = self.waiting.slides.pop() {
+                self.close_two_slides(b);
                 self.close_slide_of(b);
                 self.close_slide_between(b);
                 self.close_pin_between_slides(b);

@@ -168,6 +168,16 @@ impl Placer<'_> {
         }
     }
 
+    /// Places a body that slides connect with two placed bodies.
+    pub fn close_two_slides(&mut self, b: usize) {
+        let Some((first, rail)) = self.rail(b).filter(|_| self.is_open(b)) else { return };
+        let freedom = Freedom::Slide(rail);
+        let others = self.slides[b].iter().filter(|slide| slide.constraint != first.constraint);
+        let poses = others.filter_map(|slide| self.at_slot(slide.constraint, b, &freedom));
+        let found = poses.flatten().next();
+        found.into_iter().for_each(|pose| self.put(b, pose));
+    }
+
     /// Places a body on a slide that a pin connects with an open body on another slide.
     pub fn close_pin_between_slides(&mut self, b: usize) {
         let Some((_, rail)) = self.rail(b).filter(|_| self.is_open(b)) else { return };

@@ -7,7 +7,8 @@ use super::solution::Point;
 use crate::analyses::dynamics::{PiecewiseInterpolant, Trajectory};
 use crate::analyses::State;
 use crate::equations::augmented::NearSingular;
-use crate::equations::{energy, Gains, Workspace};
+use crate::equations::forces::{self, Acting};
+use crate::equations::{energy, mass, reactive, Gains, Powers, Workspace};
 use crate::model::{Model, WORKS};
 
 /// Interior nodes and weights of Lobatto's rule with 5 points on [0, 1], which is exact for polynomials of degree 7.
@@ -21,8 +22,7 @@ const DEPTH: usize = 8;
 /// A motion, recorded in the form that dynamics uses.
 #[derive(Clone, Debug, Default)]
 pub struct Recorded {
-    /// States at the chosen times, and the works since the start. At a singular position, the forces of drivers are
-    /// those of a regularised position.
+    /// States at the chosen times, and the works since the start.
     pub trajectory: Trajectory,
     /// Polynomials between the steps of the continuation.
     pub dense: PiecewiseInterpolant,
@@ -53,6 +53,8 @@ struct Works<'a> {
     workspace: Workspace,
     z: Vec<f64>,
     total: Vec<f64>,
+    /// Whether forces depend on reactions.
+    reactive: bool,
     /// The largest work or kinetic energy so far.
     scale: f64,
 }
@@ -65,7 +67,8 @@ impl<'a> Works<'a> {
         if !model.allow_redundancy {
             workspace.matrix.set_near_singular(NearSingular::Regularise);
         }
-        Self { model, workspace, z, total: vec![0.0; WORKS], scale: 0.0 }
+        let reactive = reactive::depends(model);
+        Self { model, workspace, z, total: vec![0.0; WORKS], reactive, scale: 0.0 }
     }
 
     /// Adds the works of a step, and its polynomials.
@@ -95,15 +98,30 @@ impl<'a> Works<'a> {
     }
 
     /// The powers at a point.
-    fn powers(&mut self, Point { t, q, v, .. }: &Point) -> Three {
+    fn powers(&mut self, Point { t, q, v, a }: &Point) -> Three {
         let state = [&q[..], v, &self.z];
-        match self.workspace.accelerate(self.model, *t, state, Gains::default()) {
-            Ok(()) => {
-                let powers = self.workspace.powers(self.model, v);
-                [powers.dissipated, powers.drivers, powers.applied]
-            }
-            Err(_) => [f64::NAN; WORKS],
-        }
+        let solved = self.workspace.accelerate(self.model, *t, state, Gains::default()).is_ok();
+        let powers = match solved && (!self.workspace.matrix.regularised() || self.reactive) {
+            true => self.workspace.powers(self.model, v),
+            false => self.balanced(*t, v, a),
+        };
+        [powers.dissipated, powers.drivers, powers.applied]
+    }
+
+    /// The powers near a singular position, without multipliers: the drivers supply q̇ᵀ (M q̈ - Q).
+    fn balanced(&self, t: f64, v: &[f64], a: &[f64]) -> Powers {
+        let Self { model, workspace, z, .. } = self;
+        let (mut load, mut powers) = (vec![0.0; v.len()], Powers::zero());
+        let (compiled, motions) = (&workspace.compiled, &workspace.motions);
+        let acting = Acting { z, lam: None, t };
+        forces::generalized(model, compiled, motions, acting, &mut load, &mut powers);
+        let bodies = model.bodies.iter().zip(motions.iter()).zip(&model.layout.bodies).skip(1);
+        powers.drivers = bodies.fold(0.0, |sum, ((body, motion), columns)| {
+            let inertial = mass::block(body, motion).times(columns.of(a));
+            let (v, load) = (columns.of(v), columns.of(&load));
+            sum + (0..3).map(|k| v[k] * (inertial[k] - load[k])).sum::<f64>()
+        });
+        powers
     }
 
     /// The works over a part of a step, given the powers at its ends.
