@@ -49,7 +49,6 @@ function Entry({ group, name, value }: { group: Group; name: string; value: Tree
         ),
       )}
       {group === "bodies" ? <Held name={name} /> : null}
-      <Readings group={group} name={name} />
       {type?.fields.some(({ shape }) => shape === "outline") ? (
         <Button label={texts.outline.open} hint={texts.outline.hint} onClick={() => openOutline(name)} id="outline" />
       ) : null}
@@ -68,6 +67,7 @@ function Entry({ group, name, value }: { group: Group; name: string; value: Tree
         ) : null}
         <Button label={words.remove} hint={words.removeHint} kind="danger" onClick={() => void remove()} />
       </div>
+      <Readings group={group} name={name} />
     </div>
   );
 }
