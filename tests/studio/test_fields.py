@@ -73,14 +73,16 @@ def test_a_fault_in_a_table_is_shown_and_changes_nothing(one: Studio) -> None:
     [
         ("method", '{ type = "rk4", step = "1 ms" }', {"type": "rk4", "step": "1 ms"}),
         ("method", "rk45", {"type": "rk45"}),
-        ("stabilization", '{ type = "projection", tolerance = 1e-9 }', {"type": "projection", "tolerance": 1e-9}),
+        (
+            "stabilization",
+            '{ type = "projection", tolerance = 1e-9 }',
+            {"type": "projection", "tolerance": 1e-9},
+        ),
         ("events", '{ turned = "plate.angle > 1" }', {"turned": "plate.angle > 1"}),
         ("parameters", "{ L = 0.5 }", {"L": 0.5}),
     ],
 )
-def test_tables_of_an_analysis_are_typed(
-    one: Studio, field: str, text: str, value: object
-) -> None:
+def test_tables_of_an_analysis_are_typed(one: Studio, field: str, text: str, value: object) -> None:
     one.load(PLATE)
     one.page.locator("#sheet").focus()
     one.page.keyboard.press("Escape")
@@ -124,9 +126,7 @@ def test_the_length_of_a_bar_may_have_a_unit_or_be_a_formula(
         ("one metre", "operator"),
     ],
 )
-def test_a_length_that_is_none_gives_a_message(
-    studio: Opener, text: str, message: str
-) -> None:
+def test_a_length_that_is_none_gives_a_message(studio: Opener, text: str, message: str) -> None:
     one = studio()
     one.load(CASE)
     choose(one, "left")

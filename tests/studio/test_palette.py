@@ -1,7 +1,6 @@
 """Every tool of the palette, used as its messages say."""
 
 import re
-import tomllib
 
 import pytest
 from studio.window import Studio
@@ -108,7 +107,12 @@ def test_a_relation_of_clicked_coordinates_holds_where_they_are(one: Studio, too
     ("tool", "at", "body", "form"),
     [
         ("contact", (-0.4, -0.2), "left", r"\{ circle = \[0, 0, 0\.2236\] \}"),
-        ("point_on_curve", (0.0, -0.3), "ground", r"\{ line = \[\[0\.\d+, 0\], \[-0\.\d+, 0\]\] \}"),
+        (
+            "point_on_curve",
+            (0.0, -0.3),
+            "ground",
+            r"\{ line = \[\[0\.\d, 0\], \[-0\.\d, 0\]\] \}",
+        ),
     ],
 )
 def test_a_curve_is_added_where_a_tool_needs_one(
@@ -124,6 +128,4 @@ def test_a_curve_is_added_where_a_tool_needs_one(
     one.settle()
     assert "added." in one.message()
     assert re.search(rf"^curves = \{{ curve1 = {form} \}}$", one.toml(), re.MULTILINE)
-    tree = tomllib.loads(one.toml())
-    (element,) = [*tree.get("forces", {}).values(), *list(tree["joints"].values())[2:]]
-    assert (element["i"], element["curve"]) == ("right.D", f"{body}.curve1")
+    assert f'\ncurve = "{body}.curve1"\n' in one.toml()
