@@ -1,6 +1,12 @@
 // All texts of the interface. Names of types, their fields and their descriptions come from the catalogue.
 
-const article = (shape: string) => (shape === "body" ? "a body, or empty ground" : `a ${shape}`);
+const articles: Record<string, string> = {
+  body: "a body, or empty ground",
+  curve: "a body with a curve",
+  coordinate: "a body or an element that moves",
+};
+
+const article = (shape: string) => articles[shape] ?? `a ${shape}`;
 
 const variable = (name: string) => (name === "t" ? "the time" : name);
 
@@ -70,7 +76,9 @@ export const texts = {
     fixed: (body: string, point: string) =>
       `${body}.${point} does not follow: a length or a formula of the text determines it.`,
     place: (body: string) => `Place ${body} by its points`,
-    noLength: "A length is a number greater than 0, in m.",
+    noLength: "A length is greater than 0: a number in m, a number with its unit, or a formula.",
+    lengthHint: "A number in m, a number with its unit such as 800 mm, or a formula such as 0.5*2",
+    noNotation: "This is not a value in the notation of the file.",
     notKept: (body: string) =>
       `With this length of ${body} the bodies beside it cannot keep theirs; they were changed.`,
     noMirror: (body: string) =>
@@ -90,7 +98,9 @@ export const texts = {
         : `${label}: click its second point, or type a length.`,
     choose: (label: string, field: string, shape: string) => `${label}: click ${article(shape)} for ${field}.`,
     wanted: (shape: string) => `There is no ${shape} here. Click ${article(shape)}.`,
+    addCurve: (body: string) => `Add a curve to ${body}`,
     added: (label: string, name: string) => `${label} “${name}” added.`,
+    incomplete: (label: string, name: string, problem: string) => `${label} “${name}” added. Problem: ${problem}`,
   },
   properties: {
     case: "Mechanism",
@@ -112,6 +122,8 @@ export const texts = {
     removeHint: "Delete (del)",
     addPoint: "Add a point",
     addPointHint: "A point beside the middle; drag it to its place. Read draws its path",
+    addCurve: "Add a curve",
+    addCurveHint: "A circle around the body, or a line on the ground; type its form in “curves”",
     copy: "Duplicate",
     mirror: "Mirror",
     mirrorHint: "Mirror at the vertical line through its middle",
@@ -158,6 +170,7 @@ export const texts = {
     redundant: (n: number) => `${n} redundant ${n === 1 ? "equation" : "equations"}`,
     singular: "singular position",
     open: "does not close",
+    at: (line: number, column: number | null) => (column ? `line ${line}, column ${column}` : `line ${line}`),
     warnings: (n: number) => `${n} ${n === 1 ? "warning" : "warnings"}`,
     bodies: (n: number) => `${n} moving ${n === 1 ? "body" : "bodies"}`,
     dismiss: "Dismiss",

@@ -2,7 +2,8 @@ import { expect, test } from "vitest";
 import { type Catalogue, readCatalogue } from "../src/catalogue/catalogue";
 import { toolsOf } from "../src/catalogue/tools";
 import type { Body, Tree } from "../src/core/protocol";
-import { addBody, addElement, pointReference } from "../src/edit/adding";
+import { addBody, pointReference } from "../src/edit/adding";
+import { addElement } from "../src/edit/element";
 import { drawnThrough, moved } from "../src/edit/moving";
 import { removed, removedPoint, renamed } from "../src/edit/removing";
 import { typed, typedList, written, writtenList } from "../src/edit/values";
@@ -128,7 +129,12 @@ test("a body that is placed by its points gets another place, as it was drawn", 
 });
 
 test("a driver begins at the present value of its quantity", () => {
-  const { changes } = addElement(drive, { coordinate: "crank.angle" }, { length: 1, now: 0.5 }, tree);
+  const { changes } = addElement(
+    drive,
+    { coordinate: "crank.angle" },
+    { length: 1, now: [{ name: "crank.angle", unit: "rad", value: 0.5 }] },
+    tree,
+  );
   expect(changes).toEqual([
     { path: ["drivers", "drive1"], value: { type: "drive", coordinate: "crank.angle", value: "0.5 + t" } },
   ]);

@@ -22,7 +22,7 @@ def page(text: str | None = None) -> str:
     """The page, which opens a case.
 
     Args:
-        text: the text of the case as TOML; without one, the page begins with its gallery.
+        text: the text of the case as TOML; without one, the page opens the four-bar linkage.
 
     Raises:
         FileError: the page was not built, or cannot be read.

@@ -11,7 +11,7 @@ export interface Tool {
   group: Group;
   type: Type;
   label: string;
-  /** The references that clicks choose, in their order. */
+  /** What clicks choose, in their order: references, and the coordinates of which a table or a formula consists. */
   references: Field[];
   placing: Placing | null;
 }
@@ -22,8 +22,18 @@ export function toolsOf(catalogue: Catalogue): Tool[] {
 
 function toolOf(group: Group, type: Type): Tool {
   const placing = group === "bodies" ? placingOf(type) : null;
-  const references = type.fields.filter((field) => field.required && isReference(field));
+  const references = type.fields.filter(({ required }) => required).flatMap(chosenBy);
   return { group, type, label: spoken(type.name), references, placing };
+}
+
+/** How many coordinates begin a value of a shape. */
+const COORDINATES: Record<string, number> = { terms: 2, laws: 1 };
+
+/** What is clicked for a field. */
+function chosenBy(field: Field): Field[] {
+  if (isReference(field)) return [field];
+  const count = COORDINATES[String(field.shape)] ?? 0;
+  return Array.from({ length: count }, (_, k) => ({ ...field, name: `${field.name} ${k + 1}`, shape: "coordinate" }));
 }
 
 export function isReference({ shape }: Field): boolean {

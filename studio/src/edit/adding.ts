@@ -164,33 +164,3 @@ export function pointReference(
   const pose = body ? poses[bodies.indexOf(body)] : undefined;
   return { reference: `${name}.${point}`, changes: [pointChange(tree, name, point!, tidied(place.at), pose)] };
 }
-
-/** An element whose references have been chosen. */
-export function addElement(
-  { group, type }: Tool,
-  chosen: Record<string, Value>,
-  scale: { length: number; now: number | null },
-  tree: Tree | null,
-): Added {
-  const name = freeName(tree, type.name.replaceAll("_", ""));
-  const value: Tree = { type: type.name, ...chosen };
-  for (const field of type.fields) {
-    if (!field.required || field.name in chosen) continue;
-    value[field.name] = startingValue(field, scale);
-  }
-  return { changes: [{ path: [group, name], value }], name };
-}
-
-/** A value to begin with for a required field. A law of a coordinate begins where it is and goes on evenly. */
-function startingValue({ shape, unit }: Field, { length, now }: { length: number; now: number | null }): Value {
-  const one = unit === "m" ? Number(length.toPrecision(4)) : 1;
-  if (shape === "law" && unit.includes("|") && now !== null && unit.includes("rad"))
-    return `${Number(now.toPrecision(6))} + t`;
-  if (shape === "pair" || shape === "law_pair") return [one, one];
-  if (shape === "triple") return [1, 1, 1];
-  if (shape === "terms") return {};
-  if (shape === "laws") return ["0"];
-  if (shape === "units") return ["m"];
-  if (typeof shape === "object" && "words" in shape) return shape.words[0]!;
-  return one;
-}

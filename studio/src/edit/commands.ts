@@ -1,4 +1,5 @@
 // Commands on the selection: rename, remove, copy, mirror, move by keys.
+import { typeOf } from "../catalogue/catalogue";
 import { entry, freeName, freePointNames, groupOf, isTable } from "../catalogue/tree";
 import type { Change, Tree, Value } from "../core/protocol";
 import { gridStep, snapStep } from "../draw/measure";
@@ -6,11 +7,13 @@ import { allPoints } from "../plane/hits";
 import { distance, type Point, placed } from "../plane/points";
 import { change } from "../store/document";
 import { view } from "../store/sheet";
-import { announce, held, mechanism, poses, selection, tree } from "../store/state";
+import { announce, catalogue, held, mechanism, poses, selection, tree } from "../store/state";
 import { texts } from "../texts";
 import { pointChange } from "./adding";
+import { curveFor } from "./curve";
 import { heldShift } from "./holding";
 import { lengthened } from "./length";
+import { lengthMeant, meantValue } from "./meaning";
 import { isPlain, moved } from "./moving";
 import { removed, removedPoint, renamed } from "./removing";
 
@@ -89,8 +92,10 @@ function tidy(value: number): number {
   return Number(value.toPrecision(12));
 }
 
-/** Give a body that is placed by two points another length. */
-export async function setLength(name: string, length: number): Promise<void> {
+/** Give a body that is placed by two points another length, as it is typed. */
+export async function setLength(name: string, given: string): Promise<void> {
+  const length = meantValue(await lengthMeant(given));
+  if (length === undefined) return;
   const bodies = mechanism.value?.bodies ?? [];
   const found = lengthened(name, length, allPoints(bodies, poses.value));
   if (!found) return announce("problem", texts.edit.noLength);
@@ -112,6 +117,20 @@ export async function addPoint(name: string): Promise<void> {
   const at: Point = [tidy(x), tidy(y + gridStep(view) / 2)];
   if (await change([pointChange(tree.value, name, point!, at, pose)]))
     selection.value = { group: "bodies", name, point: point! };
+}
+
+/** Whether a body may have curves. */
+export function takesCurves(name: string): boolean {
+  const type = typeOf(catalogue.value, "bodies", name, entry(tree.value, "bodies", name));
+  return type?.fields.some(({ shape }) => shape === "curves") ?? false;
+}
+
+/** Add a curve to a body; returns its name, or null if that failed. */
+export async function addCurve(name: string): Promise<string | null> {
+  const body = mechanism.value?.bodies.find((one) => one.name === name);
+  if (!body) return null;
+  const added = curveFor(tree.value, body, gridStep(view));
+  return (await change([added.change])) ? added.name : null;
 }
 
 /** Move the selected point, or all points of the selected body, by steps of the grid. */

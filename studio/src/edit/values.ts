@@ -31,11 +31,22 @@ export function isList({ shape }: Field): boolean {
 /** Whether a field holds a single value. */
 export function isSingle({ shape }: Field): boolean {
   return (
-    typeof shape !== "string" ||
+    typeof shape === "string" &&
     ["number", "law", "name", "count", "condition", "flag", "body", "point", "joint", "curve", "coordinate"].includes(
       shape,
     )
   );
+}
+
+/** A table with only its type, for a word that is typed where the type of a table has options; else undefined. */
+export function typeMeant({ shape }: Field, text: string): Value | undefined {
+  const word = /^\s*(\w+)\s*$/.exec(text)?.[1];
+  return typeof shape === "object" && "options" in shape && word !== undefined ? { type: word } : undefined;
+}
+
+/** Whether a typed text is in the notation of the file: a table, a quoted text, or a list that is not typed as "a, b". */
+export function isNotation(text: string, list: boolean): boolean {
+  return (list ? /^\s*(\{|\[\s*[[{])/ : /^\s*[[{"']/).test(text);
 }
 
 /** The value of a typed text: a number if it is one, otherwise a formula; undefined if it is empty. */

@@ -1,33 +1,58 @@
 // Drawing with a tool of the palette: clicks choose places and references.
 
+import type { Field } from "../catalogue/catalogue";
 import type { Tool } from "../catalogue/tools";
-import { entry, isTable } from "../catalogue/tree";
 import type { Change, Value } from "../core/protocol";
 import { gridStep, snapStep } from "../draw/measure";
 import { roundQuantity, significant } from "../draw/numbers";
-import { type Added, addBody, addElement, type Case, type Place, pointReference } from "../edit/adding";
+import { type Added, addBody, type Case, GROUND, type Place, pointReference } from "../edit/adding";
+import { addCurve, takesCurves } from "../edit/commands";
+import { addElement, type Coordinate } from "../edit/element";
 import { distance, type Point } from "../plane/points";
 import { type Snapped, snapped } from "../plane/snap";
 import { change } from "../store/document";
-import { send } from "../store/session";
+import { report } from "../store/session";
 import { preview, typedLength, view } from "../store/sheet";
-import { announce, catalogue, degrees, mechanism, panel, poses, selection, snapping, tool, tree } from "../store/state";
+import {
+  announce,
+  catalogue,
+  degrees,
+  mechanism,
+  panel,
+  poses,
+  problems,
+  selection,
+  snapping,
+  tool,
+  tree,
+  unassembled,
+} from "../store/state";
 import { texts } from "../texts";
 import type { Handler, Spot } from "./handler";
-import { bodyUnder, elementUnder, points, pointsUnder } from "./seen";
+import { lengthNow, readLength } from "./length";
+import { coordinateUnder, curveUnder, jointUnder, type Under, under } from "./refer";
+import { points } from "./seen";
 
 let places: Place[] = [];
 let chosen: Record<string, Value> = {};
 let changes: Change[] = [];
-let now: number | null = null;
+let now: Coordinate[] = [];
+
+/** What the clicks before still do. */
+let working: Promise<void> = Promise.resolve();
+
+/** Do something for a tool after all that was begun before, unless another tool was chosen meanwhile. */
+function queue(active: Tool, what: () => Promise<void>): Promise<void> {
+  working = working.then(() => (tool.value === active ? what() : undefined)).catch(report);
+  return working;
+}
 
 export const place: Handler = {
   down: () => true,
   up: (spot) => place.click!(spot),
   click(spot) {
     const active = tool.value;
-    if (active?.placing) void clickPlace(active, spot);
-    else if (active) void clickReference(active, spot);
+    if (active) void queue(active, () => (active.placing ? clickPlace(active, spot) : clickReference(active, spot)));
   },
   double() {
     void finish();
@@ -56,13 +81,12 @@ function present(): Case {
 }
 
 function snapHere(spot: Spot): Snapped {
-  const typed = Number(typedLength.value);
   return snapped(spot.at, {
     points: points().map(({ at }) => at),
     step: snapStep(view),
     scale: view.scale,
     from: places.at(-1)?.at,
-    length: typedLength.value && typed > 0 ? typed : undefined,
+    length: lengthNow(),
     free: spot.free || !snapping.value,
   });
 }
@@ -77,20 +101,25 @@ function labelOf(line: Point[]): string {
 }
 
 async function clickPlace(active: Tool, spot: Spot): Promise<void> {
+  if (places.length && !(await readLength())) return;
   const { at } = snapHere(spot);
   const hits = points().filter((hit) => distance(hit.at, at) * view.scale < 0.5);
   if (places.some((one) => distance(one.at, at) * view.scale < 2)) return;
   places.push({ at, hits });
-  typedLength.value = "";
+  if (places.length > 1) typedLength.value = "";
   const enough = active.placing === "many" ? 8 : active.placing === "two" ? 2 : 1;
-  if (places.length >= enough) await finish();
+  if (places.length >= enough) await make(active);
   else announce("info", texts.place.next(active.label, active.placing === "many"));
 }
 
 /** Make the body of the places chosen so far. */
 export async function finish(): Promise<void> {
   const active = tool.value;
-  if (!active?.placing || places.length < (active.placing === "two" || active.placing === "many" ? 2 : 1)) return;
+  if (active) await queue(active, () => make(active));
+}
+
+async function make(active: Tool): Promise<void> {
+  if (!active.placing || places.length < (active.placing === "two" || active.placing === "many" ? 2 : 1)) return;
   const made = places;
   restart();
   await apply(active, addBody(active, made, catalogue.value, present()));
@@ -100,12 +129,28 @@ async function clickReference(active: Tool, spot: Spot): Promise<void> {
   const field = active.references.find(({ name }) => !(name in chosen));
   if (field) {
     const reference = await referenceOf(String(field.shape), spot);
-    if (reference === null) {
-      announce("info", texts.place.wanted(String(field.shape)));
-      return;
-    }
+    if (reference === null) return refuse(active, field, spot);
     chosen[field.name] = reference;
   }
+  await goOn(active);
+}
+
+/** Say what is wanted. Where a curve is wanted, one can be added. */
+function refuse(active: Tool, field: Field, spot: Spot): void {
+  const wanted = texts.place.wanted(String(field.shape));
+  const body = under(spot, new Set()).body?.name ?? GROUND;
+  const add = async () => {
+    const curve = await addCurve(body);
+    if (curve === null) return;
+    chosen[field.name] = `${body}.${curve}`;
+    await goOn(active);
+  };
+  const action = { label: texts.place.addCurve(body), run: () => void queue(active, add) };
+  announce("info", wanted, field.shape === "curve" && takesCurves(body) ? { action } : {});
+}
+
+/** Ask for the next reference, or make the element. */
+async function goOn(active: Tool): Promise<void> {
   const next = active.references.find(({ name }) => !(name in chosen));
   if (next) announce("info", texts.place.choose(active.label, next.name, String(next.shape)));
   else await complete(active);
@@ -115,7 +160,7 @@ async function complete(active: Tool): Promise<void> {
   const length = places.length > 1 ? distance(places[0]!.at, places[1]!.at) : gridStep(view) / 2;
   const added = addElement(active, chosen, { length, now }, tree.value);
   const all = { ...added, changes: [...changes, ...added.changes] };
-  restart();
+  restart(active.references.length ? active : null);
   await apply(active, all);
 }
 
@@ -123,56 +168,37 @@ async function apply(active: Tool, { changes: all, name }: Added): Promise<void>
   if (!(await change(all))) return;
   selection.value = { group: active.group, name };
   if (active.placing !== "fixed" && panel.value !== "text") panel.value = "properties";
-  announce("done", texts.place.added(active.label, name));
+  const problem = problems.value[0] ?? unassembled.value;
+  if (problem) announce("problem", texts.place.incomplete(active.label, name, problem.message));
+  else announce("done", texts.place.added(active.label, name));
 }
 
 /** What the pointer refers to, as a text of the file. */
 async function referenceOf(shape: string, spot: Spot): Promise<string | null> {
-  const hits = pointsUnder(spot);
-  const taken = new Set(Object.values(chosen).map((one) => String(one).split(".")[0]));
-  const fresh = hits.find(({ body }) => !taken.has(body.name)) ?? hits[0];
-  const body = fresh?.body ?? bodyUnder(spot);
-  if (shape === "body") return body?.name ?? "ground";
-  if (shape === "point") {
-    const { at } = snapHere(spot);
-    places.push({ at: fresh?.at ?? at, hits: [] });
-    const names = changes.map(({ path }) => String(path.at(-1)));
-    const found = pointReference({ at, hits: fresh ? [fresh] : [] }, body, present(), names);
-    changes.push(...found.changes);
-    return found.reference;
-  }
-  const element = elementUnder(spot);
-  if (shape === "joint")
-    return element?.group === "joints" ? element.name : jointAt(hits.map(({ body: b, point }) => `${b.name}.${point}`));
-  if (shape === "curve") return body ? curveOf(body.name) : null;
-  return coordinateOf((body && !body.ground ? body.name : null) ?? element?.name ?? null);
+  const taken = new Set(Object.values(chosen).map((one) => String(one).split(".")[0]!));
+  const found = under(spot, taken);
+  if (shape === "body") return found.body?.name ?? GROUND;
+  if (shape === "point") return pointUnder(spot, found);
+  if (shape === "joint") return jointUnder(found);
+  if (shape === "curve") return curveUnder(found);
+  const coordinate = await coordinateUnder(found, now);
+  if (coordinate) now.push(coordinate);
+  return coordinate?.name ?? null;
 }
 
-function jointAt(names: string[]): string | null {
-  const joints = isTable(tree.value?.joints) ? Object.entries(tree.value.joints) : [];
-  return joints.find(([, value]) => isTable(value) && names.includes(String(value.i)))?.[0] ?? null;
-}
-
-function curveOf(body: string): string | null {
-  const curves = entry(tree.value, "bodies", body)?.curves;
-  const first = isTable(curves) ? Object.keys(curves)[0] : undefined;
-  return first ? `${body}.${first}` : null;
-}
-
-/** The position quantity of a body or element: an angle if it has one. */
-async function coordinateOf(name: string | null): Promise<string | null> {
-  if (!name) return null;
-  const { ok } = await send("quantities", {});
-  const own = ok.filter((one) => one.name.startsWith(`${name}.`) && (one.unit === "rad" || one.unit === "m"));
-  const found = own.find(({ unit }) => unit === "rad") ?? own[0];
-  if (!found) return null;
-  now = (await send("quantity", { name: found.name })).ok.value;
-  return found.name;
+/** An existing point, or a new one of the body there. */
+function pointUnder(spot: Spot, { fresh, body }: Under): string {
+  const { at } = snapHere(spot);
+  places.push({ at: fresh?.at ?? at, hits: [] });
+  const names = changes.map(({ path }) => String(path.at(-1)));
+  const found = pointReference({ at, hits: fresh ? [fresh] : [] }, body, present(), names);
+  changes.push(...found.changes);
+  return found.reference;
 }
 
 /** Begin anew with the active tool, or with another one. */
 export function restart(next: Tool | null = tool.value): void {
-  [places, chosen, changes, now] = [[], {}, [], null];
+  [places, chosen, changes, now] = [[], {}, [], []];
   typedLength.value = "";
   preview.value = null;
   tool.value = next;

@@ -1,8 +1,10 @@
 // The picture behind the drawing: opening, opacity, scale.
 import { useState } from "preact/hooks";
+import { lengthMeant, meantValue } from "../edit/meaning";
 import { openBackdrop } from "../give/backdrop";
 import { beginScaling, endScaling, removeBackdrop } from "../modes/scaling";
 import { backdrop, scaleTo, scaling } from "../store/backdrop";
+import { report } from "../store/session";
 import { texts } from "../texts";
 import { Button, Section } from "./parts";
 
@@ -41,8 +43,10 @@ export function Backdrop() {
 /** The known distance of the two points. */
 function Distance() {
   const [length, setLength] = useState("");
-  const apply = () => {
-    scaleTo(Number(length));
+  const apply = async () => {
+    const metres = meantValue(await lengthMeant(length));
+    if (metres === undefined) return;
+    scaleTo(metres);
     endScaling();
   };
   return (
@@ -50,19 +54,19 @@ function Distance() {
       class="adding"
       onSubmit={(event) => {
         event.preventDefault();
-        apply();
+        void apply().catch(report);
       }}
     >
       <input
         type="text"
-        inputMode="decimal"
         autocomplete="off"
+        title={texts.edit.lengthHint}
         aria-label={texts.picture.distance}
         placeholder={texts.picture.distance}
         value={length}
         onInput={(event) => setLength(event.currentTarget.value)}
       />
-      <Button label={texts.picture.apply} onClick={apply} disabled={!(Number(length) > 0)} />
+      <Button label={texts.picture.apply} onClick={() => void apply().catch(report)} disabled={!length.trim()} />
     </form>
   );
 }

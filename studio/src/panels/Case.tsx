@@ -4,11 +4,12 @@ import { GROUPS } from "../catalogue/catalogue";
 import { entries, isTable } from "../catalogue/tree";
 import type { Tree } from "../core/protocol";
 import { isName, rename } from "../edit/commands";
-import { typed, typedList, written, writtenList } from "../edit/values";
+import { written, writtenList } from "../edit/values";
+import { report } from "../store/session";
 import { announce, catalogue, mechanism, tree } from "../store/state";
 import { texts } from "../texts";
 import { Backdrop } from "./Backdrop";
-import { Field, put } from "./Field";
+import { Field, put, putTyped } from "./Field";
 import { Contents } from "./Properties";
 import { Button, Section } from "./parts";
 import { Ready } from "./Ready";
@@ -26,7 +27,7 @@ export function Case() {
         unit="m/s²"
         value={writtenList(found.gravity)}
         placeholder="0, 0"
-        keep={(text) => put(["gravity"], typedList(text))}
+        keep={(text) => void putTyped(["gravity"], text, true).catch(report)}
       />
       <Parameters />
       {GROUPS.map((group) => (
@@ -91,7 +92,7 @@ function Parameters() {
           key={name}
           label={name}
           value={written(value)}
-          keep={(text) => put(["parameters", name], typed(text))}
+          keep={(text) => void putTyped(["parameters", name], text).catch(report)}
           onRemove={() => put(["parameters", name], undefined)}
         />
       ))}
@@ -126,7 +127,7 @@ function Start({ value }: { value: Tree }) {
           key={name}
           label={name}
           value={written(one)}
-          keep={(text) => put(["start", "set", name], typed(text))}
+          keep={(text) => void putTyped(["start", "set", name], text).catch(report)}
           onRemove={() => put(["start", "set", name], undefined)}
         />
       ))}

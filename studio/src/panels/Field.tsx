@@ -4,28 +4,45 @@ import { defaultText, type Field as FieldOf } from "../catalogue/catalogue";
 import { entries, isTable } from "../catalogue/tree";
 import type { Path, Value } from "../core/protocol";
 import { readable } from "../draw/numbers";
-import { isList, isSingle, typed, typedList, written, writtenList } from "../edit/values";
+import { meantValue, notationMeant } from "../edit/meaning";
+import { isList, isNotation, isSingle, typed, typedList, typeMeant, written, writtenList } from "../edit/values";
 import { change } from "../store/document";
+import { report } from "../store/session";
 import { mechanism, problems, tree } from "../store/state";
 import { texts } from "../texts";
+
+/** A longer table has the whole width of the panel. */
+const LINE = 18;
 
 /** Put a value at a place of the case, or remove what is there. */
 export function put(path: Path, value: Value | undefined): void {
   void change([value === undefined ? { path, remove: true } : { path, value }]);
 }
 
+/** Put a typed text at a place of the case. Tables and lists may be in the notation of the file. */
+export async function putTyped(path: Path, text: string, list = false): Promise<void> {
+  if (!isNotation(text, list)) return put(path, list ? typedList(text) : typed(text));
+  const value = meantValue(await notationMeant(text));
+  if (value !== undefined) put(path, value);
+}
+
 export function Field({ field, path, value }: { field: FieldOf; path: Path; value: Value | undefined }) {
   const id = useId();
-  const problem = problems.value.find((one) => one.path === path.join("."));
+  const place = path.join(".");
+  const own = problems.value.filter((one) => one.path === place || one.path?.startsWith(`${place}.`));
   const missing = field.required && value === undefined;
   return (
-    <div class={`field${problem || missing ? " wrong" : ""}`}>
+    <div class={`field${own.length || missing ? " wrong" : ""}`}>
       <label for={id} title={field.doc}>
         {field.name}
       </label>
       <Control id={id} field={field} path={path} value={value} />
       <span class="unit">{readable(field.unit)}</span>
-      {problem ? <p class="problem">{problem.message}</p> : null}
+      {own.map(({ path: at, message }) => (
+        <p key={at} class="problem">
+          {message}
+        </p>
+      ))}
     </div>
   );
 }
@@ -51,27 +68,55 @@ function Control({ id, field, path, value }: ControlProps) {
   }
   const choices = choicesOf(field);
   if (choices) return <Choice id={id} field={field} path={path} value={value} choices={choices} />;
-  if (isList(field))
-    return <Line id={id} field={field} shown={writtenList(value)} keep={(text) => put(path, typedList(text))} />;
-  if (isSingle(field))
-    return <Line id={id} field={field} shown={written(value)} keep={(text) => put(path, typed(text))} />;
-  return <Line id={id} field={field} shown={written(value)} keep={() => {}} fixed />;
+  const list = isList(field);
+  const keep = (text: string) => {
+    const chosen = typeMeant(field, text);
+    if (chosen !== undefined) put(path, chosen);
+    else void putTyped(path, text, list).catch(report);
+  };
+  const shown = list ? writtenList(value) : written(value);
+  return isSingle(field) || list ? (
+    <Line id={id} field={field} shown={shown} keep={keep} />
+  ) : (
+    <Notation id={id} field={field} shown={shown} keep={keep} />
+  );
 }
 
-function Line({
-  id,
-  field,
-  shown,
-  keep,
-  fixed,
-}: {
+interface LineProps {
   id: string;
   field: FieldOf;
   shown: string;
   keep(text: string): void;
-  fixed?: boolean;
-}) {
-  const empty = field.required ? texts.properties.required : defaultText(field) || texts.properties.absent;
+}
+
+function placeholder(field: FieldOf): string {
+  return field.required ? texts.properties.required : defaultText(field) || texts.properties.absent;
+}
+
+/** A table or a long list, in the notation of the file. Enter ends the input. */
+function Notation({ id, field, shown, keep }: LineProps) {
+  return (
+    <textarea
+      id={id}
+      class={`notation${shown.length > LINE ? " wide" : ""}`}
+      autocomplete="off"
+      spellcheck={false}
+      rows={1}
+      value={shown}
+      placeholder={placeholder(field)}
+      title={field.doc}
+      onKeyDown={(event) => {
+        if (event.key === "Enter") event.preventDefault();
+        if (event.key === "Enter" || event.key === "Escape") event.currentTarget.blur();
+      }}
+      onChange={(event) => {
+        if (event.currentTarget.value !== shown) keep(event.currentTarget.value);
+      }}
+    />
+  );
+}
+
+function Line({ id, field, shown, keep }: LineProps) {
   return (
     <input
       id={id}
@@ -79,9 +124,8 @@ function Line({
       autocomplete="off"
       spellcheck={false}
       value={shown}
-      placeholder={empty}
-      title={fixed ? `${shown}\n${field.doc}` : field.doc}
-      readOnly={fixed ?? false}
+      placeholder={placeholder(field)}
+      title={field.doc}
       onChange={(event) => {
         if (event.currentTarget.value !== shown) keep(event.currentTarget.value);
       }}

@@ -2,8 +2,9 @@
 import { type Group, spoken, typeOf } from "../catalogue/catalogue";
 import { entries, entry, isTable } from "../catalogue/tree";
 import type { Tree } from "../core/protocol";
-import { addPoint, copy, mirror, remove, rename, setLength } from "../edit/commands";
+import { addCurve, addPoint, copy, mirror, remove, rename, setLength, takesCurves } from "../edit/commands";
 import { openOutline } from "../give/outline";
+import { report } from "../store/session";
 import { catalogue, selection, tree } from "../store/state";
 import { texts } from "../texts";
 import { Case } from "./Case";
@@ -48,13 +49,15 @@ function Entry({ group, name, value }: { group: Group; name: string; value: Tree
         ),
       )}
       {group === "bodies" ? <Held name={name} /> : null}
-      <Readings group={group} name={name} />
       {type?.fields.some(({ shape }) => shape === "outline") ? (
         <Button label={texts.outline.open} hint={texts.outline.hint} onClick={() => openOutline(name)} id="outline" />
       ) : null}
       <div class="buttons end">
         {type?.fields.some(({ name: own }) => own === "points") ? (
           <Button label={words.addPoint} hint={words.addPointHint} onClick={() => void addPoint(name)} id="add-point" />
+        ) : null}
+        {group === "bodies" && takesCurves(name) ? (
+          <Button label={words.addCurve} hint={words.addCurveHint} onClick={() => void addCurve(name)} id="add-curve" />
         ) : null}
         {group === "bodies" && name !== "ground" ? (
           <>
@@ -64,6 +67,7 @@ function Entry({ group, name, value }: { group: Group; name: string; value: Tree
         ) : null}
         <Button label={words.remove} hint={words.removeHint} kind="danger" onClick={() => void remove()} />
       </div>
+      <Readings group={group} name={name} />
     </div>
   );
 }
@@ -101,12 +105,14 @@ function Length({ body }: { body: string }) {
       <input
         id="body-length"
         type="text"
-        inputMode="decimal"
         autocomplete="off"
+        spellcheck={false}
+        title={texts.edit.lengthHint}
         value={shown}
-        onChange={(event) =>
-          event.currentTarget.value !== shown && void setLength(body, Number(event.currentTarget.value))
-        }
+        onChange={(event) => {
+          const { value } = event.currentTarget;
+          if (value !== shown) void setLength(body, value).catch(report);
+        }}
       />
       <span class="unit">m</span>
     </div>

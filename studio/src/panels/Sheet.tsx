@@ -5,12 +5,13 @@ import { soon } from "../draw/soon";
 import { cleared, palette, sharpen } from "../draw/surface";
 import { cancelGif, making, saveGif } from "../give/gif";
 import { saveDrawing, saveDrawingSvg } from "../give/pictures";
+import { readLength } from "../modes/length";
 import { handler } from "../modes/modes";
 import { drawing, finish, restart } from "../modes/place";
 import { listenToPointer } from "../modes/pointer";
 import { course } from "../modes/read";
 import { follow, paintSheet } from "../page/painting";
-import { resized } from "../store/session";
+import { report, resized } from "../store/session";
 import { fit, preview, typedLength, view, viewChanged, zoom } from "../store/sheet";
 import { items, mode, shown, snapping, title, tool } from "../store/state";
 import { texts } from "../texts";
@@ -107,11 +108,13 @@ function ToolBox() {
           {words.length}
           <input
             id="typed-length"
-            inputMode="decimal"
-            size={6}
+            size={9}
             autocomplete="off"
+            spellcheck={false}
+            title={texts.edit.lengthHint}
             value={typedLength.value}
             onInput={(event) => (typedLength.value = event.currentTarget.value)}
+            onChange={() => void readLength().catch(report)}
           />
         </label>
       ) : null}

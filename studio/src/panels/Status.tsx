@@ -42,7 +42,7 @@ function Standing() {
       {problem.hint ? <span class="hint"> {problem.hint}</span> : null}
       {problem.line ? (
         <button type="button" class="link" onClick={show}>
-          {`line ${problem.line}`}
+          {texts.status.at(problem.line, problem.column ?? null)}
         </button>
       ) : null}
     </span>

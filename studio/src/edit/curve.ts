@@ -1,0 +1,40 @@
+// A curve to begin with on a body, on which points and rollers move.
+import { entry, isTable } from "../catalogue/tree";
+import type { Body, Change, Tree } from "../core/protocol";
+import type { Point } from "../plane/points";
+
+export interface WithCurve {
+  change: Change;
+  name: string;
+}
+
+/** A circle around the middle of a body through its farthest point; on the ground, a line whose body is below it. */
+export function curveFor(tree: Tree | null, { name: body, ground, points, center }: Body, step: number): WithCurve {
+  const found = entry(tree, "bodies", body)?.curves;
+  const taken = isTable(found) ? Object.keys(found) : [];
+  let k = 1;
+  while (taken.includes(`curve${k}`)) k += 1;
+  const places = Object.values(points);
+  const value = ground ? { line: lineUnder(places, step) } : { circle: circleAround(places, center, step) };
+  return { change: { path: ["bodies", body, "curves", `curve${k}`], value }, name: `curve${k}` };
+}
+
+/** From right to left, so that the side of others is above. */
+function lineUnder(places: readonly Point[], step: number): Point[] {
+  const x = places.map((at) => at[0]);
+  const y = places.length ? Math.min(...places.map((at) => at[1])) : 0;
+  const [left, right] = x.length ? [Math.min(...x), Math.max(...x)] : [0, 0];
+  return [
+    [tidy(right + step), tidy(y)],
+    [tidy(left - step), tidy(y)],
+  ];
+}
+
+function circleAround(places: readonly Point[], [x, y]: Point, step: number): number[] {
+  const radius = Math.max(0, ...places.map((at) => Math.hypot(at[0] - x, at[1] - y)));
+  return [tidy(x), tidy(y), tidy(radius > 0 ? radius : step / 2)];
+}
+
+function tidy(value: number): number {
+  return Number(value.toPrecision(4));
+}

@@ -1,0 +1,54 @@
+// What a click refers to, as a text of the file.
+import { entry, isTable } from "../catalogue/tree";
+import type { Body } from "../core/protocol";
+import type { Coordinate } from "../edit/element";
+import type { PointHit } from "../plane/hits";
+import { send } from "../store/session";
+import { tree } from "../store/state";
+import type { Spot } from "./handler";
+import { bodyUnder, elementUnder, pointsUnder } from "./seen";
+
+/** What is under the pointer; bodies that were chosen before are passed over if there is another one. */
+export interface Under {
+  spot: Spot;
+  hits: PointHit[];
+  fresh: PointHit | undefined;
+  body: Body | null;
+}
+
+export function under(spot: Spot, taken: ReadonlySet<string>): Under {
+  const hits = pointsUnder(spot);
+  const fresh = hits.find(({ body }) => !taken.has(body.name)) ?? hits[0];
+  return { spot, hits, fresh, body: fresh?.body ?? bodyUnder(spot) };
+}
+
+/** The joint of a symbol or at a point. */
+export function jointUnder({ spot, hits }: Under): string | null {
+  const element = elementUnder(spot);
+  if (element?.group === "joints") return element.name;
+  const names = hits.map(({ body, point }) => `${body.name}.${point}`);
+  const joints = isTable(tree.value?.joints) ? Object.entries(tree.value.joints) : [];
+  return joints.find(([, value]) => isTable(value) && names.includes(String(value.i)))?.[0] ?? null;
+}
+
+/** A body with a curve: the one that the click chose, otherwise another one with a point there. */
+export function curveUnder({ hits, body }: Under): string | null {
+  for (const name of [body?.name, ...hits.map((hit) => hit.body.name)]) {
+    const curves = name === undefined ? undefined : entry(tree.value, "bodies", name)?.curves;
+    const first = isTable(curves) ? Object.keys(curves)[0] : undefined;
+    if (first) return `${name}.${first}`;
+  }
+  return null;
+}
+
+/** The position quantity of a body or element, of the kind that was chosen before: otherwise an angle if it has one. */
+export async function coordinateUnder(found: Under, before: readonly Coordinate[]): Promise<Coordinate | null> {
+  const name = found.body && !found.body.ground ? found.body.name : elementUnder(found.spot)?.name;
+  if (!name) return null;
+  const { ok } = await send("quantities", {});
+  const unit = before[0]?.unit ?? "rad";
+  const own = ok.filter((one) => one.name.startsWith(`${name}.`) && /^(m|rad)$/.test(one.unit));
+  const one = own.find((other) => other.unit === unit) ?? own[0];
+  if (!one || before.some((other) => other.name === one.name)) return null;
+  return { ...one, value: (await send("quantity", { name: one.name })).ok.value };
+}
