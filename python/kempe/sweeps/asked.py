@@ -1,4 +1,4 @@
-"""What a sweep is asked for: arguments, or the section ``[sweep]`` of a case, with all checks."""
+"""The request for a sweep: arguments, or the section ``[sweep]`` of a case, with all checks."""
 
 from __future__ import annotations
 

@@ -176,7 +176,7 @@ class SweepResult:
 
         Raises:
             IndexError: there is no such row.
-            KempeError: it fails, as the reason of the row tells.
+            KempeError: it fails; the reason of the row is its message in one line.
         """
         return self._plan.run(self._design[self._place(k)])
 
