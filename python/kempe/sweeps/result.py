@@ -192,8 +192,7 @@ class SweepResult:
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         views = {name: MappingProxyType(state[name]) for name in ("units", "reasons")}
-        arrays = {name: fixed(state[name]) for name in ("_design", "_values")}
-        self.__dict__.update(state | views | arrays)
+        self.__dict__.update(state | views)
 
     def __repr__(self) -> str:
         names = ", ".join(variable.name for variable in self.variables)

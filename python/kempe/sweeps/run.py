@@ -46,7 +46,8 @@ def sweep(
             start (``crank.omega``): a list, ``{"from": 1e3, "to": 1e5, "n": 50, "scale": "log"}``,
             ``{"normal": [mean, deviation]}`` or ``{"uniform": [least, most]}``, SI units and rad.
         measures: statistics of measures and quantities, such as ``"pin.max"``; for an analysis that
-            is not a motion, numbers of its result, such as ``"frequency[0]"``.
+            is not a motion, numbers of its result, such as ``"frequency[0]"``, or quantities at
+            rest, such as ``"rocker.angle"``.
         design: "grid" (default), "paired", "random", "latin" or "sobol"; the last two need SciPy.
         n: number of variants of the last three designs.
         seed: number from which values are drawn.
