@@ -165,14 +165,19 @@ def find_limits(
     if progress is not None and not callable(progress):
         raise ModelError(f"progress: {progress!r} is not a function")
     refuse_foreign(model, start)
-    over = entry.get("over") or _only_driver(model)
+    over = entry.get("over") or only_driver(model)
     driven, value, _ = driven_by(model, over, start)
     text, values, positions = _core.limits(driven.core, value, start.q, start.v, start.z, progress)
     path = Motion(driven, values, positions, np.zeros_like(positions), _repeated(start.z, values))
     return LimitsResult(start, over, json.loads(text), value, path)
 
 
-def _only_driver(model: CompiledModel) -> str:
+def only_driver(model: CompiledModel) -> str:
+    """The driver of a model, which is ``over`` by default.
+
+    Raises:
+        ModelError: the model has none, or several.
+    """
     drivers = list(model.drivers)
     if len(drivers) == 1:
         return drivers[0]

@@ -10,6 +10,7 @@ import typer
 from kempe.cli import animate, figures, main, show
 from kempe.cli.app import app
 from kempe.cli.arguments import Method
+from rich.text import Text
 
 PAGE = (Path(__file__).parents[2] / "docs" / "command-line.md").read_text(encoding="utf-8")
 COMMANDS: dict[str, Any] = typer.main.get_command(app).commands  # type: ignore[attr-defined]
@@ -35,6 +36,15 @@ def test_the_help_of_the_program_names_every_command(capsys: pytest.CaptureFixtu
     assert main(["-h"]) == 0
     told = capsys.readouterr().out
     assert [name for name in COMMANDS if name not in told] == []
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_brackets_in_help_are_printed(command: str) -> None:
+    """Rich reads [word] in a help text as markup and prints nothing, unless it is escaped."""
+    told = COMMANDS[command]
+    options = [getattr(option, "help", None) for option in told.params]
+    for text in filter(None, [told.help, told.epilog, *options]):
+        assert Text.from_markup(text).plain == text.replace("\\[", "[")
 
 
 @pytest.mark.parametrize("command", COMMANDS)

@@ -42,7 +42,7 @@ def test_figures_have_the_units() -> None:
         ("kg/s", "measures no shown quantity"),
     ],
 )
-@pytest.mark.parametrize("command", ["run", "check", "plot", "animate", "show", "study"])
+@pytest.mark.parametrize("command", ["run", "check", "plot", "animate", "show", "study", "sweep"])
 def test_wrong_units_are_refused(
     command: str, units: str, told: str, capsys: pytest.CaptureFixture[str]
 ) -> None:

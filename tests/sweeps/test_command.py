@@ -46,7 +46,8 @@ def test_it_resumes_and_begins_anew(folder: Path, capsys: pytest.CaptureFixture[
     assert run(["sweep", "case.toml", "--over", "k=1e6:2e6:2", "--measure", "pin.max"]) == 0
     assert rows() == first
     assert run(["sweep", "case.toml", "--over", "k=1e6:3e6:2", "--measure", "pin.max"]) == 4
-    assert "another sweep" in capsys.readouterr().err
+    told = capsys.readouterr().err
+    assert "another sweep" in told and "--anew discards its results" in told
     words = ["--over", "k=1e6:3e6:2", "--measure", "pin.max", "--anew"]
     assert run(["sweep", "case.toml", *words]) == 0
     assert float(rows()[1]["k"]) == 3e6

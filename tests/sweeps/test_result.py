@@ -2,6 +2,7 @@
 
 import csv
 import math
+import pickle
 import sys
 from pathlib import Path
 
@@ -72,6 +73,21 @@ def test_a_row_is_replayed(result: kp.SweepResult, folder: Path) -> None:
     with pytest.raises(IndexError, match="row 6; the sweep has 6"):
         result.case(6)
     assert len(list(folder.iterdir())) == 1
+
+
+def test_a_result_can_be_pickled(result: kp.SweepResult) -> None:
+    assert len(result.table) == 6 and result.succeeded.any()
+    copied = pickle.loads(pickle.dumps(result))
+    pd.testing.assert_frame_equal(copied.table, result.table)
+    assert copied.reasons == result.reasons and copied.units == result.units
+    with pytest.raises(ValueError, match="read-only"):
+        copied["pin.max"][0] = 0.0
+    assert copied.run(3).measure("pin").max == result["pin.max"][3]
+
+
+def test_tolerances_can_be_pickled() -> None:
+    found = kp.tolerances(pendulum(), {"mass": 0.02}, "pin.force.final", n=4)
+    assert repr(pickle.loads(pickle.dumps(found))) == repr(found)
 
 
 def test_an_unknown_column_is_named(result: kp.SweepResult) -> None:

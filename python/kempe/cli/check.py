@@ -69,10 +69,22 @@ def check(  # noqa: PLR0917 - typer distinguishes options by their annotations
         for line in freedom.report():
             console.print(Text(f"  {line}"))
         _refuse_undetermined(case, state, freedom)
+        swept = _sweep(case, found)
     analyses = ", ".join(f"{name} ({entry['type']})" for name, entry in case.analyses.items())
     console.print()
     name = "standard input" if str(file) == STDIN else file
-    console.print(Text(f"{name}: OK; analyses: {analyses or 'none'}"))
+    console.print(Text(f"{name}: OK; analyses: {analyses or 'none'}{swept}"))
+
+
+def _sweep(case: Case, found: dict[str, Any]) -> str:
+    """The sweep of a case, checked, as a part of the last line; empty if it has none."""
+    if not case.sweep:
+        return ""
+    from kempe.sweeps.asked import check as check_sweep
+
+    count, names = check_sweep(case)
+    found["sweep"] = {"variants": count, "variables": names}
+    return f"; sweep: {count} variants over {', '.join(names)}"
 
 
 def _refuse_undetermined(case: Case, state: State, freedom: MobilityResult) -> None:

@@ -14,7 +14,7 @@ from rich.text import Text
 from kempe.cli.arguments import AsJson, Changes, File, Settings, Units, read_case, shown_in, stem
 from kempe.cli.console import answers, figure, heading, remarks, table
 from kempe.cli.failure import document
-from kempe.errors import ModelError
+from kempe.errors import FileError, ModelError
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -40,7 +40,8 @@ def sweep(  # noqa: PLR0917 - typer uses the annotations of options and argument
         typer.Option(
             "--over",
             metavar="NAME=FROM:TO:N[:log]",
-            help="Vary a parameter or a value at the start, in place of [sweep]; can be repeated.",
+            help="Vary a parameter or a value at the start, in place of \\[sweep]; "
+            "can be repeated.",
         ),
     ] = None,
     measures: Annotated[
@@ -75,7 +76,7 @@ def sweep(  # noqa: PLR0917 - typer uses the annotations of options and argument
         kept = folder / "sweep.db"
         if anew:
             kept.unlink(missing_ok=True)
-        with _told(case.model.title or stem(file)) as progress:
+        with _anew_named(), _told(case.model.title or stem(file)) as progress:
             try:
                 found = compute(
                     case,
@@ -132,6 +133,20 @@ def _range(text: str) -> tuple[str, Mapping[str, Any]]:
 
 
 @contextmanager
+def _anew_named() -> Iterator[None]:
+    """Name the option --anew where the folder contains another sweep."""
+    from kempe.sweeps.storage import CHANGED
+
+    try:
+        yield
+    except FileError as error:
+        if (error.hint or "").startswith(CHANGED):
+            way = "--anew discards its results, and --output names another folder"
+            error.hint = f"{CHANGED}; {way}"
+        raise
+
+
+@contextmanager
 def _told(title: str) -> Iterator[Callable[[int, int, int, float], None]]:
     """Display finished variants, failures and the time left while the block runs."""
     console = remarks()
@@ -169,18 +184,21 @@ def _show(console: Console, found: SweepResult) -> None:
     """Print the range of each measure and the most frequent failures."""
     from collections import Counter
 
+    from kempe.display_units import display
+
     names = ", ".join(variable.name for variable in found.variables)
     console.print(Text(f"{len(found)} variants over {names}", style="bold"))
     rows = []
     for text in found.measures:
-        good = found[text][found.succeeded]
+        unit = display(found.units[text])
+        good = found[text][found.succeeded] / unit.divisor
         good = good[good == good]  # noqa: PLR0124 - without rows that do not settle
         cells = (
             [figure(float(x)) for x in (good.min(), good.mean(), good.max())]
             if len(good)
             else ["–"] * 3
         )
-        rows.append([text, *cells, found.units[text]])
+        rows.append([text, *cells, unit.symbol])
     heading(console, "Measures")
     table(console, ["measure", "least", "mean", "largest", "unit"], rows)
     if found.reasons:

@@ -8,8 +8,11 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.arrays import Floats
+from kempe.display_units import chosen_for
+from kempe.draw.units import axis_label
 from kempe.errors import ModelError
 from kempe.plot import style
+from kempe.plot.sweeps import in_unit
 from kempe.values import texts
 
 if TYPE_CHECKING:
@@ -40,7 +43,7 @@ def sweep_scatter(result: SweepResult, columns: Sequence[str] | None = None) -> 
     if not 1 <= len(names) <= _MOST:
         raise ModelError(f"columns: {len(names)}; from 1 to {_MOST} fit on a page")
     good = result.succeeded
-    data = [result[name][good] for name in names]
+    data = [in_unit(result, name)[0][good] for name in names]
     logarithmic = {variable.name for variable in result.variables if variable.is_log}
     with style.applied():
         made = style.figure(40.0 + 20.0 * len(names))
@@ -60,12 +63,18 @@ def sweep_scatter(result: SweepResult, columns: Sequence[str] | None = None) -> 
                         axes.set_yscale("log")
                     axes.plot(data[column], data[row], ".", color=style.COLOURS[0], markersize=1.5)
                 if column == 0:
-                    axes.set_ylabel(style.short(up))
+                    axes.set_ylabel(_label(result, up))
                 else:
                     axes.tick_params(labelleft=False)
                 if row == len(names) - 1:
-                    axes.set_xlabel(style.short(across))
+                    axes.set_xlabel(_label(result, across))
     return made
+
+
+def _label(result: SweepResult, column: str) -> str:
+    """The name of a column, with its unit where one was chosen."""
+    chosen, name = chosen_for(result.units[column]), style.short(column)
+    return axis_label(name, [chosen.symbol]) if chosen else name
 
 
 def _edges(values: Floats, *, is_log: bool) -> Floats:

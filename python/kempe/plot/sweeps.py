@@ -42,7 +42,9 @@ def sweep_lines(result: SweepResult, measure: str, *, ax: Axes | None = None) ->
     """
     values, shown = _scaled(result, measure)
     first, *others = result.variables
-    lines = np.unique(result[others[0].name]) if others else np.empty(0)
+    x = in_unit(result, first.name)[0]
+    of_lines, unit = in_unit(result, others[0].name) if others else (np.empty(0), "")
+    lines = np.unique(of_lines)
     if len(others) > 1 or len(lines) > _LINES:
         raise ModelError(
             f"sweep_lines draws one variable, and up to {_LINES} values of a second",
@@ -50,15 +52,16 @@ def sweep_lines(result: SweepResult, measure: str, *, ax: Axes | None = None) ->
         )
     with style.on(ax) as axes:
         if not others:
-            _line(axes, result[first.name], values, 0)
-        for k, x in enumerate(lines.tolist()):
-            chosen = result[others[0].name] == x
-            _line(axes, result[first.name][chosen], values[chosen], k, f"{x:.4g}")
+            _line(axes, x, values, 0)
+        for k, level in enumerate(lines.tolist()):
+            chosen = of_lines == level
+            _line(axes, x[chosen], values[chosen], k, f"{level:.4g}")
         _axis(axes, "x", result, first)
         axes.set_ylabel(shown.axis(style.verbatim(measure)))
         if others:
             beside(axes)
-            axes.get_legend().set_title(style.short(others[0].name))  # type: ignore[union-attr]
+            title = _labelled(style.short(others[0].name), unit)
+            axes.get_legend().set_title(title)  # type: ignore[union-attr]
         return axes
 
 
@@ -97,17 +100,17 @@ def sweep_map(
     across = _variable(result, x or next(name for name in names if name != y))
     up = _variable(result, y or next(name for name in names if name != across.name))
     values, shown = _scaled(result, measure)
+    px, py = in_unit(result, across.name)[0], in_unit(result, up.name)[0]
     with style.on(ax, 100.0) as axes:
         drawn = _cells(axes, result, values, across, up) if len(names) == 2 else None
         if drawn is None:
             good = result.succeeded
-            px, py = result[across.name][good], result[up.name][good]
-            drawn = axes.scatter(px, py, c=values[good], s=9.0, **_colours(values))
+            drawn = axes.scatter(px[good], py[good], c=values[good], s=9.0, **_colours(values))
         failed = ~result.succeeded
         if failed.any():
             axes.plot(
-                result[across.name][failed],
-                result[up.name][failed],
+                px[failed],
+                py[failed],
                 "x",
                 color="#C2184B",
                 markersize=2.5,
@@ -125,8 +128,8 @@ def sweep_map(
 
 def _cells(axes: Axes, result: SweepResult, values: Floats, across: Variable, up: Variable) -> Any:
     """The cells of a full grid; None for another design."""
-    xs, at_x = np.unique(result[across.name], return_inverse=True)
-    ys, at_y = np.unique(result[up.name], return_inverse=True)
+    xs, at_x = np.unique(in_unit(result, across.name)[0], return_inverse=True)
+    ys, at_y = np.unique(in_unit(result, up.name)[0], return_inverse=True)
     if len(xs) * len(ys) != len(result) or min(len(xs), len(ys)) < 2:
         return None
     table = np.full((len(ys), len(xs)), np.nan)
@@ -233,7 +236,7 @@ def _scaled(result: SweepResult, measure: str) -> tuple[Floats, Scale]:
     """The values of a measure in the unit of its axis."""
     unit = entry("measure of the sweep", measure, result.units)
     values = result[measure]
-    peak = float(np.nanmax(np.abs(values), initial=0.0))
+    peak = float(np.abs(values[np.isfinite(values)]).max(initial=0.0))
     if unit == "rad":
         shown = display("rad", "°")
         return values / shown.divisor, Scale(shown.divisor, shown.symbol)
@@ -241,9 +244,19 @@ def _scaled(result: SweepResult, measure: str) -> tuple[Floats, Scale]:
     return values / shown_as.divisor, shown_as
 
 
+def in_unit(result: SweepResult, column: str) -> tuple[Floats, str]:
+    """A column in its display unit, and this unit; in SI units where none was chosen."""
+    values, shown = result[column], display(result.units[column])
+    return values / shown.divisor, shown.symbol
+
+
+def _labelled(name: str, unit: str) -> str:
+    return axis_label(name, [unit]) if unit else name
+
+
 def _axis(axes: Axes, which: str, result: SweepResult, variable: Variable) -> None:
-    """Label and scale of the axis of a variable, in SI units as in its column."""
-    name, unit = style.short(variable.name), result.units[variable.name]
-    getattr(axes, f"set_{which}label")(axis_label(name, [unit]) if unit else name)
+    """Label and scale of the axis of a variable, in its display unit."""
+    label = _labelled(style.short(variable.name), in_unit(result, variable.name)[1])
+    getattr(axes, f"set_{which}label")(label)
     if variable.is_log:
         getattr(axes, f"set_{which}scale")("log")

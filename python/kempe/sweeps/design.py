@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,8 @@ from kempe.values import refuse
 
 #: The designs; the last three place points in the unit cube.
 DESIGNS = ("grid", "paired", "random", "latin", "sobol")
+#: Designs of lists.
+_OF_LEVELS = ("grid", "paired")
 #: Largest number of variants of a sweep; their table alone has some gigabytes.
 MOST = 100_000_000
 
@@ -27,16 +30,32 @@ def rows(variables: Sequence[Variable], design: str, n: int | None, seed: int | 
     Raises:
         ModelError: the design needs other values or another ``n``, or SciPy is missing.
     """
-    one_of("design", design, DESIGNS)
-    if design in ("grid", "paired"):
-        if n is not None:
-            refuse("n", f"a {design} design has as many variants as its lists give; leave n out")
+    count = count_of(variables, design, n, seed)
+    if design in _OF_LEVELS:
         levels = [_levels(variable, design) for variable in variables]
-        return fixed(_grid(levels) if design == "grid" else _paired(variables, levels))
-    count = _count(n, design)
+        return fixed(_grid(levels) if design == "grid" else np.column_stack(levels))
     shares = _shares(design, count, len(variables), seed)
     columns = [variable.at(shares[:, k]) for k, variable in enumerate(variables)]
     return fixed(np.column_stack(columns))
+
+
+def count_of(variables: Sequence[Variable], design: str, n: int | None, seed: int | None) -> int:
+    """The number of variants of a design, which is checked but not made.
+
+    Raises:
+        ModelError: as for ``rows``.
+    """
+    one_of("design", design, DESIGNS)
+    if design in _OF_LEVELS:
+        if n is not None:
+            refuse("n", f"a {design} design has as many variants as its lists give; leave n out")
+        counts = [len(_levels(variable, design)) for variable in variables]
+        return _size_of_grid(counts) if design == "grid" else _length(variables, counts)
+    count = _count(n, design)
+    _seed(seed)
+    if design != "random":
+        _qmc(design)
+    return count
 
 
 def _levels(variable: Variable, design: str) -> Floats:
@@ -48,27 +67,33 @@ def _levels(variable: Variable, design: str) -> Floats:
     return np.asarray(variable.levels)
 
 
-def _grid(levels: Sequence[Floats]) -> Floats:
-    count = float(np.prod([float(len(one)) for one in levels]))
+def _size_of_grid(counts: Sequence[int]) -> int:
+    count = prod(map(float, counts))
     if count > MOST:
         refuse("variables", f"the grid has {count:.3g} variants; at most {MOST:.0e}")
+    return int(count)
+
+
+def _grid(levels: Sequence[Floats]) -> Floats:
     return np.stack(np.meshgrid(*levels, indexing="ij"), axis=-1).reshape(-1, len(levels))
 
 
-def _paired(variables: Sequence[Variable], levels: Sequence[Floats]) -> Floats:
-    counts = {variable.name: len(one) for variable, one in zip(variables, levels, strict=True)}
-    if len(set(counts.values())) > 1:
-        told = ", ".join(f"{name} {count}" for name, count in counts.items())
+def _length(variables: Sequence[Variable], counts: Sequence[int]) -> int:
+    """The one length of paired lists."""
+    if len(set(counts)) > 1:
+        pairs = zip(variables, counts, strict=True)
+        told = ", ".join(f"{variable.name} {count}" for variable, count in pairs)
         raise ModelError(
             f"variables: a paired design needs lists of one length; these have {told}",
             hint='make them equal, or use design="grid"',
         )
-    return np.column_stack(levels)
+    return counts[0]
 
 
 def _count(n: int | None, design: str) -> int:
     if not isinstance(n, (int, np.integer)) or isinstance(n, bool) or not 1 <= n <= MOST:
-        refuse("n", f"{n!r}; a {design} design needs the number of variants, such as n=1000")
+        given = "missing" if n is None else repr(n)
+        refuse("n", f"{given}; a {design} design needs the number of variants, such as n=1000")
     if design == "sobol" and n & (n - 1):
         power = 2 ** int(np.ceil(np.log2(n)))
         raise ModelError(

@@ -24,6 +24,7 @@ from kempe.measures import measure_info, parameter_unit
 from kempe.names import one_of
 from kempe.option import core_options
 from kempe.request_cache import encode
+from kempe.sweeps.reasons import origin_of, reason
 from kempe.sweeps.wanted import Wanted
 from kempe.values import numbers
 
@@ -74,8 +75,8 @@ class Plan:
             return self._singly(given)
         values, reasons, left = self._native(given, workers)
         block = Block(values, [""] * len(given))
-        for row, reason in reasons:
-            block.reasons[row] = reason
+        for row, message in reasons:
+            block.reasons[row] = reason(message, self._origin)
         for row in left.tolist():
             one = self._singly(given[row : row + 1])
             block.values[row], block.reasons[row] = one.values[0], one.reasons[0]
@@ -190,8 +191,13 @@ class Plan:
             except InternalError:
                 raise
             except KempeError as error:
-                block.reasons[row] = str(error.args[0])
+                block.reasons[row] = reason(str(error.args[0]), self._origin)
         return block
+
+    @cached_property
+    def _origin(self) -> str:
+        """The name of the file of the model, which is part of messages."""
+        return origin_of(self.case.model)
 
     def __getstate__(self) -> dict[str, Any]:
         return {name: getattr(self, name) for name in ("case", "analysis", "names", "wanted")}

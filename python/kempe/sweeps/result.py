@@ -15,16 +15,22 @@ from numpy.typing import NDArray
 
 from kempe import files
 from kempe.arrays import Floats, fixed
+from kempe.display_units import units
 from kempe.errors import ModelError
 from kempe.names import entry
 from kempe.sweeps.plan import Plan
 from kempe.sweeps.variables import Variable
+from kempe.table import Column, column
 
 if TYPE_CHECKING:
     from kempe.case import Case
     from kempe.result import Result
     from kempe.solution import Solution
     from kempe.sweeps.table import Table
+
+
+#: Attributes that are computed again.
+_CACHED = ("_by_name", "succeeded", "_tables")
 
 
 class SweepResult:
@@ -78,36 +84,60 @@ class SweepResult:
         found[list(self.reasons)] = False
         return found
 
-    @cached_property
+    @property
     def table(self) -> Any:
         """Variables by name, measures by text, and ``reason``, which is empty in most rows.
 
-        A pandas data frame, or a structured array if pandas is not installed.
+        A pandas data frame, or a structured array if pandas is not installed. Its numbers have the
+        units of ``kp.units``, which are in ``attrs["units"]`` or ``dtype.metadata["units"]``.
         """
+        chosen = units().chosen
+        if chosen not in self._tables:
+            self._tables[chosen] = self._tabulated()
+        return self._tables[chosen]
+
+    @cached_property
+    def _tables(self) -> dict[tuple[str, ...], Any]:
+        """The table for each choice of units."""
+        return {}
+
+    def _tabulated(self) -> Any:
+        columns = self._shown()
         reasons = np.full(len(self), "", dtype=object)
         for k, reason in self.reasons.items():
             reasons[k] = reason
+        known = {each.name: each.unit for each in columns}
         try:
             import pandas
         except ImportError:
-            kinds = [(name, np.float64) for name in self.columns]
-            found = np.empty(len(self), dtype=[*kinds, ("reason", object)])
-            for name, values in self._by_name.items():
-                found[name] = values
+            kinds = [*((each.name, np.float64) for each in columns), ("reason", object)]
+            found = np.empty(len(self), np.dtype(kinds, metadata={"units": known}))
+            for each in columns:
+                found[each.name] = each.values
             found["reason"] = reasons
             return found
-        return pandas.DataFrame({**self._by_name, "reason": reasons})
+        values = {each.name: each.values for each in columns}
+        frame = pandas.DataFrame({**values, "reason": reasons})
+        frame.attrs["units"] = known
+        return frame
+
+    def _shown(self) -> list[Column]:
+        """The columns in the units of ``kp.units``."""
+        return [column(name, self.units[name], self[name]) for name in self.columns]
 
     def to_csv(self, path: Path | str) -> None:
         """Write the table as CSV with 17 digits, which preserves every number.
 
+        If units were chosen by ``kp.units``, the header has them: ``L2 [mm]``.
+
         Raises:
             FileError: the file cannot be written; an existing file is not changed.
         """
-        text = io.StringIO()
+        text, columns = io.StringIO(), self._shown()
         write = csv.writer(text, lineterminator="\n").writerow
-        write([*self.columns, "reason"])
-        for k, row in enumerate(np.column_stack([self._design, self._values]).tolist()):
+        stated = bool(units().chosen)
+        write([*(each.label if stated else each.name for each in columns), "reason"])
+        for k, row in enumerate(np.column_stack([each.values for each in columns]).tolist()):
             cells = ["" if np.isnan(x) else f"{x:.17g}" for x in row]
             write([*cells, self.reasons.get(k, "")])
         files.write_text(path, text.getvalue())
@@ -127,9 +157,10 @@ class SweepResult:
                 f"to_parquet needs pandas and pyarrow; {error.name} is not installed",
                 hint="pip install pandas pyarrow, or use to_csv",
             ) from error
-        assert isinstance(self.table, pandas.DataFrame)
+        table = self.table
+        assert isinstance(table, pandas.DataFrame)
         with files.writing(files.checked_path(path, "write")) as file:
-            self.table.to_parquet(file)
+            table.to_parquet(file)
 
     def case(self, k: int) -> Case:
         """The case of a row, which can be run, drawn, saved and opened in the player.
@@ -145,7 +176,7 @@ class SweepResult:
 
         Raises:
             IndexError: there is no such row.
-            KempeError: it fails, with the reason of the row.
+            KempeError: it fails; the reason of the row is its message in one line.
         """
         return self._plan.run(self._design[self._place(k)])
 
@@ -153,6 +184,15 @@ class SweepResult:
         if not -len(self) <= k < len(self):
             raise IndexError(f"row {k}; the sweep has {len(self)}")
         return int(k)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What a copy in another process needs; views of mappings cannot be pickled."""
+        state = {name: value for name, value in vars(self).items() if name not in _CACHED}
+        return {**state, "units": dict(self.units), "reasons": dict(self.reasons)}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        views = {name: MappingProxyType(state[name]) for name in ("units", "reasons")}
+        self.__dict__.update(state | views)
 
     def __repr__(self) -> str:
         names = ", ".join(variable.name for variable in self.variables)

@@ -8,16 +8,15 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from kempe.arrays import Floats
-from kempe.errors import ModelError
 from kempe.sweeps import design as designs
+from kempe.sweeps.asked import asked_of, design_of, planned
 from kempe.sweeps.local import fill
-from kempe.sweeps.plan import Plan, chosen, without_later
+from kempe.sweeps.plan import Plan
 from kempe.sweeps.result import SweepResult
 from kempe.sweeps.storage import Storage
 from kempe.sweeps.table import Progress, Table
-from kempe.sweeps.variables import Values, Variable, read_variables
-from kempe.sweeps.wanted import read_wanted
-from kempe.values import instance, refuse
+from kempe.sweeps.variables import Values
+from kempe.values import refuse
 
 if TYPE_CHECKING:
     from kempe.case import Case
@@ -47,7 +46,8 @@ def sweep(
             start (``crank.omega``): a list, ``{"from": 1e3, "to": 1e5, "n": 50, "scale": "log"}``,
             ``{"normal": [mean, deviation]}`` or ``{"uniform": [least, most]}``, SI units and rad.
         measures: statistics of measures and quantities, such as ``"pin.max"``; for an analysis that
-            is not a motion, numbers of its result, such as ``"frequency[0]"``.
+            is not a motion, numbers of its result, such as ``"frequency[0]"``, or quantities at
+            rest, such as ``"rocker.angle"``.
         design: "grid" (default), "paired", "random", "latin" or "sobol"; the last two need SciPy.
         n: number of variants of the last three designs.
         seed: number from which values are drawn.
@@ -63,8 +63,9 @@ def sweep(
         FileError: ``out`` cannot be written, or contains another sweep.
         KeyboardInterrupt: Ctrl-C was pressed; ``result`` contains the finished rows.
     """
-    asked = _asked(case, variables, measures, design, n, seed, analysis)
-    plan, known, given = _planned(case, asked)
+    asked = asked_of(case, variables, measures, design, n, seed, analysis)
+    plan, known = planned(case, asked)
+    given = designs.rows(known, *design_of(asked))
     threads = _workers(workers)
     storage = None if out is None else Storage(out, plan.key_of(given))
     try:
@@ -80,19 +81,6 @@ def sweep(
     return SweepResult(plan, known, given, table)
 
 
-def _planned(case: Case, asked: Mapping[str, Any]) -> tuple[Plan, list[Variable], Floats]:
-    """The plan, the variables and the design."""
-    name = chosen(case, asked["analysis"])
-    case = without_later(case, name)
-    known = read_variables(case, asked["variables"])
-    kind = case.analyses[name]["type"]
-    wanted = read_wanted(case.model.compile(), kind, asked["measures"])
-    given = designs.rows(known, asked["design"] or "grid", asked["n"], asked["seed"])
-    plan = Plan(case, name, tuple(v.name for v in known), tuple(wanted))
-    plan.check()
-    return plan, known, given
-
-
 def _fill(table: Table, plan: Plan, given: Floats, where: tuple[Any, int | None, int]) -> None:
     """Run the variants that are left on threads, or on a cluster."""
     scheduler, workers, threads = where
@@ -103,27 +91,6 @@ def _fill(table: Table, plan: Plan, given: Floats, where: tuple[Any, int | None,
         from kempe.sweeps import cluster
 
         cluster.fill(table, plan, given, scheduler, workers)
-
-
-def _asked(case: Case, *given: Any) -> dict[str, Any]:
-    """The arguments, or the table ``[sweep]`` of the case in their place."""
-    from kempe.case import Case
-
-    instance(case, Case, "a case, as kp.load(path) returns")
-    names = ("variables", "measures", "design", "n", "seed", "analysis")
-    asked = dict(zip(names, given, strict=True))
-    if not case.sweep:
-        for key in ("variables", "measures"):
-            if not asked[key]:
-                raise ModelError(f"sweep: no {key}", hint=f"pass {key}=, or declare [sweep]")
-        return asked
-    if asked["variables"]:  # a design belongs to its variables
-        kept = {"measures": case.sweep.get("measures"), "analysis": case.sweep.get("analysis")}
-    else:
-        kept = dict(case.sweep)
-    return {key: asked[key] or kept.get(key) for key in names} | {
-        key: asked[key] if asked[key] is not None else kept.get(key) for key in ("n", "seed")
-    }
 
 
 def _workers(workers: int | None) -> int:

@@ -25,6 +25,9 @@ CREATE TABLE IF NOT EXISTS sweep (key TEXT NOT NULL);
 CREATE TABLE IF NOT EXISTS row (k INTEGER PRIMARY KEY, numbers BLOB NOT NULL, reason TEXT NOT NULL);
 """
 
+#: Why a file contains another sweep.
+CHANGED = "the case, the variables, the measures or the version of kempe changed"
+
 
 class Storage:
     """The file of a sweep.
@@ -56,8 +59,7 @@ class Storage:
             raise FileError(
                 f"{path} holds the results of another sweep",
                 name=str(path),
-                hint="the case, the variables, the measures or the version of kempe changed; "
-                "name another file, or delete this one",
+                hint=f"{CHANGED}; name another file, or delete this one",
             )
 
     def _refuse(self, error: Exception) -> NoReturn:

@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
-
-import numpy as np
 
 from kempe.errors import ModelError
 from kempe.measures import STATISTICS, Measure, MeasureInfo, measure_info
 from kempe.names import unknown
 from kempe.solution import Solution
+from kempe.sweeps.numbers import driven_model, number, unit_of
 from kempe.values import refuse, texts
+from kempe.variable import TIME
 
 if TYPE_CHECKING:
     from kempe.compiled import CompiledModel
@@ -23,8 +22,6 @@ if TYPE_CHECKING:
 ALL = (*STATISTICS, "t_max", "t_min")
 #: Analyses whose results are motions.
 MOTIONS = ("dynamics", "kinematics", "inverse_dynamics")
-#: A number of another result, such as ``lower`` or ``frequency[0]``.
-_ATTRIBUTE = re.compile(r"([A-Za-z]\w*)(?:\[(-?\d+)\])?")
 
 
 @dataclass(frozen=True)
@@ -53,19 +50,35 @@ class Wanted:
         """
         if isinstance(found, Solution):
             return float(getattr(Measure(found, self._info(found.compiled)), self.statistic))
-        return _number(found, self.text)
+        return number(found, self.text)
 
     def _info(self, model: CompiledModel) -> MeasureInfo:
         return measure_info(model, self.expression)
 
 
-def read_wanted(model: CompiledModel, kind: str, measures: Sequence[str]) -> list[Wanted]:
+def read_wanted(
+    model: CompiledModel, entry: Mapping[str, Any], measures: Sequence[str]
+) -> list[Wanted]:
     """The wanted numbers of an analysis, checked.
 
+    Args:
+        model: the model.
+        entry: the analysis, as in a file.
+        measures: the texts.
+
     Raises:
-        ModelError: a text does not end with a statistic of a measure or quantity.
+        ModelError: a text does not end with a statistic of a measure or quantity, or the result has
+            no such number.
     """
-    found = [_wanted(model, kind, text) for text in texts(measures, "measures")]
+    variable, is_motion = TIME, entry["type"] in MOTIONS
+    if is_motion and entry.get("over") is not None:  # the motion has the driver `over`
+        model, variable = driven_model(model, entry["over"])
+    found = [
+        _statistic(model, text, variable.unit)
+        if is_motion
+        else Wanted(text, text, "", unit_of(model, entry, text))
+        for text in texts(measures, "measures")
+    ]
     if not found:
         raise ModelError("measures: there are none", hint='give one: measures=["C.force.max"]')
     if len({one.text for one in found}) < len(found):
@@ -73,32 +86,12 @@ def read_wanted(model: CompiledModel, kind: str, measures: Sequence[str]) -> lis
     return found
 
 
-def _wanted(model: CompiledModel, kind: str, text: str) -> Wanted:
-    if kind not in MOTIONS:
-        if not _ATTRIBUTE.fullmatch(text):
-            refuse(
-                "measures",
-                f"{text!r} does not name a number of the result of {kind}, as 'lower' does",
-            )
-        return Wanted(text, text, "")
+def _statistic(model: CompiledModel, text: str, of_t: str) -> Wanted:
+    """A statistic of a measure over a variable with the unit ``of_t``."""
     name, _, statistic = text.rpartition(".")
     if statistic not in ALL:
         raise unknown(f"statistic in measures ({text!r})", statistic, ALL)
-    known = model.measures.get(name)
-    info = known or measure_info(model, name)
-    timed = {"t_max": "s", "t_min": "s", "settling": "s", "frequency": "Hz"}
+    info = model.measures.get(name) or measure_info(model, name)
+    timed = dict.fromkeys(("t_max", "t_min", "settling"), of_t)
+    timed["frequency"] = "Hz" if of_t == TIME.unit else f"1/{of_t}"
     return Wanted(text, info.expression, statistic, timed.get(statistic, info.unit), info.is_of_run)
-
-
-def _number(found: Any, text: str) -> float:
-    match = _ATTRIBUTE.fullmatch(text)
-    assert match is not None  # checked before
-    name, place = match.groups()
-    value = None if name.startswith("_") else getattr(found, name, None)
-    if value is None:
-        raise ModelError(f"the result of {found.kind} has no number {name}")
-    try:
-        value = value if place is None else value[int(place)]
-        return float(np.real_if_close(value))
-    except (TypeError, ValueError, IndexError) as error:
-        raise ModelError(f"{text} is not one real number: {error}") from error
