@@ -142,7 +142,8 @@ def pin_table(solution: Solution) -> list[Column]:
     """The forces of all joints in the frames of their bodies at the outputs, as columns.
 
     The first column is the time or the driven quantity; the others have names of quantities, such
-    as ``A.body_fx_on_rod``, and display units. Columns of forces that are not unique say so.
+    as ``A.body_fx_on_rod``, and display units. Columns of forces that are not unique have the
+    remark "minimum norm".
     """
     model, of = solution.compiled, solution.variable
     found = [column(of.name, of.unit, solution.t)]
