@@ -28,6 +28,10 @@ if TYPE_CHECKING:
 MINIMUM_NORM = "minimum norm"
 #: Times closer than this fraction of the motion belong to one position.
 _SAME_TIME = 1e-3
+#: Reactions below this fraction of the largest multipliers are zero; errors have poles too.
+_NOTHING = 1e-9
+#: Units of measures that are forces or torques.
+_FORCES = ("N", "N*m")
 
 #: For each motion, the times that are known of a joint or driver and a part of its reaction.
 _known: WeakKeyDictionary[Motion, dict[tuple[str, str], list[float]]] = WeakKeyDictionary()
@@ -87,8 +91,6 @@ def unbounded_at(
 
 
 def _unbounded_at(motion: Motion, joint: str, part: str) -> list[float]:
-    from kempe.extrema import unbounded  # which needs solutions
-
     on = motion.compiled.constraints[joint].j
 
     def force(at: Motion) -> Floats:
@@ -97,7 +99,22 @@ def _unbounded_at(motion: Motion, joint: str, part: str) -> list[float]:
     def torque(at: Motion) -> Floats:
         return np.asarray(at.constraint(joint).torque(on=on))
 
-    found: list[float] = unbounded(motion, force if part == "force" else torque).tolist()
+    return poles(motion, force if part == "force" else torque)
+
+
+def poles(motion: Motion, read: Callable[[Motion], Floats]) -> list[float]:
+    """Times of singular positions beside which a force or torque has no bound.
+
+    A force that vanishes has none, although its errors grow beside such a position.
+    """
+    from kempe.extrema import peak, unbounded  # which need solutions
+
+    def multipliers(at: Motion) -> Floats:
+        return np.asarray(np.linalg.norm(np.atleast_2d(at.lam), axis=1))
+
+    found: list[float] = unbounded(motion, read).tolist()
+    if found and abs(peak(motion, read).value) <= _NOTHING * peak(motion, multipliers).value:
+        return []
     return found
 
 
@@ -106,9 +123,12 @@ def measure_unbounded_at(motion: Motion, info: MeasureInfo) -> tuple[float, ...]
     from kempe.extrema import unbounded  # which needs solutions
     from kempe.measures import values_of
 
+    def read(at: Motion) -> Floats:
+        return values_of(at, info)
+
     if info.is_of_run or not info.solves:
         return ()
-    return tuple(unbounded(motion, lambda at: values_of(at, info)).tolist())
+    return tuple(poles(motion, read) if info.unit in _FORCES else unbounded(motion, read).tolist())
 
 
 def remark(*, unique: bool, times: Sequence[float] = (), variable: Variable = TIME) -> str:

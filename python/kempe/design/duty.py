@@ -18,11 +18,11 @@ from kempe.arrays import Floats, fixed
 from kempe.design.locate import instants, integral, interpolated, limits, zeros
 from kempe.design.transmission import rate_name
 from kempe.errors import ModelError
-from kempe.extrema import Extreme, unbounded
+from kempe.extrema import Extreme
 from kempe.motion import Motion
 from kempe.names import unknown
 from kempe.quantities import named
-from kempe.remarks import is_unique, remark
+from kempe.remarks import is_unique, poles, remark
 from kempe.solution import Solution
 from kempe.variable import Variable
 
@@ -113,7 +113,7 @@ def duty(solution: Solution, name: str) -> Duty:
         return np.asarray(effort(motion) * rate(motion))
 
     t = instants(solution)
-    found, poles = solution(t), tuple(unbounded(solution, effort).tolist())
+    found, passed = solution(t), tuple(poles(solution, effort))
     turns = [float(t[0]), *_inner(zeros(solution, power), t), float(t[-1])]
     works = integral(solution, power, turns)
     ends = [float(t[0]), float(t[-1])]
@@ -127,8 +127,8 @@ def duty(solution: Solution, name: str) -> Duty:
         fixed(rate(found)),
         fixed(effort(found)),
         fixed(power(found)),
-        _peak(solution, effort, poles),
-        _peak(solution, power, poles),
+        _peak(solution, effort, passed),
+        _peak(solution, power, passed),
         float(np.sqrt(square / span)),
         float(integral(solution, effort, ends)[0]) / span,
         float(works.sum()) / span,
@@ -136,7 +136,7 @@ def duty(solution: Solution, name: str) -> Duty:
         float(works[works > 0.0].sum()),
         float(works[works < 0.0].sum()),
         is_unique(solution, names[0]),
-        poles,
+        passed,
     )
 
 
@@ -146,8 +146,8 @@ def _inner(found: Floats, t: Floats) -> Floats:
     return found[(found > low) & (found < high)]
 
 
-def _peak(solution: Solution, read: Read, poles: tuple[float, ...]) -> Extreme:
-    both = limits(solution, read, poles)
+def _peak(solution: Solution, read: Read, passed: tuple[float, ...]) -> Extreme:
+    both = limits(solution, read, passed)
     return max(both.largest, both.least, key=lambda extreme: abs(extreme.value))
 
 
