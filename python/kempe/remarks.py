@@ -15,6 +15,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from kempe.display_units import display
+from kempe.names import few
 from kempe.variable import TIME, Variable
 
 if TYPE_CHECKING:
@@ -152,6 +153,11 @@ def joint_remark(motion: Motion, joint: str) -> str:
 def starred(name: str, *, unique: bool) -> str:
     """A name in a table of numbers, with a star if these are not unique."""
     return name if unique else f"* {name}"
+
+
+def not_unique(names: Sequence[str]) -> str:
+    """The line below a table that has stars."""
+    return f"* not unique, of the smallest multipliers ({MINIMUM_NORM}): {few(names)}"
 
 
 def when(

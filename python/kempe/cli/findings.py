@@ -11,7 +11,7 @@ from kempe.cli.console import figure, heading, table
 from kempe.display_units import Shown, display
 from kempe.display_units import heading as units_heading
 from kempe.names import few
-from kempe.remarks import MINIMUM_NORM, starred, when
+from kempe.remarks import not_unique, starred, when
 from kempe.variable import Variable
 
 
@@ -81,8 +81,7 @@ def _show_remarks(
         console.print(Text(f"  {text}"))
     names = [row[key] for row in rows if not row["unique"]]
     if names:
-        text = f"* not unique, of the smallest multipliers ({MINIMUM_NORM}): {few(names)}"
-        console.print(Text(f"  {text}"))
+        console.print(Text(f"  {not_unique(names)}"))
 
 
 def _show_singular(console: Console, passed: list[dict[str, Any]], at: str) -> None:

@@ -169,6 +169,8 @@ def _show(console: Console, found: SweepResult) -> None:
     """Print the range of each measure and the most frequent failures."""
     from collections import Counter
 
+    from kempe.remarks import not_unique, starred
+
     names = ", ".join(variable.name for variable in found.variables)
     console.print(Text(f"{len(found)} variants over {names}", style="bold"))
     rows = []
@@ -180,9 +182,13 @@ def _show(console: Console, found: SweepResult) -> None:
             if len(good)
             else ["–"] * 3
         )
-        rows.append([text, *cells, found.units[text]])
+        rows.append(
+            [starred(text, unique=text not in found.minimum_norm), *cells, found.units[text]]
+        )
     heading(console, "Measures")
     table(console, ["measure", "least", "mean", "largest", "unit"], rows)
+    if found.minimum_norm:
+        console.print(Text(f"  {not_unique(found.minimum_norm)}"))
     if found.reasons:
         heading(console, f"{len(found.reasons)} variants failed")
         for reason, count in Counter(_kind(text) for text in found.reasons.values()).most_common(3):

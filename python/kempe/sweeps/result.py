@@ -18,6 +18,7 @@ from kempe.arrays import Floats, fixed
 from kempe.errors import ModelError
 from kempe.names import entry
 from kempe.sweeps.plan import Plan
+from kempe.sweeps.remarked import labelled, not_unique
 from kempe.sweeps.variables import Variable
 
 if TYPE_CHECKING:
@@ -57,6 +58,11 @@ class SweepResult:
     def columns(self) -> tuple[str, ...]:
         """The names of the columns of numbers: variables, then measures."""
         return (*(variable.name for variable in self.variables), *self.measures)
+
+    @cached_property
+    def minimum_norm(self) -> tuple[str, ...]:
+        """The measures that read reactions which are not unique; see ``Measure.unique``."""
+        return not_unique(self)
 
     def __getitem__(self, column: str) -> Floats:
         """A column, (n,): NaN in the measures of rows that failed.
@@ -106,7 +112,7 @@ class SweepResult:
         """
         text = io.StringIO()
         write = csv.writer(text, lineterminator="\n").writerow
-        write([*self.columns, "reason"])
+        write([*(labelled(self, name) for name in self.columns), "reason"])
         for k, row in enumerate(np.column_stack([self._design, self._values]).tolist()):
             cells = ["" if np.isnan(x) else f"{x:.17g}" for x in row]
             write([*cells, self.reasons.get(k, "")])
