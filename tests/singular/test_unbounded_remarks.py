@@ -190,7 +190,7 @@ def test_an_effort_without_bound(draw: Callable[..., Axes]) -> None:
 
 
 def test_forces_that_vanish_have_bounds() -> None:
-    """With equal weights the axial force is zero: errors beside the line are no poles."""
+    """With equal weights the axial force is zero: beside the line only errors grow."""
     sol = jacked(tube=1.0)
     assert np.median(np.abs(sol["jack.effort"])) < 1e-12
     for joint in ("jack", "slide"):

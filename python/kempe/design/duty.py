@@ -238,8 +238,7 @@ def flywheel(
         ModelError: the driver does not turn a shaft in one direction, the fluctuation is not
             between 0 and 1, or the speed is missing.
     """
-    names = _names(interpolated(solution), driver)
-    effort, rate, unit = _reads(solution, names)
+    effort, rate, unit = _reads(solution, _names(interpolated(solution), driver))
     if unit != "N*m":
         raise ModelError(
             f"{driver} turns no shaft", name=driver, hint="name the driver of an angle"
@@ -255,8 +254,7 @@ def flywheel(
     if rates.min() <= 0.0 <= rates.max():
         raise ModelError(f"{driver} does not turn in one direction all the time", name=driver)
     angle = float(integral(solution, rate, ends)[0])
-    work = float(integral(solution, lambda m: effort(m) * rate(m), ends)[0])
-    mean = work / angle
+    mean = float(integral(solution, lambda m: effort(m) * rate(m), ends)[0]) / angle
     omega = _speed(solution, angle, speed)
 
     def excess(motion: Motion) -> Floats:
@@ -278,7 +276,7 @@ def flywheel(
         fixed(t),
         fixed(effort(found)),
         fixed(-_along(solution, excess, t)),
-        is_unique(solution, names[0]),
+        is_unique(solution, _names(solution, driver)[0]),
     )
 
 
