@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe import _core, quantities
+from kempe import _core, quantities, remarks
 from kempe.arrays import Floats, fixed
 from kempe.dominant_frequency import dominant_frequency
 from kempe.names import entry
@@ -130,6 +130,23 @@ class Measure:
         return self.info.unit
 
     @cached_property
+    def unique(self) -> bool:
+        """Whether the reactions in it are unique; if not, they have minimum norm.
+
+        See ``ConstraintView.unique``. A measure without reactions is unique.
+        """
+        return remarks.is_unique(self._solution, *self.info.quantities)
+
+    @cached_property
+    def unbounded_at(self) -> tuple[float, ...]:
+        """Times of singular positions beside which it has no bound, s.
+
+        ``max``, ``min`` and ``peak`` exclude the values there; ``mean`` and ``rms`` include the
+        outputs there.
+        """
+        return remarks.measure_unbounded_at(self._solution, self.info)
+
+    @cached_property
     def _highest(self) -> Extreme:
         from kempe.extrema import largest
 
@@ -226,4 +243,6 @@ class Measure:
 
     def __repr__(self) -> str:
         span = f"{self.min:.6g} to {self.max:.6g} {self.unit}"
-        return f"<Measure {self.name!r} = {self.info.expression!r}: {span}>"
+        variable = self._solution.variable
+        told = remarks.remark(unique=self.unique, times=self.unbounded_at, variable=variable)
+        return f"<Measure {self.name!r} = {self.info.expression!r}: {span}{told}>"

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe import files, quantities
+from kempe import files, quantities, remarks
 from kempe.arrays import Floats
 from kempe.display_units import display
 from kempe.errors import ModelError
@@ -23,10 +23,6 @@ if TYPE_CHECKING:
     from kempe.solution import Solution
 
 
-#: The remark at values that are not unique.
-MINIMUM_NORM = "minimum norm"
-
-
 @dataclass(frozen=True)
 class Column:
     """One quantity over time.
@@ -35,8 +31,8 @@ class Column:
         name: such as ``rocker.angle``.
         unit: display unit, such as ``rad``.
         values: (n_t,), in this unit.
-        unique: False for a reaction or multiplier that is not unique because of redundant
-            constraints; its values then have minimum norm.
+        unique: False for a reaction, or a measure that reads it, if redundant constraints leave it
+            open; its values then have minimum norm.
     """
 
     name: str
@@ -47,8 +43,8 @@ class Column:
     @property
     def label(self) -> str:
         """Name and unit, such as ``C.fx_on_rocker [N]``; with a remark if it is not unique."""
-        remarks = ", ".join(filter(None, (self.unit, "" if self.unique else MINIMUM_NORM)))
-        return f"{self.name} [{remarks}]" if remarks else self.name
+        beside = ", ".join(filter(None, (self.unit, "" if self.unique else remarks.MINIMUM_NORM)))
+        return f"{self.name} [{beside}]" if beside else self.name
 
 
 @dataclass(frozen=True)
@@ -79,9 +75,8 @@ def columns(solution: Solution, extent: Extent | None = None) -> list[Column]:
         if name == first.name:
             continue
         quantity = quantities.named(solution, name)
-        owner = name.rpartition(".")[0]
         values = column(name, quantity.unit, quantity.read())
-        table.append(replace(values, unique=owner not in solution.not_unique))
+        table.append(replace(values, unique=remarks.is_unique(solution, name)))
     return table
 
 

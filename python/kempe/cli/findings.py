@@ -11,6 +11,7 @@ from kempe.cli.console import figure, heading, table
 from kempe.display_units import Shown, display
 from kempe.display_units import heading as units_heading
 from kempe.names import few
+from kempe.remarks import not_unique, starred, when
 from kempe.variable import Variable
 
 
@@ -26,8 +27,8 @@ def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
         console, f"{name}: {over}{start} to {end}{gap}{shown.symbol}, {span['outputs']} outputs"
     )
     console.print(Text(f"  {summary['message']}", style="" if summary["success"] else "red"))
-    _show_peaks(console, summary["peaks"], of.unit)
-    _show_measures(console, summary["measures"], timed=of.is_time)
+    _show_peaks(console, summary["peaks"], of)
+    _show_measures(console, summary["measures"], of)
     _show_events(console, summary["events"], of.unit)
     _show_accuracy(console, summary, of.unit)
     _show_singular(console, summary["singular"], of.unit)
@@ -49,16 +50,15 @@ def _shown(unit: str) -> Shown:
     return display(unit, "deg") if unit == "rad" else display(unit)
 
 
-def _show_peaks(console: Console, peaks: dict[str, Any], at: str) -> None:
-    reactions, forces = peaks["reactions"], peaks["forces"]
+def _show_peaks(console: Console, peaks: dict[str, Any], over: Variable) -> None:
+    at, reactions, forces = over.unit, peaks["reactions"], peaks["forces"]
     if reactions:
         heading(console, "Largest reactions")
-        names = ((f"{'' if r['unique'] else '* '}{r['joint']}", r["on"]) for r in reactions)
+        names = ((starred(r["joint"], unique=r["unique"]), r["on"]) for r in reactions)
         header, cells = _columns(reactions, at)
         rows = [(*name, *row) for name, row in zip(names, cells, strict=True)]
         table(console, ("joint", "on", *header), rows, left=2)
-        _show_unbounded(console, reactions, at)
-        _show_minimum_norm(console, reactions)
+        _show_remarks(console, reactions, "joint", over, "not counted here")
     if forces:
         heading(console, "Largest forces")
         header, cells = _columns(forces, at)
@@ -66,14 +66,22 @@ def _show_peaks(console: Console, peaks: dict[str, Any], at: str) -> None:
         table(console, ("force", "on", *header, _header("torque of parts", "N*m")), rows, left=2)
 
 
-def _show_unbounded(console: Console, reactions: list[dict[str, Any]], at: str) -> None:
-    """The reactions that have no bound beside singular positions."""
-    names = [r["joint"] for r in reactions if r["unbounded_at"]]
-    times = sorted(t for r in reactions for t in r["unbounded_at"])
+def _show_remarks(
+    console: Console, rows: list[dict[str, Any]], key: str, of: Variable, counted: str
+) -> None:
+    """Below a table: the rows without bound at singular positions, and those not unique.
+
+    ``counted``: whether the numbers of the table include values without bound, in words.
+    """
+    names = [row[key] for row in rows if row["unbounded_at"]]
+    times = sorted({t for row in rows for t in row["unbounded_at"]})
     if names:
-        span = f"first at {_place(times[0], at)}, last at {_place(times[-1], at)}"
-        text = f"without bound at singular positions, not counted here ({span}): {few(names)}"
+        span = when(times, of, lambda t: _place(t, of.unit))
+        text = f"without bound at singular positions, {counted} ({span}): {few(names)}"
         console.print(Text(f"  {text}"))
+    names = [row[key] for row in rows if not row["unique"]]
+    if names:
+        console.print(Text(f"  {not_unique(names)}"))
 
 
 def _show_singular(console: Console, passed: list[dict[str, Any]], at: str) -> None:
@@ -94,15 +102,7 @@ def _show_singular(console: Console, passed: list[dict[str, Any]], at: str) -> N
     console.print(Text(f"  {text}"))
 
 
-def _show_minimum_norm(console: Console, reactions: list[dict[str, Any]]) -> None:
-    """The reactions that redundant constraints leave open."""
-    names = [r["joint"] for r in reactions if not r["unique"]]
-    if names:
-        text = f"* not unique, of the smallest multipliers (minimum norm): {few(names)}"
-        console.print(Text(f"  {text}"))
-
-
-def _show_measures(console: Console, measures: list[dict[str, Any]], *, timed: bool) -> None:
+def _show_measures(console: Console, measures: list[dict[str, Any]], over: Variable) -> None:
     """The statistics of each measure, in its unit; without times if the motion is over a value."""
     if not measures:
         return
@@ -110,15 +110,21 @@ def _show_measures(console: Console, measures: list[dict[str, Any]], *, timed: b
     of_unit = ("max", "min", "mean", "rms", "final")
     rows = [
         (
-            of["name"],
+            starred(of["name"], unique=of["unique"]),
             display(of["unit"]).symbol,
             *(_number(of[name], of["unit"]) for name in of_unit),
-            *((_or_none(of["settling"], "s"), _or_none(of["frequency"], "Hz")) if timed else ()),
+            *(_over_time(of) if over.is_time else ()),
         )
         for of in measures
     ]
-    over_time = (_header("settled at", "s"), "frequency / Hz") if timed else ()
+    over_time = (_header("settled at", "s"), "frequency / Hz") if over.is_time else ()
     table(console, ("measure", "unit", *of_unit, *over_time), rows, left=2)
+    _show_remarks(console, measures, "name", over, "counted in mean and rms only")
+
+
+def _over_time(of: dict[str, Any]) -> tuple[str, str]:
+    """The settling time and the frequency of a measure."""
+    return _or_none(of["settling"], "s"), _or_none(of["frequency"], "Hz")
 
 
 def _or_none(value: float | None, unit: str) -> str:

@@ -185,6 +185,7 @@ def _show(console: Console, found: SweepResult) -> None:
     from collections import Counter
 
     from kempe.display_units import display
+    from kempe.remarks import not_unique, starred
 
     names = ", ".join(variable.name for variable in found.variables)
     console.print(Text(f"{len(found)} variants over {names}", style="bold"))
@@ -198,9 +199,12 @@ def _show(console: Console, found: SweepResult) -> None:
             if len(good)
             else ["–"] * 3
         )
-        rows.append([text, *cells, unit.symbol])
+        unique = text not in found.minimum_norm
+        rows.append([starred(text, unique=unique), *cells, unit.symbol])
     heading(console, "Measures")
     table(console, ["measure", "least", "mean", "largest", "unit"], rows)
+    if found.minimum_norm:
+        console.print(Text(f"  {not_unique(found.minimum_norm)}"))
     if found.reasons:
         heading(console, f"{len(found.reasons)} variants failed")
         for reason, count in Counter(_kind(text) for text in found.reasons.values()).most_common(3):

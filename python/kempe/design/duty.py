@@ -22,6 +22,7 @@ from kempe.extrema import Extreme
 from kempe.motion import Motion
 from kempe.names import unknown
 from kempe.quantities import named
+from kempe.remarks import is_unique, poles, remark
 from kempe.solution import Solution
 from kempe.variable import Variable
 
@@ -48,6 +49,9 @@ class Duty:
         mean_power: mean of the power over t, W.
         work: work over the whole motion, J.
         driving_work, braking_work: the positive and the negative part of the work, J.
+        unique: whether the effort is unique; if not, it has minimum norm.
+        unbounded_at: times of singular positions beside which the effort has no bound. The peaks
+            exclude values there; means, root mean square and works do not.
     """
 
     name: str
@@ -65,6 +69,8 @@ class Duty:
     work: float
     driving_work: float
     braking_work: float
+    unique: bool
+    unbounded_at: tuple[float, ...]
 
     @property
     def points(self) -> Floats:
@@ -86,7 +92,8 @@ class Duty:
     def __repr__(self) -> str:
         unit = self.unit.replace("*", "·")
         told = f"peak {self.peak.value:.6g} {unit}, rms {self.rms:.6g} {unit}"
-        return f"<Duty of {self.name}: {told}, work {self.work:.6g} J>"
+        beside = remark(unique=self.unique, times=self.unbounded_at, variable=self.variable)
+        return f"<Duty of {self.name}: {told}, work {self.work:.6g} J{beside}>"
 
 
 def duty(solution: Solution, name: str) -> Duty:
@@ -99,13 +106,14 @@ def duty(solution: Solution, name: str) -> Duty:
     Raises:
         ModelError: there is no such driver or element, or the element has no effort and rate.
     """
-    effort, rate, unit = _reads(interpolated(solution), name)
+    names = _names(interpolated(solution), name)
+    effort, rate, unit = _reads(solution, names)
 
     def power(motion: Motion) -> Floats:
         return np.asarray(effort(motion) * rate(motion))
 
     t = instants(solution)
-    found = solution(t)
+    found, passed = solution(t), tuple(poles(solution, effort))
     turns = [float(t[0]), *_inner(zeros(solution, power), t), float(t[-1])]
     works = integral(solution, power, turns)
     ends = [float(t[0]), float(t[-1])]
@@ -119,14 +127,16 @@ def duty(solution: Solution, name: str) -> Duty:
         fixed(rate(found)),
         fixed(effort(found)),
         fixed(power(found)),
-        _peak(solution, effort),
-        _peak(solution, power),
+        _peak(solution, effort, passed),
+        _peak(solution, power, passed),
         float(np.sqrt(square / span)),
         float(integral(solution, effort, ends)[0]) / span,
         float(works.sum()) / span,
         float(works.sum()),
         float(works[works > 0.0].sum()),
         float(works[works < 0.0].sum()),
+        is_unique(solution, names[0]),
+        passed,
     )
 
 
@@ -136,28 +146,31 @@ def _inner(found: Floats, t: Floats) -> Floats:
     return found[(found > low) & (found < high)]
 
 
-def _peak(solution: Solution, read: Read) -> Extreme:
-    both = limits(solution, read)
+def _peak(solution: Solution, read: Read, passed: tuple[float, ...]) -> Extreme:
+    both = limits(solution, read, passed)
     return max(both.largest, both.least, key=lambda extreme: abs(extreme.value))
 
 
-def _reads(solution: Solution, name: str) -> tuple[Read, Read, str]:
-    """Effort and rate of a driver or force element as functions, and the unit of the effort."""
+def _names(solution: Solution, name: str) -> tuple[str, str]:
+    """The quantities that are effort and rate of a driver or force element."""
     model = solution.compiled
     driver = model.tree.get("drivers", {}).get(name, {})
     if name in model.drivers and "coordinate" in driver:
-        names = f"{name}.effort", rate_name(model, driver["coordinate"])
-    elif name in model.forces and model.forces[name].measured:
+        return f"{name}.effort", rate_name(model, driver["coordinate"])
+    if name in model.forces and model.forces[name].measured:
         of = model.forces[name].measured[0]
-        names = f"{name}.{'torque' if of.unit == 'rad' else 'force'}", f"{name}.{of.names[1]}"
-    elif name in (*model.drivers, *model.forces):
+        return f"{name}.{'torque' if of.unit == 'rad' else 'force'}", f"{name}.{of.names[1]}"
+    if name in (*model.drivers, *model.forces):
         raise ModelError(
             f"{name} has no coordinate of its own, so that it has no single effort and rate",
             name=name,
             hint=f'its power is the quantity "{name}.power"',
         )
-    else:
-        raise unknown("driver or force element", name, [*model.drivers, *model.forces])
+    raise unknown("driver or force element", name, [*model.drivers, *model.forces])
+
+
+def _reads(solution: Solution, names: tuple[str, str]) -> tuple[Read, Read, str]:
+    """Effort and rate as functions, and the unit of the effort."""
     unit = named(solution, names[0]).unit
 
     def effort(motion: Motion) -> Floats:
@@ -184,6 +197,7 @@ class Flywheel:
         variable, t: the quantity in t, and instants close enough for a smooth curve, (n,).
         torque: torque on the shaft without a flywheel, (n,), N·m.
         stored: energy that the flywheel has stored since the first instant, (n,), J.
+        unique: whether the torque is unique; if not, it has minimum norm.
     """
 
     inertia: float
@@ -197,9 +211,11 @@ class Flywheel:
     t: Floats
     torque: Floats
     stored: Floats
+    unique: bool
 
     def __repr__(self) -> str:
-        return f"<Flywheel: {self.inertia:.6g} kg·m² for ΔE = {self.energy:.6g} J>"
+        told = f"{self.inertia:.6g} kg·m² for ΔE = {self.energy:.6g} J"
+        return f"<Flywheel: {told}{remark(unique=self.unique)}>"
 
 
 def flywheel(
@@ -222,7 +238,7 @@ def flywheel(
         ModelError: the driver does not turn a shaft in one direction, the fluctuation is not
             between 0 and 1, or the speed is missing.
     """
-    effort, rate, unit = _reads(interpolated(solution), driver)
+    effort, rate, unit = _reads(solution, _names(interpolated(solution), driver))
     if unit != "N*m":
         raise ModelError(
             f"{driver} turns no shaft", name=driver, hint="name the driver of an angle"
@@ -238,8 +254,7 @@ def flywheel(
     if rates.min() <= 0.0 <= rates.max():
         raise ModelError(f"{driver} does not turn in one direction all the time", name=driver)
     angle = float(integral(solution, rate, ends)[0])
-    work = float(integral(solution, lambda m: effort(m) * rate(m), ends)[0])
-    mean = work / angle
+    mean = float(integral(solution, lambda m: effort(m) * rate(m), ends)[0]) / angle
     omega = _speed(solution, angle, speed)
 
     def excess(motion: Motion) -> Floats:
@@ -261,6 +276,7 @@ def flywheel(
         fixed(t),
         fixed(effort(found)),
         fixed(-_along(solution, excess, t)),
+        is_unique(solution, _names(solution, driver)[0]),
     )
 
 

@@ -9,8 +9,10 @@ are in balance.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from types import MappingProxyType
 
 import numpy as np
 
@@ -19,6 +21,7 @@ from kempe.arrays import Floats, fixed
 from kempe.design.wrenches import Inertia, Load, imbalance, inertia, loads
 from kempe.errors import ModelError
 from kempe.motion import Motion
+from kempe.remarks import MINIMUM_NORM, unbounded_at, when
 from kempe.solution import Solution
 from kempe.state import State
 from kempe.values import instance
@@ -46,6 +49,9 @@ class FreeBody:
         inertia: m a and J α.
         residual: error of Newton's and Euler's equations, relative to the largest force (moment) on
             the body at the instant.
+        not_unique: the joints and drivers whose loads are not unique; these have minimum norm.
+        unbounded_at: times of singular positions of the solution beside which a load has no bound,
+            by joint or driver.
     """
 
     body: str
@@ -56,6 +62,20 @@ class FreeBody:
     loads: tuple[Load, ...]
     inertia: Inertia
     residual: float
+    not_unique: tuple[str, ...]
+    unbounded_at: Mapping[str, tuple[float, ...]]
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """Sentences on the loads that are not unique, and on those without bound."""
+        told = []
+        if self.not_unique:
+            told.append(f"not unique, {MINIMUM_NORM}: {', '.join(self.not_unique)}")
+        if self.unbounded_at:
+            times = sorted({t for each in self.unbounded_at.values() for t in each})
+            names = ", ".join(self.unbounded_at)
+            told.append(f"without bound {when(times, self.variable)}: {names}")
+        return tuple(told)
 
     def in_body(self, vector: Floats) -> Floats:
         """Components of a global vector in the axes of the body, (2,)."""
@@ -92,6 +112,7 @@ class FreeBody:
             "# axes of the body; forces act on the body; its origin is (0, 0)",
             f"# mass {info.mass:.17g} kg, inertia {info.inertia:.17g} kg*m^2 about the mass centre",
             "# gravity and inertia: resultants at the mass centre, or fields in the last columns",
+            *(f"# {told}" for told in self.remarks),
             _HEADER,
         ]
         lines += [self._row(load) for load in self.loads if load.kind != "gravity"]
@@ -117,7 +138,8 @@ class FreeBody:
 
     def __repr__(self) -> str:
         names = ", ".join(load.name for load in self.loads)
-        return f"<FreeBody {self.body} at {self.variable.name} = {self.t:g}: {names}>"
+        told = "".join(f"; {told}" for told in self.remarks)
+        return f"<FreeBody {self.body} at {self.variable.name} = {self.t:g}: {names}{told}>"
 
 
 def _turned_back(vector: Floats, angle: float) -> Floats:
@@ -149,6 +171,8 @@ def free_body(
     if not state.compiled.body(body).number:
         raise ModelError(f"{body} does not move", name=body, hint="name a moving body")
     found, own = loads(state, body), inertia(state, body)
+    names = [load.name for load in found if load.name in state.compiled.constraints]
+    passed = {name: unbounded_at(solution_or_state, name) for name in names}
     return FreeBody(
         state.body(body).name,
         name,
@@ -158,4 +182,6 @@ def free_body(
         tuple(found),
         own,
         imbalance(found, own),
+        tuple(name for name in names if not solution_or_state.constraint(name).unique),
+        MappingProxyType({name: times for name, times in passed.items() if times}),
     )

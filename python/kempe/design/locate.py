@@ -10,7 +10,7 @@ import numpy as np
 
 from kempe.arrays import Floats
 from kempe.errors import ModelError
-from kempe.extrema import Extreme
+from kempe.extrema import Extreme, largest, least
 from kempe.motion import Motion
 from kempe.solution import Solution
 from kempe.values import instance
@@ -99,8 +99,14 @@ def zeros(solution: Solution, read: Read) -> Floats:
     return found if t[-1] >= t[0] else found[::-1]
 
 
-def limits(solution: Solution, read: Read) -> Limits:
-    """The least and the largest value of a smooth quantity; of equal values, the first."""
+def limits(solution: Solution, read: Read, poles: Sequence[float] = ()) -> Limits:
+    """The least and the largest value of a quantity; of equal values, the first.
+
+    The quantity is smooth, except at the times ``poles``, beside which it has no bound; values
+    there are ignored.
+    """
+    if poles:
+        return Limits(least(solution, read), largest(solution, read))
     t = instants(solution)
     values = np.asarray(read(solution(t)))
     low, high = (_top(solution, read, t, values, sign) for sign in (-1.0, 1.0))

@@ -7,7 +7,7 @@ cases are the instants at which the magnitude or a component of the force is ext
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
@@ -22,6 +22,7 @@ from kempe.errors import ModelError
 from kempe.extrema import Extreme
 from kempe.motion import Motion
 from kempe.names import one_of
+from kempe.remarks import is_unique, remark, unbounded_at
 from kempe.solution import Solution
 from kempe.table import Column, column, write_columns
 from kempe.variable import Variable
@@ -43,7 +44,10 @@ class PinLoad:
         force: (n, 2), N, in the axes of the body.
         moment: moment about the joint point, (n,), N·m.
         extremes: the extreme values with their instants, found on the interpolant: "max" of the
-            magnitude, "x_max", "x_min", "y_max" and "y_min" of the components.
+            magnitude, "x_max", "x_min", "y_max" and "y_min" of the components. They exclude values
+            beside singular positions that have no bound.
+        unique: whether the force is unique; if not, it has minimum norm.
+        unbounded_at: times of singular positions beside which the force has no bound.
     """
 
     joint: str
@@ -53,6 +57,8 @@ class PinLoad:
     force: Floats
     moment: Floats
     extremes: Mapping[str, Extreme]
+    unique: bool
+    unbounded_at: tuple[float, ...]
 
     @property
     def magnitude(self) -> Floats:
@@ -65,7 +71,9 @@ class PinLoad:
         return fixed(np.arctan2(self.force[:, 1], self.force[:, 0]))
 
     def __repr__(self) -> str:
-        return f"<PinLoad of {self.joint} on {self.on}: up to {self.extremes['max'].value:.6g} N>"
+        told = remark(unique=self.unique, times=self.unbounded_at, variable=self.variable)
+        largest = f"up to {self.extremes['max'].value:.6g} N"
+        return f"<PinLoad of {self.joint} on {self.on}: {largest}{told}>"
 
 
 def pin_load(solution: Solution, joint: str, on: str | None = None) -> PinLoad:
@@ -92,6 +100,8 @@ def pin_load(solution: Solution, joint: str, on: str | None = None) -> PinLoad:
         found.force(on=body, frame="body"),
         fixed(found.torque(on=body)),
         MappingProxyType(_extremes(solution, joint, body)),
+        solution.constraint(joint).unique,
+        unbounded_at(solution, joint, ["force"]),
     )
 
 
@@ -101,7 +111,8 @@ def _extremes(solution: Solution, joint: str, body: str) -> dict[str, Extreme]:
         "x": partial(_component, joint, body, 0),
         "y": partial(_component, joint, body, 1),
     }
-    of = {name: limits(solution, read) for name, read in reads.items()}
+    poles = unbounded_at(solution, joint, ["force"])
+    of = {name: limits(solution, read, poles) for name, read in reads.items()}
     return {
         "max": of["magnitude"].largest,
         "x_max": of["x"].largest,
@@ -131,7 +142,8 @@ def pin_table(solution: Solution) -> list[Column]:
     """The forces of all joints in the frames of their bodies at the outputs, as columns.
 
     The first column is the time or the driven quantity; the others have names of quantities, such
-    as ``A.body_fx_on_rod``, and display units.
+    as ``A.body_fx_on_rod``, and display units. Columns of forces that are not unique have the
+    remark "minimum norm".
     """
     model, of = solution.compiled, solution.variable
     found = [column(of.name, of.unit, solution.t)]
@@ -146,7 +158,7 @@ def pin_table(solution: Solution) -> list[Column]:
                     column(f"{joint}.body_fy_on_{body}", "N", force[:, 1]),
                     column(f"{joint}.torque_on_{body}", "N*m", moment),
                 ]
-    return found
+    return [replace(each, unique=is_unique(solution, each.name)) for each in found]
 
 
 def write_pin_loads(solution: Solution, path: Path | str) -> None:

@@ -25,9 +25,9 @@ from kempe.draw.frame import frame_items
 from kempe.draw.numbers import rounded_all
 from kempe.draw.sampling import Span
 from kempe.draw.scene import Scene, scene
+from kempe.remarks import MINIMUM_NORM
 from kempe.solution import Solution
 from kempe.state import State
-from kempe.table import MINIMUM_NORM
 
 
 def player(

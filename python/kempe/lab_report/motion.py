@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -12,6 +12,7 @@ from kempe.lab_report.blocks import Block, Cell, Paragraph, Section, Table
 from kempe.lab_report.figures import MOST, Figures
 from kempe.lab_report.printed import FEW, ROUNDING, number, quantity
 from kempe.names import few
+from kempe.remarks import MINIMUM_NORM, starred, when
 from kempe.solution import Solution
 
 #: Statistics of a measure that have its unit.
@@ -25,6 +26,7 @@ class Told:
 
     Attributes:
         summary: the summary, see ``kempe.report.summary``.
+        variable: the variable.
         unit, usual: SI unit of the variable, and the unit where none was chosen.
     """
 
@@ -34,6 +36,7 @@ class Told:
         every = [*peaks["reactions"], *peaks["forces"]]
         self._least = ROUNDING * max((abs(of["force"]) for of in every), default=0.0)
         self._size = max(1e-3, float(np.abs(solution.q).max(initial=0.0)))
+        self.variable = solution.variable
         self.unit = solution.variable.unit
         self.usual = "deg" if self.unit == "rad" else None
 
@@ -78,7 +81,7 @@ def motion(name: str, solution: Solution) -> Section:
             Section("Settling", [_settling(told)] if solution.variable.is_time else []),
             Section("Forces", [_forces(told), *figures.beginning("torque_")]),
             Section("Reactions", _reactions(solution, told, figures)),
-            Section("Measures", [_measures(told), *figures.beginning("measure_")]),
+            Section("Measures", [*_measures(told), *figures.beginning("measure_")]),
             Section("Design", _design(solution, figures)),
             Section("Accuracy", [*_accuracy(told), *figures.named("residual")]),
             Section("Energy", [_energy(told), *figures.named("energy")]),
@@ -132,19 +135,33 @@ def _forces(told: Told) -> Table:
 def _reactions(solution: Solution, told: Told, figures: Figures) -> list[Block]:
     peaks = told.peaks("reactions")
     header, cells = _peaks(told, peaks)
-    rows = [(of["joint"], of["on"], *row) for of, row in zip(peaks, cells, strict=True)]
+    names = [starred(of["joint"], unique=of["unique"]) for of in peaks]
+    rows = [(name, of["on"], *row) for name, of, row in zip(names, peaks, cells, strict=True)]
     blocks: list[Block] = [Table("Largest reactions", ("joint", "on", *header), rows)]
-    open_ones = [of["joint"] for of in peaks if not of["unique"]]
-    if open_ones:
-        told_of = "are not unique; their values have the smallest multipliers"
-        blocks.append(Paragraph(f"The reactions of {few(open_ones)} {told_of}.", warning=True))
-    unbounded = [of["joint"] for of in peaks if of["unbounded_at"]]
-    if unbounded:
-        told_of = "have no bound at singular positions, which the peaks do not include"
-        blocks.append(Paragraph(f"The reactions of {few(unbounded)} {told_of}.", warning=True))
+    blocks += _remarks(told, peaks, "joint", "which the peaks do not include")
     if solution.compiled.constraints:
         blocks += [*figures.named("reactions"), *figures.beginning("reactions_")]
     return blocks
+
+
+def _remarks(
+    told: Told, rows: Sequence[Mapping[str, Any]], key: str, counted: str
+) -> Iterator[Paragraph]:
+    """The joints or measures whose reactions are not unique, and those without bound.
+
+    ``counted``: which numbers include values without bound, in words.
+    """
+    of = "reactions of" if key == "joint" else "reactions in the measures"
+    open_ones = [row[key] for row in rows if not row["unique"]]
+    if open_ones:
+        told_of = f"are not unique; their values have the smallest multipliers ({MINIMUM_NORM})"
+        yield Paragraph(f"* The {of} {few(open_ones)} {told_of}.", warning=True)
+    unbounded = [row[key] for row in rows if row["unbounded_at"]]
+    if unbounded:
+        times = sorted({t for row in rows for t in row["unbounded_at"]})
+        passed = f"singular positions ({when(times, told.variable, told.place)})"
+        told_of = f"have no bound at {passed}, {counted}"
+        yield Paragraph(f"The {of} {few(unbounded)} {told_of}.", warning=True)
 
 
 def _peaks(told: Told, peaks: Sequence[Mapping[str, Any]]) -> tuple[list[str], list[list[Cell]]]:
@@ -163,7 +180,7 @@ def _peaks(told: Told, peaks: Sequence[Mapping[str, Any]]) -> tuple[list[str], l
     return header, cells
 
 
-def _measures(told: Told) -> Table:
+def _measures(told: Told) -> list[Block]:
     rows = []
     for of in told.summary["measures"]:
         values = [number(of[name], of["unit"]) for name in _STATISTICS]
@@ -172,9 +189,12 @@ def _measures(told: Told) -> Table:
             for name, unit in (("settling", "s"), ("frequency", "Hz"))
         )
         unit = display(of["unit"]).symbol if of["unit"] else ""
-        rows.append((of["name"], of["expression"], unit, *values, *times))
+        name = starred(of["name"], unique=of["unique"])
+        rows.append((name, of["expression"], unit, *values, *times))
     header = ("measure", "expression", "unit", *_STATISTICS, "settled at / s", "frequency / Hz")
-    return Table("Measures", header, rows)
+    counted = "which only mean and rms include"
+    remarks = _remarks(told, told.summary["measures"], "name", counted)
+    return [Table("Measures", header, rows), *remarks]
 
 
 def _design(solution: Solution, figures: Figures) -> list[Block]:

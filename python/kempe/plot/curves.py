@@ -14,6 +14,7 @@ from kempe.plot import style
 from kempe.plot.legend import above_or_beside
 from kempe.plot.panel import CONSTANT, Curve, Panel
 from kempe.plot.peaks import ROOM, add_peaks, chosen_peaks
+from kempe.plot.remarked import titled
 from kempe.plot.ticks import set_ticks
 from kempe.plot.time_axis import TimeAxis, show_time
 
@@ -90,6 +91,6 @@ def finish(axes: Axes, time: TimeAxis, panel: Panel) -> None:
     """Time axis, title and legend."""
     show_time(axes, time)
     if panel.title:
-        axes.set_title(panel.title, loc="left")
+        titled(axes, panel.title, panel.note)
     if panel.legend:
         above_or_beside(axes)

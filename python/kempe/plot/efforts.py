@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -13,7 +14,9 @@ from kempe.plot import style
 from kempe.plot.abscissa import Abscissa, abscissa
 from kempe.plot.labelled import add_labels
 from kempe.plot.legend import above_or_beside
+from kempe.plot.remarked import note, titled
 from kempe.plot.ticks import set_ticks
+from kempe.remarks import remark
 from kempe.solution import Solution
 
 if TYPE_CHECKING:
@@ -47,9 +50,10 @@ def effort(
             label = f"{words} {number} {unit.unit}"
             axes.axhline(value / unit.divisor, label=label, **look)
         across.label(axes)
-        _room(axes, np.append(shown, [0.0, found.rms / unit.divisor]))
+        _room(axes, [*_bounded(found, shown, unit), 0.0, found.rms / unit.divisor])
         axes.set_ylabel(unit.axis(f"${symbol}$"))
-        axes.set_title(f"Effort of {style.short(drive)}", loc="left")
+        title = f"Effort of {style.short(drive)}{remark(unique=found.unique)}"
+        titled(axes, title, note(found.unbounded_at, found.variable))
         above_or_beside(axes)
         _mark_peak(axes, found, across, unit)
         return axes
@@ -75,7 +79,7 @@ def torque_speed(solution: Solution, drive: str, *, ax: Axes | None = None) -> A
         axes.axhline(0.0, color="#888888", linewidth=0.7, zorder=0.5)
         axes.axvline(0.0, color="#888888", linewidth=0.7, zorder=0.5)
         axes.plot(x, y, **style.line(0))
-        _room(axes, np.append(y, [0.0]))
+        _room(axes, [*_bounded(found, y, unit), 0.0])
         low, high = min(0.0, float(np.min(x))), max(0.0, float(np.max(x)))
         axes.set_xlim(low - 0.08 * (high - low), high + 0.08 * (high - low))
         set_ticks(axes.xaxis)
@@ -83,7 +87,8 @@ def torque_speed(solution: Solution, drive: str, *, ax: Axes | None = None) -> A
         axes.set_ylabel(unit.axis(f"${symbol}$"))
         power = scale("W", abs(found.peak_power.value))
         told = f"{found.peak_power.value / power.divisor:.4g} {power.unit}".replace("-", "−")
-        axes.set_title(f"Duty of {style.short(drive)}: peak power {told}", loc="left")
+        title = f"Duty of {style.short(drive)}: peak power {told}{remark(unique=found.unique)}"
+        titled(axes, title, note(found.unbounded_at, found.variable))
         return axes
 
 
@@ -93,8 +98,16 @@ def _quantity(found: Duty) -> tuple[str, Scale]:
     return symbol, scale(name, abs(found.peak.value))
 
 
-def _room(axes: Axes, values: Floats) -> None:
-    low, high = float(values.min()), float(values.max())
+def _bounded(found: Duty, shown: Floats, unit: Scale) -> Floats:
+    """The efforts up to the peak, which excludes values without bound."""
+    if not found.unbounded_at:
+        return shown
+    most = abs(found.peak.value) / unit.divisor
+    return np.clip(shown, -most, most)
+
+
+def _room(axes: Axes, values: Sequence[float]) -> None:
+    low, high = float(min(values)), float(max(values))
     if high == low:
         low, high = low - 1.0, high + 1.0
     axes.set_ylim(low - 0.14 * (high - low), high + 0.14 * (high - low))

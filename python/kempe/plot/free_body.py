@@ -31,6 +31,8 @@ from kempe.draw.units import scale
 from kempe.plot import style
 from kempe.plot.configuration import instant
 from kempe.plot.picture import drawn, paint
+from kempe.plot.remarked import NO_BOUND, NOT_UNIQUE, note
+from kempe.remarks import MINIMUM_NORM
 from kempe.solution import Solution
 from kempe.state import State
 
@@ -76,13 +78,13 @@ def draw_free_body(found: FreeBody, *, ax: Axes | None = None) -> Axes:
     """Draw a free body, such as one of ``kp.design.load_cases``."""
     arrows = list(_arrows(found))
     most = max((float(np.hypot(*vector)) for _, _, _, vector, _ in arrows), default=0.0)
-    moments = [(load.name, load.place, float(load.moment)) for load in found.loads]
+    moments = [(_signed(found, load.name), load.place, float(load.moment)) for load in found.loads]
     moments.append(("−J α", found.inertia.centre, -float(found.inertia.moment)))
     turning = max(abs(moment) for _, _, moment in moments)
     case = f"{found.name}, " if found.name else ""
     title = f"Forces on {style.short(found.body)}, {case}{instant(found.state)}"
     with style.on(ax, _HEIGHT) as axes:
-        made = drawn(axes, _alone(found), title)
+        made = drawn(axes, _alone(found), title, _note(found))
         for arrow in arrows:
             if float(np.hypot(*arrow[3])) > _NOTHING * most:
                 _add_force(made, arrow, most, np.asarray(found.inertia.centre))
@@ -94,9 +96,24 @@ def draw_free_body(found: FreeBody, *, ax: Axes | None = None) -> Axes:
         return axes
 
 
+def _signed(found: FreeBody, name: str) -> str:
+    """The name of a load, with the signs of its remarks."""
+    shown = style.one_line(name, 14)
+    shown += f" {NOT_UNIQUE}" if name in found.not_unique else ""
+    return f"{shown} {NO_BOUND}" if name in found.unbounded_at else shown
+
+
+def _note(found: FreeBody) -> str:
+    """What the signs of loads mean."""
+    times = sorted({t for each in found.unbounded_at.values() for t in each})
+    told = [f"{NOT_UNIQUE} {MINIMUM_NORM}"] if found.not_unique else []
+    told += [f"{NO_BOUND} {note(times, found.variable)}"] if times else []
+    return ", ".join(told)
+
+
 def _arrows(found: FreeBody) -> Iterator[_Arrow]:
     for load in found.loads:
-        name = "m g" if load.kind == "gravity" else load.name
+        name = "m g" if load.kind == "gravity" else _signed(found, load.name)
         yield name, _COLOURS[load.kind], np.asarray(load.place), np.asarray(load.force), False
     of = found.inertia
     yield "−m a", "quiet", np.asarray(of.centre), -np.asarray(of.force), True
@@ -151,7 +168,7 @@ def _add_force(made: Display, arrow: _Arrow, most: float, centre: Floats) -> Non
     made.add([*items, fill(name, frame, print_points(head), colour, layer=NUMBER - 1)])
     free = begin * along if inwards else tip  # the end that is away from the body
     at = made.view.plane(made.view.points(place) + free)
-    words = f"{style.one_line(name, 14)}: {_valued('N', size)}"
+    words = f"{name}: {_valued('N', size)}"
     made.name("measure", words, upright(0, [float(x) for x in at]))
 
 
@@ -171,4 +188,4 @@ def _add_moment(made: Display, name: str, place: Floats, moment: float) -> None:
     colour = "quiet" if name == "−J α" else "force"
     made.add([line(name, frame, shaft, colour, _WIDTH, layer=NUMBER - 1)])
     made.add([fill(name, frame, print_points(head), colour, layer=NUMBER - 1)])
-    made.name("measure", f"{style.one_line(name, 14)}: {_valued('N·m', moment)}", frame)
+    made.name("measure", f"{name}: {_valued('N·m', moment)}", frame)

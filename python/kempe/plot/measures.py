@@ -13,6 +13,8 @@ from kempe.names import entry
 from kempe.plot import style
 from kempe.plot.curves import draw
 from kempe.plot.panel import Curve, Panel, curve, times
+from kempe.plot.remarked import note
+from kempe.remarks import is_unique, measure_unbounded_at, remark
 from kempe.values import instance
 
 if TYPE_CHECKING:
@@ -52,6 +54,8 @@ def measure_panel(motion: Motion, name: str) -> Panel:
     else:
         line = curve(motion, name, partial(values, name=name), style.line(0))
     unit = info.unit.replace("^2", "²").translate(_PRINTED)
-    title = f"{style.short(name, 24)} = {style.short(info.expression, 60)}"
-    short = style.short(name, 12)
-    return Panel(short, unit, [line], title, f"measure {name}", variable=motion.variable)
+    told = remark(unique=is_unique(motion, name))
+    title = f"{style.short(name, 24)} = {style.short(info.expression, 60 - len(told))}{told}"
+    below = note(measure_unbounded_at(motion, info), motion.variable)
+    named, of = f"measure {name}", motion.variable
+    return Panel(style.short(name, 12), unit, [line], title, named, variable=of, note=below)

@@ -57,6 +57,7 @@ class Panel:
         unit: SI unit of the values.
         curves: the curves.
         title: title above the panel, to the left.
+        note: a small line below the title.
         name: its name in a sentence on the page.
         legend: whether to draw a legend above the panel to the right.
         degrees: whether an axis to the right gives an angle in degrees.
@@ -73,6 +74,7 @@ class Panel:
     degrees: bool = False
     turning_points: bool = False
     variable: Variable = TIME
+    note: str = ""
 
     @property
     def peak(self) -> float:

@@ -13,6 +13,7 @@ from kempe.draw.scene import Scene
 from kempe.draw.scene import scene as scene_of
 from kempe.draw.units import Scale
 from kempe.plot import style
+from kempe.plot.remarked import titled
 from kempe.plot.ticks import set_ticks
 from kempe.state import State
 
@@ -42,15 +43,16 @@ def frame(scene: Scene) -> tuple[Floats, Floats]:
     return middle - half, middle + half
 
 
-def drawn(axes: Axes, scene: Scene, title: str) -> Display:
+def drawn(axes: Axes, scene: Scene, title: str, note: str = "") -> Display:
     """The mechanism without names, as a display list for axes.
 
-    The axes get their limits and are laid out, so that lengths of print are known.
+    The axes get their limits and are laid out, so that lengths of print are known. ``note`` is a
+    small line below the title.
     """
     low, high = frame(scene)
     unit = Scale(scene["length"]["metres"], scene["length"]["unit"])
     (left, bottom), (right, top) = low / unit.divisor, high / unit.divisor
-    axes.set_title(title, loc="left")
+    titled(axes, title, note)
     axes.set_aspect("equal")
     axes.set_xlim(left, right)
     axes.set_ylim(bottom, top)

@@ -13,7 +13,9 @@ from kempe.draw.units import Scale, scale
 from kempe.plot import style
 from kempe.plot.abscissa import Abscissa, abscissa
 from kempe.plot.labelled import add_labels
+from kempe.plot.remarked import note, titled
 from kempe.plot.ticks import set_ticks
+from kempe.remarks import remark
 from kempe.solution import Solution
 
 if TYPE_CHECKING:
@@ -50,13 +52,14 @@ def pin_load(
     found, across = load_of(solution, joint, on), abscissa(solution, over)
     most = found.extremes["max"]
     unit = scale("N", most.value)
-    tip = found.force / unit.divisor
+    tip = _bounded(found) / unit.divisor
     with style.on(ax, _HEIGHT) as axes:
         _frame(axes, tip)
         axes.set_xlabel(unit.axis("$F_{x′}$"))
         axes.set_ylabel(unit.axis("$F_{y′}$"))
         title = f"{style.short(joint)} on {style.short(found.on)}, axes of the body"
-        axes.set_title(title, loc="left")
+        title += remark(unique=found.unique)
+        titled(axes, title, note(found.unbounded_at, found.variable))
         style.lay_out(axes.figure.canvas.figure)
         axes.apply_aspect()
         axes.axhline(0.0, color="#888888", linewidth=0.7, zorder=0.5)
@@ -69,10 +72,18 @@ def pin_load(
         return axes
 
 
+def _bounded(found: PinLoad) -> Floats:
+    """The force; NaN where it exceeds the largest one, which excludes values without bound."""
+    if not found.unbounded_at:
+        return found.force
+    most = (1.0 + 1e-9) * found.extremes["max"].value
+    return np.where((found.magnitude <= most)[:, None], found.force, np.nan)
+
+
 def _frame(axes: Axes, tip: Floats) -> None:
     """Limits around the curve and the origin, with equal scales."""
     points = np.vstack([tip, np.zeros((1, 2))])
-    low, high = points.min(axis=0), points.max(axis=0)
+    low, high = np.nanmin(points, axis=0), np.nanmax(points, axis=0)
     middle, half = (low + high) / 2.0, (high - low) / 2.0
     half = np.maximum(half, 0.45 * float(half.max()) or 1.0) * 1.16
     axes.set_aspect("equal", adjustable="box")
@@ -85,11 +96,12 @@ def _frame(axes: Axes, tip: Floats) -> None:
 def _names(axes: Axes, found: PinLoad, tip: Floats, across: Abscissa, unit: Scale) -> None:
     """The largest force with its instant, and the instants of some dots."""
     most = found.extremes["max"]
-    k = int(np.abs(found.t - most.t).argmin())
+    known = np.isfinite(tip[:, 0])
+    k = int(np.where(known, np.abs(found.t - most.t), np.inf).argmin())
     ring: dict[str, Any] = {"markerfacecolor": "white", "markersize": 4.5, "zorder": 4.0}
     axes.plot(*tip[k], "o", color="#C2184B", **ring)
     axes.plot([0.0, tip[k, 0]], [0.0, tip[k, 1]], color="#C2184B", linewidth=1.0, zorder=2.5)
-    size = float(np.hypot(*np.ptp(tip, axis=0))) or 1.0
+    size = float(np.hypot(*np.ptp(tip[known], axis=0))) or 1.0
     points, words = (
         [tip[k]],
         [f"{most.value / unit.divisor:.4g} {unit.unit} at {across.words(most.t)}"],
@@ -101,4 +113,4 @@ def _names(axes: Axes, found: PinLoad, tip: Floats, across: Abscissa, unit: Scal
     axes.plot(
         *np.array(points[1:]).reshape(-1, 2).T, "o", color=style.line(0)["color"], markersize=4.5
     )
-    add_labels(axes, points, words, [tip, np.array([[0.0, 0.0], tip[k]])])
+    add_labels(axes, points, words, [tip[known], np.array([[0.0, 0.0], tip[k]])])

@@ -15,8 +15,9 @@ from kempe.plot import style
 from kempe.plot.curves import draw
 from kempe.plot.panel import Curve, Panel, curve, times
 from kempe.plot.peaks import peak_text
+from kempe.plot.remarked import NO_BOUND, note
 from kempe.plot.time_axis import TimeAxis
-from kempe.table import MINIMUM_NORM
+from kempe.remarks import remark, unbounded_at
 from kempe.values import instance
 
 if TYPE_CHECKING:
@@ -75,7 +76,7 @@ def force_panel(
 ) -> Panel:
     """Components and magnitude of the force of a joint on a body in a frame.
 
-    ``remarked``: whether the title says that it is not unique.
+    ``remarked``: whether the title says that it is not unique, and where it has no bound.
     """
 
     def force(at: Motion) -> Floats:
@@ -89,21 +90,23 @@ def force_panel(
         curve(motion, "|F|", lambda at: np.hypot(*force(at).T), dotted),
     ]
     title = f"{_beside(joint, body)}, {frame} frame"
-    title += remark(motion, joint) if remarked else ""
-    return Panel("F", "N", curves, title, title, variable=motion.variable)
+    panel = Panel("F", "N", curves, title, title, variable=motion.variable)
+    return _remarked(panel, motion, joint, "force") if remarked else panel
 
 
 def torque_panel(motion: Motion, joint: str, body: str, *, remarked: bool = True) -> Panel:
     """Torque of a joint on a body about the joint point; ``remarked`` as for a force."""
     line = curve(motion, "T", lambda at: at.constraint(joint).torque(on=body), style.SUM)
-    title = f"{_beside(joint, body)}{remark(motion, joint) if remarked else ''}"
-    named = f"torque of {title}"
-    return Panel("T", "N·m", [line], title, named, variable=motion.variable)
+    title = _beside(joint, body)
+    panel = Panel("T", "N·m", [line], title, f"torque of {title}", variable=motion.variable)
+    return _remarked(panel, motion, joint, "torque") if remarked else panel
 
 
-def remark(motion: Motion, joint: str) -> str:
-    """The remark for a reaction that is not unique because of redundant constraints."""
-    return "" if motion.constraint(joint).unique else f", {MINIMUM_NORM}"
+def _remarked(panel: Panel, motion: Motion, joint: str, part: str) -> Panel:
+    """A panel with the remarks on the force or torque of a joint."""
+    title = panel.title + remark(unique=motion.constraint(joint).unique)
+    below = note(unbounded_at(motion, joint, [part]), motion.variable)
+    return replace(panel, title=title, note=below)
 
 
 def _beside(joint: str, body: str) -> str:
@@ -122,7 +125,8 @@ def _magnitude(joint: str, at: Motion) -> Floats:
 def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
     """Draw the magnitude of the force of every joint and driver that exerts a force.
 
-    The legend gives the largest magnitudes with their times.
+    The legend gives the largest magnitudes with their times. A dagger marks forces that have no
+    bound beside singular positions; the line below the title gives the times of these positions.
 
     Args:
         motion: a solution, drawn on its interpolant, or the motion at some times.
@@ -131,14 +135,19 @@ def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None =
     """
     instance(motion, Motion, "a solution or a motion")
     curves: list[Curve] = []
+    poles: set[float] = set()
     for name in motion.compiled.constraints:
         magnitude = partial(_magnitude, name)
-        label = f"{style.short(name)}{remark(motion, name)}"
+        label = f"{style.short(name)}{remark(unique=motion.constraint(name).unique)}"
         one = curve(motion, label, magnitude, style.line(len(curves)))
         if name in motion.compiled.joints or one.values.any():
-            curves.append(one)
+            times_of = unbounded_at(motion, name, ["force"])
+            curves.append(replace(one, label=f"{label}{f' {NO_BOUND}' if times_of else ''}"))
+            poles.update(times_of)
     of = motion.variable
-    panel = Panel("|F|", "N", curves, "Reactions", "reactions", variable=of)
+    told = note(sorted(poles), of)
+    below = f"{NO_BOUND} {told}" if told else ""
+    panel = Panel("|F|", "N", curves, "Reactions", "reactions", variable=of, note=below)
     unit, time = scale("N", panel.peak), TimeAxis.of(times(motion), None, of).unit
     with_peaks = [
         replace(one, label=f"{one.label}: {peak_text(one.high, unit, time)}")

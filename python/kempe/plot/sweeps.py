@@ -14,6 +14,7 @@ from kempe.errors import ModelError
 from kempe.names import entry
 from kempe.plot import style
 from kempe.plot.legend import beside
+from kempe.remarks import remark
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -57,7 +58,7 @@ def sweep_lines(result: SweepResult, measure: str, *, ax: Axes | None = None) ->
             chosen = of_lines == level
             _line(axes, x[chosen], values[chosen], k, f"{level:.4g}")
         _axis(axes, "x", result, first)
-        axes.set_ylabel(shown.axis(style.verbatim(measure)))
+        axes.set_ylabel(shown.axis(style.verbatim(named(result, measure))))
         if others:
             beside(axes)
             title = _labelled(style.short(others[0].name), unit)
@@ -122,7 +123,7 @@ def sweep_map(
         _axis(axes, "y", result, up)
         axes.grid(visible=False)
         bar = axes.figure.colorbar(drawn, ax=axes, pad=0.02)
-        bar.set_label(shown.axis(style.verbatim(measure)))
+        bar.set_label(shown.axis(style.verbatim(named(result, measure))))
         return axes
 
 
@@ -181,7 +182,7 @@ def sweep_histogram(
                 axes.axvline(mean + side * deviation, color="black", linewidth=0.8, linestyle="--")
             told = f"{mean:.5g} ± {deviation:.3g} {shown.unit}, {len(good)} variants"
             axes.set_title(style.verbatim(told), loc="left")
-        axes.set_xlabel(shown.axis(style.verbatim(measure)))
+        axes.set_xlabel(shown.axis(style.verbatim(named(result, measure))))
         axes.set_ylabel("variants / 1")
         return axes
 
@@ -230,6 +231,11 @@ def sweep_contributions(
 
 def _variable(result: SweepResult, name: str) -> Variable:
     return entry("variable", name, {variable.name: variable for variable in result.variables})
+
+
+def named(result: SweepResult, measure: str) -> str:
+    """The name of a measure, with a remark if it is not unique."""
+    return measure + remark(unique=measure not in result.minimum_norm)
 
 
 def _scaled(result: SweepResult, measure: str) -> tuple[Floats, Scale]:

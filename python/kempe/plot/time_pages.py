@@ -18,11 +18,12 @@ from kempe.plot.grid import Sheet, sheet_figure
 from kempe.plot.measures import measure
 from kempe.plot.page import Page
 from kempe.plot.panel import Curve, Panel, times
-from kempe.plot.reactions import all_reactions, force_panel, remark
+from kempe.plot.reactions import all_reactions, force_panel
 from kempe.plot.reactions import torque_panel as reaction_torque
 from kempe.plot.residual import residual
 from kempe.plot.still import drawn_and_left_out, largest_values
 from kempe.plot.torques import torque_panel
+from kempe.remarks import MINIMUM_NORM, unbounded_at, when
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -109,8 +110,11 @@ class TimePages:
             torques = []
         elif not any(panel.peak for panel in forces):
             forces = []
-        told = remark(self.solution, joint).lstrip(", ")
-        told = f"The reactions of {joint} are not unique: {told}. " if told else ""
+        of, told = f"The reactions of {joint} are", ""
+        if not self.solution.constraint(joint).unique:
+            told += f"{of} not unique: {MINIMUM_NORM}. "
+        if passed := unbounded_at(self.solution, joint):
+            told += f"{of} without bound {when(passed, self.solution.variable)}. "
         panels = [*forces, *torques]
         return self._figure(panels, columns=2, shared=True, legend=bool(forces), before=told)
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from kempe._version import __version__
 from kempe.arrays import Floats
-from kempe.extrema import unbounded
+from kempe.remarks import unbounded_at
 from kempe.report.extremes import Sampled
 from kempe.report.singular import singular_positions
 from kempe.settling import settling
@@ -65,10 +65,14 @@ def summary(solution: Solution) -> dict[str, Any]:
 
 
 def measure(solution: Solution, name: str) -> dict[str, Any]:
-    """The statistics of a measure; None for statistics without a value."""
+    """The statistics of a measure; None for statistics without a value.
+
+    ``unbounded_at`` and ``unique`` are those of the reactions in it, as for a reaction.
+    """
     found = solution.measure(name)
     about = {"name": name, "expression": found.info.expression, "unit": found.unit}
-    return {**about, **found.statistics()}
+    remarked = {"unbounded_at": list(found.unbounded_at), "unique": found.unique}
+    return {**about, **found.statistics(), **remarked}
 
 
 def mechanism(state: State) -> dict[str, Any]:
@@ -88,8 +92,8 @@ def mechanism(state: State) -> dict[str, Any]:
 def reaction(sampled: Sampled, name: str) -> dict[str, Any]:
     """Largest reaction of a joint or driver on its body j, with its time.
 
-    ``unbounded_at`` are the times of singular positions beside which the force has no bound. The
-    peaks exclude these times. ``unique`` is False if the reaction is not unique because of
+    ``unbounded_at`` are the times of singular positions beside which it has no bound. The peaks
+    exclude the values there. ``unique`` is False if the reaction is not unique because of
     redundant constraints; its values then have minimum norm.
     """
     on = sampled.solution.compiled.constraints[name].j
@@ -103,8 +107,8 @@ def reaction(sampled: Sampled, name: str) -> dict[str, Any]:
         "force_at": force.t,
         "torque": torque.value,
         "torque_at": torque.t,
-        "unbounded_at": unbounded(sampled.solution, read).tolist(),
-        "unique": name not in sampled.solution.not_unique,
+        "unbounded_at": list(unbounded_at(sampled.solution, name)),
+        "unique": sampled.solution.constraint(name).unique,
     }
 
 

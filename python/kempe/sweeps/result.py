@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
@@ -19,6 +20,7 @@ from kempe.display_units import units
 from kempe.errors import ModelError
 from kempe.names import entry
 from kempe.sweeps.plan import Plan
+from kempe.sweeps.remarked import labelled, not_unique
 from kempe.sweeps.variables import Variable
 from kempe.table import Column, column
 
@@ -63,6 +65,11 @@ class SweepResult:
     def columns(self) -> tuple[str, ...]:
         """The names of the columns of numbers: variables, then measures."""
         return (*(variable.name for variable in self.variables), *self.measures)
+
+    @cached_property
+    def minimum_norm(self) -> tuple[str, ...]:
+        """The measures that read reactions which are not unique; see ``Measure.unique``."""
+        return not_unique(self)
 
     def __getitem__(self, column: str) -> Floats:
         """A column, (n,): NaN in the measures of rows that failed.
@@ -123,7 +130,8 @@ class SweepResult:
 
     def _shown(self) -> list[Column]:
         """The columns in the units of ``kp.units``."""
-        return [column(name, self.units[name], self[name]) for name in self.columns]
+        of = ((name, column(name, self.units[name], self[name])) for name in self.columns)
+        return [replace(one, unique=name not in self.minimum_norm) for name, one in of]
 
     def to_csv(self, path: Path | str) -> None:
         """Write the table as CSV with 17 digits, which preserves every number.
@@ -136,7 +144,8 @@ class SweepResult:
         text, columns = io.StringIO(), self._shown()
         write = csv.writer(text, lineterminator="\n").writerow
         stated = bool(units().chosen)
-        write([*(each.label if stated else each.name for each in columns), "reason"])
+        names = ((each.label if stated else labelled(self, each.name)) for each in columns)
+        write([*names, "reason"])
         for k, row in enumerate(np.column_stack([each.values for each in columns]).tolist()):
             cells = ["" if np.isnan(x) else f"{x:.17g}" for x in row]
             write([*cells, self.reasons.get(k, "")])

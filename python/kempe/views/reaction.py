@@ -10,6 +10,7 @@ import numpy as np
 from kempe.arrays import Floats, pairs, rotated, scalar
 from kempe.errors import ModelError
 from kempe.names import entry
+from kempe.remarks import remark
 
 if TYPE_CHECKING:
     from kempe.compiled import ConstraintInfo
@@ -48,8 +49,8 @@ class Reaction:
     unique: bool
 
     def __repr__(self) -> str:
-        of = "" if self.unique else ", minimum norm"
-        return f"<Reaction of {self.joint!r} on {self.body!r}, {self.frame} axes{of}>"
+        axes = f"{self.frame} axes{remark(unique=self.unique)}"
+        return f"<Reaction of {self.joint!r} on {self.body!r}, {axes}>"
 
 
 def axis_of(motion: Motion, info: ConstraintInfo, on: str, frame: str, about: str | None) -> Floats:
