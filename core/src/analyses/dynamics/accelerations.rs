@@ -5,8 +5,8 @@
 //! position, or with a number that is not finite), each state is solved separately.
 
 use super::failure::Failure;
-use super::massless;
 use super::lane_batch::are_finite;
+use super::massless;
 use super::model_cache::ModelCache;
 use super::redundant_rows::{exchange, workspace_at};
 use super::run_results::Run;
