@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from house.places import ROOT
 from kempe.cli import app
-from kempe.closures import ConfigurationsResult
 from kempe.plot.result_pages import result_pages
 
 
@@ -163,7 +162,7 @@ def test_positions_with_a_freedom_are_left_out(
 )
 def test_the_line_about_positions_left_out(left_out: int, line: str) -> None:
     states = kp.configurations(kp.load(ROOT / "examples/four_bar.toml").model, {"crank.angle": 1})
-    some = ConfigurationsResult(states, complete=False, final=states[0], left_out=left_out)
+    some = kp.ConfigurationsResult(states, complete=False, final=states[0], left_out=left_out)
     assert some.report()[1] == line
 
 
