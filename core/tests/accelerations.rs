@@ -49,6 +49,30 @@ fn the_first_state_without_any_is_named() {
     assert!(t == states.0[11] && message.contains("infinite or undefined"), "{message}");
 }
 
+/// A massless bar that hangs from a pendulum.
+const HUNG: &str = "[bodies.tail]\ntype = \"bar\"\nmass = 0\nlength = 1\nends = [\"P\", \"Q\"]\n\
+                    [joints.P]\ntype = \"revolute\"\ni = \"rod.P\"\nj = \"tail.P\"\n";
+
+#[test]
+fn a_massless_body_without_a_determined_motion_is_named() {
+    let m = model(&format!("{PENDULUM}{HUNG}"));
+    let (state, _) = start(&m, &[("rod.angle", "0.1"), ("tail.angle", "0.3")], &[]);
+    for count in [1, 20] {
+        let Err(Reason::Singular { name, message, .. }) = all(&m, &turned(&state, count)) else {
+            panic!("determined")
+        };
+        assert!(name == "tail" && message.contains("nothing resists tail.angle"), "{message}");
+    }
+    // a rod to ground determines its motion
+    let rod = "[joints.d]\ntype = \"distance\"\ni = \"ground.O\"\nj = \"tail.Q\"\nlength = 1.5\n";
+    let m = model(&format!("{PENDULUM}{HUNG}{rod}"));
+    let (state, _) = start(&m, &[("rod.angle", "0.1")], &[("tail.angle", "2.5")]);
+    let found = all(&m, &(vec![0.0], state.q.clone(), state.v.clone())).expect("determined");
+    // as if it were rigidly fixed to the pendulum
+    let alpha = -1.5 * 9.81 * 0.1_f64.cos();
+    assert!(worst(&[found.a[2], found.a[5]], &[alpha, alpha]) < 1e-9, "{:?}", found.a);
+}
+
 #[test]
 fn twins_have_no_unique_multipliers() {
     let twins =

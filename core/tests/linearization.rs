@@ -2,7 +2,8 @@
 
 mod mechanisms;
 
-use kempe::analyses::linearization::{linearize, Failure, Linearization};
+use kempe::analyses::dynamics::Reason;
+use kempe::analyses::linearization::{begins, linearize, Failure, Linearization};
 use kempe::model::Model;
 use kempe::State;
 use mechanisms::{model, start, PENDULUM};
@@ -118,4 +119,36 @@ fn unknown_names_and_flat_windows_are_refused() {
     let m = windows(1);
     let state = turned(&m, 1, 0.0);
     assert!(matches!(linearize(&m, &state, &[], &[]), Err(Failure::Singular { .. })));
+}
+
+/// A bar of a given mass that hangs from a pendulum, with or without a spring and a damper between them.
+fn hung(mass: f64, spring: bool) -> (Model, State) {
+    let mut text = format!(
+        "{PENDULUM}[bodies.tail]\ntype = 'bar'\nmass = {mass}\nlength = 1\nends = ['P', 'Q']\n\
+         [joints.P]\ntype = 'revolute'\ni = 'rod.P'\nj = 'tail.P'\n"
+    );
+    if spring {
+        text += "[forces.s]\ntype = 'torsion_spring'\ni = 'rod'\nj = 'tail'\nstiffness = 3\ndamping = 0.1\n";
+    }
+    let m = model(&text);
+    let state = start(&m, &[("rod.angle", "-pi/2"), ("tail.angle", "-pi/2")], &[]).0;
+    (m, state)
+}
+
+#[test]
+fn a_massless_body_without_a_determined_motion_is_refused() {
+    for spring in [false, true] {
+        let (m, state) = hung(0.0, spring);
+        let failures = [
+            linearize(&m, &state, &[], &[]).expect_err("refused"),
+            begins(&m, &state).expect_err("refused"),
+        ];
+        for failure in failures {
+            let Failure::Motion(found) = &failure else { panic!("{failure:?}") };
+            let Reason::Singular { name, message, .. } = &found.reason else { panic!("{found:?}") };
+            assert!(name == "tail" && message.contains("nothing resists tail.angle"), "{message}");
+        }
+        let (m, state) = hung(1e-6, spring);
+        assert_eq!(linearize(&m, &state, &[], &[]).expect("with mass").coordinates, [2, 5]);
+    }
 }

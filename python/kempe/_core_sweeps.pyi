@@ -139,4 +139,7 @@ def transmitting(model: Model) -> list[str]:
     """The pins at which a link without a driver, guided by ground, is moved by another link."""
 
 def configurations(model: Model, held: str, limit: int, t: float) -> tuple[_F, _F, _F, str]:
-    """q, v and z of all configurations, one row each, with JSON: ``complete`` and ``reports``."""
+    """q, v and z of all configurations, one row each, with JSON.
+
+    The JSON has ``complete``, ``left_out`` and ``reports``.
+    """

@@ -33,13 +33,18 @@ class ConfigurationsResult(Result, Sequence[State]):
     Attributes:
         complete: whether there are no other configurations; true only if this is proven.
         states: the states.
+        left_out: the number of positions found in which a freedom is left. They are not among the
+            states, because each is one of infinitely many.
     """
 
     kind = "configurations"
 
-    def __init__(self, states: Sequence[State], *, complete: bool, final: State) -> None:
+    def __init__(
+        self, states: Sequence[State], *, complete: bool, final: State, left_out: int = 0
+    ) -> None:
         self.states = tuple(states)
         self.complete = complete
+        self.left_out = left_out
         self._final = final
 
     @property
@@ -67,6 +72,7 @@ class ConfigurationsResult(Result, Sequence[State]):
             "type": self.kind,
             "complete": self.complete,
             "count": len(self),
+            "left_out": self.left_out,
             "configurations": [
                 dict(zip(names, state.q.tolist(), strict=True)) for state in self.states
             ],
@@ -77,6 +83,12 @@ class ConfigurationsResult(Result, Sequence[State]):
         count = f"{len(self)} configuration{'' if len(self) == 1 else 's'}"
         verdict = "there are no others" if self.complete else "there may be others"
         lines = [f"{count}; {verdict}"]
+        if self.left_out == 1:
+            lines.append("1 position is left out, because a freedom remains in it")
+        elif self.left_out:
+            lines.append(
+                f"{self.left_out} positions are left out, because a freedom remains in each of them"
+            )
         for k, state in enumerate(self.states, 1):
             modes = () if state.report is None else state.report.modes
             sides = ", ".join(f"{mode.joint} {mode.side}" for mode in modes)
@@ -107,7 +119,8 @@ def configurations(
     Where dyads, rods and wheels that mesh place all bodies, all combinations are computed, and
     ``complete`` is true. Otherwise Newton's method starts from many positions, and from each one
     found the driven values are followed through their limits until they return; ``complete`` is
-    then false, even if all have been found. Guesses are not used.
+    then false, even if all have been found. Guesses are not used. Positions in which a freedom is
+    left, such as a folded kite, are left out; the report states their number.
 
     Args:
         model: the mechanism.
@@ -119,7 +132,8 @@ def configurations(
     Raises:
         AssemblyError: there is none.
         RedundancyError: constraints are redundant.
-        ModelError: a freedom is left, so that there are infinitely many; or an argument is invalid.
+        ModelError: a freedom is left in all positions found, so that there are infinitely many; or
+            an argument is invalid.
     """
     Configurations(limit=limit).tree()  # checks it
     return _found(compiled_model(model), numbers(set, "set"), limit, t, None)
@@ -146,4 +160,9 @@ def _found(
         State(model, t, at, rates, AssemblyReport.from_json(report), z=own)
         for at, rates, own, report in zip(q, v, z, found["reports"], strict=True)
     ]
-    return ConfigurationsResult(states, complete=found["complete"], final=start or states[0])
+    return ConfigurationsResult(
+        states,
+        complete=found["complete"],
+        final=start or states[0],
+        left_out=found["left_out"],
+    )

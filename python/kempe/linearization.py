@@ -267,7 +267,8 @@ def modes(
         outputs: any quantities, such as ``"rocker.angle"`` or ``"C.fx"``.
 
     Raises:
-        SingularityError: the position is singular, or no mass moves with a coordinate.
+        SingularityError: the position is singular, no mass moves with a coordinate, or the motion
+            of a massless body is not determined.
         AssemblyError: the state does not satisfy the constraints.
         ModelError: an unknown input or output, or a parameter that changes the geometry.
     """

@@ -140,6 +140,32 @@ def test_refusals_and_limits() -> None:
     assert one.final is one[0]
 
 
+def test_positions_with_a_freedom_are_left_out(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    case = kp.load(ROOT / "examples/peaucellier.toml")
+    found = kp.configurations(case.model)
+    assert (len(found), found.complete) == (4, False)
+    assert found.left_out > 1
+    line = f"{found.left_out} positions are left out, because a freedom remains in each of them"
+    assert found.report()[:2] == ["4 configurations; there may be others", line]
+    assert found.summary()["left_out"] == found.left_out
+    assert all(kp.mobility(case.model, state).degrees_of_freedom == 0 for state in found)
+    assert app.run(["configurations", str(ROOT / "examples/scissor_lift.toml")]) == 0
+    assert "positions are left out" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("left_out", "line"),
+    [(0, "1: C left"), (1, "1 position is left out, because a freedom remains in it")],
+)
+def test_the_line_about_positions_left_out(left_out: int, line: str) -> None:
+    states = kp.configurations(kp.load(ROOT / "examples/four_bar.toml").model, {"crank.angle": 1})
+    some = kp.ConfigurationsResult(states, complete=False, final=states[0], left_out=left_out)
+    assert some.report()[1] == line
+
+
 def test_in_a_file_and_on_a_sheet(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:

@@ -206,6 +206,20 @@ def test_check_refuses_what_the_run_refuses(
     assert kp.load(path).run()["run"].success
 
 
+@pytest.mark.parametrize("body", ["ghost", "rod", "link2"])
+def test_modes_and_accelerations_refuse_what_the_run_refuses(body: str) -> None:
+    model, given = free_mechanisms()[body]
+    start = kp.assemble(model, given)
+    for refuses in (lambda: kp.modes(model, start), lambda: start.a):
+        with pytest.raises(kp.SingularityError, match=f"nothing resists {body}.") as caught:
+            refuses()
+        assert caught.value.name == body
+    tree = model.tree()
+    tree["bodies"][body]["mass"] = 1e-3
+    heavy = kp.Model.from_tree(tree)
+    assert np.isfinite(kp.assemble(heavy, given).a).all()
+
+
 def test_a_file_with_massless_bodies(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "massless.toml"
     path.write_text(FILE, "utf-8")

@@ -14,7 +14,7 @@ use serde_json::json;
 
 /// q and v, one row for each configuration.
 type Rows<'py> = Bound<'py, PyArray2<f64>>;
-/// q, v, z, and JSON with the reports and a flag whether the list is complete.
+/// q, v, z, and JSON: the reports, whether the list is complete, and the number of positions left out.
 type Found<'py> = (Rows<'py>, Rows<'py>, Rows<'py>, String);
 
 /// The configurations for the values in `held`, a JSON text.
@@ -55,7 +55,11 @@ pub fn configurations<'py>(
         };
         let reports: Vec<_> =
             found.states.iter().map(|(_, report)| describe(report).to_string()).collect();
-        let text = json!({ "complete": found.complete, "reports": reports });
+        let text = json!({
+            "complete": found.complete,
+            "left_out": found.left_out,
+            "reports": reports,
+        });
         Ok((rows(|s| &s.q, n_q)?, rows(|s| &s.v, n_q)?, rows(|s| &s.z, n_z)?, text.to_string()))
     })
 }

@@ -5,6 +5,7 @@ use crate::errors::{raise_plain, Failure, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
 use crate::options;
+use kempe::analyses::dynamics::Reason;
 use kempe::analyses::linearization as linear;
 use kempe::analyses::options::Declared;
 use kempe::model::Model;
@@ -93,7 +94,13 @@ fn because(py: Python<'_>, failure: &linear::Failure, outputs: &[String]) -> PyE
         linear::Failure::NoInertia { t, coordinate } => {
             made(Kind::Singularity).name(coordinate).at(*t)
         }
-        linear::Failure::Motion(_) => made(Kind::Singularity).hint("give a state beside this one"),
+        linear::Failure::Motion(failure) => match &failure.reason {
+            Reason::Singular { t, name, .. } => made(Kind::Singularity)
+                .name(name)
+                .at(*t)
+                .hint("give a state beside this one, or change the mechanism"),
+            _ => made(Kind::Singularity).hint("give a state beside this one"),
+        },
         linear::Failure::Name(problem) => {
             let hint = problem.hint.clone().unwrap_or_default();
             match hint.is_empty() {

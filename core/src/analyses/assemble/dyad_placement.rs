@@ -35,7 +35,9 @@ impl Placer<'_> {
         let arms = [0, 1].map(|k| at_joint[k] - carried[k].0.own);
         let [p1, p2] = carried.map(|(_, at)| at);
         // a body may turn about three pins at one position
-        self.result.assumed |= arms.iter().any(|arm| arm.norm() == 0.0);
+        if arms.iter().any(|arm| arm.norm() == 0.0) {
+            self.result.assume();
+        }
         let pin = self.pin_between(carried.map(|(leg, _)| leg.other));
         let opposite =
             pin.and_then(|pin| Some(self.poses[pin.other].as_ref()?.point(pin.at_other)));
@@ -96,7 +98,9 @@ impl Placer<'_> {
     ) {
         let link = joint.other;
         let arm = joint.at_other - anchor.own;
-        self.result.assumed |= arm.norm() == 0.0;
+        if arm.norm() == 0.0 {
+            self.result.assume();
+        }
         let (distances, missing) = rail.meeting(joint.own, at, arm.norm());
         let closures: Vec<[Pose; 2]> = distances
             .iter()

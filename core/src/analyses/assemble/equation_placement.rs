@@ -75,7 +75,9 @@ impl Placer<'_> {
             let k = self.equations.of[b][at];
             let (solutions, all) = self.solutions(k, b, &freedom);
             if let Some(pose) = self.chosen(b, &solutions) {
-                self.result.assumed |= !all;
+                if !all {
+                    self.result.assume();
+                }
                 return self.put(b, pose);
             }
         }

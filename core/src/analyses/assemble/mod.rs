@@ -44,7 +44,7 @@ pub use holding::holding;
 pub use named::position;
 pub use open_placement::open_placement;
 pub use placement::{Dyad, DyadGap, Placement};
-pub(super) use placements::following;
+pub(super) use placements::{following, following_before};
 pub use placer::place;
 pub use report::{DyadMode, Report};
 pub use request::{doubts, targets, Request};

@@ -45,6 +45,14 @@ pub struct Placement {
     pub gaps: Vec<DyadGap>,
     /// Number of options of each undecided choice.
     pub options: Vec<usize>,
-    /// Whether a body was placed by an assumption or by a search, so that other choices may give more positions.
-    pub assumed: bool,
+    /// Number of undecided choices before the first body that was placed by an assumption or by a search, so that
+    /// other choices may give more positions. None if there is no such body.
+    pub assumed: Option<usize>,
+}
+
+impl Placement {
+    /// Records that a body was placed by an assumption or by a search.
+    pub fn assume(&mut self) {
+        self.assumed.get_or_insert(self.options.len());
+    }
 }

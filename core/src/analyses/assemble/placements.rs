@@ -39,12 +39,21 @@ impl<'a> Placements<'a> {
 /// The next combination of choices: the last choice with a remaining option uses it. Later choices cannot close a
 /// gap.
 pub(in crate::analyses) fn following(
+    choices: Vec<usize>,
+    placement: &Placement,
+) -> Option<Vec<usize>> {
+    following_before(placement.options.len(), choices, placement)
+}
+
+/// The next combination of choices with another option for one of the first `most` choices.
+pub(in crate::analyses) fn following_before(
+    most: usize,
     mut choices: Vec<usize>,
     placement: &Placement,
 ) -> Option<Vec<usize>> {
     let options = &placement.options;
     choices.resize(options.len(), 0);
-    let before_gap = placement.gaps.first().map_or(options.len(), |gap| gap.choices);
+    let before_gap = placement.gaps.first().map_or(most, |gap| gap.choices.min(most));
     let last = (0..before_gap).rev().find(|k| choices[*k] + 1 < options[*k])?;
     choices.truncate(last + 1);
     choices[last] += 1;

@@ -231,7 +231,7 @@ impl Placer<'_> {
 
     /// Takes a coordinate of a body from the guess, or tries an angle.
     fn assume(&mut self, b: usize) {
-        self.result.assumed = true;
+        self.result.assume();
         let pin = self.carried(b).next();
         if let (None, Some((_, rail))) = (pin, self.rail(b)) {
             return self.put(b, rail.towards(b, self.targets));

@@ -1,6 +1,7 @@
-//! Positions without duplicates.
+//! Positions without duplicates, and without positions in which a freedom is left.
 
 use crate::analyses::kinematics::same;
+use crate::analyses::mobility::mobility;
 use crate::model::Model;
 
 /// Largest difference between two positions that count as equal. Near a dead point, Newton's method finds only half
@@ -10,25 +11,47 @@ const SAME: f64 = 1e-5;
 /// The positions found so far.
 pub(super) struct Positions<'a> {
     model: &'a Model,
+    t: f64,
     limit: usize,
     pub positions: Vec<Vec<f64>>,
+    /// Positions in which the mechanism has degrees of freedom, with their number. Each is one of infinitely many.
+    pub free: Vec<(Vec<f64>, usize)>,
     /// Number of positions beyond the limit.
     pub dropped: usize,
 }
 
 impl<'a> Positions<'a> {
-    pub fn new(model: &'a Model, limit: usize) -> Self {
-        Self { model, limit, positions: Vec::new(), dropped: 0 }
+    pub fn new(model: &'a Model, t: f64, limit: usize) -> Self {
+        Self { model, t, limit, positions: Vec::new(), free: Vec::new(), dropped: 0 }
     }
 
-    /// Whether further positions are discarded.
+    /// Whether further positions are discarded, or have degrees of freedom because there are too few equations.
     pub fn is_full(&self) -> bool {
-        self.dropped > 0
+        let layout = &self.model.layout;
+        self.dropped > 0 || (layout.n_q > layout.n_rows && !self.free.is_empty())
     }
 
-    /// Adds a position; returns whether it is new.
+    /// Adds a position, unless the mechanism has degrees of freedom in it. Returns whether it is new.
     pub fn add(&mut self, q: Vec<f64>) -> bool {
-        if self.positions.iter().any(|other| same(self.model, other, &q, SAME)) {
+        if self.knows(&q) {
+            return false;
+        }
+        let found = mobility(self.model, self.t, &q);
+        if found.degrees_of_freedom > 0 && found.singular.is_empty() {
+            self.free.push((q, found.degrees_of_freedom));
+            return false;
+        }
+        self.add_isolated(q)
+    }
+
+    fn knows(&self, q: &[f64]) -> bool {
+        let mut known = self.positions.iter().chain(self.free.iter().map(|(free, _)| free));
+        known.any(|known| same(self.model, known, q, SAME))
+    }
+
+    /// Adds a position in which the mechanism has no degree of freedom. Returns whether it is new.
+    pub fn add_isolated(&mut self, q: Vec<f64>) -> bool {
+        if self.knows(&q) {
             return false;
         }
         if self.positions.len() == self.limit {

@@ -7,7 +7,7 @@
 //!
 //! | file | concept |
 //! |---|---|
-//! | `found` | positions without duplicates |
+//! | `found` | positions without duplicates and without freedoms |
 //! | `walk` | all closures of dyads, rods and meshed wheels |
 //! | `search` | starts of Newton's method, and circuits |
 //! | `turns` | whole turns that couplings distinguish |
@@ -22,7 +22,6 @@ mod walk;
 pub use options::Options;
 
 use super::assemble::{assemble_until, holding, Failure as AssemblyFailure, Report, Request};
-use super::mobility::mobility;
 use super::State;
 use crate::model::Model;
 use found::Positions;
@@ -34,6 +33,9 @@ pub struct Configurations {
     pub states: Vec<(State, Report)>,
     /// Whether the list is proven to be complete, because dyads, rods and meshed wheels place all bodies.
     pub complete: bool,
+    /// Number of positions found in which a freedom is left. They are not in the list, because each is one of
+    /// infinitely many.
+    pub left_out: usize,
 }
 
 /// The reason that configurations cannot be listed.
@@ -41,17 +43,18 @@ pub struct Configurations {
 pub enum Failure {
     /// There is no configuration, or a rate contradicts the drivers.
     Assembly(Box<AssemblyFailure>),
-    /// The mechanism has free coordinates, so there are infinitely many configurations.
+    /// The mechanism has free coordinates in all positions found, so there are infinitely many configurations.
     Free {
         /// Number of degrees of freedom.
         degrees_of_freedom: usize,
     },
 }
 
-/// The configurations with the values of `request.set`, at most `limit`. Guesses are not used.
+/// The configurations with the values of `request.set`, at most `limit`. Guesses are not used. Positions in which a
+/// freedom is left are left out, such as a folded kite, two of whose links turn freely about one pin.
 ///
 /// # Errors
-/// [`Failure`]: the mechanism does not close, or has degrees of freedom left.
+/// [`Failure`]: the mechanism does not close, or has degrees of freedom left in all positions found.
 pub fn configurations(
     model: &Model,
     request: &Request,
@@ -59,23 +62,14 @@ pub fn configurations(
     stop: &dyn Fn() -> bool,
 ) -> Result<Configurations, Failure> {
     let held = holding(model, request);
-    let mut found = Positions::new(&held, limit);
+    let mut found = Positions::new(&held, request.t, limit);
     let mut complete = walk::walk(&held, request.t, &mut found, stop);
-    let free = |found: &Positions<'_>| {
-        let q = found.positions.first()?;
-        let left = mobility(&held, request.t, q);
-        let n = left.degrees_of_freedom;
-        (n > 0 && left.singular.is_empty()).then_some(n)
-    };
-    if let Some(degrees_of_freedom) = free(&found) {
-        return Err(Failure::Free { degrees_of_freedom });
-    }
     if !complete {
         search::search(&held, request.t, &mut found, stop);
         turns::turn(&held, request.t, &mut found, stop);
     }
-    if let Some(degrees_of_freedom) = free(&found) {
-        return Err(Failure::Free { degrees_of_freedom });
+    if let (true, Some((_, n))) = (found.positions.is_empty(), found.free.first()) {
+        return Err(Failure::Free { degrees_of_freedom: *n });
     }
     complete &= found.dropped == 0;
     let mut states = Vec::new();
@@ -98,5 +92,5 @@ pub fn configurations(
         let one = assemble_until(model, request, stop);
         states.push(one.map_err(Failure::Assembly)?);
     }
-    Ok(Configurations { states, complete })
+    Ok(Configurations { states, complete, left_out: found.free.len() })
 }

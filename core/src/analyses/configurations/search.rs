@@ -22,7 +22,7 @@ const IDLE: usize = 60;
 /// Adds the positions that are found from starts and along circuits.
 pub(super) fn search(model: &Model, t: f64, found: &mut Positions<'_>, stop: Halt<'_>) {
     let mut closing = Closing::new(model, t, stop);
-    let mut next = found.positions.len();
+    let mut next = 0;
     let mut try_from = |mut q: Vec<f64>, found: &mut Positions<'_>| {
         wind(model, t, &mut q);
         let closes = q.iter().all(|x| x.is_finite()) && closing.close(&mut q).1;

@@ -2,16 +2,22 @@
 
 use super::found::Positions;
 use super::turns;
-use crate::analyses::assemble::{following, place, Targets};
+use crate::analyses::assemble::{following_before, place, Targets};
 use crate::analyses::closing::{Closing, Halt};
 use crate::model::{row_scales, Model};
 
 /// Largest number of combinations.
 const MOST: usize = 20_000;
+/// Largest number of combinations with a body that is placed by an assumption.
+const MOST_ASSUMED: usize = 256;
 /// Largest residual of a position whose bodies are all placed exactly, relative to the size of the mechanism.
 const CLOSED: f64 = 1e-7;
 
 /// Adds the positions for all combinations of closures and meshes. Returns whether the list is complete.
+///
+/// Each body has one of finitely many poses beside the bodies placed before it, so no freedom is left in these
+/// positions, however near to each other the pins of a dyad are. If a combination leaves a body open, such as a dyad on
+/// one pin with arms of equal length, the other combinations are still computed.
 pub(super) fn walk(model: &Model, t: f64, found: &mut Positions<'_>, stop: Halt<'_>) -> bool {
     let mut targets = Targets::of(model, t);
     targets.soft.fill([None; 3]);
@@ -20,14 +26,21 @@ pub(super) fn walk(model: &Model, t: f64, found: &mut Positions<'_>, stop: Halt<
     let scales = row_scales(model);
     let mut choices = Some(Vec::new());
     // a dyad closes for any whole turns of its bodies
-    let proven = turns::follow(model, &closing, &mut targets);
+    let mut proven = turns::follow(model, &closing, &mut targets);
+    let mut assumed = 0;
     for _ in 0..MOST {
         let Some(taken) = choices.take() else { return proven };
         let placement = place(model, &targets, &taken);
-        if placement.assumed {
-            return false;
+        let most = placement.assumed.unwrap_or(placement.options.len());
+        choices = following_before(most, taken, &placement);
+        if placement.assumed.is_some() {
+            proven = false;
+            assumed += 1;
+            if assumed == MOST_ASSUMED || stop() {
+                return false;
+            }
+            continue;
         }
-        choices = following(taken, &placement);
         let mut q = placement.q;
         crate::analyses::assemble::wind(model, t, &mut q);
         let phi = closing.phi(&q);
@@ -35,7 +48,7 @@ pub(super) fn walk(model: &Model, t: f64, found: &mut Positions<'_>, stop: Halt<
         let closes = placement.gaps.is_empty()
             && phi.iter().zip(&scales).all(|(phi, scale)| phi.abs() <= CLOSED * scale);
         if closes && closing.close(&mut q).1 {
-            found.add(q);
+            found.add_isolated(q);
         }
         if found.is_full() || stop() {
             return false;

@@ -6,6 +6,7 @@
 
 use super::failure::Failure;
 use super::lane_batch::are_finite;
+use super::massless;
 use super::model_cache::ModelCache;
 use super::redundant_rows::{exchange, workspace_at};
 use super::run_results::Run;
@@ -55,6 +56,9 @@ pub(super) fn accelerations(
     assert_eq!([q.len(), v.len(), z.len()], lengths, "a row for each time");
     let Some(&from) = t.first() else { return Ok(Accelerations::default()) };
     let start = [&q[..n], &v[..n], &z[..n_z]];
+    if !passing {
+        massless::check(model, from, start[0])?;
+    }
     shared_reaction::check(model, from, start[0])?;
     let mut one = workspace_at((model, cache), from, start);
     let mut independent = None;

@@ -100,7 +100,8 @@ impl<M: Deref<Target = Model>> Prepared<M> {
     /// returned.
     ///
     /// # Errors
-    /// [`Failure`] of the first state where accelerations and multipliers are not unique, or not finite.
+    /// [`Failure`] of the first state where accelerations and multipliers are not unique, or not finite. Without
+    /// `passing`, also of a massless body whose motion is not determined in the first state.
     ///
     /// # Panics
     /// If the rows do not fit the model or each other.

@@ -83,7 +83,8 @@ struct Column {
 /// state. Drivers hold their coordinates, and the time is constant.
 ///
 /// # Errors
-/// [`Failure`]: a singular position, an open joint, a degree of freedom without inertia, or an invalid name.
+/// [`Failure`]: a singular position, an open joint, a degree of freedom without inertia, a massless body whose motion is
+/// not determined, or an invalid name.
 pub fn linearize(
     model: &Model,
     state: &State,
