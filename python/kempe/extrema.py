@@ -20,7 +20,6 @@ from kempe.solution import Solution
 Quantity = Callable[[Motion], Floats]
 
 
-
 class _Passed(NamedTuple):
     """The singular positions of a run, and the instants at which its quantities are searched.
 

@@ -100,7 +100,7 @@ class Motion:
 
     @property
     def regularity(self) -> Floats:
-        """Regularity of each position, (n_t,): near a singular position, proportional to its distance."""
+        """Regularity, (n_t,): near a singular position, proportional to the distance from it."""
         return np.atleast_2d(self._solved[2])[:, 0]
 
     @cached_property

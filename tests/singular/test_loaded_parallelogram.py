@@ -70,7 +70,9 @@ def test_reactions_without_bound_are_noted_and_the_effort_is_smooth(case, analys
     assert not len(unbounded(sol, read))
 
 
-@pytest.mark.parametrize("method", [kp.Auto(), kp.DOP853(rtol=1e-10), kp.Radau(), kp.RK45(rtol=1e-8)])
+@pytest.mark.parametrize(
+    "method", [kp.Auto(), kp.DOP853(rtol=1e-10), kp.Radau(), kp.RK45(rtol=1e-8)]
+)
 def test_each_method_notes_all_positions(method: object) -> None:
     angle, rate, _ = SETS[0]
     model, start = parallelogram(*SETS[0])
