@@ -1,5 +1,6 @@
 """Measures of analyses that are not motions, and of motions over a driven quantity."""
 
+from pathlib import Path
 from typing import Any
 
 import kempe as kp
@@ -50,6 +51,18 @@ def test_the_driver_of_a_motion_over_a_quantity_has_an_effort() -> None:
     assert units == ["N*m", "rad", "1/rad"]
     with pytest.raises(kp.ModelError, match=r"unknown name 'over\.effort'"):
         kp.sweep(case_of(kp.Dynamics(t_end=0.1)), {"L2": [26.0]}, ["over.effort.max"])
+
+
+def test_the_section_of_a_file_may_name_this_effort(tmp_path: Path) -> None:
+    file = tmp_path / "over.toml"
+    case_of(kp.InverseDynamics(over="crank.angle", range=(1, 1.5), n=20)).save(file)
+    section = '[sweep]\nvariables = { L2 = [26.0, 27.0] }\nmeasures = ["over.effort.max"]\n'
+    file.write_text(file.read_text() + "\n" + section)
+    assert not kp.sweep(kp.load(file), {"L2": [26.0]}, ["over.effort.max"]).reasons
+    case_of(kp.Dynamics(t_end=0.1)).save(file)
+    file.write_text(file.read_text() + "\n" + section)
+    with pytest.raises(kp.ModelError, match=r"unknown name 'over"):
+        kp.load(file)
 
 
 def test_an_equilibrium_has_positions_and_efforts() -> None:

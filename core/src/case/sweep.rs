@@ -13,6 +13,8 @@ const KEYS: [&str; 6] = ["variables", "measures", "design", "n", "seed", "analys
 pub(super) const DESIGNS: [&str; 5] = ["grid", "paired", "random", "latin", "sobol"];
 /// Words for the scale of a range.
 pub(super) const SCALES: [&str; 2] = ["linear", "log"];
+/// Quantities of the driver of a motion over a driven value. The model of the case does not contain this driver.
+const OVER: &str = "over.";
 
 /// Checks the structure of the section.
 pub(super) fn read(report: &mut ProblemList, node: &Node, root: &Table) -> Vec<(String, Value)> {
@@ -167,11 +169,14 @@ pub(super) fn faults(
         _ => kinds.last(),
     };
     let Some(Value::List(texts)) = get("measures") else { return found };
-    if !swept.is_some_and(|(_, kind)| sweep::MOTIONS.contains(&kind.as_str())) {
+    let Some((_, kind)) = swept.filter(|(_, kind)| sweep::MOTIONS.contains(&kind.as_str())) else {
         return found;
-    }
+    };
     for (k, text) in texts.iter().enumerate() {
         let Value::Text(text) = text else { continue };
+        if kind != "dynamics" && text.starts_with(OVER) {
+            continue;
+        }
         let fault = sweep::measure_fault(model, measures, text);
         found.extend(fault.map(|problem| under("measures", &k.to_string(), problem)));
     }
