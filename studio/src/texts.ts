@@ -90,6 +90,8 @@ export const texts = {
         : `${label}: click its second point, or type a length.`,
     choose: (label: string, field: string, shape: string) => `${label}: click ${article(shape)} for ${field}.`,
     wanted: (shape: string) => `There is no ${shape} here. Click ${article(shape)}.`,
+    held: (owner: string) =>
+      `${owner} cannot be driven here: the joints and drivers leave it no freedom. Click another body or joint.`,
     added: (label: string, name: string) => `${label} “${name}” added.`,
   },
   properties: {
@@ -164,6 +166,8 @@ export const texts = {
   },
   move: {
     hint: "Drag a point or a body. Every length is kept.",
+    speeds: "Speeds of the drivers",
+    speedHint: "A number with its unit, such as 10 rpm or 30 mm/s, or a formula",
     configurations: "Assembly modes",
     find: "Find all assembly modes",
     only: "This is the only configuration with the present free coordinates.",
@@ -325,7 +329,8 @@ export const texts = {
       crank: "Draw the crank: click a fixed point, then its free end. The bar is pinned where it begins.",
       coupler: "Draw the coupler: from the end of the crank to a new point.",
       rocker: "Draw the rocker: from the end of the coupler to the other fixed point. The loop closes.",
-      driver: "Click the crank. The driver turns it by 1 rad in each second.",
+      driver:
+        "Click the crank. The driver turns it ten times in each minute; the parameter of its speed can be changed.",
       move: "Drag the end of the crank around. Every length is kept.",
       live: "The driver turns the crank. Pull at a bar and watch the energy.",
       read: "The analysis is done: paths on the sheet, curves at the side. Tick “Reactions” for the forces in the pins.",

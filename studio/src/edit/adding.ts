@@ -5,6 +5,7 @@ import { entries, entry, freeName, freePointNames, isTable } from "../catalogue/
 import type { Body, Change, Tree, Value } from "../core/protocol";
 import type { PointHit } from "../plane/hits";
 import { distance, inFrame, type Placement, type Point, placed, rounded } from "../plane/points";
+import { evenLaw, type Motion } from "./driving";
 import { isPlain } from "./moving";
 
 /** A place that was clicked, with the points that are there. */
@@ -165,27 +166,33 @@ export function pointReference(
   return { reference: `${name}.${point}`, changes: [pointChange(tree, name, point!, tidied(place.at), pose)] };
 }
 
-/** An element whose references have been chosen. */
+/** An element whose references have been chosen; the motion is that of a coordinate among them. */
 export function addElement(
   { group, type }: Tool,
   chosen: Record<string, Value>,
-  scale: { length: number; now: number | null },
+  scale: { length: number; degrees: boolean; motion: Motion | null },
   tree: Tree | null,
 ): Added {
   const name = freeName(tree, type.name.replaceAll("_", ""));
   const value: Tree = { type: type.name, ...chosen };
+  const changes: Change[] = [];
   for (const field of type.fields) {
     if (!field.required || field.name in chosen) continue;
-    value[field.name] = startingValue(field, scale);
+    const even = isOfCoordinate(field) && scale.motion && evenLaw(scale.motion, scale, tree);
+    value[field.name] = even ? even.law : startingValue(field, scale.length);
+    if (even) changes.push(...even.changes);
   }
-  return { changes: [{ path: [group, name], value }], name };
+  return { changes: [...changes, { path: [group, name], value }], name };
 }
 
-/** A value to begin with for a required field. A law of a coordinate begins where it is and goes on evenly. */
-function startingValue({ shape, unit }: Field, { length, now }: { length: number; now: number | null }): Value {
+/** Whether a field is the law of a position quantity. */
+function isOfCoordinate({ shape, unit }: Field): boolean {
+  return shape === "law" && unit.includes("|") && unit.includes("rad");
+}
+
+/** A value to begin with for a required field. */
+function startingValue({ shape, unit }: Field, length: number): Value {
   const one = unit === "m" ? Number(length.toPrecision(4)) : 1;
-  if (shape === "law" && unit.includes("|") && now !== null && unit.includes("rad"))
-    return `${Number(now.toPrecision(6))} + t`;
   if (shape === "pair" || shape === "law_pair") return [one, one];
   if (shape === "triple") return [1, 1, 1];
   if (shape === "terms") return {};

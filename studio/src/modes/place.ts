@@ -6,20 +6,22 @@ import type { Change, Value } from "../core/protocol";
 import { gridStep, snapStep } from "../draw/measure";
 import { roundQuantity, significant } from "../draw/numbers";
 import { type Added, addBody, addElement, type Case, type Place, pointReference } from "../edit/adding";
+import type { Motion } from "../edit/driving";
 import { distance, type Point } from "../plane/points";
 import { type Snapped, snapped } from "../plane/snap";
 import { change } from "../store/document";
-import { send } from "../store/session";
+import { report } from "../store/session";
 import { preview, typedLength, view } from "../store/sheet";
 import { announce, catalogue, degrees, mechanism, panel, poses, selection, snapping, tool, tree } from "../store/state";
 import { texts } from "../texts";
+import { coordinateOf } from "./coordinate";
 import type { Handler, Spot } from "./handler";
 import { bodyUnder, elementUnder, points, pointsUnder } from "./seen";
 
 let places: Place[] = [];
 let chosen: Record<string, Value> = {};
 let changes: Change[] = [];
-let now: number | null = null;
+let motion: Motion | null = null;
 
 export const place: Handler = {
   down: () => true,
@@ -96,14 +98,21 @@ export async function finish(): Promise<void> {
   await apply(active, addBody(active, made, catalogue.value, present()));
 }
 
+/** Whether the core is still asked about a click. */
+let asking = false;
+
 async function clickReference(active: Tool, spot: Spot): Promise<void> {
+  if (asking) return;
+  asking = true;
+  await chooseReference(active, spot).catch(report);
+  asking = false;
+}
+
+async function chooseReference(active: Tool, spot: Spot): Promise<void> {
   const field = active.references.find(({ name }) => !(name in chosen));
   if (field) {
-    const reference = await referenceOf(String(field.shape), spot);
-    if (reference === null) {
-      announce("info", texts.place.wanted(String(field.shape)));
-      return;
-    }
+    const reference = await referenceOf(active, String(field.shape), spot);
+    if (reference === null) return;
     chosen[field.name] = reference;
   }
   const next = active.references.find(({ name }) => !(name in chosen));
@@ -113,7 +122,7 @@ async function clickReference(active: Tool, spot: Spot): Promise<void> {
 
 async function complete(active: Tool): Promise<void> {
   const length = places.length > 1 ? distance(places[0]!.at, places[1]!.at) : gridStep(view) / 2;
-  const added = addElement(active, chosen, { length, now }, tree.value);
+  const added = addElement(active, chosen, { length, degrees: degrees.value, motion }, tree.value);
   const all = { ...added, changes: [...changes, ...added.changes] };
   restart();
   await apply(active, all);
@@ -126,8 +135,8 @@ async function apply(active: Tool, { changes: all, name }: Added): Promise<void>
   announce("done", texts.place.added(active.label, name));
 }
 
-/** What the pointer refers to, as a text of the file. */
-async function referenceOf(shape: string, spot: Spot): Promise<string | null> {
+/** What the pointer refers to, as a text of the file; null with a message if there is nothing of this kind. */
+async function referenceOf(active: Tool, shape: string, spot: Spot): Promise<string | null> {
   const hits = pointsUnder(spot);
   const taken = new Set(Object.values(chosen).map((one) => String(one).split(".")[0]));
   const fresh = hits.find(({ body }) => !taken.has(body.name)) ?? hits[0];
@@ -142,10 +151,21 @@ async function referenceOf(shape: string, spot: Spot): Promise<string | null> {
     return found.reference;
   }
   const element = elementUnder(spot);
-  if (shape === "joint")
-    return element?.group === "joints" ? element.name : jointAt(hits.map(({ body: b, point }) => `${b.name}.${point}`));
-  if (shape === "curve") return body ? curveOf(body.name) : null;
-  return coordinateOf((body && !body.ground ? body.name : null) ?? element?.name ?? null);
+  const owner = (body && !body.ground ? body.name : null) ?? element?.name ?? null;
+  if (shape === "coordinate") {
+    const found = await coordinateOf(owner, active.group !== "drivers");
+    motion = found ?? motion;
+    if (!found) announce("info", owner ? texts.place.held(owner) : texts.place.wanted(shape));
+    return found?.name ?? null;
+  }
+  const names = hits.map(({ body: b, point }) => `${b.name}.${point}`);
+  const found = shape === "curve" ? body && curveOf(body.name) : jointOf(element, names);
+  if (!found) announce("info", texts.place.wanted(shape));
+  return found;
+}
+
+function jointOf(element: ReturnType<typeof elementUnder>, names: string[]): string | null {
+  return element?.group === "joints" ? element.name : jointAt(names);
 }
 
 function jointAt(names: string[]): string | null {
@@ -159,20 +179,9 @@ function curveOf(body: string): string | null {
   return first ? `${body}.${first}` : null;
 }
 
-/** The position quantity of a body or element: an angle if it has one. */
-async function coordinateOf(name: string | null): Promise<string | null> {
-  if (!name) return null;
-  const { ok } = await send("quantities", {});
-  const own = ok.filter((one) => one.name.startsWith(`${name}.`) && (one.unit === "rad" || one.unit === "m"));
-  const found = own.find(({ unit }) => unit === "rad") ?? own[0];
-  if (!found) return null;
-  now = (await send("quantity", { name: found.name })).ok.value;
-  return found.name;
-}
-
 /** Begin anew with the active tool, or with another one. */
 export function restart(next: Tool | null = tool.value): void {
-  [places, chosen, changes, now] = [[], {}, [], null];
+  [places, chosen, changes, motion] = [[], {}, [], null];
   typedLength.value = "";
   preview.value = null;
   tool.value = next;

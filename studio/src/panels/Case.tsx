@@ -46,10 +46,11 @@ interface TextFieldProps {
   keep(text: string): void;
   unit?: string;
   placeholder?: string;
+  hint?: string;
   onRemove?: () => void;
 }
 
-export function TextField({ label, value, keep, unit, placeholder, onRemove }: TextFieldProps) {
+export function TextField({ label, value, keep, unit, placeholder, hint, onRemove }: TextFieldProps) {
   const id = `case-${label}`;
   return (
     <div class="field">
@@ -63,6 +64,7 @@ export function TextField({ label, value, keep, unit, placeholder, onRemove }: T
         spellcheck={false}
         value={value}
         placeholder={placeholder ?? ""}
+        title={hint}
         onChange={(event) => event.currentTarget.value !== value && keep(event.currentTarget.value)}
       />
       {onRemove ? (

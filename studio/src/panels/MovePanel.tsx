@@ -6,6 +6,7 @@ import { goHome } from "../store/session";
 import { mechanism, mobility, pose } from "../store/state";
 import { texts } from "../texts";
 import { Button, Check, Facts, Section } from "./parts";
+import { Speeds } from "./Speeds";
 
 export function MovePanel() {
   const words = texts.move;
@@ -19,6 +20,7 @@ export function MovePanel() {
           <Button label={living.playing.value ? words.pause : words.play} onClick={living.toggle} id="play-drivers" />
         ) : null}
       </div>
+      <Speeds />
       <Section title={words.configurations}>
         <Button label={words.find} onClick={() => void findConfigurations()} id="find-configurations" />
         {found ? (
