@@ -1,5 +1,5 @@
 // The picture behind the drawing: opening, opacity, scale.
-import { useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { openBackdrop } from "../give/backdrop";
 import { beginScaling, endScaling, removeBackdrop } from "../modes/scaling";
 import { backdrop, scaleTo, scaling } from "../store/backdrop";
@@ -41,6 +41,8 @@ export function Backdrop() {
 /** The known distance of the two points. */
 function Distance() {
   const [length, setLength] = useState("");
+  const input = useRef<HTMLInputElement>(null);
+  useEffect(() => input.current?.focus(), []);
   const apply = () => {
     scaleTo(Number(length));
     endScaling();
@@ -54,6 +56,7 @@ function Distance() {
       }}
     >
       <input
+        ref={input}
         type="text"
         inputMode="decimal"
         autocomplete="off"

@@ -1,7 +1,7 @@
 // What concerns the whole case: title, gravity, parameters, analyses, and its contents.
 import { useState } from "preact/hooks";
 import { GROUPS } from "../catalogue/catalogue";
-import { entries, isTable } from "../catalogue/tree";
+import { entries } from "../catalogue/tree";
 import type { Tree } from "../core/protocol";
 import { isName, rename } from "../edit/commands";
 import { typed, typedList, written, writtenList } from "../edit/values";
@@ -9,9 +9,11 @@ import { announce, catalogue, mechanism, tree } from "../store/state";
 import { texts } from "../texts";
 import { Backdrop } from "./Backdrop";
 import { Field, put } from "./Field";
+import { Mobility } from "./Mobility";
 import { Contents } from "./Properties";
 import { Button, Section } from "./parts";
 import { Ready } from "./Ready";
+import { Start } from "./Start";
 
 export function Case() {
   const words = texts.properties;
@@ -32,8 +34,9 @@ export function Case() {
       {GROUPS.map((group) => (
         <Contents key={group} group={group} />
       ))}
-      <Start value={isTable(found.start) ? found.start : {}} />
+      <Start />
       <Analyses />
+      <Mobility />
       <Ready />
       <Backdrop />
     </div>
@@ -114,24 +117,6 @@ function Parameters() {
         />
         <Button label={words.addParameter} icon="plus" onClick={add} disabled={!adding.trim()} />
       </form>
-    </Section>
-  );
-}
-
-function Start({ value }: { value: Tree }) {
-  const set = isTable(value.set) ? Object.entries(value.set) : [];
-  if (!set.length) return null;
-  return (
-    <Section title={texts.properties.startSet}>
-      {set.map(([name, one]) => (
-        <TextField
-          key={name}
-          label={name}
-          value={written(one)}
-          keep={(text) => put(["start", "set", name], typed(text))}
-          onRemove={() => put(["start", "set", name], undefined)}
-        />
-      ))}
     </Section>
   );
 }
