@@ -130,14 +130,3 @@ def test_a_body_without_freedom_is_not_driven(one: Studio) -> None:
     one.click(one.quantity("rod.B.x"), one.quantity("rod.B.y"))
     assert one.toml() == before
     assert "no freedom" in one.message()
-
-
-def test_a_double_click_adds_one_driver(one: Studio) -> None:
-    one.load((EXAMPLES / "four_bar.toml").read_text(encoding="utf-8"))
-    one.mode("edit")
-    one.tool("coordinate_driver")
-    one.page.mouse.dblclick(
-        *one.screen(one.quantity("crank.B.x"), one.quantity("crank.B.y")), delay=0
-    )
-    one.settle()
-    assert len(one.tree()["drivers"]) == 1
