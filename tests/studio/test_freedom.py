@@ -46,6 +46,8 @@ def test_modes_of_cams_are_not_searched_before_they_are_asked_for(studio: Opener
     one = studio()
     one.load((EXAMPLES / "cam_roller.toml").read_text(encoding="utf-8"))
     one.page.wait_for_timeout(600)
-    one.settle()  # the search takes longer than the core may
+    answer = "kempe.quantity('energy.kinetic').then(() => true)"
+    limit = "new Promise((done) => setTimeout(() => done(false), 4000))"
+    assert one.call(f"Promise.race([{answer}, {limit}])")  # a search would take longer
     assert "Assembly modes" not in one.page.locator(".side").inner_text()
     assert one.page.locator("#show-configurations").is_visible()

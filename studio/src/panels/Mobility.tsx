@@ -4,7 +4,7 @@ import { isPin } from "../catalogue/catalogue";
 import { enter } from "../modes/modes";
 import { findConfigurations } from "../modes/move";
 import { send } from "../store/session";
-import { catalogue, loads, mechanism, mobility, mode, unassembled } from "../store/state";
+import { catalogue, loads, mechanism, mobility, mode, text, unassembled } from "../store/state";
 import { texts } from "../texts";
 import { Button, Facts, Section } from "./parts";
 
@@ -13,6 +13,8 @@ const PAUSE = 300;
 /** Modes are counted for so many bodies at most, and up to so many modes. */
 const MOST_BODIES = 12;
 const MOST_MODES = 24;
+/** A text whose modes could not be counted: they are not counted again when the core has started anew. */
+let uncounted: string | null = null;
 
 export function Mobility() {
   const found = mobility.value;
@@ -43,12 +45,16 @@ function Modes() {
   const version = loads.value;
   useEffect(() => {
     let current = true;
-    const keep = (text: string | null) => current && setCount(text);
+    const keep = (found: string | null) => current && setCount(found);
     const timer = setTimeout(() => {
-      if (!isCounted()) return keep(null);
+      const given = text.value;
+      if (!isCounted() || given === uncounted) return keep(null);
       send("configurations", { limit: MOST_MODES }, "count").then(
         ({ ok }) => keep(texts.move.count(ok.poses.length, ok.complete)),
-        () => keep(null),
+        () => {
+          uncounted = given;
+          keep(null);
+        },
       );
     }, PAUSE);
     return () => {
