@@ -183,6 +183,7 @@ export const texts = {
     play: "Play the drivers",
     pause: "Pause",
     mobility: "Mobility",
+    moreLoops: (n: number) => `… and ${n} more loops of four bars`,
     count: (n: number, complete: boolean) => (complete ? String(n) : `at least ${n}`),
     gruebler: "Grübler count",
     rank: "Rank of the constraints",

@@ -164,7 +164,7 @@ test("a driver takes over what the start prescribes of its quantity", () => {
       { path: ["parameters", "speed1"], value: "w" },
     ],
   });
-  // Another unit is no factor of a formula; the rate of another body contradicts only where there is one freedom.
+  // Another unit cannot be written in a formula; the rate of another body contradicts only where there is one freedom.
   expect(law({ "crank.angle": "1 rad", "rod.omega": 2 }).law).toBe(`${motion.now} + speed1*t`);
   expect(law({ "rod.omega": 2 }).changes.length).toBe(2);
   expect(law({ "rod.omega": 2 }, { alone: false }).changes.length).toBe(1);

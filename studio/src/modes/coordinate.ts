@@ -33,7 +33,7 @@ async function readings(all: Quantity[]): Promise<Map<string, { now: number; rat
   return new Map(await Promise.all(rows));
 }
 
-/** The first quantity to which the mechanism, as it stands, can give a rate. */
+/** The first quantity to which the mechanism can give a rate in its present pose. */
 async function firstFree(owner: string, all: Quantity[]): Promise<Quantity | undefined> {
   const names = mechanism.value?.coordinates ?? [];
   const guess = Object.fromEntries(names.map((name, k) => [name, pose.value?.q[k] ?? 0]));

@@ -13,6 +13,8 @@ const PAUSE = 300;
 /** Modes are counted for so many bodies at most, and up to so many modes. */
 const MOST_BODIES = 12;
 const MOST_MODES = 24;
+/** So many four-bar loops are listed. */
+const MOST_LOOPS = 8;
 /** A text whose modes could not be counted: they are not counted again when the core has started anew. */
 let uncounted: string | null = null;
 
@@ -29,11 +31,14 @@ export function Mobility() {
   return (
     <Section title={words.mobility}>
       <Facts rows={rows} />
-      {found.four_bars.map(({ pins, kind, turning }) => (
+      {found.four_bars.slice(0, MOST_LOOPS).map(({ pins, kind, turning }) => (
         <p class="doc" key={pins.join()}>
           {words.fourBar(pins.join("-"), kind, turning.join(", "))}
         </p>
       ))}
+      {found.four_bars.length > MOST_LOOPS ? (
+        <p class="doc">{words.moreLoops(found.four_bars.length - MOST_LOOPS)}</p>
+      ) : null}
       {mode.value === "edit" ? <Modes /> : null}
     </Section>
   );
