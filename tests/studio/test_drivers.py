@@ -1,4 +1,4 @@
-"""Drivers that are added by a click: they fit the start, play, and have a speed in the user's unit."""
+"""Drivers that are added by a click: they fit the start, play, and have a speed in any unit."""
 
 import math
 from pathlib import Path

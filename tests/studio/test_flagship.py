@@ -36,7 +36,7 @@ def bar(one: Studio, begin: tuple[float, float], length: str, end: tuple[float, 
 
 
 def draw_linkage(one: Studio) -> None:
-    """Two fixed points, three bars with the lengths of the flagship, and the pin that closes the loop."""
+    """Two fixed points, three bars of the flagship, and the pin that closes the loop."""
     one.page.locator("#new").click()
     one.settle()
     one.page.locator("#sheet").focus()

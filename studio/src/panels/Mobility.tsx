@@ -33,7 +33,7 @@ export function Mobility() {
       <Facts rows={rows} />
       {found.four_bars.slice(0, MOST_LOOPS).map(({ pins, kind, turning }) => (
         <p class="doc" key={pins.join()}>
-          {words.fourBar(pins.join("-"), kind, turning.join(", "))}
+          {words.fourBar(pins.join("-"), kind, (turning ?? []).join(", "))}
         </p>
       ))}
       {found.four_bars.length > MOST_LOOPS ? (
