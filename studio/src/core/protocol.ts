@@ -119,7 +119,7 @@ export interface Mobility {
   rank: number;
   redundant: Value[];
   singular: Value[];
-  four_bars: { pins: string[]; kind: string; turning: string[] }[];
+  four_bars: { pins: string[]; kind: string; turning: string[] | null }[];
 }
 
 /** The static part of a scene; docs/scene.md describes all of it. */

@@ -1,5 +1,5 @@
 // The picture behind the drawing: opening, opacity, scale.
-import { useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { lengthMeant, meantValue } from "../edit/meaning";
 import { openBackdrop } from "../give/backdrop";
 import { beginScaling, endScaling, removeBackdrop } from "../modes/scaling";
@@ -43,6 +43,8 @@ export function Backdrop() {
 /** The known distance of the two points. */
 function Distance() {
   const [length, setLength] = useState("");
+  const input = useRef<HTMLInputElement>(null);
+  useEffect(() => input.current?.focus(), []);
   const apply = async () => {
     const metres = meantValue(await lengthMeant(length));
     if (metres === undefined) return;
@@ -58,6 +60,7 @@ function Distance() {
       }}
     >
       <input
+        ref={input}
         type="text"
         autocomplete="off"
         title={texts.edit.lengthHint}

@@ -1,8 +1,9 @@
 // Living: play, speed, energy, parameters.
 import { significant } from "../draw/numbers";
+import { speedsOf } from "../edit/driving";
 import * as living from "../modes/live";
 import { goHome } from "../store/session";
-import { mechanism, live as state } from "../store/state";
+import { mechanism, live as state, tree } from "../store/state";
 import { texts } from "../texts";
 import { Button, Facts, Section } from "./parts";
 import { shown } from "./Readings";
@@ -75,13 +76,16 @@ function State() {
   );
 }
 
+/** Speeds of drivers come first, in the unit of the display. */
 function Parameters() {
   const all = mechanism.value?.parameters ?? [];
   if (!all.length) return null;
+  const speeds = new Map(speedsOf(tree.value, all).map(({ parameter, unit }) => [parameter, unit]));
+  const sorted = [...all.filter(({ name }) => speeds.has(name)), ...all.filter(({ name }) => !speeds.has(name))];
   return (
     <Section title={texts.live.parameters}>
-      {all.map(({ name, value, unit }) => (
-        <Slider key={name} name={name} value={value} unit={unit ?? ""} />
+      {sorted.map(({ name, value, unit }) => (
+        <Slider key={name} name={name} value={value} unit={speeds.get(name) ?? unit ?? ""} />
       ))}
     </Section>
   );
@@ -95,7 +99,7 @@ function Slider({ name, value, unit }: { name: string; value: number; unit: stri
     <label class="slider">
       <span>
         <bdi>{name}</bdi>
-        <output>{`${significant(now)} ${unit}`}</output>
+        <output>{shown(now, unit)}</output>
       </span>
       <input
         type="range"

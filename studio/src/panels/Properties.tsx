@@ -13,6 +13,7 @@ import { Held } from "./Held";
 import { PointRows } from "./PointRows";
 import { Button, Section } from "./parts";
 import { lengthOf, Readings } from "./Readings";
+import { Speeds } from "./Speeds";
 
 export function Properties() {
   const chosen = selection.value;
@@ -49,6 +50,7 @@ function Entry({ group, name, value }: { group: Group; name: string; value: Tree
         ),
       )}
       {group === "bodies" ? <Held name={name} /> : null}
+      {group === "drivers" ? <Speeds of={name} /> : null}
       {type?.fields.some(({ shape }) => shape === "outline") ? (
         <Button label={texts.outline.open} hint={texts.outline.hint} onClick={() => openOutline(name)} id="outline" />
       ) : null}

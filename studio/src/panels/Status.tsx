@@ -55,6 +55,7 @@ function Facts() {
   const words = texts.status;
   const count = mobility.value?.redundant.length ?? 0;
   const freedom = mobility.value?.degrees_of_freedom ?? found.degrees_of_freedom;
+  const loops = mobility.value?.four_bars ?? [];
   return (
     <div class="standing">
       {unassembled.value ? <span class="problem">{words.open}</span> : null}
@@ -63,6 +64,7 @@ function Facts() {
       {found.warnings.length ? (
         <span title={found.warnings.join("\n")}>{words.warnings(found.warnings.length)}</span>
       ) : null}
+      {loops.length === 1 ? <span id="grashof">{loops[0]!.kind}</span> : null}
       <span>{words.bodies(found.bodies.length - 1)}</span>
       <span id="freedom">{freedom === null ? "" : words.freedom(freedom)}</span>
     </div>
