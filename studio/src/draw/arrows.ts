@@ -21,7 +21,7 @@ export interface Vector {
 
 /** The vectors of one kind at one instant, and how long one unit of them is, px. */
 export interface Vectors {
-  kind: ArrowKind;
+  kind: ArrowKind | "force";
   unit: string;
   pixels: number;
   vectors: Vector[];
@@ -29,7 +29,7 @@ export interface Vectors {
 
 /** An arrow on the canvas, px. */
 export interface Arrow {
-  kind: ArrowKind;
+  kind: Vectors["kind"];
   element: string;
   from: Point;
   to: Point;

@@ -5,9 +5,9 @@ import { openStored, saveCsv, saveNpz } from "../give/results";
 import { OVER, TIME } from "../modes/over";
 import { hasOtherAxis } from "../modes/plotting";
 import { analyses, analysis, chosen, course, quantities, run, running, variable } from "../modes/read";
-import { arrows, KINDS, type Kind } from "../page/motionOverlay";
+import { arrows, KINDS, type Kind, onBody } from "../page/motionOverlay";
 import { plots, stored } from "../store/plots";
-import { degrees } from "../store/state";
+import { degrees, mechanism } from "../store/state";
 import { texts } from "../texts";
 import { Measures } from "./Measures";
 import { OverFields } from "./OverFields";
@@ -30,6 +30,7 @@ export function ReadPanel() {
                 onChange={(on) => (arrows.value = { ...arrows.value, [kind]: on })}
               />
             ))}
+            <OnBody />
             <Check label={words.degrees} checked={degrees.value} onChange={(on) => (degrees.value = on)} />
           </div>
           <Section
@@ -67,6 +68,25 @@ export function ReadPanel() {
         <p class="doc">{running.value ? words.running : words.none}</p>
       )}
     </div>
+  );
+}
+
+/** The body on which the arrows that are shown act. */
+function OnBody() {
+  const names = (mechanism.value?.bodies ?? []).map(({ name }) => name);
+  const chosen = names.includes(onBody.value) ? onBody.value : "";
+  return (
+    <label class="choice">
+      <span>{texts.read.onBody}</span>
+      <select id="on-body" value={chosen} onChange={(event) => (onBody.value = event.currentTarget.value)}>
+        <option value="">{texts.read.onAll}</option>
+        {names.map((name) => (
+          <option key={name} value={name}>
+            {name}
+          </option>
+        ))}
+      </select>
+    </label>
   );
 }
 
