@@ -62,7 +62,7 @@ export const texts = {
     gifHint: "Save the motion as a GIF, at the speed of the playback",
     gifProgress: (percent: number) => `GIF ${percent} % ×`,
     gifCancel: "Cancel the GIF",
-    length: "Length / m",
+    length: (unit: string) => `Length / ${unit}`,
     finish: "Finish",
     stop: "Cancel",
   },
@@ -70,7 +70,7 @@ export const texts = {
     fixed: (body: string, point: string) =>
       `${body}.${point} does not follow: a length or a formula of the text determines it.`,
     place: (body: string) => `Place ${body} by its points`,
-    noLength: "A length is a number greater than 0, in m.",
+    noLength: (unit: string) => `A length is a number greater than 0, in ${unit}.`,
     notKept: (body: string) =>
       `With this length of ${body} the bodies beside it cannot keep theirs; they were changed.`,
     noMirror: (body: string) =>
@@ -118,6 +118,7 @@ export const texts = {
     required: "required",
     back: "All contents",
     length: "Length now",
+    bodyLength: "length",
     byPoints: "Place by points",
     results: "Now",
     held: "Kept while drawing",
@@ -144,7 +145,7 @@ export const texts = {
     scale: "Scale by two points",
     first: "Click the first of two points of the picture whose distance you know.",
     second: "Click the second point.",
-    distance: "Their distance / m",
+    distance: (unit: string) => `Their distance / ${unit}`,
     apply: "Apply",
     remove: "Remove the picture",
   },
@@ -253,6 +254,11 @@ export const texts = {
     accelerations: "Accelerations",
     peak: "peak",
     mean: "mean",
+  },
+  units: {
+    title: "Units of the display",
+    length: "Lengths",
+    lengthHint: "Unit of typed lengths, readings, plots and tables; with m, small values are written in mm",
     degrees: "° and rpm",
   },
   gallery: { title: "Examples", close: "Close", open: "Open" },

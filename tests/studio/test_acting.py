@@ -1,4 +1,4 @@
-"""Arrows of forces on one body: springs, actuators, applied forces and reactions, against Python."""
+"""Arrows of forces on one body: springs, actuators, loads and reactions, against Python."""
 
 import re
 from pathlib import Path

@@ -3,15 +3,16 @@
 import type { Tool } from "../catalogue/tools";
 import { entry, isTable } from "../catalogue/tree";
 import type { Change, Value } from "../core/protocol";
+import { displayed, LENGTHS } from "../draw/display";
 import { gridStep, snapStep } from "../draw/measure";
-import { roundQuantity, significant } from "../draw/numbers";
+import { besideUnit, roundQuantity, significant } from "../draw/numbers";
 import { type Added, addBody, addElement, type Case, type Place, pointReference } from "../edit/adding";
 import { distance, type Point } from "../plane/points";
 import { type Snapped, snapped } from "../plane/snap";
 import { change } from "../store/document";
 import { send } from "../store/session";
 import { preview, typedLength, view } from "../store/sheet";
-import { announce, catalogue, degrees, mechanism, panel, poses, selection, snapping, tool, tree } from "../store/state";
+import { announce, catalogue, mechanism, panel, poses, selection, snapping, tool, tree, units } from "../store/state";
 import { texts } from "../texts";
 import type { Handler, Spot } from "./handler";
 import { bodyUnder, elementUnder, points, pointsUnder } from "./seen";
@@ -56,7 +57,7 @@ function present(): Case {
 }
 
 function snapHere(spot: Spot): Snapped {
-  const typed = Number(typedLength.value);
+  const typed = Number(typedLength.value) / LENGTHS[units.value.length];
   return snapped(spot.at, {
     points: points().map(({ at }) => at),
     step: snapStep(view),
@@ -72,8 +73,9 @@ function labelOf(line: Point[]): string {
   const [a, b] = line.slice(-2);
   if (!a || !b) return "";
   const angle = Math.atan2(b[1] - a[1], b[0] - a[0]);
-  const turn = degrees.value ? `${significant((angle * 180) / Math.PI, 3)}°` : `${significant(angle, 3)} rad`;
-  return `${roundQuantity(distance(a, b) || 0, "m")}  ∠ ${turn}`;
+  const [turn, length] = [displayed("rad", units.value), displayed("m", units.value)];
+  const written = besideUnit(significant(angle * turn.factor, 3), turn.unit);
+  return `${roundQuantity((distance(a, b) || 0) * length.factor, length.unit)}  ∠ ${written}`;
 }
 
 async function clickPlace(active: Tool, spot: Spot): Promise<void> {

@@ -2,6 +2,7 @@
 import { computed, effect, signal } from "@preact/signals";
 import type { Group } from "../catalogue/catalogue";
 import type { Vectors } from "../draw/arrows";
+import { displayed } from "../draw/display";
 import { Trace } from "../draw/traces";
 import { type Course, course, quantities, time, valuesOf } from "../modes/read";
 import { points } from "../modes/seen";
@@ -9,7 +10,7 @@ import { placeIn } from "../plane/instants";
 import { distinctPaths, type Path } from "../plane/paths";
 import { type Point, placed } from "../plane/points";
 import { report } from "../store/session";
-import { mechanism, mode } from "../store/state";
+import { mechanism, mode, units } from "../store/state";
 import { texts } from "../texts";
 import { endsOf } from "./acting";
 
@@ -111,7 +112,7 @@ async function fetchKind(kind: Kind, all: string[]): Promise<Fetched | null> {
   const places = new Set(groups.length ? elements : tracked.value.map(({ name }) => name));
   const names = stems.filter((stem) => places.has(stem));
   if (!names.length) return null;
-  const { units, rows } = await valuesOf(names.flatMap((name) => [`${name}.${x}`, `${name}.${y}`]));
+  const { units: unitsOf, rows } = await valuesOf(names.flatMap((name) => [`${name}.${x}`, `${name}.${y}`]));
   let largest = 0;
   names.forEach((_, k) => {
     const [u, v] = [rows[2 * k]!, rows[2 * k + 1]!];
@@ -120,7 +121,7 @@ async function fetchKind(kind: Kind, all: string[]): Promise<Fetched | null> {
       if (size > largest) largest = size;
     });
   });
-  return { kind, unit: units[0] ?? "", largest, names, rows };
+  return { kind, unit: unitsOf[0] ?? "", largest, names, rows };
 }
 
 type Place = Pick<Vectors["vectors"][number], "element" | "owner" | "at"> & { sign: 1 | -1 };
@@ -145,8 +146,9 @@ export const vectors = computed<Shown[]>(() => {
   const run = course.value;
   if (!run || mode.value !== "read") return [];
   const { low, high, share } = placeIn(run.t, time.value);
-  return fetched.value.map(({ kind, unit, largest, names, rows }) => {
-    const at = (row: Float64Array) => row[low]! + share * (row[high]! - row[low]!);
+  return fetched.value.map(({ kind, unit: base, largest, names, rows }) => {
+    const { factor, unit } = displayed(base, units.value);
+    const at = (row: Float64Array) => factor * (row[low]! + share * (row[high]! - row[low]!));
     const rowOf = new Map(names.map((name, k) => [name, 2 * k]));
     const found = where(KINDS[kind]).flatMap(({ sign, ...place }) => {
       const k = rowOf.get(place.element);
@@ -154,6 +156,6 @@ export const vectors = computed<Shown[]>(() => {
       const value: Point = [sign * at(rows[k]!), sign * at(rows[k + 1]!)];
       return [{ ...place, value }];
     });
-    return { kind, unit, largest, vectors: found };
+    return { kind, unit, largest: factor * largest, vectors: found };
   });
 });

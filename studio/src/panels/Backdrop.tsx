@@ -1,8 +1,10 @@
 // The picture behind the drawing: opening, opacity, scale.
 import { useState } from "preact/hooks";
+import { LENGTHS } from "../draw/display";
 import { openBackdrop } from "../give/backdrop";
 import { beginScaling, endScaling, removeBackdrop } from "../modes/scaling";
 import { backdrop, scaleTo, scaling } from "../store/backdrop";
+import { units } from "../store/state";
 import { texts } from "../texts";
 import { Button, Section } from "./parts";
 
@@ -41,8 +43,9 @@ export function Backdrop() {
 /** The known distance of the two points. */
 function Distance() {
   const [length, setLength] = useState("");
+  const unit = units.value.length;
   const apply = () => {
-    scaleTo(Number(length));
+    scaleTo(Number(length) / LENGTHS[unit]);
     endScaling();
   };
   return (
@@ -57,8 +60,8 @@ function Distance() {
         type="text"
         inputMode="decimal"
         autocomplete="off"
-        aria-label={texts.picture.distance}
-        placeholder={texts.picture.distance}
+        aria-label={texts.picture.distance(unit)}
+        placeholder={texts.picture.distance(unit)}
         value={length}
         onInput={(event) => setLength(event.currentTarget.value)}
       />

@@ -2,9 +2,10 @@
 import { type Group, spoken, typeOf } from "../catalogue/catalogue";
 import { entries, entry, isTable } from "../catalogue/tree";
 import type { Tree } from "../core/protocol";
+import { LENGTHS } from "../draw/display";
 import { addPoint, copy, mirror, remove, rename, setLength } from "../edit/commands";
 import { openOutline } from "../give/outline";
-import { catalogue, selection, tree } from "../store/state";
+import { catalogue, selection, tree, units } from "../store/state";
 import { texts } from "../texts";
 import { Case } from "./Case";
 import { Field } from "./Field";
@@ -95,9 +96,10 @@ function Name({ group, name }: { group: Group; name: string }) {
 /** The length of a body that is placed by two points. */
 function Length({ body }: { body: string }) {
   const shown = lengthOf(body);
+  const unit = units.value.length;
   return (
     <div class="field">
-      <label for="body-length">length</label>
+      <label for="body-length">{texts.properties.bodyLength}</label>
       <input
         id="body-length"
         type="text"
@@ -105,10 +107,10 @@ function Length({ body }: { body: string }) {
         autocomplete="off"
         value={shown}
         onChange={(event) =>
-          event.currentTarget.value !== shown && void setLength(body, Number(event.currentTarget.value))
+          event.currentTarget.value !== shown && void setLength(body, Number(event.currentTarget.value) / LENGTHS[unit])
         }
       />
-      <span class="unit">m</span>
+      <span class="unit">{unit}</span>
     </div>
   );
 }

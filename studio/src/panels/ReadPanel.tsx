@@ -7,7 +7,7 @@ import { hasOtherAxis } from "../modes/plotting";
 import { analyses, analysis, chosen, course, quantities, run, running, variable } from "../modes/read";
 import { arrows, KINDS, type Kind, onBody } from "../page/motionOverlay";
 import { plots, stored } from "../store/plots";
-import { degrees, mechanism } from "../store/state";
+import { mechanism } from "../store/state";
 import { texts } from "../texts";
 import { Measures } from "./Measures";
 import { OverFields } from "./OverFields";
@@ -31,7 +31,6 @@ export function ReadPanel() {
               />
             ))}
             <OnBody />
-            <Check label={words.degrees} checked={degrees.value} onChange={(on) => (degrees.value = on)} />
           </div>
           <Section
             title={words.plots}

@@ -12,7 +12,7 @@ import { course } from "../modes/read";
 import { follow, paintSheet } from "../page/painting";
 import { resized } from "../store/session";
 import { fit, preview, typedLength, view, viewChanged, zoom } from "../store/sheet";
-import { items, mode, shown, snapping, title, tool } from "../store/state";
+import { items, mode, shown, snapping, title, tool, units } from "../store/state";
 import { texts } from "../texts";
 import { Guide } from "./Guide";
 import { Button, Check } from "./parts";
@@ -104,7 +104,7 @@ function ToolBox() {
       <strong>{active.label}</strong>
       {active.placing === "two" || active.placing === "many" ? (
         <label>
-          {words.length}
+          {words.length(units.value.length)}
           <input
             id="typed-length"
             inputMode="decimal"

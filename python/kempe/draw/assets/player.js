@@ -87,7 +87,7 @@ function readable(unit) {
 }
 function scaled(peak, unit) {
   const power = powerOf(peak);
-  const isPlain = unit.startsWith("°") || unit === "rpm";
+  const isPlain = /^(°|rpm|mm($|\/))/.test(unit);
   if (!power || isPlain && Math.abs(power) <= 3) return { factor: 1, unit };
   const prefix = WITH_PREFIX[unit]?.includes(power);
   return { factor: 10 ** power, unit: prefix ? PREFIXES[power] + unit : `${powerOfTen(power)} ${unit}` };
@@ -1452,7 +1452,9 @@ var TimeSpan = class {
 // src/draw/display.ts
 var DEGREES2 = 180 / Math.PI;
 var RPM = 30 / Math.PI;
-function displayed(unit, degrees) {
+var LENGTHS = { m: 1, mm: 1e3 };
+function displayed(unit, { degrees, length }) {
+  if (/^m(?=$|\/s)/.test(unit)) return { factor: LENGTHS[length], unit: unit.replace("m", length) };
   if (!degrees || !/^rad(?!\w)/.test(unit)) return { factor: 1, unit };
   if (unit === "rad/s") return { factor: RPM, unit: "rpm" };
   return { factor: DEGREES2, unit: unit.replace("rad", "°") };
@@ -1640,8 +1642,7 @@ var Plot = class {
   across;
   curves = [];
   log = false;
-  /** Angles in degrees and speeds in rpm. */
-  degrees = false;
+  units = { degrees: false, length: "m" };
   /** Where the pointer is, px; null if it is elsewhere. */
   pointer = null;
   width = 0;
@@ -1671,7 +1672,7 @@ var Plot = class {
   }
   /** Choose units and ranges for the curves. */
   scale() {
-    const { factor, unit } = displayed(readable(this.curves[0]?.unit ?? ""), this.degrees);
+    const { factor, unit } = displayed(readable(this.curves[0]?.unit ?? ""), this.units);
     const values = this.curves.map(
       (curve) => shownValues(curve).map((value) => factor * value).filter(Number.isFinite)
     );
@@ -2138,7 +2139,7 @@ var Plots = class {
   cards = [];
   all;
   looked = null;
-  degrees = false;
+  units = { degrees: false, length: "m" };
   span;
   watch;
   /** Add a plot of the first quantity that no other shows. */
@@ -2148,7 +2149,7 @@ var Plots = class {
     const next = this.all.findIndex((_, k) => !shown.has(k));
     const card = new Card(this.templates, this.all, this.motion, this.span, this.calls.changed);
     card.removal.addEventListener("click", () => this.remove(card));
-    card.plot.degrees = this.degrees;
+    card.plot.units = this.units;
     this.cards.push(card);
     this.list.append(card.element);
     this.watch.observe(card.canvas);
@@ -2190,9 +2191,9 @@ var Plots = class {
     this.resize();
   }
   setDegrees(degrees) {
-    this.degrees = degrees;
+    this.units = { ...this.units, degrees };
     for (const { plot } of this.cards) {
-      plot.degrees = degrees;
+      plot.units = this.units;
       plot.scale();
     }
     this.calls.changed();
