@@ -39,7 +39,12 @@ export function Playback() {
       </output>
       <label class="choice">
         <span class="word">{words.speed}</span>
-        <select value={String(rate.value)} onChange={(event) => (rate.value = Number(event.currentTarget.value))}>
+        {/* On a phone the word is not shown. */}
+        <select
+          aria-label={words.speed}
+          value={String(rate.value)}
+          onChange={(event) => (rate.value = Number(event.currentTarget.value))}
+        >
           {SPEEDS.map((one) => (
             <option key={one} value={String(one)}>{`${one}×`}</option>
           ))}
