@@ -25,7 +25,7 @@ export function ReadPanel() {
             {(Object.keys(KINDS) as Kind[]).map((kind) => (
               <Check
                 key={kind}
-                label={words[kind]}
+                label={words.arrows[kind]}
                 checked={arrows.value[kind]}
                 onChange={(on) => (arrows.value = { ...arrows.value, [kind]: on })}
               />
@@ -38,16 +38,16 @@ export function ReadPanel() {
               <span class="buttons">
                 <Button label={words.compare} hint={words.compareHint} kind="small" onClick={openStored} id="compare" />
                 <Button label={words.csvHint} kind="small" onClick={() => void saveCsv()}>
-                  {words.csv}
+                  {texts.files.csv}
                 </Button>
                 <Button label={words.npzHint} kind="small" onClick={() => void saveNpz()}>
-                  {words.npz}
+                  {texts.files.npz}
                 </Button>
                 <Button label={words.pngHint} kind="small" spoken onClick={() => savePlots("png")}>
-                  {words.png}
+                  {texts.files.png}
                 </Button>
                 <Button label={words.svgHint} kind="small" spoken onClick={() => savePlots("svg")}>
-                  {words.svg}
+                  {texts.files.svg}
                 </Button>
               </span>
             }

@@ -25,13 +25,13 @@ export function Sheet() {
   useEffect(() => connect(canvas.current!), []);
   const words = texts.sheet;
   return (
-    <section class="panel sheet-panel" aria-label={words.label(title.value || texts.menu.untitled)}>
+    <section class="panel sheet-panel" aria-label={words.label(title.value || texts.untitled)}>
       <div class="bar">
         <div class="chips">
           {(["names", "numbers", "grid", "traces"] as const).map((what) => (
             <Check
               key={what}
-              label={words[what]}
+              label={words.shown[what]}
               checked={shown.value[what]}
               onChange={(value) => (shown.value = { ...shown.value, [what]: value })}
             />
@@ -52,10 +52,10 @@ export function Sheet() {
             {words.fit}
           </Button>
           <Button label={words.pngHint} onClick={saveDrawing}>
-            {words.png}
+            {texts.files.png}
           </Button>
           <Button label={words.svgHint} onClick={saveDrawingSvg}>
-            {words.svg}
+            {texts.files.svg}
           </Button>
           <Gif />
         </div>
@@ -69,7 +69,7 @@ export function Sheet() {
           ref={canvas}
           tabIndex={0}
           role="img"
-          aria-label={words.label(title.value || texts.menu.untitled)}
+          aria-label={words.label(title.value || texts.untitled)}
         />
         <Guide />
       </div>
@@ -80,7 +80,7 @@ export function Sheet() {
 /** The motion of a run as a GIF; while it is made, its progress, and a click cancels. */
 function Gif() {
   if (mode.value !== "read" || !course.value) return null;
-  const { gif, gifHint, gifCancel, gifProgress } = texts.sheet;
+  const { gifHint, gifCancel, gifProgress } = texts.sheet;
   const share = making.value;
   return (
     <Button
@@ -88,7 +88,7 @@ function Gif() {
       onClick={share === null ? () => void saveGif() : cancelGif}
       id="gif"
     >
-      {share === null ? gif : gifProgress(Math.round(100 * share))}
+      {share === null ? texts.files.gif : gifProgress(Math.round(100 * share))}
     </Button>
   );
 }

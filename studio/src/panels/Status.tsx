@@ -46,7 +46,7 @@ function Standing() {
       {problem.hint ? <span class="hint"> {problem.hint}</span> : null}
       {problem.line ? (
         <button type="button" class="link" onClick={show}>
-          {`line ${problem.line}`}
+          {texts.status.line(problem.line)}
         </button>
       ) : null}
     </span>

@@ -365,6 +365,48 @@ function nameOf(title2, what) {
   return `${words.join("_").slice(0, 40)}${what}`;
 }
 
+// src/texts.ts
+var playerTexts = {
+  linkage: "Linkage",
+  theLinkage: "the linkage",
+  drawingOf: (title2) => `Drawing of ${title2}`,
+  plotOf: (name) => `Plot over time: ${name}`,
+  on: (body) => `on ${body}`,
+  of: (end) => `of ${end}`,
+  play: "Play",
+  pause: "Pause",
+  instants: (count) => `${count} instants of the solution`,
+  within: (percent) => `; between them, forces and accelerations are within ${percent} %`,
+  notBetween: ", not interpolated",
+  all: "All",
+  allBodies: "All bodies",
+  allPoints: "All points",
+  groups: {
+    bodies: "Bodies",
+    points: "Bodies and points",
+    reactions: "Reactions",
+    forces: "Force elements",
+    coordinates: "Joint coordinates",
+    states: "States",
+    energy: "Energy",
+    accuracy: "Accuracy"
+  },
+  turning: { angle: "Angle", omega: "Angular velocity", alpha: "Angular acceleration" },
+  moving: {
+    x: "Position x",
+    y: "Position y",
+    vx: "Velocity x",
+    vy: "Velocity y",
+    speed: "Speed",
+    ax: "Acceleration x",
+    ay: "Acceleration y",
+    acceleration: "Acceleration"
+  },
+  acting: { reactions: (part) => `Reaction ${part}`, forces: (part) => `Element ${part}` },
+  parts: { force: "force", force_x: "force x", force_y: "force y", torque: "torque" },
+  channels: { coordinates: "Coordinate", states: "State", energy: "Energy", accuracy: "Residual |Φ|" }
+};
+
 // src/draw/loop.ts
 var Loop = class {
   constructor(on) {
@@ -463,51 +505,6 @@ function byId(id) {
   return document.getElementById(id);
 }
 
-// src/player/texts.ts
-var texts = {
-  linkage: "Linkage",
-  theLinkage: "the linkage",
-  drawingOf: (title2) => `Drawing of ${title2}`,
-  plotOf: (name) => `Plot over time: ${name}`,
-  on: (body) => `on ${body}`,
-  of: (end) => `of ${end}`,
-  play: "Play",
-  pause: "Pause",
-  instants: (count) => `${count} instants of the solution`,
-  within: (percent) => `; between them, forces and accelerations are within ${percent} %`,
-  notBetween: ", not interpolated",
-  all: "All",
-  allBodies: "All bodies",
-  allPoints: "All points",
-  groups: {
-    bodies: "Bodies",
-    points: "Bodies and points",
-    reactions: "Reactions",
-    forces: "Force elements",
-    coordinates: "Joint coordinates",
-    states: "States",
-    energy: "Energy",
-    accuracy: "Accuracy"
-  },
-  turning: { angle: "Angle", omega: "Angular velocity", alpha: "Angular acceleration" },
-  moving: {
-    x: "Position x",
-    y: "Position y",
-    vx: "Velocity x",
-    vy: "Velocity y",
-    speed: "Speed",
-    ax: "Acceleration x",
-    ay: "Acceleration y",
-    acceleration: "Acceleration"
-  },
-  acting: {
-    reactions: (part) => `Reaction ${part}`,
-    forces: (part) => `Element ${part}`
-  },
-  parts: { force: "force", force_x: "force x", force_y: "force y", torque: "torque" },
-  channels: { coordinates: "Coordinate", states: "State", energy: "Energy", accuracy: "Residual |Φ|" }
-};
-
 // src/player/controls.ts
 var SPEEDS = [0.1, 0.2, 0.5, 1, 2, 5, 10];
 var MOVING = ["play", "first", "last", "back", "forward", "loop", "scrub", "speed"];
@@ -569,7 +566,7 @@ var Controls = class {
     this.scrub.setAttribute("aria-valuetext", written);
     const play = byId("play");
     play.classList.toggle("playing", this.clock.playing);
-    play.setAttribute("aria-label", this.clock.playing ? texts.pause : texts.play);
+    play.setAttribute("aria-label", this.clock.playing ? playerTexts.pause : playerTexts.play);
   }
 };
 
@@ -1093,7 +1090,7 @@ var SceneVectors = class {
   reactions(now) {
     return this.scene.joints.map(({ name, bodies: [, j], points: [, at] }, k) => ({
       element: name,
-      owner: texts.on(shortened(this.scene.bodies[j].name, 16)),
+      owner: playerTexts.on(shortened(this.scene.bodies[j].name, 16)),
       at: placed(now.poses[j], at),
       value: now.forces[k]
     }));
@@ -1337,16 +1334,16 @@ function movable(canvas, view, changed) {
 // src/player/heading.ts
 function showTitle({ title: title2 }, motion2, decimals2) {
   const { name, unit, divisor } = motion2.variable;
-  byId("title").textContent = title2 || texts.linkage;
+  byId("title").textContent = title2 || playerTexts.linkage;
   byId("title").title = title2;
   byId("variable").textContent = `${name} =`;
   if (unit !== "s") byId("now").setAttribute("aria-label", name);
-  byId("end").textContent = texts.of(motion2.withUnit(Number((motion2.end / divisor).toFixed(decimals2))));
-  byId("drawing").setAttribute("aria-label", texts.drawingOf(title2 || texts.theLinkage));
+  byId("end").textContent = playerTexts.of(motion2.withUnit(Number((motion2.end / divisor).toFixed(decimals2))));
+  byId("drawing").setAttribute("aria-label", playerTexts.drawingOf(title2 || playerTexts.theLinkage));
 }
 function showSampling({ accuracy }, motion2) {
-  const between = accuracy === null ? "" : texts.within(Number((100 * accuracy).toPrecision(2)));
-  byId("sampling").textContent = texts.instants(motion2.t.length) + (motion2.smooth ? between : texts.notBetween);
+  const between = accuracy === null ? "" : playerTexts.within(Number((100 * accuracy).toPrecision(2)));
+  byId("sampling").textContent = playerTexts.instants(motion2.t.length) + (motion2.smooth ? between : playerTexts.notBetween);
 }
 
 // src/player/keyboard.ts
@@ -1923,7 +1920,7 @@ function quantities(scene2, motion2) {
   ].filter(({ curves }) => curves.length);
   const scales = naturalScales(scene2);
   for (const { group, curves } of all) {
-    const exact = group === texts.groups.accuracy;
+    const exact = group === playerTexts.groups.accuracy;
     for (const curve of curves) curve.noise = exact ? 0 : NOISE * (scales[curve.unit] ?? 0);
   }
   return all;
@@ -1937,7 +1934,7 @@ function ofBodies(scene2, motion2) {
       return new SceneCurve(motion2, { subject: name, key, unit, number: number - 1, sample, rate: rates[k] });
     });
     rates = curves;
-    return { key, group: texts.groups.bodies, name: texts.turning[key], symbol, curves };
+    return { key, group: playerTexts.groups.bodies, name: playerTexts.turning[key], symbol, curves };
   });
   return made.reverse();
 }
@@ -1970,10 +1967,10 @@ function ofPoints(scene2, motion2) {
       return curve;
     });
     const sets = [
-      [texts.allBodies, curves.slice(0, origins.length)],
-      [texts.allPoints, curves.slice(origins.length)]
+      [playerTexts.allBodies, curves.slice(0, origins.length)],
+      [playerTexts.allPoints, curves.slice(origins.length)]
     ];
-    return { key, group: texts.groups.points, name: texts.moving[key], symbol, curves, sets };
+    return { key, group: playerTexts.groups.points, name: playerTexts.moving[key], symbol, curves, sets };
   };
   return [...MOVING2].reverse().map(quantity2).reverse();
 }
@@ -1993,9 +1990,9 @@ function ofElements(scene2, motion2, group) {
     });
     const channels = scene2.channels.filter((channel) => channel.group === group && channel.quantity === key);
     sources.push(...channels.map((channel, k) => ofChannel(channel, joints.length + k)));
-    const name = texts.acting[group](texts.parts[key]);
+    const name = playerTexts.acting[group](playerTexts.parts[key]);
     const curves = sources.map((source) => new SceneCurve(motion2, source));
-    return { key: `${group}.${key}`, group: texts.groups[group], name, symbol, curves };
+    return { key: `${group}.${key}`, group: playerTexts.groups[group], name, symbol, curves };
   });
 }
 function ofScene(scene2, motion2, group) {
@@ -2004,14 +2001,14 @@ function ofScene(scene2, motion2, group) {
   return units.map((unit) => {
     const listed = channels.filter((channel) => channel.unit === unit);
     const curves = listed.map((channel, k) => new SceneCurve(motion2, ofChannel(channel, k)));
-    const name = units.length > 1 ? `${texts.channels[group]} / ${unit}` : texts.channels[group];
-    return { key: `${group}.${unit}`, group: texts.groups[group], name, symbol: OF_SCENE[group], curves };
+    const name = units.length > 1 ? `${playerTexts.channels[group]} / ${unit}` : playerTexts.channels[group];
+    return { key: `${group}.${unit}`, group: playerTexts.groups[group], name, symbol: OF_SCENE[group], curves };
   });
 }
 function ofChannel({ name, of, quantity: quantity2, unit, values }, number) {
   return { subject: of || name, key: of ? quantity2 : "", unit, number, sample: (k) => values[k] };
 }
-function choices({ curves, sets = [[texts.all, curves]] }) {
+function choices({ curves, sets = [[playerTexts.all, curves]] }) {
   const subjects = new Set(curves.map(({ subject }) => subject));
   const together = sets.filter(([, members]) => members.length > 1).map(([name2, members]) => ({ name: name2, curves: members }));
   const name = (curve) => subjects.size === curves.length ? curve.subject : curve.name;
@@ -2063,7 +2060,7 @@ var Card = class {
     this.curves = chosen.curves;
     this.plot.show(this.curves, quantity2.symbol);
     this.name = `${quantity2.name}, ${chosen.name}`;
-    this.canvas.setAttribute("aria-label", texts.plotOf(this.name));
+    this.canvas.setAttribute("aria-label", playerTexts.plotOf(this.name));
     this.showLegend();
     this.rescale();
   }
@@ -2225,7 +2222,7 @@ function fill(row) {
 
 // src/player/main.ts
 var scene = parsed(byId("scene").textContent ?? "");
-var title = scene.title || texts.linkage;
+var title = scene.title || playerTexts.linkage;
 var motion = new Motion(scene);
 var decimals = timeDecimals(motion.t.map((t) => t / motion.variable.divisor));
 var clock = new Clock(motion, scene.playback.rate, repaint);
