@@ -111,6 +111,18 @@ def test_assembly_modes_are_found_and_chosen(studio: Opener) -> None:
         assert q[2] == pytest.approx(before[2], abs=1e-9)
 
 
+def test_a_linkage_at_a_change_point_has_its_panels(studio: Opener) -> None:
+    """The arms of the wiper are parallel: which link turns fully depends on the branch."""
+    one = studio()
+    one.load((EXAMPLES / "wiper.toml").read_text(encoding="utf-8"))
+    one.mode("move")
+    assert "change point" in one.page.locator(".properties").inner_text()
+    one.mode("read")
+    one.page.locator("#analysis").select_option("over a quantity")
+    one.settle()
+    assert one.page.locator("#over option").count() > 3
+
+
 def test_a_pendulum_swings_in_real_time_and_keeps_its_energy(studio: Opener) -> None:
     one = studio()
     one.load((EXAMPLES / "pendulum.toml").read_text(encoding="utf-8"))

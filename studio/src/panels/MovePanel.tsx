@@ -65,7 +65,7 @@ function Mobility() {
       <Facts rows={rows} />
       {found.four_bars.map(({ pins, kind, turning }) => (
         <p class="doc" key={pins.join()}>
-          {words.fourBar(pins.join("-"), kind, turning.join(", "))}
+          {words.fourBar(pins.join("-"), kind, (turning ?? []).join(", "))}
         </p>
       ))}
     </Section>
