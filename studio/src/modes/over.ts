@@ -25,7 +25,9 @@ const driven = computed(() =>
 
 /** Keep the position quantities of bodies and elements: those of drivers and of links that turn fully come first. */
 export function offer(all: Quantity[]): void {
-  const turning = (mobility.value?.four_bars ?? []).flatMap((one) => (one.turning ?? []).map((body) => `${body}.angle`));
+  const turning = (mobility.value?.four_bars ?? []).flatMap((one) =>
+    (one.turning ?? []).map((body) => `${body}.angle`),
+  );
   const angles = (mechanism.value?.coordinates ?? []).filter((name) => name.endsWith(".angle"));
   const first = [...driven.value, ...turning, ...angles];
   const rank = (name: string) => (first.includes(name) ? first.indexOf(name) : first.length);

@@ -56,7 +56,7 @@ function Mobility() {
   const words = texts.move;
   if (!found) return null;
   const rows: [string, string][] = [
-    [texts.status.freedom(2).slice(2), String(found.degrees_of_freedom)],
+    [words.freedom, String(found.degrees_of_freedom)],
     [words.gruebler, String(found.gruebler)],
     [words.rank, String(found.rank)],
   ];
