@@ -317,7 +317,7 @@ export const texts = {
   },
 } as const;
 
-/** Of the player, as they are put together. */
+/** Of the script of the player. */
 export const playerTexts = {
   linkage: "Linkage",
   theLinkage: "the linkage",
