@@ -119,6 +119,7 @@ export interface Mobility {
   rank: number;
   redundant: Value[];
   singular: Value[];
+  /** Which links turn fully; null at a change point, where this depends on the branch. */
   four_bars: { pins: string[]; kind: string; turning: string[] | null }[];
 }
 

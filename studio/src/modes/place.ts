@@ -3,8 +3,9 @@
 import type { Field } from "../catalogue/catalogue";
 import type { Tool } from "../catalogue/tools";
 import type { Change, Value } from "../core/protocol";
+import { displayed } from "../draw/display";
 import { gridStep, snapStep } from "../draw/measure";
-import { roundQuantity, significant } from "../draw/numbers";
+import { besideUnit, roundQuantity, significant } from "../draw/numbers";
 import { type Added, addBody, type Case, GROUND, type Place, pointReference } from "../edit/adding";
 import { addCurve, takesCurves } from "../edit/commands";
 import type { Motion } from "../edit/driving";
@@ -17,7 +18,6 @@ import { preview, typedLength, view } from "../store/sheet";
 import {
   announce,
   catalogue,
-  degrees,
   mechanism,
   panel,
   poses,
@@ -27,6 +27,7 @@ import {
   tool,
   tree,
   unassembled,
+  units,
 } from "../store/state";
 import { texts } from "../texts";
 import { alikeOf, coordinateOf } from "./coordinate";
@@ -98,8 +99,9 @@ function labelOf(line: Point[]): string {
   const [a, b] = line.slice(-2);
   if (!a || !b) return "";
   const angle = Math.atan2(b[1] - a[1], b[0] - a[0]);
-  const turn = degrees.value ? `${significant((angle * 180) / Math.PI, 3)}°` : `${significant(angle, 3)} rad`;
-  return `${roundQuantity(distance(a, b) || 0, "m")}  ∠ ${turn}`;
+  const [turn, length] = [displayed("rad", units.value), displayed("m", units.value)];
+  const written = besideUnit(significant(angle * turn.factor, 3), turn.unit);
+  return `${roundQuantity((distance(a, b) || 0) * length.factor, length.unit)}  ∠ ${written}`;
 }
 
 async function clickPlace(active: Tool, spot: Spot): Promise<void> {
@@ -162,7 +164,7 @@ async function goOn(active: Tool): Promise<void> {
 
 async function complete(active: Tool): Promise<void> {
   const length = places.length > 1 ? distance(places[0]!.at, places[1]!.at) : gridStep(view) / 2;
-  const added = addElement(active, chosen, { length, degrees: degrees.value, now }, tree.value);
+  const added = addElement(active, chosen, { length, degrees: units.value.degrees, now }, tree.value);
   const all = { ...added, changes: [...changes, ...added.changes] };
   restart(active.references.length ? active : null);
   await apply(active, all);

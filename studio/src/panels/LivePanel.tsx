@@ -21,7 +21,7 @@ export function LivePanel() {
     <div class="properties">
       <div class="buttons">
         <Button
-          label={playing ? words.pause : words.play}
+          label={playing ? texts.playback.pause : texts.playback.play}
           icon={playing ? "pause" : "play"}
           kind="main"
           onClick={living.toggle}
@@ -30,7 +30,7 @@ export function LivePanel() {
         <Button label={words.step} icon="step" onClick={() => void living.step()} id="live-step" />
         <Button label={words.restart} icon="first" onClick={reset} />
         <label class="choice">
-          <span>{words.speed}</span>
+          <span>{texts.playback.speed}</span>
           <select
             value={String(living.speed.value)}
             onChange={(event) => (living.speed.value = Number(event.currentTarget.value))}
@@ -57,17 +57,17 @@ function State() {
     <>
       <Facts
         rows={[
-          [words.time, `${now.t.toFixed(3)} s`],
+          [texts.playback.time, `${now.t.toFixed(3)} s`],
           [words.residual, `${significant(now.residual, 2)}`],
         ]}
       />
       <Section title={words.energy}>
         <Facts
           rows={[
-            [words.kinetic, shown(energy.kinetic, "J")],
-            [words.potential, shown(energy.potential, "J")],
-            [words.dissipated, shown(energy.dissipated, "J")],
-            [words.work, shown(energy.work, "J")],
+            [words.energies.kinetic, shown(energy.kinetic, "J")],
+            [words.energies.potential, shown(energy.potential, "J")],
+            [words.energies.dissipated, shown(energy.dissipated, "J")],
+            [words.energies.work, shown(energy.work, "J")],
             [words.balance, significant(energy.balance, 2)],
           ]}
         />

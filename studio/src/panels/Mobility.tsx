@@ -23,8 +23,8 @@ export function Mobility() {
   const words = texts.move;
   if (!found || (mechanism.value?.bodies.length ?? 0) < 2) return null;
   const rows: [string, string][] = [
-    [texts.status.freedom(2).slice(2), String(found.degrees_of_freedom)],
-    [texts.status.redundant(2).slice(2), String(found.redundant.length)],
+    [words.freedom, String(found.degrees_of_freedom)],
+    [words.redundant, String(found.redundant.length)],
     [words.gruebler, String(found.gruebler)],
     [words.rank, String(found.rank)],
   ];

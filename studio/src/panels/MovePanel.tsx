@@ -18,7 +18,11 @@ export function MovePanel() {
       <div class="buttons">
         <Button label={words.reset} onClick={() => void goHome()} />
         {mechanism.value?.drivers.length ? (
-          <Button label={living.playing.value ? words.pause : words.play} onClick={living.toggle} id="play-drivers" />
+          <Button
+            label={living.playing.value ? texts.playback.pause : words.play}
+            onClick={living.toggle}
+            id="play-drivers"
+          />
         ) : null}
       </div>
       <Speeds />
