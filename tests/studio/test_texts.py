@@ -1,4 +1,4 @@
-"""All English texts of the studio and the player are in studio/src/texts.ts."""
+"""All English texts of the studio and the player are in texts.ts and playerTexts.ts."""
 
 import re
 from pathlib import Path

@@ -385,7 +385,7 @@ function nameOf(title2, what) {
   return `${words.join("_").slice(0, 40)}${what}`;
 }
 
-// src/texts.ts
+// src/playerTexts.ts
 var playerTexts = {
   linkage: "Linkage",
   theLinkage: "the linkage",
