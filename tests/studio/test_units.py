@@ -50,6 +50,37 @@ def test_lengths_are_typed_and_shown_in_mm(studio: Opener) -> None:
     assert length(one) == pytest.approx(0.3, abs=1e-12)
 
 
+def test_a_typed_length_with_a_unit_or_a_formula_means_what_it_says(studio: Opener) -> None:
+    one = studio()
+    one.page.locator("#new").click()
+    one.settle()
+    choose(one, "mm")
+    one.tool("bar")
+    one.click(-0.5, 0.0)
+    one.page.get_by_label("Length / mm", exact=True).fill("0.2*2")
+    one.click(0.4, 0.0)
+    assert length(one) == pytest.approx(0.4, abs=1e-12)
+    one.page.keyboard.press("Escape")
+    for text, expected in (("35 cm", 0.35), ("0.15 + 0.3", 0.45), ("500", 0.5)):
+        one.page.locator("#body-length").fill(text)
+        one.page.locator("#body-length").press("Enter")
+        one.settle()
+        assert length(one) == pytest.approx(expected, abs=1e-12), text
+
+
+def test_a_length_that_is_typed_before_the_unit_changes_has_the_new_unit(studio: Opener) -> None:
+    one = studio()
+    one.page.locator("#new").click()
+    one.settle()
+    one.tool("bar")
+    one.click(-0.5, 0.0)
+    one.page.get_by_label("Length / m", exact=True).fill("300")
+    one.page.wait_for_timeout(300)
+    choose(one, "mm")
+    one.click(0.4, 0.0)
+    assert length(one) == pytest.approx(0.3, abs=1e-12)
+
+
 def test_plots_and_arrows_are_in_mm(one: Studio, tmp_path: Path) -> None:
     one.load(CASE.read_text(encoding="utf-8"))
     one.mode("read")
