@@ -8,6 +8,7 @@ import lzma from "lzma-native";
 import { bundle } from "./bundle.mjs";
 import { licences } from "./licences.mjs";
 import { pack } from "./pack.mjs";
+import { worded, words } from "./words.mjs";
 
 const HERE = dirname(dirname(fileURLToPath(import.meta.url)));
 const ROOT = dirname(HERE);
@@ -79,7 +80,8 @@ const parts = {
   // "<" could end the element
   licences: licences(HERE, join(ROOT, "THIRD_PARTY_NOTICES.txt")).replaceAll("<", "‹").replaceAll(">", "›"),
 };
-const page = readFileSync(join(HERE, "index.html"), "utf8").replace(/\{\{(\w+)\}\}/g, (_, name) => parts[name]);
+const written = worded(readFileSync(join(HERE, "index.html"), "utf8"), (await words()).studioPage);
+const page = written.replace(/\{\{(\w+)\}\}/g, (_, name) => parts[name]);
 mkdirSync(join(HERE, "dist"), { recursive: true });
 writeFileSync(join(HERE, "dist", "index.html"), page);
 const size = gzipSync(page, { level: 9 }).length;

@@ -3,6 +3,7 @@ import { type Catalogue, readCatalogue } from "../src/catalogue/catalogue";
 import { toolsOf } from "../src/catalogue/tools";
 import type { Body, Tree } from "../src/core/protocol";
 import { addBody, pointReference } from "../src/edit/adding";
+import { evenLaw, speedsOf } from "../src/edit/driving";
 import { addElement } from "../src/edit/element";
 import { drawnThrough, moved } from "../src/edit/moving";
 import { removed, removedPoint, renamed } from "../src/edit/removing";
@@ -128,17 +129,69 @@ test("a body that is placed by its points gets another place, as it was drawn", 
   expect(found.changes).toEqual([{ path: ["bodies", "crank", "through", "C"], value: [-0.3, 1.5] }]);
 });
 
-test("a driver begins at the present value of its quantity", () => {
-  const { changes } = addElement(
-    drive,
-    { coordinate: "crank.angle" },
-    { length: 1, now: [{ name: "crank.angle", unit: "rad", value: 0.5 }] },
-    tree,
-  );
+test("a driver begins at the present value of its quantity, with all digits, and has a parameter for its speed", () => {
+  const motion = { name: "crank.angle", unit: "rad", value: 1 / 3, rate: 0, alone: true };
+  const chosen = { coordinate: "crank.angle" };
+  const { changes } = addElement(drive, chosen, { length: 1, degrees: true, now: [motion] }, {});
   expect(changes).toEqual([
-    { path: ["drivers", "drive1"], value: { type: "drive", coordinate: "crank.angle", value: "0.5 + t" } },
+    { path: ["parameters", "speed1"], value: "10 rpm" },
+    {
+      path: ["drivers", "drive1"],
+      value: { type: "drive", ...chosen, value: "0.3333333333333333 + speed1*t" },
+    },
   ]);
+  const sliding = { name: "block.x", unit: "m", value: 0.25, rate: 0, alone: true };
+  const [speed] = addElement(drive, chosen, { length: 0.05, degrees: true, now: [sliding] }, tree).changes;
+  expect(speed).toEqual({ path: ["parameters", "speed1"], value: "50 mm/s" });
   expect(hinge.references.length).toBe(2);
+});
+
+test("a driver takes over what the start prescribes of its quantity", () => {
+  const scale = { length: 1, degrees: true };
+  const motion = { name: "crank.angle", unit: "rad", value: Math.PI / 3, rate: 30, alone: true };
+  const start = (set: Tree): Tree => ({ start: { set } });
+  const law = (set: Tree, more = {}) => evenLaw({ ...motion, ...more }, scale, start(set));
+  expect(law({ "crank.angle": "60*deg", "crank.omega": 30 })).toEqual({
+    law: "60*deg + speed1*t",
+    changes: [
+      { path: ["start", "set", "crank.omega"], remove: true },
+      { path: ["parameters", "speed1"], value: "30 rad/s" },
+    ],
+  });
+  expect(law({ crank: { angle: "60 deg", omega: "w" } })).toEqual({
+    law: "60*deg + speed1*t",
+    changes: [
+      { path: ["start", "set", "crank", "omega"], remove: true },
+      { path: ["parameters", "speed1"], value: "w" },
+    ],
+  });
+  // Another unit cannot be written in a formula; the rate of another body contradicts only where there is one freedom.
+  expect(law({ "crank.angle": "1 rad", "rod.omega": 2 }).law).toBe(`${motion.value} + speed1*t`);
+  expect(law({ "rod.omega": 2 }).changes.length).toBe(2);
+  expect(law({ "rod.omega": 2 }, { alone: false }).changes.length).toBe(1);
+});
+
+test("speeds are found in the laws of drivers by their dimension, or as factors of the time", () => {
+  const laws: Tree = {
+    drivers: {
+      a: { coordinate: "crank.angle", value: "70*deg + w*t + 0*L" },
+      b: { coordinate: "block.x", value: "u*(t - 1)" },
+      c: { coordinate: "crank.angle", value: "n*t*k" },
+    },
+  };
+  const all = [
+    { name: "w", value: 2, unit: "s^-1" },
+    { name: "u", value: 0.1, unit: "m*s^-1" },
+    { name: "L", value: 1, unit: "m" },
+    { name: "n", value: 3, unit: null },
+    { name: "k", value: 4, unit: null },
+  ];
+  expect(speedsOf(laws, all).map(({ driver, parameter, unit }) => [driver, parameter, unit])).toEqual([
+    ["a", "w", "rad/s"],
+    ["b", "u", "m/s"],
+    ["c", "n", "rad/s"],
+    ["c", "k", "rad/s"],
+  ]);
 });
 
 test("all that is pinned at a place moves with it", () => {

@@ -20,18 +20,20 @@ const catalogue = readCatalogue({
   ],
 });
 const now = [
-  { name: "a.angle", unit: "rad", value: 0.5 },
-  { name: "b.angle", unit: "rad", value: -0.25 },
+  { name: "a.angle", unit: "rad", value: 0.5, rate: 0, alone: false },
+  { name: "b.angle", unit: "rad", value: -0.25, rate: 0, alone: false },
 ];
 
 test("a relation consists of the coordinates that were clicked, and holds where they are", () => {
   const [link, zero] = toolsOf(catalogue);
   expect(link!.references.map(({ shape }) => shape)).toEqual(["coordinate", "coordinate"]);
-  expect(addElement(link!, { "terms 1": "a.angle", "terms 2": "b.angle" }, { length: 1, now }, null).changes).toEqual([
+  expect(
+    addElement(link!, { "terms 1": "a.angle", "terms 2": "b.angle" }, { length: 1, degrees: true, now }, null).changes,
+  ).toEqual([
     { path: ["joints", "link1"], value: { type: "link", terms: { "a.angle": 1, "b.angle": -1 }, value: 0.75 } },
   ]);
   expect(zero!.references.length).toBe(1);
-  expect(addElement(zero!, {}, { length: 1, now: now.slice(1) }, null).changes).toEqual([
+  expect(addElement(zero!, {}, { length: 1, degrees: true, now: now.slice(1) }, null).changes).toEqual([
     { path: ["joints", "zero1"], value: { type: "zero", residual: ["b.angle - (-0.25)"], units: ["rad"] } },
   ]);
 });

@@ -72,7 +72,8 @@ def lasting(
 
 @pytest.fixture
 def one(lasting: Studio) -> Iterator[Studio]:
-    """The lasting window without its text; what it complains of, or requests, fails the test."""
+    """The lasting window in *Edit* without its text; its complaints and requests fail the test."""
+    lasting.mode("edit")
     lasting.page.locator("#tab-main").click()
     lasting.messages.clear()
     lasting.requests.clear()

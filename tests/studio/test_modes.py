@@ -4,10 +4,11 @@ import itertools
 import math
 import re
 from pathlib import Path
+from typing import Any
 
 import kempe as kp
 import pytest
-from studio.window import Opener, Studio
+from studio.window import Finger, Mouse, Opener, Studio
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 CRANK_ROCKER = """kempe = 1
@@ -39,25 +40,36 @@ def gap(q: list[float]) -> float:
     return math.dist(end, other)
 
 
-def drag_around(studio: Studio, angles: list[float]) -> list[list[float]]:
+def drag_around(studio: Studio, angles: list[float], hand: Mouse | Finger) -> list[list[float]]:
     """Drag the end of the crank to these angles; returns q at each."""
     states = []
-    studio.page.mouse.move(*studio.screen(math.cos(angles[0]), math.sin(angles[0])))
-    studio.page.mouse.down()
+    hand.down(*studio.screen(math.cos(angles[0]), math.sin(angles[0])))
     for angle in angles:
-        studio.page.mouse.move(*studio.screen(math.cos(angle), math.sin(angle)))
+        hand.move(*studio.screen(math.cos(angle), math.sin(angle)))
         studio.settle()
         states.append(studio.state()["q"])
-    studio.page.mouse.up()
+    hand.up()
     return states
 
 
-def test_a_crank_is_dragged_through_a_turn_on_one_branch(studio: Opener) -> None:
-    one = studio()
+#: How a crank is dragged: with a mouse on a desktop, with a finger on a phone.
+DESKTOP = ({"width": 1280, "height": 800}, Mouse)
+PHONE = (
+    {"width": 390, "height": 844, "has_touch": True, "is_mobile": True, "device_scale_factor": 2},
+    Finger,
+)
+devices = pytest.mark.parametrize(("window", "hand"), [DESKTOP, PHONE], ids=["desktop", "phone"])
+
+
+@devices
+def test_a_crank_is_dragged_through_a_turn_on_one_branch(
+    studio: Opener, window: dict[str, Any], hand: type[Mouse | Finger]
+) -> None:
+    one = studio(**window)
     assert one.load(CRANK_ROCKER)["problems"] == []
     one.mode("move")
     angles = [math.radians(30 + 15 * k) for k in range(25)]
-    states = drag_around(one, angles)
+    states = drag_around(one, angles, hand(one))
     assert max(map(gap, states)) < 1e-9
     for q, angle in zip(states, angles, strict=True):
         assert q[2] == pytest.approx(angle, abs=0.03)
@@ -66,14 +78,17 @@ def test_a_crank_is_dragged_through_a_turn_on_one_branch(studio: Opener) -> None
     assert turns[-1] == pytest.approx(turns[0], abs=0.03)
 
 
-def test_a_crank_that_cannot_turn_stops_at_its_dead_point(studio: Opener) -> None:
-    one = studio()
+@devices
+def test_a_crank_that_cannot_turn_stops_at_its_dead_point(
+    studio: Opener, window: dict[str, Any], hand: type[Mouse | Finger]
+) -> None:
+    one = studio(**window)
     one.load(
         CRANK_ROCKER.replace("length = 3.5,", "length = 2.5,").replace("length = 3,", "length = 2,")
     )
     one.mode("move")
     begin = one.state()["q"][2]
-    states = drag_around(one, [begin + math.radians(10 * k) for k in range(13)])
+    states = drag_around(one, [begin + math.radians(10 * k) for k in range(13)], hand(one))
     limit = math.acos((1 + 16 - 4.5**2) / 8)  # where coupler and rocker are in line
     assert states[-1][2] == pytest.approx(limit, abs=1e-3)
     assert one.message().strip()
@@ -94,6 +109,18 @@ def test_assembly_modes_are_found_and_chosen(studio: Opener) -> None:
         q = one.state()["q"]
         assert gap(q) < 1e-9
         assert q[2] == pytest.approx(before[2], abs=1e-9)
+
+
+def test_a_linkage_at_a_change_point_has_its_panels(studio: Opener) -> None:
+    """The arms of the wiper are parallel: which link turns fully depends on the branch."""
+    one = studio()
+    one.load((EXAMPLES / "wiper.toml").read_text(encoding="utf-8"))
+    one.mode("move")
+    assert "change point" in one.page.locator(".properties").inner_text()
+    one.mode("read")
+    one.page.locator("#analysis").select_option("over a quantity")
+    one.settle()
+    assert one.page.locator("#over option").count() > 3
 
 
 def test_a_pendulum_swings_in_real_time_and_keeps_its_energy(studio: Opener) -> None:

@@ -51,6 +51,16 @@ def test_speeds_are_shown_in_rpm_and_angles_in_degrees(one: Studio) -> None:
     one.page.get_by_text("° and rpm").click()
 
 
+def test_long_names_leave_the_plot_in_its_panel(one: Studio) -> None:
+    one.load((EXAMPLES / "jansen_leg.toml").read_text(encoding="utf-8"))
+    one.mode("read")
+    one.page.wait_for_timeout(300)
+    edge = "(name) => document.querySelector(name).getBoundingClientRect().right"
+    panel = one.call(edge, ".results")
+    for part in (".plot", ".plot .curves", ".legend li:last-child button", ".plot .chip"):
+        assert one.call(edge, part) <= panel, part
+
+
 def test_a_stored_run_is_drawn_dashed_in_the_same_plots(one: Studio, tmp_path: Path) -> None:
     solution = kp.load(CASE, parameters={"L": 2}).run()["swing"]
     path = tmp_path / "longer.npz"

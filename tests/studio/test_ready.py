@@ -42,3 +42,40 @@ def test_a_click_leads_to_the_joint_that_stays_open(one: Studio) -> None:
     one.settle()
     assert one.page.locator("#readiness").count() == 0  # the fields of the joint are shown
     assert one.page.get_by_label("Name", exact=True).input_value() == name
+
+
+def test_a_click_begins_the_driver_that_is_missing(one: Studio) -> None:
+    one.load((EXAMPLES / "pendulum.toml").read_text(encoding="utf-8"))
+    one.mode("edit")
+    shown(one)
+    row = one.page.locator("#readiness > div").filter(has_text="Kinematics")
+    row.locator(".link").first.click()
+    one.settle()
+    assert one.page.locator(".left [data-type=coordinate_driver][aria-pressed=true]").count() == 1
+    one.click(one.quantity("rod.B.x"), one.quantity("rod.B.y"))
+    assert len(one.tree()["drivers"]) == 1
+    one.page.keyboard.press("Escape")
+    one.page.keyboard.press("Escape")
+    assert shown(one)["Kinematics"] == "ready"
+
+
+def test_the_analyses_of_kempe_run_are_listed(one: Studio) -> None:
+    one.load((EXAMPLES / "pendulum.toml").read_text(encoding="utf-8"))
+    one.mode("edit")
+    found = shown(one)
+    for name in ("Equilibrium", "Modes", "Limits"):
+        assert found[f"{name} (kempe run)"] == "ready"
+
+
+def test_limits_need_a_single_freedom(one: Studio) -> None:
+    case = EXAMPLES / "double_pendulum.toml"
+    one.load(case.read_text(encoding="utf-8"))
+    one.mode("edit")
+    obstacle = shown(one)["Limits (kempe run)"]
+    assert "2 degrees of freedom" in obstacle
+    assert "coordinate driver" in obstacle
+    model = kp.load(case).model
+    with pytest.raises(kp.KempeError):
+        kp.limits(model, kp.assemble(model), over="first.angle")
+    one.load((EXAMPLES / "hoecken.toml").read_text(encoding="utf-8"))  # with its driver
+    assert shown(one)["Limits (kempe run)"] == "ready"

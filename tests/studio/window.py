@@ -79,4 +79,41 @@ class Studio:
             self.page.wait_for_timeout(20)
 
 
+class Mouse:
+    """Drags with the left button."""
+
+    def __init__(self, one: Studio) -> None:
+        self._mouse = one.page.mouse
+
+    def down(self, x: float, y: float) -> None:
+        self._mouse.move(x, y)
+        self._mouse.down()
+
+    def move(self, x: float, y: float) -> None:
+        self._mouse.move(x, y)
+
+    def up(self) -> None:
+        self._mouse.up()
+
+
+class Finger:
+    """Drags with one finger, in a context with touch."""
+
+    def __init__(self, one: Studio) -> None:
+        self._session = one.page.context.new_cdp_session(one.page)
+
+    def _send(self, kind: str, *points: dict[str, float]) -> None:
+        event = {"type": kind, "touchPoints": list(points)}
+        self._session.send("Input.dispatchTouchEvent", event)
+
+    def down(self, x: float, y: float) -> None:
+        self._send("touchStart", {"x": x, "y": y})
+
+    def move(self, x: float, y: float) -> None:
+        self._send("touchMove", {"x": x, "y": y})
+
+    def up(self) -> None:
+        self._send("touchEnd")
+
+
 Opener = Callable[..., Studio]

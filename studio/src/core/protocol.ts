@@ -119,7 +119,8 @@ export interface Mobility {
   rank: number;
   redundant: Value[];
   singular: Value[];
-  four_bars: { pins: string[]; kind: string; turning: string[] }[];
+  /** Which links turn fully; null at a change point, where this depends on the branch. */
+  four_bars: { pins: string[]; kind: string; turning: string[] | null }[];
 }
 
 /** The static part of a scene; docs/scene.md describes all of it. */

@@ -1,5 +1,6 @@
 // The worker: it holds the core and answers one request after the other.
 import { XzReadableStream } from "xz-decompress";
+import { coreTexts } from "../texts";
 import { type Core, instantiate } from "./memory";
 import { unpacked } from "./unpack";
 
@@ -15,7 +16,7 @@ async function start(packed: Uint8Array<ArrayBuffer>): Promise<void> {
 }
 
 function answer(number: number, request: string): void {
-  if (!core) throw new Error("the core is not ready");
+  if (!core) throw new Error(coreTexts.notReady);
   const { reply, numbers } = core.call(request);
   postMessage({ number, reply, numbers }, { transfer: [numbers.buffer] });
 }

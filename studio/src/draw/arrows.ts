@@ -1,5 +1,5 @@
 // The arrows of a drawing: they stay in view and name their owner and magnitude.
-import type { Point } from "../plane/points";
+import { distance, type Point } from "../plane/points";
 import type { View } from "../plane/view";
 import { paintArrow, paintBreak } from "./arrow";
 import { quantity, roundQuantity } from "./numbers";
@@ -21,7 +21,7 @@ export interface Vector {
 
 /** The vectors of one kind at one instant, and how long one unit of them is, px. */
 export interface Vectors {
-  kind: ArrowKind;
+  kind: ArrowKind | "force";
   unit: string;
   pixels: number;
   vectors: Vector[];
@@ -29,7 +29,7 @@ export interface Vectors {
 
 /** An arrow on the canvas, px. */
 export interface Arrow {
-  kind: ArrowKind;
+  kind: Vectors["kind"];
   element: string;
   from: Point;
   to: Point;
@@ -44,6 +44,8 @@ const INSET = 6;
 const TEXT = 12;
 /** With more arrows than this, texts that would cover others are left out. */
 const MOST_COVERED = 12;
+/** The size of the boxes along an arrow, px. */
+const SHAFT = 6;
 /** Directions from an arrow in which its text may be, from that of the arrow. */
 const TURNS = [0, 0.8, -0.8, 1.57, -1.57, 2.4, -2.4, 3.14];
 
@@ -102,8 +104,10 @@ function paintTexts(
   context.font = font(TEXT);
   context.textAlign = "left";
   context.textBaseline = "middle";
+  // Texts keep off the arrows too, where there are few.
+  const shafts = arrows.length > MOST_COVERED ? [] : arrows.flatMap(shaftOf);
   for (const arrow of arrows) {
-    const { box, covered } = freePlace(context.measureText(arrow.text).width, arrow, view, taken);
+    const { box, covered } = freePlace(context.measureText(arrow.text).width, arrow, view, taken, shafts);
     if (covered && arrows.length > MOST_COVERED) continue;
     taken.push(box);
     arrow.box = box;
@@ -111,17 +115,28 @@ function paintTexts(
   }
 }
 
-/** The box near an arrow that covers the least of those taken. */
+/** Small boxes along an arrow. */
+function shaftOf({ from, to }: Arrow): Box[] {
+  const count = Math.ceil(distance(from, to) / SHAFT);
+  return Array.from({ length: count + 1 }, (_, k) => {
+    const [x, y] = [0, 1].map((axis) => from[axis]! + (k / count) * (to[axis]! - from[axis]!)) as Point;
+    return [x - SHAFT / 2, y - SHAFT / 2, x + SHAFT / 2, y + SHAFT / 2];
+  });
+}
+
+/** The box near an arrow that covers the least of those taken, and then of the arrows. */
 function freePlace(
   width: number,
   { from, to }: Arrow,
   view: View,
   taken: readonly Box[],
+  shafts: readonly Box[],
 ): { box: Box; covered: number } {
   const high = TEXT + 4;
   const heading = Math.atan2(to[1] - from[1], to[0] - from[0]);
   const middle: Point = [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2];
-  let best: { box: Box; covered: number } | null = null;
+  const over = (box: Box, others: readonly Box[]) => others.reduce((sum, other) => sum + common(box, other), 0);
+  let best: { box: Box; covered: number; hidden: number } | null = null;
   for (const gap of [5, 22]) {
     for (const anchor of [to, middle]) {
       for (const turn of TURNS) {
@@ -129,9 +144,10 @@ function freePlace(
         const cx = within(anchor[0] + dx * (width / 2 + gap), width / 2 + 4, view.width);
         const cy = within(anchor[1] + dy * (high / 2 + gap), high / 2 + 2, view.height);
         const box: Box = [cx - width / 2, cy - high / 2, cx + width / 2, cy + high / 2];
-        const covered = taken.reduce((sum, other) => sum + common(box, other), 0);
-        if (!covered) return { box, covered };
-        if (!best || covered < best.covered) best = { box, covered };
+        const covered = over(box, taken);
+        const hidden = covered + over(box, shafts);
+        if (!hidden) return { box, covered };
+        if (!best || hidden < best.hidden) best = { box, covered, hidden };
       }
     }
   }

@@ -21,7 +21,7 @@ export function readable(unit: string): string {
 /** By what to divide values up to `peak`, and the unit that they have then. */
 export function scaled(peak: number, unit: string): { factor: number; unit: string } {
   const power = powerOf(peak);
-  const isPlain = unit.startsWith("°") || unit === "rpm";
+  const isPlain = /^(°|rpm|mm($|\/))/.test(unit);
   if (!power || (isPlain && Math.abs(power) <= 3)) return { factor: 1, unit };
   const prefix = WITH_PREFIX[unit]?.includes(power);
   return { factor: 10 ** power, unit: prefix ? PREFIXES[power] + unit : `${powerOfTen(power)} ${unit}` };

@@ -7,7 +7,7 @@ import { allPoints } from "../plane/hits";
 import { distance, type Point, placed } from "../plane/points";
 import { change } from "../store/document";
 import { view } from "../store/sheet";
-import { announce, catalogue, held, mechanism, poses, selection, tree } from "../store/state";
+import { announce, catalogue, held, mechanism, poses, selection, tree, units } from "../store/state";
 import { texts } from "../texts";
 import { pointChange } from "./adding";
 import { curveFor } from "./curve";
@@ -98,7 +98,7 @@ export async function setLength(name: string, given: string): Promise<void> {
   if (length === undefined) return;
   const bodies = mechanism.value?.bodies ?? [];
   const found = lengthened(name, length, allPoints(bodies, poses.value));
-  if (!found) return announce("problem", texts.edit.noLength);
+  if (!found) return announce("problem", texts.edit.noLength(units.value.length));
   const to: Point = [tidy(found.to[0]), tidy(found.to[1])];
   const { changes, fixed } = moved(tree.value, found.hits, poses.value, bodies, to);
   if (fixed[0]) return announce("problem", texts.edit.fixed(fixed[0].body, fixed[0].point));

@@ -2,20 +2,16 @@
 import type { Field } from "../catalogue/catalogue";
 import type { Tool } from "../catalogue/tools";
 import { freeName } from "../catalogue/tree";
-import type { Tree, Value } from "../core/protocol";
+import type { Change, Tree, Value } from "../core/protocol";
 import type { Added } from "./adding";
-
-/** A coordinate that was clicked, with its present value. */
-export interface Coordinate {
-  name: string;
-  unit: string;
-  value: number;
-}
+import { evenLaw, type Motion } from "./driving";
 
 /** What starting values follow from: a length of the drawing, and the coordinates that were clicked. */
 interface Scale {
   length: number;
-  now: readonly Coordinate[];
+  /** Whether the display has degrees and rpm. */
+  degrees: boolean;
+  now: readonly Motion[];
 }
 
 /** An element whose references have been chosen. */
@@ -27,15 +23,22 @@ export function addElement(
 ): Added {
   const name = freeName(tree, type.name.replaceAll("_", ""));
   const value: Tree = { type: type.name };
+  const changes: Change[] = [];
   const isSum = type.fields.some(({ shape }) => shape === "terms");
+  const [first] = scale.now;
   for (const field of type.fields) {
     if (field.name in chosen) value[field.name] = chosen[field.name]!;
-    else if (field.required) value[field.name] = startingValue(field, scale);
+    else if (field.required && isOfCoordinate(field) && first) {
+      const even = evenLaw(first, scale, tree);
+      value[field.name] = even.law;
+      changes.push(...even.changes);
+    } else if (field.required) value[field.name] = startingValue(field, scale);
     else if (isSum && isOfCoordinate(field)) value[field.name] = sum(scale.now);
   }
-  return { changes: [{ path: [group, name], value }], name };
+  return { changes: [...changes, { path: [group, name], value }], name };
 }
 
+/** Whether a field is the law of a position quantity. */
 function isOfCoordinate({ shape, unit }: Field): boolean {
   return shape === "law" && unit.includes("|") && unit.includes("rad");
 }
@@ -45,16 +48,13 @@ function factor(k: number): number {
   return k ? -1 : 1;
 }
 
-function sum(now: readonly Coordinate[]): number {
+function sum(now: readonly Motion[]): number {
   return Number(now.reduce((all, { value }, k) => all + factor(k) * value, 0).toPrecision(12));
 }
 
-/** A value to begin with for a required field. A law of a coordinate begins where it is and goes on evenly. */
-function startingValue(field: Field, { length, now }: Scale): Value {
-  const { shape, unit } = field;
+/** A value to begin with for a required field. */
+function startingValue({ shape, unit }: Field, { length, now }: Scale): Value {
   const one = unit === "m" ? Number(length.toPrecision(4)) : 1;
-  const first = now[0];
-  if (isOfCoordinate(field) && first) return `${Number(first.value.toPrecision(6))} + t`;
   if (shape === "pair" || shape === "law_pair") return [one, one];
   if (shape === "triple") return [1, 1, 1];
   if (shape === "terms") return Object.fromEntries(now.map(({ name }, k) => [name, factor(k)]));

@@ -1,7 +1,8 @@
 // What a typed text means, as the core reads it.
 import type { Loaded, Problem, Value } from "../core/protocol";
+import { LENGTHS } from "../draw/display";
 import { send } from "../store/session";
-import { announce, text, tree } from "../store/state";
+import { announce, text, tree, units } from "../store/state";
 import { texts } from "../texts";
 import { typed, written } from "./values";
 
@@ -14,14 +15,15 @@ async function readApart(given: string): Promise<Loaded> {
   return (await Promise.all([found, back]))[0].ok;
 }
 
-/** A length in m: a number, a number with its unit, or a formula in the parameters of the case. */
+/** A length in m: a number in the unit of the display, a number with its unit, or a formula in the parameters of the case. */
 export async function lengthMeant(given: string): Promise<Meaning<number>> {
   const short = typed(given);
-  const found = typeof short === "string" ? await formulaMeant(short) : { value: short ?? 0 };
+  const metre = LENGTHS[units.value.length];
+  const found = typeof short === "string" ? await formulaMeant(short) : { value: Number(short ?? 0) / metre };
   if (!("value" in found)) return found;
   return typeof found.value === "number" && found.value > 0 && Number.isFinite(found.value)
     ? { value: found.value }
-    : { problem: { message: texts.edit.noLength } };
+    : { problem: { message: texts.edit.noLength(units.value.length) } };
 }
 
 async function formulaMeant(given: string): Promise<Meaning<Value>> {
@@ -31,7 +33,7 @@ async function formulaMeant(given: string): Promise<Meaning<Value>> {
     `kempe = 1\nparameters = ${parameters}\nbodies = ${written({ ground })}\n`,
   );
   const place = mechanism?.bodies[0]?.points.P;
-  return place ? { value: place[0] } : { problem: problems[0] ?? { message: texts.edit.noLength } };
+  return place ? { value: place[0] } : { problem: problems[0] ?? { message: texts.edit.noLength(units.value.length) } };
 }
 
 /** A value in the notation of the file, such as a list or a table. */

@@ -1,6 +1,7 @@
 // Links that hold the whole model: the text, compressed, in the part after the #.
 import { deflateSync, Inflate, strFromU8, strToU8 } from "fflate";
 import { MOST_OF_TEXT } from "../store/limits";
+import { texts } from "../texts";
 
 /** The longest link, characters. */
 export const MOST_OF_LINK = 64 * 1024;
@@ -16,7 +17,7 @@ export function linkOf(text: string, page = location.href): string {
 /** The text of a link, or null if the link has none; raises an error if it is damaged or too long. */
 export function textOf(hash: string): string | null {
   if (!hash.startsWith(MARK)) return null;
-  if (hash.length > MOST_OF_LINK) throw new Error("the link is too long");
+  if (hash.length > MOST_OF_LINK) throw new Error(texts.share.damaged);
   return strFromU8(inflated(decode(hash.slice(MARK.length))));
 }
 
@@ -27,13 +28,13 @@ function inflated(bytes: Uint8Array): Uint8Array {
   let ended = false;
   const stream = new Inflate((part, final) => {
     size += part.length;
-    if (size > MOST_OF_TEXT) throw new Error("the text of the link is too long");
+    if (size > MOST_OF_TEXT) throw new Error(texts.share.damaged);
     parts.push(part);
     ended ||= final;
   });
   for (let at = 0; at < bytes.length; at += PIECE)
     stream.push(bytes.subarray(at, at + PIECE), at + PIECE >= bytes.length);
-  if (!ended) throw new Error("the link is not complete");
+  if (!ended) throw new Error(texts.share.damaged);
   const whole = new Uint8Array(size);
   let at = 0;
   for (const part of parts) {

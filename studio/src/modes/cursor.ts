@@ -3,7 +3,7 @@ import { snapStep } from "../draw/measure";
 import type { Point } from "../plane/points";
 import { view } from "../store/sheet";
 import type { Spot } from "./handler";
-import { place } from "./place";
+import { handler } from "./modes";
 
 let at: Point | null = null;
 
@@ -16,12 +16,12 @@ export function moveCursor(start: Point, dx: number, dy: number): void {
   const [x, y] = at ?? start;
   const step = snapStep(view);
   at = [x + dx * step, y + dy * step];
-  place.hover!(spot());
+  handler().hover?.(spot());
 }
 
 /** Click at the place. The next click begins at a start of its own. */
 export function clickCursor(start: Point): void {
   at ??= start;
-  place.click!(spot());
+  handler().click?.(spot());
   at = null;
 }

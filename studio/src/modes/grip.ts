@@ -1,9 +1,9 @@
 // Taking hold of a body: the body and its point under the pointer.
 import type { Body } from "../core/protocol";
-import { inFrame, type Point } from "../plane/points";
-import { mechanism, poses } from "../store/state";
+import { distance, inFrame, type Point } from "../plane/points";
+import { mechanism, poses, selection } from "../store/state";
 import type { Spot } from "./handler";
-import { bodyUnder, pointsUnder } from "./seen";
+import { bodyUnder, points, pointsUnder } from "./seen";
 
 export interface Grip {
   body: Body;
@@ -17,4 +17,13 @@ export function gripAt(spot: Spot): Grip | null {
   const body = bodyUnder(spot);
   const pose = body && poses.value[mechanism.value!.bodies.indexOf(body)];
   return body && pose ? { body, point: inFrame(pose, spot.at) } : null;
+}
+
+/** Where keys take hold, and that place: the last point of the selected body, or of the first one, that ground does not hold. */
+export function gripOfKeys(): { grip: Grip; at: Point } | null {
+  const all = points();
+  const fixed = all.filter(({ body }) => body.ground);
+  const free = all.filter(({ body, at }) => !body.ground && !fixed.some((one) => distance(one.at, at) < 1e-9));
+  const last = free.findLast(({ body }) => body.name === selection.value?.name) ?? free[0];
+  return last ? { grip: { body: last.body, point: last.body.points[last.point]! }, at: last.at } : null;
 }

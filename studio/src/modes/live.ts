@@ -1,12 +1,13 @@
 // Living: the mechanism moves under its forces and drivers, in real time.
 import { signal } from "@preact/signals";
+import { snapStep } from "../draw/measure";
 import { type Point, placed } from "../plane/points";
 import { goHome, report, send } from "../store/session";
 import { preview, view } from "../store/sheet";
 import { announce, home, mechanism, mode, pose, poses, selection, live as state } from "../store/state";
 import { texts } from "../texts";
 import { Frames } from "./frames";
-import { type Grip, gripAt } from "./grip";
+import { type Grip, gripAt, gripOfKeys } from "./grip";
 import type { Handler } from "./handler";
 
 const frames = new Frames();
@@ -21,12 +22,18 @@ const SINGLE_STEP = 1 / 60;
 /** The pull of the mouse moves the lightest reasonable mass within this time, s. */
 const PULL_TIME = 0.15;
 
+/** Steps of the grid by which a key moves the end of the pull. */
+const PULL = 2;
+
 let grip: Grip | null = null;
+/** Where keys pull to. */
+let goal: Point | null = null;
 let begun = false;
 
 export const live: Handler = {
   down(spot) {
     grip = gripAt(spot);
+    goal = null;
     if (grip) {
       selection.value = { group: "bodies", name: grip.body.name };
       void pull(spot.at);
@@ -40,10 +47,24 @@ export const live: Handler = {
   cursor: () => "grab",
 };
 
-function letGo(): void {
+export function letGo(): void {
   if (grip) void send("pull", { body: null }, "pull").catch(report);
-  grip = null;
+  [grip, goal] = [null, null];
   preview.value = null;
+}
+
+/** Pull at the selected body, or the first one, until it is let go; each step takes the end of the pull farther. */
+export async function pullBy(dx: number, dy: number): Promise<void> {
+  if (!goal) {
+    const held = gripOfKeys();
+    if (!held) return;
+    [grip, goal] = [held.grip, held.at];
+    selection.value = { group: "bodies", name: held.grip.body.name };
+    announce("info", texts.live.pulled(held.grip.body.name));
+  }
+  const step = PULL * snapStep(view);
+  goal = [goal[0] + dx * step, goal[1] + dy * step];
+  await pull(goal);
 }
 
 /** Pull at the body with a spring whose strength fits the masses. */

@@ -7,10 +7,9 @@ import { report, send } from "../store/session";
 import { preview, view } from "../store/sheet";
 import { announce, mechanism, message, pose, poses, selection } from "../store/state";
 import { texts } from "../texts";
-import { type Grip, gripAt } from "./grip";
+import { type Grip, gripAt, gripOfKeys } from "./grip";
 import type { Handler } from "./handler";
 import * as living from "./live";
-import { points } from "./seen";
 
 /** Coordinates that a drag does not change. */
 export const locked = signal<string[]>([]);
@@ -71,17 +70,14 @@ async function follow({ body, point }: Grip): Promise<void> {
   working = false;
 }
 
-/** Move the selected body, or the first one, by a step: its last point that ground does not hold. */
+/** Move the selected body, or the first one, by a step. */
 export async function push(dx: number, dy: number): Promise<void> {
-  const all = points();
-  const fixed = all.filter(({ body }) => body.ground);
-  const free = all.filter(({ body, at }) => !body.ground && !fixed.some((one) => distance(one.at, at) < 1e-9));
-  const last = free.findLast(({ body }) => body.name === selection.value?.name) ?? free[0];
-  if (!last || working) return;
+  const held = gripOfKeys();
+  if (!held || working) return;
   const step = PUSH * snapStep(view);
-  target = [last.at[0] + dx * step, last.at[1] + dy * step];
+  target = [held.at[0] + dx * step, held.at[1] + dy * step];
   living.stop();
-  await follow({ body: last.body, point: last.body.points[last.point]! });
+  await follow(held.grip);
 }
 
 /** A line from the body to the pointer where it cannot follow. */

@@ -2,7 +2,8 @@
 import { computed, effect, signal } from "@preact/signals";
 import { entries } from "../catalogue/tree";
 import type { Quantity } from "../core/protocol";
-import { degrees, mechanism, mobility, openings, tree } from "../store/state";
+import { displayed, LENGTHS } from "../draw/display";
+import { mechanism, mobility, openings, tree, units } from "../store/state";
 
 /** One more choice among the analyses of the case; names have no space. */
 export const OVER = "over a quantity";
@@ -24,7 +25,9 @@ const driven = computed(() =>
 
 /** Keep the position quantities of bodies and elements: those of drivers and of links that turn fully come first. */
 export function offer(all: Quantity[]): void {
-  const turning = (mobility.value?.four_bars ?? []).flatMap((one) => one.turning.map((body) => `${body}.angle`));
+  const turning = (mobility.value?.four_bars ?? []).flatMap((one) =>
+    (one.turning ?? []).map((body) => `${body}.angle`),
+  );
   const angles = (mechanism.value?.coordinates ?? []).filter((name) => name.endsWith(".angle"));
   const first = [...driven.value, ...turning, ...angles];
   const rank = (name: string) => (first.includes(name) ? first.indexOf(name) : first.length);
@@ -43,7 +46,7 @@ export function follow(name: string): void {
 }
 
 /** The unit in which the range is written. */
-export const unit = computed(() => (over.value?.unit === "rad" && degrees.value ? "°" : (over.value?.unit ?? "")));
+export const unit = computed(() => displayed(over.value?.unit ?? "", units.value).unit);
 
 /** The range as it is shown; a quantity that is no angle has none at first. */
 export const range = computed<[string, string]>(() => {
@@ -59,13 +62,14 @@ export function writeRange(side: 0 | 1, text: string): void {
 
 /** The range as the core reads it; null if an end is missing. */
 export function rangeOfCore(): [string, string] | null {
-  const inUnit = (text: string) => (unit.value === "°" ? `(${text})*deg` : text);
+  const inUnit = (text: string) =>
+    unit.value === "°" ? `(${text})*deg` : unit.value === "mm" ? `(${text})/${LENGTHS.mm}` : text;
   const [first, last] = range.value.map((text) => text.trim());
   return first && last ? [inUnit(first), inUnit(last)] : null;
 }
 
 effect(() => {
-  degrees.value;
+  units.value;
   openings.value;
   written.value = null;
 });

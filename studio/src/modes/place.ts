@@ -3,11 +3,13 @@
 import type { Field } from "../catalogue/catalogue";
 import type { Tool } from "../catalogue/tools";
 import type { Change, Value } from "../core/protocol";
+import { displayed } from "../draw/display";
 import { gridStep, snapStep } from "../draw/measure";
-import { roundQuantity, significant } from "../draw/numbers";
+import { besideUnit, roundQuantity, significant } from "../draw/numbers";
 import { type Added, addBody, type Case, GROUND, type Place, pointReference } from "../edit/adding";
 import { addCurve, takesCurves } from "../edit/commands";
-import { addElement, type Coordinate } from "../edit/element";
+import type { Motion } from "../edit/driving";
+import { addElement } from "../edit/element";
 import { distance, type Point } from "../plane/points";
 import { type Snapped, snapped } from "../plane/snap";
 import { change } from "../store/document";
@@ -16,7 +18,6 @@ import { preview, typedLength, view } from "../store/sheet";
 import {
   announce,
   catalogue,
-  degrees,
   mechanism,
   panel,
   poses,
@@ -26,17 +27,19 @@ import {
   tool,
   tree,
   unassembled,
+  units,
 } from "../store/state";
 import { texts } from "../texts";
+import { alikeOf, coordinateOf } from "./coordinate";
 import type { Handler, Spot } from "./handler";
 import { lengthNow, readLength } from "./length";
-import { coordinateUnder, curveUnder, jointUnder, type Under, under } from "./refer";
+import { curveUnder, jointUnder, ownerUnder, type Under, under } from "./refer";
 import { points } from "./seen";
 
 let places: Place[] = [];
 let chosen: Record<string, Value> = {};
 let changes: Change[] = [];
-let now: Coordinate[] = [];
+let now: Motion[] = [];
 
 /** What the clicks before still do. */
 let working: Promise<void> = Promise.resolve();
@@ -96,8 +99,9 @@ function labelOf(line: Point[]): string {
   const [a, b] = line.slice(-2);
   if (!a || !b) return "";
   const angle = Math.atan2(b[1] - a[1], b[0] - a[0]);
-  const turn = degrees.value ? `${significant((angle * 180) / Math.PI, 3)}°` : `${significant(angle, 3)} rad`;
-  return `${roundQuantity(distance(a, b) || 0, "m")}  ∠ ${turn}`;
+  const [turn, length] = [displayed("rad", units.value), displayed("m", units.value)];
+  const written = besideUnit(significant(angle * turn.factor, 3), turn.unit);
+  return `${roundQuantity((distance(a, b) || 0) * length.factor, length.unit)}  ∠ ${written}`;
 }
 
 async function clickPlace(active: Tool, spot: Spot): Promise<void> {
@@ -128,7 +132,7 @@ async function make(active: Tool): Promise<void> {
 async function clickReference(active: Tool, spot: Spot): Promise<void> {
   const field = active.references.find(({ name }) => !(name in chosen));
   if (field) {
-    const reference = await referenceOf(String(field.shape), spot);
+    const reference = await referenceOf(active, String(field.shape), spot);
     if (reference === null) return refuse(active, field, spot);
     chosen[field.name] = reference;
   }
@@ -137,8 +141,10 @@ async function clickReference(active: Tool, spot: Spot): Promise<void> {
 
 /** Say what is wanted. Where a curve is wanted, one can be added. */
 function refuse(active: Tool, field: Field, spot: Spot): void {
-  const wanted = texts.place.wanted(String(field.shape));
-  const body = under(spot, new Set()).body?.name ?? GROUND;
+  const found = under(spot, new Set());
+  const held = active.group === "drivers" && field.shape === "coordinate" ? ownerUnder(found) : null;
+  const wanted = held ? texts.place.held(held) : texts.place.wanted(String(field.shape));
+  const body = found.body?.name ?? GROUND;
   const add = async () => {
     const curve = await addCurve(body);
     if (curve === null) return;
@@ -158,7 +164,7 @@ async function goOn(active: Tool): Promise<void> {
 
 async function complete(active: Tool): Promise<void> {
   const length = places.length > 1 ? distance(places[0]!.at, places[1]!.at) : gridStep(view) / 2;
-  const added = addElement(active, chosen, { length, now }, tree.value);
+  const added = addElement(active, chosen, { length, degrees: units.value.degrees, now }, tree.value);
   const all = { ...added, changes: [...changes, ...added.changes] };
   restart(active.references.length ? active : null);
   await apply(active, all);
@@ -174,16 +180,17 @@ async function apply(active: Tool, { changes: all, name }: Added): Promise<void>
 }
 
 /** What the pointer refers to, as a text of the file. */
-async function referenceOf(shape: string, spot: Spot): Promise<string | null> {
+async function referenceOf(active: Tool, shape: string, spot: Spot): Promise<string | null> {
   const taken = new Set(Object.values(chosen).map((one) => String(one).split(".")[0]!));
   const found = under(spot, taken);
   if (shape === "body") return found.body?.name ?? GROUND;
   if (shape === "point") return pointUnder(spot, found);
   if (shape === "joint") return jointUnder(found);
   if (shape === "curve") return curveUnder(found);
-  const coordinate = await coordinateUnder(found, now);
-  if (coordinate) now.push(coordinate);
-  return coordinate?.name ?? null;
+  const owner = ownerUnder(found);
+  const motion = now.length ? await alikeOf(owner, now) : await coordinateOf(owner, active.group !== "drivers");
+  if (motion) now.push(motion);
+  return motion?.name ?? null;
 }
 
 /** An existing point, or a new one of the body there. */

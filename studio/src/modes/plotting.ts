@@ -7,7 +7,7 @@ import type { Plot } from "../plot/plot";
 import { straight } from "../plot/straight";
 import { TimeSpan } from "../plot/timespan";
 import { plots, stored } from "../store/plots";
-import { degrees } from "../store/state";
+import { units } from "../store/state";
 import { course, quantities, span, variable } from "./read";
 
 /** The plots as they are drawn, by their keys. */
@@ -19,7 +19,7 @@ export const stretched = signal(0);
 
 export const across = computed<Across>(() => {
   const { name, unit } = variable.value;
-  const { factor, unit: shown } = displayed(unit, degrees.value);
+  const { factor, unit: shown } = displayed(unit, units.value);
   return { name, shown, divisor: 1 / factor };
 });
 

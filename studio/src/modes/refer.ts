@@ -1,9 +1,7 @@
 // What a click refers to, as a text of the file.
 import { entry, isTable } from "../catalogue/tree";
 import type { Body } from "../core/protocol";
-import type { Coordinate } from "../edit/element";
 import type { PointHit } from "../plane/hits";
-import { send } from "../store/session";
 import { tree } from "../store/state";
 import type { Spot } from "./handler";
 import { bodyUnder, elementUnder, pointsUnder } from "./seen";
@@ -41,14 +39,7 @@ export function curveUnder({ hits, body }: Under): string | null {
   return null;
 }
 
-/** The position quantity of a body or element, of the kind that was chosen before: otherwise an angle if it has one. */
-export async function coordinateUnder(found: Under, before: readonly Coordinate[]): Promise<Coordinate | null> {
-  const name = found.body && !found.body.ground ? found.body.name : elementUnder(found.spot)?.name;
-  if (!name) return null;
-  const { ok } = await send("quantities", {});
-  const unit = before[0]?.unit ?? "rad";
-  const own = ok.filter((one) => one.name.startsWith(`${name}.`) && /^(m|rad)$/.test(one.unit));
-  const one = own.find((other) => other.unit === unit) ?? own[0];
-  if (!one || before.some((other) => other.name === one.name)) return null;
-  return { ...one, value: (await send("quantity", { name: one.name })).ok.value };
+/** The body or element whose coordinates a click means. */
+export function ownerUnder({ spot, body }: Under): string | null {
+  return (body && !body.ground ? body.name : elementUnder(spot)?.name) ?? null;
 }

@@ -8,6 +8,12 @@ import type { Handler } from "./handler";
 export function beginScaling(): void {
   scaling.value = [];
   announce("info", texts.picture.first);
+  document.getElementById("sheet")?.focus({ preventScroll: true }); // keys click, too
+}
+
+/** Whether a click is still awaited. */
+export function awaitsClick(): boolean {
+  return scaling.value !== null && scaling.value.length < 2;
 }
 
 export const scale: Handler = {
@@ -18,6 +24,11 @@ export const scale: Handler = {
     scaling.value = [...points, at];
     preview.value = { line: scaling.value, mark: { at, kind: "free" } };
     if (points.length === 0) announce("info", texts.picture.second);
+  },
+  hover(spot) {
+    if (!awaitsClick()) return;
+    const line = spot ? [...scaling.value!, spot.at] : scaling.value!;
+    preview.value = line.length ? { line, mark: { at: line.at(-1)!, kind: "free" } } : null;
   },
   cursor: () => "crosshair",
 };

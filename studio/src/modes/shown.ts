@@ -1,17 +1,17 @@
 // Values of what takes the place of the time, as texts in display units.
 import { displayed } from "../draw/display";
 import { minus } from "../draw/numbers";
-import { degrees } from "../store/state";
+import { units } from "../store/state";
 
 /** A value with six digits and its unit, such as "1.2 s" and "360°". */
 export function written(value: number, base: string): string {
-  const { factor, unit } = displayed(base, degrees.value);
+  const { factor, unit } = displayed(base, units.value);
   return joined(String(Number((value * factor).toPrecision(6))), unit);
 }
 
 /** The same with a fixed number of decimals, so that it does not jump while it runs. */
 export function clock(value: number, base: string): string {
-  const { factor, unit } = displayed(base, degrees.value);
+  const { factor, unit } = displayed(base, units.value);
   return joined((value * factor).toFixed(unit === "°" ? 1 : 3), unit);
 }
 

@@ -11,9 +11,10 @@ import { enter } from "../modes/modes";
 import { push } from "../modes/move";
 import { drawing, finish, restart } from "../modes/place";
 import * as reading from "../modes/read";
+import { awaitsClick, endScaling } from "../modes/scaling";
 import type { Point } from "../plane/points";
 import { redo, undo } from "../store/document";
-import { fit, typedLength, view, zoom } from "../store/sheet";
+import { fit, pan, typedLength, view, zoom } from "../store/sheet";
 import { dialog, MODES, mechanism, message, mode, selection, tool, tree } from "../store/state";
 
 let copied: { name: string; body: Tree } | null = null;
@@ -86,16 +87,18 @@ function plain(event: KeyboardEvent): (() => void) | null {
     ArrowDown: [0, -1],
   };
   const step = steps[key];
+  if (step && event.shiftKey) return () => pan(...step);
   if (step && drawsByKeys()) return () => moveCursor(suggested(), ...step);
   if (key === " " && drawsByKeys()) return () => clickCursor(suggested());
   if (step && mode.value === "move") return () => void push(...step);
+  if (step && mode.value === "live") return () => void living.pullBy(...step);
   if (step && mode.value === "edit" && selection.value) return () => void nudge(...step);
   if (step && mode.value === "read" && step[0]) return () => reading.show(reading.time.value + step[0] * frame());
   return actions[key] ?? null;
 }
 
 function drawsByKeys(): boolean {
-  return mode.value === "edit" && tool.value !== null;
+  return mode.value === "edit" && (tool.value !== null || awaitsClick());
 }
 
 /** Where drawing by keys begins: at the next mark of the first build, otherwise in the middle of the sheet. */
@@ -117,6 +120,8 @@ function typeLength(key: string): void {
 }
 
 function stopAll(): void {
+  living.letGo();
+  if (awaitsClick()) endScaling();
   if (tool.value) restart(drawing() ? tool.value : null);
   else selection.value = null;
   message.value = null;

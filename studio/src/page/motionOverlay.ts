@@ -1,6 +1,8 @@
 // What a run adds to the drawing: traces of points, arrows of forces and velocities.
 import { computed, effect, signal } from "@preact/signals";
-import type { ArrowKind, Vectors } from "../draw/arrows";
+import type { Group } from "../catalogue/catalogue";
+import type { Vectors } from "../draw/arrows";
+import { displayed } from "../draw/display";
 import { Trace } from "../draw/traces";
 import { type Course, course, quantities, time, valuesOf } from "../modes/read";
 import { points } from "../modes/seen";
@@ -8,17 +10,32 @@ import { placeIn } from "../plane/instants";
 import { distinctPaths, type Path } from "../plane/paths";
 import { type Point, placed } from "../plane/points";
 import { report } from "../store/session";
-import { mechanism, mode, poses, scene } from "../store/state";
+import { mechanism, mode, units } from "../store/state";
 import { texts } from "../texts";
+import { endsOf } from "./acting";
 
-/** Kinds of arrows: the endings of the names of their two components. */
+/** Kinds of arrows: the endings of the names of their two components, and the groups whose elements have them. */
 export const KINDS = {
-  reactions: ["fx", "fy"],
-  velocities: ["vx", "vy"],
-  accelerations: ["ax", "ay"],
-} as const satisfies Record<ArrowKind, unknown>;
-export type Kind = ArrowKind;
-export const arrows = signal<Record<Kind, boolean>>({ reactions: false, velocities: false, accelerations: false });
+  reactions: { ends: ["fx", "fy"], groups: ["joints"] },
+  force: { ends: ["fx", "fy"], groups: ["forces", "drivers"] },
+  velocities: { ends: ["vx", "vy"], groups: [] },
+  accelerations: { ends: ["ax", "ay"], groups: [] },
+} as const satisfies Record<Vectors["kind"], { ends: [string, string]; groups: Group[] }>;
+export type Kind = Vectors["kind"];
+export const arrows = signal<Record<Kind, boolean>>({
+  reactions: false,
+  force: false,
+  velocities: false,
+  accelerations: false,
+});
+/** The name of the body whose arrows are shown; empty for those of all bodies. */
+export const onBody = signal("");
+
+/** The number of that body; null for all, also if the case has no longer a body of this name. */
+const only = computed(() => {
+  const found = mechanism.value?.bodies.findIndex(({ name }) => name === onBody.value) ?? -1;
+  return found < 0 ? null : found;
+});
 
 interface Fetched {
   kind: Kind;
@@ -30,16 +47,23 @@ interface Fetched {
 
 const fetched = signal<Fetched[]>([]);
 
-/** The paths over a run that are drawn; their points are those with arrows. */
-const paths = computed(() => {
+/** The paths of all points over a run. */
+const all = computed(() => {
   const found = course.value;
   if (!found) return [];
   const bodies = (mechanism.value?.bodies ?? []).map((body, number) => ({ ...body, number }));
-  const all = bodies.flatMap(({ name, ground, number, points: own }) =>
+  return bodies.flatMap(({ name, ground, number, points: own }) =>
     ground ? [] : Object.entries(own).map(([point, at]) => pathOf(found, `${name}.${point}`, number, at)),
   );
-  return distinctPaths(all);
 });
+
+/** Those that are drawn. */
+const paths = computed(() => distinctPaths(all.value));
+
+/** Those whose points have arrows: of points that are pinned together, each on its own body if one is chosen. */
+const tracked = computed(() =>
+  only.value === null ? paths.value : distinctPaths(all.value.filter(({ body }) => body === only.value)),
+);
 
 function pathOf({ t, rows, width }: Course, name: string, body: number, point: Point): Path {
   const line = Array.from(t, (_, k): Point => {
@@ -77,15 +101,18 @@ effect(() => {
 });
 
 async function fetchKind(kind: Kind, all: string[]): Promise<Fetched | null> {
-  const [x, y] = KINDS[kind];
+  const {
+    ends: [x, y],
+    groups,
+  } = KINDS[kind];
   const stems = all
     .filter((name) => name.endsWith(`.${x}`) && all.includes(`${name.slice(0, -2)}${y}`))
     .map((name) => name.slice(0, -3));
-  const shown = kind === "reactions" ? joints().map(({ name }) => name) : paths.value.map(({ name }) => name);
-  const places = new Set(shown);
+  const elements = groups.flatMap((group) => (mechanism.value?.[group] ?? []).map(({ name }) => name));
+  const places = new Set(groups.length ? elements : tracked.value.map(({ name }) => name));
   const names = stems.filter((stem) => places.has(stem));
   if (!names.length) return null;
-  const { units, rows } = await valuesOf(names.flatMap((name) => [`${name}.${x}`, `${name}.${y}`]));
+  const { units: unitsOf, rows } = await valuesOf(names.flatMap((name) => [`${name}.${x}`, `${name}.${y}`]));
   let largest = 0;
   names.forEach((_, k) => {
     const [u, v] = [rows[2 * k]!, rows[2 * k + 1]!];
@@ -94,34 +121,20 @@ async function fetchKind(kind: Kind, all: string[]): Promise<Fetched | null> {
       if (size > largest) largest = size;
     });
   });
-  return { kind, unit: units[0] ?? "", largest, names, rows };
+  return { kind, unit: unitsOf[0] ?? "", largest, names, rows };
 }
 
-type Place = Pick<Vectors["vectors"][number], "element" | "owner" | "at">;
+type Place = Pick<Vectors["vectors"][number], "element" | "owner" | "at"> & { sign: 1 | -1 };
 
-/** Where the things with arrows are: points, and joints at a point of their body j. */
-function where(): Place[] {
-  const named = points().map(({ body, point, at }): Place => {
-    const element = `${body.name}.${point}`;
-    return { element, owner: element, at };
-  });
+/** Where the things with arrows of a kind are: elements at their points, otherwise points. */
+function where({ groups }: (typeof KINDS)[Kind]): Place[] {
   const bodies = mechanism.value?.bodies ?? [];
-  const places = joints().map(({ name, bodies: [, j], points: [, at] }): Place => {
-    const pose = poses.value[j];
-    const owner = texts.read.on(bodies[j]?.name ?? "");
-    return { element: name, owner, at: pose ? placed(pose, at) : at };
+  if (groups.length)
+    return endsOf(groups, only.value).map((end) => ({ ...end, owner: texts.read.on(bodies[end.body]?.name ?? "") }));
+  return points().map(({ body, point, at }): Place => {
+    const element = `${body.name}.${point}`;
+    return { element, owner: element, at, sign: 1 };
   });
-  return bodies.length ? [...named, ...places] : [];
-}
-
-interface Joint {
-  name: string;
-  bodies: [number, number];
-  points: [Point, Point];
-}
-
-function joints(): Joint[] {
-  return (scene.value as { joints?: Joint[] } | null)?.joints ?? [];
 }
 
 /** Vectors, and the largest of their kind over the run. */
@@ -133,14 +146,16 @@ export const vectors = computed<Shown[]>(() => {
   const run = course.value;
   if (!run || mode.value !== "read") return [];
   const { low, high, share } = placeIn(run.t, time.value);
-  const places = new Map(where().map((place) => [place.element, place]));
-  return fetched.value.map(({ kind, unit, largest, names, rows }) => {
-    const at = (row: Float64Array) => row[low]! + share * (row[high]! - row[low]!);
-    const found = names.flatMap((name, k) => {
-      const place = places.get(name);
-      const value: Point = [at(rows[2 * k]!), at(rows[2 * k + 1]!)];
-      return place ? [{ ...place, value }] : [];
+  return fetched.value.map(({ kind, unit: base, largest, names, rows }) => {
+    const { factor, unit } = displayed(base, units.value);
+    const at = (row: Float64Array) => factor * (row[low]! + share * (row[high]! - row[low]!));
+    const rowOf = new Map(names.map((name, k) => [name, 2 * k]));
+    const found = where(KINDS[kind]).flatMap(({ sign, ...place }) => {
+      const k = rowOf.get(place.element);
+      if (k === undefined) return [];
+      const value: Point = [sign * at(rows[k]!), sign * at(rows[k + 1]!)];
+      return [{ ...place, value }];
     });
-    return { kind, unit, largest, vectors: found };
+    return { kind, unit, largest: factor * largest, vectors: found };
   });
 });

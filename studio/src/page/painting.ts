@@ -2,6 +2,7 @@
 import { isPin } from "../catalogue/catalogue";
 import { entry } from "../catalogue/tree";
 import { paintArrows, type Vectors } from "../draw/arrows";
+import { LENGTHS } from "../draw/display";
 import { paintGhost } from "../draw/ghost";
 import { paintGravity, paintGrid, paintLengthScale } from "../draw/measure";
 import {
@@ -21,7 +22,7 @@ import { points } from "../modes/seen";
 import { type Point, placed } from "../plane/points";
 import { backdrop } from "../store/backdrop";
 import { preview, view, viewed } from "../store/sheet";
-import { catalogue, items, mechanism, mode, poses, scene, selection, shown, tree } from "../store/state";
+import { catalogue, items, mechanism, mode, poses, scene, selection, shown, tree, units } from "../store/state";
 import { type Shown, traces, vectors } from "./motionOverlay";
 
 /** Everything that the drawing depends on. */
@@ -40,6 +41,7 @@ export function follow(): void {
     shown,
     tree,
     traces,
+    units,
     vectors,
   ])
     one.value;
@@ -60,10 +62,17 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
     paintArrows(context, view, vectors.value.map(sized), names, colours);
     paintGravity(context, view, found.gravity, colours);
   }
-  paintLengthScale(context, view, scene.value?.length ?? { unit: "m", metres: 1 }, colours);
+  paintLengthScale(context, view, lengthScale(), colours);
   if (bare) return;
   if (ghost.value) paintGhost(context, view, ghost.value, colours);
   paintPreview(context, colours);
+}
+
+/** The unit of the scale: the one that is chosen, or with m the one that suits the size of the mechanism. */
+function lengthScale(): { unit: string; metres: number } {
+  const { length } = units.value;
+  const metre = { unit: length, metres: 1 / LENGTHS[length] };
+  return length === "m" ? (scene.value?.length ?? metre) : metre;
 }
 
 /** Share of the drawing that the largest arrow of a kind takes. */

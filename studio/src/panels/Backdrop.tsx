@@ -1,10 +1,11 @@
 // The picture behind the drawing: opening, opacity, scale.
-import { useState } from "preact/hooks";
+import { useEffect, useRef, useState } from "preact/hooks";
 import { lengthMeant, meantValue } from "../edit/meaning";
 import { openBackdrop } from "../give/backdrop";
 import { beginScaling, endScaling, removeBackdrop } from "../modes/scaling";
 import { backdrop, scaleTo, scaling } from "../store/backdrop";
 import { report } from "../store/session";
+import { units } from "../store/state";
 import { texts } from "../texts";
 import { Button, Section } from "./parts";
 
@@ -43,6 +44,9 @@ export function Backdrop() {
 /** The known distance of the two points. */
 function Distance() {
   const [length, setLength] = useState("");
+  const unit = units.value.length;
+  const input = useRef<HTMLInputElement>(null);
+  useEffect(() => input.current?.focus(), []);
   const apply = async () => {
     const metres = meantValue(await lengthMeant(length));
     if (metres === undefined) return;
@@ -58,11 +62,12 @@ function Distance() {
       }}
     >
       <input
+        ref={input}
         type="text"
         autocomplete="off"
-        title={texts.edit.lengthHint}
-        aria-label={texts.picture.distance}
-        placeholder={texts.picture.distance}
+        title={texts.edit.lengthHint(unit)}
+        aria-label={texts.picture.distance(unit)}
+        placeholder={texts.picture.distance(unit)}
         value={length}
         onInput={(event) => setLength(event.currentTarget.value)}
       />

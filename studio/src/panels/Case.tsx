@@ -1,7 +1,7 @@
 // What concerns the whole case: title, gravity, parameters, analyses, and its contents.
 import { useState } from "preact/hooks";
 import { GROUPS } from "../catalogue/catalogue";
-import { entries, isTable } from "../catalogue/tree";
+import { entries } from "../catalogue/tree";
 import type { Tree } from "../core/protocol";
 import { isName, rename } from "../edit/commands";
 import { written, writtenList } from "../edit/values";
@@ -10,9 +10,11 @@ import { announce, catalogue, mechanism, tree } from "../store/state";
 import { texts } from "../texts";
 import { Backdrop } from "./Backdrop";
 import { Field, put, putTyped } from "./Field";
+import { Mobility } from "./Mobility";
 import { Contents } from "./Properties";
 import { Button, Section } from "./parts";
 import { Ready } from "./Ready";
+import { Start } from "./Start";
 
 export function Case() {
   const words = texts.properties;
@@ -33,8 +35,9 @@ export function Case() {
       {GROUPS.map((group) => (
         <Contents key={group} group={group} />
       ))}
-      <Start value={isTable(found.start) ? found.start : {}} />
+      <Start />
       <Analyses />
+      <Mobility />
       <Ready />
       <Backdrop />
     </div>
@@ -47,10 +50,11 @@ interface TextFieldProps {
   keep(text: string): void;
   unit?: string;
   placeholder?: string;
+  hint?: string;
   onRemove?: () => void;
 }
 
-export function TextField({ label, value, keep, unit, placeholder, onRemove }: TextFieldProps) {
+export function TextField({ label, value, keep, unit, placeholder, hint, onRemove }: TextFieldProps) {
   const id = `case-${label}`;
   return (
     <div class="field">
@@ -64,6 +68,7 @@ export function TextField({ label, value, keep, unit, placeholder, onRemove }: T
         spellcheck={false}
         value={value}
         placeholder={placeholder ?? ""}
+        title={hint}
         onChange={(event) => event.currentTarget.value !== value && keep(event.currentTarget.value)}
       />
       {onRemove ? (
@@ -113,24 +118,6 @@ function Parameters() {
         />
         <Button label={words.addParameter} icon="plus" onClick={add} disabled={!adding.trim()} />
       </form>
-    </Section>
-  );
-}
-
-function Start({ value }: { value: Tree }) {
-  const set = isTable(value.set) ? Object.entries(value.set) : [];
-  if (!set.length) return null;
-  return (
-    <Section title={texts.properties.startSet}>
-      {set.map(([name, one]) => (
-        <TextField
-          key={name}
-          label={name}
-          value={written(one)}
-          keep={(text) => void putTyped(["start", "set", name], text).catch(report)}
-          onRemove={() => put(["start", "set", name], undefined)}
-        />
-      ))}
     </Section>
   );
 }

@@ -8,7 +8,7 @@ import type { Curve } from "../plot/curve";
 import type { Plot } from "../plot/plot";
 import { peakOf } from "../plot/straight";
 import { type PlotOf, plots } from "../store/plots";
-import { degrees } from "../store/state";
+import { units } from "../store/state";
 import { texts } from "../texts";
 import { Button } from "./parts";
 
@@ -43,7 +43,7 @@ interface EntryProps {
 }
 
 function Entry({ of, plot, curve, beside }: EntryProps) {
-  const { factor, unit } = displayed(curve.unit, degrees.value);
+  const { factor, unit } = displayed(curve.unit, units.value);
   const peak = (one: Curve) => withUnit(peakOf(one) * factor, unit);
   const remove = () => {
     const names = of.names.filter((one) => one !== curve.name);

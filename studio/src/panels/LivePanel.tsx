@@ -1,8 +1,9 @@
 // Living: play, speed, energy, parameters.
 import { significant } from "../draw/numbers";
+import { speedsOf } from "../edit/driving";
 import * as living from "../modes/live";
 import { goHome } from "../store/session";
-import { mechanism, live as state } from "../store/state";
+import { mechanism, live as state, tree } from "../store/state";
 import { texts } from "../texts";
 import { Button, Facts, Section } from "./parts";
 import { shown } from "./Readings";
@@ -20,7 +21,7 @@ export function LivePanel() {
     <div class="properties">
       <div class="buttons">
         <Button
-          label={playing ? words.pause : words.play}
+          label={playing ? texts.playback.pause : texts.playback.play}
           icon={playing ? "pause" : "play"}
           kind="main"
           onClick={living.toggle}
@@ -29,7 +30,7 @@ export function LivePanel() {
         <Button label={words.step} icon="step" onClick={() => void living.step()} id="live-step" />
         <Button label={words.restart} icon="first" onClick={reset} />
         <label class="choice">
-          <span>{words.speed}</span>
+          <span>{texts.playback.speed}</span>
           <select
             value={String(living.speed.value)}
             onChange={(event) => (living.speed.value = Number(event.currentTarget.value))}
@@ -56,17 +57,17 @@ function State() {
     <>
       <Facts
         rows={[
-          [words.time, `${now.t.toFixed(3)} s`],
+          [texts.playback.time, `${now.t.toFixed(3)} s`],
           [words.residual, `${significant(now.residual, 2)}`],
         ]}
       />
       <Section title={words.energy}>
         <Facts
           rows={[
-            [words.kinetic, shown(energy.kinetic, "J")],
-            [words.potential, shown(energy.potential, "J")],
-            [words.dissipated, shown(energy.dissipated, "J")],
-            [words.work, shown(energy.work, "J")],
+            [words.energies.kinetic, shown(energy.kinetic, "J")],
+            [words.energies.potential, shown(energy.potential, "J")],
+            [words.energies.dissipated, shown(energy.dissipated, "J")],
+            [words.energies.work, shown(energy.work, "J")],
             [words.balance, significant(energy.balance, 2)],
           ]}
         />
@@ -75,13 +76,16 @@ function State() {
   );
 }
 
+/** Speeds of drivers come first, in the unit of the display. */
 function Parameters() {
   const all = mechanism.value?.parameters ?? [];
   if (!all.length) return null;
+  const speeds = new Map(speedsOf(tree.value, all).map(({ parameter, unit }) => [parameter, unit]));
+  const sorted = [...all.filter(({ name }) => speeds.has(name)), ...all.filter(({ name }) => !speeds.has(name))];
   return (
     <Section title={texts.live.parameters}>
-      {all.map(({ name, value, unit }) => (
-        <Slider key={name} name={name} value={value} unit={unit ?? ""} />
+      {sorted.map(({ name, value, unit }) => (
+        <Slider key={name} name={name} value={value} unit={speeds.get(name) ?? unit ?? ""} />
       ))}
     </Section>
   );
@@ -95,7 +99,7 @@ function Slider({ name, value, unit }: { name: string; value: number; unit: stri
     <label class="slider">
       <span>
         <bdi>{name}</bdi>
-        <output>{`${significant(now)} ${unit}`}</output>
+        <output>{shown(now, unit)}</output>
       </span>
       <input
         type="range"

@@ -3,9 +3,11 @@
 import * as living from "../modes/live";
 import { choose, configurations, findConfigurations, locked } from "../modes/move";
 import { goHome } from "../store/session";
-import { mechanism, mobility, pose } from "../store/state";
+import { mechanism, pose } from "../store/state";
 import { texts } from "../texts";
-import { Button, Check, Facts, Section } from "./parts";
+import { Mobility } from "./Mobility";
+import { Button, Check, Section } from "./parts";
+import { Speeds } from "./Speeds";
 
 export function MovePanel() {
   const words = texts.move;
@@ -16,9 +18,14 @@ export function MovePanel() {
       <div class="buttons">
         <Button label={words.reset} onClick={() => void goHome()} />
         {mechanism.value?.drivers.length ? (
-          <Button label={living.playing.value ? words.pause : words.play} onClick={living.toggle} id="play-drivers" />
+          <Button
+            label={living.playing.value ? texts.playback.pause : words.play}
+            onClick={living.toggle}
+            id="play-drivers"
+          />
         ) : null}
       </div>
+      <Speeds />
       <Section title={words.configurations}>
         <Button label={words.find} onClick={() => void findConfigurations()} id="find-configurations" />
         {found ? (
@@ -45,27 +52,6 @@ export function MovePanel() {
 
 function same(a: number[], b: number[] | undefined): boolean {
   return b !== undefined && a.every((one, k) => Math.abs(one - b[k]!) < 1e-6);
-}
-
-function Mobility() {
-  const found = mobility.value;
-  const words = texts.move;
-  if (!found) return null;
-  const rows: [string, string][] = [
-    [texts.status.freedom(2).slice(2), String(found.degrees_of_freedom)],
-    [words.gruebler, String(found.gruebler)],
-    [words.rank, String(found.rank)],
-  ];
-  return (
-    <Section title={words.mobility}>
-      <Facts rows={rows} />
-      {found.four_bars.map(({ pins, kind, turning }) => (
-        <p class="doc" key={pins.join()}>
-          {words.fourBar(pins.join("-"), kind, turning.join(", "))}
-        </p>
-      ))}
-    </Section>
-  );
 }
 
 function Locks() {

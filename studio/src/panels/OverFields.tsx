@@ -43,8 +43,8 @@ export function OverFields() {
           </option>
         ))}
       </select>
-      {field(0, words.first)}
-      {field(1, words.last)}
+      {field(0, words.ends[0])}
+      {field(1, words.ends[1])}
     </>
   );
 }

@@ -29,6 +29,13 @@ export function Palette() {
   );
 }
 
+/** Begin with a tool, or with none. */
+export function choose(one: Tool | null): void {
+  restart(one);
+  if (panel.value === "insert" && one) panel.value = "properties";
+  document.getElementById("sheet")?.focus({ preventScroll: true }); // keys draw
+}
+
 function ToolButton({ one }: { one: Tool }) {
   const active = tool.value?.type === one.type && tool.value.group === one.group;
   const next = phase.value === "tool" && tooled.value === one;
@@ -36,11 +43,6 @@ function ToolButton({ one }: { one: Tool }) {
   useEffect(() => {
     if (next) button.current?.scrollIntoView({ block: "nearest" });
   }, [next]);
-  const choose = () => {
-    restart(active ? null : one);
-    if (panel.value === "insert" && !active) panel.value = "properties";
-    document.getElementById("sheet")?.focus({ preventScroll: true }); // keys draw
-  };
   return (
     <button
       type="button"
@@ -49,7 +51,7 @@ function ToolButton({ one }: { one: Tool }) {
       data-type={one.type.name}
       aria-pressed={active}
       title={one.type.doc.replaceAll("\n", " ")}
-      onClick={choose}
+      onClick={() => choose(active ? null : one)}
     >
       <span>{one.label}</span>
     </button>

@@ -11,7 +11,7 @@ const SPEEDS = [0.01, 0.1, 0.2, 0.5, 1, 2, 5];
 export function Playback() {
   if (mode.value !== "read" || !course.value) return null;
   const [begin, end] = span.value;
-  const words = texts.read;
+  const words = texts.playback;
   const { name, unit } = variable.value;
   const label = variable.value === TIME ? words.time : name;
   return (
@@ -39,7 +39,12 @@ export function Playback() {
       </output>
       <label class="choice">
         <span class="word">{words.speed}</span>
-        <select value={String(rate.value)} onChange={(event) => (rate.value = Number(event.currentTarget.value))}>
+        {/* On a phone the word is not shown. */}
+        <select
+          aria-label={words.speed}
+          value={String(rate.value)}
+          onChange={(event) => (rate.value = Number(event.currentTarget.value))}
+        >
           {SPEEDS.map((one) => (
             <option key={one} value={String(one)}>{`${one}×`}</option>
           ))}

@@ -11,7 +11,7 @@ import { Plot } from "../plot/plot";
 import { symbolOf } from "../plot/straight";
 import { type PlotOf, plots, stored } from "../store/plots";
 import { report } from "../store/session";
-import { degrees } from "../store/state";
+import { units } from "../store/state";
 import { texts } from "../texts";
 import { Legend } from "./Legend";
 import { Check } from "./parts";
@@ -26,17 +26,17 @@ export function PlotCard({ plot: of }: { plot: PlotOf }) {
     setPlot(made);
     return connect(made);
   }, []);
-  const turn = degrees.value;
+  const shownUnits = units.value;
   const shown = shownSpan.value;
   useEffect(() => {
     if (!plot) return;
-    Object.assign(plot, { log, degrees: turn });
+    Object.assign(plot, { log, units: shownUnits });
     plot.over(shown, across.peek());
     plot.show(curves, symbolOf(of.names));
     stretched.value += 1;
     drawn.set(of.key, plot);
     return () => void drawn.delete(of.key);
-  }, [plot, curves, log, turn, shown]);
+  }, [plot, curves, log, shownUnits, shown]);
   return (
     <article class="plot">
       <canvas ref={canvas} class="curves" role="img" tabIndex={0} aria-label={texts.read.plotOf(of.names.join(", "))} />

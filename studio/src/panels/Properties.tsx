@@ -5,7 +5,7 @@ import type { Tree } from "../core/protocol";
 import { addCurve, addPoint, copy, mirror, remove, rename, setLength, takesCurves } from "../edit/commands";
 import { openOutline } from "../give/outline";
 import { report } from "../store/session";
-import { catalogue, selection, tree } from "../store/state";
+import { catalogue, selection, tree, units } from "../store/state";
 import { texts } from "../texts";
 import { Case } from "./Case";
 import { Field } from "./Field";
@@ -13,6 +13,7 @@ import { Held } from "./Held";
 import { PointRows } from "./PointRows";
 import { Button, Section } from "./parts";
 import { lengthOf, Readings } from "./Readings";
+import { Speeds } from "./Speeds";
 
 export function Properties() {
   const chosen = selection.value;
@@ -49,6 +50,7 @@ function Entry({ group, name, value }: { group: Group; name: string; value: Tree
         ),
       )}
       {group === "bodies" ? <Held name={name} /> : null}
+      {group === "drivers" ? <Speeds of={name} /> : null}
       {type?.fields.some(({ shape }) => shape === "outline") ? (
         <Button label={texts.outline.open} hint={texts.outline.hint} onClick={() => openOutline(name)} id="outline" />
       ) : null}
@@ -99,22 +101,23 @@ function Name({ group, name }: { group: Group; name: string }) {
 /** The length of a body that is placed by two points. */
 function Length({ body }: { body: string }) {
   const shown = lengthOf(body);
+  const unit = units.value.length;
   return (
     <div class="field">
-      <label for="body-length">length</label>
+      <label for="body-length">{texts.properties.bodyLength}</label>
       <input
         id="body-length"
         type="text"
         autocomplete="off"
         spellcheck={false}
-        title={texts.edit.lengthHint}
+        title={texts.edit.lengthHint(unit)}
         value={shown}
         onChange={(event) => {
           const { value } = event.currentTarget;
           if (value !== shown) void setLength(body, value).catch(report);
         }}
       />
-      <span class="unit">m</span>
+      <span class="unit">{unit}</span>
     </div>
   );
 }

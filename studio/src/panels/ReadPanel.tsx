@@ -5,9 +5,9 @@ import { openStored, saveCsv, saveNpz } from "../give/results";
 import { OVER, TIME } from "../modes/over";
 import { hasOtherAxis } from "../modes/plotting";
 import { analyses, analysis, chosen, course, quantities, run, running, variable } from "../modes/read";
-import { arrows, KINDS, type Kind } from "../page/motionOverlay";
+import { arrows, KINDS, type Kind, onBody } from "../page/motionOverlay";
 import { plots, stored } from "../store/plots";
-import { degrees } from "../store/state";
+import { mechanism } from "../store/state";
 import { texts } from "../texts";
 import { Measures } from "./Measures";
 import { OverFields } from "./OverFields";
@@ -25,12 +25,12 @@ export function ReadPanel() {
             {(Object.keys(KINDS) as Kind[]).map((kind) => (
               <Check
                 key={kind}
-                label={words[kind]}
+                label={words.arrows[kind]}
                 checked={arrows.value[kind]}
                 onChange={(on) => (arrows.value = { ...arrows.value, [kind]: on })}
               />
             ))}
-            <Check label={words.degrees} checked={degrees.value} onChange={(on) => (degrees.value = on)} />
+            <OnBody />
           </div>
           <Section
             title={words.plots}
@@ -38,16 +38,16 @@ export function ReadPanel() {
               <span class="buttons">
                 <Button label={words.compare} hint={words.compareHint} kind="small" onClick={openStored} id="compare" />
                 <Button label={words.csvHint} kind="small" onClick={() => void saveCsv()}>
-                  {words.csv}
+                  {texts.files.csv}
                 </Button>
                 <Button label={words.npzHint} kind="small" onClick={() => void saveNpz()}>
-                  {words.npz}
+                  {texts.files.npz}
                 </Button>
                 <Button label={words.pngHint} kind="small" spoken onClick={() => savePlots("png")}>
-                  {words.png}
+                  {texts.files.png}
                 </Button>
                 <Button label={words.svgHint} kind="small" spoken onClick={() => savePlots("svg")}>
-                  {words.svg}
+                  {texts.files.svg}
                 </Button>
               </span>
             }
@@ -67,6 +67,25 @@ export function ReadPanel() {
         <p class="doc">{running.value ? words.running : words.none}</p>
       )}
     </div>
+  );
+}
+
+/** The body on which the arrows that are shown act. */
+function OnBody() {
+  const names = (mechanism.value?.bodies ?? []).map(({ name }) => name);
+  const chosen = names.includes(onBody.value) ? onBody.value : "";
+  return (
+    <label class="choice">
+      <span>{texts.read.onBody}</span>
+      <select id="on-body" value={chosen} onChange={(event) => (onBody.value = event.currentTarget.value)}>
+        <option value="">{texts.read.onAll}</option>
+        {names.map((name) => (
+          <option key={name} value={name}>
+            {name}
+          </option>
+        ))}
+      </select>
+    </label>
   );
 }
 

@@ -1,11 +1,11 @@
 // Quantities of the selection at the pose that is shown.
 import { useEffect, useState } from "preact/hooks";
 import type { Group } from "../catalogue/catalogue";
-import { displayed } from "../draw/display";
+import { displayed, LENGTHS } from "../draw/display";
 import { significant, withUnit } from "../draw/numbers";
 import { placed } from "../plane/points";
 import { send } from "../store/session";
-import { degrees, mechanism, pose, poses } from "../store/state";
+import { mechanism, pose, poses, units } from "../store/state";
 import { texts } from "../texts";
 import { Facts, Section } from "./parts";
 
@@ -29,7 +29,9 @@ export function Readings({ group, name }: { group: Group; name: string }) {
     };
   }, [name, now]);
   const length = group === "bodies" ? lengthOf(name) : "";
-  const own: [string, string][] = length ? [[texts.properties.length, `${length} m`], ...rows] : rows;
+  const own: [string, string][] = length
+    ? [[texts.properties.length, `${length} ${units.value.length}`], ...rows]
+    : rows;
   return own.length ? (
     <Section title={texts.properties.results}>
       <Facts rows={own} />
@@ -52,16 +54,16 @@ async function readings(name: string): Promise<[string, string][]> {
 export function shown(value: number | null, unit: string): string {
   if (value === null || !Number.isFinite(value)) return texts.properties.absent;
   const tidy = Math.abs(value) < 1e-12 ? 0 : value;
-  const { factor, unit: own } = displayed(unit, degrees.value);
+  const { factor, unit: own } = displayed(unit, units.value);
   return withUnit(tidy * factor, own);
 }
 
-/** The distance of the first two points of a moving body, m; empty without them. */
+/** The distance of the first two points of a moving body in the unit of the display; empty without them. */
 export function lengthOf(name: string): string {
   const bodies = mechanism.value?.bodies ?? [];
   const k = bodies.findIndex((body) => body.name === name);
   const place = poses.value[k];
   const [a, b] = Object.values(bodies[k]?.points ?? {}).map((at) => place && placed(place, at));
   if (!a || !b || bodies[k]!.ground) return "";
-  return significant(Math.hypot(a[0] - b[0], a[1] - b[1]), 6);
+  return significant(Math.hypot(a[0] - b[0], a[1] - b[1]) * LENGTHS[units.value.length], 6);
 }

@@ -1,10 +1,12 @@
 // What prevents each analysis of the mechanism as it is drawn; a click leads to the element.
 import { useEffect, useState } from "preact/hooks";
-import { GROUPS, type Group } from "../catalogue/catalogue";
+import { GROUPS } from "../catalogue/catalogue";
+import type { Tool } from "../catalogue/tools";
 import type { Readiness } from "../core/protocol";
 import { send } from "../store/session";
-import { loads, mechanism, panel, selection } from "../store/state";
+import { loads, mechanism, mobility, panel, selection, tools } from "../store/state";
 import { texts } from "../texts";
+import { choose } from "./Palette";
 import { Section } from "./parts";
 
 export function Ready() {
@@ -27,7 +29,7 @@ export function Ready() {
   return (
     <Section title={texts.ready.title}>
       <dl class="facts" id="readiness">
-        {found.map((one) => (
+        {withLimits(found).map((one) => (
           <div key={one.analysis}>
             <dt>{texts.ready.names[one.analysis] ?? one.analysis}</dt>
             <dd>{one.problem ? <Obstacle {...one.problem} /> : texts.ready.yes}</dd>
@@ -38,24 +40,44 @@ export function Ready() {
   );
 }
 
+/** The list with the limits of a motion: they need a single freedom, that of a driver or one without a driver. */
+function withLimits(found: Readiness[]): Readiness[] {
+  const kinematics = found.find(({ analysis }) => analysis === "kinematics");
+  const freedom = mobility.value?.degrees_of_freedom;
+  if (!kinematics || freedom === undefined) return found;
+  return [...found, { analysis: "limits", problem: obstacleToLimits(kinematics.problem, freedom) }];
+}
+
+function obstacleToLimits(ofKinematics: Readiness["problem"], freedom: number): Readiness["problem"] {
+  if (ofKinematics && ofKinematics.path !== "drivers") return ofKinematics;
+  const single = freedom === 1 || (freedom === 0 && mechanism.value!.drivers.length > 0);
+  return single ? null : { message: texts.ready.notSingle(freedom), path: freedom ? "drivers" : "" };
+}
+
 function Obstacle({ message, hint, path }: NonNullable<Readiness["problem"]>) {
+  const tool = toolOf(path ?? "");
   return (
     <span class="problem">
       {message}
       {hint ? <span class="hint"> {hint}</span> : null}
-      {path?.includes(".") ? (
-        <button type="button" class="link" onClick={() => lead(path)}>
-          {path}
-        </button>
-      ) : null}
+      <button type="button" class="link" onClick={() => lead(path ?? "")}>
+        {tool ? texts.ready.add(tool.label) : path?.includes(".") ? path : texts.ready.text}
+      </button>
     </span>
   );
 }
 
-/** Select the element of a path such as `joints.C`; other places are shown in the text. */
+/** The tool for what a path names as missing: `drivers` without a name. */
+function toolOf(path: string): Tool | undefined {
+  return tools.value.find(({ group }) => group === path);
+}
+
+/** Select the element of a path such as `joints.C`, or a tool for what is missing; other places are shown in the text. */
 function lead(path: string): void {
   const [group, name] = path.split(".");
-  const known = GROUPS.find((one) => one === group) as Group | undefined;
-  if (known && name) selection.value = { group: known, name };
+  const known = GROUPS.find((one) => one === group);
+  const tool = toolOf(path);
+  if (tool) choose(tool);
+  else if (known && name) selection.value = { group: known, name };
   else panel.value = "text";
 }

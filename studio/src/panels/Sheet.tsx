@@ -13,7 +13,7 @@ import { course } from "../modes/read";
 import { follow, paintSheet } from "../page/painting";
 import { report, resized } from "../store/session";
 import { fit, preview, typedLength, view, viewChanged, zoom } from "../store/sheet";
-import { items, mode, shown, snapping, title, tool } from "../store/state";
+import { items, mode, shown, snapping, title, tool, units } from "../store/state";
 import { texts } from "../texts";
 import { Guide } from "./Guide";
 import { Button, Check } from "./parts";
@@ -26,13 +26,13 @@ export function Sheet() {
   useEffect(() => connect(canvas.current!), []);
   const words = texts.sheet;
   return (
-    <section class="panel sheet-panel" aria-label={words.label(title.value || texts.menu.untitled)}>
+    <section class="panel sheet-panel" aria-label={words.label(title.value || texts.untitled)}>
       <div class="bar">
         <div class="chips">
           {(["names", "numbers", "grid", "traces"] as const).map((what) => (
             <Check
               key={what}
-              label={words[what]}
+              label={words.shown[what]}
               checked={shown.value[what]}
               onChange={(value) => (shown.value = { ...shown.value, [what]: value })}
             />
@@ -53,10 +53,10 @@ export function Sheet() {
             {words.fit}
           </Button>
           <Button label={words.pngHint} onClick={saveDrawing}>
-            {words.png}
+            {texts.files.png}
           </Button>
           <Button label={words.svgHint} onClick={saveDrawingSvg}>
-            {words.svg}
+            {texts.files.svg}
           </Button>
           <Gif />
         </div>
@@ -70,7 +70,7 @@ export function Sheet() {
           ref={canvas}
           tabIndex={0}
           role="img"
-          aria-label={words.label(title.value || texts.menu.untitled)}
+          aria-label={words.label(title.value || texts.untitled)}
         />
         <Guide />
       </div>
@@ -81,7 +81,7 @@ export function Sheet() {
 /** The motion of a run as a GIF; while it is made, its progress, and a click cancels. */
 function Gif() {
   if (mode.value !== "read" || !course.value) return null;
-  const { gif, gifHint, gifCancel, gifProgress } = texts.sheet;
+  const { gifHint, gifCancel, gifProgress } = texts.sheet;
   const share = making.value;
   return (
     <Button
@@ -89,7 +89,7 @@ function Gif() {
       onClick={share === null ? () => void saveGif() : cancelGif}
       id="gif"
     >
-      {share === null ? gif : gifProgress(Math.round(100 * share))}
+      {share === null ? texts.files.gif : gifProgress(Math.round(100 * share))}
     </Button>
   );
 }
@@ -105,13 +105,13 @@ function ToolBox() {
       <strong>{active.label}</strong>
       {active.placing === "two" || active.placing === "many" ? (
         <label>
-          {words.length}
+          {words.length(units.value.length)}
           <input
             id="typed-length"
             size={9}
             autocomplete="off"
             spellcheck={false}
-            title={texts.edit.lengthHint}
+            title={texts.edit.lengthHint(units.value.length)}
             value={typedLength.value}
             onInput={(event) => (typedLength.value = event.currentTarget.value)}
             onChange={() => void readLength().catch(report)}

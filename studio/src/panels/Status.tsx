@@ -2,6 +2,7 @@
 import { mechanism, message, mobility, panel, problems, ready, unassembled } from "../store/state";
 import { texts } from "../texts";
 import { Button } from "./parts";
+import { Units } from "./Units";
 
 export function Status() {
   return (
@@ -9,7 +10,10 @@ export function Status() {
       <div class="message" role="status" aria-live="polite" id="message">
         <Message />
       </div>
-      <Facts />
+      <div class="standing">
+        <Facts />
+        <Units />
+      </div>
     </footer>
   );
 }
@@ -55,16 +59,18 @@ function Facts() {
   const words = texts.status;
   const count = mobility.value?.redundant.length ?? 0;
   const freedom = mobility.value?.degrees_of_freedom ?? found.degrees_of_freedom;
+  const loops = mobility.value?.four_bars ?? [];
   return (
-    <div class="standing">
+    <>
       {unassembled.value ? <span class="problem">{words.open}</span> : null}
       {mobility.value?.singular.length ? <span class="problem">{words.singular}</span> : null}
       {count ? <span>{words.redundant(count)}</span> : null}
       {found.warnings.length ? (
         <span title={found.warnings.join("\n")}>{words.warnings(found.warnings.length)}</span>
       ) : null}
+      {loops.length === 1 ? <span id="grashof">{loops[0]!.kind}</span> : null}
       <span>{words.bodies(found.bodies.length - 1)}</span>
       <span id="freedom">{freedom === null ? "" : words.freedom(freedom)}</span>
-    </div>
+    </>
   );
 }

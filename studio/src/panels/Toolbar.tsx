@@ -9,22 +9,22 @@ import { texts } from "../texts";
 import { Button } from "./parts";
 
 export function Toolbar() {
-  const { menu } = texts;
+  const { menu, menuHints } = texts;
   return (
     <header>
       <h1 dir="auto" title={title.value}>
-        {title.value || menu.untitled}
+        {title.value || texts.untitled}
       </h1>
       <nav class="buttons" aria-label={texts.name}>
         <Button label={menu.new} onClick={() => void begin()} id="new" />
-        <Button label={menu.open} hint={menu.openHint} onClick={openFile} id="open" />
-        <Button label={menu.gallery} hint={menu.galleryHint} onClick={() => open("gallery")} id="gallery" />
-        <Button label={menu.save} hint={menu.saveHint} onClick={saveFile} id="save" />
-        <Button label={menu.share} hint={menu.shareHint} onClick={() => open("share")} id="share" />
+        <Button label={menu.open} hint={menuHints.open} onClick={openFile} id="open" />
+        <Button label={menu.gallery} hint={menuHints.gallery} onClick={() => open("gallery")} id="gallery" />
+        <Button label={menu.save} hint={menuHints.save} onClick={saveFile} id="save" />
+        <Button label={menu.share} hint={menuHints.share} onClick={() => open("share")} id="share" />
         <span class="rule" />
         <Button
           label={menu.undo}
-          hint={menu.undoHint}
+          hint={menuHints.undo}
           icon="undo"
           onClick={() => void undo()}
           disabled={!past.value.length}
@@ -32,15 +32,21 @@ export function Toolbar() {
         />
         <Button
           label={menu.redo}
-          hint={menu.redoHint}
+          hint={menuHints.redo}
           icon="redo"
           onClick={() => void redo()}
           disabled={!future.value.length}
           id="redo"
         />
-        <Button label={menu.help} hint={`${menu.help} (?)`} icon="help" onClick={() => open("help")} id="help" />
+        <Button
+          label={texts.help.title}
+          hint={`${texts.help.title} (?)`}
+          icon="help"
+          onClick={() => open("help")}
+          id="help"
+        />
       </nav>
-      <div class="modes" role="radiogroup" aria-label="Mode">
+      <div class="modes" role="radiogroup" aria-label={texts.modesName}>
         {MODES.map((one) => (
           <button
             key={one}

@@ -3,10 +3,10 @@ import { shortened } from "../draw/numbers";
 import { type Colours, colourOf, dashOf } from "../draw/surface";
 import { Plot } from "../plot/plot";
 import type { TimeSpan } from "../plot/timespan";
+import { playerTexts as texts } from "../texts";
 import type { SceneCurve } from "./curve";
 import type { Motion } from "./motion";
 import { choices, type Quantity } from "./quantities";
-import { texts } from "./texts";
 
 export interface Templates {
   card: HTMLTemplateElement;

@@ -1,9 +1,10 @@
 // The controls of playback: buttons, the slider of time, speed.
+
+import { playerTexts as texts } from "../texts";
 import type { Clock } from "./clock";
 import { byId } from "./elements";
 import type { Motion } from "./motion";
 import type { Scene } from "./scene";
-import { texts } from "./texts";
 
 const SPEEDS = [0.1, 0.2, 0.5, 1, 2, 5, 10];
 /** Controls without a use where nothing moves. */

@@ -1,8 +1,9 @@
 // Texts of the page that the motion decides.
+
+import { playerTexts as texts } from "../texts";
 import { byId } from "./elements";
 import type { Motion } from "./motion";
 import type { Scene } from "./scene";
-import { texts } from "./texts";
 
 export function showTitle({ title }: Scene, motion: Motion, decimals: number): void {
   const { name, unit, divisor } = motion.variable;

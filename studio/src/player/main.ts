@@ -5,6 +5,7 @@ import { palette } from "../draw/surface";
 import { timeDecimals } from "../draw/ticks";
 import { download, nameOf } from "../give/download";
 import type { Head } from "../give/picture";
+import { playerTexts as texts } from "../texts";
 import { Clock } from "./clock";
 import { Controls } from "./controls";
 import { Drawing } from "./drawing";
@@ -16,7 +17,6 @@ import { listen } from "./keyboard";
 import { Motion } from "./motion";
 import { Plots } from "./plots";
 import { parsed } from "./scene";
-import { texts } from "./texts";
 import "./player.css";
 
 const scene = parsed(byId("scene").textContent ?? "");

@@ -1,4 +1,5 @@
 // All plots of the page: they share the time, its window and the units of angles.
+import type { Units } from "../draw/display";
 import type { Colours } from "../draw/surface";
 import { type Seeking, seekable } from "../plot/gestures";
 import type { Plot } from "../plot/plot";
@@ -22,7 +23,7 @@ export class Plots {
   cards: Card[] = [];
   readonly all: Quantity[];
   private looked: number | null = null;
-  private degrees = false;
+  private units: Units = { degrees: false, length: "m" };
   private readonly span: TimeSpan;
   private readonly watch: ResizeObserver;
 
@@ -48,7 +49,7 @@ export class Plots {
     const next = this.all.findIndex((_, k) => !shown.has(k));
     const card = new Card(this.templates, this.all, this.motion, this.span, this.calls.changed);
     card.removal.addEventListener("click", () => this.remove(card));
-    card.plot.degrees = this.degrees;
+    card.plot.units = this.units;
     this.cards.push(card);
     this.list.append(card.element);
     this.watch.observe(card.canvas);
@@ -94,9 +95,9 @@ export class Plots {
   }
 
   setDegrees(degrees: boolean): void {
-    this.degrees = degrees;
+    this.units = { ...this.units, degrees };
     for (const { plot } of this.cards) {
-      plot.degrees = degrees;
+      plot.units = this.units;
       plot.scale();
     }
     this.calls.changed();

@@ -1,10 +1,10 @@
 // The quantities that can be plotted: those that follow from the frames, and the channels of the scene.
 import { type Point, placed } from "../plane/points";
+import { playerTexts as texts } from "../texts";
 import { SceneCurve, type Source } from "./curve";
 import { acceleration, type Instant, type Motion, velocity } from "./motion";
 import { naturalScales } from "./scales";
 import type { Channel, Scene } from "./scene";
-import { texts } from "./texts";
 
 /** Curves that can be plotted together. */
 export interface Quantity {

@@ -3,9 +3,9 @@ import type { ArrowKind, Vector } from "../draw/arrows";
 import { shortened } from "../draw/numbers";
 import { type Point, placed } from "../plane/points";
 import { extent } from "../plane/view";
+import { playerTexts as texts } from "../texts";
 import { acceleration, type Instant, velocity } from "./motion";
 import type { Scene } from "./scene";
-import { texts } from "./texts";
 
 /** Share of the drawing that the largest velocity and the largest acceleration take. */
 const LONGEST = 0.22;

@@ -1,5 +1,5 @@
 // A plot with a cursor at the present, and the value under the pointer. Curves of one unit share its axes.
-import { displayed } from "../draw/display";
+import { displayed, type Units } from "../draw/display";
 import { circle } from "../draw/line";
 import { axisLabel, besideUnit, fixed, readable, scaled, significant } from "../draw/numbers";
 import { type Colours, cleared, colourOf, dashOf, font, rimmed, sharpen } from "../draw/surface";
@@ -17,8 +17,7 @@ const WIDTH = 1.8;
 export class Plot {
   curves: readonly Curve[] = [];
   log = false;
-  /** Angles in degrees and speeds in rpm. */
-  degrees = false;
+  units: Units = { degrees: false, length: "m" };
   /** Where the pointer is, px; null if it is elsewhere. */
   pointer: Point | null = null;
   width = 0;
@@ -59,7 +58,7 @@ export class Plot {
 
   /** Choose units and ranges for the curves. */
   scale(): void {
-    const { factor, unit } = displayed(readable(this.curves[0]?.unit ?? ""), this.degrees);
+    const { factor, unit } = displayed(readable(this.curves[0]?.unit ?? ""), this.units);
     const values = this.curves.map((curve) =>
       shownValues(curve)
         .map((value) => factor * value)

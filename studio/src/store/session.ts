@@ -48,7 +48,7 @@ export function send<D extends Do>(
   fields: Requests[D]["send"],
   channel?: string,
 ): Promise<Answer<Requests[D]["reply"]>> {
-  if (!transport) return Promise.reject(new Error("the core is not connected"));
+  if (!transport) return Promise.reject(new Error(texts.core.notConnected));
   return transport.send(what, fields, channel ?? null);
 }
 

@@ -24,6 +24,9 @@ export const preview = signal<Preview | null>(null);
 /** A length that was typed for the line that is being drawn, m. */
 export const typedLength = signal<string>("");
 
+/** By how much a key moves the sheet, px. */
+const STEP = 60;
+
 export function viewChanged(): void {
   viewed.value += 1;
 }
@@ -35,6 +38,12 @@ export function fit(): void {
 
 export function zoom(factor: number): void {
   view.zoom(factor);
+  viewChanged();
+}
+
+/** Show more of the plane in a direction. */
+export function pan(dx: number, dy: number): void {
+  view.pan(-STEP * dx, STEP * dy);
   viewChanged();
 }
 

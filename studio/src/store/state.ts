@@ -3,6 +3,7 @@ import { computed, signal } from "@preact/signals";
 import { type Catalogue, type Group, readCatalogue } from "../catalogue/catalogue";
 import { type Tool, toolsOf } from "../catalogue/tools";
 import type { Live, Mechanism, Mobility, Pose, Problem, Scene, Tree } from "../core/protocol";
+import type { Units } from "../draw/display";
 import type { Item } from "../draw/items";
 import type { Placement } from "../plane/points";
 
@@ -51,8 +52,8 @@ export const message = signal<Message | null>(null);
 export const live = signal<Live | null>(null);
 
 export const shown = signal({ names: true, numbers: true, grid: true, traces: true });
-/** Display units: angles in degrees and speeds in rpm, or in rad and rad/s. */
-export const degrees = signal(true);
+/** Units of the display: of the drawing, of typed lengths, of plots and tables; files have SI units. */
+export const units = signal<Units>({ degrees: true, length: "m" });
 export const snapping = signal(true);
 /** What a drag of the drawing does not change; edit/holding.ts names it. */
 export const held = signal<ReadonlySet<string>>(new Set());

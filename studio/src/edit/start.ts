@@ -1,0 +1,38 @@
+// What the start prescribes: values of quantities by name, in one table or in nested ones.
+import { isTable } from "../catalogue/tree";
+import type { Path, Tree, Value } from "../core/protocol";
+
+export interface Prescribed {
+  /** Such as "crank.angle". */
+  name: string;
+  value: Value;
+  path: Path;
+}
+
+export function prescribed(tree: Tree | null): Prescribed[] {
+  const start = tree?.start;
+  return isTable(start) && isTable(start.set) ? within(start.set, ["start", "set"], []) : [];
+}
+
+function within(table: Tree, path: Path, names: string[]): Prescribed[] {
+  return Object.entries(table).flatMap(([key, value]) => {
+    const [own, all] = [
+      [...path, key],
+      [...names, key],
+    ];
+    return isTable(value) ? within(value, own, all) : [{ name: all.join("."), value, path: own }];
+  });
+}
+
+/** The rate of a position quantity, such as "crank.omega" of "crank.angle"; undefined if it has no name. */
+export function rateOf(name: string): string | undefined {
+  const rates: Record<string, string> = { angle: "omega", x: "vx", y: "vy", displacement: "rate", length: "rate" };
+  const dot = name.lastIndexOf(".") + 1;
+  const rate = rates[name.slice(dot)];
+  return rate && name.slice(0, dot) + rate;
+}
+
+/** Whether a name is that of a velocity. */
+export function isRate(name: string): boolean {
+  return /\.(omega|vx|vy|rate)$/.test(name);
+}
