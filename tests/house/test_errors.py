@@ -81,6 +81,7 @@ CALLS: dict[str, Callable[[], object]] = {
         np.arange(2.0), np.zeros((1, 2)), np.zeros((1, 2, 4)), TIMES
     ),
     "maxima": lambda: _core.maxima(TIMES, TIMES, [], TIMES, True, lambda t: t),
+    "singular_instants": lambda: _core.singular_instants(TIMES, TIMES, lambda t: t),
     "extreme": lambda: _core.extreme(1.0, TIMES, TIMES),
     "changes": lambda: _core.changes(TIMES),
     "mean": lambda: _core.mean(TIMES, TIMES),

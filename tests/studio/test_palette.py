@@ -32,7 +32,7 @@ type = "revolute"
 i = "ground.B"
 j = "right.B"
 """
-#: Places for what a message asks for: the first, the second and the third time.
+#: Places for what a message requests: the first, the second and the third time.
 PLACES = {
     "a point": [(-0.3, -0.4), (0.4, -0.4)],
     "a body, or empty ground": [(-0.4, -0.2), (0.45, -0.2)],
@@ -44,7 +44,7 @@ FREE = [(-0.2, 0.0), (0.1, 0.0), (0.0, -0.3)]
 
 
 def place(message: str, count: int) -> tuple[float, float]:
-    """Where to click next, from what the message asks for."""
+    """Where to click next, from what the message requests."""
     asked = re.search(r"click (.+) for [\w ]+\.$", message)
     if asked:
         return PLACES[asked[1]][min(count, len(PLACES[asked[1]]) - 1)]
@@ -83,7 +83,7 @@ def test_every_tool_adds_an_element_or_says_what_is_missing(one: Studio) -> None
         message = use(one, name)
         assert "added." in message, (name, message)
         problems = one.page.locator("#tab-text").inner_text() != "Text"
-        # an element without a required value is there, and the message says what it needs
+        # an element without a required value is there, and the message names what it needs
         assert not problems or "Problem: missing" in message, (name, message)
         one.page.keyboard.press("Escape")
     assert one.messages == []

@@ -26,23 +26,23 @@ struct Slot {
     beside: f64,
 }
 
-/// The condition normal · r = value on the origin r of a body with known angle.
-struct Condition {
+/// The line normal · r = value on which the origin r of a body with known angle lies.
+struct StraightLine {
     normal: Vec2,
     value: f64,
 }
 
 impl Slot {
-    /// The condition for a body turned by `angle`.
-    fn condition(&self, angle: f64) -> Condition {
+    /// The line for a body turned by `angle`.
+    fn line(&self, angle: f64) -> StraightLine {
         let turned = Pose::new(0.0, 0.0, angle);
         let (own, other) = (turned.global(self.own.s), self.other.point(self.at_other.s));
         if self.line_is_own {
             let normal = axis(angle + self.own.axis).perp();
-            return Condition { normal, value: normal.dot(other - own) - self.beside };
+            return StraightLine { normal, value: normal.dot(other - own) - self.beside };
         }
         let normal = axis(self.other.angle + self.at_other.axis).perp();
-        Condition { normal, value: normal.dot(other - own) + self.beside }
+        StraightLine { normal, value: normal.dot(other - own) + self.beside }
     }
 
     /// The directions from a pin at `pin` in which the arm `from` the pin's place on the body must point, with this arm.
@@ -100,7 +100,7 @@ impl Placer<'_> {
                 angles
             }
             Freedom::Slide(rail) => {
-                let Condition { normal, value } = slot.condition(rail.pose.angle);
+                let StraightLine { normal, value } = slot.line(rail.pose.angle);
                 let slope = normal.dot(rail.direction);
                 let distance = (value - normal.dot(rail.pose.r)) / slope;
                 if slope.abs() > PARALLEL {
@@ -117,9 +117,9 @@ impl Placer<'_> {
     pub fn close_slots_of(&mut self, b: usize, angle: f64) -> bool {
         let all = self.equations.of[b].iter();
         let slots = all.filter_map(|k| self.slot(*k, b));
-        let conditions: Vec<Condition> = slots.map(|slot| slot.condition(angle)).collect();
-        let Some((first, rest)) = conditions.split_first() else { return false };
-        let crosses = |other: &&Condition| first.normal.cross(other.normal).abs() > PARALLEL;
+        let lines: Vec<StraightLine> = slots.map(|slot| slot.line(angle)).collect();
+        let Some((first, rest)) = lines.split_first() else { return false };
+        let crosses = |other: &&StraightLine| first.normal.cross(other.normal).abs() > PARALLEL;
         let Some(second) = rest.iter().find(crosses) else { return false };
         let across = first.normal.cross(second.normal);
         let x = (first.value * second.normal.y - second.value * first.normal.y) / across;
