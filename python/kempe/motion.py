@@ -101,10 +101,16 @@ class Motion:
     @property
     def regularity(self) -> Floats:
         """Regularity, (n_t,): near a singular position, proportional to the distance from it."""
-        return np.atleast_2d(self._solved[2])[:, 0]
+        solved = self._solved if len(self._solved) > 2 else self._evaluated()
+        return np.atleast_2d(solved[2])[:, 0]
 
     @cached_property
     def _solved(self) -> tuple[Floats, ...]:
+        """Accelerations and multipliers."""
+        return self._evaluated()
+
+    def _evaluated(self) -> tuple[Floats, ...]:
+        """Accelerations, multipliers and regularity from the core."""
         rows = *self._rows(), np.atleast_2d(self.z)
         passing = self._passing
 

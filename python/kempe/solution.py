@@ -92,7 +92,7 @@ class Solution(Motion):
         accelerations: tuple[Floats, Floats] | KempeError
         energy: Floats | KempeError
         try:
-            accelerations = self._solved
+            accelerations = self.a, self.lam
         except KempeError as error:
             accelerations = error
         try:

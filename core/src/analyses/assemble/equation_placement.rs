@@ -91,7 +91,10 @@ impl Placer<'_> {
             return (self.contacts(k, b, freedom), false);
         }
         let exact = self.at_rod(k, b, freedom);
-        if let Some(poses) = exact.or_else(|| self.at_slot(k, b, freedom)) {
+        if let Some(mut poses) = exact.or_else(|| self.at_slot(k, b, freedom)) {
+            if fixes.contains(&Fixes::Line) {
+                poses.sort_by_key(|pose| !self.is_ahead(k, b, pose));
+            }
             return (poses, true);
         }
         let Some(m) = self.phi(k, b, &freedom.pose(0.0)).map(|phi| phi.len()) else {

@@ -78,7 +78,11 @@ impl Placer<'_> {
             Fixes::Beside(distance) => Some(*distance),
             _ => None,
         };
-        let beside = element.fixes().iter().find_map(line).filter(|beside| beside.is_finite())?;
+        let fixes = element.fixes();
+        if fixes.contains(&Fixes::Turn) {
+            return None;
+        }
+        let beside = fixes.iter().find_map(line).filter(|beside| beside.is_finite())?;
         let end = item.bodies.iter().position(|body| body.0 == b)?;
         let other = item.bodies[1 - end].0;
         let other_pose = self.poses[other].filter(|_| other != b)?;

@@ -86,8 +86,9 @@ fn positions(t: &[f64], regularity: &[f64], read: Read<'_>) -> Vec<Position> {
         let refined = refine(vec![bracket], &mut negative);
         let Some(Best { value, t: time }) = refined.first() else { continue };
         if -value <= SINGULAR {
-            let width = width(t, regularity, (k, *time));
-            found.push(Position { t: *time, width });
+            // without a value, the search has no time
+            let time = if value.is_finite() { *time } else { t[k] };
+            found.push(Position { t: time, width: width(t, regularity, (k, time)) });
         }
     }
     found.sort_by(|a, b| a.t.total_cmp(&b.t));
