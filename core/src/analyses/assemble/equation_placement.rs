@@ -90,11 +90,8 @@ impl Placer<'_> {
         if fixes.contains(&Fixes::Contact) {
             return (self.contacts(k, b, freedom), false);
         }
-        let exact = self.at_rod(k, b, freedom);
-        if let Some(mut poses) = exact.or_else(|| self.at_slot(k, b, freedom)) {
-            if fixes.contains(&Fixes::Line) {
-                poses.sort_by_key(|pose| !self.is_ahead(k, b, pose));
-            }
+        let exact = self.at_rod(k, b, freedom).or_else(|| self.at_slot(k, b, freedom));
+        if let Some(poses) = exact {
             return (poses, true);
         }
         let Some(m) = self.phi(k, b, &freedom.pose(0.0)).map(|phi| phi.len()) else {
@@ -150,7 +147,7 @@ impl Placer<'_> {
     }
 
     /// Whether the point of body j is ahead of the point of body i along the axis of constraint `k`.
-    fn is_ahead(&self, k: usize, b: usize, pose: &Pose) -> bool {
+    pub fn is_ahead(&self, k: usize, b: usize, pose: &Pose) -> bool {
         let item = &self.equations.model.constraints[k];
         let place = |end: usize| match item.bodies[end].0 {
             body if body == b => Some(*pose),

@@ -90,7 +90,8 @@ impl Placer<'_> {
         Some(Slot { line_is_own: end == 0, own, other: other_pose, at_other, beside })
     }
 
-    /// The poses at which constraint `k`, a point on a line, holds; None if it is not one.
+    /// The poses at which constraint `k`, a point on a line, holds, those with the point ahead first; None if it is not
+    /// one.
     pub fn at_slot(&self, k: usize, b: usize, freedom: &Freedom) -> Option<Vec<Pose>> {
         let slot = self.slot(k, b)?;
         let at: Vec<f64> = match freedom {
@@ -114,7 +115,9 @@ impl Placer<'_> {
                 }
             }
         };
-        Some(at.into_iter().map(|x| freedom.pose(x)).collect())
+        let mut poses: Vec<Pose> = at.into_iter().map(|x| freedom.pose(x)).collect();
+        poses.sort_by_key(|pose| !self.is_ahead(k, b, pose));
+        Some(poses)
     }
 
     /// Places body `b` with a known angle if two points on lines hold it; returns whether they do.
