@@ -86,7 +86,7 @@ class Motion:
             SingularityError: the accelerations are not unique at one of the times.
             IntegrationError: an acceleration is not finite.
         """
-        return self._solved[0]
+        return self._dynamics[0]
 
     @property
     def lam(self) -> Floats:
@@ -96,16 +96,16 @@ class Motion:
             SingularityError: the multipliers are not unique at one of the times.
             IntegrationError: a multiplier is not finite.
         """
-        return self._solved[1]
+        return self._dynamics[1]
 
     @property
     def regularity(self) -> Floats:
         """Regularity, (n_t,): near a singular position, proportional to the distance from it."""
-        solved = self._solved if len(self._solved) > 2 else self._evaluated()
+        solved = self._dynamics if len(self._dynamics) > 2 else self._evaluated()
         return np.atleast_2d(solved[2])[:, 0]
 
     @cached_property
-    def _solved(self) -> tuple[Floats, ...]:
+    def _dynamics(self) -> tuple[Floats, ...]:
         """Accelerations and multipliers."""
         return self._evaluated()
 

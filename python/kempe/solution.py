@@ -147,7 +147,7 @@ class Solution(Motion):
         return DenseOutput(fixed(run.dense_t), fixed(run.dense_y), fixed(run.dense_c))
 
     @cached_property
-    def _solved(self) -> tuple[Floats, ...]:
+    def _dynamics(self) -> tuple[Floats, ...]:
         with self._keeping_what_is_before():
             a, lam = self._run.responses()
         return fixed(a), fixed(lam)

@@ -121,7 +121,7 @@ def test_a_wrong_reaction_is_found() -> None:
     motion = kp.Motion(model, np.array([0.3]), state.q[None], state.v[None])
     lam = motion.lam.copy()
     lam[0, 0] += 1.0
-    motion.__dict__["_solved"] = motion.a, lam
+    motion.__dict__["_dynamics"] = motion.a, lam
     found = motion.newton_euler
     assert found.force[0, 0] == pytest.approx(1.0, rel=1e-12)
     arm = abs(0.5 * np.sin(state["rod.angle"]))
@@ -135,7 +135,7 @@ def test_a_wrong_torque_is_found() -> None:
     lam = motion.lam.copy()
     row = [*motion.compiled.row_names()].index("follow.angle")
     lam[0, row] += 0.25
-    motion.__dict__["_solved"] = motion.a, lam
+    motion.__dict__["_dynamics"] = motion.a, lam
     found = motion.newton_euler
     assert found.force.max() < 1e-12
     np.testing.assert_allclose(found.moment[0], [0.3 * 0.25, 0.25, 0], atol=1e-12)

@@ -30,7 +30,7 @@ def at_rest(state: State) -> Scene:
     """The scene of a position without forces, which may not be unique in this position."""
     still = State(state.compiled, state.t, state.q, np.zeros_like(state.v), z=state.z)
     # in place of what follows from the equations of motion
-    vars(still)["_solved"] = (np.zeros_like(still.q), np.zeros(still.compiled.n_multipliers))
+    vars(still)["_dynamics"] = (np.zeros_like(still.q), np.zeros(still.compiled.n_multipliers))
     return scene_of(still)
 
 
