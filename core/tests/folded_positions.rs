@@ -106,7 +106,7 @@ fn a_lift_with_folded_stages() {
     let used = |q: &[f64]| {
         let angle = |body: &str| q[column(&m, body, 2)];
         let alike = |body: &&str| (angle(body) - 0.174_843_843_431_292).abs() < 1e-9;
-        ["a1", "a2", "a3"].iter().all(|body| alike(body)) && angle("platform").cos() > 0.0
+        ["a1", "a2", "a3"].iter().all(alike) && angle("platform").cos() > 0.0
     };
     assert_eq!(all.states.iter().filter(|(s, _)| used(&s.q)).count(), 1);
 }
