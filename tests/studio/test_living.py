@@ -46,6 +46,16 @@ def wait_for_angle(one: Studio, reached: Callable[[float], bool]) -> None:
         assert time.monotonic() < end
 
 
+def test_places_on_the_screen_are_those_of_the_new_layout(one: Studio) -> None:
+    one.load(HANGING)
+    for _ in range(4):
+        one.mode("live")  # without the palette, the sheet is wider
+        first = one.screen(0.0, -1.0)
+        one.page.wait_for_timeout(200)
+        assert one.screen(0.0, -1.0) == first
+        one.mode("edit")
+
+
 def test_a_pull_moves_a_pendulum_that_hangs_towards_the_mouse(one: Studio) -> None:
     one.load(HANGING)
     one.mode("live")

@@ -20,6 +20,11 @@ export interface Interface {
   settled(): Promise<void>;
 }
 
+/** Resolves when what has changed is laid out and drawn: a new size of the sheet is known after one frame. */
+async function drawn(): Promise<void> {
+  for (let frame = 0; frame < 2; frame += 1) await new Promise(requestAnimationFrame);
+}
+
 export const kempe: Interface = {
   async load(given) {
     enter("edit");
@@ -33,6 +38,7 @@ export const kempe: Interface = {
     return now && { t: now.t, q: [...now.q], v: [...now.v] };
   },
   async screen(point) {
+    await drawn();
     const { left, top } = document.getElementById("sheet")!.getBoundingClientRect();
     const [x, y] = view.toScreen(point);
     return [left + x, top + y];

@@ -27,6 +27,8 @@ let transport: Transport | null = null;
 /** The text that the core was given last and answered without a trap. */
 let accepted = "";
 let size: [number, number] = [800, 600];
+/** The newest fetch of the static part of the drawing. */
+let fetching: Promise<void> = Promise.resolve();
 
 /** Begin with a worker for the core. */
 export function connect(begin: () => Line, limit?: number): void {
@@ -101,6 +103,16 @@ function show(found: Loaded): void {
 
 /** Fetch the static part of the drawing again: the model or the size of the canvas is another one. */
 export async function redraw(): Promise<void> {
+  fetching = fetchDrawing();
+  let waited: Promise<void>;
+  do {
+    // A fetch that begins meanwhile replaces requests of this one.
+    waited = fetching;
+    await waited;
+  } while (waited !== fetching);
+}
+
+async function fetchDrawing(): Promise<void> {
   if (!mechanism.value) return;
   const [width, height] = size;
   const answers = await Promise.allSettled([
