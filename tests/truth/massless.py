@@ -75,6 +75,8 @@ class Case:
     rates: Callable[[float, Vector], list[float]]
     #: The mass of the light bodies of the twin.
     twin: float = 0.05
+    #: The given values that only choose the assembly mode.
+    guessed: tuple[str, ...] = ("rocker.angle",)
 
 
 def four_bar(mass: float) -> kp.Model:
@@ -244,6 +246,49 @@ def of_rods(_: float, y: Vector) -> list[float]:
     return [a1, b1, *np.linalg.solve(mass, right)]
 
 
+def dlr_loop(mass: float) -> kp.Model:
+    """The published data of ``Examples.KinematicLoop`` of DLR's PlanarMechanics library for Modelica.
+
+    Two massless links of 0.5 m hang from ground and from a massless slider on the x axis, which has a
+    spring of 20 N/m and a damper of 4 N·s/m; at their elbow hangs an arm of 0.6 m with a body of 1 kg
+    and 0.1 kg·m². The slider is released at 0.4 m, where the spring is relaxed, and the arm at -40°
+    from the first link.
+    """
+    m = kp.Model("kinematic loop of PlanarMechanics", gravity=(0, -G))
+    m.ground.points(O=(0, 0), W=(-1, 0))
+    m.bar("first", mass=mass, length=0.5, ends=("O", "P"))
+    m.bar("second", mass=mass, length=0.5, ends=("Q", "P"))
+    m.body("slider", mass=mass, inertia=0.1 * mass, points={"Q": (0, 0)})
+    m.body("arm", mass=1, inertia=0.1, center=(0.6, 0), points={"P": (0, 0)})
+    m.revolute("O", "ground.O", "first.O")
+    m.revolute("Q", "slider.Q", "second.Q")
+    m.revolute("P", "first.P", "second.P")
+    m.revolute("E", "first.P", "arm.P")
+    m.translational("S", "ground.O", "slider.Q")
+    m.spring_damper("spring", "ground.W", "slider.Q", stiffness=20, damping=4, free_length=1.4)
+    return m
+
+
+def of_dlr_loop(_: float, y: Vector) -> list[float]:
+    """The slider at x and the arm at the angle a; the elbow is at (x/2, -h)."""
+    x, a, x1, a1 = y
+    h = math.sqrt(0.25 - x * x / 4)
+    h1, h2 = -x / (4 * h), -1 / (16 * h**3)
+    elbow, arm = complex(0.5, -h1), 0.6 * cmath.exp(1j * a)
+    # the mass is at elbow + arm: its acceleration is elbow x″ + i arm a″ + the rest
+    rest, weight = -1j * h2 * x1**2 - arm * a1**2, -1j * G
+    mixed = (elbow.conjugate() * 1j * arm).real
+    mass = [[abs(elbow) ** 2, mixed], [mixed, 0.1 + abs(arm) ** 2]]
+    push = weight - rest
+    right = [
+        (elbow.conjugate() * push).real - 20 * (x - 0.4) - 4 * x1,
+        ((1j * arm).conjugate() * push).real,
+    ]
+    return [x1, a1, *np.linalg.solve(mass, right)]
+
+
+#: The first link starts asin(0.4 / 0.5 / 2) from the vertical.
+TILT = math.asin(0.4)
 CRANK = {"crank.angle": 0.6, "crank.omega": 4.0}
 CASES = {
     "coupler": Case(
@@ -269,6 +314,19 @@ CASES = {
     ),
     "slider loop": Case(trammel, {"rod.angle": 2.6, "rod.omega": 0.5}, ("rod.angle",), of_trammel),
     "loop": Case(loop, {"first.angle": 1.0, "first.omega": 2.0}, ("first.angle",), of_loop),
+    "loop of DLR": Case(
+        dlr_loop,
+        {
+            "slider.x": 0.4,
+            "arm.angle": TILT - 0.69813170079773 - math.pi / 2,
+            "first.angle": TILT - math.pi / 2,
+        },
+        ("slider.x", "arm.angle"),
+        of_dlr_loop,
+        # a heavier slider would be another damped motion: the body lends it only some 0.06 kg
+        twin=0.001,
+        guessed=("first.angle",),
+    ),
     "rods": Case(
         rods,
         {"upper.angle": 0.3, "lower.angle": -0.8},

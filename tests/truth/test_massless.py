@@ -25,8 +25,8 @@ EACH = pytest.mark.parametrize("name", CASES)
 
 def started(case: Case, mass: float) -> tuple[kp.Model, kp.State]:
     model = case.model(mass)
-    exact = {key: x for key, x in case.given.items() if key != "rocker.angle"}
-    guess = {key: x for key, x in case.given.items() if key == "rocker.angle"}
+    exact = {key: x for key, x in case.given.items() if key not in case.guessed}
+    guess = {key: x for key, x in case.given.items() if key in case.guessed}
     return model, kp.assemble(model, exact, guess)
 
 
@@ -37,7 +37,8 @@ def run(case: Case, mass: float, method: kp.Method, t_end: float = T_END) -> kp.
 
 def minimal(case: Case, start: kp.Solution) -> Vector:
     first = [start[name][0] for name in case.coordinates]
-    first += [start[name.replace("angle", "omega")][0] for name in case.coordinates]
+    rates = [name.replace("angle", "omega").replace(".x", ".vx") for name in case.coordinates]
+    first += [start[name][0] for name in rates]
     span = (0.0, float(start.t[-1]))
     found = solve_ivp(
         case.rates, span, first, "DOP853", t_eval=start.t, rtol=3e-14, atol=1e-14, max_step=0.02
