@@ -247,12 +247,12 @@ def of_rods(_: float, y: Vector) -> list[float]:
 
 
 def dlr_loop(mass: float) -> kp.Model:
-    """The published data of ``Examples.KinematicLoop`` of DLR's PlanarMechanics library for Modelica.
+    """``Examples.KinematicLoop`` of DLR's PlanarMechanics library for Modelica, with its data.
 
-    Two massless links of 0.5 m hang from ground and from a massless slider on the x axis, which has a
-    spring of 20 N/m and a damper of 4 N·s/m; at their elbow hangs an arm of 0.6 m with a body of 1 kg
-    and 0.1 kg·m². The slider is released at 0.4 m, where the spring is relaxed, and the arm at -40°
-    from the first link.
+    Two massless links of 0.5 m hang from ground and from a massless slider on the x axis, which has
+    a spring of 20 N/m and a damper of 4 N·s/m; at their elbow hangs an arm of 0.6 m with a body of
+    1 kg and 0.1 kg·m². The slider is released at 0.4 m, where the spring is relaxed, and the arm at
+    -40° from the first link.
     """
     m = kp.Model("kinematic loop of PlanarMechanics", gravity=(0, -G))
     m.ground.points(O=(0, 0), W=(-1, 0))
