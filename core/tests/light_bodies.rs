@@ -340,9 +340,20 @@ fn the_time_of_light_bodies() {
     println!("ten dyads on one crank: {heavy:.2} us; 1e-9 kg {:.2}", light / heavy);
     let hints = [("left.angle", "-1.2"), ("right.angle", "-1.7"), ("first.angle", "-0.6")];
     let hints: Vec<(&str, &str)> = hints.into_iter().chain([("third.angle", "-0.5")]).collect();
-    let [heavy, light] = ["1", "1e-9"]
-        .map(|mass| time(&model(&(GRAVITY.to_string() + &SLACK.replace("LIGHT", mass))), &hints));
-    println!("three links with their own freedom: {heavy:.2} us; 1e-9 kg {:.2}", light / heavy);
+    let of =
+        |mass: &str| time(&model(&(GRAVITY.to_string() + &SLACK.replace("LIGHT", mass))), &hints);
+    own_freedoms("three links with their own freedom", of);
+    for n in [3, 10] {
+        let names: Vec<String> = (0..=n).map(|k| format!("b{k}.angle")).collect();
+        let angles = ["-1.2", "-0.9", "-1.6"];
+        let hints = names.iter().enumerate().map(|(k, name)| (&name[..], angles[k % 3]));
+        let hints: Vec<(&str, &str)> = hints.collect();
+        let of = |mass: &str| {
+            let masses: Vec<&str> = std::iter::repeat_n(mass, n).chain(["1"]).collect();
+            time(&chain(&masses), &hints)
+        };
+        own_freedoms(&format!("a weight on {n} links"), of);
+    }
     for (name, n, every) in [("single links", 10, 2), ("dyads", 30, 3)] {
         let names: Vec<String> = (0..n).map(|k| format!("b{k}.angle")).collect();
         let angles = ["0.3", "-0.6", "1.1"]; // no two neighbours in a line
@@ -355,6 +366,14 @@ fn the_time_of_light_bodies() {
         });
         println!("chain with {name}: {heavy:.2} us; 1e-9 kg {:.2}", light / heavy);
     }
+}
+
+/// Prints the times of an evaluation with light links that have freedoms of their own.
+fn own_freedoms(name: &str, time: impl Fn(&str) -> f64) {
+    let heavy = time("1");
+    let ratios = ["1e-4", "1e-6", "1e-9", "1e-12"].map(|mass| (mass, time(mass) / heavy));
+    let ratios = ratios.map(|(mass, ratio)| format!("{mass} kg {ratio:.2}")).join(", ");
+    println!("{name}: {heavy:.2} us; {ratios}");
 }
 
 /// The least time of an evaluation, us.

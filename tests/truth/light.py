@@ -141,5 +141,6 @@ LIGHT: dict[str, Callable[[float], tuple[kp.Model, dict[str, float]]]] = {
     "between": lambda r: chain(1, r, 1),
     "ever lighter": lambda r: chain(1, r**0.25, r**0.5, r**0.75, r),
     "ever heavier": lambda r: chain(r, r**0.5, 1),
+    "rope": lambda r: chain(r, r, r, r, r, r, 1),
     "mixed": lambda r: chain(1, r, 1, r**0.5, r, r, 1),
 }

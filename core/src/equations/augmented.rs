@@ -273,6 +273,12 @@ impl<S: Real> Augmented<S> {
         x.truncate(x.len() - self.plan.downdates.len());
     }
 
+    /// Whether solutions need [corrections](super::refine::correct), because the removal of additions lost digits.
+    #[inline(always)]
+    pub(super) fn is_inexact(&self) -> bool {
+        !self.plan.downdates.is_empty() && self.saddle.is_inexact(&self.plan.pattern)
+    }
+
     /// The pivot that has lost most digits: its constraint row, and the ratio of the pivot to the largest number from
     /// which it was computed by subtraction.
     pub fn cancellation(&self) -> Option<(usize, f64)> {

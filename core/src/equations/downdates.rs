@@ -10,7 +10,9 @@
 //!
 //! Its pivot -(1 - g)/κ with g = κ u P⁻¹ uᵀ has lost digits if the constraints before it leave the coordinate no other
 //! inertia. The row is therefore eliminated after the constraints of all light bodies that are connected with its own.
-//! If g is near 1 even then, `equations/take_back.rs` removes the addition in another way.
+//! If g is near 1 even then, the solution is corrected with the remainder of the equations
+//! ([`correct`](super::refine::correct)). If this does not converge, `equations/take_back.rs` removes the addition in
+//! another way.
 
 use super::added_mass::Added;
 use super::loans::Addition;

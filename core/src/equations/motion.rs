@@ -196,6 +196,7 @@ impl<S: Real> Workspace<S> {
     pub fn respond(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
         if self.solves_directly() {
             match self.solve_directly(model, t, gains) {
+                Ok(()) if self.matrix.is_inexact() && !self.correct(model, t, gains) => {}
                 // the row of a downdate
                 Err(Breakdown::Row(row)) if row >= model.layout.n_rows => {}
                 Err(Breakdown::Row(_)) if self.matrix.near_singular() != NearSingular::Ignore => {}
@@ -208,7 +209,8 @@ impl<S: Real> Workspace<S> {
     /// As [`respond`](Self::respond), if one elimination solves the equations. Otherwise, or if one of several lanes
     /// needs more, returns false.
     pub fn respond_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> bool {
-        self.solves_directly() && self.solve_directly(model, t, gains).is_ok()
+        let solved = self.solves_directly() && self.solve_directly(model, t, gains).is_ok();
+        solved && !self.matrix.is_inexact()
     }
 
     /// Computes q̈ and λ if the matrix is that of the equations. Each joint is added to the matrix when it is
@@ -235,6 +237,19 @@ impl<S: Real> Workspace<S> {
         let (a, lam) = solution.split_at_mut(self.n_unknowns);
         loans::give_back(loans, &saddle.entries, a, lam);
         Ok(())
+    }
+
+    /// Corrects the direct solution. Returns whether only rounding errors remain.
+    #[inline(never)] // rare
+    fn correct(&mut self, model: &Model<S>, t: S, gains: Gains) -> bool {
+        let Self { motions, z, compiled, matrix, solution, powers, offset, memory, .. } = self;
+        let mut right = vec![S::zero(); self.n_rows];
+        constraints::linearize(model, motions, t, gains, &mut right, matrix.jacobian_mut());
+        right.iter_mut().zip(offset).for_each(|(right, offset)| *right -= *offset);
+        let mut f = vec![S::zero(); self.n_q];
+        let acting = Acting { z, lam: None, t };
+        forces::generalized(model, compiled, motions, acting, &mut f, powers);
+        refine::correct(model, motions, matrix, [&f, &right], solution, memory)
     }
 
     /// Solves with the whole matrix. Its factors may be those of a modified matrix. Iterates forces that depend on

@@ -4,16 +4,18 @@
 //! `equations/take_back.rs` removes, and with damped rows if constraints are redundant. Let K be the true matrix, and
 //! P the matrix of these solutions. The iteration x ← x + P⁻¹ (b - K x) then reduces rounding errors, the error of
 //! redundant rows in proportion to their damping (the method of multipliers), and near singular positions the effect
-//! of the ridge. The remainder is computed with K, so that the limit is exact.
+//! of the ridge. The remainder is computed with K, so that the limit is exact. The same iteration corrects solutions of
+//! `equations/downdates.rs` that have lost digits.
 
 use super::augmented::Augmented;
 use super::kinematics::Motions;
 use super::mass::MassBlock;
 use super::take_back::Directions;
 use super::{constraints, mass};
-use crate::math::Real;
+use crate::math::{Largest, Real};
 use crate::model::Model;
 use crate::solve::Breakdown;
+use std::ops::Range;
 
 /// Number of corrections for redundant rows, each of which reduces the error by ten digits, and near singular
 /// positions, where each multiplies the error by ε² / (σ² + ε²).
@@ -22,6 +24,8 @@ const FOR_REDUNDANCY: usize = 2;
 const MOST: usize = 6;
 /// Remainder of an equation that is a rounding error, relative to the terms of the remainder.
 const ROUNDING: f64 = 2e-15;
+/// Relative size of a last correction. The error that remains is smaller by the same factor again.
+const SMALL: f64 = 1e-9;
 /// A larger remainder indicates a load on a coordinate without mass.
 const SIGNIFICANT: f64 = 1e-9;
 /// Smallest value of the terms relative to the largest term, so that bodies without load are not solved to more
@@ -103,6 +107,58 @@ pub fn solve<S: Real>(
     }
 }
 
+/// Corrects an inexact solution of K x = b with the factors of the matrix. The `solution` has the layout of the matrix,
+/// b the shapes (n_q), (n_rows). Returns whether the solution is then exact to rounding errors.
+pub(super) fn correct<S: Real>(
+    model: &Model<S>,
+    motions: &Motions<S>,
+    matrix: &Augmented<S>,
+    b: [&[S]; 2],
+    solution: &mut [S],
+    memory: &mut Memory<S>,
+) -> bool {
+    let Memory { correction, masses, .. } = memory;
+    let (n, at, rows) = (model.layout.n_q, matrix.plan().n_unknowns(), model.layout.n_rows);
+    mass::put_blocks(model, motions, masses);
+    let least = [0.0, LEAST * most(b[0])];
+    let mut last = f64::INFINITY;
+    for _ in 0..MOST {
+        correction.clear();
+        correction.resize(solution.len(), S::zero());
+        let (a, lam) = solution.split_at(at);
+        let (upper, lower) = correction.split_at_mut(at);
+        let x = [&a[..n], &lam[..rows]];
+        put_parts(model, masses, matrix.jacobian(), b, x, [&mut upper[..n], &mut lower[..rows]]);
+        matrix.solve(correction);
+        solution.iter_mut().zip(&*correction).for_each(|(x, dx)| *x += *dx);
+        let parts = [0..n, at..at + rows].into_iter().zip(least);
+        let of_part = |(part, least): (Range<usize>, f64)| {
+            let (change, size) = (most(&correction[part.clone()]), most(&solution[part]));
+            if change == 0.0 {
+                0.0
+            } else {
+                change / size.max(least)
+            }
+        };
+        let change = parts.map(of_part).sum::<f64>(); // NaN if either is
+        if change <= SMALL {
+            return true;
+        }
+        if change.is_nan() || change > 0.5 * last {
+            return false;
+        }
+        last = change;
+    }
+    false
+}
+
+/// The largest magnitude; NaN if a number is NaN.
+fn most<S: Real>(x: &[S]) -> f64 {
+    let mut largest = Largest::new();
+    x.iter().for_each(|x| largest.add(*x));
+    largest.get()
+}
+
 /// The largest remainder, relative to its terms.
 fn largest<S: Real>(remainder: &[S], terms: &[S]) -> f64 {
     let part = |(r, terms): (&S, &S)| S::select(*terms, *r / *terms, S::zero());
@@ -120,11 +176,25 @@ fn put_remainder<S: Real>(
     let n = model.layout.n_q;
     out.clear();
     out.resize(x.len(), S::zero());
-    let ((a, lam), (upper, lower)) = (x.split_at(n), out.split_at_mut(n));
+    let ((f, right), (a, lam), (upper, lower)) =
+        (b.split_at(n), x.split_at(n), out.split_at_mut(n));
+    put_parts(model, masses, jacobian, [f, right], [a, lam], [upper, lower]);
+}
+
+/// Computes b - K x into `out`, which is zero before. Coordinates and rows are given separately.
+fn put_parts<S: Real>(
+    model: &Model<S>,
+    masses: &[MassBlock<S>],
+    jacobian: &[S],
+    [f, right]: [&[S]; 2],
+    [a, lam]: [&[S]; 2],
+    [upper, lower]: [&mut [S]; 2],
+) {
     constraints::add_transposed(model, jacobian, lam, upper);
     mass::add_blocks(model, masses, a, upper);
     constraints::times_all(model, jacobian, a, lower);
-    out.iter_mut().zip(b).for_each(|(out, b)| *out = *b - *out);
+    upper.iter_mut().zip(f).for_each(|(out, b)| *out = *b - *out);
+    lower.iter_mut().zip(right).for_each(|(out, b)| *out = *b - *out);
 }
 
 /// Computes |b| + |M a| + |Φ_qᵀ| |λ| and |b| + |Φ_q| |a| into `out`, with the `magnitudes` of Φ_q. These are the

@@ -24,7 +24,9 @@ use super::records::{next, Ahead, Left, Row, Update};
 use crate::math::Real;
 
 /// Smallest accepted pivot of a downdate, relative to its terms. Rounding errors grow by the inverse of this number.
-const LEAST_DOWNDATE: f64 = 0.01;
+const LEAST_DOWNDATE: f64 = 1e-12;
+/// A downdate with a smaller pivot, relative to its terms, loses digits that the solution needs.
+const EXACT_DOWNDATE: f64 = 0.01;
 /// Smallest accepted pivot. Its inverse is finite. Pivots of a matrix with NaN or inf are refused.
 const LEAST_PIVOT: f64 = 1e-300;
 
@@ -204,6 +206,14 @@ impl<S: Real> Saddle<S> {
             }
         }
         S::one() / worst
+    }
+
+    /// Whether the pivot of a downdate lost so many digits, in any lane, that solutions need corrections.
+    pub fn is_inexact(&self, pattern: &Pattern) -> bool {
+        let rows = pattern.program.rows.iter().filter(|row| row.downdate);
+        rows.map(|row| &self.factors[row.diagonal as usize..]).any(|block| {
+            (block[0] * block[1]).largest_magnitude() > 1.0 / EXACT_DOWNDATE // S_kk / d
+        })
     }
 
     /// Eliminates row by row, with `RHS` also the right side. The error is the row that depends on other rows.
