@@ -185,6 +185,7 @@ def _show(console: Console, found: SweepResult) -> None:
     from collections import Counter
 
     from kempe.display_units import display
+    from kempe.names import few
     from kempe.remarks import not_unique, starred
 
     names = ", ".join(variable.name for variable in found.variables)
@@ -205,6 +206,11 @@ def _show(console: Console, found: SweepResult) -> None:
     table(console, ["measure", "least", "mean", "largest", "unit"], rows)
     if found.minimum_norm:
         console.print(Text(f"  {not_unique(found.minimum_norm)}"))
+    if found.unbounded:
+        good = int(found.succeeded.sum())
+        names = [f"{text} ({len(k)} of {good} variants)" for text, k in found.unbounded.items()]
+        counted = "without bound at singular positions, counted in mean and rms only"
+        console.print(Text(f"  {counted}: {few(names)}"))
     if found.reasons:
         heading(console, f"{len(found.reasons)} variants failed")
         for reason, count in Counter(_kind(text) for text in found.reasons.values()).most_common(3):
@@ -224,4 +230,5 @@ def _summary(found: SweepResult) -> dict[str, Any]:
         "failed": len(found.reasons),
         "variables": [variable.name for variable in found.variables],
         "measures": list(found.measures),
+        "remarks": dict(found.remarks),
     }
