@@ -185,7 +185,6 @@ def _show(console: Console, found: SweepResult) -> None:
     from collections import Counter
 
     from kempe.display_units import display
-    from kempe.names import few
     from kempe.remarks import not_unique, starred
 
     names = ", ".join(variable.name for variable in found.variables)
@@ -206,15 +205,24 @@ def _show(console: Console, found: SweepResult) -> None:
     table(console, ["measure", "least", "mean", "largest", "unit"], rows)
     if found.minimum_norm:
         console.print(Text(f"  {not_unique(found.minimum_norm)}"))
-    if found.unbounded:
-        good = int(found.succeeded.sum())
-        names = [f"{text} ({len(k)} of {good} variants)" for text, k in found.unbounded.items()]
-        counted = "without bound at singular positions, counted in mean and rms only"
-        console.print(Text(f"  {counted}: {few(names)}"))
+    _show_unbounded(console, found)
     if found.reasons:
         heading(console, f"{len(found.reasons)} variants failed")
         for reason, count in Counter(_kind(text) for text in found.reasons.values()).most_common(3):
             console.print(Text(f"  {count} × {reason}"))
+
+
+def _show_unbounded(console: Console, found: SweepResult) -> None:
+    """Print the measures that have no bound in some variants."""
+    from kempe.names import few
+
+    if found.unbounded:
+        count = int(found.succeeded.sum())
+        told = [
+            f"{text} ({len(rows)} of {count} variants)" for text, rows in found.unbounded.items()
+        ]
+        counted = "without bound at singular positions, counted in mean and rms only"
+        console.print(Text(f"  {counted}: {few(told)}"))
 
 
 def _kind(reason: str) -> str:
