@@ -144,6 +144,18 @@ def remark(*, unique: bool, times: Sequence[float] = (), variable: Variable = TI
     return told + (f", without bound {when(times, variable)}" if times else "")
 
 
+def remark_of_variants(*, unique: bool, unbounded: int, count: int) -> str:
+    """The remarks behind the name of a measure of many variants; empty if there is none.
+
+    Args:
+        unique: whether the values are unique in all variants.
+        unbounded: the number of variants in which the measure has no bound.
+        count: the number of variants that succeeded.
+    """
+    told = remark(unique=unique)
+    return told + (f", without bound in {unbounded} of {count} variants" if unbounded else "")
+
+
 def joint_remark(motion: Motion, joint: str) -> str:
     """The remarks on the reaction of a joint or driver."""
     unique = motion.constraint(joint).unique

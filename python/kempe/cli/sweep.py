@@ -205,10 +205,24 @@ def _show(console: Console, found: SweepResult) -> None:
     table(console, ["measure", "least", "mean", "largest", "unit"], rows)
     if found.minimum_norm:
         console.print(Text(f"  {not_unique(found.minimum_norm)}"))
+    _show_unbounded(console, found)
     if found.reasons:
         heading(console, f"{len(found.reasons)} variants failed")
         for reason, count in Counter(_kind(text) for text in found.reasons.values()).most_common(3):
             console.print(Text(f"  {count} × {reason}"))
+
+
+def _show_unbounded(console: Console, found: SweepResult) -> None:
+    """Print the measures that have no bound in some variants."""
+    from kempe.names import few
+
+    if found.unbounded:
+        count = int(found.succeeded.sum())
+        told = [
+            f"{text} ({len(rows)} of {count} variants)" for text, rows in found.unbounded.items()
+        ]
+        counted = "without bound at singular positions, counted in mean and rms only"
+        console.print(Text(f"  {counted}: {few(told)}"))
 
 
 def _kind(reason: str) -> str:
@@ -224,4 +238,5 @@ def _summary(found: SweepResult) -> dict[str, Any]:
         "failed": len(found.reasons),
         "variables": [variable.name for variable in found.variables],
         "measures": list(found.measures),
+        "remarks": dict(found.remarks),
     }

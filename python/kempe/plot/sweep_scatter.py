@@ -12,6 +12,7 @@ from kempe.display_units import chosen_for
 from kempe.draw.units import axis_label
 from kempe.errors import ModelError
 from kempe.plot import style
+from kempe.plot.remarked import NO_BOUND, SIZE, signed
 from kempe.plot.sweeps import in_unit
 from kempe.values import texts
 
@@ -68,12 +69,16 @@ def sweep_scatter(result: SweepResult, columns: Sequence[str] | None = None) -> 
                     axes.tick_params(labelleft=False)
                 if row == len(names) - 1:
                     axes.set_xlabel(_label(result, across))
+        if result.unbounded.keys() & names:
+            told = f"{NO_BOUND} without bound in some variants"
+            made.suptitle(told, x=0.99, ha="right", fontsize=SIZE)
     return made
 
 
 def _label(result: SweepResult, column: str) -> str:
-    """The name of a column, with its unit where one was chosen."""
+    """The name of a column with its remark, and with its unit where one was chosen."""
     chosen, name = chosen_for(result.units[column]), style.short(column)
+    name += signed(result, column).removeprefix(column).replace(", ", ",\n")  # panels are small
     return axis_label(name, [chosen.symbol]) if chosen else name
 
 

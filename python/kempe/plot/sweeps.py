@@ -14,7 +14,7 @@ from kempe.errors import ModelError
 from kempe.names import entry
 from kempe.plot import style
 from kempe.plot.legend import beside
-from kempe.remarks import remark
+from kempe.plot.remarked import explained, meaning, signed, titled
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -58,7 +58,8 @@ def sweep_lines(result: SweepResult, measure: str, *, ax: Axes | None = None) ->
             chosen = of_lines == level
             _line(axes, x[chosen], values[chosen], k, f"{level:.4g}")
         _axis(axes, "x", result, first)
-        axes.set_ylabel(shown.axis(style.verbatim(named(result, measure))))
+        axes.set_ylabel(shown.axis(style.verbatim(signed(result, measure))))
+        explained(axes, result, measure)
         if others:
             beside(axes)
             title = _labelled(style.short(others[0].name), unit)
@@ -123,7 +124,8 @@ def sweep_map(
         _axis(axes, "y", result, up)
         axes.grid(visible=False)
         bar = axes.figure.colorbar(drawn, ax=axes, pad=0.02)
-        bar.set_label(shown.axis(style.verbatim(named(result, measure))))
+        bar.set_label(shown.axis(style.verbatim(signed(result, measure))))
+        explained(axes, result, measure)
         return axes
 
 
@@ -181,8 +183,8 @@ def sweep_histogram(
             for side in (-1.0, 1.0):
                 axes.axvline(mean + side * deviation, color="black", linewidth=0.8, linestyle="--")
             told = f"{mean:.5g} ± {deviation:.3g} {shown.unit}, {len(good)} variants"
-            axes.set_title(style.verbatim(told), loc="left")
-        axes.set_xlabel(shown.axis(style.verbatim(named(result, measure))))
+            titled(axes, style.verbatim(told), meaning(result, measure))
+        axes.set_xlabel(shown.axis(style.verbatim(signed(result, measure))))
         axes.set_ylabel("variants / 1")
         return axes
 
@@ -205,9 +207,10 @@ def sweep_contributions(
 
     shares: Mapping[str, float]
     if isinstance(result, Tolerances):
-        name, shares, told = result.measure, result.contributions, "first order"
+        sample, name = result.sample, result.measure
+        shares, told = result.contributions, "first order"
     else:
-        name = measure or result.measures[0]
+        sample, name = result, measure or result.measures[0]
         shares, told = contributions(result, name), "share of the variance"
     ordered = sorted(shares.items(), key=lambda item: item[1])
     with style.on(ax, max(35.0, 20.0 + 8.0 * len(ordered))) as axes:
@@ -224,18 +227,15 @@ def sweep_contributions(
                 fontsize=8.0,
             )
         axes.set_xlim(0.0, 100.0)
-        axes.set_xlabel(f"contribution to {style.verbatim(name)} ({told}) / %")
+        shown = style.verbatim(signed(sample, name))
+        axes.set_xlabel(f"contribution to {shown} ({told}) / %")
+        explained(axes, sample, name)
         axes.grid(visible=False, axis="y")
         return axes
 
 
 def _variable(result: SweepResult, name: str) -> Variable:
     return entry("variable", name, {variable.name: variable for variable in result.variables})
-
-
-def named(result: SweepResult, measure: str) -> str:
-    """The name of a measure, with a remark if it is not unique."""
-    return measure + remark(unique=measure not in result.minimum_norm)
 
 
 def _scaled(result: SweepResult, measure: str) -> tuple[Floats, Scale]:

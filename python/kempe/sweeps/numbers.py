@@ -128,6 +128,21 @@ def _value(found: Any, name: str) -> Any:
     return [float(values_of(s, measure_info(s.compiled, text))[0]) for s, text in pairs]
 
 
+def read_at(found: Any, text: str) -> tuple[State, tuple[str, ...]] | None:
+    """The state in which a number at rest is read, and the quantities that it reads.
+
+    None for a number that is not a quantity or an effort at rest, such as a frequency.
+    """
+    name, place = _parts(text)
+    if found.kind != "equilibrium" or name in NUMBERS[found.kind]:
+        return None
+    state = found.states[place or 0]
+    if name.startswith(_EFFORT):
+        driver = name.removeprefix(_EFFORT)
+        return state, (f"{driver}.effort",) if driver in state.compiled.drivers else ()
+    return state, measure_info(state.compiled, _expression(state.compiled, name)).quantities
+
+
 def _expression(model: CompiledModel, name: str) -> str:
     """The expression of a declared measure; any other text is an expression itself."""
     known = model.measures.get(name)

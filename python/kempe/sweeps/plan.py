@@ -10,11 +10,12 @@ import hashlib
 import json
 import warnings
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kempe import _core
 from kempe._version import __version__
@@ -35,6 +36,10 @@ if TYPE_CHECKING:
     from kempe.solution import Solution
 
 
+#: The format of files of sweeps: 2 since rows have marks.
+FORMAT = 2
+
+
 @dataclass(frozen=True)
 class Block:
     """Rows of results.
@@ -42,10 +47,17 @@ class Block:
     Attributes:
         values: the wanted numbers, (n, n_wanted); NaN in rows that failed.
         reasons: why a row failed; empty for the others.
+        marks: the marks of the numbers, (n, n_wanted); see ``kempe.sweeps.remarked``.
     """
 
     values: Floats
-    reasons: list[str] = field(default_factory=list)
+    reasons: list[str]
+    marks: NDArray[np.uint8]
+
+    @classmethod
+    def of(cls, values: Floats) -> Block:
+        """Rows without reasons and marks."""
+        return cls(values, [""] * len(values), np.zeros(values.shape, np.uint8))
 
 
 @dataclass(frozen=True)
@@ -74,12 +86,13 @@ class Plan:
         if not self.is_native:
             return self._singly(given)
         values, reasons, left = self._native(given, workers)
-        block = Block(values, [""] * len(given))
+        block = Block.of(values)
         for row, message in reasons:
             block.reasons[row] = reason(message, self._origin)
         for row in left.tolist():
             one = self._singly(given[row : row + 1])
             block.values[row], block.reasons[row] = one.values[0], one.reasons[0]
+            block.marks[row] = one.marks[0]
         return block
 
     def variant(self, row: Floats) -> Case:
@@ -144,7 +157,8 @@ class Plan:
                 f"results of this sweep cannot be kept in a file: {error.args[0]}",
                 hint="leave out= out, or write the law as a formula",
             ) from error
-        asked = [self.analysis, self.names, [one.text for one in self.wanted], __version__]
+        texts = [one.text for one in self.wanted]
+        asked = [self.analysis, self.names, texts, __version__, FORMAT]
         text = json.dumps([tree, asked], sort_keys=True)
         digest = hashlib.sha256(text.encode())
         digest.update(np.ascontiguousarray(given, dtype="<f8").tobytes())
@@ -181,13 +195,14 @@ class Plan:
         return _core.sweep(*self._request, parameters, coordinates, ordered, workers)
 
     def _singly(self, given: Floats) -> Block:
-        block = Block(np.full((len(given), len(self.wanted)), np.nan), [""] * len(given))
+        block = Block.of(np.full((len(given), len(self.wanted)), np.nan))
         for row, values in enumerate(given):
             try:
                 with warnings.catch_warnings():
                     warnings.simplefilter("ignore")
                     found = self.run(values)
-                    block.values[row] = [one.value(found) for one in self.wanted]
+                    read = [one.read(found) for one in self.wanted]
+                block.values[row], block.marks[row] = zip(*read, strict=True)
             except InternalError:
                 raise
             except KempeError as error:

@@ -1,28 +1,72 @@
-"""The measures of a sweep that read reactions which redundant constraints leave open."""
+"""The marks of a sweep: measures that are not unique, or that have no bound, in some variants.
+
+Each number of each variant has a mark. Single runs set it, because the core leaves all models with
+redundant joints and all variants that pass singular positions to single runs.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import TYPE_CHECKING
 
-from kempe.measures import measure_info
-from kempe.remarks import MINIMUM_NORM, is_unique
+import numpy as np
+
+from kempe.extrema import passes_singular
+from kempe.remarks import MINIMUM_NORM, is_unique, remark_of_variants
+from kempe.sweeps.numbers import read_at
 
 if TYPE_CHECKING:
+    from kempe.measures import Measure
+    from kempe.result import Result
+    from kempe.solution import Solution
     from kempe.sweeps.result import SweepResult
 
+#: The bits of a mark.
+NOT_UNIQUE, NO_BOUND = 1, 2
+#: The statistic that singular positions before the end of a run do not affect.
+_AT_THE_END = "final"
 
-def not_unique(result: SweepResult) -> tuple[str, ...]:
-    """The measures whose values are not unique, examined at the start of the first good variant."""
-    good = result.succeeded.nonzero()[0]
-    wanted = [one for one in result._plan.wanted if one.statistic]
-    model = result._plan.case.model.compile()
-    if model.redundancy != "allow" or not wanted or not len(good):
-        return ()
-    start = result.case(int(good[0])).start()
-    read = {one.text: measure_info(start.compiled, one.expression).quantities for one in wanted}
-    return tuple(text for text, names in read.items() if not is_unique(start, *names))
+
+def mark_of_measure(measure: Measure, solution: Solution, statistic: str) -> int:
+    """The mark of a statistic of a measure in a run."""
+    mark = 0 if measure.unique else NOT_UNIQUE
+    if statistic != _AT_THE_END and measure.info.solves and passes_singular(solution):
+        mark |= NO_BOUND if measure.unbounded_at else 0
+    return mark
+
+
+def mark_of_number(found: Result, text: str) -> int:
+    """The mark of a number of a result that is not a motion."""
+    read = read_at(found, text)
+    return 0 if read is None or is_unique(read[0], *read[1]) else NOT_UNIQUE
+
+
+def minimum_norm(result: SweepResult) -> tuple[str, ...]:
+    """The measures whose values are not unique in some variant."""
+    pairs = zip(result.measures, result._marks.T, strict=True)
+    return tuple(text for text, marks in pairs if np.any(marks & NOT_UNIQUE))
+
+
+def unbounded(result: SweepResult) -> Mapping[str, tuple[int, ...]]:
+    """The rows in which a measure has no bound, by its text."""
+    pairs = zip(result.measures, result._marks.T, strict=True)
+    rows = {text: np.flatnonzero(marks & NO_BOUND).tolist() for text, marks in pairs}
+    return MappingProxyType({text: tuple(of) for text, of in rows.items() if of})
+
+
+def remarks(result: SweepResult) -> Mapping[str, str]:
+    """The remarks on measures by their texts."""
+    open_ones, passed, count = result.minimum_norm, result.unbounded, int(result.succeeded.sum())
+    told = {
+        text: remark_of_variants(
+            unique=text not in open_ones, unbounded=len(passed.get(text, ())), count=count
+        )
+        for text in result.measures
+    }
+    return MappingProxyType({text: of.removeprefix(", ") for text, of in told.items() if of})
 
 
 def labelled(result: SweepResult, column: str) -> str:
-    """The name of a column, with a remark if its values are not unique."""
+    """The name of a column of a file, with a remark if its values are not unique."""
     return f"{column} [{MINIMUM_NORM}]" if column in result.minimum_norm else column

@@ -19,8 +19,8 @@ from kempe.arrays import Floats, fixed
 from kempe.display_units import units
 from kempe.errors import ModelError
 from kempe.names import entry
+from kempe.sweeps import remarked
 from kempe.sweeps.plan import Plan
-from kempe.sweeps.remarked import labelled, not_unique
 from kempe.sweeps.variables import Variable
 from kempe.table import Column, column
 
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 #: Attributes that are computed again.
-_CACHED = ("_by_name", "succeeded", "_tables")
+_CACHED = ("_by_name", "succeeded", "_tables", "minimum_norm", "unbounded", "remarks")
 
 
 class SweepResult:
@@ -57,6 +57,7 @@ class SweepResult:
         )
         self.reasons: Mapping[int, str] = MappingProxyType(table.reasons)
         self._design, self._values = fixed(design), fixed(table.values)
+        self._marks = table.marks
 
     def __len__(self) -> int:
         return len(self._design)
@@ -69,7 +70,28 @@ class SweepResult:
     @cached_property
     def minimum_norm(self) -> tuple[str, ...]:
         """The measures that read reactions which are not unique; see ``Measure.unique``."""
-        return not_unique(self)
+        return remarked.minimum_norm(self)
+
+    @cached_property
+    def unbounded(self) -> Mapping[str, tuple[int, ...]]:
+        """The rows in which a measure has no bound, by its text; see ``Measure.unbounded_at``.
+
+        These variants pass a singular position beside which the measure has no bound. Extreme
+        values exclude the values there; ``mean`` and ``rms`` include the outputs there. Final
+        values are not marked.
+        """
+        return remarked.unbounded(self)
+
+    @cached_property
+    def remarks(self) -> Mapping[str, str]:
+        """The remarks on measures, by their texts; a measure without a remark is not in it.
+
+        A remark is ``minimum norm`` if redundant constraints leave a reaction open, and ``without
+        bound in 2 of 16 variants`` if so many of the variants that succeeded are in ``unbounded``;
+        or both, with a comma. Remarks have no unit. Their source is ``Measure.unique`` and
+        ``Measure.unbounded_at`` of each variant.
+        """
+        return remarked.remarks(self)
 
     def __getitem__(self, column: str) -> Floats:
         """A column, (n,): NaN in the measures of rows that failed.
@@ -96,7 +118,8 @@ class SweepResult:
         """Variables by name, measures by text, and ``reason``, which is empty in most rows.
 
         A pandas data frame, or a structured array if pandas is not installed. Its numbers have the
-        units of ``kp.units``, which are in ``attrs["units"]`` or ``dtype.metadata["units"]``.
+        units of ``kp.units``, which are in ``attrs["units"]`` or ``dtype.metadata["units"]``. The
+        same mappings have ``remarks``, a dict.
         """
         chosen = units().chosen
         if chosen not in self._tables:
@@ -113,19 +136,22 @@ class SweepResult:
         reasons = np.full(len(self), "", dtype=object)
         for k, reason in self.reasons.items():
             reasons[k] = reason
-        known = {each.name: each.unit for each in columns}
+        about = {
+            "units": {each.name: each.unit for each in columns},
+            "remarks": dict(self.remarks),
+        }
         try:
             import pandas
         except ImportError:
             kinds = [*((each.name, np.float64) for each in columns), ("reason", object)]
-            found = np.empty(len(self), np.dtype(kinds, metadata={"units": known}))
+            found = np.empty(len(self), np.dtype(kinds, metadata=about))
             for each in columns:
                 found[each.name] = each.values
             found["reason"] = reasons
             return found
         values = {each.name: each.values for each in columns}
         frame = pandas.DataFrame({**values, "reason": reasons})
-        frame.attrs["units"] = known
+        frame.attrs.update(about)
         return frame
 
     def _shown(self) -> list[Column]:
@@ -144,7 +170,7 @@ class SweepResult:
         text, columns = io.StringIO(), self._shown()
         write = csv.writer(text, lineterminator="\n").writerow
         stated = bool(units().chosen)
-        names = ((each.label if stated else labelled(self, each.name)) for each in columns)
+        names = ((each.label if stated else remarked.labelled(self, each.name)) for each in columns)
         write([*names, "reason"])
         for k, row in enumerate(np.column_stack([each.values for each in columns]).tolist()):
             cells = ["" if np.isnan(x) else f"{x:.17g}" for x in row]
@@ -206,4 +232,8 @@ class SweepResult:
     def __repr__(self) -> str:
         names = ", ".join(variable.name for variable in self.variables)
         told = f"{len(self)} variants over {names}; {len(self.reasons)} failed"
-        return f"<SweepResult: {told}; {', '.join(self.measures)}>"
+        measures = (
+            f"{text} ({self.remarks[text]})" if text in self.remarks else text
+            for text in self.measures
+        )
+        return f"<SweepResult: {told}; {', '.join(measures)}>"

@@ -47,10 +47,16 @@ class Tolerances:
     contributions: Mapping[str, float]
     sample: SweepResult
 
+    @property
+    def remark(self) -> str:
+        """The remark on the measure in the variants; see ``SweepResult.remarks``; often empty."""
+        return self.sample.remarks.get(self.measure, "")
+
     def __repr__(self) -> str:
+        name = f"{self.measure}, {self.remark}" if self.remark else self.measure
         shares = ", ".join(f"{name} {100.0 * x:.3g} %" for name, x in self.contributions.items())
         return (
-            f"<Tolerances of {self.measure}: {self.mean:.6g} ± {self.deviation:.3g} {self.unit}, "
+            f"<Tolerances of {name}: {self.mean:.6g} ± {self.deviation:.3g} {self.unit}, "
             f"first order ± {self.first_order:.3g}; {shares}>"
         )
 

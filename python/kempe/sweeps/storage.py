@@ -1,7 +1,7 @@
 """Finished rows of a sweep in a file, from which it resumes.
 
 The file is an SQLite database. It contains a block of rows either completely or not at all, even
-after the process was killed. Each number is stored as its eight bytes.
+after the process was killed. Each number is stored as its eight bytes, each mark as its byte.
 """
 
 from __future__ import annotations
@@ -22,7 +22,9 @@ from kempe.sweeps.plan import Block
 
 _TABLES = """
 CREATE TABLE IF NOT EXISTS sweep (key TEXT NOT NULL);
-CREATE TABLE IF NOT EXISTS row (k INTEGER PRIMARY KEY, numbers BLOB NOT NULL, reason TEXT NOT NULL);
+CREATE TABLE IF NOT EXISTS row (
+    k INTEGER PRIMARY KEY, numbers BLOB NOT NULL, reason TEXT NOT NULL, marks BLOB NOT NULL
+);
 """
 
 #: Why a file contains another sweep.
@@ -69,21 +71,24 @@ class Storage:
             hint="name a file that a sweep wrote, or one that does not exist",
         ) from error
 
-    def read(self) -> Iterator[tuple[int, Floats, str]]:
-        """The finished rows: number, numbers and reason."""
-        with closing(self._data.execute("SELECT k, numbers, reason FROM row ORDER BY k")) as found:
-            for k, numbers, reason in found:
-                yield k, np.frombuffer(numbers, dtype="<f8"), reason
+    def read(self) -> Iterator[tuple[int, Floats, str, NDArray[np.uint8]]]:
+        """The finished rows: number, numbers, reason and marks."""
+        asked = "SELECT k, numbers, reason, marks FROM row ORDER BY k"
+        with closing(self._data.execute(asked)) as found:
+            for k, numbers, reason, marks in found:
+                read = np.frombuffer(numbers, dtype="<f8")
+                yield k, read, reason, np.frombuffer(marks, dtype=np.uint8)
 
     def add(self, rows: NDArray[np.intp], block: Block) -> None:
         """Write finished rows with these numbers, all or none."""
         values = np.ascontiguousarray(block.values, dtype="<f8")
         entries = (
-            (int(k), values[i].tobytes(), block.reasons[i]) for i, k in enumerate(rows.tolist())
+            (int(k), values[i].tobytes(), block.reasons[i], block.marks[i].tobytes())
+            for i, k in enumerate(rows.tolist())
         )
         try:
             with self._data:
-                self._data.executemany("INSERT OR REPLACE INTO row VALUES (?, ?, ?)", entries)
+                self._data.executemany("INSERT OR REPLACE INTO row VALUES (?, ?, ?, ?)", entries)
         except sqlite3.Error as error:
             self._refuse(error)
 

@@ -25,18 +25,21 @@ class Table:
     Attributes:
         values: the wanted numbers, (n, n_wanted); NaN in rows that failed or are not finished.
         reasons: the reasons of rows that failed.
+        marks: the marks of the numbers, (n, n_wanted); see ``kempe.sweeps.remarked``.
     """
 
     def __init__(
         self, n: int, width: int, storage: Storage | None, progress: Progress | None
     ) -> None:
         self.values = np.full((n, width), np.nan)
+        self.marks = np.zeros((n, width), np.uint8)
         self.reasons: dict[int, str] = {}
         self._done = np.zeros(n, dtype=bool)
         self._storage, self._progress = storage, progress
         if storage is not None:
-            for k, numbers, reason in storage.read():
+            for k, numbers, reason, marks in storage.read():
                 self._put(k, numbers, reason)
+                self.marks[k] = marks
         self._began, self._before = monotonic(), int(self._done.sum())
 
     def _put(self, k: int, numbers: Floats, reason: str) -> None:
@@ -54,7 +57,7 @@ class Table:
         """Keep finished rows."""
         if self._storage is not None:
             self._storage.add(rows, block)
-        self.values[rows] = block.values
+        self.values[rows], self.marks[rows] = block.values, block.marks
         self._done[rows] = True
         for k, reason in zip(rows.tolist(), block.reasons, strict=True):
             if reason:

@@ -11,6 +11,7 @@ from kempe.measures import STATISTICS, Measure, MeasureInfo, measure_info
 from kempe.names import unknown
 from kempe.solution import Solution
 from kempe.sweeps.numbers import driven_model, number, unit_of
+from kempe.sweeps.remarked import mark_of_measure, mark_of_number
 from kempe.values import refuse, texts
 from kempe.variable import TIME
 
@@ -42,15 +43,17 @@ class Wanted:
     unit: str = ""
     of_run: bool = False
 
-    def value(self, found: Solution | Result) -> float:
-        """The number in the result of a single run.
+    def read(self, found: Solution | Result) -> tuple[float, int]:
+        """The number in the result of a single run, and its mark.
 
         Raises:
             KempeError: it has no value.
         """
         if isinstance(found, Solution):
-            return float(getattr(Measure(found, self._info(found.compiled)), self.statistic))
-        return number(found, self.text)
+            measure = Measure(found, self._info(found.compiled))
+            value = float(getattr(measure, self.statistic))
+            return value, mark_of_measure(measure, found, self.statistic)
+        return number(found, self.text), mark_of_number(found, self.text)
 
     def _info(self, model: CompiledModel) -> MeasureInfo:
         return measure_info(model, self.expression)
