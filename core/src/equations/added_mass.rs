@@ -11,11 +11,12 @@
 use crate::math::Real;
 use crate::model::{Body, Model};
 
-/// Mass, relative to the bodies between which a body lies, below which the body is light. A pivot that is reduced to
-/// this fraction by cancellation loses three digits.
-const LIGHT: f64 = 1e-3;
+/// Mass, relative to the bodies between which a body lies, below which the body is light. The pivots of its joints are
+/// about so small a fraction of their terms. At a fifth of this value they would be examined for singular positions
+/// (`solve/regularised.rs`), which takes longer than the elimination.
+const LIGHT: f64 = 1e-2;
 /// Mass of a light body after the addition, relative to the same bodies.
-const FLOOR: f64 = 1e-2;
+const FLOOR: f64 = 2e-2;
 /// Factor on both limits for moments of inertia relative to m l². A slender bar has 1/12 of m l².
 const TURNING: f64 = 0.1;
 /// Limit below which a body is light for implicit methods. Their matrix contains the additions, and Newton's
