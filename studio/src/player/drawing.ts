@@ -18,10 +18,13 @@ export class Drawing {
     numbers: true,
     paths: true,
     reactions: false,
+    force: false,
     velocities: false,
     accelerations: false,
   };
   magnification = 1;
+  /** The number of the body whose arrows are shown; null for those of all bodies. */
+  onBody: number | null = null;
   /** The arrows that were painted last. */
   arrows: Arrow[] = [];
   private readonly vectors: SceneVectors;
@@ -64,7 +67,7 @@ export class Drawing {
       kind,
       unit: vectors.unit(kind),
       pixels: this.magnification * view.fitted() * vectors.length(kind),
-      vectors: vectors.of(kind, now),
+      vectors: vectors.of(kind, now, this.onBody),
     }));
     this.arrows = paintArrows(context, view, kinds, names, colours);
     paintLengthScale(context, view, scene.length, colours);

@@ -257,7 +257,7 @@ function timeDecimals(times) {
 }
 
 // src/draw/arrows.ts
-var ARROW_KINDS = ["reactions", "velocities", "accelerations"];
+var ARROW_KINDS = ["reactions", "force", "velocities", "accelerations"];
 var INSET = 6;
 var TEXT = 12;
 var MOST_COVERED = 12;
@@ -359,6 +359,12 @@ function paintScale(context, view, { kind, unit, pixels }, right, colours2) {
   return right - Math.max(value * pixels, context.measureText(text).width) - 16;
 }
 
+// src/draw/ends.ts
+var ACTING = { reactions: ["joints"], force: ["forces", "drivers"] };
+function chosenEnds(ends, on) {
+  return ends.filter(({ body, sign }) => on === null ? sign === 1 : body === on);
+}
+
 // src/draw/soon.ts
 function soon(paint2) {
   let waiting = false;
@@ -386,12 +392,14 @@ function nameOf(title2, what) {
 }
 
 // src/playerTexts.ts
+var arrowsOn = { label: "Arrows on", all: "all bodies" };
 var playerTexts = {
   linkage: "Linkage",
   theLinkage: "the linkage",
   drawingOf: (title2) => `Drawing of ${title2}`,
   plotOf: (name) => `Plot over time: ${name}`,
   on: (body) => `on ${body}`,
+  remarked: (owner, remark) => `${owner} (${remark})`,
   of: (end) => `of ${end}`,
   play: "Play",
   pause: "Pause",
@@ -425,6 +433,369 @@ var playerTexts = {
   acting: { reactions: (part) => `Reaction ${part}`, forces: (part) => `Element ${part}` },
   parts: { force: "force", force_x: "force x", force_y: "force y", torque: "torque" },
   channels: { coordinates: "Coordinate", states: "State", energy: "Energy", accuracy: "Residual |Φ|" }
+};
+var playerPage = {
+  noScript: "This animation needs JavaScript.",
+  seconds: "time in seconds",
+  drawing: { drawing: "Drawing", show: "Show", names: "Names", numbers: "Numbers", paths: "Paths" },
+  arrows: { reactions: "Reactions", force: "Forces", velocities: "Velocities", accelerations: "Accelerations" },
+  reactions: "Force of each joint on its second body, or on the chosen body",
+  force: "Force of each driver and force element on its second body, or on the chosen body",
+  velocities: "Velocity of the traced points, or of the points of the chosen body",
+  accelerations: "Acceleration of the traced points, or of the points of the chosen body",
+  onBody: arrowsOn.label,
+  onAll: arrowsOn.all,
+  view: { view: "View", in: "Zoom in", out: "Zoom out", fit: "Fit", all: "Show everything" },
+  scale: { longer: "Longer arrows", shorter: "Shorter arrows" },
+  save: { png: "PNG", csv: "CSV", drawing: "Save the drawing as PNG", plots: "Save the plots as PNG" },
+  values: { csv: "Save the plotted curves as CSV", units: "in SI units and rad" },
+  plots: { plots: "Plots", degrees: "° and rpm", add: "Add plot", addHint: "Add a plot" },
+  playback: {
+    playback: "Playback",
+    play: "Play",
+    hint: "Play or pause",
+    speed: "Speed",
+    time: "Time",
+    repeat: "Repeat"
+  },
+  frames: { first: "To the start", back: "One frame back", forward: "One frame forward", last: "To the end" },
+  card: { quantity: "Quantity", subject: "Bodies or elements", log: "log", logHint: "Logarithmic axis" },
+  legend: { remove: "Remove this plot", values: "Values" },
+  names: { keys: "Keys", space: "space", home: "Home", end: "End" },
+  keys: [
+    "play, pause",
+    "one frame; ten with shift",
+    "faster, slower",
+    "start, end",
+    "zoom in, out, show all",
+    "repeat"
+  ],
+  drag: ["drag, wheel", "move and zoom the drawing"],
+  click: ["click in a plot", "go to that time"],
+  wheel: ["ctrl and wheel", "stretch the plots, as + and - in a plot; double click shows all"]
+};
+
+// src/texts.ts
+var articles = {
+  body: "a body, or empty ground",
+  curve: "a body with a curve",
+  coordinate: "a body or an element that moves"
+};
+var article = (shape) => articles[shape] ?? `a ${shape}`;
+var variable = (name) => name === "t" ? "the time" : name;
+var NAME = "kempe studio";
+var coreTexts = {
+  trapped: "The core stopped and was started again. The text is unchanged.",
+  tooLarge: "The text has more than 2 MB. It was not opened; use kempe run.",
+  replaced: "Another text was opened before this one was read.",
+  tooLong: "The computation took too long and was ended. The text is unchanged.",
+  notConnected: "The core is not connected.",
+  notReady: "The core is not ready."
+};
+var texts = {
+  name: NAME,
+  starting: "The core starts …",
+  failed: "The core could not start. This page needs a browser with WebAssembly and DecompressionStream.",
+  core: coreTexts,
+  modesName: "Mode",
+  modes: { edit: "Edit", move: "Move", live: "Live", read: "Read" },
+  modeHints: {
+    edit: "Draw and change the geometry (1)",
+    move: "Drag the mechanism; every length is kept (2)",
+    live: "Let it move under its forces (3)",
+    read: "Run an analysis and read its results (4)"
+  },
+  playback: { play: "Play", pause: "Pause", speed: "Speed", time: "Time" },
+  files: { csv: "CSV", npz: "NPZ", png: "PNG", svg: "SVG", gif: "GIF" },
+  untitled: "Untitled mechanism",
+  menu: { new: "New", open: "Open", save: "Save", gallery: "Gallery", share: "Share", undo: "Undo", redo: "Redo" },
+  menuHints: {
+    open: "Open a case file (ctrl O)",
+    save: "Save the case as TOML (ctrl S)",
+    undo: "Undo (ctrl Z)",
+    redo: "Redo (ctrl shift Z)",
+    gallery: "Examples to start from",
+    share: "A link that holds the whole model"
+  },
+  groups: { bodies: "Bodies", joints: "Joints", drivers: "Drivers", forces: "Forces" },
+  palette: { title: "Insert", select: "Select and drag" },
+  tabs: { insert: "Insert", properties: "Properties", text: "Text", results: "Results" },
+  sheet: {
+    shown: { names: "Names", numbers: "Numbers", grid: "Grid", traces: "Paths" },
+    label: (name) => `Drawing of ${name}`,
+    zoomIn: "Zoom in (+)",
+    zoomOut: "Zoom out (−)",
+    fit: "Fit",
+    fitHint: "Show everything (0)",
+    snap: "Snap",
+    snapHint: "Snap to the grid and to multiples of 15°; hold alt to place freely",
+    pngHint: "Save the drawing as PNG",
+    svgHint: "Save the drawing as SVG",
+    gifHint: "Save the motion as a GIF, at the speed of the playback",
+    gifProgress: (percent) => `GIF ${percent} % ×`,
+    gifCancel: "Cancel the GIF",
+    length: (unit) => `Length / ${unit}`,
+    finish: "Finish",
+    stop: "Cancel"
+  },
+  edit: {
+    fixed: (body, point) => `${body}.${point} does not follow: a length or a formula of the text determines it.`,
+    place: (body) => `Place ${body} by its points`,
+    noLength: (unit) => `A length is greater than 0: a number in ${unit}, a number with its unit, or a formula.`,
+    lengthHint: (unit) => `A number in ${unit}, a number with its unit such as 800 mm, or a formula in m such as 0.5*2`,
+    noNotation: "This is not a value in the notation of the file.",
+    notKept: (body) => `With this length of ${body} the bodies beside it cannot keep theirs; they were changed.`,
+    noMirror: (body) => `${body} cannot be mirrored: it must be placed by points, without shapes, outlines and curves.`,
+    invalidName: (name) => `“${name}” cannot be a name: a name has letters, digits and _ and is used once.`
+  },
+  place: {
+    first: (label, placing) => placing === "fixed" ? `${label}: click where the fixed point is.` : placing === "one" ? `${label}: click where it is.` : `${label}: click its first point. An existing point is joined by a pin.`,
+    next: (label, many) => many ? `${label}: click the next point; double click or enter finishes.` : `${label}: click its second point, or type a length.`,
+    choose: (label, field, shape) => `${label}: click ${article(shape)} for ${field}.`,
+    wanted: (shape) => `There is no ${shape} here. Click ${article(shape)}.`,
+    addCurve: (body) => `Add a curve to ${body}`,
+    held: (owner) => `${owner} cannot be driven here: the joints and drivers leave it no freedom. Click another body or joint.`,
+    added: (label, name) => `${label} “${name}” added.`,
+    incomplete: (label, name, problem) => `${label} “${name}” added. Problem: ${problem}`
+  },
+  properties: {
+    case: "Mechanism",
+    title: "Title",
+    gravity: "Gravity",
+    parameters: "Parameters",
+    addParameter: "Add a parameter",
+    parameterName: "Name of the parameter",
+    elements: "Contents",
+    nothing: "An empty sheet. Choose a body among the tools and click two places, or open an example.",
+    analyses: "Analyses",
+    addAnalysis: "Add an analysis",
+    startSet: "Prescribed at the start",
+    startName: "Coordinate or rate to prescribe at the start",
+    startValue: "Its value",
+    addStart: "Prescribe at the start",
+    startExamples: ["crank.angle", "70*deg"],
+    name: "Name",
+    point: "Point",
+    position: "Position",
+    remove: "Delete",
+    removeHint: "Delete (del)",
+    addPoint: "Add a point",
+    addPointHint: "A point beside the middle; drag it to its place. Read draws its path",
+    addCurve: "Add a curve",
+    addCurveHint: "A circle around the body, or a line on the ground; type its form in “curves”",
+    copy: "Duplicate",
+    mirror: "Mirror",
+    mirrorHint: "Mirror at the vertical line through its middle",
+    required: "required",
+    back: "All contents",
+    length: "Length now",
+    bodyLength: "length",
+    results: "Now",
+    held: "Kept while drawing",
+    lengths: "lengths",
+    angle: "angle",
+    absent: "–"
+  },
+  measures: {
+    title: "Measures",
+    add: "Measure a quantity, such as C.force",
+    numbers: (peak, mean, final) => `peak ${peak}, mean ${mean}, last ${final}`
+  },
+  outline: {
+    open: "Outline from SVG …",
+    hint: "The paths of a file become the outline; a unit of the file is a millimetre unless its width has a unit",
+    unreadable: (file) => `${file} has no path that can be read. Convert its shapes to paths and apply their transforms.`
+  },
+  picture: {
+    title: "Picture behind the drawing",
+    open: "Open a picture …",
+    unreadable: (file) => `${file} is not a picture that the browser can show.`,
+    opacity: "Opacity",
+    scale: "Scale by two points",
+    first: "Click the first of two points of the picture whose distance you know; arrow keys and space do so, too.",
+    second: "Click the second point.",
+    distance: (unit) => `Their distance / ${unit}`,
+    apply: "Apply",
+    remove: "Remove the picture"
+  },
+  editor: {
+    label: "Text of the case in TOML",
+    problems: (n) => `${n} ${n === 1 ? "problem" : "problems"}`
+  },
+  status: {
+    freedom: (n) => `${n} ${n === 1 ? "degree" : "degrees"} of freedom`,
+    redundant: (n) => `${n} redundant ${n === 1 ? "equation" : "equations"}`,
+    singular: "singular position",
+    open: "does not close",
+    at: (line, column) => column ? `line ${line}, column ${column}` : `line ${line}`,
+    warnings: (n) => `${n} ${n === 1 ? "warning" : "warnings"}`,
+    bodies: (n) => `${n} moving ${n === 1 ? "body" : "bodies"}`,
+    dismiss: "Dismiss"
+  },
+  move: {
+    hint: "Drag a point or a body. Every length is kept.",
+    speeds: "Speeds of the drivers",
+    speedHint: "A number with its unit, such as 10 rpm or 30 mm/s, or a formula",
+    configurations: "Assembly modes",
+    find: "Find all assembly modes",
+    only: "This is the only configuration with the present free coordinates.",
+    complete: "All modes were found.",
+    partial: "There may be more modes.",
+    mode: (k) => `Mode ${k}`,
+    locked: "Held during a drag",
+    reset: "Back to the start",
+    play: "Play the drivers",
+    mobility: "Mobility",
+    moreLoops: (n) => `… and ${n} more loops of four bars`,
+    count: (n, complete) => complete ? String(n) : `at least ${n}`,
+    freedom: "Degrees of freedom",
+    redundant: "Redundant equations",
+    gruebler: "Grübler count",
+    rank: "Rank of the constraints",
+    fourBar: (pins, kind, turning) => `${pins}: ${kind}${turning ? `; turns fully: ${turning}` : ""}`
+  },
+  live: {
+    energies: { kinetic: "Kinetic", potential: "Potential", dissipated: "Dissipated", work: "Work of drivers" },
+    step: "One step (1/60 s)",
+    restart: "Back to the start",
+    hint: "Pull at a body with the mouse, or at the selected one with the arrow keys.",
+    pulled: (body) => `The arrow keys pull at ${body}; esc lets go.`,
+    energy: "Energy",
+    balance: "Relative error of the balance",
+    residual: "Residual of the joints",
+    parameters: "Parameters",
+    event: (names) => `Event: ${names}`
+  },
+  read: {
+    arrows: { reactions: "Reactions", force: "Forces", velocities: "Velocities", accelerations: "Accelerations" },
+    run: "Run",
+    running: "Running …",
+    analysis: "Analysis",
+    defaults: "from this pose",
+    on: (body) => `on ${body}`,
+    end: "End / s",
+    over: "over a quantity",
+    quantityOver: "Quantity on the axis",
+    ends: ["from", "to"],
+    noRange: "The range is not complete. Write its first and its last value.",
+    atUnitRate: (name, unit) => `Rates, powers and inertia forces are those at 1 ${unit}/s of ${name}.`,
+    done: (count, name, end) => `${count} states up to ${name} = ${end}`,
+    none: "Run an analysis to read its results.",
+    plots: "Plots",
+    addPlot: "Add plot",
+    others: "Measures and angles",
+    addQuantity: "Add a quantity …",
+    compare: "Compare …",
+    compareHint: "Open a stored run (solution.npz of kempe run, or NPZ of this page); its curves are dashed",
+    compared: (file, n) => `${n} quantities of ${file} are compared.`,
+    notCompared: (file) => `${file} is not a stored run of a mechanism with these bodies.`,
+    stored: "stored",
+    otherAxis: (own, present, positions) => `The stored run is over ${variable(own)}, the plots are over ${variable(present)}. ${positions ? "Only its positions are drawn." : `It is not drawn. A run over ${variable(own)} can be compared.`}`,
+    endComparison: (file) => `End the comparison with ${file}`,
+    csvHint: "Save the plotted curves as CSV, in SI units and rad",
+    npzHint: "Save times, poses and plotted quantities for NumPy",
+    pngHint: "Save the plots as PNG",
+    svgHint: "Save the plots as SVG",
+    plotOf: (names) => `Plot of ${names}; + and − stretch it, 0 shows all of it`,
+    log: "log",
+    logHint: "Logarithmic axis",
+    onBody: arrowsOn.label,
+    onAll: arrowsOn.all,
+    peak: "peak"
+  },
+  units: {
+    title: "Units of the display",
+    length: "Lengths",
+    lengthHint: "Unit of typed lengths, readings, plots and tables; with m, small values are written in mm",
+    degrees: "° and rpm"
+  },
+  gallery: { title: "Examples", close: "Close", open: "Open" },
+  ready: {
+    title: "What can be computed",
+    yes: "ready",
+    add: (label) => `add a ${label.toLowerCase()}`,
+    text: "show the text",
+    notSingle: (freedom) => freedom === 0 ? "nothing can move; limits need a degree of freedom" : `${freedom} degrees of freedom are left; limits need drivers for all but one`,
+    names: {
+      assembly: "Assembly",
+      dynamics: "Dynamics",
+      kinematics: "Kinematics",
+      inverse_dynamics: "Inverse dynamics",
+      equilibrium: "Equilibrium (kempe run)",
+      modes: "Modes (kempe run)",
+      limits: "Limits (kempe run)"
+    }
+  },
+  share: {
+    title: "Share",
+    text: "The link holds the whole model, compressed. Nothing is sent to anyone until you send the link.",
+    length: (n, most) => `${n} of at most ${most} characters`,
+    tooLong: (n, most) => `The model needs ${n} characters; a link has at most ${most}. Save the file and send it instead.`,
+    copy: "Copy the link",
+    copied: "The link was copied.",
+    damaged: "The link is damaged or too long; it was not opened.",
+    pageTitle: "As a page",
+    page: "One file with this mechanism and the whole studio, for a lecture, a disk or any web server. It needs no network.",
+    savePage: "Save as a page"
+  },
+  help: {
+    title: "Keys and help",
+    licences: "Licences of the software in this page",
+    keys: [
+      ["1 2 3 4", "edit, move, live, read"],
+      ["ctrl Z, ctrl shift Z", "undo, redo"],
+      ["ctrl S, ctrl O", "save, open"],
+      ["ctrl C, ctrl V", "copy and paste the selected body"],
+      ["del", "delete the selection"],
+      ["esc", "end the tool, clear the selection; in Live, let go"],
+      ["enter", "finish a body with several points"],
+      ["digits", "length of the line that is being drawn"],
+      [
+        "arrow keys",
+        "move the selected point; with a tool, the place of the next click; in Move, the body; in Live, pull at it"
+      ],
+      ["shift arrow keys", "move the sheet"],
+      ["alt", "place freely, without snapping"],
+      ["+ − 0", "zoom in, out, show everything"],
+      ["space", "play, pause; with a tool or to scale a picture, click at the place that the arrow keys move"],
+      ["wheel, two fingers", "zoom; drag the empty sheet to move it"]
+    ]
+  },
+  hints: {
+    dismiss: "Hide this hint",
+    all: {
+      edit: "Drag a point to change the geometry; everything that is pinned there follows.",
+      move: "Drag the mechanism; arrow keys push the selected body.",
+      live: "Hold a body with the mouse, or press the arrow keys, to pull at it; space pauses.",
+      read: "The slider below the drawing shows any time of the run; curves follow.",
+      two: "Type digits after the first click for an exact length; begin at a point to pin the bar there.",
+      many: "Click all points of the body; enter or a double click finishes it.",
+      one: "Click where the mass is; on a point it is pinned there.",
+      fixed: "Each click makes a fixed point; a body that begins there is pinned to ground.",
+      reference: "The line below the drawing names what to click next; esc begins again."
+    }
+  },
+  guide: {
+    title: "A first four-bar linkage",
+    begin: "Build a four-bar step by step",
+    replaces: "It begins on an empty sheet. Undo brings back what you have drawn.",
+    skip: "Skip",
+    leave: "Leave",
+    end: "Done",
+    count: (k, n) => `${k}/${n}`,
+    mode: (name) => `Switch to “${name}”.`,
+    tool: (label, step) => `Choose the tool “${label}”: follow the dashed frame.${step === "driver" ? " It turns the crank." : ""}`,
+    steps: {
+      ground: "Click two fixed points. They hold the linkage.",
+      crank: "Draw the crank: click a fixed point, then its free end. The bar is pinned where it begins.",
+      coupler: "Draw the coupler: from the end of the crank to a new point.",
+      rocker: "Draw the rocker: from the end of the coupler to the other fixed point. The loop closes.",
+      driver: "Click the crank. The driver turns it ten times in each minute; the parameter of its speed can be changed.",
+      move: "Drag the end of the crank around. Every length is kept.",
+      live: "The driver turns the crank. Pull at a bar and watch the energy.",
+      read: "The analysis is done: paths on the sheet, curves at the side. Tick “Reactions” for the forces in the pins."
+    }
+  }
 };
 
 // src/draw/loop.ts
@@ -489,8 +860,8 @@ var Clock = class {
     const times = this.motion.t;
     const { low, share } = this.motion.place(this.t);
     const here = share >= 1 ? low + 1 : low;
-    const between = share > 0 && share < 1 && frames < 0 ? 1 : 0;
-    this.seek(times[Math.min(times.length - 1, Math.max(0, here + frames + between))]);
+    const between2 = share > 0 && share < 1 && frames < 0 ? 1 : 0;
+    this.seek(times[Math.min(times.length - 1, Math.max(0, here + frames + between2))]);
   }
   play() {
     if (this.playing || this.motion.end <= this.motion.begin) return;
@@ -931,6 +1302,46 @@ var View = class {
   }
 };
 
+// src/player/acting.ts
+var Acting = class {
+  constructor(scene2) {
+    this.scene = scene2;
+    const joints = scene2.joints.map(({ name }, k) => [name, (now) => now.forces[k]]);
+    this.forces = new Map([...joints, ...ofChannels(scene2)]);
+  }
+  scene;
+  forces;
+  /** The vectors of a kind at an instant; `on` is the number of a body, or null for bodies j. */
+  of(kind, now, on) {
+    const groups = ACTING[kind];
+    const ends = this.scene.ends.filter(({ group }) => groups.includes(group));
+    return chosenEnds(ends, on).flatMap((end) => {
+      const force = this.forces.get(end.element);
+      return force ? [this.vector(end, force(now), now)] : [];
+    });
+  }
+  vector({ element, body, frame, point, sign, remark }, [x, y], now) {
+    const owner = playerTexts.on(shortened(this.scene.bodies[body].name, 16));
+    return {
+      element,
+      owner: remark ? playerTexts.remarked(owner, remark) : owner,
+      at: placed(now.poses[frame], point),
+      value: [sign * x, sign * y]
+    };
+  }
+};
+function ofChannels({ channels }) {
+  const parts = new Map(channels.map(({ of, quantity: quantity2, values }) => [`${of}.${quantity2}`, values]));
+  return [...new Set(channels.map(({ of }) => of))].flatMap((of) => {
+    const [x, y] = [parts.get(`${of}.force_x`), parts.get(`${of}.force_y`)];
+    if (!x || !y) return [];
+    return [[of, ({ place: { low, high, share } }) => [between(x, low, high, share), between(y, low, high, share)]]];
+  });
+}
+function between(values, low, high, share) {
+  return values[low] * (1 - share) + values[high] * share;
+}
+
 // src/plane/instants.ts
 function placeIn(times, t) {
   let [low, high] = [0, times.length - 1];
@@ -991,14 +1402,16 @@ var Motion = class {
       poses: [GROUND, ...bodies.map((body) => hermite(poses, rates, body, place))],
       rates: [GROUND, ...bodies.map((body) => hermite(rates, accelerations, body, place))],
       accelerations: [GROUND, ...bodies.map((body) => linear(accelerations, body, place))],
-      forces: reactions[place.low].map((_, joint) => linear(reactions, joint, place))
+      forces: reactions[place.low].map((_, joint) => linear(reactions, joint, place)),
+      place
     };
   }
   /** Everything at frame k. */
   frame(k) {
     const { poses, rates, accelerations, reactions } = this.scene.frames;
     const [pose, rate, acceleration2] = [poses, rates, accelerations].map((all) => [GROUND, ...all[k]]);
-    return { t: this.t[k], poses: pose, rates: rate, accelerations: acceleration2, forces: reactions[k] };
+    const place = { low: k, high: k, share: 0 };
+    return { t: this.t[k], poses: pose, rates: rate, accelerations: acceleration2, forces: reactions[k], place };
   }
   /** Value at t of a curve: `values` at the frames and their `slopes`. */
   value({ values, slopes }, t) {
@@ -1062,11 +1475,12 @@ function linear(values, which, { low, high, share }) {
 
 // src/player/vectors.ts
 var LONGEST = 0.22;
-var UNITS = { reactions: "N", velocities: "m/s", accelerations: "m/s²" };
+var UNITS = { reactions: "N", force: "N", velocities: "m/s", accelerations: "m/s²" };
 function lengths({ bounds, reaction_scale: { force, length }, largest: largest2 }) {
   const share = (value) => value > 0 ? LONGEST * extent(bounds) / value : 0;
   return {
     reactions: length / force,
+    force: share(largest2.force),
     velocities: share(largest2.velocity),
     accelerations: share(largest2.acceleration)
   };
@@ -1074,11 +1488,11 @@ function lengths({ bounds, reaction_scale: { force, length }, largest: largest2 
 var SceneVectors = class {
   constructor(scene2) {
     this.scene = scene2;
-    this.tracked = tracked(scene2);
+    this.acting = new Acting(scene2);
     this.lengths = lengths(scene2);
   }
   scene;
-  tracked;
+  acting;
   lengths;
   unit(kind) {
     return UNITS[kind];
@@ -1087,30 +1501,29 @@ var SceneVectors = class {
   length(kind) {
     return this.lengths[kind];
   }
-  /** Those of a kind: the force of each joint on its body j, or of each tracked point. */
-  of(kind, now) {
-    if (kind === "reactions") return this.reactions(now);
+  /** Those of a kind, of all bodies or of one: forces at the ends of elements, otherwise of points. */
+  of(kind, now, on) {
+    if (kind === "reactions" || kind === "force") return this.acting.of(kind, now, on);
     const vector = kind === "velocities" ? velocity : acceleration;
-    return this.tracked.map(({ name, body, at }) => ({
+    return tracked(this.scene, on).map(({ name, body, at }) => ({
       element: name,
       owner: shortened(name, 20),
       at: placed(now.poses[body], at),
       value: vector(now, body, at)
     }));
   }
-  reactions(now) {
-    return this.scene.joints.map(({ name, bodies: [, j], points: [, at] }, k) => ({
-      element: name,
-      owner: playerTexts.on(shortened(this.scene.bodies[j].name, 16)),
-      at: placed(now.poses[j], at),
-      value: now.forces[k]
-    }));
-  }
 };
-function tracked({ bodies, traces }) {
-  const points = traces.map(({ name, body, point }) => ({ name, body, at: point }));
-  const others = bodies.filter(({ number, points: named }) => number > 0 && !named.length);
-  return [...points, ...others.map(({ name, number, center }) => ({ name, body: number, at: center }))];
+function tracked({ bodies, traces }, on) {
+  const moving = bodies.filter(({ number }) => number > 0 && (on === null || number === on));
+  const own = moving.flatMap(
+    ({ name, number, points }) => points.map((point) => ({ name: `${name}.${point.name}`, body: number, at: point.at }))
+  );
+  const traced = traces.map(({ name, body, point }) => ({ name, body, at: point }));
+  const others = moving.filter(({ points }) => !points.length);
+  return [
+    ...on === null ? traced : own,
+    ...others.map(({ name, number, center }) => ({ name, body: number, at: center }))
+  ];
 }
 
 // src/player/drawing.ts
@@ -1134,10 +1547,13 @@ var Drawing = class {
     numbers: true,
     paths: true,
     reactions: false,
+    force: false,
     velocities: false,
     accelerations: false
   };
   magnification = 1;
+  /** The number of the body whose arrows are shown; null for those of all bodies. */
+  onBody = null;
   /** The arrows that were painted last. */
   arrows = [];
   vectors;
@@ -1165,7 +1581,7 @@ var Drawing = class {
       kind,
       unit: vectors.unit(kind),
       pixels: this.magnification * view.fitted() * vectors.length(kind),
-      vectors: vectors.of(kind, now)
+      vectors: vectors.of(kind, now, this.onBody)
     }));
     this.arrows = paintArrows(context, view, kinds, names, colours2);
     paintLengthScale(context, view, scene2.length, colours2);
@@ -1353,8 +1769,8 @@ function showTitle({ title: title2 }, motion2, decimals2) {
   byId("drawing").setAttribute("aria-label", playerTexts.drawingOf(title2 || playerTexts.theLinkage));
 }
 function showSampling({ accuracy }, motion2) {
-  const between = accuracy === null ? "" : playerTexts.within(Number((100 * accuracy).toPrecision(2)));
-  byId("sampling").textContent = playerTexts.instants(motion2.t.length) + (motion2.smooth ? between : playerTexts.notBetween);
+  const between2 = accuracy === null ? "" : playerTexts.within(Number((100 * accuracy).toPrecision(2)));
+  byId("sampling").textContent = playerTexts.instants(motion2.t.length) + (motion2.smooth ? between2 : playerTexts.notBetween);
 }
 
 // src/player/keyboard.ts
@@ -1919,7 +2335,7 @@ var MOVING2 = [
   { key: "acceleration", symbol: "|a|", unit: "m/s²", order: 2, component: null, rate: null }
 ];
 var DERIVATIVES = [(now, body, at) => placed(now.poses[body], at), velocity, acceleration];
-var ACTING = { force: "|F|", force_x: "Fx", force_y: "Fy", torque: "T" };
+var ACTING2 = { force: "|F|", force_x: "Fx", force_y: "Fy", torque: "T" };
 var OF_SCENE = { coordinates: "u", states: "z", energy: "E", accuracy: "|Φ|" };
 function quantities(scene2, motion2) {
   const all = [
@@ -1992,7 +2408,7 @@ function ofElements(scene2, motion2, group) {
     force_x: ([x]) => x,
     force_y: ([, y]) => y
   };
-  return Object.entries(ACTING).map(([key, symbol]) => {
+  return Object.entries(ACTING2).map(([key, symbol]) => {
     const unit = key === "torque" ? "N·m" : "N";
     const part = ofJoint[key];
     const joints = group === "reactions" && part ? scene2.joints : [];
@@ -2323,12 +2739,24 @@ function connectToggles() {
     const box = byId(`show-${what}`);
     const follow = () => {
       drawing.shown[what] = box.checked;
-      for (const id of ["longer", "shorter"]) byId(id).hidden = !ARROW_KINDS.some((kind) => drawing.shown[kind]);
+      const none = !ARROW_KINDS.some((kind) => drawing.shown[kind]);
+      for (const id of ["longer", "shorter", "arrows-on"]) byId(id).hidden = none;
       repaint();
     };
     box.addEventListener("change", follow);
     follow();
   }
+}
+function connectBodies() {
+  const choice = byId("on-body");
+  const listed = scene.bodies.map(({ name, number }) => new Option(shortened(name, 24), String(number)));
+  choice.append(...listed);
+  choice.addEventListener("change", () => {
+    drawing.onBody = choice.value === "" ? null : Number(choice.value);
+    repaint();
+  });
+  const forces = ACTING.force;
+  byId("forces").hidden = !scene.ends.some(({ group }) => forces.includes(group));
 }
 function connectKeys() {
   listen({
@@ -2363,6 +2791,7 @@ showTitle(scene, motion, decimals);
 connectPlots();
 connectButtons();
 connectToggles();
+connectBodies();
 connectKeys();
 movable(byId("drawing"), drawing.view, repaint);
 new ResizeObserver(() => {
