@@ -1,7 +1,8 @@
 // All English texts of the player.
 
 /** The choice of the body whose arrows are shown, in the player and in the studio. */
-export const arrowsOn = { label: "Arrows on", all: "all bodies" } as const;
+export const ARROWS_ON = "Arrows on";
+export const ON_ALL = "all bodies";
 
 /** Of the script of the player. */
 export const playerTexts = {
@@ -56,8 +57,8 @@ export const playerPage = {
   force: "Force of each driver and force element on its second body, or on the chosen body",
   velocities: "Velocity of the traced points, or of the points of the chosen body",
   accelerations: "Acceleration of the traced points, or of the points of the chosen body",
-  onBody: arrowsOn.label,
-  onAll: arrowsOn.all,
+  onBody: ARROWS_ON,
+  onAll: ON_ALL,
   view: { view: "View", in: "Zoom in", out: "Zoom out", fit: "Fit", all: "Show everything" },
   scale: { longer: "Longer arrows", shorter: "Shorter arrows" },
   save: { png: "PNG", csv: "CSV", drawing: "Save the drawing as PNG", plots: "Save the plots as PNG" },

@@ -87,6 +87,25 @@ def test_forces_on_a_body_are_in_balance_with_its_inertia(name: str, body: str) 
     assert np.abs(moment).max() < 1e-7 * max(turns)
 
 
+@pytest.mark.parametrize(
+    ("name", "element", "body", "point"),
+    [
+        ("jumping_follower", "touch", "cam", (0.005, 0.0)),  # a contact
+        ("cam_roller", "contact", "follower", (0.0, 0.0)),  # a joint
+    ],
+)
+def test_forces_of_a_body_on_a_curve_act_at_its_point(
+    name: str, element: str, body: str, point: tuple[float, float]
+) -> None:
+    solution = example(name)
+    scene = kp.scene(solution, frames=23)
+    place = solution(np.array(scene["frames"]["t"])).body(body).at(point).position
+    ends = [end for end in scene["ends"] if end["element"] == element]
+    assert sorted(end["sign"] for end in ends) == [-1, 1]
+    for end in ends:
+        np.testing.assert_allclose(place_of(scene, end), place, rtol=1e-8, atol=1e-10)
+
+
 def test_a_stop_of_a_coordinate_exerts_no_force_on_ground() -> None:
     scene = kp.scene(example("slamming_door"), frames=23)
     assert [end["body"] for end in scene["ends"] if end["element"] == "stop"] == [1]
