@@ -11,7 +11,7 @@ export const playerTexts = {
   drawingOf: (title: string) => `Drawing of ${title}`,
   plotOf: (name: string) => `Plot over time: ${name}`,
   on: (body: string) => `on ${body}`,
-  remarked: (owner: string, remark: string) => `${owner} (${remark})`,
+  remarked: (remark: string) => `(${remark})`,
   of: (end: string) => `of ${end}`,
   play: "Play",
   pause: "Pause",

@@ -163,8 +163,21 @@ def test_reactions_that_are_not_unique_are_marked(opened: Any) -> None:
     watched.settle()
     texts = {one["element"]: one["text"] for one in watched.state()["arrows"]}
     for name in ("D", "again"):
-        assert texts[f"{name} (minimum norm)"].endswith(" on rocker (minimum norm)")
+        assert texts[f"{name} (minimum norm)"].endswith(" on rocker *")
     assert texts["B"].endswith(" on coupler")
+    assert "* minimum norm" in {one["text"] for one in watched.texts("#drawing")}
+
+
+def test_reactions_without_bound_are_marked(opened: Any) -> None:
+    watched = opened(example("garage_door"), 1280, 800)
+    watched.settle()
+    notes = [one["text"] for one in watched.texts("#drawing") if "bound" in one["text"]]
+    assert notes == []
+    watched.page.check("#show-reactions")
+    watched.seek(2.0)
+    assert all(one["text"].endswith(" *") for one in watched.state()["arrows"])
+    notes = [one["text"] for one in watched.texts("#drawing") if "bound" in one["text"]]
+    assert notes == ["* without bound at 1.398 s"]
 
 
 def test_forces_take_little_of_the_file(tmp_path: Path) -> None:

@@ -1,6 +1,6 @@
 // The drawing: what is shown of the scene at one instant, and the part of the plane that is seen.
 import { ARROW_KINDS, type Arrow, paintArrows } from "../draw/arrows";
-import { paintGravity, paintGrid, paintLengthScale } from "../draw/measure";
+import { paintGravity, paintGrid, paintLengthScale, paintNotes } from "../draw/measure";
 import { paintItems } from "../draw/paint";
 import { type Colours, cleared, sharpen } from "../draw/surface";
 import { paintTraces, Trace } from "../draw/traces";
@@ -63,7 +63,9 @@ export class Drawing {
     paintGrid(context, view, colours, false);
     if (shown.paths) paintTraces(context, view, this.traces, colours);
     const names = paintItems(context, view, scene.display, now.poses, shown, colours);
-    const kinds = ARROW_KINDS.filter((kind) => shown[kind]).map((kind) => ({
+    const chosen = ARROW_KINDS.filter((kind) => shown[kind]);
+    names.push(...paintNotes(context, vectors.acting.notes(chosen), colours));
+    const kinds = chosen.map((kind) => ({
       kind,
       unit: vectors.unit(kind),
       pixels: this.magnification * view.fitted() * vectors.length(kind),

@@ -30,7 +30,7 @@ function lengths({ bounds, reaction_scale: { force, length }, largest }: Scene):
 
 /** The vectors that can be drawn at an instant. */
 export class SceneVectors {
-  private readonly acting: Acting;
+  readonly acting: Acting;
   private readonly lengths: Record<ArrowKind, number>;
 
   constructor(private readonly scene: Scene) {

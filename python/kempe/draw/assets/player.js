@@ -398,7 +398,7 @@ var playerTexts = {
   drawingOf: (title2) => `Drawing of ${title2}`,
   plotOf: (name) => `Plot over time: ${name}`,
   on: (body) => `on ${body}`,
-  remarked: (owner, remark) => `${owner} (${remark})`,
+  remarked: (remark) => `(${remark})`,
   of: (end) => `of ${end}`,
   play: "Play",
   pause: "Pause",
@@ -644,6 +644,16 @@ function paintLengthScale(context, view, { unit, metres }, colours2) {
   context.textBaseline = "alphabetic";
   const text = `${Number((step / metres).toPrecision(3))} ${unit}`;
   rimmed(context, text, [x + length / 2, y - 6], colours2.named.soft, colours2.named.panel);
+}
+function paintNotes(context, notes, colours2) {
+  context.font = font(12);
+  context.textAlign = "left";
+  context.textBaseline = "middle";
+  return notes.map((note, k) => {
+    const [x, y] = [16, 18 + 18 * k];
+    rimmed(context, note, [x, y], colours2.named.soft, colours2.named.panel);
+    return [x, y - 8, x + context.measureText(note).width, y + 8];
+  });
 }
 function paintGravity(context, view, gravity, colours2) {
   const size = Math.hypot(...gravity);
@@ -939,14 +949,19 @@ var View = class {
 };
 
 // src/player/acting.ts
+var SIGNS = ["*", "†", "‡", "§"];
 var Acting = class {
   constructor(scene2) {
     this.scene = scene2;
     const joints = scene2.joints.map(({ name }, k) => [name, (now) => now.forces[k]]);
     this.forces = new Map([...joints, ...ofChannels(scene2)]);
+    const remarks = new Set(scene2.ends.map(({ remark }) => remark).filter((remark) => remark));
+    this.signs = new Map([...remarks].slice(0, SIGNS.length).map((remark, k) => [remark, SIGNS[k]]));
   }
   scene;
   forces;
+  /** The sign of each remark; further remarks stand beside their arrows. */
+  signs;
   /** The vectors of a kind at an instant; `on` is the number of a body, or null for bodies j. */
   of(kind, now, on) {
     const groups = ACTING[kind];
@@ -956,11 +971,17 @@ var Acting = class {
       return force ? [this.vector(end, force(now), now)] : [];
     });
   }
+  /** What the signs beside arrows of some kinds mean, a line for each sign. */
+  notes(kinds) {
+    const groups = Object.entries(ACTING).flatMap(([kind, own]) => kinds.includes(kind) ? [...own] : []);
+    const shown = new Set(this.scene.ends.filter(({ group }) => groups.includes(group)).map(({ remark }) => remark));
+    return [...this.signs].filter(([remark]) => shown.has(remark)).map(([remark, sign]) => `${sign} ${remark}`);
+  }
   vector({ element, body, frame, point, sign, remark }, [x, y], now) {
     const owner = playerTexts.on(shortened(this.scene.bodies[body].name, 16));
     return {
       element,
-      owner: remark ? playerTexts.remarked(owner, remark) : owner,
+      owner: remark ? `${owner} ${this.signs.get(remark) ?? playerTexts.remarked(remark)}` : owner,
       at: placed(now.poses[frame], point),
       value: [sign * x, sign * y]
     };
@@ -1213,7 +1234,9 @@ var Drawing = class {
     paintGrid(context, view, colours2, false);
     if (shown.paths) paintTraces(context, view, this.traces, colours2);
     const names = paintItems(context, view, scene2.display, now.poses, shown, colours2);
-    const kinds = ARROW_KINDS.filter((kind) => shown[kind]).map((kind) => ({
+    const chosen = ARROW_KINDS.filter((kind) => shown[kind]);
+    names.push(...paintNotes(context, vectors.acting.notes(chosen), colours2));
+    const kinds = chosen.map((kind) => ({
       kind,
       unit: vectors.unit(kind),
       pixels: this.magnification * view.fitted() * vectors.length(kind),
