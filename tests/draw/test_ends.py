@@ -127,6 +127,6 @@ def test_ends_have_the_remarks_of_reactions() -> None:
     guess = {"coupler.angle": "14*deg", "rocker.angle": "240*deg"}
     state = kp.assemble(model, set={"crank.angle": "70*deg"}, guess=guess, redundancy="allow")
     assert state.constraint("D").unique is False
-    told = {end["element"]: end["remark"] for end in kp.scene(state)["ends"]}
-    assert told["D"] == told["again"] == "minimum norm"
-    assert told["B"] == ""
+    remarks = {end["element"]: end["remark"] for end in kp.scene(state)["ends"]}
+    assert remarks["D"] == remarks["again"] == "minimum norm"
+    assert remarks["B"] == ""

@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from kempe.arrays import Floats
 from kempe.compiled import ConstraintInfo
 from kempe.draw.numbers import plain
 from kempe.infos import ForceInfo, Vector
@@ -46,15 +45,12 @@ def _of_joint(
     """A joint on a curve has no point of body j: both forces act at the point of body i."""
     at_i = info.i, info.point_i
     at_j = at_i if info.coordinates else (info.j, info.point_j)
-    forces = {on: motion.constraint(info.name).force(on=on) for on in (info.i, info.j)}
-    told = joint_remark(drawn, info.name)
-    return _made(motion, info, info.group, forces, {info.i: at_i, info.j: at_j}, told)
+    return _made(motion, info, {info.i: at_i, info.j: at_j}, joint_remark(drawn, info.name))
 
 
 def _of_force(motion: Motion, info: ForceInfo) -> list[dict[str, Any]]:
-    forces = {on: motion.force(info.name).force(on=on) for on in (info.i, info.j)}
     told = remark(unique=is_unique(motion, f"{info.name}.force"))
-    return _made(motion, info, "forces", forces, _places(motion, info), told)
+    return _made(motion, info, _places(motion, info), told)
 
 
 def _places(motion: Motion, info: ForceInfo) -> dict[str, _Place]:
@@ -77,14 +73,11 @@ def _places(motion: Motion, info: ForceInfo) -> dict[str, _Place]:
 
 
 def _made(
-    motion: Motion,
-    info: ConstraintInfo | ForceInfo,
-    group: str,
-    forces: Mapping[str, Floats],
-    places: Mapping[str, _Place],
-    told: str,
+    motion: Motion, info: ConstraintInfo | ForceInfo, places: Mapping[str, _Place], told: str
 ) -> list[dict[str, Any]]:
     """The ends on bodies j and i, if the force on i is opposite to that on j."""
+    group = info.group if isinstance(info, ConstraintInfo) else "forces"
+    forces = {on: motion[info.name].force(on=on) for on in (info.i, info.j)}
     of_j = forces[info.j]
     most = float(np.nanmax(np.abs(of_j), initial=0.0))
     if not most > 0.0:
