@@ -2398,8 +2398,7 @@ function connectToggles() {
     const box = byId(`show-${what}`);
     const follow = () => {
       drawing.shown[what] = box.checked;
-      const none = !ARROW_KINDS.some((kind) => drawing.shown[kind]);
-      for (const id of ["longer", "shorter", "arrows-on"]) byId(id).hidden = none;
+      for (const id of ["longer", "shorter"]) byId(id).hidden = !ARROW_KINDS.some((kind) => drawing.shown[kind]);
       repaint();
     };
     box.addEventListener("change", follow);
