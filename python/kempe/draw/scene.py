@@ -95,7 +95,7 @@ def scene(
         "events": _events(solution_or_state, motion),
         "playback": {"rate": playback_rate(float(motion.t[-1] - motion.t[0]))},
         "reaction_scale": _reaction_scale(peaks["reaction"], size),
-        "largest": {kind: peaks[kind] for kind in ("force", "velocity", "acceleration")},
+        "largest": {kind: peak for kind, peak in peaks.items() if kind != "reaction"},
         "ends": ends(solution_or_state, motion),
         "channels": channels.channels(motion, sampling.energy(solution_or_state, motion)),
         "minimum_norm": [name for name in model.constraints if name in motion.not_unique],
