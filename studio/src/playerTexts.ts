@@ -1,5 +1,9 @@
 // All English texts of the player.
 
+/** The choice of the body whose arrows are shown, in the player and in the studio. */
+export const ARROWS_ON = "Arrows on";
+export const ON_ALL = "all bodies";
+
 /** Of the script of the player. */
 export const playerTexts = {
   linkage: "Linkage",
@@ -7,6 +11,7 @@ export const playerTexts = {
   drawingOf: (title: string) => `Drawing of ${title}`,
   plotOf: (name: string) => `Plot over time: ${name}`,
   on: (body: string) => `on ${body}`,
+  remarked: (remark: string) => `(${remark})`,
   of: (end: string) => `of ${end}`,
   play: "Play",
   pause: "Pause",
@@ -47,10 +52,13 @@ export const playerPage = {
   noScript: "This animation needs JavaScript.",
   seconds: "time in seconds",
   drawing: { drawing: "Drawing", show: "Show", names: "Names", numbers: "Numbers", paths: "Paths" },
-  arrows: { reactions: "Reactions", velocities: "Velocities", accelerations: "Accelerations" },
-  reactions: "Force of each joint on its second body",
-  velocities: "Velocity of the traced points",
-  accelerations: "Acceleration of the traced points",
+  arrows: { reactions: "Reactions", force: "Forces", velocities: "Velocities", accelerations: "Accelerations" },
+  reactions: "Force of each joint on its second body, or on the chosen body",
+  force: "Force of each driver and force element on its second body, or on the chosen body",
+  velocities: "Velocity of the traced points, or of the points of the chosen body",
+  accelerations: "Acceleration of the traced points, or of the points of the chosen body",
+  onBody: ARROWS_ON,
+  onAll: ON_ALL,
   view: { view: "View", in: "Zoom in", out: "Zoom out", fit: "Fit", all: "Show everything" },
   scale: { longer: "Longer arrows", shorter: "Shorter arrows" },
   save: { png: "PNG", csv: "CSV", drawing: "Save the drawing as PNG", plots: "Save the plots as PNG" },

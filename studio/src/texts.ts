@@ -1,5 +1,7 @@
 // All English texts of the studio and its worker, and with playerTexts.ts those of the player. Names of types, their
 // fields and their descriptions come from the catalogue. Each bundle contains only the parts that it imports.
+import { ARROWS_ON, ON_ALL } from "./playerTexts";
+
 export * from "./playerTexts";
 
 const articles: Record<string, string> = {
@@ -253,8 +255,8 @@ export const texts = {
     plotOf: (names: string) => `Plot of ${names}; + and − stretch it, 0 shows all of it`,
     log: "log",
     logHint: "Logarithmic axis",
-    onBody: "Arrows on",
-    onAll: "all bodies",
+    onBody: ARROWS_ON,
+    onAll: ON_ALL,
     peak: "peak",
   },
   units: {

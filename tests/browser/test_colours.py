@@ -5,7 +5,7 @@ from typing import Any
 import numpy as np
 from draw.mechanisms import moving
 
-TEXTS = ("text", "soft", "accent", "reactions", "velocities", "accelerations")
+TEXTS = ("text", "soft", "accent", "reactions", "force", "velocities", "accelerations")
 
 
 def test_the_colours_of_text_and_lines_can_be_read(opened: Any) -> None:

@@ -6,7 +6,7 @@ run that passes such a position is searched between its frames.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from functools import lru_cache, partial
 from typing import Any
@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from kempe.arrays import Floats
+from kempe.compiled import ConstraintInfo, ForceInfo
 from kempe.draw.numbers import rounded
 from kempe.errors import KempeError
 from kempe.extrema import Quantity, largest, passes_singular
@@ -49,7 +50,7 @@ def tracked(bodies: list[dict[str, Any]], traces: list[dict[str, Any]]) -> list[
 
 
 def peaks(drawn: Solution | State, motion: Motion, points: list[Tracked]) -> dict[str, float]:
-    """The largest reaction, N, and the largest velocity and acceleration of the points, SI.
+    """The largest magnitudes, SI: of reactions, forces, and velocities and accelerations of points.
 
     Args:
         drawn: the whole motion.
@@ -61,6 +62,7 @@ def peaks(drawn: Solution | State, motion: Motion, points: list[Tracked]) -> dic
     at = [(names[body], (point[0], point[1])) for body, point in points]
     return {
         "reaction": _peak(whole, motion, _reaction),
+        "force": _peak(whole, motion, _force),
         "velocity": _peak(whole, motion, partial(_of_points, at, "velocity")),
         "acceleration": _peak(whole, motion, partial(_of_points, at, "acceleration")),
     }
@@ -81,9 +83,19 @@ def _peak(whole: Solution | None, motion: Motion, quantity: Quantity) -> float:
 
 def _reaction(motion: Motion) -> Floats:
     """The largest magnitude over all joints, (n_t,), N."""
+    return _largest(motion, motion.compiled.joints)
+
+
+def _force(motion: Motion) -> Floats:
+    """The largest magnitude over all drivers and force elements, (n_t,), N."""
+    return _largest(motion, {**motion.compiled.drivers, **motion.compiled.forces})
+
+
+def _largest(motion: Motion, elements: Mapping[str, ConstraintInfo | ForceInfo]) -> Floats:
+    """The largest force on body j over some elements, (n_t,), N."""
     found = np.zeros(np.shape(np.atleast_1d(motion.t)))
-    for name, info in motion.compiled.joints.items():
-        found = np.fmax(found, _size(motion.constraint(name).force(on=info.j)))
+    for name, info in elements.items():
+        found = np.fmax(found, _size(motion[name].force(on=info.j)))
     return found
 
 

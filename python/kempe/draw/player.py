@@ -79,7 +79,10 @@ def page(shown: Scene, *, labels: bool = True) -> str:
 
 
 def _remarked(shown: Scene) -> Scene:
-    """The scene with a remark after the names of joints and drivers without a unique reaction."""
+    """The scene with a remark after the names of joints and drivers without a unique reaction.
+
+    Their ends get the same names, by which the page finds the forces.
+    """
     open_ones = shown["minimum_norm"]
 
     def remarked(one: dict[str, Any], key: str) -> dict[str, Any]:
@@ -90,7 +93,8 @@ def _remarked(shown: Scene) -> Scene:
     channels = [
         remarked(one, "of") if one["group"] == "reactions" else one for one in shown["channels"]
     ]
-    return {**shown, "joints": joints, "channels": channels}
+    ends = [remarked(end, "element") for end in shown["ends"]]
+    return {**shown, "joints": joints, "channels": channels, "ends": ends}
 
 
 def _json_for_html(shown: Scene) -> str:

@@ -15,6 +15,7 @@ from kempe.arrays import Floats
 from kempe.compiled import ACCELERATIONS, COORDINATES, RATES, CompiledModel
 from kempe.display_units import chosen_for, display
 from kempe.draw import arrows, channels, sampling
+from kempe.draw.ends import ends
 from kempe.draw.numbers import plain, round_below, rounded
 from kempe.drawing import static_scene
 from kempe.errors import ModelError
@@ -94,7 +95,8 @@ def scene(
         "events": _events(solution_or_state, motion),
         "playback": {"rate": playback_rate(float(motion.t[-1] - motion.t[0]))},
         "reaction_scale": _reaction_scale(peaks["reaction"], size),
-        "largest": {kind: peaks[kind] for kind in ("velocity", "acceleration")},
+        "largest": {kind: peak for kind, peak in peaks.items() if kind != "reaction"},
+        "ends": ends(solution_or_state, motion),
         "channels": channels.channels(motion, sampling.energy(solution_or_state, motion)),
         "minimum_norm": [name for name in model.constraints if name in motion.not_unique],
     }

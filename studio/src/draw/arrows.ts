@@ -7,7 +7,7 @@ import type { Box } from "./paint";
 import { type Colours, font, rimmed } from "./surface";
 import { roundBelow } from "./ticks";
 
-export const ARROW_KINDS = ["reactions", "velocities", "accelerations"] as const;
+export const ARROW_KINDS = ["reactions", "force", "velocities", "accelerations"] as const;
 export type ArrowKind = (typeof ARROW_KINDS)[number];
 
 export interface Vector {
@@ -21,7 +21,7 @@ export interface Vector {
 
 /** The vectors of one kind at one instant, and how long one unit of them is, px. */
 export interface Vectors {
-  kind: ArrowKind | "force";
+  kind: ArrowKind;
   unit: string;
   pixels: number;
   vectors: Vector[];

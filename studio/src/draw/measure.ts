@@ -3,6 +3,7 @@ import type { Point } from "../plane/points";
 import type { View } from "../plane/view";
 import { paintArrow } from "./arrow";
 import { Line } from "./line";
+import type { Box } from "./paint";
 import { type Colours, font, rimmed } from "./surface";
 import { roundBelow } from "./ticks";
 
@@ -65,6 +66,18 @@ export function paintLengthScale(
   context.textBaseline = "alphabetic";
   const text = `${Number((step / metres).toPrecision(3))} ${unit}`;
   rimmed(context, text, [x + length / 2, y - 6], colours.named.soft, colours.named.panel);
+}
+
+/** Lines of text in the upper left corner; returns their boxes. */
+export function paintNotes(context: CanvasRenderingContext2D, notes: readonly string[], colours: Colours): Box[] {
+  context.font = font(12);
+  context.textAlign = "left";
+  context.textBaseline = "middle";
+  return notes.map((note, k) => {
+    const [x, y] = [16, 18 + 18 * k];
+    rimmed(context, note, [x, y], colours.named.soft, colours.named.panel);
+    return [x, y - 8, x + context.measureText(note).width, y + 8];
+  });
 }
 
 /** Which way things fall. */

@@ -2,6 +2,7 @@
 import { type Group, typeOf } from "../catalogue/catalogue";
 import { entry } from "../catalogue/tree";
 import type { Triple } from "../core/protocol";
+import { chosenEnds, type End } from "../draw/ends";
 import { type Point, placed } from "../plane/points";
 import { catalogue, mechanism, poses, scene, tree } from "../store/state";
 
@@ -11,24 +12,11 @@ interface Drawn {
   points: [Point | null, Point | null];
 }
 
-/** One end of an element: the body on which it acts, where, and the sign of the force there. */
-export interface End {
-  element: string;
-  /** The number of the body. */
-  body: number;
-  /** Where in the plane. */
-  at: Point;
-  sign: 1 | -1;
-}
-
 /** The ends on body j of all elements of groups, or those on one body; `on` is the number of the body. */
 export function endsOf(groups: readonly Group[], on: number | null): End[] {
   return groups.flatMap((group) => {
     const drawn = drawnOf(group);
-    return [...drawn].flatMap(([element, one]) => {
-      const [i, j] = ends(group, element, one);
-      return on === null ? j : [...i, ...j].filter(({ body }) => body === on);
-    });
+    return [...drawn].flatMap(([element, one]) => chosenEnds(ends(group, element, one), on));
   });
 }
 
@@ -49,7 +37,7 @@ function drawnOf(group: Group): Map<string, Drawn> {
 type Named = Drawn & { name?: string; element?: string };
 
 /** The ends on the bodies i and j. An element without a point of body i acts on body j only. */
-function ends(group: Group, element: string, { bodies, points }: Drawn): [End[], End[]] {
+function ends(group: Group, element: string, { bodies, points }: Drawn): End[] {
   const written = entry(tree.value, group, element) ?? {};
   const fields = typeOf(catalogue.value, group, element, written)?.fields ?? [];
   // What moves along a curve of body j acts where the point of body i is.
@@ -59,7 +47,8 @@ function ends(group: Group, element: string, { bodies, points }: Drawn): [End[],
     return pose && point ? [{ element, body, at: placed(pose as Triple, point), sign }] : [];
   };
   const [i, j] = [written.i, written.j].map((reference, k) => numberOf(reference) ?? bodies[k]!) as [number, number];
-  return [end(i, bodies[0], points[0], -1), along ? end(j, bodies[0], points[0], 1) : end(j, bodies[1], points[1], 1)];
+  const k = along ? 0 : 1;
+  return [...end(i, bodies[0], points[0], -1), ...end(j, bodies[k], points[k], 1)];
 }
 
 /** The number of the body in a reference such as `crank.A`. */

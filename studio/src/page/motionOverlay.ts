@@ -1,8 +1,9 @@
 // What a run adds to the drawing: traces of points, arrows of forces and velocities.
 import { computed, effect, signal } from "@preact/signals";
 import type { Group } from "../catalogue/catalogue";
-import type { Vectors } from "../draw/arrows";
+import type { ArrowKind, Vectors } from "../draw/arrows";
 import { displayed } from "../draw/display";
+import { ACTING } from "../draw/ends";
 import { Trace } from "../draw/traces";
 import { type Course, course, quantities, time, valuesOf } from "../modes/read";
 import { points } from "../modes/seen";
@@ -16,12 +17,12 @@ import { endsOf } from "./acting";
 
 /** Kinds of arrows: the endings of the names of their two components, and the groups whose elements have them. */
 export const KINDS = {
-  reactions: { ends: ["fx", "fy"], groups: ["joints"] },
-  force: { ends: ["fx", "fy"], groups: ["forces", "drivers"] },
+  reactions: { ends: ["fx", "fy"], groups: ACTING.reactions },
+  force: { ends: ["fx", "fy"], groups: ACTING.force },
   velocities: { ends: ["vx", "vy"], groups: [] },
   accelerations: { ends: ["ax", "ay"], groups: [] },
-} as const satisfies Record<Vectors["kind"], { ends: [string, string]; groups: Group[] }>;
-export type Kind = Vectors["kind"];
+} as const satisfies Record<ArrowKind, { ends: [string, string]; groups: readonly Group[] }>;
+export type Kind = ArrowKind;
 export const arrows = signal<Record<Kind, boolean>>({
   reactions: false,
   force: false,

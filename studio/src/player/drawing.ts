@@ -1,6 +1,6 @@
 // The drawing: what is shown of the scene at one instant, and the part of the plane that is seen.
 import { ARROW_KINDS, type Arrow, paintArrows } from "../draw/arrows";
-import { paintGravity, paintGrid, paintLengthScale } from "../draw/measure";
+import { paintGravity, paintGrid, paintLengthScale, paintNotes } from "../draw/measure";
 import { paintItems } from "../draw/paint";
 import { type Colours, cleared, sharpen } from "../draw/surface";
 import { paintTraces, Trace } from "../draw/traces";
@@ -18,10 +18,13 @@ export class Drawing {
     numbers: true,
     paths: true,
     reactions: false,
+    force: false,
     velocities: false,
     accelerations: false,
   };
   magnification = 1;
+  /** The number of the body whose arrows are shown; null for those of all bodies. */
+  onBody: number | null = null;
   /** The arrows that were painted last. */
   arrows: Arrow[] = [];
   private readonly vectors: SceneVectors;
@@ -60,11 +63,13 @@ export class Drawing {
     paintGrid(context, view, colours, false);
     if (shown.paths) paintTraces(context, view, this.traces, colours);
     const names = paintItems(context, view, scene.display, now.poses, shown, colours);
-    const kinds = ARROW_KINDS.filter((kind) => shown[kind]).map((kind) => ({
+    const chosen = ARROW_KINDS.filter((kind) => shown[kind]);
+    names.push(...paintNotes(context, vectors.acting.notes(chosen), colours));
+    const kinds = chosen.map((kind) => ({
       kind,
       unit: vectors.unit(kind),
       pixels: this.magnification * view.fitted() * vectors.length(kind),
-      vectors: vectors.of(kind, now),
+      vectors: vectors.of(kind, now, this.onBody),
     }));
     this.arrows = paintArrows(context, view, kinds, names, colours);
     paintLengthScale(context, view, scene.length, colours);

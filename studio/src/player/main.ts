@@ -1,5 +1,7 @@
 // Puts the page together.
 import { ARROW_KINDS } from "../draw/arrows";
+import { ACTING } from "../draw/ends";
+import { shortened } from "../draw/numbers";
 import { soon } from "../draw/soon";
 import { palette } from "../draw/surface";
 import { timeDecimals } from "../draw/ticks";
@@ -131,6 +133,19 @@ function connectToggles(): void {
   }
 }
 
+/** The choice of the body whose arrows are shown; names are text, whatever they contain. */
+function connectBodies(): void {
+  const choice = byId<HTMLSelectElement>("on-body");
+  const listed = scene.bodies.map(({ name, number }) => new Option(shortened(name, 24), String(number)));
+  choice.append(...listed);
+  choice.addEventListener("change", () => {
+    drawing.onBody = choice.value === "" ? null : Number(choice.value);
+    repaint();
+  });
+  const forces: readonly string[] = ACTING.force;
+  byId("forces").hidden = !scene.ends.some(({ group }) => forces.includes(group));
+}
+
 function connectKeys(): void {
   listen({
     " ": () => clock.toggle(),
@@ -167,6 +182,7 @@ showTitle(scene, motion, decimals);
 connectPlots();
 connectButtons();
 connectToggles();
+connectBodies();
 connectKeys();
 movable(byId("drawing"), drawing.view, repaint);
 new ResizeObserver(() => {

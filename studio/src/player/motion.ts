@@ -21,6 +21,8 @@ export interface Instant {
   accelerations: Placement[];
   /** The force of each joint on its body j. */
   forces: Point[];
+  /** Between which frames it is. */
+  place: Pick<Place, "low" | "high" | "share">;
 }
 
 /** A motion over the frames of a scene. */
@@ -76,6 +78,7 @@ export class Motion {
       rates: [GROUND, ...bodies.map((body) => hermite(rates, accelerations, body, place))],
       accelerations: [GROUND, ...bodies.map((body) => linear(accelerations, body, place))],
       forces: reactions[place.low]!.map((_, joint) => linear(reactions, joint, place)),
+      place,
     };
   }
 
@@ -83,7 +86,8 @@ export class Motion {
   frame(k: number): Instant {
     const { poses, rates, accelerations, reactions } = this.scene.frames;
     const [pose, rate, acceleration] = [poses, rates, accelerations].map((all) => [GROUND, ...all[k]!]);
-    return { t: this.t[k]!, poses: pose!, rates: rate!, accelerations: acceleration!, forces: reactions[k]! };
+    const place = { low: k, high: k, share: 0 };
+    return { t: this.t[k]!, poses: pose!, rates: rate!, accelerations: acceleration!, forces: reactions[k]!, place };
   }
 
   /** Value at t of a curve: `values` at the frames and their `slopes`. */

@@ -37,7 +37,17 @@ export interface Scene {
   events: { name: string; t: number }[];
   playback: { rate: number };
   reaction_scale: { force: number; length: number };
-  largest: { velocity: number; acceleration: number };
+  largest: { force: number; velocity: number; acceleration: number };
+  /** Where forces of elements act: a point in the frame of a body, and the sign of the force on body j. */
+  ends: {
+    element: string;
+    group: "joints" | "drivers" | "forces";
+    body: number;
+    frame: number;
+    point: Point;
+    sign: 1 | -1;
+    remark: string;
+  }[];
   channels: Channel[];
   display: Item[];
 }

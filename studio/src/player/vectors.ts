@@ -3,13 +3,13 @@ import type { ArrowKind, Vector } from "../draw/arrows";
 import { shortened } from "../draw/numbers";
 import { type Point, placed } from "../plane/points";
 import { extent } from "../plane/view";
-import { playerTexts as texts } from "../texts";
+import { Acting } from "./acting";
 import { acceleration, type Instant, velocity } from "./motion";
 import type { Scene } from "./scene";
 
-/** Share of the drawing that the largest velocity and the largest acceleration take. */
+/** Share of the drawing that the largest force, velocity and acceleration take. */
 const LONGEST = 0.22;
-const UNITS: Record<ArrowKind, string> = { reactions: "N", velocities: "m/s", accelerations: "m/s²" };
+const UNITS: Record<ArrowKind, string> = { reactions: "N", force: "N", velocities: "m/s", accelerations: "m/s²" };
 
 interface Tracked {
   name: string;
@@ -22,6 +22,7 @@ function lengths({ bounds, reaction_scale: { force, length }, largest }: Scene):
   const share = (value: number) => (value > 0 ? (LONGEST * extent(bounds)) / value : 0);
   return {
     reactions: length / force,
+    force: share(largest.force),
     velocities: share(largest.velocity),
     accelerations: share(largest.acceleration),
   };
@@ -29,11 +30,11 @@ function lengths({ bounds, reaction_scale: { force, length }, largest }: Scene):
 
 /** The vectors that can be drawn at an instant. */
 export class SceneVectors {
-  private readonly tracked: Tracked[];
+  readonly acting: Acting;
   private readonly lengths: Record<ArrowKind, number>;
 
   constructor(private readonly scene: Scene) {
-    this.tracked = tracked(scene);
+    this.acting = new Acting(scene);
     this.lengths = lengths(scene);
   }
 
@@ -46,31 +47,29 @@ export class SceneVectors {
     return this.lengths[kind];
   }
 
-  /** Those of a kind: the force of each joint on its body j, or of each tracked point. */
-  of(kind: ArrowKind, now: Instant): Vector[] {
-    if (kind === "reactions") return this.reactions(now);
+  /** Those of a kind, of all bodies or of one: forces at the ends of elements, otherwise of points. */
+  of(kind: ArrowKind, now: Instant, on: number | null): Vector[] {
+    if (kind === "reactions" || kind === "force") return this.acting.of(kind, now, on);
     const vector = kind === "velocities" ? velocity : acceleration;
-    return this.tracked.map(({ name, body, at }) => ({
+    return tracked(this.scene, on).map(({ name, body, at }) => ({
       element: name,
       owner: shortened(name, 20),
       at: placed(now.poses[body]!, at),
       value: vector(now, body, at),
     }));
   }
-
-  private reactions(now: Instant): Vector[] {
-    return this.scene.joints.map(({ name, bodies: [, j], points: [, at] }, k) => ({
-      element: name,
-      owner: texts.on(shortened(this.scene.bodies[j]!.name, 16)),
-      at: placed(now.poses[j]!, at),
-      value: now.forces[k]!,
-    }));
-  }
 }
 
-/** The traced points, and the mass centre of each body without one. */
-function tracked({ bodies, traces }: Scene): Tracked[] {
-  const points = traces.map(({ name, body, point }) => ({ name, body, at: point }));
-  const others = bodies.filter(({ number, points: named }) => number > 0 && !named.length);
-  return [...points, ...others.map(({ name, number, center }) => ({ name, body: number, at: center }))];
+/** The traced points, or all points of one body; the mass centre of each body without points. */
+function tracked({ bodies, traces }: Scene, on: number | null): Tracked[] {
+  const moving = bodies.filter(({ number }) => number > 0 && (on === null || number === on));
+  const own = moving.flatMap(({ name, number, points }) =>
+    points.map((point) => ({ name: `${name}.${point.name}`, body: number, at: point.at })),
+  );
+  const traced = traces.map(({ name, body, point }) => ({ name, body, at: point }));
+  const others = moving.filter(({ points }) => !points.length);
+  return [
+    ...(on === null ? traced : own),
+    ...others.map(({ name, number, center }) => ({ name, body: number, at: center })),
+  ];
 }

@@ -257,7 +257,7 @@ function timeDecimals(times) {
 }
 
 // src/draw/arrows.ts
-var ARROW_KINDS = ["reactions", "velocities", "accelerations"];
+var ARROW_KINDS = ["reactions", "force", "velocities", "accelerations"];
 var INSET = 6;
 var TEXT = 12;
 var MOST_COVERED = 12;
@@ -359,6 +359,12 @@ function paintScale(context, view, { kind, unit, pixels }, right, colours2) {
   return right - Math.max(value * pixels, context.measureText(text).width) - 16;
 }
 
+// src/draw/ends.ts
+var ACTING = { reactions: ["joints"], force: ["forces", "drivers"] };
+function chosenEnds(ends, on) {
+  return ends.filter(({ body, sign }) => on === null ? sign === 1 : body === on);
+}
+
 // src/draw/soon.ts
 function soon(paint2) {
   let waiting = false;
@@ -392,6 +398,7 @@ var playerTexts = {
   drawingOf: (title2) => `Drawing of ${title2}`,
   plotOf: (name) => `Plot over time: ${name}`,
   on: (body) => `on ${body}`,
+  remarked: (remark) => `(${remark})`,
   of: (end) => `of ${end}`,
   play: "Play",
   pause: "Pause",
@@ -489,8 +496,8 @@ var Clock = class {
     const times = this.motion.t;
     const { low, share } = this.motion.place(this.t);
     const here = share >= 1 ? low + 1 : low;
-    const between = share > 0 && share < 1 && frames < 0 ? 1 : 0;
-    this.seek(times[Math.min(times.length - 1, Math.max(0, here + frames + between))]);
+    const between2 = share > 0 && share < 1 && frames < 0 ? 1 : 0;
+    this.seek(times[Math.min(times.length - 1, Math.max(0, here + frames + between2))]);
   }
   play() {
     if (this.playing || this.motion.end <= this.motion.begin) return;
@@ -637,6 +644,16 @@ function paintLengthScale(context, view, { unit, metres }, colours2) {
   context.textBaseline = "alphabetic";
   const text = `${Number((step / metres).toPrecision(3))} ${unit}`;
   rimmed(context, text, [x + length / 2, y - 6], colours2.named.soft, colours2.named.panel);
+}
+function paintNotes(context, notes, colours2) {
+  context.font = font(12);
+  context.textAlign = "left";
+  context.textBaseline = "middle";
+  return notes.map((note, k) => {
+    const [x, y] = [16, 18 + 18 * k];
+    rimmed(context, note, [x, y], colours2.named.soft, colours2.named.panel);
+    return [x, y - 8, x + context.measureText(note).width, y + 8];
+  });
 }
 function paintGravity(context, view, gravity, colours2) {
   const size = Math.hypot(...gravity);
@@ -931,6 +948,57 @@ var View = class {
   }
 };
 
+// src/player/acting.ts
+var SIGNS = ["*", "†", "‡", "§"];
+var Acting = class {
+  constructor(scene2) {
+    this.scene = scene2;
+    const joints = scene2.joints.map(({ name }, k) => [name, (now) => now.forces[k]]);
+    this.forces = new Map([...joints, ...ofChannels(scene2)]);
+    const remarks = new Set(scene2.ends.map(({ remark }) => remark).filter((remark) => remark));
+    this.signs = new Map([...remarks].slice(0, SIGNS.length).map((remark, k) => [remark, SIGNS[k]]));
+  }
+  scene;
+  forces;
+  /** The sign of each remark; further remarks stand beside their arrows. */
+  signs;
+  /** The vectors of a kind at an instant; `on` is the number of a body, or null for bodies j. */
+  of(kind, now, on) {
+    const groups = ACTING[kind];
+    const ends = this.scene.ends.filter(({ group }) => groups.includes(group));
+    return chosenEnds(ends, on).flatMap((end) => {
+      const force = this.forces.get(end.element);
+      return force ? [this.vector(end, force(now), now)] : [];
+    });
+  }
+  /** What the signs beside arrows of some kinds mean, a line for each sign. */
+  notes(kinds) {
+    const groups = Object.entries(ACTING).flatMap(([kind, own]) => kinds.includes(kind) ? [...own] : []);
+    const shown = new Set(this.scene.ends.filter(({ group }) => groups.includes(group)).map(({ remark }) => remark));
+    return [...this.signs].filter(([remark]) => shown.has(remark)).map(([remark, sign]) => `${sign} ${remark}`);
+  }
+  vector({ element, body, frame, point, sign, remark }, [x, y], now) {
+    const owner = playerTexts.on(shortened(this.scene.bodies[body].name, 16));
+    return {
+      element,
+      owner: remark ? `${owner} ${this.signs.get(remark) ?? playerTexts.remarked(remark)}` : owner,
+      at: placed(now.poses[frame], point),
+      value: [sign * x, sign * y]
+    };
+  }
+};
+function ofChannels({ channels }) {
+  const parts = new Map(channels.map(({ of, quantity: quantity2, values }) => [`${of}.${quantity2}`, values]));
+  return [...new Set(channels.map(({ of }) => of))].flatMap((of) => {
+    const [x, y] = [parts.get(`${of}.force_x`), parts.get(`${of}.force_y`)];
+    if (!x || !y) return [];
+    return [[of, ({ place: { low, high, share } }) => [between(x, low, high, share), between(y, low, high, share)]]];
+  });
+}
+function between(values, low, high, share) {
+  return values[low] * (1 - share) + values[high] * share;
+}
+
 // src/plane/instants.ts
 function placeIn(times, t) {
   let [low, high] = [0, times.length - 1];
@@ -991,14 +1059,16 @@ var Motion = class {
       poses: [GROUND, ...bodies.map((body) => hermite(poses, rates, body, place))],
       rates: [GROUND, ...bodies.map((body) => hermite(rates, accelerations, body, place))],
       accelerations: [GROUND, ...bodies.map((body) => linear(accelerations, body, place))],
-      forces: reactions[place.low].map((_, joint) => linear(reactions, joint, place))
+      forces: reactions[place.low].map((_, joint) => linear(reactions, joint, place)),
+      place
     };
   }
   /** Everything at frame k. */
   frame(k) {
     const { poses, rates, accelerations, reactions } = this.scene.frames;
     const [pose, rate, acceleration2] = [poses, rates, accelerations].map((all) => [GROUND, ...all[k]]);
-    return { t: this.t[k], poses: pose, rates: rate, accelerations: acceleration2, forces: reactions[k] };
+    const place = { low: k, high: k, share: 0 };
+    return { t: this.t[k], poses: pose, rates: rate, accelerations: acceleration2, forces: reactions[k], place };
   }
   /** Value at t of a curve: `values` at the frames and their `slopes`. */
   value({ values, slopes }, t) {
@@ -1062,11 +1132,12 @@ function linear(values, which, { low, high, share }) {
 
 // src/player/vectors.ts
 var LONGEST = 0.22;
-var UNITS = { reactions: "N", velocities: "m/s", accelerations: "m/s²" };
+var UNITS = { reactions: "N", force: "N", velocities: "m/s", accelerations: "m/s²" };
 function lengths({ bounds, reaction_scale: { force, length }, largest: largest2 }) {
   const share = (value) => value > 0 ? LONGEST * extent(bounds) / value : 0;
   return {
     reactions: length / force,
+    force: share(largest2.force),
     velocities: share(largest2.velocity),
     accelerations: share(largest2.acceleration)
   };
@@ -1074,11 +1145,11 @@ function lengths({ bounds, reaction_scale: { force, length }, largest: largest2 
 var SceneVectors = class {
   constructor(scene2) {
     this.scene = scene2;
-    this.tracked = tracked(scene2);
+    this.acting = new Acting(scene2);
     this.lengths = lengths(scene2);
   }
   scene;
-  tracked;
+  acting;
   lengths;
   unit(kind) {
     return UNITS[kind];
@@ -1087,30 +1158,29 @@ var SceneVectors = class {
   length(kind) {
     return this.lengths[kind];
   }
-  /** Those of a kind: the force of each joint on its body j, or of each tracked point. */
-  of(kind, now) {
-    if (kind === "reactions") return this.reactions(now);
+  /** Those of a kind, of all bodies or of one: forces at the ends of elements, otherwise of points. */
+  of(kind, now, on) {
+    if (kind === "reactions" || kind === "force") return this.acting.of(kind, now, on);
     const vector = kind === "velocities" ? velocity : acceleration;
-    return this.tracked.map(({ name, body, at }) => ({
+    return tracked(this.scene, on).map(({ name, body, at }) => ({
       element: name,
       owner: shortened(name, 20),
       at: placed(now.poses[body], at),
       value: vector(now, body, at)
     }));
   }
-  reactions(now) {
-    return this.scene.joints.map(({ name, bodies: [, j], points: [, at] }, k) => ({
-      element: name,
-      owner: playerTexts.on(shortened(this.scene.bodies[j].name, 16)),
-      at: placed(now.poses[j], at),
-      value: now.forces[k]
-    }));
-  }
 };
-function tracked({ bodies, traces }) {
-  const points = traces.map(({ name, body, point }) => ({ name, body, at: point }));
-  const others = bodies.filter(({ number, points: named }) => number > 0 && !named.length);
-  return [...points, ...others.map(({ name, number, center }) => ({ name, body: number, at: center }))];
+function tracked({ bodies, traces }, on) {
+  const moving = bodies.filter(({ number }) => number > 0 && (on === null || number === on));
+  const own = moving.flatMap(
+    ({ name, number, points }) => points.map((point) => ({ name: `${name}.${point.name}`, body: number, at: point.at }))
+  );
+  const traced = traces.map(({ name, body, point }) => ({ name, body, at: point }));
+  const others = moving.filter(({ points }) => !points.length);
+  return [
+    ...on === null ? traced : own,
+    ...others.map(({ name, number, center }) => ({ name, body: number, at: center }))
+  ];
 }
 
 // src/player/drawing.ts
@@ -1134,10 +1204,13 @@ var Drawing = class {
     numbers: true,
     paths: true,
     reactions: false,
+    force: false,
     velocities: false,
     accelerations: false
   };
   magnification = 1;
+  /** The number of the body whose arrows are shown; null for those of all bodies. */
+  onBody = null;
   /** The arrows that were painted last. */
   arrows = [];
   vectors;
@@ -1161,11 +1234,13 @@ var Drawing = class {
     paintGrid(context, view, colours2, false);
     if (shown.paths) paintTraces(context, view, this.traces, colours2);
     const names = paintItems(context, view, scene2.display, now.poses, shown, colours2);
-    const kinds = ARROW_KINDS.filter((kind) => shown[kind]).map((kind) => ({
+    const chosen = ARROW_KINDS.filter((kind) => shown[kind]);
+    names.push(...paintNotes(context, vectors.acting.notes(chosen), colours2));
+    const kinds = chosen.map((kind) => ({
       kind,
       unit: vectors.unit(kind),
       pixels: this.magnification * view.fitted() * vectors.length(kind),
-      vectors: vectors.of(kind, now)
+      vectors: vectors.of(kind, now, this.onBody)
     }));
     this.arrows = paintArrows(context, view, kinds, names, colours2);
     paintLengthScale(context, view, scene2.length, colours2);
@@ -1353,8 +1428,8 @@ function showTitle({ title: title2 }, motion2, decimals2) {
   byId("drawing").setAttribute("aria-label", playerTexts.drawingOf(title2 || playerTexts.theLinkage));
 }
 function showSampling({ accuracy }, motion2) {
-  const between = accuracy === null ? "" : playerTexts.within(Number((100 * accuracy).toPrecision(2)));
-  byId("sampling").textContent = playerTexts.instants(motion2.t.length) + (motion2.smooth ? between : playerTexts.notBetween);
+  const between2 = accuracy === null ? "" : playerTexts.within(Number((100 * accuracy).toPrecision(2)));
+  byId("sampling").textContent = playerTexts.instants(motion2.t.length) + (motion2.smooth ? between2 : playerTexts.notBetween);
 }
 
 // src/player/keyboard.ts
@@ -1919,7 +1994,7 @@ var MOVING2 = [
   { key: "acceleration", symbol: "|a|", unit: "m/s²", order: 2, component: null, rate: null }
 ];
 var DERIVATIVES = [(now, body, at) => placed(now.poses[body], at), velocity, acceleration];
-var ACTING = { force: "|F|", force_x: "Fx", force_y: "Fy", torque: "T" };
+var ACTING2 = { force: "|F|", force_x: "Fx", force_y: "Fy", torque: "T" };
 var OF_SCENE = { coordinates: "u", states: "z", energy: "E", accuracy: "|Φ|" };
 function quantities(scene2, motion2) {
   const all = [
@@ -1992,7 +2067,7 @@ function ofElements(scene2, motion2, group) {
     force_x: ([x]) => x,
     force_y: ([, y]) => y
   };
-  return Object.entries(ACTING).map(([key, symbol]) => {
+  return Object.entries(ACTING2).map(([key, symbol]) => {
     const unit = key === "torque" ? "N·m" : "N";
     const part = ofJoint[key];
     const joints = group === "reactions" && part ? scene2.joints : [];
@@ -2330,6 +2405,17 @@ function connectToggles() {
     follow();
   }
 }
+function connectBodies() {
+  const choice = byId("on-body");
+  const listed = scene.bodies.map(({ name, number }) => new Option(shortened(name, 24), String(number)));
+  choice.append(...listed);
+  choice.addEventListener("change", () => {
+    drawing.onBody = choice.value === "" ? null : Number(choice.value);
+    repaint();
+  });
+  const forces = ACTING.force;
+  byId("forces").hidden = !scene.ends.some(({ group }) => forces.includes(group));
+}
 function connectKeys() {
   listen({
     " ": () => clock.toggle(),
@@ -2363,6 +2449,7 @@ showTitle(scene, motion, decimals);
 connectPlots();
 connectButtons();
 connectToggles();
+connectBodies();
 connectKeys();
 movable(byId("drawing"), drawing.view, repaint);
 new ResizeObserver(() => {
