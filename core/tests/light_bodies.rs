@@ -2,6 +2,7 @@
 
 mod mechanisms;
 
+use kempe::equations::augmented::NearSingular;
 use kempe::equations::{Compiled, Gains, Workspace};
 use kempe::model::Model;
 use mechanisms::{model, start};
@@ -37,6 +38,10 @@ fn bodies_between_heavier_ones_are_light() {
     assert_eq!(light(&["1", "1e-4", "1e-8"]), [] as [usize; 0], "each hangs on a heavier one");
     assert_eq!(light(&["1", "1e-2", "1"]), [] as [usize; 0], "hardly light");
     assert_eq!(light(&["1", "0"]), [1], "without mass");
+    let rope = |mass| light(&["1", mass, mass, mass, "1"]);
+    assert_eq!(light(&["1", "5e-3", "5e-3", "1"]), [1, 2], "held by the heavy bodies");
+    assert_eq!(rope("5e-3"), [] as [usize; 0], "a freedom of their own");
+    assert_eq!(rope("5e-4"), [1, 2, 3]);
 }
 
 /// In proportion to the heaviest body: a mechanism of grams is solved like one of tons.
@@ -134,6 +139,21 @@ fn both_ways_give_the_same_accelerations_and_jumps() {
                 let apart = one.iter().zip(other).map(|(x, y)| (x - y).abs()).fold(0.0, f64::max);
                 assert!(apart < 1e-11 * largest, "{mass} kg: {apart} of {largest}");
             }
+        }
+    }
+}
+
+/// No ratio of masses looks like a singular position, where an evaluation would take several eliminations.
+#[test]
+fn one_elimination_solves_the_equations_at_every_ratio_of_masses() {
+    for (text, hints) in MECHANISMS {
+        for mass in ["0.1", "1e-2", "5e-3", "2e-3", "1e-3", "5e-4", "1e-4", "1e-6", "1e-9", "0"] {
+            let m = model(&(GRAVITY.to_string() + &text.replace("LIGHT", mass)));
+            let (state, _) = start(&m, &[], hints);
+            let mut workspace = Workspace::new(&m);
+            workspace.matrix.set_near_singular(NearSingular::Regularise);
+            workspace.place(&m, [&state.q, &state.v, &state.z]);
+            assert!(workspace.respond_directly(&m, 0.0, Gains::default()), "{mass} kg: {text}");
         }
     }
 }

@@ -8,6 +8,7 @@
 //! watch beside a locomotive needs none either, because no joint connects them. If two branches lead to ground, the
 //! heaviest connected body counts.
 
+use super::loose::loose;
 use crate::math::Real;
 use crate::model::{Body, Model};
 
@@ -15,6 +16,8 @@ use crate::model::{Body, Model};
 /// about so small a fraction of their terms. At a fifth of this value they would be examined for singular positions
 /// (`solve/regularised.rs`), which takes longer than the elimination.
 const LIGHT: f64 = 1e-2;
+/// The same for light bodies with [freedoms of their own](loose()).
+const LIGHT_LOOSE: f64 = 1e-3;
 /// Mass of a light body after the addition, relative to the same bodies.
 const FLOOR: f64 = 2e-2;
 /// Factor on both limits for moments of inertia relative to m l². A slender bar has 1/12 of m l².
@@ -47,7 +50,15 @@ impl Added {
 
 /// The inertia that each body needs, ground first, for the solution of the equations of motion.
 pub(super) fn added<S: Real>(model: &Model<S>) -> Vec<Added> {
-    additions(model, LIGHT, FLOOR)
+    let mut added = additions(model, LIGHT, FLOOR);
+    let light: Vec<bool> = added.iter().map(Added::any).collect();
+    let loose = loose(model, &light);
+    if loose.contains(&true) {
+        let other = additions(model, LIGHT_LOOSE, FLOOR);
+        let bodies = added.iter_mut().zip(other).zip(loose).filter(|(_, loose)| *loose);
+        bodies.for_each(|((added, other), _)| *added = other);
+    }
+    added
 }
 
 /// The inertia that each body needs, ground first, in the matrix of implicit methods.

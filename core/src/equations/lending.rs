@@ -21,7 +21,7 @@ use std::ops::Range;
 /// The fraction of its inertia that a body lends.
 const LENT: f64 = 0.5;
 /// Factor on an added moment of inertia, so that the body can lend.
-const AMPLE: f64 = 50.0;
+const AMPLE: f64 = 150.0;
 
 /// The inertia of the bodies in the matrix, and its differences from their own inertia.
 #[derive(Clone, Debug)]

@@ -24,6 +24,7 @@ pub mod kinematics;
 mod laws;
 mod lending;
 mod loans;
+mod loose;
 pub mod mass;
 pub mod measured;
 pub mod motion;
