@@ -232,6 +232,8 @@ export const texts = {
     ends: ["from", "to"],
     noRange: "The range is not complete. Write its first and its last value.",
     atUnitRate: (name: string, unit: string) => `Rates, powers and inertia forces are those at 1 ${unit}/s of ${name}.`,
+    notUnique: (names: readonly string[]) =>
+      `* Not unique: of the possible reactions of redundant joints, the smallest are shown (minimum norm): ${names.join(", ")}.`,
     done: (count: number, name: string, end: string) => `${count} states up to ${name} = ${end}`,
     none: "Run an analysis to read its results.",
     plots: "Plots",

@@ -136,3 +136,49 @@ def test_another_case_has_plots_of_its_own(one: Studio) -> None:
     legend = one.page.locator(".legend li").all_inner_texts()
     names = [entry.split()[0] for entry in legend]
     assert names == ["crank.angle", "coupler.angle", "rocker.angle"]
+
+
+#: A beam between two pins, which share its load, and a pendulum beside it.
+BEAM = """kempe = 1
+redundancy = "allow"
+gravity = [0, -9.81]
+[bodies.ground]
+points = { A = [0, 0], B = [2, 0], P = [0.5, -0.5] }
+[bodies.beam]
+mass = 3
+inertia = 1
+points = { A = [-1, 0], B = [1, 0] }
+[bodies.rod]
+type = "bar"
+mass = 1
+length = 1
+ends = ["P", "Q"]
+[joints]
+A = { type = "revolute", i = "ground.A", j = "beam.A" }
+B = { type = "revolute", i = "ground.B", j = "beam.B" }
+P = { type = "revolute", i = "ground.P", j = "rod.P" }
+[start]
+set = { "beam.x" = 1, "beam.y" = 0, "beam.angle" = 0, "rod.angle" = -1 }
+[analysis.swing]
+type = "dynamics"
+t_end = 0.5
+"""
+
+
+def test_reactions_that_are_not_unique_have_a_star_and_a_note(one: Studio, tmp_path: Path) -> None:
+    one.load(BEAM)
+    one.mode("read")
+    for name in ("A.fx", "A.fy", "P.fy", "rod.angle"):
+        plot_only(one, name)
+    path = tmp_path / "beam.toml"
+    path.write_text(BEAM, encoding="utf-8")
+    names = sorted(kp.load(path).run()["swing"].not_unique)
+    assert names == ["A", "B"]
+    note = one.page.locator("#not-unique").inner_text()
+    assert note.endswith(f"(minimum norm): {', '.join(names)}.")
+    entries = one.page.locator(".legend .name").all_inner_texts()
+    assert [entry for entry in entries if entry.endswith("*")] == ["A.fx *", "A.fy *"]
+    one.load(BEAM.replace('B = { type = "revolute", i = "ground.B", j = "beam.B" }\n', ""))
+    one.mode("read")
+    assert one.page.locator("#not-unique").count() == 0
+    assert "*" not in "".join(one.page.locator(".legend .name").all_inner_texts())

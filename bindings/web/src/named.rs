@@ -33,11 +33,12 @@ fn expressions(loaded: &Loaded) -> Vec<Expression> {
     measures.chain(angles).collect()
 }
 
-/// All quantities and expressions that can be plotted by name.
-pub fn all(loaded: &Loaded) -> Vec<Readable> {
-    let mut found = readings::readable(&loaded.model);
+/// All quantities and expressions of a model that can be plotted by name. The model may be that of a run, without the
+/// drivers that a quantity replaces.
+pub fn all(loaded: &Loaded, model: &Model) -> Vec<Readable> {
+    let mut found = readings::readable(model);
     found.extend(expressions(loaded).into_iter().filter_map(|one| {
-        let unit = read(&loaded.model, &one).ok()?.unit;
+        let unit = read(model, &one).ok()?.unit;
         Some(Readable { name: one.name, unit })
     }));
     found

@@ -8,17 +8,22 @@ use crate::over::{driven_by, Variable};
 use kempe::analyses::dynamics::{read, Prepared, Run};
 use kempe::analyses::kinematics as driven;
 use kempe::analyses::kinematics::{kinematics, recorded, Motion};
+use kempe::analyses::not_unique;
 use kempe::analyses::options::Declared;
+use kempe::analyses::readings::Readable;
 use kempe::equations::kinematics::Motions;
 use kempe::model::{Entry, Value as Written};
 use kempe::{Flow, Model, Options, State};
 use serde_json::{json, Value};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 
 /// Number of outputs of kinematics without output_step.
 const DEGREES: f64 = 360.0;
 /// Largest number of outputs of kinematics.
 const MOST_OUTPUTS: f64 = 1e6;
+/// Number of outputs at which reactions are examined.
+const EXAMINED: usize = 11;
 /// Number of outputs of a run without an analysis of the case.
 const OUTPUTS: f64 = 500.0;
 
@@ -158,7 +163,21 @@ impl Ran {
             },
             "over": self.over.as_ref().map(|one| json!({ "name": one.name, "unit": one.unit })),
             "error": self.error.as_ref().map(|message| json!({ "message": message })),
+            "not_unique": self.not_unique(),
         })
+    }
+
+    /// The names of the joints and drivers without a unique reaction.
+    fn not_unique(&self) -> Vec<&str> {
+        let (model, track) = (&self.model, &self.run.trajectory);
+        let Some(last) = track.t.len().checked_sub(1).filter(|_| model.allow_redundancy) else {
+            return Vec::new();
+        };
+        let n = model.layout.n_q;
+        let some: BTreeSet<usize> = (0..EXAMINED).map(|k| k * last / (EXAMINED - 1)).collect();
+        let at = |k: usize| not_unique(model, track.t[k], &track.q[n * k..n * (k + 1)]);
+        let found: BTreeSet<usize> = some.into_iter().flat_map(at).collect();
+        found.into_iter().map(|k| &model.constraints[k].name[..]).collect()
     }
 
     /// Times and poses of the moving bodies, row by row.
@@ -176,6 +195,11 @@ impl Ran {
             }
         }
         found
+    }
+
+    /// The quantities and expressions that can be read from the run.
+    pub fn quantities(&self, loaded: &Loaded) -> Vec<Readable> {
+        named::all(loaded, &self.model)
     }
 
     /// The units of quantities and expressions, and their values, one row for each.

@@ -65,7 +65,7 @@ impl Session {
             "configurations" => configurations(self.loaded()?, fields),
             "mobility" => self.mobility(),
             "readiness" => Ok(readiness(self.loaded()?)),
-            "quantities" => self.quantities(),
+            "quantities" => self.quantities(fields.get("of_run").is_some()),
             "quantity" => self.quantity(fields.text("name")?),
             "scene" => scene(self.loaded()?),
             "display" => display(self.loaded()?, fields),
@@ -142,8 +142,13 @@ impl Session {
         Ok(kempe::analyses::diagnosis::as_json(&found))
     }
 
-    fn quantities(&mut self) -> Result<Value, Fault> {
-        let found = named::all(self.loaded()?);
+    /// The quantities of the case, or those of the last run.
+    fn quantities(&self, of_run: bool) -> Result<Value, Fault> {
+        let loaded = self.loaded.as_ref().ok_or_else(no_mechanism)?;
+        let found = match of_run {
+            true => self.last_run()?.quantities(loaded),
+            false => named::all(loaded, &loaded.model),
+        };
         Ok(found.iter().map(|one| json!({ "name": one.name, "unit": one.unit })).collect())
     }
 

@@ -55,6 +55,26 @@ fn a_run_gives_frames_and_values() {
     assert!(message.contains("bar.angel"), "{message}");
 }
 
+#[test]
+fn a_run_names_the_joints_without_a_unique_reaction() {
+    let ends = "F = { type = 'revolute', i = 'ground.F', j = 'bar.F' }\n";
+    let text = |more: &str, joint: &str| {
+        format!(
+            "kempe = 1\n{more}gravity = [0, -9.81]\n[bodies]\n\
+             ground = {{ points = {{ A = [0, 0], F = [1, 0] }} }}\n\
+             bar = {{ mass = 1, inertia = 1, points = {{ A = [0, 0], F = [1, 0] }} }}\n\
+             [joints]\nA = {{ type = 'revolute', i = 'ground.A', j = 'bar.A' }}\n{joint}\
+             [start]\nset = {{ 'bar.angle' = 0 }}\n"
+        )
+    };
+    let mut page = Page::of(&text("redundancy = 'allow'\n", ends));
+    let ran = page.ask(json!({ "do": "run", "t_end": 1.0 }));
+    assert_eq!(ran["not_unique"], json!(["A", "F"]));
+    let mut page = Page::of(&text("redundancy = 'allow'\n", ""));
+    let ran = page.ask(json!({ "do": "run", "t_end": 1.0 }));
+    assert_eq!(ran["not_unique"], json!([]));
+}
+
 /// The slider-crank with kinematics over a value, and perhaps a driver of the crank.
 fn slider_crank_over(over: &str, range: &str, driver: &str) -> Page {
     let more = format!(
@@ -69,6 +89,25 @@ fn values(page: &mut Page, names: &[&str]) -> Vec<Vec<f64>> {
     page.ask(json!({ "do": "values", "names": names }));
     let numbers = page.0.numbers();
     numbers.chunks(numbers.len() / names.len()).map(<[f64]>::to_vec).collect()
+}
+
+/// A quantity in the place of a driver: the run has no quantities of this driver.
+#[test]
+fn the_quantities_of_a_run_can_be_read() {
+    let law = "[drivers.turn]\ntype = \"coordinate_driver\"\ncoordinate = \"crank.angle\"\nvalue = \"60*deg + 5*t\"";
+    let mut page = slider_crank_over("slider.x", "[0.25, 0.35]", law);
+    page.ask(json!({ "do": "run", "analysis": "cycle" }));
+    let mut names = |request: Value| -> Vec<String> {
+        let found = page.ask(request);
+        let all = found.as_array().expect("quantities");
+        all.iter().map(|one| one["name"].as_str().expect("a name").to_string()).collect()
+    };
+    let all = names(json!({ "do": "quantities" }));
+    let found = names(json!({ "do": "quantities", "of_run": true }));
+    assert!(all.iter().any(|name| name.starts_with("turn.")), "{all:?}");
+    assert!(!found.iter().any(|name| name.starts_with("turn.")), "{found:?}");
+    assert!(found.contains(&"slider.x".to_string()));
+    page.ask(json!({ "do": "values", "names": found }));
 }
 
 #[test]

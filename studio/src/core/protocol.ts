@@ -100,6 +100,8 @@ export interface Ran {
   error: Problem | null;
   /** What takes the place of the time in kinematics over a quantity. */
   over: Quantity | null;
+  /** The joints and drivers whose reactions are not unique. */
+  not_unique: string[];
 }
 
 /** What prevents an analysis; `path` leads to the element. */
@@ -144,7 +146,7 @@ export interface Requests {
   configurations: { send: { limit?: number }; reply: { complete: boolean; poses: Pose[] } };
   mobility: { send: object; reply: Mobility };
   readiness: { send: object; reply: Readiness[] };
-  quantities: { send: object; reply: Quantity[] };
+  quantities: { send: { of_run?: true }; reply: Quantity[] };
   quantity: { send: { name: string }; reply: { value: number; unit: string } };
   scene: { send: object; reply: { scene: Scene } };
   display: {

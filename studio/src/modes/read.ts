@@ -22,6 +22,8 @@ export interface Course {
 
 export const course = signal<Course | null>(null);
 export const quantities = signal<Quantity[]>([]);
+/** The joints and drivers whose reactions are not unique: the smallest ones are shown. */
+export const notUnique = computed(() => course.value?.ran.not_unique ?? []);
 export const time = signal(0);
 const frames = new Frames();
 export const playing = frames.playing;
@@ -67,6 +69,12 @@ export const read: Handler = {
   cursor: () => "grab",
 };
 
+/** The name of a quantity or element, with a star if its forces are not unique. */
+export function starred(name: string, of: string, unit = "N"): string {
+  const marked = ["N", "N·m"].includes(unit) && notUnique.value.includes(of);
+  return marked ? `${name} *` : name;
+}
+
 /** Run an analysis and fetch its frames. */
 export async function run(t_end?: number): Promise<Ran | null> {
   running.value = true;
@@ -76,7 +84,7 @@ export async function run(t_end?: number): Promise<Ran | null> {
     const width = 1 + 3 * ((mechanism.value?.bodies.length ?? 1) - 1);
     const frames = inOrder(numbers, width);
     const ground = mechanism.value?.bodies[0]?.name ?? "";
-    const found = (await send("quantities", {})).ok.filter(({ name }) => !name.startsWith(`${ground}.`));
+    const found = (await send("quantities", { of_run: true })).ok.filter(({ name }) => !name.startsWith(`${ground}.`));
     batch(() => {
       course.value = { ran: ok, width, ...frames };
       time.value = frames.t[0] ?? 0;

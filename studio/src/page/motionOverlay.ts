@@ -5,7 +5,7 @@ import type { ArrowKind, Vectors } from "../draw/arrows";
 import { displayed } from "../draw/display";
 import { ACTING } from "../draw/ends";
 import { Trace } from "../draw/traces";
-import { type Course, course, quantities, time, valuesOf } from "../modes/read";
+import { type Course, course, quantities, starred, time, valuesOf } from "../modes/read";
 import { points } from "../modes/seen";
 import { placeIn } from "../plane/instants";
 import { distinctPaths, type Path } from "../plane/paths";
@@ -131,7 +131,10 @@ type Place = Pick<Vectors["vectors"][number], "element" | "owner" | "at"> & { si
 function where({ groups }: (typeof KINDS)[Kind]): Place[] {
   const bodies = mechanism.value?.bodies ?? [];
   if (groups.length)
-    return endsOf(groups, only.value).map((end) => ({ ...end, owner: texts.read.on(bodies[end.body]?.name ?? "") }));
+    return endsOf(groups, only.value).map((end) => ({
+      ...end,
+      owner: starred(texts.read.on(bodies[end.body]?.name ?? ""), end.element),
+    }));
   return points().map(({ body, point, at }): Place => {
     const element = `${body.name}.${point}`;
     return { element, owner: element, at, sign: 1 };

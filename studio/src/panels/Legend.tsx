@@ -3,7 +3,7 @@ import { displayed } from "../draw/display";
 import { withUnit } from "../draw/numbers";
 import { dashOf } from "../draw/surface";
 import { looked, stretched } from "../modes/plotting";
-import { time } from "../modes/read";
+import { starred, time } from "../modes/read";
 import type { Curve } from "../plot/curve";
 import type { Plot } from "../plot/plot";
 import { peakOf } from "../plot/straight";
@@ -55,7 +55,7 @@ function Entry({ of, plot, curve, beside }: EntryProps) {
         <line x1="1" y1="4" x2="25" y2="4" stroke-dasharray={dashOf(curve.number).join(" ")} />
       </svg>
       <bdi class="name" title={curve.name}>
-        {curve.name}
+        {starred(curve.name, curve.name.split(".")[0]!, curve.unit)}
       </bdi>
       <Now plot={plot} curve={curve} />
       <span class="value">{`${texts.read.peak} ${peak(curve)}`}</span>

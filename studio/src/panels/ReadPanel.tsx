@@ -4,7 +4,7 @@ import { savePlots } from "../give/plots";
 import { openStored, saveCsv, saveNpz } from "../give/results";
 import { OVER, TIME } from "../modes/over";
 import { hasOtherAxis } from "../modes/plotting";
-import { analyses, analysis, chosen, course, quantities, run, running, variable } from "../modes/read";
+import { analyses, analysis, chosen, course, notUnique, quantities, run, running, variable } from "../modes/read";
 import { arrows, KINDS, type Kind, onBody } from "../page/motionOverlay";
 import { plots, stored } from "../store/plots";
 import { mechanism } from "../store/state";
@@ -53,6 +53,11 @@ export function ReadPanel() {
             }
           >
             <Compared />
+            {notUnique.value.length ? (
+              <p class="doc" id="not-unique">
+                {words.notUnique(notUnique.value)}
+              </p>
+            ) : null}
             {variable.value === TIME ? null : (
               <p class="doc">{words.atUnitRate(variable.value.name, variable.value.unit)}</p>
             )}
