@@ -159,7 +159,7 @@ B = { type = "revolute", i = "ground.B", j = "beam.B" }
 P = { type = "revolute", i = "ground.P", j = "rod.P" }
 [start]
 set = { "beam.x" = 1, "beam.y" = 0, "beam.angle" = 0, "rod.angle" = -1 }
-[analysis.swing]
+[analyses.swing]
 type = "dynamics"
 t_end = 0.5
 """
