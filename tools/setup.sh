@@ -251,7 +251,7 @@ build_extension() {
         unset CONDA_PREFIX
         export VIRTUAL_ENV="$VENV"
         choose_instructions
-        logged "building the core" "$VENV/bin/python" -m maturin develop --release --locked --skip-install
+        logged "building the core" "$VENV/bin/python" -m maturin develop --profile checkout --locked --skip-install
     ) || exit "$SETUP_FAILED"
     write_stamp build "$sum"
 }
