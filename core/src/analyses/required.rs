@@ -90,7 +90,7 @@ fn gradients(model: &Model, item: &ConstraintItem, motions: &[Motion], t: f64) -
             let values = element.requires(at).into_iter();
             out.iter_mut().zip(values).for_each(|(out, required)| *out = required.is);
         };
-        columns_of(&at, |body| body == place, false, values, &mut rows);
+        columns_of(&at, &|body| body == place, false, &values, &mut rows);
         let columns = model.layout.bodies[item.bodies[place].0];
         all.iter_mut().zip(rows).for_each(|(gradient, row)| columns.add(row, gradient));
     }

@@ -11,3 +11,10 @@ pub struct Attachment<S = f64> {
     /// Angle of x″ from the body's x axis, rad.
     pub axis: S,
 }
+
+impl<S> Attachment<S> {
+    /// The same over another scalar.
+    pub(super) fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Attachment<T> {
+        Attachment { s: Local { x: f(&self.s.x), y: f(&self.s.y) }, axis: f(&self.axis) }
+    }
+}

@@ -1,11 +1,10 @@
 //! A curve whose components are formulas in u and the parameters.
+//!
+//! The formulas are evaluated over series in u whose coefficients are the [base](crate::math::OverBase) of the scalar. The
+//! derivatives that the scalar adds follow from the higher derivatives by u.
 
-#[cfg(target_arch = "wasm32")]
-use super::curve_series::{self, Orders, SeventhOrder, TaylorSeries, ThirdOrder};
 use crate::expression::{switch_places, Knots, Symbol, Tape, Values};
-#[cfg(not(target_arch = "wasm32"))]
-use crate::math::{Dual, Jet, Lift};
-use crate::math::{Local, Real};
+use crate::math::{compose, indexed, Lift, Local, Real, Series};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// x(u) and y(u).
@@ -63,29 +62,23 @@ impl<S> Formula<S> {
         Formula {
             written: Arc::clone(&self.written),
             values: self.values.iter().map(&mut *f).collect(),
-            range: self.range.each_ref().map(f),
+            range: [f(&self.range[0]), f(&self.range[1])],
             periodic: self.periodic,
             unit: self.unit,
         }
     }
 }
 
-/// u with its derivatives to third order by a variable.
-#[cfg(not(target_arch = "wasm32"))]
-type Third<S> = Jet<Dual<1, S>>;
-
-/// The values of the names in the formulas, over a scalar `T` that contains `S`.
-struct FormulaNames<'a, S, T> {
+/// The values of the names in the formulas.
+struct FormulaNames<'a, T> {
     parameters: &'a [usize],
-    values: &'a [S],
+    values: Vec<T>,
     u: T,
-    lift: fn(S) -> T,
 }
 
-impl<S: Real, T: Real> Values<T> for FormulaNames<'_, S, T> {
+impl<T: Real> Values<T> for FormulaNames<'_, T> {
     fn parameter(&self, k: usize) -> T {
-        let place = self.parameters.binary_search(&k).expect("a parameter of the formula");
-        (self.lift)(self.values[place])
+        self.values[self.parameters.binary_search(&k).expect("a parameter of the formula")]
     }
     fn time(&self) -> T {
         T::constant(f64::NAN)
@@ -105,84 +98,41 @@ impl<S: Real> Formula<S> {
         }
     }
 
-    /// x and y over a scalar that contains `S`.
-    fn both<T: Real>(&self, u: T, lift: fn(S) -> T) -> [T; 2] {
-        let named =
-            FormulaNames { parameters: &self.written.parameters, values: &self.values, u, lift };
-        [&self.written.x, &self.written.y].map(|tape| tape.evaluate(&named))
-    }
-}
-
-#[cfg(not(target_arch = "wasm32"))]
-impl<S: Real> Formula<S> {
     /// C at u.
     pub(super) fn point(&self, u: S) -> Local<S> {
-        let [x, y] = self.both(self.within(u), |x| x);
-        Local::new(x, y)
+        self.derivatives(u)[0]
     }
 
     /// C and C′ at u.
     pub(super) fn tangent(&self, u: S) -> [Local<S>; 2] {
-        let [x, y] = self.both(Dual::<1, S>::variable(self.within(u), 0), Dual::lift);
-        [Local::new(x.value, y.value), Local::new(x.slope[0], y.slope[0])]
-    }
-
-    /// C, C′, C″ and C‴ at u.
-    pub(super) fn derivatives(&self, u: S) -> [Local<S>; 4] {
-        let u: Third<S> = Jet::new(Dual::variable(self.within(u), 0), Dual::one(), Dual::zero());
-        let [x, y] = self
-            .both(u, |x| Jet::lift(Dual::lift(x)))
-            .map(|jet| [jet.value.value, jet.rate.value, jet.second.value, jet.second.slope[0]]);
-        std::array::from_fn(|n| Local::new(x[n], y[n]))
-    }
-}
-
-#[cfg(target_arch = "wasm32")]
-impl<S: Real> Formula<S> {
-    /// C at u.
-    pub(super) fn point(&self, u: S) -> Local<S> {
-        self.near(u, 0)[0]
-    }
-
-    /// C and C′ at u.
-    pub(super) fn tangent(&self, u: S) -> [Local<S>; 2] {
-        let [point, first, ..] = self.near(u, 1);
+        let [point, first, ..] = self.derivatives(u);
         [point, first]
     }
 
     /// C, C′, C″ and C‴ at u.
     pub(super) fn derivatives(&self, u: S) -> [Local<S>; 4] {
-        self.near(u, 3)
+        let u = self.within(u);
+        match S::ORDER == <S::Base as Real>::ORDER {
+            true => near(self.orders::<4>(u.base()), u),
+            false => near(self.orders::<8>(u.base()), u), // enough for scalars that add four orders
+        }
     }
 
-    /// The derivatives with respect to u up to `order`, from the series of lowest order that contains them. Higher
-    /// derivatives in the result are not valid.
-    fn near(&self, u: S, order: usize) -> [Local<S>; 4] {
-        let number = |x: &S| x.in_lanes()[0];
-        let u = self.within(u);
-        let numbers = Formula {
-            written: Arc::clone(&self.written),
-            values: self.values.iter().map(number).collect(),
-            range: self.range.each_ref().map(number),
-            periodic: self.periodic,
-            unit: self.unit,
-        };
-        let value = number(&u);
-        let orders = match order + S::ORDER {
-            0 => numbers.orders::<f64>(value),
-            1..=3 => numbers.orders::<ThirdOrder>(value),
-            _ => numbers.orders::<SeventhOrder>(value),
-        };
-        curve_series::at(&orders, u - S::constant(value))
+    /// The derivatives of x and y of order 0 to N - 1.
+    fn orders<const N: usize>(&self, u: S::Base) -> [[S::Base; N]; 2] {
+        let lift = |x: &S| Series::lift(x.base());
+        let values = self.values.iter().map(lift).collect();
+        let parameters = &self.written.parameters;
+        let names = FormulaNames { parameters, values, u: Series::variable(u) };
+        let derivatives = |tape: &Tape| tape.evaluate::<Series<N, S::Base>>(&names).derivatives();
+        [derivatives(&self.written.x), derivatives(&self.written.y)]
     }
 }
 
-#[cfg(target_arch = "wasm32")]
-impl Formula {
-    fn orders<T: TaylorSeries>(&self, u: f64) -> Orders {
-        let [x, y] = self.both(T::variable(u), T::constant);
-        curve_series::orders(x, y)
-    }
+/// C, C′, C″ and C‴ at u from the derivatives of x and y at the base of u. Only these four must be finite, because few
+/// scalars use higher derivatives.
+fn near<S: Real, const N: usize>([x, y]: [[S::Base; N]; 2], u: S) -> [Local<S>; 4] {
+    indexed(|n| Local::new(compose(&x[n..], u, 4 - n), compose(&y[n..], u, 4 - n)))
 }
 
 impl<S: Real> Formula<S> {

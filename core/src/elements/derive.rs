@@ -33,24 +33,35 @@ pub(crate) fn moving<S: Real>(m: &Motion<S>) -> Pose<Jet<S>> {
     }
 }
 
-/// Calls `f` with n values. A small number of values is kept on the stack.
-#[inline(always)]
-pub(crate) fn with_values<T: Copy, R>(
-    n: usize,
-    value: impl Fn(usize) -> T,
-    f: impl FnOnce(&mut [T]) -> R,
-) -> R {
-    match n {
-        0 => f(&mut []),
-        1 => f(&mut std::array::from_fn::<T, 1, _>(&value)),
-        2 => f(&mut std::array::from_fn::<T, 2, _>(&value)),
-        3 => f(&mut std::array::from_fn::<T, 3, _>(&value)),
-        4 => f(&mut std::array::from_fn::<T, 4, _>(&value)),
-        6 => f(&mut std::array::from_fn::<T, 6, _>(&value)),
-        9 => f(&mut std::array::from_fn::<T, 9, _>(&value)),
-        _ => f(&mut (0..n).map(value).collect::<Vec<T>>()),
+/// A list of values with a length that is known at run time. Up to `N` values are kept on the stack.
+pub(crate) struct Few<T, const N: usize> {
+    few: [T; N],
+    many: Vec<T>,
+    length: usize,
+}
+
+impl<T: Copy, const N: usize> Few<T, N> {
+    /// A list of equal values.
+    #[inline(always)]
+    pub fn new(length: usize, value: T) -> Self {
+        let many = if length > N { vec![value; length] } else { Vec::new() };
+        Self { few: [value; N], many, length }
+    }
+
+    /// The values.
+    #[inline(always)]
+    pub fn all(&mut self) -> &mut [T] {
+        match self.length <= N {
+            true => &mut self.few[..self.length],
+            false => &mut self.many,
+        }
     }
 }
+
+/// The poses or motions of the bodies of most joints.
+pub(crate) type OfBodies<T> = Few<T, 3>;
+/// One value for each of up to three equations.
+pub(crate) type OfRows<T> = Few<T, 3>;
 
 /// Derives [`Joint::linearize`] from [`Joint::residual`].
 pub fn linearize<E: Joint + ?Sized, S: Real>(
@@ -64,11 +75,11 @@ pub fn linearize<E: Joint + ?Sized, S: Real>(
     let columns = |at: &At<'_, ByThree<S>>, phi: &mut [ByThree<S>]| {
         E::residual(&E::map(e, &mut |s: &S| Dual::lift(*s)), at, phi);
     };
-    terms(at, residual, [out.residual, out.rate, out.gamma]);
+    terms(at, &residual, [out.residual, out.rate, out.gamma]);
     let m = out.residual.len();
     for (participant, rows) in out.columns.chunks_exact_mut(m).enumerate() {
         let own = participant == at.bodies.len();
-        columns_of(at, |body| body == participant, own, columns, rows);
+        columns_of(at, &|body| body == participant, own, &columns, rows);
     }
 }
 
@@ -80,57 +91,51 @@ pub(crate) fn participants(bodies: usize, own: usize) -> usize {
 /// Φ, Φ̇ and γ from the jet of `residual` in time.
 pub(crate) fn terms<S: Real>(
     at: &Moving<'_, S>,
-    residual: impl FnOnce(&At<'_, Jet<S>>, &mut [Jet<S>]),
+    residual: &dyn Fn(&At<'_, Jet<S>>, &mut [Jet<S>]),
     [phi, rate, gamma]: [&mut [S]; 3],
 ) {
     let t = Jet::new(at.t, S::one(), S::zero());
-    let own = |k: usize| Jet::new(at.own[k], at.own_rates[k], S::zero());
-    with_values(
-        at.bodies.len(),
-        |b| moving(&at.bodies[b]),
-        |bodies| {
-            with_values(at.own.len(), own, |own| {
-                with_values(
-                    phi.len(),
-                    |_| Jet::zero(),
-                    |jets| {
-                        residual(&At { bodies, own, t }, jets);
-                        for (k, jet) in jets.iter().enumerate() {
-                            (phi[k], rate[k], gamma[k]) = (jet.value, jet.rate, -jet.second);
-                        }
-                    },
-                );
-            });
-        },
-    );
+    let mut bodies = OfBodies::new(at.bodies.len(), Pose::identity());
+    for (pose, body) in bodies.all().iter_mut().zip(at.bodies) {
+        *pose = moving(body);
+    }
+    let mut own = OfRows::new(at.own.len(), Jet::zero());
+    for (k, own) in own.all().iter_mut().enumerate() {
+        *own = Jet::new(at.own[k], at.own_rates[k], S::zero());
+    }
+    let mut jets = OfRows::new(phi.len(), Jet::zero());
+    residual(&At { bodies: bodies.all(), own: own.all(), t }, jets.all());
+    for (k, jet) in jets.all().iter().enumerate() {
+        (phi[k], rate[k], gamma[k]) = (jet.value, jet.rate, -jet.second);
+    }
 }
 
 /// The rows of Φ_q in the columns of the internal coordinates, or of the bodies whose indices `varies` selects.
 pub(crate) fn columns_of<S: Real>(
     at: &Moving<'_, S>,
-    varies: impl Fn(usize) -> bool,
+    varies: &dyn Fn(usize) -> bool,
     own_varies: bool,
-    residual: impl FnOnce(&At<'_, ByThree<S>>, &mut [ByThree<S>]),
+    residual: &dyn Fn(&At<'_, ByThree<S>>, &mut [ByThree<S>]),
     rows: &mut [[S; 3]],
 ) {
-    let body = |b: usize| match varies(b) {
-        true => seeded(&at.bodies[b].pose),
-        false => at.bodies[b].pose.lift(),
-    };
-    let own = |k: usize| match own_varies {
-        true => Dual::variable(at.own[k], k),
-        false => Dual::lift(at.own[k]),
-    };
-    with_values(at.bodies.len(), body, |bodies| {
-        with_values(at.own.len(), own, |own| {
-            with_values(
-                rows.len(),
-                |_| Dual::zero(),
-                |phi| {
-                    residual(&At { bodies, own, t: Dual::lift(at.t) }, phi);
-                    rows.iter_mut().zip(phi).for_each(|(row, phi)| *row = phi.slope);
-                },
-            );
-        });
-    });
+    let mut bodies = OfBodies::new(at.bodies.len(), Pose::identity());
+    for (b, pose) in bodies.all().iter_mut().enumerate() {
+        *pose = match varies(b) {
+            true => seeded(&at.bodies[b].pose),
+            false => at.bodies[b].pose.lift(),
+        };
+    }
+    let mut own = OfRows::new(at.own.len(), Dual::zero());
+    for (k, own) in own.all().iter_mut().enumerate() {
+        *own = match own_varies {
+            true => Dual::variable(at.own[k], k),
+            false => Dual::lift(at.own[k]),
+        };
+    }
+    let mut phi = OfRows::new(rows.len(), Dual::zero());
+    let t = Dual::lift(at.t);
+    residual(&At { bodies: bodies.all(), own: own.all(), t }, phi.all());
+    for (row, phi) in rows.iter_mut().zip(phi.all()) {
+        *row = phi.slope;
+    }
 }

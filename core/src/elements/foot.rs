@@ -13,7 +13,7 @@ use super::kinds::{self, CurveOn, Kind, Side, Source};
 use super::nearest::{AlongCurve, CurveSearch};
 use super::plane_curve::Curve;
 use crate::expression::Tape;
-use crate::math::{Local, Real};
+use crate::math::{each, Local, Real};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Largest number of searches that are kept for each element.
@@ -133,9 +133,9 @@ impl<S: Real> Rim<S> {
                 }
             };
         }
-        let end = S::of_lanes(found.map(|(_, end)| end));
+        let end = S::of_lanes(each(found, |(_, end)| end));
         let [first, last] = curve.range();
-        let within = S::of_lanes(found.map(|(u, _)| u));
+        let within = S::of_lanes(each(found, |(u, _)| u));
         let u = S::select(end, last, S::select(-end, first, within));
         let terms = curve.derivatives(u);
         let inner = S::constant(0.5) - end * end;

@@ -1,6 +1,5 @@
 //! Kinds of fields: the values that an element may contain, and how each value is read and converted between scalars.
 
-use super::attachment::Attachment;
 use super::field::{Default, Field, Shape};
 use super::followed::{Acted, BodyId, Followed, JointId, QuantityOf};
 use super::plain_bearing::Bearing;
@@ -131,10 +130,7 @@ kind!(
             kind: of.kind,
             unit: of.unit,
             bodies: of.bodies,
-            ends: of.ends.each_ref().map(|end| Attachment {
-                s: Local { x: f(&end.s.x), y: f(&end.s.y) },
-                axis: f(&end.axis),
-            }),
+            ends: [of.ends[0].map(f), of.ends[1].map(f)],
             value: f(&of.value),
         })),
     }
@@ -143,7 +139,10 @@ kind!(
     /// A position quantity on which an effort acts.
     acted, Coordinate, S => Acted<S>, |v, f| Acted {
         of: coordinate::map(&v.of, f),
-        gradient: v.gradient.each_ref().map(|slopes| slopes.each_ref().map(&mut *f)),
+        gradient: {
+            let [i, j] = &v.gradient;
+            [[f(&i[0]), f(&i[1]), f(&i[2])], [f(&j[0]), f(&j[1]), f(&j[2])]]
+        },
     }
 );
 kind!(

@@ -12,8 +12,6 @@ mod corner;
 mod curve_forms;
 mod curve_formula;
 mod curve_points;
-#[cfg(any(test, target_arch = "wasm32"))]
-mod curve_series;
 mod declare;
 pub(crate) mod derive;
 mod dispatch;

@@ -32,10 +32,7 @@ impl<S> Bearing<S> {
 
     /// The same over another scalar.
     pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Bearing<T> {
-        let ends = self.ends.each_ref().map(|end| Attachment {
-            s: Local { x: f(&end.s.x), y: f(&end.s.y) },
-            axis: f(&end.axis),
-        });
+        let ends = [self.ends[0].map(f), self.ends[1].map(f)];
         let Self { joint, holds_angle, ref coordinate, .. } = *self;
         Bearing { joint, holds_angle, ends, coordinate: coordinate.clone() }
     }

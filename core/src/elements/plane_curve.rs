@@ -8,7 +8,7 @@
 use super::curve_formula::Formula;
 use super::curve_points::CurvePoints;
 use crate::expression::Knots;
-use crate::math::{Interpolation, Local, Real};
+use crate::math::{indexed, Interpolation, Local, Real};
 use std::sync::Arc;
 
 /// A curve.
@@ -73,7 +73,8 @@ impl<S> Curve<S> {
             }
             Self::Line { from, to } => Curve::Line { from: local(from), to: local(to) },
             Self::Near { at, terms } => {
-                let terms = terms.each_ref().map(local);
+                let [c0, c1, c2, c3] = terms;
+                let terms = [local(c0), local(c1), local(c2), local(c3)];
                 Curve::Near { terms, at: f(at) }
             }
         }
@@ -174,5 +175,5 @@ fn taylor<S: Real>([c0, c1, c2, c3]: [Local<S>; 4], d: S) -> [Local<S>; 4] {
         [c0 + d * (c1 + d * (half * c2 + d * sixth * c3)), first, c2 + d * c3, c3]
     };
     let (x, y) = (part(|s| s.x), part(|s| s.y));
-    std::array::from_fn(|n| Local::new(x[n], y[n]))
+    indexed(|n| Local::new(x[n], y[n]))
 }

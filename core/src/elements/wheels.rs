@@ -1,7 +1,7 @@
 //! Functions of elements with wheels that roll on each other or on a line.
 
 use super::joint_trait::{At, Required, ResultQuantity};
-use crate::math::{Local, Pose, Real, Rotation, Vec2};
+use crate::math::{each, Local, Pose, Real, Rotation, Vec2};
 
 /// The radii: r = module z/2 if the numbers of teeth z are given; NaN if neither radii nor teeth are given.
 pub(super) fn radii<S: Real>(
@@ -11,7 +11,7 @@ pub(super) fn radii<S: Real>(
 ) -> [S; 2] {
     match (radii, teeth, module) {
         (Some(radii), ..) => radii,
-        (None, Some(teeth), Some(module)) => teeth.map(|z| z * module / S::constant(2.0)),
+        (None, Some(teeth), Some(module)) => each(teeth, |z| z * module / S::constant(2.0)),
         _ => [S::constant(f64::NAN); 2],
     }
 }

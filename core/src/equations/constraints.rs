@@ -8,11 +8,11 @@ use super::gains::Gains;
 use super::kinematics::Motions;
 use super::laws::{self, Laws};
 use crate::elements::derive::{
-    columns_of, moving, participants, seeded, terms, with_values, ByThree,
+    columns_of, moving, participants, seeded, terms, ByThree, Few, OfBodies,
 };
 use crate::elements::{At, BodyId, Constraint, Coordinate, Joint, Linearized, Moving};
 use crate::expression::Tape;
-use crate::math::{Jet, Real, Twist};
+use crate::math::{Jet, Motion, Pose, Real, Twist};
 use crate::model::{Block, ConstraintItem, Model, Slots};
 
 /// Φ(q, t), shape (m).
@@ -20,27 +20,31 @@ pub fn residual<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, out: &mut
     for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
         let phi = &mut out[slots.rows.clone()];
         let (own, _) = motions.own(slots.own);
-        with_values(
-            item.bodies.len(),
-            |b| motions[item.bodies[b].0].pose,
-            |bodies| {
-                let at = At { bodies, own, t };
-                match &item.law {
-                    None => item.element.residual(&at, phi),
-                    Some(law) => {
-                        let values = laws::held(&model.parameters, motions, &[], t);
-                        law.map(&mut |tape| tape.evaluate(&values)).residual(&at, phi);
-                    }
-                }
-            },
-        );
+        let mut bodies = poses(&item.bodies, motions);
+        let at = At { bodies: bodies.all(), own, t };
+        match &item.law {
+            None => item.element.residual(&at, phi),
+            Some(law) => {
+                let values = laws::held(&model.parameters, motions, &[], t);
+                law.map(&mut |tape| tape.evaluate(&values)).residual(&at, phi);
+            }
+        }
     }
+}
+
+/// The poses of bodies.
+pub(super) fn poses<S: Real>(bodies: &[BodyId], motions: &Motions<S>) -> OfBodies<Pose<S>> {
+    let mut poses = OfBodies::new(bodies.len(), Pose::identity());
+    for (pose, body) in poses.all().iter_mut().zip(bodies) {
+        *pose = motions[body.0].pose;
+    }
+    poses
 }
 
 /// Stored entries of Φ_q, in the order of the layout.
 pub fn jacobian<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, entries: &mut [S]) {
     for (k, slots) in model.layout.constraints.iter().enumerate() {
-        linearize_one(model, k, motions, t, |_, columns| store(columns, slots, entries));
+        linearize_one(model, k, motions, t, &mut |_, columns| store(columns, slots, entries));
     }
 }
 
@@ -54,7 +58,7 @@ pub fn velocity_terms<S: Real>(
     gamma: &mut [S],
 ) {
     for (k, slots) in model.layout.constraints.iter().enumerate() {
-        linearize_one(model, k, motions, t, |terms, _| {
+        linearize_one(model, k, motions, t, &mut |terms, _| {
             residual[slots.rows.clone()].copy_from_slice(terms.residual);
             rate[slots.rows.clone()].copy_from_slice(terms.rate);
             gamma[slots.rows.clone()].copy_from_slice(terms.gamma);
@@ -71,7 +75,7 @@ pub fn terms_and_jacobian<S: Real>(
     entries: &mut [S],
 ) {
     for (k, slots) in model.layout.constraints.iter().enumerate() {
-        linearize_one(model, k, motions, t, |terms, columns| {
+        linearize_one(model, k, motions, t, &mut |terms, columns| {
             residual[slots.rows.clone()].copy_from_slice(terms.residual);
             rate[slots.rows.clone()].copy_from_slice(terms.rate);
             gamma[slots.rows.clone()].copy_from_slice(terms.gamma);
@@ -105,7 +109,7 @@ pub(super) fn linearize_some<S: Real>(
 ) {
     for k in which {
         let slots = &model.layout.constraints[k];
-        linearize_one(model, k, motions, t, |terms, columns| {
+        linearize_one(model, k, motions, t, &mut |terms, columns| {
             stabilized.put(terms, &mut right[slots.rows.clone()]);
             store(columns, slots, entries);
         });
@@ -163,6 +167,27 @@ pub(super) enum ByBlock<'a, S> {
     Blocks(&'a [[S; 3]]),
 }
 
+/// Memory for Φ, Φ̇, γ and the rows of Φ_q of one constraint.
+struct Rows<S> {
+    bodies: OfBodies<Motion<S>>,
+    /// Φ, Φ̇ and γ.
+    terms: Few<S, 9>,
+    columns: Few<[S; 3], 9>,
+}
+
+impl<S: Real> Rows<S> {
+    /// Memory for `m` equations and the columns of `count` bodies or blocks.
+    #[inline(always)]
+    fn new(bodies: &[BodyId], motions: &Motions<S>, [m, count]: [usize; 2]) -> Self {
+        let mut all = OfBodies::new(bodies.len(), Motion::ground());
+        for (motion, body) in all.all().iter_mut().zip(bodies) {
+            *motion = motions[body.0];
+        }
+        let (terms, columns) = (Few::new(3 * m, S::zero()), Few::new(count * m, [S::zero(); 3]));
+        Self { bodies: all, terms, columns }
+    }
+}
+
 /// Calls `take` with Φ, Φ̇, γ and the rows of Φ_q of constraint `k`, an `element` with constant fields.
 #[inline(always)]
 pub(super) fn linearize_element<E: Joint, S: Real, R>(
@@ -176,39 +201,23 @@ pub(super) fn linearize_element<E: Joint, S: Real, R>(
     let (bodies, slots) = (&model.constraints[k].bodies, &model.layout.constraints[k]);
     let (own, own_rates) = motions.own(slots.own);
     let m = slots.rows.len();
-    let count = participants(bodies.len(), own.len());
-    let body = |b: usize| motions[bodies[b].0];
-    with_values(bodies.len(), body, |all| {
-        let at = Moving { bodies: all, own, own_rates, t };
-        with_values(
-            3 * m,
-            |_| S::zero(),
-            |terms| {
-                let (residual, rest) = terms.split_at_mut(m);
-                let (rate, gamma) = rest.split_at_mut(m);
-                with_values(
-                    count * m,
-                    |_| [S::zero(); 3],
-                    |columns| {
-                        let out = Linearized { residual, rate, gamma, columns };
-                        E::linearize(element, &at, out);
-                        let by_block = ByBlock::Participants(bodies, columns);
-                        take(&Terms { residual, rate, gamma }, by_block)
-                    },
-                )
-            },
-        )
-    })
+    let mut rows = Rows::new(bodies, motions, [m, participants(bodies.len(), own.len())]);
+    let at = Moving { bodies: rows.bodies.all(), own, own_rates, t };
+    let (residual, rest) = rows.terms.all().split_at_mut(m);
+    let (rate, gamma) = rest.split_at_mut(m);
+    let columns = rows.columns.all();
+    E::linearize(element, &at, Linearized { residual, rate, gamma, columns });
+    take(&Terms { residual, rate, gamma }, ByBlock::Participants(bodies, columns))
 }
 
 /// Calls `take` with Φ, Φ̇, γ and the rows of Φ_q of constraint `k`.
-pub(super) fn linearize_one<S: Real, R>(
+pub(super) fn linearize_one<S: Real>(
     model: &Model<S>,
     k: usize,
     motions: &Motions<S>,
     t: S,
-    take: impl FnOnce(&Terms<'_, S>, ByBlock<'_, S>) -> R,
-) -> R {
+    take: &mut dyn FnMut(&Terms<'_, S>, ByBlock<'_, S>),
+) {
     let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
     let (own, own_rates) = motions.own(slots.own);
     let (m, bodies) = (slots.rows.len(), &item.bodies);
@@ -216,44 +225,25 @@ pub(super) fn linearize_one<S: Real, R>(
         None => participants(bodies.len(), own.len()),
         Some(_) => slots.blocks.len(),
     };
-    with_values(
-        bodies.len(),
-        |b| motions[bodies[b].0],
-        |all| {
-            let at = Moving { bodies: all, own, own_rates, t };
-            with_values(
-                3 * m,
-                |_| S::zero(),
-                |terms| {
-                    let (residual, rest) = terms.split_at_mut(m);
-                    let (rate, gamma) = rest.split_at_mut(m);
-                    with_values(
-                        count * m,
-                        |_| [S::zero(); 3],
-                        |columns| {
-                            let by_block = match &item.law {
-                                None => {
-                                    let out = Linearized { residual, rate, gamma, columns };
-                                    item.element.linearize(&at, out);
-                                    ByBlock::Participants(bodies, columns)
-                                }
-                                Some(law) => {
-                                    law_terms(model, law, motions, &at, [residual, rate, gamma]);
-                                    for (block, rows) in
-                                        slots.blocks.iter().zip(columns.chunks_exact_mut(m))
-                                    {
-                                        law_columns((model, item, law), motions, &at, block, rows);
-                                    }
-                                    ByBlock::Blocks(columns)
-                                }
-                            };
-                            take(&Terms { residual, rate, gamma }, by_block)
-                        },
-                    )
-                },
-            )
-        },
-    )
+    let mut rows = Rows::new(bodies, motions, [m, count]);
+    let at = Moving { bodies: rows.bodies.all(), own, own_rates, t };
+    let (residual, rest) = rows.terms.all().split_at_mut(m);
+    let (rate, gamma) = rest.split_at_mut(m);
+    let columns = rows.columns.all();
+    let by_block = match &item.law {
+        None => {
+            item.element.linearize(&at, Linearized { residual, rate, gamma, columns });
+            ByBlock::Participants(bodies, columns)
+        }
+        Some(law) => {
+            law_terms(model, law, motions, &at, [residual, rate, gamma]);
+            for (block, rows) in slots.blocks.iter().zip(columns.chunks_exact_mut(m)) {
+                law_columns((model, item, law), motions, &at, block, rows);
+            }
+            ByBlock::Blocks(columns)
+        }
+    };
+    take(&Terms { residual, rate, gamma }, by_block);
 }
 
 /// Adds the rows of a constraint to its blocks of Φ_q.
@@ -294,7 +284,7 @@ fn law_terms<S: Real>(
             Laws { parameters, t: at.t, coordinate, own: [&[]; 2], z: &[], pieces, function: None };
         law.map(&mut |tape| tape.evaluate(&values)).residual(at, phi);
     };
-    terms(at, residual, out);
+    terms(at, &residual, out);
 }
 
 /// Derivatives of a constraint with a law with respect to the coordinates of one owner.
@@ -317,7 +307,7 @@ fn law_columns<S: Real>(
         law.map(&mut |tape| tape.evaluate(&values)).residual(at, phi);
     };
     let varies = |b: usize| Some(item.bodies[b]) == block.body;
-    columns_of(at, varies, block.body.is_none(), residual, rows);
+    columns_of(at, &varies, block.body.is_none(), &residual, rows);
 }
 
 /// Derivatives of constraint `k` with respect to the coordinates of one body, one row for each equation, in `rows`.
@@ -338,7 +328,7 @@ pub(super) fn columns_by_body<S: Real>(
             row.iter_mut().zip(from).for_each(|(row, x)| *row += *x);
         }
     };
-    linearize_one(model, k, motions, t, |_, columns| match columns {
+    linearize_one(model, k, motions, t, &mut |_, columns| match columns {
         ByBlock::Participants(bodies, columns) => {
             let own = bodies.iter().zip(columns.chunks_exact(m)).filter(|(b, _)| **b == body);
             own.for_each(|(_, rows)| add(rows));

@@ -175,7 +175,7 @@ fn changes(
             own.iter_mut().enumerate().for_each(|(c, u)| *u = Dual::variable(u.value, c));
         }
     }
-    linearize_one(lifted, k, &motions, D::lift(0.7), |_, rows| store(rows, slots, columns));
+    linearize_one(lifted, k, &motions, D::lift(0.7), &mut |_, rows| store(rows, slots, columns));
     for (to, coupled) in slots.blocks.iter().zip(coupled) {
         let entries = &columns[to.entries(slots.rows.len())];
         *coupled |= entries.iter().any(|e| e.slope != [0.0; 3]);

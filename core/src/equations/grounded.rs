@@ -5,7 +5,7 @@ use super::constraints;
 use super::inertia::Inertia;
 use super::kinematics::Motions;
 use crate::elements::BodyId;
-use crate::math::{Motion, Real};
+use crate::math::{each, Motion, Real};
 use crate::model::{ConstraintItem, Model, Slots, Weighed};
 use crate::solve::{CondensedGroup, Saddle};
 
@@ -84,7 +84,7 @@ impl<S: Real> Grounded<S> {
             let mut rows = [[S::zero(); 3]; 2];
             constraints::columns_by_body(model, constraint, motions, S::zero(), body, &mut rows);
             let sign = model.layout.constraints[constraint].blocks[0].sign;
-            S::one() / mass.about_pin(sign, rows.map(|row| row[2])).1
+            S::one() / mass.about_pin(sign, each(rows, |row| row[2])).1
         });
         Self { constraint, body, mass, about_pin }
     }

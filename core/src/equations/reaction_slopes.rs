@@ -6,11 +6,13 @@
 use super::forces::{self, Acting};
 use super::kinematics::Motions;
 use super::reactions;
+use crate::elements::derive::ByThree;
 use crate::elements::{BodyId, ForceElement, Mode, Situation};
-use crate::math::{Dual, Lift, Motion, Real, Vec2, Wrench};
+use crate::math::{Lift, Motion, Real, Vec2, Wrench};
 use crate::model::Model;
 
-type D<S> = Dual<1, S>;
+/// The derivative is the first slope; the others are zero. A scalar of its own would only be more code.
+type D<S> = ByThree<S>;
 
 /// ∂(Q + loads)/∂λ for the multiplier of one row, shape (n_q).
 pub fn by_multiplier<S: Real>(
@@ -103,14 +105,18 @@ impl<S: Real> Seed<'_, S> {
         let held = row.zip(self.acting.lam).map_or(S::zero(), |(row, lam)| lam[row]);
         let slope = if row == Some(self.row) { S::one() } else { S::zero() };
         let most = limit(leader);
-        let part = D { value: held, slope: [slope] } * limit(k) / most;
+        let part = along(held, slope) * limit(k) / most;
         D::select(most, D::constant(sense) * part, D::zero())
     }
 }
 
 /// A wrench whose derivative is a second wrench.
 fn seeded<S: Real>(value: Wrench<S>, slope: Wrench<S>) -> Wrench<D<S>> {
-    let both = |value: S, slope: S| D { value, slope: [slope] };
-    let force = Vec2::new(both(value.force.x, slope.force.x), both(value.force.y, slope.force.y));
-    Wrench { force, torque: both(value.torque, slope.torque) }
+    let (x, y) = (along(value.force.x, slope.force.x), along(value.force.y, slope.force.y));
+    Wrench { force: Vec2::new(x, y), torque: along(value.torque, slope.torque) }
+}
+
+/// A number with its derivative with respect to the multiplier.
+fn along<S: Real>(value: S, slope: S) -> D<S> {
+    D { value, slope: [slope, S::zero(), S::zero()] }
 }

@@ -3,7 +3,7 @@
 
 use super::constraints;
 use super::kinematics::Motions;
-use crate::elements::derive::with_values;
+use crate::elements::derive::{ByThree, OfRows};
 use crate::elements::{At, Attachment, BodyId};
 use crate::math::{Dual, Lift, Local, Pose, Real, Rotation, Vec2, Wrench};
 use crate::model::Model;
@@ -130,16 +130,16 @@ pub fn add_load_slopes<S: Real>(
             continue;
         }
         let seeded = |at: usize| match at == row {
-            true => Dual::<1, S>::variable(lam[at], 0),
+            true => ByThree::<S>::variable(lam[at], 0),
             false => Dual::lift(lam[at]),
         };
-        let lam: Vec<Dual<1, S>> = rows.clone().map(seeded).collect();
+        let lam: Vec<ByThree<S>> = rows.clone().map(seeded).collect();
         let item = &model.constraints[k];
         let element = item.element.map(&mut |x: &S| Dual::lift(*x));
         let pose = |body: &BodyId| motions[body.0].pose.lift();
-        let bodies: Vec<Pose<Dual<1, S>>> = item.bodies.iter().map(pose).collect();
+        let bodies: Vec<Pose<ByThree<S>>> = item.bodies.iter().map(pose).collect();
         let at = At { bodies: &bodies, own: &[], t: Dual::lift(t) };
-        element.load(&at, &lam, &mut |place, w: Wrench<Dual<1, S>>| {
+        element.load(&at, &lam, &mut |place, w: Wrench<ByThree<S>>| {
             let slopes = [w.force.x, w.force.y, w.torque].map(|x| x.slope[0]);
             model.layout.bodies[item.bodies[place].0].add(slopes, out);
         });
@@ -171,8 +171,8 @@ fn positions<S: Real, R>(
 ) -> R {
     let item = &model.constraints[k];
     let (own, _) = motions.own(model.layout.constraints[k].own);
-    let pose = |b: usize| motions[item.bodies[b].0].pose;
-    with_values(item.bodies.len(), pose, |bodies| f(&At { bodies, own, t }))
+    let mut bodies = constraints::poses(&item.bodies, motions);
+    f(&At { bodies: bodies.all(), own, t })
 }
 
 /// The global point where the reaction of constraint `k` acts, if this point moves on body j.
@@ -204,19 +204,14 @@ fn against<S: Real>(
     t: S,
     lam: &[S],
 ) -> Wrench<S> {
-    with_values(
-        lam.len(),
-        |_| [S::zero(); 3],
-        |rows| {
-            constraints::columns_by_body(model, k, motions, t, body, rows);
-            let mut w = Wrench::zero();
-            for ([x, y, angle], lam) in rows.iter().zip(lam) {
-                let row = Wrench { force: Vec2::new(*x, *y).scale(*lam), torque: *angle * *lam };
-                w = w + -row;
-            }
-            w
-        },
-    )
+    let mut rows = OfRows::new(lam.len(), [S::zero(); 3]);
+    constraints::columns_by_body(model, k, motions, t, body, rows.all());
+    let mut w = Wrench::zero();
+    for ([x, y, angle], lam) in rows.all().iter().zip(lam) {
+        let row = Wrench { force: Vec2::new(*x, *y).scale(*lam), torque: *angle * *lam };
+        w = w + -row;
+    }
+    w
 }
 
 /// Minus the sum of the reactions of a constraint with a law on all moving bodies, about the global origin.

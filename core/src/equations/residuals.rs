@@ -101,9 +101,9 @@ impl<S: Real> Look<'_, S> {
     /// Evaluates any constraint.
     fn one(&mut self, k: usize) {
         let range = self.model.layout.constraints[k].rows.clone();
-        constraints::linearize_one(self.model, k, self.motions, self.t, |terms, _| {
+        constraints::linearize_one(self.model, k, self.motions, self.t, &mut |terms, _| {
             self.rows[0][range.clone()].copy_from_slice(terms.residual);
-            self.rows[1][range].copy_from_slice(terms.rate);
+            self.rows[1][range.clone()].copy_from_slice(terms.rate);
         });
     }
 }

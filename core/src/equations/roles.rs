@@ -170,7 +170,7 @@ impl<S: Real> PutOthers<'_, S> {
     #[inline(never)] // as for `visit`
     fn law(&mut self, k: usize) {
         let At { model, motions, t, .. } = self.at;
-        constraints::linearize_one(model, k, motions, t, |terms, columns| {
+        constraints::linearize_one(model, k, motions, t, &mut |terms, columns| {
             self.put(k, terms, columns)
         });
     }

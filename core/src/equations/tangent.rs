@@ -17,7 +17,7 @@ use super::kinematics::Motions;
 use super::mass::{self, MassBlock};
 use super::{reactions, reactive};
 use crate::elements::derive::{seeded, ByThree};
-use crate::math::{Dual, Lift, Motion, Real, Twist, Vec2};
+use crate::math::{each, Dual, Lift, Motion, Real, Twist, Vec2};
 use crate::model::{Block, Body, Columns, Model, Slots};
 
 type D = ByThree<f64>;
@@ -169,7 +169,7 @@ impl Tangent {
         }
         for ((row, column), block) in self.pairs.iter().zip(&self.stiffness) {
             let s = model.layout.owners[*column].of(s);
-            let product = block.map(|k| -(k[0] * s[0] + k[1] * s[1] + k[2] * s[2]));
+            let product = each(*block, |k| -(k[0] * s[0] + k[1] * s[1] + k[2] * s[2]));
             model.layout.owners[*row].add(product, upper);
         }
         constraints::times_all(model, &self.rate, s, lower);
@@ -182,7 +182,7 @@ impl Tangent {
         for (seed, block) in slots.blocks.iter().enumerate() {
             self.seed(block, slots, motions);
             let (lifted, columns, rate) = (&self.lifted, &mut self.columns, &mut self.rate);
-            constraints::linearize_one(lifted, k, &self.motions, D::lift(t), |terms, rows| {
+            constraints::linearize_one(lifted, k, &self.motions, D::lift(t), &mut |terms, rows| {
                 for (r, slope) in terms.rate.iter().enumerate() {
                     rate[block.row(r)].copy_from_slice(&slope.slope);
                 }
@@ -311,7 +311,7 @@ impl Tangent {
             }
             let rows = [&w.force.x, &w.force.y, &w.torque];
             let entry = |at| {
-                let values = rows.map(|row| -row.slope[0]);
+                let values = each(rows, |row| -row.slope[0]);
                 Entry { owner: body.0 - 1, at, values }
             };
             match by {

@@ -122,11 +122,12 @@ impl Table {
             Outside::Refuse => ROUNDING * (last[0] - first[0]),
             Outside::Hold | Outside::Linear => 0.0,
         };
-        let [before, after] = [first, last].map(|[end, y, slope]| match self.outside {
+        let beyond = |[end, y, slope]: [f64; 3]| match self.outside {
             Outside::Refuse => S::constant(f64::NAN),
             Outside::Hold => S::constant(y),
             Outside::Linear => S::constant(y) + S::constant(slope) * (x - S::constant(end)),
-        });
+        };
+        let (before, after) = (beyond(first), beyond(last));
         if high <= first[0] {
             return before;
         }

@@ -313,7 +313,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
     /// The step to try instead of the step to `t_new`, so that no stage is near a time to avoid.
     fn placed<Y: Ode>(&mut self, rhs: &mut RightHandSide<'_, Y>, t_new: f64) -> Option<f64> {
         let avoid = rhs.system.times_to_avoid()?.next(t_new)?;
-        let [h, left] = [t_new, self.t_end].map(|end| (end - self.t).abs());
+        let [h, left] = [(t_new - self.t).abs(), (self.t_end - self.t).abs()];
         let left = left.min(self.control.max_step);
         self.placement.instead(P::GAP, h, self.direction() * (avoid - self.t), left)
     }

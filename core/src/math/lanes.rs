@@ -112,7 +112,8 @@ impl Lanes {
     /// Applies a function without a vector version to each lane.
     #[inline(always)]
     pub(super) fn each(self, f: impl Fn(f64) -> f64) -> Self {
-        Self::new(self.to_array().map(f))
+        let [a, b, c, d] = self.to_array();
+        Self::new([f(a), f(b), f(c), f(d)])
     }
     /// Whether all lanes are within ±`most`; false if one is NaN.
     #[inline(always)]
@@ -126,7 +127,7 @@ impl Lanes {
     }
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let (a, b) = (self.to_array(), other.to_array());
-        Self::new(std::array::from_fn(|k| f(a[k], b[k])))
+        Self::new([f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3])])
     }
 }
 

@@ -2,10 +2,13 @@
 //!
 //! Every formula of the core is written once over [`Real`]. The scalar determines the result: `f64` gives a value,
 //! [`Dual`] first derivatives, [`Jet`] time derivatives, and [`Lanes`] several states or designs at once. Scalars can
-//! be nested: `Dual<3, Lanes>` gives the Jacobian of four designs. [`Interval`] gives bounds of all values on an
+//! be nested: `Dual<3, Lanes>` gives the Jacobian of four designs. Derivatives of higher order in one variable are a
+//! [`Series`]. [`Interval`] gives bounds of all values on an
 //! interval.
 //! Linear equations may also be [`Complex`]; they require only a [`Field`].
 
+mod array;
+pub(crate) mod base;
 mod complex;
 mod dual;
 mod field;
@@ -14,10 +17,13 @@ mod jet;
 mod lanes;
 mod plane;
 mod real;
+mod series;
 mod sine;
 mod spline;
 mod spline_system;
 
+pub(crate) use array::{each, indexed};
+pub use base::{compose, OverBase};
 pub use complex::Complex;
 pub use dual::Dual;
 pub use field::Field;
@@ -26,4 +32,5 @@ pub use jet::Jet;
 pub use lanes::Lanes;
 pub use plane::{Lever, Local, Motion, Pose, Rotation, Twist, Vec2, Wrench};
 pub use real::{Largest, Lift, Real};
+pub use series::Series;
 pub use spline::{Interpolation, Spline};

@@ -1,5 +1,6 @@
 //! The operations on scalars that the mechanics needs.
 
+use super::base::OverBase;
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -19,6 +20,7 @@ pub trait Real:
     + Neg<Output = Self>
     + AddAssign
     + SubAssign
+    + OverBase
 {
     /// The highest order of the derivatives that the scalar contains; 0 if it contains none.
     const ORDER: usize = 0;

@@ -133,7 +133,9 @@ impl<S: Real> Spline<S> {
                 // lanes on different pieces: the later piece applies where x is beyond its first knot
                 let beyond = x - lift(self.knots[order[k]]);
                 let piece: [T; N] = self.piece(order[k], x, lift);
-                result = std::array::from_fn(|n| T::select(beyond, piece[n], result[n]));
+                for (result, piece) in result.iter_mut().zip(piece) {
+                    *result = T::select(beyond, piece, *result);
+                }
             }
         }
         result
@@ -162,18 +164,6 @@ impl<S: Real> Spline<S> {
             *derivative = *derivative * T::constant(factorial);
         }
         result
-    }
-}
-
-impl<S> Spline<S> {
-    /// The spline over another scalar.
-    pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Spline<T> {
-        Spline {
-            knots: self.knots.iter().map(&mut *f).collect(),
-            pieces: self.pieces.iter().map(|piece| piece.each_ref().map(&mut *f)).collect(),
-            degree: self.degree,
-            periodic: self.periodic,
-        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! The condition of minimum bending for the derivatives of a spline at its knots. The system is symmetric positive
 //! definite and block tridiagonal, and cyclic for a periodic spline.
 
+use super::array::{each, indexed};
 use super::real::Real;
 
 /// The interval between two knots.
@@ -136,26 +137,31 @@ fn subtract<S: Real, const M: usize>(a: &mut Block<S, M>, b: &Block<S, M>) {
 }
 
 fn transposed<S: Real, const M: usize>(a: &Block<S, M>) -> Block<S, M> {
-    std::array::from_fn(|row| std::array::from_fn(|column| a[column][row]))
+    indexed(|row| indexed(|column| a[column][row]))
 }
 
 fn apply<S: Real, const M: usize>(a: &Block<S, M>, x: &[S; M]) -> [S; M] {
-    a.map(|row| row.iter().zip(x).fold(S::zero(), |sum, (a, x)| sum + *a * *x))
+    each(*a, |row| dot(row, x))
 }
 
 fn times<S: Real, const M: usize>(a: &Block<S, M>, b: &Block<S, M>) -> Block<S, M> {
     let b = transposed(b);
-    a.map(|row| {
-        b.map(|column| row.iter().zip(&column).fold(S::zero(), |sum, (a, b)| sum + *a * *b))
-    })
+    indexed(|row| indexed(|column| dot(a[row], &b[column])))
+}
+
+fn dot<S: Real, const M: usize>(a: [S; M], b: &[S; M]) -> S {
+    let mut sum = S::zero();
+    for k in 0..M {
+        sum += a[k] * b[k];
+    }
+    sum
 }
 
 /// The inverse of a symmetric positive definite block, by elimination without pivoting.
 fn inverse<S: Real, const M: usize>(a: &Block<S, M>) -> Block<S, M> {
     let mut a = *a;
-    let mut b: Block<S, M> = std::array::from_fn(|row| {
-        std::array::from_fn(|column| S::constant(f64::from(u8::from(row == column))))
-    });
+    let mut b: Block<S, M> = [[S::zero(); M]; M];
+    (0..M).for_each(|k| b[k][k] = S::one());
     for pivot in 0..M {
         let scale = S::one() / a[pivot][pivot];
         for row in 0..M {
@@ -170,5 +176,5 @@ fn inverse<S: Real, const M: usize>(a: &Block<S, M>) -> Block<S, M> {
             }
         }
     }
-    std::array::from_fn(|row| b[row].map(|x| x / a[row][row]))
+    indexed(|row| each(b[row], |x| x / a[row][row]))
 }

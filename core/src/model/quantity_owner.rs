@@ -1,13 +1,12 @@
 //! An owner of position quantities, such as a point or a joint, and its quantities as formulas.
 
 use super::variable::Variable;
-use crate::elements::derive::{seeded, ByThree};
 use crate::elements::{
     At, Attachment, BodyId, Constraint, Coordinate, CoordinateOf, Followed, ForceElement, Measured,
     PointOn, QuantityOf,
 };
 use crate::expression::{Symbol, Tape, Values};
-use crate::math::{Dual, Jet, Lift, Local, Pose, Real, Rotation, Twist, Vec2};
+use crate::math::{Local, Pose, Real, Twist};
 use crate::symbolic::{record, Name, Record, Symbolic};
 
 /// An owner of quantities.
@@ -90,22 +89,23 @@ impl<S: Real> QuantityOwner<S> {
     }
 }
 
-/// Values of parameters, and of the coordinates of the bodies of an owner. Other laws in its fields are not
-/// evaluated.
-struct KnownValues<'a, S, T> {
-    parameters: &'a [S],
-    bodies: &'a [BodyId],
-    poses: &'a [Pose<T>],
+/// An owner with symbols as its numbers.
+struct OwnerSymbols {
+    parameters: Vec<Symbolic>,
+    bodies: Vec<BodyId>,
+    poses: Vec<Pose<Symbolic>>,
 }
 
-impl<S: Real, T: Lift<S>> Values<T> for KnownValues<'_, S, T> {
-    fn parameter(&self, k: usize) -> T {
-        T::lift(self.parameters[k])
+/// Symbols of parameters, and of the coordinates of the bodies. Other laws in the fields of the owner are not
+/// evaluated.
+impl Values<Symbolic> for OwnerSymbols {
+    fn parameter(&self, k: usize) -> Symbolic {
+        self.parameters[k]
     }
-    fn time(&self) -> T {
-        T::constant(f64::NAN)
+    fn time(&self) -> Symbolic {
+        Symbolic::constant(f64::NAN)
     }
-    fn variable(&self, k: usize) -> T {
+    fn variable(&self, k: usize) -> Symbolic {
         let Variable::Coordinate(body, of) = Variable::at(k) else { return self.time() };
         match self.bodies.iter().position(|own| *own == body) {
             Some(place) if !of.is_rate() => of.of(&self.poses[place], &Twist::zero()),
@@ -114,19 +114,25 @@ impl<S: Real, T: Lift<S>> Values<T> for KnownValues<'_, S, T> {
     }
 }
 
-/// An owner with symbols as its numbers.
-struct OwnerSymbols<'a> {
-    owner: &'a QuantityOwner<Tape>,
-    parameters: Vec<Symbolic>,
-    bodies: Vec<BodyId>,
-    poses: Vec<Pose<Jet<Symbolic>>>,
+/// The record of an owner over symbols.
+struct Recorded<'a> {
+    record: &'a Record,
+    own: OwnerSymbols,
+    over: QuantityOwner<Symbolic>,
+    /// The meaning of each symbol in a formula.
+    symbols: Vec<(Symbolic, Symbol)>,
 }
 
-impl OwnerSymbols<'_> {
-    /// Converts the owner to a scalar, for poses of its bodies.
-    fn over<T: Lift<Symbolic>>(&self, poses: &[Pose<T>]) -> QuantityOwner<T> {
-        let known = KnownValues { parameters: &self.parameters, bodies: &self.bodies, poses };
-        self.owner.map(&mut |tape| tape.evaluate(&known))
+impl Recorded<'_> {
+    /// The quantity with index k.
+    fn quantity(&self, k: usize) -> Symbolic {
+        let at = At { bodies: &self.own.poses, own: &[], t: Symbolic::zero() };
+        self.over.measure(&at)[k]
+    }
+
+    /// An expression as a formula.
+    fn tape(&self, x: Symbolic) -> Tape {
+        self.record.tape(x, &self.symbols)
     }
 }
 
@@ -146,89 +152,69 @@ impl FormulaModel {
         k: usize,
         order: usize,
     ) -> (Tape, [Attachment<Tape>; 2]) {
-        self.recorded(owner, |own, tape| {
-            let (poses, over) = (&own.poses, own.over(&own.poses));
-            let values = over.measure(&At { bodies: poses, own: &[], t: Jet::zero() });
-            let of = if order == 0 { values[k].value } else { values[k].rate };
-            let ends = [0, 1].map(|body| {
-                let Attachment { s, axis } = over.attachment(body);
-                let [x, y, axis] = [s.x, s.y, axis].map(|x| tape(x.value));
-                Attachment { s: Local { x, y }, axis }
-            });
-            (tape(of), ends)
+        self.recorded(owner, |all| {
+            let value = all.quantity(k);
+            let of = if order == 0 { value } else { all.record.rate(value) };
+            let end = |body: usize| {
+                let Attachment { s, axis } = all.over.attachment(body);
+                let s = Local { x: all.tape(s.x), y: all.tape(s.y) };
+                Attachment { s, axis: all.tape(axis) }
+            };
+            (all.tape(of), [end(0), end(1)])
         })
     }
 
-    /// Passes an owner over symbols to a function, together with the conversion from a symbol to a formula.
-    fn recorded<R>(
-        &self,
-        owner: &QuantityOwner<Tape>,
-        f: impl FnOnce(&OwnerSymbols<'_>, &dyn Fn(Symbolic) -> Tape) -> R,
-    ) -> R {
+    /// Passes the record of an owner over symbols to a function.
+    fn recorded<R>(&self, owner: &QuantityOwner<Tape>, f: impl FnOnce(&Recorded<'_>) -> R) -> R {
         record(|record| {
             let mut symbols = Vec::new();
-            let mut symbol = |record: &Record, rate: Option<Symbolic>, meaning: Symbol| {
-                let name = Name::field(&format!("s{}", symbols.len()));
-                let x = record.changing(name, rate.unwrap_or(Symbolic::zero()));
+            let mut symbol = |rate: Symbolic, meaning: Symbol| {
+                let x = record.changing(Name::field(&format!("s{}", symbols.len())), rate);
                 symbols.push((x, meaning));
                 x
             };
-            let parameters: Vec<Symbolic> =
-                (0..self.parameters).map(|k| symbol(record, None, Symbol::Parameter(k))).collect();
+            let constant = |k| symbol(Symbolic::zero(), Symbol::Parameter(k));
+            let parameters: Vec<Symbolic> = (0..self.parameters).map(constant).collect();
             let bodies = owner.bodies();
-            let poses: Vec<Pose<Jet<Symbolic>>> = bodies
-                .iter()
-                .map(|body| self.pose(*body, &mut |meaning| symbol(record, None, meaning)))
-                .collect();
-            let own = OwnerSymbols { owner, parameters, bodies, poses };
-            f(&own, &|x| record.tape(x, &symbols))
+            let poses = bodies.iter().map(|body| self.pose(*body, &mut symbol)).collect();
+            let own = OwnerSymbols { parameters, bodies, poses };
+            let over = owner.map(&mut |tape| tape.evaluate(&own));
+            f(&Recorded { record, own, over, symbols })
         })
     }
 
     /// The derivatives of the quantity of an owner with index k with respect to x, y and angle of its bodies i and j.
     pub fn gradient_of(&self, owner: &QuantityOwner<Tape>, k: usize) -> [[Tape; 3]; 2] {
-        self.recorded(owner, |own, tape| {
-            [0, 1].map(|seed| {
-                let pose = |(body, pose): (usize, &Pose<Jet<Symbolic>>)| {
-                    let pose = Pose {
-                        r: Vec2::new(pose.r.x.value, pose.r.y.value),
-                        angle: pose.angle.value,
-                        rotation: Rotation {
-                            cos: pose.rotation.cos.value,
-                            sin: pose.rotation.sin.value,
-                        },
-                    };
-                    if body == seed {
-                        seeded(&pose)
-                    } else {
-                        pose.lift()
-                    }
-                };
-                let bodies: Vec<Pose<ByThree<Symbolic>>> =
-                    own.poses.iter().enumerate().map(pose).collect();
-                let at = At { bodies: &bodies, own: &[], t: Dual::zero() };
-                own.over(&bodies).measure(&at)[k].slope.map(tape)
-            })
+        self.recorded(owner, |all| {
+            let value = all.quantity(k);
+            let by = |symbol| all.tape(all.record.derivative(value, symbol));
+            let by_body = |body: usize| {
+                let Pose { r, angle, .. } = all.own.poses[body];
+                [by(r.x), by(r.y), by(angle)]
+            };
+            [by_body(0), by_body(1)]
         })
     }
 
-    /// The pose of a body with its rates. Ground rests at the origin.
+    /// The pose of a body, whose coordinates have symbols as rates. Ground rests at the origin.
     fn pose(
         &self,
         body: BodyId,
-        symbol: &mut dyn FnMut(Symbol) -> Symbolic,
-    ) -> Pose<Jet<Symbolic>> {
+        symbol: &mut dyn FnMut(Symbolic, Symbol) -> Symbolic,
+    ) -> Pose<Symbolic> {
         if body.is_ground() {
             return Pose::identity();
         }
-        let mut jet = |position: Coordinate, rate: Coordinate| {
-            let mut of = |c| symbol(Symbol::Variable(Variable::Coordinate(body, c).index()));
-            Jet::new(of(position), of(rate), Symbolic::zero())
+        let mut moving = |position: Coordinate, rate: Coordinate| {
+            let meaning = |c| Symbol::Variable(Variable::Coordinate(body, c).index());
+            let rate = symbol(Symbolic::zero(), meaning(rate));
+            symbol(rate, meaning(position))
         };
-        let x = jet(Coordinate::X, Coordinate::Vx);
-        let y = jet(Coordinate::Y, Coordinate::Vy);
+        let x = moving(Coordinate::X, Coordinate::Vx);
+        let y = moving(Coordinate::Y, Coordinate::Vy);
         let turns = self.turns[body.0];
-        let angle = if turns { jet(Coordinate::Angle, Coordinate::Omega) } else { Jet::zero() };
+        let angle =
+            if turns { moving(Coordinate::Angle, Coordinate::Omega) } else { Symbolic::zero() };
         Pose::new(x, y, angle)
     }
 

@@ -5,7 +5,7 @@
 //! they were written. (A vector load that spans two recent scalar stores cannot be forwarded and stalls.)
 
 use super::mass_block::dot;
-use crate::math::Real;
+use crate::math::{each, indexed, Real};
 
 /// `N` items from `first`, with a single bounds check.
 #[inline(always)]
@@ -56,7 +56,7 @@ pub(super) fn add<S: Real, const M: usize, const N: usize>(
 #[inline(always)]
 pub(super) fn columns<S: Real, const M: usize, const K: usize>(x: &[S], first: u32) -> [[S; M]; K] {
     let x = &x[first as usize..first as usize + M * K];
-    std::array::from_fn(|k| std::array::from_fn(|i| x[k * M + i]))
+    indexed(|k| indexed(|i| x[k * M + i]))
 }
 
 /// Stores the columns of a block.
@@ -78,7 +78,7 @@ pub(super) fn scaled<S: Real, const M: usize, const K: usize>(
     a: &[[S; M]; K],
     inverse: &[S; K],
 ) -> [[S; M]; K] {
-    std::array::from_fn(|k| a[k].map(|a| a * inverse[k]))
+    indexed(|k| each(a[k], |a| a * inverse[k]))
 }
 
 /// target -= A Bᵀ, with A and B given by their `K` columns.
@@ -168,12 +168,12 @@ impl<S: Real, const N: usize> DiagonalBlock<S, N> {
             s[i][..i].copy_from_slice(&x[2 * N + i * (i - 1) / 2..][..i]);
         }
         (0..N).for_each(|i| s[i][i] = x[i]);
-        Self { s, magnitude: std::array::from_fn(|i| x[N + i]) }
+        Self { s, magnitude: indexed(|i| x[N + i]) }
     }
 
     #[inline(always)]
     pub fn store(&self, x: &mut [S], first: u32) {
-        let diagonal = std::array::from_fn(|i| self.s[i][i]);
+        let diagonal = indexed(|i| self.s[i][i]);
         store_triangle(x, first, [&diagonal, &self.magnitude], &self.s);
     }
 }

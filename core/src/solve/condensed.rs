@@ -13,7 +13,7 @@
 
 use super::mass_block::{dot, InverseMass, PIVOT_TOLERANCE};
 use super::structure::{index, RowBlock};
-use crate::math::Real;
+use crate::math::{each, indexed, Real};
 
 /// A pair of rows that is eliminated with its group.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -84,7 +84,7 @@ impl<S: Real> CondensedGroup<S> {
         }
         let e = cross(first, second);
         let inverse = S::one() / dot(&e, &e);
-        self.particular = [cross(second, &e), cross(&e, first)].map(|p| p.map(|p| p * inverse));
+        self.particular = each([cross(second, &e), cross(&e, first)], |p| each(p, |p| p * inverse));
         // |e|² = |r₁|² |r₂|² sin²: the group has no usable inverse if the rows are nearly parallel
         let least = S::constant(PIVOT_TOLERANCE) * dot(first, first) * dot(second, second);
         let none = S::constant(f64::INFINITY);
@@ -110,11 +110,11 @@ impl<S: Real> CondensedGroup<S> {
             return;
         }
         let [p, q] = &self.particular;
-        let at: [S; 3] = std::array::from_fn(|i| (p[i] * g[0]).plus_product(q[i], g[1]));
+        let at: [S; 3] = indexed(|i| (p[i] * g[0]).plus_product(q[i], g[1]));
         let inertial = self.times(&at);
-        let s = mass.along * dot(e, &std::array::from_fn(|i| f[i] - inertial[i]));
+        let s = mass.along * dot(e, &indexed(|i| f[i] - inertial[i]));
         *g = [dot(p, f), dot(q, f)];
-        *f = std::array::from_fn(|i| at[i].plus_product(e[i], s));
+        *f = indexed(|i| at[i].plus_product(e[i], s));
     }
 
     /// Computes λ of the rows from Pᵀ f (in `g`), x and Σ Aₖᵀ λₖ.
@@ -129,7 +129,7 @@ impl<S: Real> CondensedGroup<S> {
             return;
         }
         let inertial = self.times(x);
-        let all = std::array::from_fn(|i| inertial[i] + others[i]);
+        let all = indexed(|i| inertial[i] + others[i]);
         (0..2).for_each(|i| g[i] -= dot(&self.particular[i], &all));
     }
 
@@ -147,7 +147,7 @@ impl<S: Real> CondensedGroup<S> {
 
 #[inline(always)]
 fn cross<S: Real>(a: &[S; 3], b: &[S; 3]) -> [S; 3] {
-    [[1, 2], [2, 0], [0, 1]].map(|[i, j]| (a[i] * b[j]).minus_product(a[j], b[i]))
+    each([[1, 2], [2, 0], [0, 1]], |[i, j]| (a[i] * b[j]).minus_product(a[j], b[i]))
 }
 
 /// Other row blocks at condensed groups, ordered by group.

@@ -5,7 +5,7 @@
 //! ρ = [±I b] e. The functions are generic in the block size because their callers are; they are meant for two rows.
 
 use super::mass_block::InverseMass;
-use crate::math::Real;
+use crate::math::{each, indexed, Real};
 
 /// A pair of rows [±I b] with the mass of its group.
 #[derive(Clone, Copy, Debug)]
@@ -29,8 +29,8 @@ impl<S: Real> PinBlock<S> {
     #[inline(always)]
     pub(super) fn new(sign: f64, b: &[S; 2], mass: &InverseMass<S>) -> Self {
         let e = &mass.direction;
-        let along = [0, 1].map(|i| (b[i] * e[2]).plus_product(S::constant(sign), e[i]));
-        Self { along, scaled: along.map(|r| r * mass.along), translation: mass.translation }
+        let along = indexed(|i| (b[i] * e[2]).plus_product(S::constant(sign), e[i]));
+        Self { along, scaled: each(along, |r| r * mass.along), translation: mass.translation }
     }
 
     /// target += U W⁻¹ Uᵀ, in the lower triangle.
@@ -52,7 +52,7 @@ impl<S: Real> PinBlock<S> {
         sign: f64,
         target: &mut [[S; N]; M],
     ) {
-        let signed = self.translation.map(|inverse| S::constant(sign) * inverse);
+        let signed = each(self.translation, |inverse| S::constant(sign) * inverse);
         for i in 0..2 {
             for j in 0..2 {
                 target[i][j] = target[i][j].plus_product(self.scaled[i], other[j]);

@@ -13,7 +13,7 @@ use super::pin_block::PinBlock;
 use super::records::{last, next, PinEnd, PinRows, Start, Touch};
 use super::saddle::Saddle;
 use super::storage::Source;
-use crate::math::Real;
+use crate::math::{each, indexed, Real};
 
 /// The diagonal block of S of two rows, and their right side. Only the lower triangle is summed.
 #[derive(Clone, Copy, Debug)]
@@ -29,7 +29,7 @@ impl<S: Real> PinSum<S> {
     /// The sum without any group: y = -g.
     #[inline(always)]
     pub fn new(g: [S; 2]) -> Self {
-        Self { s: [[S::zero(); 2]; 2], held: S::zero(), right: g.map(|g| -g) }
+        Self { s: [[S::zero(); 2]; 2], held: S::zero(), right: each(g, |g| -g) }
     }
 }
 
@@ -66,7 +66,7 @@ impl<S: Real> Saddle<S> {
 
     #[inline(always)]
     fn put<const N: usize>(&mut self, row: u32, diagonal: u32, s: [[S; N]; N], held: [S; N]) {
-        let mut block = DiagonalBlock { magnitude: std::array::from_fn(|i| s[i][i] + held[i]), s };
+        let mut block = DiagonalBlock { magnitude: indexed(|i| s[i][i] + held[i]), s };
         if let Some(damping) = self.damping.get(row as usize..row as usize + N) {
             for (i, mu) in damping.iter().enumerate() {
                 block.s[i][i] += *mu;
@@ -90,7 +90,7 @@ impl<S: Real> Saddle<S> {
     /// b of rows [±I b].
     #[inline(always)]
     fn third_column(&self, end: &PinEnd) -> [S; 2] {
-        part::<[S; 3], 2>(&self.entries, end.entry).map(|row| row[2])
+        each(*part::<[S; 3], 2>(&self.entries, end.entry), |row| row[2])
     }
 
     /// Adds rows of [`Pattern::pin_rows`] whose entries are stored and whose right sides are in `g`. `x` contains W⁻¹

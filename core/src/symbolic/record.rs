@@ -162,6 +162,21 @@ impl Record {
         }
     }
 
+    /// The derivative of an expression with respect to a symbol.
+    pub fn derivative(&self, x: Symbolic, symbol: Symbolic) -> Symbolic {
+        self.derived(x, By::Symbol(self.own(symbol)))
+    }
+
+    /// The time derivative of an expression.
+    pub fn rate(&self, x: Symbolic) -> Symbolic {
+        self.derived(x, By::Time)
+    }
+
+    fn derived(&self, x: Symbolic, by: By) -> Symbolic {
+        let x = self.own(x);
+        self.of(self.with(NAN, |arena| Derivation::new(by).of(arena, x)))
+    }
+
     /// The text of an expression.
     pub fn write(&self, x: Symbolic, form: Form) -> String {
         let id = self.own(x);

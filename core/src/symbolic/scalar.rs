@@ -54,6 +54,8 @@ impl SubAssign for Symbolic {
     }
 }
 
+crate::math::base::is_base!(Symbolic);
+
 impl Real for Symbolic {
     fn constant(x: f64) -> Self {
         with(|arena, _| match x {

@@ -9,7 +9,7 @@ use crate::elements::{
     element, measure, At, BodyId, Force, Mark, Measured, Nature, Part, SceneSymbol, Situation,
     Wrenches,
 };
-use crate::math::{Local, Real, Wrench};
+use crate::math::{indexed, Local, Real, Wrench};
 
 element! {
     /// Bushing: a spring and damper in two directions and in rotation. x and y are the components
@@ -79,7 +79,7 @@ impl Force for Bushing {
         let from_i = j.r + arm - i.r;
         let parts = [(e.stiffness, position(e, at)), (e.damping, rate(e, at))];
         for (part, (factor, of)) in parts.into_iter().enumerate() {
-            let [x, y, torque] = [0, 1, 2].map(|k| -factor[k] * of[k]);
+            let [x, y, torque] = indexed(|k| -factor[k] * of[k]);
             let force = i.global(Local::new(x, y));
             let with =
                 |wrench: Wrench<S>, torque: S| Wrench { torque: wrench.torque + torque, ..wrench };

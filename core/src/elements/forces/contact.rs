@@ -125,8 +125,8 @@ impl<S: Real> TouchPoint<S> {
     /// The wrenches on bodies i and j of a force on i at the point of contact.
     fn wrenches(&self, force: Vec2<S>) -> [Wrench<S>; 2] {
         // adding zero removes negative zeros, which occur in lanes without contact
-        [(self.arms[0], force), (self.arms[1], -force)]
-            .map(|(arm, force)| Wrench::at(arm, force) + Wrench::zero())
+        let at = |arm, force| Wrench::at(arm, force) + Wrench::zero();
+        [at(self.arms[0], force), at(self.arms[1], -force)]
     }
 }
 

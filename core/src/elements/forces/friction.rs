@@ -121,7 +121,7 @@ impl<S: Real> Friction<S> {
         }
         let speed = self.speed(at);
         let dry = self.normal(at) * self.coefficient(speed) * self.sense(speed, at.mode);
-        [dry, self.viscous * speed].map(|force| -self.times_radius(force))
+        [-self.times_radius(dry), -self.times_radius(self.viscous * speed)]
     }
 
     /// Adds an effort on body j, and the opposite effort on body i.

@@ -31,8 +31,9 @@ impl Force for GeneralizedForce {
 
     fn action<S: Real>(e: &GeneralizedForce<S>, _: &Situation<'_, S>, mut out: impl Wrenches<S>) {
         for (body, slopes) in e.coordinate.gradient.into_iter().enumerate() {
-            let [x, y, torque] = slopes.map(|slope| slope * e.value);
-            out.put(0, body, Wrench { force: Vec2::new(x, y), torque });
+            let [x, y, torque] = slopes;
+            let force = Vec2::new(x, y).scale(e.value);
+            out.put(0, body, Wrench { force, torque: torque * e.value });
         }
     }
 

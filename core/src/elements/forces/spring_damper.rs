@@ -106,7 +106,7 @@ fn one_sense<S: Real>(
     let Pull { beyond, elastic, damping, sum } = pull(e, only, at, line);
     let taut = |force: S| at.choose(TAUT, beyond, force, S::zero());
     let damping = at.choose(ACTS, sum, damping, -elastic);
-    [elastic, damping].map(|pull| -line.u.scale(taut(pull)))
+    [-line.u.scale(taut(elastic)), -line.u.scale(taut(damping))]
 }
 
 impl Force for SpringDamper {

@@ -143,8 +143,9 @@ impl Force for Stop {
     fn action<S: Real>(e: &Stop<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
         for (part, effort) in efforts(e, at).into_iter().enumerate() {
             for (body, slopes) in e.coordinate.gradient.into_iter().enumerate() {
-                let [x, y, torque] = slopes.map(|slope| slope * effort);
-                out.put(part, body, Wrench { force: Vec2::new(x, y), torque });
+                let [x, y, torque] = slopes;
+                let force = Vec2::new(x, y).scale(effort);
+                out.put(part, body, Wrench { force, torque: torque * effort });
             }
         }
     }
