@@ -181,8 +181,10 @@ logged() {
     what=$1
     shift
     printf '\n== %s: %s\n' "$what" "$*" >>"$LOG"
+    trap - TERM # a process that has just begun could lose the signal of stop_progress to the trap
     show_progress "$what" &
     progress=$!
+    trap 'exit 143' TERM
     code=0
     "$@" >>"$LOG" 2>&1 </dev/null || code=$?
     stop_progress
@@ -236,8 +238,7 @@ locked() {
 
 stop_progress() {
     [ -n "${progress:-}" ] || return 0
-    kill "$progress" 2>/dev/null
-    wait "$progress" 2>/dev/null
+    { kill "$progress" && wait "$progress"; } 2>/dev/null
     progress=
     [ ! -t 2 ] || printf '\r\033[K' >&2
 }

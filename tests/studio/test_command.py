@@ -28,6 +28,10 @@ BARE = (
 )
 CARRIED = BARE.format("abc123abc123")
 BUILT = BARE.format("def456def456")
+OTHER = (
+    "studio: this checkout has other sources, 000000000000; "
+    "kempe studio --build builds their page"
+)
 
 
 @pytest.fixture
@@ -109,9 +113,9 @@ def test_an_export_is_one_file(tmp_path: Path, capsys: pytest.CaptureFixture[str
     [
         ("abc123abc123", []),
         (None, []),  # installed
-        ("000000000000", ["studio: this checkout has other sources, 000000000000; kempe studio --build builds the page of them"]),
+        ("000000000000", [OTHER]),
     ],
-)  # fmt: skip
+)
 @pytest.mark.usefixtures("carried")
 def test_other_sources_are_told_with_the_remedy(
     now: str | None,

@@ -71,7 +71,7 @@ def _name(version: str, built_from: str, now: str | None) -> None:
     if now not in {None, built_from}:
         remarks().print(
             f"studio: this checkout has other sources, {now}; "
-            "kempe studio --build builds the page of them"
+            "kempe studio --build builds their page"
         )
 
 
