@@ -87,7 +87,7 @@ sources_sum() {
     (
         cd "$ROOT" && choose_instructions && {
             printf '%s\n' "${RUSTFLAGS:-}"
-            find .cargo Cargo.toml Cargo.lock pyproject.toml core drawing bindings \
+            find .cargo Cargo.toml Cargo.lock pyproject.toml core drawing bindings/python \
                 \( -path core/tests -o -path drawing/tests -o -path core/benches -o -name target \) -prune -o \
                 -type f -exec cksum {} + | LC_ALL=C sort
         } | cksum
@@ -198,7 +198,7 @@ logged() {
 # Runs beside a command: one line that changes each second on a terminal, a line each half minute elsewhere.
 show_progress() {
     seconds=0
-    # A reader of the output would wait for `sleep` if that had the same output. Ctrl-C ends $$, but not this loop.
+    # A reader of the output would wait for `sleep` if that had the same output. $$ may be killed.
     while sleep 1 >/dev/null 2>&1 && kill -0 "$$" 2>/dev/null; do
         seconds=$((seconds + 1))
         if [ -t 2 ]; then
@@ -306,13 +306,15 @@ build_extension() {
         say "building the core: $FIRST_BUILD (later builds take seconds)"
     fi
     sum=$(sources_sum)
-    (
-        cd "$ROOT" || exit "$SETUP_FAILED"
-        # for maturin, which fails if conda's variable is set as well
-        unset CONDA_PREFIX
-        export VIRTUAL_ENV="$VENV"
-        choose_instructions
-        logged "building the core" "$VENV/bin/python" -m maturin develop --profile checkout --locked --skip-install
-    ) || exit "$SETUP_FAILED"
+    logged "building the core" compile
     write_stamp build "$sum"
 }
+
+compile() (
+    cd "$ROOT" || exit
+    # for maturin, which fails if conda's variable is set as well
+    unset CONDA_PREFIX
+    export VIRTUAL_ENV="$VENV"
+    choose_instructions
+    "$VENV/bin/python" -m maturin develop --profile checkout --locked --skip-install
+)

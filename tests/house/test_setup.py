@@ -276,14 +276,24 @@ def test_progress_is_shown_on_a_terminal(complete: Path) -> None:
     assert "\033" not in (complete / ".venv.log").read_text(encoding="utf-8")
 
 
-def test_an_interruption_ends_the_progress_too(complete: Path) -> None:
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
+def test_an_interruption_ends_the_progress_too(complete: Path, sent: signal.Signals) -> None:
     started, terminal = start_on_terminal(complete)
     until(terminal, "1 s")
-    os.killpg(started.pid, signal.SIGINT)
+    os.killpg(started.pid, sent)
     until(terminal, None)  # ends with the last process
     os.close(terminal)
-    assert started.wait() == 128 + signal.SIGINT
+    assert started.wait() == 128 + sent
     assert not list(complete.glob(".venv.lock*"))
+
+
+def test_the_progress_ends_with_a_killed_set_up(complete: Path) -> None:
+    started, terminal = start_on_terminal(complete)
+    until(terminal, "1 s")
+    started.kill()
+    started.wait()
+    until(terminal, None)
+    os.close(terminal)
 
 
 @pytest.mark.parametrize("depth", [1, 3])

@@ -29,8 +29,7 @@ BARE = (
 CARRIED = BARE.format("abc123abc123")
 BUILT = BARE.format("def456def456")
 OTHER = (
-    "studio: this checkout has other sources, 000000000000; "
-    "kempe studio --build builds their page"
+    "studio: this checkout has other sources, 000000000000; kempe studio --build builds their page"
 )
 
 
