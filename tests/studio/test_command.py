@@ -1,7 +1,9 @@
 """``kempe studio``: the page on loopback and in a folder, with a case in it."""
 
+import base64
 import gzip
 import json
+import lzma
 import os
 import re
 import subprocess
@@ -147,7 +149,17 @@ def test_kempe_carries_a_page_of_its_version() -> None:
     assert found.version == kempe.__version__, "run tools/release_page.sh"
     assert re.fullmatch("[0-9a-f]{12}", found.sources)
     assert found.html.count(page._SLOT) == 1
-    assert "MIT License" in found.html  # of the packages in the page
+    notices = found.html.partition('id="licences">')[2].partition("</script>")[0]
+    assert re.search(r"^toml_edit [\d.]+.* \(MIT\)$", notices, re.M)
+    assert re.search(r"^preact [\d.]+ \(MIT\)$", notices, re.M)
+
+
+def test_the_carried_page_has_no_path_of_the_machine_that_built_it() -> None:
+    found = re.search(r'id="core">([\w+/=]+)<', page.read(page.CARRIED).html)
+    assert found
+    core = lzma.decompress(base64.b64decode(found[1]))
+    assert b"kempe" in core
+    assert re.findall(rb"/[\w.-]+/[\w./-]+\.rs", core) == []
 
 
 def test_a_case_in_json_becomes_toml(tmp_path: Path) -> None:
