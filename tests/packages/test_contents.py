@@ -5,13 +5,17 @@ import csv
 import gzip
 import hashlib
 import io
+import os
 import subprocess
 import tarfile
 import zipfile
 from pathlib import Path
 
 import kempe
+import pytest
 from house.places import ROOT
+from kempe.studio.page import CARRIED, read
+from kempe.studio.sources import checksum
 
 LICENCES = ("LICENSE-MIT", "LICENSE-APACHE", "THIRD_PARTY_NOTICES.txt")
 INFORMATION = f"kempe-{kempe.__version__}.dist-info"
@@ -38,6 +42,14 @@ def test_the_wheel_has_all_of_the_package_and_both_cores(wheel: zipfile.ZipFile)
     inside = {name for name in wheel.namelist() if not name.startswith(INFORMATION)}
     assert inside == tracked("python") | CORES
     assert {"kempe/py.typed", STUDIO} <= inside
+
+
+@pytest.mark.skipif(
+    "KEMPE_REPOSITORY_BASELINE" not in os.environ,
+    reason="between releases, the page that kempe carries may be older than its sources",
+)
+def test_a_release_has_the_page_of_its_sources() -> None:
+    assert read(CARRIED).sources == checksum(), "run tools/release_page.sh"
 
 
 def test_every_file_of_the_wheel_is_recorded(wheel: zipfile.ZipFile) -> None:
