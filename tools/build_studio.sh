@@ -32,7 +32,7 @@ KEMPE_SOURCES=$("$python" "$ROOT/python/kempe/studio/sources.py")
 export KEMPE_SOURCES
 
 "$ROOT/tools/check_wasm.sh" install
-say "building the core for pages"
+say "building the core for pages, which takes some minutes the first time"
 KEMPE_WEB=$("$ROOT/tools/check_wasm.sh" build)
 export KEMPE_WEB
 
