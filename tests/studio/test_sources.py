@@ -1,6 +1,7 @@
 """The checksum of the sources of the page, and the build of the page from them."""
 
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -13,6 +14,11 @@ from kempe.cli import app, exit_codes
 from kempe.studio import build, sources
 
 SCRIPT = "tools/build_studio.sh"
+#: The scripts that read files for the page.
+SCRIPTS = ("build.mjs", "bundle.mjs", "licences.mjs", "words.mjs")
+CRATE = ("Cargo.toml", "src")
+#: Parts of the folder studio that are not in the page.
+NO_INPUTS = {"README.md", "biome.json", "dist", "node_modules", "player.html", "tests"}
 
 
 @pytest.fixture
@@ -57,12 +63,27 @@ def test_other_files_do_not_change_the_checksum(checkout: Path) -> None:
 
 def test_the_border_between_two_files_is_part_of_the_checksum(checkout: Path) -> None:
     first, second = checkout / "studio/src/a.ts", checkout / "studio/src/b.ts"
-    first.write_text("xy")
-    second.write_text("z")
-    before = sources.checksum(checkout)
-    first.write_text("x")
-    second.write_text("yz")
-    assert sources.checksum(checkout) != before
+    name = second.relative_to(checkout).as_posix()
+    found = set()
+    for texts in ((f"1{name}2", "3"), ("1", f"2{name}3")):
+        first.write_text(texts[0])
+        second.write_text(texts[1])
+        found.add(sources.checksum(checkout))
+    assert len(found) == 2
+
+
+def test_all_that_the_build_reads_is_an_input() -> None:
+    scripts = [(ROOT / "studio" / "build" / name).read_text("utf-8") for name in SCRIPTS]
+    read = {name for text in scripts for name in re.findall(r'join\(ROOT, "([^"]+)"', text)}
+    manifest = (ROOT / "bindings" / "web" / "Cargo.toml").read_text("utf-8")
+    crates = re.findall(r'path = "../../(\w+)"', manifest)
+    assert {"examples", "target"} < read
+    assert read - {"target"} <= set(sources.INPUTS)  # the compiled core
+    assert crates == ["core", "drawing"]
+    assert {f"{one}/{part}" for one in crates for part in CRATE} <= set(sources.INPUTS)
+    inside = {name for name in sources.INPUTS if name.startswith("studio/")}
+    parts = {f"studio/{path.name}" for path in (ROOT / "studio").glob("[!.]*")}
+    assert parts - {f"studio/{name}" for name in NO_INPUTS} == inside
 
 
 @pytest.mark.alone
