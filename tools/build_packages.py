@@ -4,7 +4,7 @@
     .venv/bin/python tools/build_packages.py
 
 The packages are written to dist/. A wheel for x86-64 contains the core twice (kempe/_processor.py).
-A wheel contains the page of the studio if tools/build_studio.sh has built it.
+Both contain the page of the studio that the repository carries.
 On Linux, Zig links against an old glibc, so that the wheel runs on old systems too.
 """
 
@@ -19,8 +19,6 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 WORK = ROOT / "target" / "packages"
-#: The built page of the studio, from the folder of Python sources.
-PAGE = Path("kempe", "studio", "built", "page.html")
 #: glibc 2.17 is that of the oldest systems which NumPy supports.
 GLIBC = "manylinux_2_17"
 #: Sources and files in packages have this time, so that the same sources give the same packages.
@@ -39,11 +37,6 @@ def main(words: list[str] | None = None) -> None:
     chosen = parser.parse_args(words)
     chosen.out.mkdir(parents=True, exist_ok=True)
     os.environ["SOURCE_DATE_EPOCH"] = EPOCH
-    if not (ROOT / "python" / PAGE).is_file():
-        print(
-            "the wheel will not contain the studio: run tools/build_studio.sh before",
-            file=sys.stderr,
-        )
     archive = source_distribution(chosen.out)
     print(wheel(archive, chosen.out, chosen.target, chosen.quick))
 
@@ -102,7 +95,7 @@ def compiled(sources: Path, name: str, flags: list[str], target: str | None, qui
 
 
 def finished(path: Path, faster: list[Path], out: Path) -> Path:
-    """Add the second core, the studio and the licences of Rust's library; pack it again."""
+    """Add the second core and the licences of Rust's library; pack it again."""
     folder = WORK / "unpacked"
     shutil.rmtree(folder, ignore_errors=True)
     run("wheel", "unpack", str(path), "--dest", str(folder / "wheel"))
@@ -112,9 +105,6 @@ def finished(path: Path, faster: list[Path], out: Path) -> Path:
         core = only(only(folder / "other", "*") / "kempe", "_core.*[od]")  # .so or .pyd
         (inside / "kempe" / f"_{V3}").mkdir()
         shutil.copy2(core, inside / "kempe" / f"_{V3}" / core.name)
-    if (ROOT / "python" / PAGE).is_file():
-        (inside / PAGE).parent.mkdir()
-        shutil.copy(ROOT / "python" / PAGE, inside / PAGE)
     information = only(inside, "*.dist-info")
     add_licences_of_rust(information / "licenses")
     for parts in information.glob("sboms/*.json"):  # maturin's list of crates, with their folders

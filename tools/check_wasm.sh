@@ -70,13 +70,14 @@ missing_packages() {
 # --- build ----------------------------------------------------------------------------------------
 
 # wasm_cargo COMMAND…: cargo for the target, with whichever toolchain there is. The standard library is compiled for size,
-# and panics stop at once, since pages do not show their messages.
+# and panics stop at once, since pages do not show their messages. So the places of panics are left out too: they are
+# paths of this machine.
 wasm_cargo() {
     command=$1
     shift
     set -- "$command" --manifest-path "$CRATE" --target "$TARGET" --target-dir "$HOME_OF_WASM/build" \
         -Zbuild-std=std,panic_abort -Zbuild-std-features=optimize_for_size -Zpanic-immediate-abort "$@"
-    export RUSTC_BOOTSTRAP=1 CARGO_PROFILE_WASM_PANIC=immediate-abort
+    export RUSTC_BOOTSTRAP=1 CARGO_PROFILE_WASM_PANIC=immediate-abort RUSTFLAGS=-Zlocation-detail=none
     if has_rustup_source; then
         cargo "$@"
         return
@@ -104,7 +105,7 @@ run() {
 }
 
 cd "$ROOT" || exit 5
-unset RUSTFLAGS # those of this machine are not for WebAssembly
+unset RUSTFLAGS CARGO_ENCODED_RUSTFLAGS # those of this machine are not for WebAssembly
 case ${1:-all} in
 install) install ;;
 check) check ;;

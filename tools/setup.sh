@@ -8,6 +8,7 @@
 
 SETUP_FAILED=5
 RUST_MINOR=85 # rust-version = "1.85" in Cargo.toml
+FIRST_BUILD="about two minutes" # measured on two processors; README.md and docs say the same
 
 VENV=$ROOT/.venv
 LOCK=$ROOT/.venv.lock
@@ -34,6 +35,7 @@ is_set_up() { has_venv && has_packages "$1" && has_extension; }
 do_set_up() {
     : >"$LOG" || give_up "cannot write to $ROOT: make it writable, or clone kempe elsewhere"
     check_tools
+    [ -d "$VENV" ] || say "first run: makes .venv and builds the core, which takes $FIRST_BUILD; later runs start at once"
     make_venv
     install_packages "$1"
     build_extension
@@ -85,7 +87,7 @@ sources_sum() {
     (
         cd "$ROOT" && choose_instructions && {
             printf '%s\n' "${RUSTFLAGS:-}"
-            find .cargo Cargo.toml Cargo.lock pyproject.toml core drawing bindings \
+            find .cargo Cargo.toml Cargo.lock pyproject.toml core drawing bindings/python \
                 \( -path core/tests -o -path drawing/tests -o -path core/benches -o -name target \) -prune -o \
                 -type f -exec cksum {} + | LC_ALL=C sort
         } | cksum
@@ -112,7 +114,7 @@ take_lock() {
         told=yes
         sleep 1
     done
-    trap 'release_lock' EXIT
+    trap 'stop_progress; release_lock' EXIT
     trap 'exit 129' HUP
     trap 'exit 130' INT
     trap 'exit 143' TERM
@@ -174,16 +176,71 @@ find_python() {
 
 # --- set-up ---------------------------------------------------------------------------------------
 
-# logged WHAT COMMAND…: runs a command silently and prints the end of its output if it fails.
+# logged WHAT COMMAND…: runs a command, shows its progress, and prints the end of its output if it fails.
 logged() {
     what=$1
     shift
     printf '\n== %s: %s\n' "$what" "$*" >>"$LOG"
-    "$@" >>"$LOG" 2>&1 </dev/null && return
+    trap - TERM # a process that has just begun could lose the signal of stop_progress to the trap
+    show_progress "$what" &
+    progress=$!
+    trap 'exit 143' TERM
+    code=0
+    "$@" >>"$LOG" 2>&1 </dev/null || code=$?
+    stop_progress
+    [ "$code" = 0 ] && return
     tail -n 30 "$LOG" >&2
     cause=$(network_cause "$what")
     [ -z "$cause" ] || give_up "$what failed, because a download failed: $cause. $(network_remedy)"
     give_up "$what failed; all of its output is in $LOG"
+}
+
+# Runs beside a command: one line that changes each second on a terminal, a line each half minute elsewhere.
+show_progress() {
+    seconds=0
+    # A reader of the output would wait for `sleep` if that had the same output. $$ may be killed.
+    while sleep 1 >/dev/null 2>&1 && kill -0 "$$" 2>/dev/null; do
+        seconds=$((seconds + 1))
+        if [ -t 2 ]; then
+            printf '\r\033[Kkempe: %s: %s%s s' "$1" "$(compiled)" "$seconds" >&2
+        elif [ $((seconds % 30)) = 0 ]; then
+            say "$1: $(compiled)$seconds s"
+        fi
+    done
+}
+
+# The crate that cargo began last, with its number; Cargo.lock has some that this system does not need.
+compiled() {
+    number=0
+    crate=
+    while IFS= read -r line; do
+        case $line in
+        *Compiling*)
+            number=$((number + 1))
+            line=${line#*Compiling}
+            line=${line#* }
+            ;;
+        *) continue ;;
+        esac
+        crate=${line%% *}
+    done <"$LOG"
+    [ "$number" = 0 ] || printf 'crate %s of about %s (%s), ' "$number" "$(locked)" "$crate"
+}
+
+# The number of crates in Cargo.lock.
+locked() {
+    number=0
+    while IFS= read -r line; do
+        case $line in "name = "*) number=$((number + 1)) ;; esac
+    done <"$ROOT/Cargo.lock"
+    printf '%s' "$number"
+}
+
+stop_progress() {
+    [ -n "${progress:-}" ] || return 0
+    { kill "$progress" && wait "$progress"; } 2>/dev/null
+    progress=
+    [ ! -t 2 ] || printf '\r\033[K' >&2
 }
 
 # The first line after "== WHAT" in the log that reports a fault of the network; pip and cargo end
@@ -243,15 +300,21 @@ install_packages() {
 # The checksum is computed before the build, so that a change during the build is noticed later.
 build_extension() {
     has_extension && return
-    say "building the core"
+    if [ -n "$(stamp build)" ]; then
+        say "building the core, because its sources have changed"
+    else
+        say "building the core: $FIRST_BUILD (later builds take seconds)"
+    fi
     sum=$(sources_sum)
-    (
-        cd "$ROOT" || exit "$SETUP_FAILED"
-        # for maturin, which fails if conda's variable is set as well
-        unset CONDA_PREFIX
-        export VIRTUAL_ENV="$VENV"
-        choose_instructions
-        logged "building the core" "$VENV/bin/python" -m maturin develop --profile checkout --locked --skip-install
-    ) || exit "$SETUP_FAILED"
+    logged "building the core" compile
     write_stamp build "$sum"
 }
+
+compile() (
+    cd "$ROOT" || exit
+    # for maturin, which fails if conda's variable is set as well
+    unset CONDA_PREFIX
+    export VIRTUAL_ENV="$VENV"
+    choose_instructions
+    "$VENV/bin/python" -m maturin develop --profile checkout --locked --skip-install
+)

@@ -2,9 +2,10 @@
 
     .venv/bin/python tools/third_party_notices.py
 
-The crates are those that cargo links into the extension of Python on any system. Crates that only
-compile it, such as procedural macros, are not part of it. Wheels contain the file. The licences of
-Rust's standard library come from the toolchain (tools/build_packages.py).
+The crates are those that cargo links into the extension of Python on any system, and into the core
+of pages. Crates that only compile them, such as procedural macros, are not part of them. Wheels and
+the page of the studio contain the file. The licences of Rust's standard library come from the
+toolchain (tools/build_packages.py).
 """
 
 import json
@@ -15,6 +16,8 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
 TARGET = ROOT / "THIRD_PARTY_NOTICES.txt"
+#: The extension of Python, and the core of pages, which has a lock file of its own.
+MANIFESTS = ("bindings/python/Cargo.toml", "bindings/web/Cargo.toml")
 #: Licences that kempe, MIT OR Apache-2.0, may include. The first that a crate offers is taken.
 ACCEPTED = ("MIT", "Zlib", "BSD-2-Clause", "BSD-3-Clause", "ISC", "Apache-2.0", "Unicode-3.0")
 #: Words that occur in the text of a licence only.
@@ -68,28 +71,25 @@ def normal(text: str) -> str:
 
 
 def linked() -> set[tuple[str, str]]:
-    """Names and versions of the crates of others in the extension, on all systems."""
-    tree = cargo("tree", "-p", "kempe-python", "-e", "normal,no-proc-macro", "--target", "all",
-                 "--prefix", "none")  # fmt: skip
-    words = [line.split() for line in tree.splitlines()]
-    crates = {(name, version.removeprefix("v")) for name, version, *_ in words}
+    """Names and versions of the crates of others in the compiled cores, on all systems."""
+    words = ("tree", "-e", "normal,no-proc-macro", "--target", "all", "--prefix", "none")
+    trees = [cargo(*words, "--manifest-path", manifest) for manifest in MANIFESTS]
+    lines = [line.split() for tree in trees for line in tree.splitlines()]
+    crates = {(name, version.removeprefix("v")) for name, version, *_ in lines}
     return {crate for crate in crates if not crate[0].startswith("kempe")}
 
 
 def crates() -> list[Crate]:
-    """The crates of others in the extension, by name."""
-    found = json.loads(cargo("metadata", "--format-version", "1"))["packages"]
-    inside = linked()
-    return sorted(
-        (
-            Crate(
-                one["name"], one["version"], one["license"] or "", Path(one["manifest_path"]).parent
-            )
-            for one in found
-            if (one["name"], one["version"]) in inside
-        ),
-        key=lambda crate: crate.name,
-    )
+    """The crates of others in the compiled cores, by name and version."""
+    found = [
+        Crate(one["name"], one["version"], one["license"] or "", Path(one["manifest_path"]).parent)
+        for manifest in MANIFESTS
+        for one in json.loads(
+            cargo("metadata", "--format-version", "1", "--manifest-path", manifest)
+        )["packages"]
+    ]
+    known = {(crate.name, crate.version): crate for crate in found}
+    return [known[key] for key in sorted(linked())]
 
 
 def cargo(*words: str) -> str:

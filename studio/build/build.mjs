@@ -74,6 +74,8 @@ const policy = [
 const parts = {
   policy,
   version: version(),
+  // the checksum that tools/build_studio.sh gets from python/kempe/studio/sources.py
+  sources: process.env.KEMPE_SOURCES ?? "unknown",
   style,
   script,
   core: await packed(),

@@ -1,7 +1,10 @@
 """`./kempe` and `./test`: fast if nothing has changed, with clear messages if a tool is missing."""
 
 import os
+import re
+import select
 import shutil
+import signal
 import stat
 import subprocess
 import sys
@@ -66,6 +69,7 @@ def bare(tmp_path: Path) -> Path:
         "kempe",
         "tools/setup.sh",
         "tools/requirements.py",
+        "Cargo.lock",
         "pyproject.toml",
         "constraints.txt",
     ):
@@ -187,6 +191,109 @@ def test_a_failing_step_prints_its_output_and_leaves_no_stamp(bare: Path) -> Non
     assert f"making .venv failed; all of its output is in {bare}/.venv.log" in done.stderr
     assert not list(bare.glob(".venv*/stamp*"))
     assert not list(bare.glob(".venv.lock*"))
+
+
+#: Make an environment with the interpreter `its_python`.
+ENVIRONMENT = """
+case "$*" in *"-m venv"*)
+    mkdir -p "$4/bin"
+    cp "$HOME/bin/its_python" "$4/bin/python"
+esac
+"""
+#: An interpreter whose maturin compiles for 2.5 s.
+ITS_PYTHON = """
+case "$*" in
+*sysconfig*) echo "$HOME" ;;
+*"-m maturin"*)
+    echo "   Compiling serde v1.0.2"
+    echo "   Compiling kempe v0.1.0 (/kempe/core)"
+    sleep 2.5
+    ;;
+esac
+"""
+
+
+@pytest.fixture
+def complete(bare: Path) -> Path:
+    """The scripts with all that they need, and one file of sources."""
+    folder = bare.parent / "bin"
+    for name in ("cp", "grep"):
+        (folder / name).symlink_to(shutil.which(name) or pytest.fail(f"no {name} here"))
+    program(folder, "cc", "")
+    program(folder, "cargo", "echo cargo 1.99.0")
+    program(folder, "python3", ENVIRONMENT)
+    program(folder, "its_python", ITS_PYTHON)
+    return bare
+
+
+def start_on_terminal(root: Path) -> tuple[subprocess.Popen[bytes], int]:
+    """The process, and the other side of its terminal."""
+    import pty  # only on POSIX
+
+    mine, its = pty.openpty()
+    paths = {"PATH": str(root.parent / "bin"), "HOME": str(root.parent)}
+    started = subprocess.Popen(
+        [root / "kempe"], env=paths, stdin=its, stdout=its, stderr=its, start_new_session=True
+    )
+    os.close(its)
+    return started, mine
+
+
+def until(terminal: int, text: str | None) -> str:
+    """What is written to a terminal up to a text, or until all processes have closed it."""
+    told = b""
+    end = time.monotonic() + 20
+    while text is None or text.encode() not in told:
+        assert select.select([terminal], [], [], end - time.monotonic())[0], told
+        try:
+            told += os.read(terminal, 1000)
+        except OSError:  # the last process has closed it
+            break
+    return told.decode()
+
+
+def test_the_set_up_says_what_it_does(complete: Path) -> None:
+    told = [line for line in start(complete).stderr.splitlines() if line.startswith("kempe: ")]
+    assert told[0].startswith("kempe: first run: makes .venv and builds the core, which takes")
+    assert told[1].startswith("kempe: making .venv")
+    assert told[2] == "kempe: installing Python packages"
+    assert re.fullmatch(r"kempe: building the core: .+ \(later builds take seconds\)", told[3])
+    assert len(told) == 4  # the first line of progress comes after half a minute
+    again = start(complete).stderr
+    assert "first run" not in again
+    assert "kempe: building the core, because its sources have changed\n" in again
+
+
+def test_progress_is_shown_on_a_terminal(complete: Path) -> None:
+    crates = (complete / "Cargo.lock").read_text(encoding="utf-8").count("[[package]]")
+    started, terminal = start_on_terminal(complete)
+    told = until(terminal, None)
+    os.close(terminal)
+    assert started.wait() == 0
+    begin = "\r\033[K"  # replaces the line before
+    shown = f"{begin}kempe: building the core: crate 2 of about {crates} (kempe), 2 s{begin}"
+    assert shown in told
+    assert "\033" not in (complete / ".venv.log").read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM])
+def test_an_interruption_ends_the_progress_too(complete: Path, sent: signal.Signals) -> None:
+    started, terminal = start_on_terminal(complete)
+    until(terminal, "1 s")
+    os.killpg(started.pid, sent)
+    until(terminal, None)  # ends with the last process
+    os.close(terminal)
+    assert started.wait() == 128 + sent
+    assert not list(complete.glob(".venv.lock*"))
+
+
+def test_the_progress_ends_with_a_killed_set_up(complete: Path) -> None:
+    started, terminal = start_on_terminal(complete)
+    until(terminal, "1 s")
+    started.kill()
+    started.wait()
+    until(terminal, None)
+    os.close(terminal)
 
 
 @pytest.mark.parametrize("depth", [1, 3])

@@ -1,4 +1,4 @@
-"""THIRD_PARTY_NOTICES.txt contains the licence of every crate in the compiled core."""
+"""THIRD_PARTY_NOTICES.txt contains the licence of every crate in the compiled cores."""
 
 import importlib.util
 import re
@@ -41,7 +41,8 @@ def test_the_notices_are_those_of_the_crates(script: ModuleType) -> None:
 
 
 def test_versions_are_those_of_the_lock_file() -> None:
-    text = (ROOT / "Cargo.lock").read_text("utf-8")
+    places = (ROOT / "Cargo.lock", ROOT / "bindings" / "web" / "Cargo.lock")
+    text = "\n".join(path.read_text("utf-8") for path in places)
     locked = set(re.findall(r'^name = "(.+)"\nversion = "(.+)"\nsource', text, re.M))
     assert headings()
     assert set(headings()) <= locked, REMEDY

@@ -1,10 +1,13 @@
 """The built page of the studio in Chromium, watched for messages, errors and requests."""
 
+import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
+from kempe.studio import sources
+from kempe.studio.page import read
 from studio.window import Studio
 
 sync_api = pytest.importorskip("playwright.sync_api", reason="the package playwright is missing")
@@ -14,9 +17,12 @@ PAGE = Path(__file__).parents[2] / "studio" / "dist" / "index.html"
 
 @pytest.fixture(scope="session")
 def built() -> None:
-    """The page of the studio was built."""
+    """The page of the studio was built from the present sources."""
     if not PAGE.exists():
         pytest.skip("studio/dist/index.html is missing; tools/build_studio.sh builds it")
+    if read(PAGE).sources != sources.checksum():
+        refuse = pytest.fail if os.environ.get("CI") else pytest.skip
+        refuse("studio/dist/index.html is not of the present sources; run tools/build_studio.sh")
 
 
 def opened(browser: "sync_api.Browser", link: str = "", page: Path = PAGE, **more: Any) -> Studio:

@@ -17,6 +17,8 @@ EXAMPLES = """Examples:
   kempe studio four_bar.toml
 
   kempe studio --export lecture four_bar.toml
+
+  kempe studio --build
 """
 
 
@@ -36,20 +38,41 @@ def studio(
     browser: Annotated[
         bool, typer.Option("--browser/--no-browser", help="Whether to open a browser.")
     ] = True,
+    build: Annotated[
+        bool,
+        typer.Option(
+            "--build", help="Build the page of the present sources first; for a checkout of kempe."
+        ),
+    ] = False,
 ) -> None:
     """Draw a linkage in a browser, drag its crank, let it go.
 
     The page is served on this machine only, until Ctrl-C. It loads no files from other hosts and
     sends no data.
     """
-    from kempe.studio import page
+    from kempe.studio import page, sources
+    from kempe.studio.build import build as build_page
     from kempe.studio.case_text import case_text
 
     text = None if file is None else case_text(file)
+    if build:
+        build_page()
+    now = sources.checksum()
+    chosen = page.choose(now)
+    _name(chosen.version, chosen.sources, now)
     if export is not None:
-        remarks().print(f"written: {page.export(export, text)}", highlight=False)
+        remarks().print(f"written: {chosen.export(export, text)}")
         return
-    _serve(page.page(text), port, browser)
+    _serve(chosen.opening(text), port, browser)
+
+
+def _name(version: str, built_from: str, now: str | None) -> None:
+    remarks().print(f"studio: the page of kempe {version}, built from sources {built_from}")
+    if now not in {None, built_from}:
+        remarks().print(
+            f"studio: this checkout has other sources, {now}; "
+            "kempe studio --build builds their page"
+        )
 
 
 def _serve(page: str, port: int, browser: bool) -> None:
@@ -63,7 +86,7 @@ def _serve(page: str, port: int, browser: bool) -> None:
             f"port {port} of {HOST}: {error.strerror or error}", hint="choose another --port"
         ) from error
     with server:
-        remarks().print(f"{server.address}  (Ctrl-C ends the server)", highlight=False)
+        remarks().print(f"{server.address}  (Ctrl-C ends the server)")
         if browser:
             webbrowser.open(server.address)
         try:
