@@ -63,6 +63,9 @@ pub(crate) type OfBodies<T> = Few<T, 3>;
 /// One value for each of up to three equations.
 pub(crate) type OfRows<T> = Few<T, 3>;
 
+/// A function that computes Φ. It is not generic, so that its caller is compiled once for each scalar.
+pub(crate) type Residual<'f, S> = dyn Fn(&At<'_, S>, &mut [S]) + 'f;
+
 /// Derives [`Joint::linearize`] from [`Joint::residual`].
 pub fn linearize<E: Joint + ?Sized, S: Real>(
     e: &E::Over<S>,
@@ -84,6 +87,7 @@ pub fn linearize<E: Joint + ?Sized, S: Real>(
 }
 
 /// Number of participants of a joint: its bodies, and one for its internal coordinates.
+#[inline]
 pub(crate) fn participants(bodies: usize, own: usize) -> usize {
     bodies + usize::from(own > 0)
 }
@@ -91,7 +95,7 @@ pub(crate) fn participants(bodies: usize, own: usize) -> usize {
 /// Φ, Φ̇ and γ from the jet of `residual` in time.
 pub(crate) fn terms<S: Real>(
     at: &Moving<'_, S>,
-    residual: &dyn Fn(&At<'_, Jet<S>>, &mut [Jet<S>]),
+    residual: &Residual<'_, Jet<S>>,
     [phi, rate, gamma]: [&mut [S]; 3],
 ) {
     let t = Jet::new(at.t, S::one(), S::zero());
@@ -115,7 +119,7 @@ pub(crate) fn columns_of<S: Real>(
     at: &Moving<'_, S>,
     varies: &dyn Fn(usize) -> bool,
     own_varies: bool,
-    residual: &dyn Fn(&At<'_, ByThree<S>>, &mut [ByThree<S>]),
+    residual: &Residual<'_, ByThree<S>>,
     rows: &mut [[S; 3]],
 ) {
     let mut bodies = OfBodies::new(at.bodies.len(), Pose::identity());

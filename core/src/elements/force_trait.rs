@@ -90,6 +90,7 @@ pub enum Nature {
 
 impl Nature {
     /// The nature of a part with a law of time or state, which has no potential.
+    #[inline]
     pub fn under_law(self) -> Self {
         match self {
             Self::Conservative => Self::Applied,
@@ -133,6 +134,7 @@ pub trait Wrenches<S> {
 }
 
 impl<S, F: FnMut(usize, usize, Wrench<S>)> Wrenches<S> for F {
+    #[inline]
     fn put(&mut self, part: usize, body: usize, wrench: Wrench<S>) {
         self(part, body, wrench);
     }
@@ -151,12 +153,14 @@ pub trait Force: Element {
     const FOLLOWS: bool = false;
 
     /// The position quantities of an element, for types in which their units depend on the element.
+    #[inline]
     fn measured<S>(e: &Self::Over<S>) -> &'static [Measured] {
         let _ = e;
         Self::MEASURED
     }
 
     /// Whether laws may use its position quantities. They must be formulas of the coordinates that need no search.
+    #[inline]
     fn has_formulas<S>(e: &Self::Over<S>) -> bool {
         let _ = e;
         true
@@ -169,28 +173,33 @@ pub trait Force: Element {
     fn action<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>, out: impl Wrenches<S>);
 
     /// The values of [`Force::MEASURED`] for the poses of [`Force::bodies`].
+    #[inline]
     fn measure<S: Real>(e: &Self::Over<S>, at: &At<'_, S>, out: &mut [S]) {
         let _ = (e, at, out);
     }
 
     /// The first-order states of an element for which the named fields are `given` and not zero.
+    #[inline]
     fn states(given: &dyn Fn(&str) -> bool) -> &'static [OwnState] {
         let _ = given;
         &[]
     }
 
     /// ż, one entry for each state.
+    #[inline]
     fn state_rates<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>, out: &mut [S]) {
         let _ = (e, at, out);
     }
 
     /// Powers in addition to those of the wrenches.
+    #[inline]
     fn own_powers<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> OwnPowers<S> {
         let _ = (e, at);
         OwnPowers { dissipated: S::zero(), applied: S::zero() }
     }
 
     /// The joint on whose reaction the force depends, as in friction.
+    #[inline]
     fn reaction<S>(e: &Self::Over<S>) -> Option<JointId> {
         let _ = e;
         None
@@ -198,6 +207,7 @@ pub trait Force: Element {
 
     /// Number of switches of an element. A switch is a function of the situation at whose zeros the action is not
     /// smooth.
+    #[inline]
     fn switch_count<S>(e: &Self::Over<S>) -> usize {
         let _ = e;
         0
@@ -205,22 +215,26 @@ pub trait Force: Element {
 
     /// The functions of the switches, into `out`. [`Situation::choose`] uses their signs in [`Force::action`]. Each
     /// zero is located, and steps of an integrator end there.
+    #[inline]
     fn switches<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>, out: &mut [S]) {
         let _ = (e, at, out);
     }
 
     /// Results in addition to the wrenches, in the order of [`Force::results`].
+    #[inline]
     fn result_quantities<S>(e: &Self::Over<S>) -> &'static [ResultQuantity] {
         let _ = e;
         &[]
     }
 
     /// The values of [`Force::result_quantities`].
+    #[inline]
     fn results<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>, out: &mut [S]) {
         let _ = (e, at, out);
     }
 
     /// The changes of mode during a run; None for a force without modes or events.
+    #[inline]
     fn behaviour<S: Real>(e: &Self::Over<S>) -> Option<Behaviour<S>> {
         let _ = e;
         None
@@ -228,18 +242,21 @@ pub trait Force: Element {
 
     /// The function whose zeros may change the mode: the sliding speed of friction; for other forces the gap, which
     /// is positive if the bodies are apart.
+    #[inline]
     fn threshold<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> S {
         let _ = (e, at);
         S::one()
     }
 
     /// The largest effort of sticking friction.
+    #[inline]
     fn limit<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> S {
         let _ = (e, at);
         S::zero()
     }
 
     /// The side at which a contact or stop touches: -1 for a lower limit, +1 for an upper limit.
+    #[inline]
     fn side<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> f64 {
         let _ = (e, at);
         -1.0
@@ -247,6 +264,7 @@ pub trait Force: Element {
 
     /// The equation with which the force [holds](Mode::holds). Friction holds its coordinate at `value`. A stop holds
     /// its coordinate at the limit of the `side`, or at `value` for side 0. A contact holds its gap at zero.
+    #[inline]
     fn holding(e: &Self::Over<Tape>, side: f64, value: f64) -> Option<Constraint<Tape>> {
         let _ = (e, side, value);
         None
@@ -254,36 +272,42 @@ pub trait Force: Element {
 
     /// The relative angle φⱼ - φᵢ at which a rotational spring is relaxed. Assembly counts whole turns
     /// from it.
+    #[inline]
     fn free_angle<S: Real>(e: &Self::Over<S>) -> Option<S> {
         let _ = e;
         None
     }
 
     /// The points of bodies i and j, if the force acts along the line between them.
+    #[inline]
     fn points<S: Real>(e: &Self::Over<S>) -> Option<[Local<S>; 2]> {
         let _ = e;
         None
     }
 
     /// Energy stored in the states, J.
+    #[inline]
     fn own_energy<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> S {
         let _ = (e, at);
         S::zero()
     }
 
     /// Potential energy of the conservative parts, J.
+    #[inline]
     fn potential<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> S {
         let _ = (e, at);
         S::zero()
     }
 
     /// The symbols of the element in a drawing. A varying law is NaN here.
+    #[inline]
     fn symbols(e: &Self::Over<f64>) -> Vec<SceneSymbol> {
         let _ = e;
         Vec::new()
     }
 
     /// A field with an impossible value, and the reason. Values that are not finite are rejected elsewhere.
+    #[inline]
     fn fault(e: &Self::Over<f64>) -> Option<(&'static str, String)> {
         let _ = e;
         None

@@ -69,6 +69,23 @@ pub struct Linearized<'a, S> {
     pub columns: &'a mut [[S; 3]],
 }
 
+impl<S: Real> Linearized<'_, S> {
+    /// Sets Φ, Φ̇ and γ of `M` equations, and their columns.
+    #[inline(always)]
+    pub fn put<const M: usize, const COLUMNS: usize>(
+        self,
+        [residual, rate, gamma]: [[S; M]; 3],
+        columns: [[S; 3]; COLUMNS],
+    ) {
+        for r in 0..M {
+            (self.residual[r], self.rate[r], self.gamma[r]) = (residual[r], rate[r], gamma[r]);
+        }
+        for k in 0..COLUMNS {
+            self.columns[k] = columns[k];
+        }
+    }
+}
+
 /// The geometry that a joint fixes between its bodies i and j. Assembly uses it to place bodies.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Fixes<S> {
@@ -140,12 +157,14 @@ pub trait Joint: Element {
     fn bodies<S>(e: &Self::Over<S>) -> Vec<BodyId>;
 
     /// The position quantity that a driver moves.
+    #[inline]
     fn drives<S>(e: &Self::Over<S>) -> Option<&Followed<S>> {
         let _ = e;
         None
     }
 
     /// The condition at which a driver is released.
+    #[inline]
     fn release<S>(e: &Self::Over<S>) -> Option<&str> {
         let _ = e;
         None
@@ -162,17 +181,20 @@ pub trait Joint: Element {
 
     /// The point at which the reaction acts, in the frame of body j. None if it acts at the origins of the joint
     /// frames.
+    #[inline]
     fn contact<S: Real>(e: &Self::Over<S>, at: &At<'_, S>) -> Option<Local<S>> {
         let _ = (e, at);
         None
     }
 
     /// The [`RESULTS`](Joint::RESULTS) for the multipliers `lam` of the rows of the joint.
+    #[inline]
     fn results<S: Real>(e: &Self::Over<S>, at: &At<'_, S>, lam: &[S], out: &mut [S]) {
         let _ = (e, at, lam, out);
     }
 
     /// Whether the joint has a [`load`](Joint::load).
+    #[inline]
     fn has_load<S: Real>(e: &Self::Over<S>) -> bool {
         let _ = e;
         false
@@ -182,6 +204,7 @@ pub trait Joint: Element {
     /// gear teeth. Each is passed to `out` with the index of its body in [`Joint::bodies`], about the origin of the
     /// frame of this body. The wrenches do no work in any motion that the other joints permit, so that they change
     /// only the reactions of these joints.
+    #[inline]
     fn load<S: Real>(
         e: &Self::Over<S>,
         at: &At<'_, S>,
@@ -192,35 +215,41 @@ pub trait Joint: Element {
     }
 
     /// The curve along which the first internal coordinate is measured.
+    #[inline]
     fn curve<S>(e: &Self::Over<S>) -> Option<&CurveOn<S>> {
         let _ = e;
         None
     }
 
     /// The mutable curve along which the first internal coordinate is measured.
+    #[inline]
     fn curve_mut<S>(e: &mut Self::Over<S>) -> Option<&mut CurveOn<S>> {
         let _ = e;
         None
     }
 
     /// The geometry that the joint fixes, for assembly.
+    #[inline]
     fn fixes<S: Clone>(e: &Self::Over<S>) -> Vec<Fixes<S>> {
         let _ = e;
         Vec::new()
     }
 
     /// The values of [`Joint::MEASURED`].
+    #[inline]
     fn measure<S: Real>(e: &Self::Over<S>, at: &At<'_, S>, out: &mut [S]) {
         let _ = (e, at, out);
     }
 
     /// Initial values of the internal coordinates for bodies at given poses.
+    #[inline]
     fn own_start(e: &Self::Over<f64>, bodies: &[Pose]) -> Vec<f64> {
         let _ = (e, bodies);
         vec![0.0; Self::OWN]
     }
 
     /// Quantities that the other joints of the mechanism must hold, for bodies at the given poses.
+    #[inline]
     fn requires<S: Real>(e: &Self::Over<S>, at: &At<'_, S>) -> Vec<Required<S>> {
         let _ = (e, at);
         Vec::new()
@@ -228,18 +257,21 @@ pub trait Joint: Element {
 
     /// The constant modulo which the last equation is taken, if any. A body may then have several angles for one
     /// position of the other bodies, as meshed wheels have.
+    #[inline]
     fn modulus(e: &Self::Over<f64>) -> Option<f64> {
         let _ = e;
         None
     }
 
     /// The symbols of the element in a drawing. A varying law is NaN here.
+    #[inline]
     fn symbols(e: &Self::Over<f64>) -> Vec<SceneSymbol> {
         let _ = e;
         Vec::new()
     }
 
     /// A field with an impossible value, and the reason. Values that are not finite are rejected elsewhere.
+    #[inline]
     fn fault(e: &Self::Over<f64>) -> Option<(&'static str, String)> {
         let _ = e;
         None
@@ -247,6 +279,7 @@ pub trait Joint: Element {
 
     /// Φ, Φ̇, γ and Φ_q for fields that do not vary with time or state. They are derived from [`Joint::residual`]
     /// unless the joint has a closed form.
+    #[inline]
     fn linearize<S: Real>(e: &Self::Over<S>, at: &Moving<'_, S>, out: Linearized<'_, S>) {
         derive::linearize::<Self, S>(e, at, out);
     }

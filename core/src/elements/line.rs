@@ -31,6 +31,7 @@ impl<S: Real> Line<S> {
     }
 
     /// The wrenches on bodies i and j of a force on j.
+    #[inline]
     pub fn wrenches(&self, force: Vec2<S>) -> [Wrench<S>; 2] {
         [Wrench::at(self.arms[0], -force), Wrench::at(self.arms[1], force)]
     }

@@ -50,11 +50,13 @@ pub struct Augmented<S = f64> {
 
 impl<S: Real> Augmented<S> {
     /// A matrix with the elimination order of [`Plan::free`].
+    #[inline]
     pub fn new<P: Real>(model: &Model<P>) -> Self {
         Self::on(Arc::new(Plan::free(model)))
     }
 
     /// A matrix on a given plan of the model.
+    #[inline]
     pub fn on(plan: Arc<Plan>) -> Self {
         let saddle = Saddle::new(&plan.pattern);
         let near_singular = NearSingular::Ignore;
@@ -63,6 +65,7 @@ impl<S: Real> Augmented<S> {
     }
 
     /// The plan, which other matrices of the same model can share.
+    #[inline]
     pub fn plan(&self) -> &Arc<Plan> {
         &self.plan
     }
@@ -146,11 +149,13 @@ impl<S: Real> Augmented<S> {
     }
 
     /// The entries of Φ_q, for writing.
+    #[inline]
     pub fn jacobian_mut(&mut self) -> &mut [S] {
         self.saddle.entries.as_flattened_mut()
     }
 
     /// The entries of Φ_q.
+    #[inline]
     pub fn jacobian(&self) -> &[S] {
         self.saddle.entries.as_flattened()
     }
@@ -159,6 +164,7 @@ impl<S: Real> Augmented<S> {
     ///
     /// # Panics
     /// If grounded bodies are condensed.
+    #[inline]
     pub fn set_damping(&mut self, mu: impl IntoIterator<Item = S>) {
         assert!(!self.plan.condenses, "condensed rows are not damped");
         self.saddle.damping.clear();
@@ -169,6 +175,7 @@ impl<S: Real> Augmented<S> {
     ///
     /// # Panics
     /// If grounded bodies are condensed.
+    #[inline]
     pub fn omit(&mut self, rows: &[usize]) {
         let mut mu = vec![S::zero(); self.plan.pattern.n_rows()];
         rows.iter().for_each(|row| mu[*row] = S::constant(OMITTED));
@@ -178,11 +185,13 @@ impl<S: Real> Augmented<S> {
     }
 
     /// Whether redundant rows are damped, so that no row is omitted.
+    #[inline]
     pub fn damps(&self) -> bool {
         !self.saddle.damping.is_empty() && self.omitted.is_empty()
     }
 
     /// The omitted rows.
+    #[inline]
     pub fn omitted(&self) -> &[usize] {
         &self.omitted
     }
@@ -191,6 +200,7 @@ impl<S: Real> Augmented<S> {
     ///
     /// # Panics
     /// If a policy other than [`NearSingular::Ignore`] was set before.
+    #[inline]
     pub fn set_near_singular(&mut self, policy: NearSingular) {
         match policy {
             NearSingular::Ignore => assert_eq!(self.near_singular, policy, "it stays"),
@@ -200,11 +210,13 @@ impl<S: Real> Augmented<S> {
     }
 
     /// The policy near singular positions.
+    #[inline]
     pub fn near_singular(&self) -> NearSingular {
         self.near_singular
     }
 
     /// Whether the current factors contain the ridge of a near singular position.
+    #[inline]
     pub fn regularised(&self) -> bool {
         self.regularised
     }
@@ -227,6 +239,7 @@ impl<S: Real> Augmented<S> {
     }
 
     /// Whether inertia is added to light bodies, so that the matrix differs from that of the equations.
+    #[inline]
     pub fn adds_inertia(&self) -> bool {
         !self.additions().is_empty()
     }
@@ -265,6 +278,7 @@ impl<S: Real> Augmented<S> {
     }
 
     /// Solves for a load at a single coordinate into `x`, shape (n_unknowns + n_rows), without rows of downdates.
+    #[inline]
     pub(super) fn put_response(&self, column: usize, load: S, x: &mut Vec<S>) {
         x.clear();
         x.resize(self.plan.pattern.n_unknowns() + self.plan.pattern.n_rows(), S::zero());
@@ -281,11 +295,13 @@ impl<S: Real> Augmented<S> {
 
     /// The pivot that has lost most digits: its constraint row, and the ratio of the pivot to the largest number from
     /// which it was computed by subtraction.
+    #[inline]
     pub fn cancellation(&self) -> Option<(usize, f64)> {
         self.saddle.cancellation(&self.plan.pattern)
     }
 
     /// The ratio of [`cancellation`](Self::cancellation), in each lane.
+    #[inline]
     pub fn cancellations(&self) -> S {
         self.saddle.cancellations(&self.plan.pattern)
     }

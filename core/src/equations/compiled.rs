@@ -81,12 +81,14 @@ impl<S: Real> Compiled<S> {
     }
 
     /// The numbers of loans and additions, for condensed grounded bodies.
+    #[inline]
     pub fn lent_and_added(&self) -> [usize; 2] {
         let Lent { loans, additions, .. } = &*self.lent[1];
         [loans.len(), additions.len()]
     }
 
     /// The largest 1/m of the moving bodies including additions, 1/kg.
+    #[inline]
     pub fn compliance(&self) -> S {
         self.lent[0].inertias.iter().map(|inertia| inertia.inverse[0]).fold(S::zero(), S::max)
     }

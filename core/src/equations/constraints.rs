@@ -33,6 +33,7 @@ pub fn residual<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, out: &mut
 }
 
 /// The poses of bodies.
+#[inline]
 pub(super) fn poses<S: Real>(bodies: &[BodyId], motions: &Motions<S>) -> OfBodies<Pose<S>> {
     let mut poses = OfBodies::new(bodies.len(), Pose::identity());
     for (pose, body) in poses.all().iter_mut().zip(bodies) {
@@ -42,6 +43,7 @@ pub(super) fn poses<S: Real>(bodies: &[BodyId], motions: &Motions<S>) -> OfBodie
 }
 
 /// Stored entries of Φ_q, in the order of the layout.
+#[inline]
 pub fn jacobian<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, entries: &mut [S]) {
     for (k, slots) in model.layout.constraints.iter().enumerate() {
         linearize_one(model, k, motions, t, &mut |_, columns| store(columns, slots, entries));
@@ -85,6 +87,7 @@ pub fn terms_and_jacobian<S: Real>(
 }
 
 /// Φ_q in `entries`, as [`jacobian`] stores it, and γ̂ = γ - 2α Φ̇ - β² Φ, shape (m), in `right`.
+#[inline]
 pub fn linearize<S: Real>(
     model: &Model<S>,
     motions: &Motions<S>,
@@ -139,6 +142,7 @@ pub(super) struct Stabilized<S> {
 }
 
 impl<S: Real> Stabilized<S> {
+    #[inline]
     pub fn new(gains: Gains) -> Self {
         let damping = S::constant(2.0 * gains.alpha);
         let none = gains == Gains::default();
@@ -149,7 +153,9 @@ impl<S: Real> Stabilized<S> {
     #[inline(always)]
     pub fn put(&self, terms: &Terms<'_, S>, right: &mut [S]) {
         if self.none {
-            right.copy_from_slice(terms.gamma);
+            for (k, right) in right.iter_mut().enumerate() {
+                *right = terms.gamma[k];
+            }
             return;
         }
         for (k, right) in right.iter_mut().enumerate() {
@@ -342,6 +348,7 @@ pub(super) fn columns_by_body<S: Real>(
 }
 
 /// ν = -Φ_t: the right side of Φ_q q̇ = ν (Haug 3.6.10), shape (m).
+#[inline]
 pub fn nu<S: Real>(model: &Model<S>, q: &[S], t: S) -> Vec<S> {
     let m = model.layout.n_rows;
     let [mut phi, mut rate, mut gamma] = [(); 3].map(|()| vec![S::zero(); m]);
@@ -376,6 +383,7 @@ pub fn times<S: Real>(model: &Model<S>, k: usize, entries: &[S], x: &[S], out: &
 }
 
 /// Φ_q x, shape (m).
+#[inline]
 pub fn times_all<S: Real>(model: &Model<S>, entries: &[S], x: &[S], out: &mut [S]) {
     for (k, slots) in model.layout.constraints.iter().enumerate() {
         times(model, k, entries, x, &mut out[slots.rows.clone()]);

@@ -59,6 +59,7 @@ fn body_forces<S: Real>(
 }
 
 /// Weight and centrifugal force m A c′ φ̇² of one body whose mass centre is not the origin of the frame.
+#[inline]
 fn off_center<S: Real>(body: &Body<S>, motion: &Motion<S>, weight: Vec2<S>) -> Wrench<S> {
     let arm = motion.pose.global(body.center);
     let omega = motion.twist.omega;
@@ -158,10 +159,7 @@ pub(super) fn situation<'a, S: Real>(
     Acting { z, lam, t }: Acting<'a, S>,
 ) -> Situation<'a, S> {
     let item = &model.forces[k];
-    let reaction = match (item.reaction, lam) {
-        (Some(joint), Some(lam)) => seen(model, joint.0, motions, lam, t),
-        _ => Wrench::zero(),
-    };
+    let reaction = reaction(model, k, motions, lam, t);
     let z = &z[model.layout.states[k].clone()];
     let held = Held { pieces: &motions.pieces, first: item.first_switch };
     let multiplier = match (item.mode, lam) {
@@ -175,6 +173,7 @@ pub(super) fn situation<'a, S: Real>(
 }
 
 /// The situation of force `k` for reports. If the force holds, it contains the multiplier.
+#[inline]
 fn reported<'a, S: Real>(
     model: &'a Model<S>,
     k: usize,
@@ -189,6 +188,7 @@ fn reported<'a, S: Real>(
 }
 
 /// The multiplier of the equation with which force `k` holds.
+#[inline]
 fn multiplier<S: Real>(model: &Model<S>, k: usize, acting: Acting<'_, S>) -> S {
     let row = model.forces[k].held_row;
     row.zip(acting.lam).and_then(|(row, lam)| lam.get(row).copied()).unwrap_or(S::zero())
@@ -206,10 +206,7 @@ fn following<S: Real>(
 ) -> S {
     let limit = |k: usize| {
         let at = situation(model, k, motions, Acting { lam: None, ..acting });
-        let reaction = match (model.forces[k].reaction, acting.lam) {
-            (Some(joint), Some(lam)) => seen(model, joint.0, motions, lam, acting.t),
-            _ => Wrench::zero(),
-        };
+        let reaction = reaction(model, k, motions, acting.lam, acting.t);
         let own = &acting.z[model.layout.states[k].clone()];
         let element = at_state(model, &model.forces[k], motions, acting);
         element.limit(&Situation { reaction, z: own, ..at })
@@ -220,6 +217,7 @@ fn following<S: Real>(
 }
 
 /// The function whose zero may change the mode of force `k`.
+#[inline]
 pub fn threshold<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -231,6 +229,7 @@ pub fn threshold<S: Real>(
 }
 
 /// The side on which force `k` touches.
+#[inline]
 pub fn side(model: &Model, k: usize, motions: &Motions, acting: Acting<'_, f64>) -> f64 {
     let element = at_state(model, &model.forces[k], motions, acting);
     element.side(&reported(model, k, motions, acting))
@@ -249,6 +248,7 @@ pub fn reserve(model: &Model, k: usize, motions: &Motions, acting: Acting<'_, f6
 }
 
 /// The results of force `k` in addition to its wrenches, in `out`.
+#[inline]
 pub fn results<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -260,7 +260,26 @@ pub fn results<S: Real>(
     element.results(&reported(model, k, motions, acting), out);
 }
 
+/// The reaction of the joint on which force `k` depends, on its body j at its joint point, in the global frame. Zero
+/// without such a joint or without multipliers.
+#[inline(always)]
+fn reaction<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    lam: Option<&[S]>,
+    t: S,
+) -> Wrench<S> {
+    match (model.forces[k].reaction, lam) {
+        (Some(joint), Some(lam)) => seen(model, joint.0, motions, lam, t),
+        _ => Wrench::zero(),
+    }
+}
+
 /// The reaction of a joint on its body j at its joint point, in the global frame.
+///
+/// # Panics
+/// If the scalar has no equations.
 #[cold]
 fn seen<S: Real>(
     model: &Model<S>,
@@ -269,6 +288,10 @@ fn seen<S: Real>(
     lam: &[S],
     t: S,
 ) -> Wrench<S> {
+    // the constant condition leaves the equations of such scalars out of the program
+    if !S::HAS_EQUATIONS {
+        panic!("reactions over a scalar without equations");
+    }
     let Some(body) = model.constraints[joint].bodies.get(1) else { return Wrench::zero() };
     let own = &lam[model.layout.constraints[joint].rows.clone()];
     reactions::reaction(model, joint, *body, Frame::Global, motions, t, own)
@@ -276,6 +299,7 @@ fn seen<S: Real>(
 }
 
 /// Calls `visit` with the part, body and value of every wrench of force `k`.
+#[inline]
 pub fn each_wrench<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -290,6 +314,7 @@ pub fn each_wrench<S: Real>(
 }
 
 /// Computes ż of all elements into `out`, shape (n_z).
+#[inline]
 pub fn state_rates<S: Real>(
     model: &Model<S>,
     motions: &Motions<S>,
@@ -303,6 +328,7 @@ pub fn state_rates<S: Real>(
 }
 
 /// Computes ż of force `k` only.
+#[inline]
 pub(super) fn state_rates_of<S: Real>(
     model: &Model<S>,
     k: usize,
@@ -315,6 +341,7 @@ pub(super) fn state_rates_of<S: Real>(
 }
 
 /// Computes the switch functions of force `k` itself into the first entries of `out`.
+#[inline]
 pub(super) fn switches<S: Real>(
     model: &Model<S>,
     k: usize,

@@ -61,6 +61,7 @@ pub(super) fn grounded<S: Real>(
 }
 
 /// The body that a joint with two rows and constant fields connects to ground.
+#[inline]
 fn held<S>(item: &ConstraintItem<S>, slots: &Slots) -> Option<BodyId> {
     let to_ground = item.bodies.len() == 2 && item.bodies.iter().any(|body| body.is_ground());
     match slots.blocks.as_slice() {

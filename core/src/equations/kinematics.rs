@@ -20,6 +20,7 @@ pub struct Motions<S = f64> {
 
 impl<S> Deref for Motions<S> {
     type Target = [Motion<S>];
+    #[inline]
     fn deref(&self) -> &[Motion<S>] {
         &self.bodies
     }
@@ -41,6 +42,7 @@ impl<S: Real> Motions<S> {
     }
 
     /// The motions at coordinates `q` and rates `v`, both of shape (n_q).
+    #[inline]
     pub fn at(layout: &StateLayout, q: &[S], v: &[S]) -> Self {
         let mut motions = Self::new(layout);
         motions.place(layout, q, v);
@@ -48,6 +50,7 @@ impl<S: Real> Motions<S> {
     }
 
     /// The motions at coordinates `q`, at rest.
+    #[inline]
     pub fn at_rest(layout: &StateLayout, q: &[S]) -> Self {
         Self::at(layout, q, &vec![S::zero(); q.len()])
     }
@@ -70,6 +73,7 @@ impl<S: Real> Motions<S> {
     }
 
     /// Sets the rates `v`, shape (n_q). Positions are unchanged.
+    #[inline]
     pub fn set_rates(&mut self, layout: &StateLayout, v: &[S]) {
         for (motion, columns) in self.bodies[1..].iter_mut().zip(&layout.bodies[1..]) {
             put_rates(&v[columns.range()], &mut motion.twist);
@@ -93,11 +97,13 @@ impl<S: Real> Motions<S> {
     }
 
     /// The internal coordinates of all elements and their rates.
+    #[inline]
     pub fn internals(&self) -> [&[S]; 2] {
         [&self.own, &self.own_rates]
     }
 
     /// Internal coordinates of an element and their rates.
+    #[inline]
     pub fn own(&self, columns: Columns) -> (&[S], &[S]) {
         let range = match columns.count {
             0 => 0..0,
@@ -119,11 +125,13 @@ impl<S: Real> Motions<S> {
     }
 
     /// The motion of a body, mutable.
+    #[inline]
     pub(super) fn body_mut(&mut self, body: usize) -> &mut Motion<S> {
         &mut self.bodies[body]
     }
 
     /// Internal coordinates of an element and their rates, mutable.
+    #[inline]
     pub(super) fn own_mut(&mut self, columns: Columns) -> (&mut [S], &mut [S]) {
         let first = columns.first.saturating_sub(self.first_own);
         let range = first..first + columns.count;

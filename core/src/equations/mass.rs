@@ -66,6 +66,7 @@ impl<S: Real> MassBlock<S> {
 }
 
 /// y += M x, shape (n_q). Internal coordinates have no mass.
+#[inline]
 pub fn add_times<S: Real>(model: &Model<S>, motions: &[Motion<S>], x: &[S], y: &mut [S]) {
     let bodies = model.bodies.iter().zip(motions).zip(&model.layout.bodies).skip(1);
     for ((body, motion), columns) in bodies {
@@ -74,6 +75,7 @@ pub fn add_times<S: Real>(model: &Model<S>, motions: &[Motion<S>], x: &[S], y: &
 }
 
 /// Computes the blocks of all moving bodies into `blocks`.
+#[inline]
 pub(super) fn put_blocks<S: Real>(
     model: &Model<S>,
     motions: &[Motion<S>],
@@ -85,6 +87,7 @@ pub(super) fn put_blocks<S: Real>(
 }
 
 /// [`add_times`] with precomputed blocks.
+#[inline]
 pub(super) fn add_blocks<S: Real>(model: &Model<S>, blocks: &[MassBlock<S>], x: &[S], y: &mut [S]) {
     for (block, columns) in blocks.iter().zip(&model.layout.bodies[1..]) {
         columns.add(block.times(columns.of(x)), y);

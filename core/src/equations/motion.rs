@@ -65,6 +65,7 @@ pub struct Workspace<S = f64> {
 const REDUNDANT: f64 = 1e-10;
 
 /// Damping with which the multipliers of redundant constraints become the smallest that balance the loads.
+#[inline]
 fn redundant_rows<S: Real>(model: &Model<S>, compiled: &Compiled<S>) -> impl Iterator<Item = S> {
     let mu = compiled.compliance() * S::constant(REDUNDANT);
     std::iter::repeat_n(mu, model.layout.n_rows)
@@ -72,12 +73,14 @@ fn redundant_rows<S: Real>(model: &Model<S>, compiled: &Compiled<S>) -> impl Ite
 
 impl<S: Real> Workspace<S> {
     /// A workspace with all memory for evaluations of this model.
+    #[inline]
     pub fn new(model: &Model<S>) -> Self {
         Self::on(model, Arc::new(Plan::of_motion(model)))
     }
 
     /// A workspace with the plan of elimination of `other`, which belongs to the same model with other numbers. It
     /// omits the rows that `other` omits.
+    #[inline]
     pub fn like<P: Real>(model: &Model<S>, other: &Workspace<P>) -> Self {
         let mut workspace = Self::on(model, Arc::clone(other.matrix.plan()));
         if !other.matrix.omitted().is_empty() {
@@ -125,6 +128,7 @@ impl<S: Real> Workspace<S> {
     }
 
     /// Whether the equations of another variant of the model, over any scalar, have the same structure.
+    #[inline]
     pub fn is_like<P: Real>(&self, other: &Workspace<P>) -> bool {
         let (plan, of_other) = (self.matrix.plan(), other.matrix.plan());
         let own = self.compiled.lent(plan.condenses);
@@ -135,11 +139,13 @@ impl<S: Real> Workspace<S> {
 
     /// Declares that no rows are damped, so that one elimination solves the equations unless forces depend on
     /// reactions.
+    #[inline]
     pub(super) fn set_direct(&mut self) {
         self.modified = self.depends;
     }
 
     /// Sets a constant `term`, shape (n_rows), which is subtracted from γ at every state.
+    #[inline]
     pub fn set_offset(&mut self, term: &[S]) {
         self.offset.clear();
         self.offset.extend_from_slice(term);
@@ -149,6 +155,7 @@ impl<S: Real> Workspace<S> {
     ///
     /// # Errors
     /// [`Breakdown`] if Φ_q loses rank, or if a load acts on a coordinate without mass or inertia.
+    #[inline]
     pub fn accelerate(
         &mut self,
         model: &Model<S>,
@@ -165,6 +172,7 @@ impl<S: Real> Workspace<S> {
     ///
     /// # Errors
     /// As [`accelerate`](Self::accelerate).
+    #[inline]
     pub fn react(&mut self, model: &Model<S>, t: S, state: [&[S]; 3]) -> Result<(), Breakdown> {
         self.place(model, state);
         match self.reactive.is_empty() {
@@ -208,6 +216,7 @@ impl<S: Real> Workspace<S> {
 
     /// As [`respond`](Self::respond), if one elimination solves the equations. Otherwise, or if one of several lanes
     /// needs more, returns false.
+    #[inline]
     pub fn respond_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> bool {
         let solved = self.solves_directly() && self.solve_directly(model, t, gains).is_ok();
         solved && !self.matrix.is_inexact()
@@ -298,11 +307,13 @@ impl<S: Real> Workspace<S> {
     }
 
     /// q̈, shape (n_q).
+    #[inline]
     pub fn a(&self) -> &[S] {
         &self.solution[..self.n_q]
     }
 
     /// λ, shape (n_rows).
+    #[inline]
     pub fn lam(&self) -> &[S] {
         &self.solution[self.n_unknowns..self.n_unknowns + self.n_rows]
     }
@@ -373,10 +384,12 @@ impl<S: Real> ForGiven<'_, S> {
 impl<S: Real> reactive::Response<S> for ForGiven<'_, S> {
     type Error = Breakdown;
 
+    #[inline]
     fn multipliers(&mut self, lam: &[S]) -> Result<Vec<S>, Breakdown> {
         self.respond(Some(lam))
     }
 
+    #[inline]
     fn largest_force(&self) -> f64 {
         self.force
     }

@@ -32,17 +32,20 @@ pub struct Plan {
 impl Plan {
     /// The plan of the equations of motion of a model. Grounded bodies are condensed unless redundant constraints are
     /// accepted.
+    #[inline]
     pub fn of_motion<S: Real>(model: &Model<S>) -> Self {
         Self::with(model, !model.allow_redundancy)
     }
 
     /// The plan of a model whose constraints are not redundant, even if redundant constraints are accepted.
+    #[inline]
     pub fn without_redundancy<S: Real>(model: &Model<S>) -> Self {
         Self::with(model, true)
     }
 
     /// Whether another variant of the model has the same plan. The numbers determine which bodies are condensed and
     /// coupled.
+    #[inline]
     pub(super) fn is_like(&self, other: &Self) -> bool {
         let coupled = [self, other].map(|plan| plan.pattern.coupled());
         let same = self.condensed == other.condensed && self.downdates == other.downdates;
@@ -50,12 +53,14 @@ impl Plan {
     }
 
     /// Whether redundant constraints are accepted.
+    #[inline]
     pub(super) fn accepts_redundancy<S: Real>(&self, model: &Model<S>) -> bool {
         model.allow_redundancy && !self.condenses
     }
 
     /// A plan that eliminates bodies first, then the constraints by minimum degree. No pivot vanishes if Φ_q has full
     /// rank.
+    #[inline]
     pub fn free<S: Real>(model: &Model<S>) -> Self {
         Self::with(model, false)
     }
@@ -78,17 +83,20 @@ impl Plan {
     }
 
     /// Number of unknowns of the solver: the coordinates, and the padding of a last group with fewer than three.
+    #[inline]
     pub(super) fn n_unknowns(&self) -> usize {
         self.pattern.n_unknowns()
     }
 
     /// Number of block products in one elimination.
+    #[inline]
     pub fn n_products(&self) -> usize {
         self.pattern.n_products()
     }
 }
 
 /// The owners of coordinates as groups of unknowns.
+#[inline]
 pub(super) fn groups<S: Real>(model: &Model<S>, inertias: &[Inertia<S>]) -> Vec<Group> {
     let bodies = inertias.iter().map(|inertia| inertia.coupled);
     let coupled = bodies.chain(std::iter::repeat(false));

@@ -16,6 +16,7 @@ pub struct Powers<S = f64> {
 
 impl<S: Real> Powers<S> {
     /// Zero powers.
+    #[inline]
     pub fn zero() -> Self {
         Self { dissipated: S::zero(), drivers: S::zero(), applied: S::zero() }
     }

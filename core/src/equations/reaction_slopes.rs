@@ -8,7 +8,7 @@ use super::kinematics::Motions;
 use super::reactions;
 use crate::elements::derive::ByThree;
 use crate::elements::{BodyId, ForceElement, Mode, Situation};
-use crate::math::{Lift, Motion, Real, Vec2, Wrench};
+use crate::math::{each, Lift, Motion, Real, Vec2, Wrench};
 use crate::model::Model;
 
 /// The derivative is the first slope; the others are zero. A scalar of its own would only be more code.
@@ -33,7 +33,7 @@ pub fn by_multiplier<S: Real>(
             let multiplier = seed.multiplier(k);
             seed.with(k, multiplier, |element, at| {
                 element.action(at, |_: usize, body: usize, w: Wrench<D<S>>| {
-                    let [x, y, torque] = [w.force.x, w.force.y, w.torque].map(|x| x.slope[0]);
+                    let [x, y, torque] = each([w.force.x, w.force.y, w.torque], |x| x.slope[0]);
                     model.layout.bodies[item.bodies[body].0].add([x, y, torque], &mut column);
                 });
             });

@@ -5,7 +5,7 @@ use super::constraints;
 use super::kinematics::Motions;
 use crate::elements::derive::{ByThree, OfRows};
 use crate::elements::{At, Attachment, BodyId};
-use crate::math::{Dual, Lift, Local, Pose, Real, Rotation, Vec2, Wrench};
+use crate::math::{each, Dual, Lift, Local, Pose, Real, Rotation, Vec2, Wrench};
 use crate::model::Model;
 
 /// The frame in which the components of a reaction are given.
@@ -140,7 +140,7 @@ pub fn add_load_slopes<S: Real>(
         let bodies: Vec<Pose<ByThree<S>>> = item.bodies.iter().map(pose).collect();
         let at = At { bodies: &bodies, own: &[], t: Dual::lift(t) };
         element.load(&at, &lam, &mut |place, w: Wrench<ByThree<S>>| {
-            let slopes = [w.force.x, w.force.y, w.torque].map(|x| x.slope[0]);
+            let slopes = each([w.force.x, w.force.y, w.torque], |x| x.slope[0]);
             model.layout.bodies[item.bodies[place].0].add(slopes, out);
         });
     }

@@ -11,7 +11,7 @@ use super::kinematics::Motions;
 use super::plan::Plan;
 use super::Compiled;
 use crate::elements::{BodyId, Joint, JointPools, Linearized, Moving, Place, Pooled, VisitJoints};
-use crate::math::Real;
+use crate::math::{each, Real};
 use crate::model::Model;
 use crate::solve::{PinEnd, PinRows, PinSum, Saddle};
 
@@ -90,7 +90,7 @@ impl<S: Real> At<'_, S> {
     /// Evaluates the rows of a joint with two rows between two bodies.
     #[inline(always)]
     fn two_rows<E: Joint>(&self, element: &E::Over<S>, bodies: [u32; 2]) -> TwoRows<S> {
-        let bodies = bodies.map(|body| self.motions[body as usize]);
+        let bodies = each(bodies, |body| self.motions[body as usize]);
         let at = Moving { bodies: &bodies, own: &[], own_rates: &[], t: self.t };
         let [mut residual, mut rate, mut gamma] = [[S::zero(); 2]; 3];
         let mut columns = [[S::zero(); 3]; 4];
@@ -110,8 +110,9 @@ impl<S: Real> At<'_, S> {
         let mut right = [S::zero(); 2];
         self.stabilized.put(&Terms { residual, rate, gamma }, &mut right);
         if !self.offset.is_empty() {
-            let offset = &self.offset[row as usize..row as usize + 2];
-            right.iter_mut().zip(offset).for_each(|(right, offset)| *right -= *offset);
+            for (k, right) in right.iter_mut().enumerate() {
+                *right -= self.offset[row as usize + k];
+            }
         }
         right
     }
@@ -205,9 +206,16 @@ impl<S: Real> VisitJoints<S> for PutLending<'_, S> {
             for end in all[place.slot as usize].ends() {
                 saddle.put_pin_entries(end, turning(&columns, end));
             }
-            right[place.row as usize..][..2].copy_from_slice(&at.gamma(&terms, place.row));
+            put_two(right, place.row as usize, at.gamma(&terms, place.row));
         }
     }
+}
+
+/// Stores the right sides of two rows.
+#[inline(always)]
+fn put_two<S: Real>(right: &mut [S], row: usize, [first, second]: [S; 2]) {
+    let right = &mut right[row..row + 2];
+    (right[0], right[1]) = (first, second);
 }
 
 /// The rotation columns of two rows, for the body at an end.
@@ -255,7 +263,7 @@ impl<S: Real> VisitJoints<S> for Condense<'_, S> {
             };
             let gamma = at.gamma(&terms, place.row);
             let found = saddle.condense(&at.plan.pattern, k, &own, forces, gamma);
-            right[row..row + 2].copy_from_slice(&found);
+            put_two(right, row, found);
         }
     }
 }
@@ -294,7 +302,7 @@ impl<S: Real> VisitJoints<S> for PutPins<'_, S> {
             for end in rows.ends() {
                 saddle.add_pin(end, turning(&columns, end), x, &mut sum);
             }
-            right[place.row as usize..][..2].copy_from_slice(&sum.right);
+            put_two(right, place.row as usize, sum.right);
             saddle.put_pin_rows(rows, &sum);
         }
     }

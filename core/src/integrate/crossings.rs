@@ -92,11 +92,13 @@ pub fn crossings(
 }
 
 /// Largest difference of the times of two sign changes that count as simultaneous.
+#[inline]
 fn together(step: &Step<'_>) -> f64 {
     TOGETHER * f64::EPSILON * step.t.abs().max(step.t_old.abs())
 }
 
 /// Sorts by time, and simultaneous changes by function.
+#[inline]
 fn sort(step: &Step<'_>, crossings: &mut [Crossing]) {
     let sign = (step.t - step.t_old).signum();
     crossings.sort_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)));
@@ -121,6 +123,7 @@ struct SignChange {
 
 impl SignChange {
     /// Whether a value lies on the new side of zero, so that the function has already changed sign.
+    #[inline]
     fn is_past(&self, value: f64) -> bool {
         if self.rising {
             value >= 0.0
@@ -129,6 +132,7 @@ impl SignChange {
         }
     }
 
+    #[inline]
     fn at(&self, t: f64) -> Crossing {
         Crossing { index: self.index, t, rising: self.rising }
     }
@@ -142,6 +146,7 @@ const DEEPEST: usize = 10;
 
 /// Whether a function may have further sign changes among three samples. It may if a parabola through the values a
 /// and b with the curvature of the samples can have two zeros.
+#[inline]
 fn may_turn([a, m, b]: [f64; 3]) -> bool {
     let line = a + BETWEEN * (b - a);
     let bend = (m - line).abs() / (BETWEEN * (1.0 - BETWEEN));
@@ -156,11 +161,13 @@ struct Sampled<'a, 'b> {
 }
 
 impl<'a, 'b> Sampled<'a, 'b> {
+    #[inline]
     fn new(step: &'a Step<'a>, count: usize, functions: Functions<'b>) -> Self {
         Self { step, functions, y: step.y.to_vec(), values: vec![0.0; count] }
     }
 
     /// Samples each function.
+    #[inline]
     fn points(&mut self) -> Vec<Vec<Point>> {
         let times: Vec<f64> = (0..=PARTS).map(|k| self.time(k as f64 / PARTS as f64)).collect();
         let rows: Vec<Vec<f64>> = times.iter().map(|t| self.at(*t).to_vec()).collect();
@@ -194,6 +201,7 @@ impl<'a, 'b> Sampled<'a, 'b> {
         found
     }
 
+    #[inline]
     fn time(&self, part: f64) -> f64 {
         match part {
             1.0 => self.step.t,
@@ -315,12 +323,14 @@ impl<'a, 'b> Sampled<'a, 'b> {
     }
 
     /// Whether a function has changed sign at a sample.
+    #[inline]
     fn has_changed(&self, change: &SignChange, (t, row): &Sample) -> bool {
         let sign = (self.step.t - self.step.t_old).signum();
         let (from, to) = (sign * change.old.0, sign * change.new.0);
         sign * t > from && (sign * t >= to || change.is_past(row[change.index]))
     }
 
+    #[inline]
     fn sample(&mut self, t: f64) -> Sample {
         (t, self.at(t).to_vec())
     }

@@ -19,6 +19,7 @@ pub(super) struct CountedDae<'a, Y> {
 
 impl<Y: Dae> CountedDae<'_, Y> {
     /// Computes the derivative of a state.
+    #[inline]
     pub fn accelerate(&mut self, t: f64, state: &mut ImplicitState) -> Result<(), Cause<Y::Stop>> {
         self.counts.evaluations += 1;
         let (at, out) = state.rates();
@@ -26,6 +27,7 @@ impl<Y: Dae> CountedDae<'_, Y> {
     }
 
     /// Computes the derivative of a state and checks that it is finite.
+    #[inline]
     pub fn begin(&mut self, t: f64, state: &mut ImplicitState) -> Result<(), Cause<Y::Stop>> {
         self.accelerate(t, state)?;
         match [&state.a, &state.lam, &state.dz].into_iter().all(|x| all_finite(x)) {
@@ -35,6 +37,7 @@ impl<Y: Dae> CountedDae<'_, Y> {
     }
 
     /// Projects a state. Returns whether it changed.
+    #[inline]
     pub fn project(&mut self, t: f64, state: DaeState<'_>) -> Result<bool, Cause<Y::Stop>> {
         self.system.project(t, state).map_err(|error| Cause::Equations { t, error })
     }
@@ -59,6 +62,7 @@ impl<Y: Dae> CountedDae<'_, Y> {
     }
 
     /// Returns an error if the allowed number of steps was taken.
+    #[inline]
     pub fn check_count(&self, control: &StepControl) -> Result<(), Cause<Y::Stop>> {
         let steps = self.counts.steps;
         match control.max_steps.is_some_and(|most| steps >= most) {
@@ -69,6 +73,7 @@ impl<Y: Dae> CountedDae<'_, Y> {
 
     /// The reason why no step from a state was found: the error of the system if the matrix was singular, otherwise
     /// `other`.
+    #[inline]
     pub fn unsolved(
         &mut self,
         singular: bool,
@@ -115,6 +120,7 @@ impl<Y: Dae> CountedDae<'_, Y> {
         Ok(initial_step(h0, d1, d2, error_order).min(interval))
     }
 
+    #[inline]
     pub fn residual(
         &mut self,
         t: f64,
@@ -126,17 +132,20 @@ impl<Y: Dae> CountedDae<'_, Y> {
         self.system.residual(t, at, level, out);
     }
 
+    #[inline]
     pub fn linearize(&mut self, t: f64, at: Iterate<'_>) {
         self.counts.jacobians += 1;
         self.system.linearize(t, at);
     }
 
     /// Factorises the matrix. Returns false if it is singular.
+    #[inline]
     pub fn factor(&mut self, coefficients: NewtonCoefficients) -> bool {
         self.counts.factorisations += 1;
         self.system.factor(coefficients)
     }
 
+    #[inline]
     pub fn factor_complex(&mut self, coefficients: NewtonCoefficients<Complex>) -> bool {
         self.counts.factorisations += 1;
         self.system.factor_complex(coefficients)

@@ -23,7 +23,7 @@ use super::component_polynomials::{store, Four, Polynomials, HIGHEST as DEGREE};
 use super::interpolant::Interpolant;
 use super::ode::Structure;
 use super::stages;
-use crate::math::{Lanes, Real};
+use crate::math::{each, indexed, Lanes, Real};
 
 /// Place of the additional second derivative, as a fraction of the step. For equal steps the error of v is smallest
 /// between 0.55 and 0.6. DOP853 has a stage near this place already, so that its widest gap is unchanged.
@@ -43,6 +43,7 @@ pub(super) struct Ends<'a> {
 
 impl<'a> Ends<'a> {
     /// The data of `n` components: states and derivatives at the beginning and at the end.
+    #[inline]
     pub fn new(
         h: f64,
         y: [&'a [stages::Block]; 2],
@@ -109,11 +110,13 @@ impl HermiteBirkhoff {
     }
 
     /// Discards the step before, because the equations or the state have changed.
+    #[inline]
     pub fn forget(&mut self) {
         self.h_before = 0.0;
     }
 
     /// Whether the step before can be used for a step of length `h`.
+    #[inline]
     pub fn serves(&self, h: f64) -> bool {
         BEFORE.contains(&(self.h_before / h))
     }
@@ -139,6 +142,7 @@ impl HermiteBirkhoff {
     }
 
     /// Stores the data of this step for the next one.
+    #[inline]
     pub fn remember(&mut self, ends: Ends<'_>) {
         self.h_before = ends.h;
         self.rates.copy_from_slice(&ends.y_old[self.positions..]);
@@ -152,9 +156,9 @@ impl HermiteBirkhoff {
         let (p, r) = (self.positions, self.h_before / h);
         let nodes = Nodes::new(r);
         let [half, behind, per_h, per_square] =
-            [0.5, -0.5 * r, 1.0 / h, 1.0 / (h * h)].map(Lanes::constant);
+            each([0.5, -0.5 * r, 1.0 / h, 1.0 / (h * h)], Lanes::constant);
         let [ahead, bend, all, square] =
-            [INSIDE * h, 0.5 * INSIDE * h, h, h * h].map(Lanes::constant);
+            each([INSIDE * h, 0.5 * INSIDE * h, h, h * h], Lanes::constant);
         for (b, block) in self.blocks.iter_mut().enumerate().rev() {
             let of = |x: &[f64]| lanes(&x[b * Lanes::WIDTH..]);
             let (v, a) = (of(&y_old[p..]), of(&dy_old[p..]));
@@ -216,6 +220,7 @@ impl HermiteBirkhoff {
     }
 
     /// The completed interpolant.
+    #[inline]
     pub fn interpolant(&self) -> Interpolant<'_> {
         let (q, rates) = self.polynomials.split_at(self.positions.div_ceil(Lanes::WIDTH));
         Interpolant::polynomials(Polynomials { q, rates, positions: self.positions })
@@ -227,7 +232,7 @@ impl HermiteBirkhoff {
 fn lanes(x: &[f64]) -> Lanes {
     match x.first_chunk() {
         Some(block) => Lanes::new(*block),
-        None => Lanes::new(std::array::from_fn(|k| x.get(k).copied().unwrap_or(0.0))),
+        None => Lanes::new(indexed(|k| x.get(k).copied().unwrap_or(0.0))),
     }
 }
 
@@ -240,7 +245,7 @@ impl Cube {
     fn new(x: f64) -> Self {
         let over = 1.0 / x;
         let square = over * over;
-        Self([square * over, 3.0 * over, 6.0 * over, 12.0 * square].map(Lanes::constant))
+        Self(each([square * over, 3.0 * over, 6.0 * over, 12.0 * square], Lanes::constant))
     }
 
     /// Value, first and second derivative of a function divided by the cube of its argument.
@@ -266,7 +271,7 @@ struct Nodes {
 impl Nodes {
     #[inline(always)]
     fn new(r: f64) -> Self {
-        let [end, before, between] = [1.0, -r, -r - 1.0].map(Cube::new);
+        let [end, before, between] = each([1.0, -r, -r - 1.0], Cube::new);
         Self { end, before, between, x: Lanes::constant(-r - 1.0), r: Lanes::constant(r) }
     }
 

@@ -4,8 +4,10 @@
 //! kₛ are the stages of a Runge–Kutta step, and wₛ are polynomials without a constant term. Nothing is computed until
 //! the interpolant is evaluated. (Hairer, Nørsett and Wanner, *Solving Ordinary Differential Equations I*, II.6.)
 
+#![allow(clippy::needless_range_loop)] // indices are stages, powers and lanes
+
 use super::component_polynomials::{Polynomials, HIGHEST};
-use crate::math::{Lanes, Real};
+use crate::math::{indexed, Lanes, Real};
 
 /// Largest number of stages of a method, including those of its extension and the jump of a projection.
 const MOST: usize = 17;
@@ -44,12 +46,17 @@ struct Stages<'a> {
 /// Σ bₖ θᵏ⁻¹, k = 1, ….
 #[inline(always)]
 fn polynomial(coefficients: &[f64], theta: f64) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, b| b.plus_product(sum, theta))
+    let mut sum = 0.0;
+    for b in coefficients.iter().rev() {
+        sum = b.plus_product(sum, theta);
+    }
+    sum
 }
 
 impl<'a> Interpolant<'a> {
     /// An interpolant from `stages` in rows of length `len`, whose first entries are the components. The number of
     /// rows may be less than that of `table`.
+    #[inline]
     pub(super) fn new(stages: &'a [f64], len: usize, table: &'static [f64], degree: usize) -> Self {
         assert!(degree <= HIGHEST, "a method of a higher degree");
         assert!(table.len() <= MOST * degree, "a method of more stages");
@@ -57,16 +64,19 @@ impl<'a> Interpolant<'a> {
     }
 
     /// An interpolant with one polynomial of the highest degree for each component.
+    #[inline]
     pub(super) fn polynomials(polynomials: Polynomials<'a>) -> Self {
         Self { form: Form::Polynomials(polynomials), degree: HIGHEST }
     }
 
     /// Degree of the polynomial.
+    #[inline]
     pub fn degree(&self) -> usize {
         self.degree
     }
 
     /// Computes the state at θ. `ahead` = h θ is the time since the beginning.
+    #[inline]
     pub(super) fn evaluate(&self, y_old: &[f64], ahead: f64, theta: f64, out: &mut [f64]) {
         assert_eq!(out.len(), y_old.len(), "a state");
         match self.form {
@@ -86,11 +96,16 @@ impl<'a> Interpolant<'a> {
 }
 
 impl<'a> Stages<'a> {
-    /// Each stage with its row of the table, whose length is the degree.
+    /// Number of stages.
     #[inline(always)]
-    fn terms(&self, degree: usize) -> impl Iterator<Item = (&'a [f64], &'static [f64])> {
-        let rows = self.table.chunks_exact(degree).map(move |row| &row[..degree]);
-        self.stages.chunks_exact(self.len.max(1)).zip(rows)
+    fn count(&self) -> usize {
+        self.stages.len() / self.len.max(1)
+    }
+
+    /// A stage, with its row of the table, whose length is the degree.
+    #[inline(always)]
+    fn term(&self, s: usize, degree: usize) -> (&'a [f64], &'static [f64]) {
+        (&self.stages[s * self.len..][..self.len], &self.table[s * degree..][..degree])
     }
 
     /// out = y_old + ahead Σₛ wₛ(θ) / θ kₛ. Not inlined, because the other form, with polynomials, does not need its
@@ -119,8 +134,8 @@ impl<'a> Stages<'a> {
     /// ahead wₛ(θ) / θ of each stage.
     #[inline(always)]
     fn weigh(&self, degree: usize, (ahead, theta): (f64, f64), weights: &mut [f64; MOST]) {
-        for (weight, (_, row)) in weights.iter_mut().zip(self.terms(degree)) {
-            *weight = ahead * polynomial(row, theta);
+        for s in 0..self.count() {
+            weights[s] = ahead * polynomial(&self.table[s * degree..][..degree], theta);
         }
     }
 
@@ -128,20 +143,23 @@ impl<'a> Stages<'a> {
     fn add_coefficients(&self, degree: usize, out: &mut [f64]) {
         assert!(out.len() <= self.len * degree, "len of y x degree");
         let mut first = 0;
-        let mut blocks = out.chunks_exact_mut(Lanes::WIDTH * degree);
-        for out in &mut blocks {
+        while (first + Lanes::WIDTH) * degree <= out.len() {
             let sums = self.sums(degree, |stage| {
                 let block: &[f64; Lanes::WIDTH] = stage[first..].first_chunk().expect("a block");
                 Lanes::new(*block)
             });
-            for (d, sum) in sums[..degree].iter().enumerate() {
-                let components = out[d..].iter_mut().step_by(degree);
-                components.zip(sum.to_array()).for_each(|(out, sum)| *out = sum);
+            let out = &mut out[first * degree..(first + Lanes::WIDTH) * degree];
+            for d in 0..degree {
+                let sum = sums[d].to_array();
+                for lane in 0..Lanes::WIDTH {
+                    out[lane * degree + d] = sum[lane];
+                }
             }
             first += Lanes::WIDTH;
         }
-        for out in blocks.into_remainder().chunks_exact_mut(degree) {
-            out.copy_from_slice(&self.sums(degree, |stage| stage[first])[..degree]);
+        while (first + 1) * degree <= out.len() {
+            let sums = self.sums(degree, |stage| stage[first]);
+            out[first * degree..][..degree].copy_from_slice(&sums[..degree]);
             first += 1;
         }
     }
@@ -150,10 +168,11 @@ impl<'a> Stages<'a> {
     #[inline(always)]
     fn sums<R: Real>(&self, degree: usize, component: impl Fn(&[f64]) -> R) -> [R; HIGHEST] {
         let mut sums = [R::zero(); HIGHEST];
-        for (stage, row) in self.terms(degree) {
+        for s in 0..self.count() {
+            let (stage, row) = self.term(s, degree);
             let k = component(stage);
-            for (sum, b) in sums.iter_mut().zip(row) {
-                *sum += R::constant(*b) * k;
+            for d in 0..degree {
+                sums[d] += R::constant(row[d]) * k;
             }
         }
         sums
@@ -174,12 +193,15 @@ where
         let mut sums: [Lanes; BLOCKS] = lanes(&y[first..]);
         for (stage, weight) in terms() {
             let weight = Lanes::constant(*weight);
-            for (sum, k) in sums.iter_mut().zip(lanes::<BLOCKS>(&stage[first..])) {
-                *sum = sum.plus_product(weight, k);
+            let k: [Lanes; BLOCKS] = lanes(&stage[first..]);
+            for b in 0..BLOCKS {
+                sums[b] = sums[b].plus_product(weight, k[b]);
             }
         }
-        for (out, sum) in out[first..].chunks_exact_mut(Lanes::WIDTH).zip(sums) {
-            out.copy_from_slice(&sum.to_array());
+        for b in 0..BLOCKS {
+            let out: &mut [f64; Lanes::WIDTH] =
+                out[first + b * Lanes::WIDTH..].first_chunk_mut().expect("a block");
+            *out = sums[b].to_array();
         }
         if first == last {
             return;
@@ -192,7 +214,7 @@ where
 #[inline(always)]
 fn lanes<const BLOCKS: usize>(x: &[f64]) -> [Lanes; BLOCKS] {
     let x = &x[..BLOCKS * Lanes::WIDTH];
-    std::array::from_fn(|b| {
+    indexed(|b| {
         let block = &x[b * Lanes::WIDTH..];
         Lanes::new([block[0], block[1], block[2], block[3]])
     })

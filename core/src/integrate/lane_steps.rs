@@ -11,7 +11,7 @@ use super::right_hand_side::all_finite;
 use super::runge_kutta::{RungeKutta, TrialStages};
 use super::stages::{combine, row, Block};
 use super::tolerances::LaneTolerances;
-use crate::math::{Lanes, Real};
+use crate::math::{each, indexed, Lanes, Real};
 use std::any::TypeId;
 use std::marker::PhantomData;
 
@@ -104,21 +104,25 @@ pub trait LaneMethod: Sync {
 pub(super) struct OverLanes<P>(pub PhantomData<fn() -> P>);
 
 impl<P: RungeKutta> LaneMethod for OverLanes<P> {
+    #[inline]
     fn id(&self) -> TypeId {
         TypeId::of::<P>()
     }
 
+    #[inline]
     fn stages(&self) -> (usize, bool) {
         (P::STAGES, P::LAST_IN_ERROR)
     }
 
+    #[inline]
     fn advance(&self, trial: &mut LaneTrial<'_>, k: &mut [Block], y_new: &mut [Block]) -> bool {
         P::advance(trial, k, y_new).is_ok()
     }
 
+    #[inline]
     fn norms(&self, h: Block, k: &[Block], y: [&[Block]; 2], by: &LaneTolerances) -> Block {
         let [a, b] = P::error_squares(k, y, by);
-        std::array::from_fn(|lane| P::error_norm(h[lane], [a[lane], b[lane]], by.components()))
+        indexed(|lane| P::error_norm(h[lane], [a[lane], b[lane]], by.components()))
     }
 }
 
@@ -139,6 +143,7 @@ pub struct LaneTrial<'a> {
 #[doc(hidden)]
 pub struct NotOrdinary;
 
+#[inline]
 fn ordinary(holds: bool) -> Result<(), NotOrdinary> {
     match holds {
         true => Ok(()),
@@ -149,6 +154,7 @@ fn ordinary(holds: bool) -> Result<(), NotOrdinary> {
 impl TrialStages for LaneTrial<'_> {
     type Stop = NotOrdinary;
 
+    #[inline]
     fn width(&self) -> usize {
         self.y.len()
     }
@@ -177,11 +183,13 @@ impl TrialStages for LaneTrial<'_> {
         ordinary(combine(self.y, self.h / Lanes::constant(divisor), a, k, out))
     }
 
+    #[inline]
     fn rate_at_end(&mut self, y_new: &[Block], dy: &mut [Block]) -> Result<(), NotOrdinary> {
         ordinary(self.registers.rates(self.system, self.t_new, y_new, dy))?;
         self.finite(dy)
     }
 
+    #[inline]
     fn finite(&self, stage: &[Block]) -> Result<(), NotOrdinary> {
         ordinary(all_finite(stage.as_flattened()))
     }
@@ -195,6 +203,7 @@ struct Registers {
 }
 
 impl Registers {
+    #[inline]
     fn put(&mut self, y: &[Block]) {
         self.y.clear();
         self.y.extend(y.iter().map(|y| Lanes::new(*y)));
@@ -261,7 +270,7 @@ impl LaneSteps {
             return taken;
         }
         let projected = self.settle(last_in_error, &times, accepted, system);
-        let settled: Mask = std::array::from_fn(|lane| accepted[lane] && projected[lane].is_some());
+        let settled: Mask = indexed(|lane| accepted[lane] && projected[lane].is_some());
         system.on_accepted(times.t_new, settled);
         for lane in (0..WIDTH).filter(|lane| accepted[*lane]) {
             match (&mut steppers[lane], projected[lane]) {
@@ -322,7 +331,7 @@ impl LaneSteps {
         system: &mut dyn LaneOde,
     ) -> Option<Block> {
         let Self { y, y_new, argument, k, tolerances, registers, .. } = self;
-        let [t, t_new] = [times.t, times.t_new].map(Lanes::new);
+        let [t, t_new] = each([times.t, times.t_new], Lanes::new);
         let h = t_new - t;
         let mut trial = LaneTrial { system, t, t_new, h, y, argument, registers };
         let advanced = method.advance(&mut trial, k, y_new);

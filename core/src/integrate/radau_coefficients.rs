@@ -85,6 +85,7 @@ fn integrated(nodes: &[f64], k: usize) -> [f64; DEGREE] {
 }
 
 /// Values at θ of the Lagrange polynomials for the nodes.
+#[inline]
 pub(super) fn lagrange<const N: usize>(nodes: [f64; N], theta: f64) -> [f64; N] {
     std::array::from_fn(|k| {
         let others = nodes.iter().enumerate().filter(|(j, _)| *j != k);

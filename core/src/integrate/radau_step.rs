@@ -19,7 +19,7 @@ use super::evaluation_counter::CountedDae;
 use super::failure::Cause;
 use super::implicit_state::ImplicitState;
 use super::radau_coefficients::{lagrange, A, C, COMPLEX, ERROR, INVERSE, REAL, T, T_INVERSE};
-use crate::math::{Complex, Field};
+use crate::math::{indexed, Complex, Field};
 
 /// Relative difference of two step sizes below which the steps share their matrices. Differences of times are subject
 /// to rounding.
@@ -97,6 +97,7 @@ impl RadauStep {
     }
 
     /// Discards the data of earlier steps after a change of the state.
+    #[inline]
     pub fn forget(&mut self) {
         (self.h_before, self.factored, self.fresh) = (None, None, false);
     }
@@ -124,6 +125,7 @@ impl RadauStep {
 
     /// Computes the tangent at the beginning of the step, but with the positions at its middle. Because bodies
     /// rotate, this makes the iteration converge twice as fast.
+    #[inline]
     pub fn linearize<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, t: f64, h: f64) {
         let ImplicitState { q, v, .. } = &self.start;
         self.dq.iter_mut().zip(q.iter().zip(v)).for_each(|(mid, (q, v))| *mid = q + 0.5 * h * v);
@@ -319,7 +321,7 @@ impl RadauStep {
         // the memory of the error first contains the factors of K and M
         let [stiff, force, states] = error;
         for k in 0..n {
-            let q = std::array::from_fn(|i| stages[i].q[k] - start.q[k]);
+            let q = indexed(|i| stages[i].q[k] - start.q[k]);
             along[k] = step * moved.v[k] + dot(&ERROR, &q);
             force[k] = step * moved.a[k] + rise(k);
             stiff[k] = step * along[k];
@@ -359,6 +361,7 @@ impl RadauStep {
     }
 
     /// The change h Σ bᵢ powerᵢ of one quadrature.
+    #[inline]
     pub fn work(&self, k: usize, h: f64) -> f64 {
         h * (0..3).map(|i| A[2][i] * self.stages[i].powers[k]).sum::<f64>()
     }
@@ -389,6 +392,7 @@ fn coefficients<F: Field>(step: F) -> NewtonCoefficients<F> {
 }
 
 /// h divided by the complex eigenvalue.
+#[inline]
 fn complex_step(h: f64) -> Complex {
     Complex::new(COMPLEX[0], COMPLEX[1]).reciprocal() * Field::from_real(h)
 }

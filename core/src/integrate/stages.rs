@@ -3,17 +3,19 @@
 //! States and stages are rows of whole blocks, padded with zeros. Sums over them process four numbers at a time
 //! without a remainder.
 
-use crate::math::{Lanes, Real};
+use crate::math::{indexed, Lanes, Real};
 
 /// Four numbers that are processed together.
 pub(super) type Block = [f64; Lanes::WIDTH];
 
 /// Memory for `rows` rows of `n` numbers.
+#[inline]
 pub(super) fn room(rows: usize, n: usize) -> Vec<Block> {
     vec![[0.0; Lanes::WIDTH]; rows * width(n)]
 }
 
 /// Number of blocks in a row of `n` numbers; at least one.
+#[inline]
 pub(super) fn width(n: usize) -> usize {
     n.div_ceil(Lanes::WIDTH).max(1)
 }
@@ -56,6 +58,7 @@ pub(super) fn sum_at<const S: usize>(i: usize, a: [f64; S], k: [&[Block]; S]) ->
 }
 
 /// out = (to - from) / h.
+#[inline]
 pub(super) fn chord(from: &[Block], to: &[Block], h: f64, out: &mut [Block]) {
     let h = Lanes::constant(h);
     for ((out, from), to) in out.iter_mut().zip(from).zip(to) {
@@ -66,7 +69,7 @@ pub(super) fn chord(from: &[Block], to: &[Block], h: f64, out: &mut [Block]) {
 /// The first S rows of `k`, each `width` blocks long.
 #[inline(always)]
 pub(super) fn rows<const S: usize>(k: &[Block], width: usize) -> [&[Block]; S] {
-    std::array::from_fn(|s| row(k, width, s))
+    indexed(|s| row(k, width, s))
 }
 
 /// The first S rows of `k`, mutable.

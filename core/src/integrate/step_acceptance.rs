@@ -11,7 +11,7 @@ use super::runge_kutta::RungeKutta;
 use super::stages::{chord, row, row_mut};
 use super::step::Step;
 use super::trial::Trial;
-use crate::math::Lanes;
+use crate::math::{each, Lanes};
 use std::mem::swap;
 
 /// Whether projection changed the state. The inner error requires a shorter step; the outer error ends the
@@ -71,7 +71,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
             }
             _ => table(P::WITHOUT_EXTRA),
         };
-        let derivatives = [0, last_row::<P>(accepted.projected)].map(|s| row(k, *width, s));
+        let derivatives = each([0, last_row::<P>(accepted.projected)], |s| row(k, *width, s));
         let ends = Ends::new(accepted.t - self.t, [y, y_new], derivatives, self.n);
         let Ends { y_old, y, dy_old, dy, .. } = ends;
         Step { t_old: self.t, t: accepted.t, y_old, y, dy_old, dy, interpolant }
@@ -79,10 +79,11 @@ impl<P: RungeKutta> ExplicitStepper<P> {
 
     /// Computes the integrals of the rates over the step, for the Hermite–Birkhoff interpolants of this step and the
     /// next.
+    #[inline]
     pub(super) fn measure(&mut self, accepted: Accepted) {
         let Work { width, k, y, y_new, hermite_birkhoff, .. } = &mut self.work;
         let Some(hermite_birkhoff) = hermite_birkhoff else { return };
-        let derivatives = [0, last_row::<P>(accepted.projected)].map(|s| row(k, *width, s));
+        let derivatives = each([0, last_row::<P>(accepted.projected)], |s| row(k, *width, s));
         let ends = Ends::new(accepted.t - self.t, [y, y_new], derivatives, self.n);
         hermite_birkhoff.measure(ends, P::DOUBLE_QUADRATURE, k);
     }
@@ -102,7 +103,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         let outcome = match hermite_birkhoff.as_mut().filter(|it| it.serves(h)) {
             Some(hermite_birkhoff) => {
                 let (stages, extra) = k.split_at_mut(P::STAGES * *width);
-                let derivatives = [0, P::STAGES - 1].map(|s| row(stages, *width, s));
+                let derivatives = each([0, P::STAGES - 1], |s| row(stages, *width, s));
                 let ends = Ends::new(h, [y, y_new], derivatives, n);
                 hermite_birkhoff.predict(ends, &mut trial.as_flattened_mut()[..n]);
                 let inside = row_mut(extra, *width, 0);
@@ -134,7 +135,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         let Work { width, k, y, y_new, hermite_birkhoff, .. } = &mut self.work;
         let last = last_row::<P>(accepted.projected);
         if let Some(hermite_birkhoff) = hermite_birkhoff {
-            let derivatives = [0, last].map(|s| row(k, *width, s));
+            let derivatives = each([0, last], |s| row(k, *width, s));
             let ends = Ends::new(accepted.t - self.t, [y, y_new], derivatives, self.n);
             hermite_birkhoff.remember(ends);
         }
@@ -148,6 +149,7 @@ impl<P: RungeKutta> ExplicitStepper<P> {
 
 /// The row of the derivative at the end of a step. It is the last stage, or the row after the jump if the last stage
 /// belongs to the state before a projection.
+#[inline]
 pub(super) fn last_row<P: RungeKutta>(projected: bool) -> usize {
     match projected && P::LAST_IN_ERROR {
         false => P::STAGES - 1,

@@ -2,7 +2,7 @@
 
 use super::stages::{room, Block};
 use super::step_control::Atol;
-use crate::math::{Lanes, Real};
+use crate::math::{indexed, Lanes, Real};
 
 /// Tolerances of all controlled components.
 pub(super) struct Tolerances {
@@ -28,12 +28,14 @@ impl Tolerances {
     }
 
     /// √(Σ (xᵢ / scaleᵢ)² / n) at one state; 0 without controlled components.
+    #[inline]
     pub fn norm(&self, y: &[Block], x: impl Fn(usize) -> Lanes) -> f64 {
         let [sum] = self.squares([y, y], |i| [x(i)]);
         (sum / self.components()).sqrt()
     }
 
     /// The number of controlled components, at least 1.
+    #[inline]
     pub fn components(&self) -> f64 {
         self.controlled.max(1) as f64
     }
@@ -102,6 +104,7 @@ pub struct LaneTolerances {
 
 impl LaneTolerances {
     /// Sets the tolerances of a lane.
+    #[inline]
     pub(super) fn set(&mut self, lane: usize, of: &Tolerances) {
         self.rtol[lane] = of.rtol;
         self.atol.resize(of.controlled, [f64::INFINITY; Lanes::WIDTH]);
@@ -111,12 +114,14 @@ impl LaneTolerances {
     }
 
     /// Copies the tolerances of a lane to another lane.
+    #[inline]
     pub fn repeat(&mut self, from: usize, to: usize) {
         let blocks = self.atol.iter_mut().chain([&mut self.rtol]);
         blocks.for_each(|block| block[to] = block[from]);
     }
 
     /// The number of controlled components, at least 1.
+    #[inline]
     pub fn components(&self) -> f64 {
         self.atol.len().max(1) as f64
     }
@@ -140,6 +145,6 @@ impl Squares for LaneTolerances {
             add_squares(&mut sums[i % Lanes::WIDTH], x(i), scale);
         }
         let [a, b, c, d] = sums;
-        std::array::from_fn(|q| ((a[q] + b[q]) + (c[q] + d[q])).to_array())
+        indexed(|q| ((a[q] + b[q]) + (c[q] + d[q])).to_array())
     }
 }

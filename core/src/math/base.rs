@@ -8,23 +8,30 @@ use super::real::{Lift, Real};
 
 /// A scalar over its base.
 ///
-/// Derivatives with respect to time or to the coordinates of an owner (`Jet`, `Dual<3, _>`) are added during an
-/// evaluation: the data of the model, such as the parameters of a curve, do not have them. A function of one number
-/// with such data is therefore evaluated over the base alone, by [`compose`]. `Dual<1>` contains derivatives with
-/// respect to a parameter of the model, and is a base.
+/// Time derivatives (`Jet`), and derivatives with respect to coordinates that an evaluation adds (`Dual<3, _>` over a
+/// scalar that is not a number), do not concern the data of a model, such as the parameters of a curve. A function of
+/// one number with such data is therefore evaluated over the base alone, by [`compose`]. `Dual<3>` is a base: its
+/// derivatives may be those with respect to parameters.
 pub trait OverBase: Sized {
     /// The scalar of the data.
     type Base: Real<Base = Self::Base>;
+    /// The base of `Dual<3, Self>`.
+    type Three: Real<Base = Self::Three>;
     /// The number without the added derivatives.
     fn base(self) -> Self::Base;
     /// The number, with added derivatives of zero.
     fn of_base(x: Self::Base) -> Self;
+    /// [`base`](Self::base) of `Dual<3, Self>`.
+    fn three(x: Dual<3, Self>) -> Self::Three;
+    /// [`of_base`](Self::of_base) of `Dual<3, Self>`.
+    fn of_three(x: Self::Three) -> Dual<3, Self>;
 }
 
 macro_rules! is_base {
     ($($S:ty),+) => {
         $(impl $crate::math::OverBase for $S {
             type Base = Self;
+            type Three = Self;
             #[inline(always)]
             fn base(self) -> Self {
                 self
@@ -33,35 +40,87 @@ macro_rules! is_base {
             fn of_base(x: Self) -> Self {
                 x
             }
+            #[inline(always)]
+            fn three(x: $crate::math::Dual<3, Self>) -> Self {
+                x.value
+            }
+            #[inline(always)]
+            fn of_three(x: Self) -> $crate::math::Dual<3, Self> {
+                $crate::math::Lift::lift(x)
+            }
         })+
     };
 }
 pub(crate) use is_base;
-is_base!(f64, Lanes, Interval, Dual<1>, Dual<1, Interval>);
+is_base!(Lanes, Interval, Dual<1>, Dual<1, Interval>, Dual<6>, Dual<6, Dual<6>>);
+
+impl OverBase for f64 {
+    type Base = Self;
+    type Three = Dual<3>;
+    #[inline(always)]
+    fn base(self) -> Self {
+        self
+    }
+    #[inline(always)]
+    fn of_base(x: Self) -> Self {
+        x
+    }
+    #[inline(always)]
+    fn three(x: Dual<3>) -> Dual<3> {
+        x
+    }
+    #[inline(always)]
+    fn of_three(x: Dual<3>) -> Dual<3> {
+        x
+    }
+}
 
 impl<S: Real> OverBase for Dual<3, S> {
-    type Base = S::Base;
-    fn base(self) -> S::Base {
-        self.value.base()
+    type Base = S::Three;
+    type Three = S::Three;
+    #[inline]
+    fn base(self) -> S::Three {
+        S::three(self)
     }
-    fn of_base(x: S::Base) -> Self {
-        Self::lift(S::of_base(x))
+    #[inline]
+    fn of_base(x: S::Three) -> Self {
+        S::of_three(x)
+    }
+    #[inline]
+    fn three(x: Dual<3, Self>) -> S::Three {
+        S::three(x.value)
+    }
+    #[inline]
+    fn of_three(x: S::Three) -> Dual<3, Self> {
+        Lift::lift(S::of_three(x))
     }
 }
 
 impl<S: Real> OverBase for Jet<S> {
     type Base = S::Base;
+    type Three = S::Base;
+    #[inline]
     fn base(self) -> S::Base {
         self.value.base()
     }
+    #[inline]
     fn of_base(x: S::Base) -> Self {
         Self::lift(S::of_base(x))
+    }
+    #[inline]
+    fn three(x: Dual<3, Self>) -> S::Base {
+        x.value.value.base()
+    }
+    #[inline]
+    fn of_three(x: S::Base) -> Dual<3, Self> {
+        Lift::lift(Self::of_base(x))
     }
 }
 
 /// f(x + d) from the derivatives f, f′, f″, … at the base of x, where d is the rest of x. The series ends with the
 /// order of the derivatives that the scalar adds; a derivative of a higher order that is not finite counts as zero if
 /// it is not among the first `certain` ones.
+#[inline]
 pub fn compose<S: Real>(derivatives: &[S::Base], x: S, certain: usize) -> S {
     let d = x - S::of_base(x.base());
     let mut sum = S::zero();

@@ -42,6 +42,7 @@ impl Mul for Complex {
 }
 impl Neg for Complex {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         Self::new(-self.re, -self.im)
     }

@@ -17,6 +17,7 @@ pub struct Dual<const N: usize, S = f64> {
 
 impl<const N: usize, S: Real> Dual<N, S> {
     /// The independent variable of seed `k`.
+    #[inline]
     pub fn variable(value: S, k: usize) -> Self {
         let mut slope = [S::zero(); N];
         slope[k] = S::one();
@@ -24,6 +25,7 @@ impl<const N: usize, S: Real> Dual<N, S> {
     }
 
     /// f(x) from f and f′ at the value, by the chain rule.
+    #[inline]
     fn chain(self, f: S, df: S) -> Self {
         let mut slope = self.slope;
         for d in &mut slope {
@@ -37,6 +39,7 @@ impl<const N: usize, S: Real> Lift<S> for Dual<N, S>
 where
     Self: OverBase,
 {
+    #[inline]
     fn lift(s: S) -> Self {
         Self { value: s, slope: [S::zero(); N] }
     }
@@ -53,18 +56,21 @@ fn zip<const N: usize, S: Copy>(mut a: [S; N], b: [S; N], f: impl Fn(S, S) -> S)
 
 impl<const N: usize, S: Real> Add for Dual<N, S> {
     type Output = Self;
+    #[inline]
     fn add(self, o: Self) -> Self {
         Self { value: self.value + o.value, slope: zip(self.slope, o.slope, |a, b| a + b) }
     }
 }
 impl<const N: usize, S: Real> Sub for Dual<N, S> {
     type Output = Self;
+    #[inline]
     fn sub(self, o: Self) -> Self {
         Self { value: self.value - o.value, slope: zip(self.slope, o.slope, |a, b| a - b) }
     }
 }
 impl<const N: usize, S: Real> Mul for Dual<N, S> {
     type Output = Self;
+    #[inline]
     fn mul(self, o: Self) -> Self {
         Self {
             value: self.value * o.value,
@@ -74,6 +80,7 @@ impl<const N: usize, S: Real> Mul for Dual<N, S> {
 }
 impl<const N: usize, S: Real> Div for Dual<N, S> {
     type Output = Self;
+    #[inline]
     fn div(self, o: Self) -> Self {
         let value = self.value / o.value;
         Self { value, slope: zip(self.slope, o.slope, |a, b| (a - value * b) / o.value) }
@@ -81,6 +88,7 @@ impl<const N: usize, S: Real> Div for Dual<N, S> {
 }
 impl<const N: usize, S: Real> Neg for Dual<N, S> {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         let mut slope = self.slope;
         for d in &mut slope {
@@ -90,11 +98,13 @@ impl<const N: usize, S: Real> Neg for Dual<N, S> {
     }
 }
 impl<const N: usize, S: Real> AddAssign for Dual<N, S> {
+    #[inline]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
 }
 impl<const N: usize, S: Real> SubAssign for Dual<N, S> {
+    #[inline]
     fn sub_assign(&mut self, o: Self) {
         *self = *self - o;
     }
@@ -106,47 +116,59 @@ where
 {
     const ORDER: usize = S::ORDER + 1;
 
+    #[inline]
     fn constant(x: f64) -> Self {
         Self::lift(S::constant(x))
     }
+    #[inline]
     fn sin_cos(self) -> (Self, Self) {
         let (s, c) = self.value.sin_cos();
         (self.chain(s, c), self.chain(c, -s))
     }
+    #[inline]
     fn sqrt(self) -> Self {
         let r = self.value.sqrt();
         self.chain(r, S::constant(0.5) / r)
     }
+    #[inline]
     fn exp(self) -> Self {
         let e = self.value.exp();
         self.chain(e, e)
     }
+    #[inline]
     fn ln(self) -> Self {
         self.chain(self.value.ln(), S::one() / self.value)
     }
+    #[inline]
     fn asin(self) -> Self {
         let x = self.value;
         self.chain(x.asin(), S::one() / (S::one() - x * x).sqrt())
     }
+    #[inline]
     fn atan(self) -> Self {
         let x = self.value;
         self.chain(x.atan(), S::one() / (S::one() + x * x))
     }
+    #[inline]
     fn atan2(self, x: Self) -> Self {
         let (a, b) = (self.value, x.value);
         let r2 = a * a + b * b;
         Self { value: a.atan2(b), slope: zip(self.slope, x.slope, |da, db| (b * da - a * db) / r2) }
     }
+    #[inline]
     fn sinh(self) -> Self {
         self.chain(self.value.sinh(), self.value.cosh())
     }
+    #[inline]
     fn cosh(self) -> Self {
         self.chain(self.value.cosh(), self.value.sinh())
     }
+    #[inline]
     fn tanh(self) -> Self {
         let t = self.value.tanh();
         self.chain(t, S::one() - t * t)
     }
+    #[inline]
     fn powc(self, exponent: f64) -> Self {
         if exponent == 0.0 {
             return Self::one();
@@ -154,6 +176,7 @@ where
         let slope = S::constant(exponent) * self.value.powc(exponent - 1.0);
         self.chain(self.value.powc(exponent), slope)
     }
+    #[inline]
     fn pow(self, exponent: Self) -> Self {
         let (x, y) = (self.value, exponent.value);
         let value = x.pow(y);
@@ -164,6 +187,7 @@ where
         });
         Self { value, slope }
     }
+    #[inline]
     fn select(condition: Self, positive: Self, otherwise: Self) -> Self {
         let c = condition.value;
         Self {
@@ -171,18 +195,23 @@ where
             slope: zip(positive.slope, otherwise.slope, |a, b| S::select(c, a, b)),
         }
     }
+    #[inline]
     fn floor(self) -> Self {
         Self::lift(self.value.floor())
     }
+    #[inline]
     fn least_magnitude(self) -> f64 {
         self.value.least_magnitude()
     }
+    #[inline]
     fn largest_magnitude(self) -> f64 {
         self.value.largest_magnitude()
     }
+    #[inline]
     fn of_lanes(values: [f64; 4]) -> Self {
         Self::lift(S::of_lanes(values))
     }
+    #[inline]
     fn in_lanes(self) -> [f64; 4] {
         self.value.in_lanes()
     }
@@ -201,6 +230,7 @@ where
         }
         Self { value, slope }
     }
+    #[inline]
     fn is_finite(self) -> bool {
         let mut finite = self.value.is_finite();
         for d in self.slope {

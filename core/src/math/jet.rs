@@ -20,16 +20,19 @@ pub struct Jet<S = f64> {
 
 impl<S: Real> Jet<S> {
     /// A quantity with given time derivatives.
+    #[inline]
     pub fn new(value: S, rate: S, second: S) -> Self {
         Self { value, rate, second }
     }
 
     /// f(x) from f, f′ and f″ at the value (Faà di Bruno to second order).
+    #[inline]
     fn chain(self, f: S, df: S, ddf: S) -> Self {
         Self::new(f, df * self.rate, ddf * self.rate * self.rate + df * self.second)
     }
 
     /// 1/x.
+    #[inline]
     fn recip(self) -> Self {
         let r = S::one() / self.value;
         let r2 = r * r;
@@ -38,6 +41,7 @@ impl<S: Real> Jet<S> {
 }
 
 impl<S: Real> Lift<S> for Jet<S> {
+    #[inline]
     fn lift(s: S) -> Self {
         Self::new(s, S::zero(), S::zero())
     }
@@ -45,18 +49,21 @@ impl<S: Real> Lift<S> for Jet<S> {
 
 impl<S: Real> Add for Jet<S> {
     type Output = Self;
+    #[inline]
     fn add(self, o: Self) -> Self {
         Self::new(self.value + o.value, self.rate + o.rate, self.second + o.second)
     }
 }
 impl<S: Real> Sub for Jet<S> {
     type Output = Self;
+    #[inline]
     fn sub(self, o: Self) -> Self {
         Self::new(self.value - o.value, self.rate - o.rate, self.second - o.second)
     }
 }
 impl<S: Real> Mul for Jet<S> {
     type Output = Self;
+    #[inline]
     fn mul(self, o: Self) -> Self {
         let cross = self.rate * o.rate;
         Self::new(
@@ -69,22 +76,26 @@ impl<S: Real> Mul for Jet<S> {
 impl<S: Real> Div for Jet<S> {
     type Output = Self;
     #[allow(clippy::suspicious_arithmetic_impl)] // x/y as x · (1/y): one chain rule instead of two
+    #[inline]
     fn div(self, o: Self) -> Self {
         self * o.recip()
     }
 }
 impl<S: Real> Neg for Jet<S> {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         Self::new(-self.value, -self.rate, -self.second)
     }
 }
 impl<S: Real> AddAssign for Jet<S> {
+    #[inline]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
 }
 impl<S: Real> SubAssign for Jet<S> {
+    #[inline]
     fn sub_assign(&mut self, o: Self) {
         *self = *self - o;
     }
@@ -92,38 +103,47 @@ impl<S: Real> SubAssign for Jet<S> {
 
 impl<S: Real> Real for Jet<S> {
     const ORDER: usize = S::ORDER + 2;
+    const HAS_EQUATIONS: bool = false;
 
+    #[inline]
     fn constant(x: f64) -> Self {
         Self::lift(S::constant(x))
     }
+    #[inline]
     fn sin_cos(self) -> (Self, Self) {
         let (s, c) = self.value.sin_cos();
         (self.chain(s, c, -s), self.chain(c, -s, -c))
     }
+    #[inline]
     fn sqrt(self) -> Self {
         let r = self.value.sqrt();
         let d = S::constant(0.5) / r;
         self.chain(r, d, -(d / (S::constant(2.0) * self.value)))
     }
+    #[inline]
     fn exp(self) -> Self {
         let e = self.value.exp();
         self.chain(e, e, e)
     }
+    #[inline]
     fn ln(self) -> Self {
         let r = S::one() / self.value;
         self.chain(self.value.ln(), r, -(r * r))
     }
+    #[inline]
     fn asin(self) -> Self {
         let x = self.value;
         let w = S::one() / (S::one() - x * x);
         let d = w.sqrt();
         self.chain(x.asin(), d, x * w * d)
     }
+    #[inline]
     fn atan(self) -> Self {
         let x = self.value;
         let w = S::one() / (S::one() + x * x);
         self.chain(x.atan(), w, -(S::constant(2.0) * x * w * w))
     }
+    #[inline]
     fn atan2(self, x: Self) -> Self {
         // θ̇ = (x ẏ - y ẋ) / r², differentiated once more
         let (a, b) = (self, x);
@@ -133,19 +153,23 @@ impl<S: Real> Real for Jet<S> {
         let second = (b.value * a.second - a.value * b.second - rate * dr2) / r2;
         Self::new(a.value.atan2(b.value), rate, second)
     }
+    #[inline]
     fn sinh(self) -> Self {
         let (s, c) = (self.value.sinh(), self.value.cosh());
         self.chain(s, c, s)
     }
+    #[inline]
     fn cosh(self) -> Self {
         let (s, c) = (self.value.sinh(), self.value.cosh());
         self.chain(c, s, c)
     }
+    #[inline]
     fn tanh(self) -> Self {
         let t = self.value.tanh();
         let d = S::one() - t * t;
         self.chain(t, d, -(S::constant(2.0) * t * d))
     }
+    #[inline]
     fn powc(self, exponent: f64) -> Self {
         if exponent == 0.0 {
             return Self::one();
@@ -159,6 +183,7 @@ impl<S: Real> Real for Jet<S> {
         };
         self.chain(self.value.powc(exponent), first, second)
     }
+    #[inline]
     fn pow(self, exponent: Self) -> Self {
         let (x, y) = (self.value, exponent.value);
         let (one, value) = (S::one(), x.pow(y));
@@ -172,6 +197,7 @@ impl<S: Real> Real for Jet<S> {
             S::select(varies, varying.second, constant.second),
         )
     }
+    #[inline]
     fn select(condition: Self, positive: Self, otherwise: Self) -> Self {
         let c = condition.value;
         Self::new(
@@ -180,18 +206,23 @@ impl<S: Real> Real for Jet<S> {
             S::select(c, positive.second, otherwise.second),
         )
     }
+    #[inline]
     fn floor(self) -> Self {
         Self::lift(self.value.floor())
     }
+    #[inline]
     fn least_magnitude(self) -> f64 {
         self.value.least_magnitude()
     }
+    #[inline]
     fn largest_magnitude(self) -> f64 {
         self.value.largest_magnitude()
     }
+    #[inline]
     fn of_lanes(values: [f64; 4]) -> Self {
         Self::lift(S::of_lanes(values))
     }
+    #[inline]
     fn in_lanes(self) -> [f64; 4] {
         self.value.in_lanes()
     }
@@ -207,6 +238,7 @@ impl<S: Real> Real for Jet<S> {
         let rate = (after - before) / S::constant(2.0 * tau);
         Self::new(value, rate, (after - value - value + before) / S::constant(tau * tau))
     }
+    #[inline]
     fn is_finite(self) -> bool {
         self.value.is_finite() && self.rate.is_finite() && self.second.is_finite()
     }

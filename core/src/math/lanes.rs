@@ -1,5 +1,6 @@
 //! Several states or designs at once: one formula evaluated for several numbers in parallel.
 
+use super::array::each;
 use super::real::{Lift, Real};
 use super::sine;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
@@ -41,12 +42,13 @@ impl Lanes {
         let (c, d) = rest.split_at_mut(width);
         let blocks = x.chunks_exact(Self::WIDTH);
         let whole = blocks.remainder().is_empty();
-        let [p, q, r, s] = [&mut *a, &mut *b, &mut *c, &mut *d].map(|x| x.chunks_exact_mut(4));
-        for ((((x, a), b), c), d) in blocks.zip(p).zip(q).zip(r).zip(s) {
+        for (k, x) in blocks.enumerate() {
             let rows = Self::transposed([x[0], x[1], x[2], x[3]], nothing);
-            for (out, row) in [a, b, c, d].into_iter().zip(rows) {
-                out.copy_from_slice(&row.to_array());
-            }
+            let at = Self::WIDTH * k..Self::WIDTH * (k + 1);
+            a[at.clone()].copy_from_slice(&rows[0].to_array());
+            b[at.clone()].copy_from_slice(&rows[1].to_array());
+            c[at.clone()].copy_from_slice(&rows[2].to_array());
+            d[at].copy_from_slice(&rows[3].to_array());
         }
         if whole {
             return;
@@ -73,11 +75,12 @@ impl Lanes {
         let (a, rest) = rows.split_at(width);
         let (b, rest) = rest.split_at(width);
         let (c, d) = rest.split_at(width);
-        let [p, q, r, s] = [a, b, c, d].map(|x| x.chunks_exact(Self::WIDTH));
-        let blocks = out.chunks_exact_mut(Self::WIDTH);
-        for ((((out, a), b), c), d) in blocks.zip(p).zip(q).zip(r).zip(s) {
-            let rows = [a, b, c, d].map(|x| Self::new([x[0], x[1], x[2], x[3]]));
-            out.copy_from_slice(&Self::transposed(rows, nothing));
+        for (k, out) in out.chunks_exact_mut(Self::WIDTH).enumerate() {
+            let row = |x: &[f64]| {
+                let x = &x[Self::WIDTH * k..Self::WIDTH * (k + 1)];
+                Self::new([x[0], x[1], x[2], x[3]])
+            };
+            out.copy_from_slice(&Self::transposed([row(a), row(b), row(c), row(d)], nothing));
         }
         for k in width - width % Self::WIDTH..width {
             out[k] = Self::new([a[k], b[k], c[k], d[k]]);
@@ -88,21 +91,21 @@ impl Lanes {
     /// Adding [`nothing`](Self::nothing), a zero that the compiler cannot see, prevents this.
     #[inline(always)]
     fn transposed(rows: [Self; Self::WIDTH], nothing: Self) -> [Self; Self::WIDTH] {
-        let [p, q, r, s] = rows.map(Self::to_array);
+        let [p, q, r, s] = each(rows, Self::to_array);
         let halves = [
             [p[0], p[1], r[0], r[1]],
             [q[0], q[1], s[0], s[1]],
             [p[2], p[3], r[2], r[3]],
             [q[2], q[3], s[2], s[3]],
         ];
-        let [a, b, c, d] = halves.map(|half| (Self::new(half) + nothing).to_array());
+        let [a, b, c, d] = each(halves, |half| (Self::new(half) + nothing).to_array());
         let columns = [
             [a[0], b[0], a[2], b[2]],
             [a[1], b[1], a[3], b[3]],
             [c[0], d[0], c[2], d[2]],
             [c[1], d[1], c[3], d[3]],
         ];
-        columns.map(Self::new)
+        each(columns, Self::new)
     }
     /// -0. Adding it changes no number, not even -0. Its value is hidden from the compiler.
     #[inline(always)]
@@ -125,6 +128,7 @@ impl Lanes {
     pub(crate) fn are_zero(self) -> bool {
         wide::CmpEq::cmp_eq(self.0, f64x4::ZERO).all()
     }
+    #[inline]
     fn zip(self, other: Self, f: impl Fn(f64, f64) -> f64) -> Self {
         let (a, b) = (self.to_array(), other.to_array());
         Self::new([f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3])])
@@ -201,36 +205,47 @@ impl Real for Lanes {
     fn sqrt(self) -> Self {
         Self(self.0.sqrt())
     }
+    #[inline]
     fn exp(self) -> Self {
         self.each(f64::exp)
     }
+    #[inline]
     fn ln(self) -> Self {
         self.each(f64::ln)
     }
+    #[inline]
     fn asin(self) -> Self {
         self.each(f64::asin)
     }
+    #[inline]
     fn acos(self) -> Self {
         self.each(f64::acos)
     }
+    #[inline]
     fn atan(self) -> Self {
         self.each(f64::atan)
     }
+    #[inline]
     fn atan2(self, x: Self) -> Self {
         self.zip(x, f64::atan2)
     }
+    #[inline]
     fn sinh(self) -> Self {
         self.each(f64::sinh)
     }
+    #[inline]
     fn cosh(self) -> Self {
         self.each(f64::cosh)
     }
+    #[inline]
     fn tanh(self) -> Self {
         self.each(f64::tanh)
     }
+    #[inline]
     fn powc(self, exponent: f64) -> Self {
         self.each(|x| Real::powc(x, exponent))
     }
+    #[inline]
     fn pow(self, exponent: Self) -> Self {
         self.zip(exponent, f64::powf)
     }
@@ -238,6 +253,7 @@ impl Real for Lanes {
     fn select(condition: Self, positive: Self, otherwise: Self) -> Self {
         Self(wide::CmpGt::cmp_gt(condition.0, f64x4::ZERO).blend(positive.0, otherwise.0))
     }
+    #[inline]
     fn floor(self) -> Self {
         self.each(f64::floor)
     }
@@ -257,9 +273,11 @@ impl Real for Lanes {
         let [a, b, c, d] = self.0.abs().to_array();
         a.min(b).min(c.min(d))
     }
+    #[inline]
     fn of_lanes(values: [f64; 4]) -> Self {
         Self::new(values)
     }
+    #[inline]
     fn in_lanes(self) -> [f64; 4] {
         self.to_array()
     }
@@ -282,6 +300,7 @@ impl Real for Lanes {
 }
 
 impl Lift<f64> for Lanes {
+    #[inline]
     fn lift(x: f64) -> Self {
         Self::constant(x)
     }

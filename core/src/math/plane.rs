@@ -28,52 +28,63 @@ macro_rules! vector {
     ($V:ident) => {
         impl<S: Real> $V<S> {
             /// From components.
+            #[inline]
             pub fn new(x: S, y: S) -> Self {
                 Self { x, y }
             }
             /// The null vector.
+            #[inline]
             pub fn zero() -> Self {
                 Self::new(S::zero(), S::zero())
             }
             /// Scalar product.
+            #[inline]
             pub fn dot(self, o: Self) -> S {
                 self.x * o.x + self.y * o.y
             }
             /// z component of the vector product.
+            #[inline]
             pub fn cross(self, o: Self) -> S {
                 self.x * o.y - self.y * o.x
             }
             /// The vector turned by +90°: (-y, x).
+            #[inline]
             pub fn perp(self) -> Self {
                 Self::new(-self.y, self.x)
             }
             /// Length.
+            #[inline]
             pub fn norm(self) -> S {
                 self.dot(self).sqrt()
             }
             /// Multiplied by a scalar.
+            #[inline]
             pub fn scale(self, k: S) -> Self {
                 Self::new(self.x * k, self.y * k)
             }
             /// The same vector over a scalar that contains this one.
+            #[inline]
             pub fn lift<T: Lift<S>>(self) -> $V<T> {
                 $V { x: T::lift(self.x), y: T::lift(self.y) }
             }
         }
         impl<S: Real> Add for $V<S> {
             type Output = Self;
+            #[inline]
             fn add(self, o: Self) -> Self {
                 Self::new(self.x + o.x, self.y + o.y)
             }
         }
         impl<S: Real> Sub for $V<S> {
             type Output = Self;
+            #[inline]
             fn sub(self, o: Self) -> Self {
                 Self::new(self.x - o.x, self.y - o.y)
             }
         }
         impl<S: Real> Neg for $V<S> {
             type Output = Self;
+            #[inline]
             fn neg(self) -> Self {
                 Self::new(-self.x, -self.y)
             }
@@ -94,11 +105,13 @@ pub struct Rotation<S = f64> {
 
 impl<S: Real> Rotation<S> {
     /// A(φ).
+    #[inline]
     pub fn new(angle: S) -> Self {
         let (sin, cos) = angle.sin_cos();
         Self { cos, sin }
     }
     /// Aᵀ v: the body-fixed components of a global vector.
+    #[inline]
     pub fn inverse(self, v: Vec2<S>) -> Local<S> {
         Local::new(self.cos * v.x + self.sin * v.y, self.cos * v.y - self.sin * v.x)
     }
@@ -106,6 +119,7 @@ impl<S: Real> Rotation<S> {
 
 impl<S: Real> Mul<Local<S>> for Rotation<S> {
     type Output = Vec2<S>;
+    #[inline]
     fn mul(self, s: Local<S>) -> Vec2<S> {
         let (across, along) = (self.cos * s.x, self.sin * s.x);
         Vec2::new(across.minus_product(self.sin, s.y), along.plus_product(self.cos, s.y))
@@ -122,6 +136,7 @@ pub struct Lever<S = f64> {
 }
 
 impl<S: Real> From<Local<S>> for Lever<S> {
+    #[inline]
     fn from(s: Local<S>) -> Self {
         Self { across: [-s.y, -s.y], along: [-s.x, s.x] }
     }
@@ -140,10 +155,12 @@ pub struct Pose<S = f64> {
 
 impl<S: Real> Pose<S> {
     /// The pose with the given coordinates.
+    #[inline]
     pub fn new(x: S, y: S, angle: S) -> Self {
         Self { r: Vec2::new(x, y), angle, rotation: Rotation::new(angle) }
     }
     /// The pose of ground.
+    #[inline]
     pub fn identity() -> Self {
         Self {
             r: Vec2::zero(),
@@ -152,6 +169,7 @@ impl<S: Real> Pose<S> {
         }
     }
     /// A s′: a body-fixed vector in the global frame.
+    #[inline]
     pub fn global(&self, s: Local<S>) -> Vec2<S> {
         self.rotation * s
     }
@@ -165,6 +183,7 @@ impl<S: Real> Pose<S> {
         }
     }
     /// The same pose over a scalar that contains this one.
+    #[inline]
     pub fn lift<T: Lift<S>>(&self) -> Pose<T> {
         let Rotation { cos, sin } = self.rotation;
         Pose {
@@ -174,6 +193,7 @@ impl<S: Real> Pose<S> {
         }
     }
     /// r + A s′: a point of the body in the global frame (Haug 2.4.8).
+    #[inline]
     pub fn point(&self, s: Local<S>) -> Vec2<S> {
         self.r + self.rotation * s
     }
@@ -190,6 +210,7 @@ pub struct Twist<S = f64> {
 
 impl<S: Real> Twist<S> {
     /// The twist at rest.
+    #[inline]
     pub fn zero() -> Self {
         Self { velocity: Vec2::zero(), omega: S::zero() }
     }
@@ -206,10 +227,12 @@ pub struct Motion<S = f64> {
 
 impl<S: Real> Motion<S> {
     /// At rest in the global frame, like ground.
+    #[inline]
     pub fn ground() -> Self {
         Self { pose: Pose::identity(), twist: Twist::zero() }
     }
     /// The same motion over a scalar that contains this one.
+    #[inline]
     pub fn lift<T: Lift<S>>(&self) -> Motion<T> {
         let Twist { velocity, omega } = self.twist;
         Motion {
@@ -218,6 +241,7 @@ impl<S: Real> Motion<S> {
         }
     }
     /// Velocity of a body-fixed point: ṙ + B s′ φ̇ (Haug 2.6.4).
+    #[inline]
     pub fn point_velocity(&self, s: Local<S>) -> Vec2<S> {
         self.twist.velocity + self.pose.global(s).perp().scale(self.twist.omega)
     }
@@ -234,18 +258,22 @@ pub struct Wrench<S = f64> {
 
 impl<S: Real> Wrench<S> {
     /// Zero force and torque.
+    #[inline]
     pub fn zero() -> Self {
         Self { force: Vec2::zero(), torque: S::zero() }
     }
     /// A pure torque.
+    #[inline]
     pub fn torque(torque: S) -> Self {
         Self { force: Vec2::zero(), torque }
     }
     /// A force at `arm`, in global components from the origin of the frame.
+    #[inline]
     pub fn at(arm: Vec2<S>, force: Vec2<S>) -> Self {
         Self { force, torque: arm.cross(force) }
     }
     /// Power of the wrench on a moving body, W.
+    #[inline]
     pub fn power(self, twist: Twist<S>) -> S {
         self.force.dot(twist.velocity) + self.torque * twist.omega
     }
@@ -253,12 +281,14 @@ impl<S: Real> Wrench<S> {
 
 impl<S: Real> Neg for Wrench<S> {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         Self { force: -self.force, torque: -self.torque }
     }
 }
 impl<S: Real> Add for Wrench<S> {
     type Output = Self;
+    #[inline]
     fn add(self, o: Self) -> Self {
         Self { force: self.force + o.force, torque: self.torque + o.torque }
     }

@@ -24,6 +24,9 @@ pub trait Real:
 {
     /// The highest order of the derivatives that the scalar contains; 0 if it contains none.
     const ORDER: usize = 0;
+    /// Whether the equations of a model are evaluated over the scalar. Over [`Jet`](super::Jet), only positions, laws
+    /// and forces are.
+    const HAS_EQUATIONS: bool = true;
 
     /// A constant, without derivatives and equal in every lane.
     fn constant(x: f64) -> Self;
@@ -72,6 +75,7 @@ pub trait Real:
     /// The value in each lane, without derivatives. A scalar without lanes repeats its value.
     fn in_lanes(self) -> [f64; 4];
     /// The scalar with these values in its lanes, without derivatives. A scalar without lanes takes the first value.
+    #[inline]
     fn of_lanes(values: [f64; 4]) -> Self {
         Self::constant(values[0])
     }
@@ -84,55 +88,67 @@ pub trait Real:
         Self::constant(f64::NAN)
     }
     /// The named function of x, for a scalar that prints formulas. None for numbers.
+    #[inline]
     fn named_function(self, name: &str) -> Option<Self> {
         let _ = name;
         None
     }
 
     /// Zero.
+    #[inline]
     fn zero() -> Self {
         Self::constant(0.0)
     }
     /// One.
+    #[inline]
     fn one() -> Self {
         Self::constant(1.0)
     }
     /// Sine.
+    #[inline]
     fn sin(self) -> Self {
         self.sin_cos().0
     }
     /// Cosine.
+    #[inline]
     fn cos(self) -> Self {
         self.sin_cos().1
     }
     /// Tangent.
+    #[inline]
     fn tan(self) -> Self {
         let (s, c) = self.sin_cos();
         s / c
     }
     /// Inverse cosine, in [0, π].
+    #[inline]
     fn acos(self) -> Self {
         Self::constant(std::f64::consts::FRAC_PI_2) - self.asin()
     }
     /// x to a variable power, x > 0.
+    #[inline]
     fn pow(self, exponent: Self) -> Self {
         (exponent * self.ln()).exp()
     }
     /// |x|; the derivative at 0 is -1.
+    #[inline]
     fn abs(self) -> Self {
         Self::select(self, self, -self)
     }
     /// The larger of two.
+    #[inline]
     fn max(self, other: Self) -> Self {
         Self::select(self - other, self, other)
     }
     /// The smaller of two.
+    #[inline]
     fn min(self, other: Self) -> Self {
         Self::select(self - other, other, self)
     }
 }
 
 impl Real for f64 {
+    #[inline]
     fn constant(x: f64) -> Self {
         x
     }
@@ -151,36 +167,47 @@ impl Real for f64 {
     fn minus_product(self, a: f64, b: f64) -> f64 {
         self.plus_product(-a, b)
     }
+    #[inline]
     fn sqrt(self) -> Self {
         f64::sqrt(self)
     }
+    #[inline]
     fn exp(self) -> Self {
         f64::exp(self)
     }
+    #[inline]
     fn ln(self) -> Self {
         f64::ln(self)
     }
+    #[inline]
     fn asin(self) -> Self {
         f64::asin(self)
     }
+    #[inline]
     fn acos(self) -> Self {
         f64::acos(self)
     }
+    #[inline]
     fn atan(self) -> Self {
         f64::atan(self)
     }
+    #[inline]
     fn atan2(self, x: Self) -> Self {
         f64::atan2(self, x)
     }
+    #[inline]
     fn sinh(self) -> Self {
         f64::sinh(self)
     }
+    #[inline]
     fn cosh(self) -> Self {
         f64::cosh(self)
     }
+    #[inline]
     fn tanh(self) -> Self {
         f64::tanh(self)
     }
+    #[inline]
     fn powc(self, exponent: f64) -> Self {
         // powi is exact for the small integer exponents of polynomial laws; powf may not be
         if exponent.fract() == 0.0 && exponent.abs() <= 16.0 {
@@ -189,9 +216,11 @@ impl Real for f64 {
             f64::powf(self, exponent)
         }
     }
+    #[inline]
     fn pow(self, exponent: Self) -> Self {
         f64::powf(self, exponent)
     }
+    #[inline]
     fn select(condition: Self, positive: Self, otherwise: Self) -> Self {
         if condition > 0.0 {
             positive
@@ -199,9 +228,11 @@ impl Real for f64 {
             otherwise
         }
     }
+    #[inline]
     fn floor(self) -> Self {
         f64::floor(self)
     }
+    #[inline]
     fn abs(self) -> Self {
         f64::abs(self)
     }
@@ -213,9 +244,11 @@ impl Real for f64 {
     fn largest_magnitude(self) -> f64 {
         f64::abs(self)
     }
+    #[inline]
     fn in_lanes(self) -> [f64; 4] {
         [self; 4]
     }
+    #[inline]
     fn is_finite(self) -> bool {
         f64::is_finite(self)
     }
@@ -249,6 +282,7 @@ pub trait Lift<S: Real>: Real {
 }
 
 impl<S: Real> Lift<S> for S {
+    #[inline]
     fn lift(s: S) -> Self {
         s
     }
@@ -301,6 +335,7 @@ impl<S: Real> Largest<S> {
 }
 
 impl<S: Real> Default for Largest<S> {
+    #[inline]
     fn default() -> Self {
         Self::new()
     }

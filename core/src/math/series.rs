@@ -4,8 +4,10 @@
 //! Derivatives*, 2nd edition 2008, table 13.2).
 
 #![allow(clippy::suspicious_arithmetic_impl)] // products and quotients of series
+#![allow(clippy::needless_range_loop)] // indices are orders
 
 use super::base::OverBase;
+use super::dual::Dual;
 use super::real::{Lift, Real};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -57,7 +59,7 @@ impl<const N: usize, S: Real> Series<N, S> {
         let mut result = Self::lift(at);
         for k in 1..N {
             let mut sum = S::zero();
-            for j in 1..=k {
+            for j in 1..k + 1 {
                 sum += S::constant(j as f64) * self.0[j] * slope.0[k - j];
             }
             result.0[k] = sum / S::constant(k as f64);
@@ -85,7 +87,7 @@ impl<const N: usize, S: Real> Series<N, S> {
         let sign = S::constant(sign);
         for k in 1..N {
             let (mut of_a, mut of_b) = (S::zero(), S::zero());
-            for j in 1..=k {
+            for j in 1..k + 1 {
                 let change = S::constant(j as f64) * self.0[j];
                 of_a += change * b.0[k - j];
                 of_b += change * a.0[k - j];
@@ -97,6 +99,7 @@ impl<const N: usize, S: Real> Series<N, S> {
     }
 
     /// Each coefficient of two series, combined by a function.
+    #[inline]
     fn with(mut self, other: Self, f: impl Fn(S, S) -> S) -> Self {
         for k in 0..N {
             self.0[k] = f(self.0[k], other.0[k]);
@@ -106,6 +109,7 @@ impl<const N: usize, S: Real> Series<N, S> {
 }
 
 impl<const N: usize, S: Real> Lift<S> for Series<N, S> {
+    #[inline]
     fn lift(s: S) -> Self {
         let mut all = [S::zero(); N];
         all[0] = s;
@@ -115,22 +119,25 @@ impl<const N: usize, S: Real> Lift<S> for Series<N, S> {
 
 impl<const N: usize, S: Real> Add for Series<N, S> {
     type Output = Self;
+    #[inline]
     fn add(self, o: Self) -> Self {
         self.with(o, |a, b| a + b)
     }
 }
 impl<const N: usize, S: Real> Sub for Series<N, S> {
     type Output = Self;
+    #[inline]
     fn sub(self, o: Self) -> Self {
         self.with(o, |a, b| a - b)
     }
 }
 impl<const N: usize, S: Real> Mul for Series<N, S> {
     type Output = Self;
+    #[inline]
     fn mul(self, o: Self) -> Self {
         let mut product = [S::zero(); N];
-        for k in 0..N {
-            for j in 0..=k {
+        for j in 0..N {
+            for k in j..N {
                 product[k] += self.0[j] * o.0[k - j];
             }
         }
@@ -153,16 +160,19 @@ impl<const N: usize, S: Real> Div for Series<N, S> {
 }
 impl<const N: usize, S: Real> Neg for Series<N, S> {
     type Output = Self;
+    #[inline]
     fn neg(self) -> Self {
         self.with(self, |a, _| -a)
     }
 }
 impl<const N: usize, S: Real> AddAssign for Series<N, S> {
+    #[inline]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
 }
 impl<const N: usize, S: Real> SubAssign for Series<N, S> {
+    #[inline]
     fn sub_assign(&mut self, o: Self) {
         *self = *self - o;
     }
@@ -170,17 +180,25 @@ impl<const N: usize, S: Real> SubAssign for Series<N, S> {
 
 impl<const N: usize, S: Real> OverBase for Series<N, S> {
     type Base = S::Base;
+    type Three = S::Base;
     fn base(self) -> S::Base {
         self.0[0].base()
     }
     fn of_base(x: S::Base) -> Self {
         Self::lift(S::of_base(x))
     }
+    fn three(x: Dual<3, Self>) -> S::Base {
+        x.value.base()
+    }
+    fn of_three(x: S::Base) -> Dual<3, Self> {
+        Lift::lift(Self::of_base(x))
+    }
 }
 
 impl<const N: usize, S: Real> Real for Series<N, S> {
     const ORDER: usize = S::ORDER + N - 1;
 
+    #[inline]
     fn constant(x: f64) -> Self {
         Self::lift(S::constant(x))
     }
@@ -241,6 +259,7 @@ impl<const N: usize, S: Real> Real for Series<N, S> {
             }
         }
     }
+    #[inline]
     fn select(condition: Self, positive: Self, otherwise: Self) -> Self {
         positive.with(otherwise, |a, b| S::select(condition.0[0], a, b))
     }

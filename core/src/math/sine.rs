@@ -5,6 +5,7 @@
 //! improve its error from 1.5 ulp to 1. There is no branch on the quadrant. Angles outside ±[`LARGEST`], including
 //! inf and NaN, are passed to the C library.
 
+use super::array::each;
 use super::lanes::Lanes;
 use super::real::Real;
 use std::f64::consts::FRAC_2_PI;
@@ -64,7 +65,7 @@ fn within(x: f64) -> (f64, f64) {
 fn reduce<S: Real>(x: S) -> (S, S) {
     let shifted = S::constant(ROUND).plus_product(x, S::constant(FRAC_2_PI));
     let k = shifted - S::constant(ROUND);
-    let [first, second, third] = HALF_PI.map(S::constant);
+    let [first, second, third] = each(HALF_PI, S::constant);
     let r = x.minus_product(k, first).minus_product(k, second).minus_product(k, third);
     (r, shifted)
 }
@@ -99,7 +100,7 @@ fn kernel<S: Real>(r: S) -> (S, S) {
     let w = z * z;
     // pairs of terms are independent of each other, which shortens the chain of dependent operations
     let series = |k: usize| {
-        let [a, b, c, d, e, f] = SERIES.map(|both| S::constant(both[k]));
+        let [a, b, c, d, e, f] = each(SERIES, |both| S::constant(both[k]));
         let higher = d.plus_product(z, c).plus_product(w, b.plus_product(z, a));
         f.plus_product(z, e).plus_product(w, higher)
     };

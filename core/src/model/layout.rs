@@ -21,6 +21,7 @@ pub struct Columns {
 
 impl Columns {
     /// The columns as a range.
+    #[inline]
     pub fn range(self) -> Range<usize> {
         self.first..self.first + self.count
     }
@@ -63,11 +64,13 @@ pub struct Block {
 
 impl Block {
     /// The indices of the stored entries of a row.
+    #[inline]
     pub fn row(&self, row: usize) -> Range<usize> {
         self.first + 3 * row..self.first + 3 * row + 3
     }
 
     /// The indices of the stored entries of all rows. `rows` is the number of equations.
+    #[inline]
     pub fn entries(&self, rows: usize) -> Range<usize> {
         self.first..self.first + 3 * rows
     }
@@ -156,6 +159,7 @@ impl StateLayout {
     }
 
     /// Assigns the next columns to a new owner.
+    #[inline]
     fn own(&mut self, count: usize) -> Columns {
         let columns = Columns { first: self.n_q, count };
         self.owners.push(columns);
@@ -188,6 +192,7 @@ impl StateLayout {
         Slots { rows, blocks, own: columns }
     }
 
+    #[inline]
     fn block(&mut self, owner: usize, body: Option<BodyId>, sign: f64, rows: usize) -> Block {
         let first = self.n_entries;
         self.n_entries += 3 * rows;
@@ -195,11 +200,13 @@ impl StateLayout {
     }
 
     /// Number of components of y = (q, v, z, works).
+    #[inline]
     pub fn n_y(&self) -> usize {
         2 * self.n_q + self.n_z + self.n_works
     }
 
     /// Splits y = (q, v, z, works) into its parts.
+    #[inline]
     pub fn split<'a, S>(&self, y: &'a [S]) -> [&'a [S]; 4] {
         let (q, rest) = y.split_at(self.n_q);
         let (v, rest) = rest.split_at(self.n_q);
@@ -208,6 +215,7 @@ impl StateLayout {
     }
 
     /// Splits y into its mutable parts.
+    #[inline]
     pub fn split_mut<'a, S>(&self, y: &'a mut [S]) -> [&'a mut [S]; 4] {
         let (q, rest) = y.split_at_mut(self.n_q);
         let (v, rest) = rest.split_at_mut(self.n_q);
@@ -216,6 +224,7 @@ impl StateLayout {
     }
 
     /// Whether each coordinate is a length; otherwise it is an angle. An internal coordinate counts as a length.
+    #[inline]
     pub fn lengths(&self) -> Vec<bool> {
         let mut lengths = vec![true; self.n_q];
         let full = self.bodies.iter().filter(|body| body.count == 3);
@@ -237,6 +246,7 @@ impl StateLayout {
     }
 
     /// The constraint that owns a row of Φ, and the index of the equation within the constraint.
+    #[inline]
     pub fn owner(&self, row: usize) -> (usize, usize) {
         let k = self.constraints.partition_point(|slots| slots.rows.end <= row);
         (k, row - self.constraints[k].rows.start)
@@ -244,6 +254,7 @@ impl StateLayout {
 
     /// The body that owns a coordinate, and the index of the coordinate within the body. None for an internal
     /// coordinate.
+    #[inline]
     pub fn body_of(&self, column: usize) -> Option<(BodyId, usize)> {
         let body = self.bodies.iter().position(|b| b.range().contains(&column))?;
         Some((BodyId(body), column - self.bodies[body].first))

@@ -2,7 +2,10 @@
 //!
 //! A block of U is stored by rows of three numbers. A block of L below the diagonal is stored by columns, without
 //! gaps, as L D. Products with few rows are then sums of whole rows, and numbers are read in the same pairs in which
-//! they were written. (A vector load that spans two recent scalar stores cannot be forwarded and stalls.)
+//! they were written. (A vector load that spans two recent scalar stores cannot be forwarded and stalls.) Loops over
+//! indices need no function of the standard library, which is not inlined without optimisation across crates.
+
+#![allow(clippy::needless_range_loop)]
 
 use super::mass_block::dot;
 use crate::math::{each, indexed, Real};
@@ -33,8 +36,9 @@ pub(super) struct TransformedRow<S> {
 /// y += A x, with A given by rows.
 #[inline(always)]
 pub(super) fn add_times<S: Real, const N: usize>(rows: &[[S; 3]; N], x: &[S; 3], y: &mut [S; N]) {
-    for (y, a) in y.iter_mut().zip(rows) {
-        *y = y.plus_product(a[0], x[0]).plus_product(a[1], x[1]).plus_product(a[2], x[2]);
+    for i in 0..N {
+        let a = &rows[i];
+        y[i] = y[i].plus_product(a[0], x[0]).plus_product(a[1], x[1]).plus_product(a[2], x[2]);
     }
 }
 
@@ -45,9 +49,9 @@ pub(super) fn add<S: Real, const M: usize, const N: usize>(
     a: &[TransformedRow<S>; M],
     b: &[TransformedRow<S>; N],
 ) {
-    for (target, a) in target.iter_mut().zip(a) {
-        for (target, b) in target.iter_mut().zip(b) {
-            *target += dot(&a.plain, &b.scaled);
+    for i in 0..M {
+        for j in 0..N {
+            target[i][j] += dot(&a[i].plain, &b[j].scaled);
         }
     }
 }
@@ -67,8 +71,10 @@ pub(super) fn store<S: Real, const M: usize, const K: usize>(
     columns: &[[S; M]; K],
 ) {
     let x = &mut x[first as usize..first as usize + M * K];
-    for (k, column) in columns.iter().enumerate() {
-        x[k * M..][..M].copy_from_slice(column);
+    for k in 0..K {
+        for i in 0..M {
+            x[k * M + i] = columns[k][i];
+        }
     }
 }
 
@@ -88,10 +94,10 @@ pub(super) fn subtract<S: Real, const M: usize, const N: usize, const K: usize>(
     a: &[[S; M]; K],
     b: &[[S; N]; K],
 ) {
-    for (a, b) in a.iter().zip(b) {
-        for (target, a) in target.iter_mut().zip(a) {
-            for (target, b) in target.iter_mut().zip(b) {
-                *target = target.minus_product(*a, *b);
+    for k in 0..K {
+        for i in 0..M {
+            for j in 0..N {
+                target[i][j] = target[i][j].minus_product(a[k][i], b[k][j]);
             }
         }
     }
@@ -104,9 +110,9 @@ pub(super) fn subtract_times<S: Real, const M: usize, const K: usize>(
     a: &[[S; M]; K],
     x: &[S; K],
 ) {
-    for (a, x) in a.iter().zip(x) {
-        for (y, a) in y.iter_mut().zip(a) {
-            *y = y.minus_product(*a, *x);
+    for k in 0..K {
+        for i in 0..M {
+            y[i] = y[i].minus_product(a[k][i], x[k]);
         }
     }
 }
@@ -118,17 +124,20 @@ pub(super) fn subtract_products<S: Real, const M: usize, const N: usize>(
     a: &[[S; M]; N],
     x: &[S; M],
 ) {
-    for (y, a) in y.iter_mut().zip(a) {
-        for (a, x) in a.iter().zip(x) {
-            *y = y.minus_product(*a, *x);
+    for i in 0..N {
+        for k in 0..M {
+            y[i] = y[i].minus_product(a[i][k], x[k]);
         }
     }
 }
 
 /// y += Aᵀ x, with A given by rows.
+#[inline]
 pub(super) fn add_transposed<S: Real>(rows: &[[S; 3]], x: &[S], y: &mut [S; 3]) {
     for (a, x) in rows.iter().zip(x) {
-        (0..3).for_each(|c| y[c] = y[c].plus_product(a[c], *x));
+        for c in 0..3 {
+            y[c] = y[c].plus_product(a[c], *x);
+        }
     }
 }
 
@@ -141,13 +150,14 @@ pub(super) fn subtract_transposed<S: Real, const N: usize>(
     x: &mut [S; 3],
 ) {
     let mut along = S::zero();
-    for (TransformedRow { scaled, .. }, lambda) in rows.iter().zip(lambda) {
-        x[0] = x[0].minus_product(scaled[0], *lambda);
-        x[1] = x[1].minus_product(scaled[1], *lambda);
-        along = along.plus_product(scaled[2], *lambda);
+    for k in 0..N {
+        let scaled = &rows[k].scaled;
+        x[0] = x[0].minus_product(scaled[0], lambda[k]);
+        x[1] = x[1].minus_product(scaled[1], lambda[k]);
+        along = along.plus_product(scaled[2], lambda[k]);
     }
-    for (x, e) in x.iter_mut().zip(e) {
-        *x = x.minus_product(*e, along);
+    for i in 0..3 {
+        x[i] = x[i].minus_product(e[i], along);
     }
 }
 
@@ -164,10 +174,12 @@ impl<S: Real, const N: usize> DiagonalBlock<S, N> {
     pub fn read(x: &[S], first: u32) -> Self {
         let x = &x[first as usize..first as usize + numbers(N)];
         let mut s = [[S::zero(); N]; N];
-        for i in 1..N {
-            s[i][..i].copy_from_slice(&x[2 * N + i * (i - 1) / 2..][..i]);
+        for i in 0..N {
+            for j in 0..i {
+                s[i][j] = x[2 * N + i * (i - 1) / 2 + j];
+            }
+            s[i][i] = x[i];
         }
-        (0..N).for_each(|i| s[i][i] = x[i]);
         Self { s, magnitude: indexed(|i| x[N + i]) }
     }
 
@@ -187,10 +199,13 @@ fn store_triangle<S: Real, const N: usize>(
     lower: &[[S; N]; N],
 ) {
     let x = &mut x[first as usize..first as usize + numbers(N)];
-    x[..N].copy_from_slice(diagonal);
-    x[N..2 * N].copy_from_slice(magnitude);
+    for i in 0..N {
+        (x[i], x[N + i]) = (diagonal[i], magnitude[i]);
+    }
     for i in 1..N {
-        x[2 * N + i * (i - 1) / 2..][..i].copy_from_slice(&lower[i][..i]);
+        for j in 0..i {
+            x[2 * N + i * (i - 1) / 2 + j] = lower[i][j];
+        }
     }
 }
 
@@ -249,7 +264,9 @@ impl<S: Real, const N: usize> DiagonalFactor<S, N> {
             let last = y[1] * self.inverse[1];
             (y[0], y[1]) = (y[0] * self.inverse[0], last);
             let l = [self.lower[1][0], S::zero()];
-            (0..N).for_each(|i| y[i] = y[i].minus_product(l[i], last));
+            for i in 0..N {
+                y[i] = y[i].minus_product(l[i], last);
+            }
             return;
         }
         for j in (0..N).rev() {
@@ -269,6 +286,7 @@ impl<S: Real, const N: usize> DiagonalFactor<S, N> {
 
 /// Number of values stored for a diagonal block of `n` rows: the n diagonal entries, later D⁻¹; the n sums with which
 /// the pivots are compared; and the entries left of the diagonal of S, later of L, row by row.
+#[inline]
 pub(super) fn numbers(n: usize) -> usize {
     2 * n + n * (n - 1) / 2
 }
@@ -284,8 +302,8 @@ pub(super) fn forward<S: Real, const M: usize, const N: usize>(
     for i in 1..N {
         for j in 0..i {
             let known = y[j];
-            for (y, known) in y[i].iter_mut().zip(known) {
-                *y = y.minus_product(l[i * (i - 1) / 2 + j], known);
+            for c in 0..M {
+                y[i][c] = y[i][c].minus_product(l[i * (i - 1) / 2 + j], known[c]);
             }
         }
     }
@@ -298,7 +316,9 @@ pub(super) fn backward<S: Real, const N: usize>(x: &[S], first: u32, y: &mut [S;
     if N == 2 {
         // both numbers by the same operations, so that they are written as a pair; they are read as one
         let (l, last) = ([l[0], S::zero()], y[1]);
-        (0..N).for_each(|i| y[i] -= l[i] * last);
+        for i in 0..N {
+            y[i] -= l[i] * last;
+        }
         return;
     }
     for j in (0..N).rev() {

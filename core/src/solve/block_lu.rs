@@ -5,7 +5,7 @@
 //! refused.
 
 use super::lu_symbolic::LuPlan;
-use crate::math::Field;
+use crate::math::{each, indexed, Field};
 
 /// A block, stored row by row.
 pub type Block<F> = [[F; 3]; 3];
@@ -45,6 +45,7 @@ impl<F: Field> BlockLu<F> {
     }
 
     /// The block in a slot of the plan, for writing.
+    #[inline]
     pub fn block_mut(&mut self, slot: usize) -> &mut Block<F> {
         &mut self.store[slot]
     }
@@ -56,7 +57,7 @@ impl<F: Field> BlockLu<F> {
     pub fn factor(&mut self, plan: &LuPlan) -> Result<(), usize> {
         let n = plan.blocks();
         for (weight, block) in self.weight.iter_mut().zip(&self.store) {
-            *weight = std::array::from_fn(|d| block[d][d].magnitude());
+            *weight = indexed(|d| block[d][d].magnitude());
         }
         let upper = plan.below.len();
         let mut targets = plan.targets.iter();
@@ -120,14 +121,12 @@ impl<F: Field> BlockLu<F> {
 
 #[inline(always)]
 fn product<F: Field>(a: &Block<F>, b: &Block<F>) -> Block<F> {
-    std::array::from_fn(|i| {
-        std::array::from_fn(|j| a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j])
-    })
+    indexed(|i| indexed(|j| a[i][0] * b[0][j] + a[i][1] * b[1][j] + a[i][2] * b[2][j]))
 }
 
 #[inline(always)]
 fn times<F: Field>(a: &Block<F>, x: &[F; 3]) -> [F; 3] {
-    std::array::from_fn(|i| a[i][0] * x[0] + a[i][1] * x[1] + a[i][2] * x[2])
+    indexed(|i| a[i][0] * x[0] + a[i][1] * x[1] + a[i][2] * x[2])
 }
 
 #[inline(always)]
@@ -139,8 +138,7 @@ fn subtract<F: Field>(a: &mut Block<F>, b: &Block<F>) {
 fn invert<F: Field>(block: &Block<F>, weight: &[f64; 3]) -> Result<Block<F>, usize> {
     let mut a = *block;
     let mut row_of = [0, 1, 2];
-    let mut b: Block<F> =
-        std::array::from_fn(|i| std::array::from_fn(|j| F::from_real(f64::from(i == j))));
+    let mut b: Block<F> = indexed(|i| indexed(|j| F::from_real(f64::from(i == j))));
     for c in 0..3 {
         let mut best = c;
         for r in c + 1..3 {
@@ -157,8 +155,8 @@ fn invert<F: Field>(block: &Block<F>, weight: &[f64; 3]) -> Result<Block<F>, usi
             return Err(row_of[c]);
         }
         let inverse = a[c][c].reciprocal();
-        a[c] = a[c].map(|x| x * inverse);
-        b[c] = b[c].map(|x| x * inverse);
+        a[c] = each(a[c], |x| x * inverse);
+        b[c] = each(b[c], |x| x * inverse);
         let (own, right) = (a[c], b[c]);
         for r in (0..3).filter(|&r| r != c) {
             let factor = a[r][c];

@@ -50,6 +50,7 @@ pub struct CondensedGroup<S = f64> {
 
 impl<S: Real> CondensedGroup<S> {
     /// A group with the given W.
+    #[inline]
     pub fn new(mass: S, moment: [S; 2], inertia: S) -> Self {
         Self { mass, moment, inertia, particular: [[S::zero(); 3]; 2] }
     }
@@ -98,7 +99,7 @@ impl<S: Real> CondensedGroup<S> {
         let e = &mass.direction;
         if sign != 0.0 {
             let sign = S::constant(sign);
-            let p = g.map(|g| sign * g);
+            let p = each(*g, |g| sign * g);
             let mut left = f[2];
             for i in 0..2 {
                 left = left.minus_product(self.moment[i], p[i]);

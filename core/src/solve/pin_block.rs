@@ -20,6 +20,7 @@ pub struct PinBlock<S> {
 
 impl<S: Real> PinBlock<S> {
     /// All zero.
+    #[inline]
     pub(super) fn zero() -> Self {
         let zero = [S::zero(); 2];
         Self { along: zero, scaled: zero, translation: zero }
@@ -36,11 +37,11 @@ impl<S: Real> PinBlock<S> {
     /// target += U W⁻¹ Uᵀ, in the lower triangle.
     #[inline(always)]
     pub(super) fn add_square<const N: usize>(&self, target: &mut [[S; N]; N]) {
-        for (i, target) in target.iter_mut().enumerate() {
-            for (j, target) in target.iter_mut().enumerate().take(i + 1) {
-                *target = target.plus_product(self.along[i], self.scaled[j]);
+        for i in 0..N {
+            for j in 0..i + 1 {
+                target[i][j] = target[i][j].plus_product(self.along[i], self.scaled[j]);
             }
-            target[i] += self.translation[i];
+            target[i][i] += self.translation[i];
         }
     }
 
@@ -89,8 +90,8 @@ impl<S: Real> PinBlock<S> {
         for i in 0..2 {
             found[i] = found[i].minus_product(S::constant(sign) * self.translation[i], lambda[i]);
         }
-        for (x, e) in found.iter_mut().zip(e) {
-            *x = x.minus_product(*e, along);
+        for i in 0..3 {
+            found[i] = found[i].minus_product(e[i], along);
         }
         *x = found;
     }

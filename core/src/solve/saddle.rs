@@ -91,6 +91,7 @@ impl<S: Real> Saddle<S> {
     ///
     /// # Panics
     /// If the matrix has another pattern.
+    #[inline]
     pub fn factor(&mut self, pattern: &Pattern) -> Result<(), Breakdown> {
         self.reduce_all(pattern);
         self.check(pattern)?;
@@ -98,6 +99,7 @@ impl<S: Real> Saddle<S> {
     }
 
     /// Factorises the matrix after the condensed groups are reduced.
+    #[inline]
     pub(super) fn factor_reduced(&mut self, pattern: &Pattern) -> Result<(), Breakdown> {
         self.put_other_rows(pattern);
         self.put_all_pin_rows(pattern);
@@ -112,6 +114,7 @@ impl<S: Real> Saddle<S> {
     ///
     /// # Panics
     /// As [`factor`](Self::factor) and [`solve`](Self::solve).
+    #[inline]
     pub fn factor_and_solve(&mut self, pattern: &Pattern, x: &mut [S]) -> Result<(), Breakdown> {
         self.reduce_all(pattern);
         let (f, g) = self.begin(pattern, x);
@@ -121,6 +124,7 @@ impl<S: Real> Saddle<S> {
     }
 
     /// Computes e of the condensed groups from the entries, and the quantities that depend on e.
+    #[inline]
     fn reduce_all(&mut self, pattern: &Pattern) {
         assert_eq!(self.entries.len(), pattern.n_entries, "a matrix of this pattern");
         for (place, group) in pattern.condensed.iter().zip(&mut self.condensed) {
@@ -209,6 +213,7 @@ impl<S: Real> Saddle<S> {
     }
 
     /// Whether the pivot of a downdate lost so many digits, in any lane, that solutions need corrections.
+    #[inline]
     pub fn is_inexact(&self, pattern: &Pattern) -> bool {
         let rows = pattern.program.rows.iter().filter(|row| row.downdate);
         rows.map(|row| &self.factors[row.diagonal as usize..]).any(|block| {
@@ -259,7 +264,9 @@ impl<S: Real> Saddle<S> {
         let mut y = if RHS { *part(g, row.row) } else { [S::zero(); N] };
         if !RHS {
             // a regularised matrix is never factorised and solved in one call
-            (0..N).for_each(|i| s[i][i] += magnitude[i] * S::constant(self.ridge));
+            for i in 0..N {
+                s[i][i] += magnitude[i] * S::constant(self.ridge);
+            }
         }
         for left in next(&mut ahead.left, row.left) {
             let own = (&mut s, &mut y);
@@ -289,12 +296,12 @@ impl<S: Real> Saddle<S> {
         diagonal: &DiagonalFactor<S, N>,
         magnitude: &[S; N],
     ) -> Result<(), usize> {
-        for (i, magnitude) in magnitude.iter().enumerate() {
+        for i in 0..N {
             let (pivot, least) = match N == 1 && row.downdate {
                 true => (diagonal.pivot[i].abs(), LEAST_DOWNDATE),
                 false => (diagonal.pivot[i], self.least),
             };
-            let least = *magnitude * S::constant(least) + S::constant(LEAST_PIVOT);
+            let least = magnitude[i] * S::constant(least) + S::constant(LEAST_PIVOT);
             if !above_zero(pivot - least) {
                 return Err(row.row as usize + i);
             }
@@ -318,7 +325,7 @@ impl<S: Real> Saddle<S> {
         for pair in next(&mut ahead.pairs, left.pairs) {
             let [own, other] = pair.first;
             if PINS || N == 2 && K == 2 && pair.sign != 0.0 {
-                let [own, other] = [own, other].map(|pin| &self.pins[pin as usize]);
+                let (own, other) = (&self.pins[own as usize], &self.pins[other as usize]);
                 other.add_product(&own.along, pair.sign, &mut block);
             } else if N == 1 && K == 2 && pair.sign != 0.0 {
                 let (pin, row) = (&self.pins[other as usize], &self.u[own as usize]);

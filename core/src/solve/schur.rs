@@ -68,9 +68,9 @@ impl<S: Real> Saddle<S> {
     fn put<const N: usize>(&mut self, row: u32, diagonal: u32, s: [[S; N]; N], held: [S; N]) {
         let mut block = DiagonalBlock { magnitude: indexed(|i| s[i][i] + held[i]), s };
         if let Some(damping) = self.damping.get(row as usize..row as usize + N) {
-            for (i, mu) in damping.iter().enumerate() {
-                block.s[i][i] += *mu;
-                block.magnitude[i] += *mu;
+            for i in 0..N {
+                block.s[i][i] += damping[i];
+                block.magnitude[i] += damping[i];
             }
         }
         block.store(&mut self.factors, diagonal);
@@ -109,7 +109,7 @@ impl<S: Real> Saddle<S> {
     pub(super) fn put_right_sides_of_pins(&self, pattern: &Pattern, x: &[S], g: &mut [S]) {
         for rows in &pattern.pin_rows {
             let g = part_mut::<S, 2>(g, rows.row);
-            let mut y = g.map(|g| -g);
+            let mut y = each(*g, |g| -g);
             for end in rows.ends() {
                 add_pin_times(end.sign, &self.third_column(end), part(x, end.at), &mut y);
             }
@@ -188,7 +188,7 @@ impl<S: Real> Saddle<S> {
         g: &mut [S],
     ) {
         let g = part_mut::<S, N>(g, start.row);
-        let mut y = g.map(|g| -g);
+        let mut y = each(*g, |g| -g);
         for Touch { entry, at, .. } in touches {
             add_times(part(&self.entries, *entry), part(x, *at), &mut y);
         }

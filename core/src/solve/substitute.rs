@@ -8,7 +8,7 @@ use super::block::{
 use super::pattern::Pattern;
 use super::records::{last, next, Ahead, Below, Left, Row};
 use super::saddle::Saddle;
-use crate::math::Real;
+use crate::math::{each, indexed, Real};
 
 impl<S: Real> Saddle<S> {
     /// Solves in place: (f, g) becomes (x, λ), of length unknowns + rows.
@@ -76,7 +76,9 @@ impl<S: Real> Saddle<S> {
             let mut sum = [S::zero(); 3];
             for load in next(&mut pins, place.pins) {
                 let (sign, lambda) = (S::constant(load.sign), part::<S, 2>(g, load.row));
-                (0..2).for_each(|i| sum[i] = sum[i].plus_product(sign, lambda[i]));
+                for i in 0..2 {
+                    sum[i] = sum[i].plus_product(sign, lambda[i]);
+                }
             }
             for load in next(&mut others, place.others) {
                 let rows = &self.entries[load.entry as usize..][..load.size as usize];
@@ -96,12 +98,12 @@ impl<S: Real> Saddle<S> {
                 _ => self.subtract_known::<N, 3>(left, g, &mut y),
             }
         }
-        let mut y = y.map(|y| [y]);
+        let mut y = each(y, |y| [y]);
         forward(&self.factors, row.diagonal, &mut y);
-        let mut y = y.map(|[y]| y);
+        let mut y = each(y, |[y]| y);
         if row.below == 0 {
             let inverse = part::<S, N>(&self.factors, row.diagonal);
-            y = std::array::from_fn(|i| y[i] * inverse[i]);
+            y = indexed(|i| y[i] * inverse[i]);
             backward(&self.factors, row.diagonal, &mut y);
         }
         *part_mut(g, row.row) = y;
@@ -150,7 +152,7 @@ impl<S: Real> Saddle<S> {
     fn back<const N: usize, const PINS: bool>(&self, row: &Row, below: &[Below], g: &mut [S]) {
         let inverse = part::<S, N>(&self.factors, row.diagonal);
         let y = part::<S, N>(g, row.row);
-        let mut lambda: [S; N] = std::array::from_fn(|i| y[i] * inverse[i]);
+        let mut lambda: [S; N] = indexed(|i| y[i] * inverse[i]);
         // the most recent unknown comes last, to hide its latency
         for block in below.iter().rev() {
             match block.size {

@@ -6,7 +6,7 @@
 
 use super::projection::{Projection, CLOSED, MARGIN, MOST, SLOW};
 use crate::equations::{Residuals, Workspace};
-use crate::math::{Lanes, Real};
+use crate::math::{indexed, Lanes, Real};
 use crate::model::{column_scales, row_scales, Model};
 
 const WIDTH: usize = Lanes::WIDTH;
@@ -43,7 +43,7 @@ impl LaneProjector {
     /// Memory for the models of the lanes and the model over lanes.
     pub fn new(models: [&Model; WIDTH], wide: &Model<Lanes>, options: Projection) -> Self {
         let side_by_side = |scales: [Vec<f64>; WIDTH]| -> Vec<Lanes> {
-            let number = |k: usize| Lanes::new(std::array::from_fn(|lane| 1.0 / scales[lane][k]));
+            let number = |k: usize| Lanes::new(indexed(|lane| 1.0 / scales[lane][k]));
             (0..scales[0].len()).map(number).collect()
         };
         Self {
@@ -67,10 +67,10 @@ impl LaneProjector {
         let none = [false; WIDTH];
         let mut course = Course { open: none, failed: none, changed: none, lowering: [1.0; WIDTH] };
         for level in 0..2 {
-            course.open = std::array::from_fn(|lane| lanes[lane] && !course.failed[lane]);
+            course.open = indexed(|lane| lanes[lane] && !course.failed[lane]);
             self.meet(level, (model, workspace), t, (q, v), &mut course);
         }
-        std::array::from_fn(|lane| (!course.failed[lane]).then_some(course.changed[lane]))
+        indexed(|lane| (!course.failed[lane]).then_some(course.changed[lane]))
     }
 
     /// Reduces the residuals of one level, positions or velocities, to their targets.
@@ -125,7 +125,7 @@ impl LaneProjector {
     /// The targets of the residuals.
     fn targets(&self, level: usize, q: &[Lanes], v: &[Lanes], gaps: Numbers) -> Numbers {
         let at = largest(if level == 0 { q } else { v }, &self.per_column);
-        std::array::from_fn(|lane| {
+        indexed(|lane| {
             if level == 0 {
                 let target = self.tolerance;
                 let rounding = match gaps[lane] <= target {

@@ -2,13 +2,11 @@
 
 use super::failure::Reason;
 use super::statics::{StaticState, Statics};
-use crate::analyses::linearization::{slopes_by_parameter, LeastNorm, StatePoint, Variation};
+use crate::analyses::linearization::{slopes_by_parameter, LeastNorm, StatePoint, Variation, D};
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
-use crate::math::{Dual, Lift};
+use crate::math::Lift;
 use crate::model::Model;
-
-type D = Dual<1>;
 
 /// The model at a value of a parameter. Parameters whose formulas depend on it are computed anew.
 pub(super) fn at(model: &Model, over: &str, value: f64) -> Result<Model, Reason> {

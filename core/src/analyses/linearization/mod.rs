@@ -28,4 +28,4 @@ pub(super) use least_norm::LeastNorm;
 pub use linearize::{begins, linearize, Linearization};
 pub use options::Options;
 pub(super) use parameters::slopes_by_parameter;
-pub(super) use variation::{StatePoint, Variation};
+pub(super) use variation::{StatePoint, Variation, D};

@@ -1,9 +1,9 @@
 //! Derivatives of the parameters of a model with respect to one parameter, through the formulas of the other
 //! parameters.
 
+use super::variation::D;
 use crate::expression::parameters::Parameters;
 use crate::expression::Expression;
-use crate::math::Dual;
 use crate::model::Model;
 
 /// The derivatives of all parameters with respect to the parameter of index `own`, shape (n_parameters).
@@ -13,7 +13,7 @@ pub(in crate::analyses) fn slopes_by_parameter(model: &Model, own: usize) -> Vec
     let Ok(parameters) = Parameters::compile(&formulas, &model.blueprint.tables) else {
         return vec![f64::NAN; model.parameters.len()];
     };
-    let values: Vec<Dual<1>> =
-        parameters.evaluate(|k| (k == own).then(|| Dual::variable(model.parameters[own], 0)));
+    let values: Vec<D> =
+        parameters.evaluate(|k| (k == own).then(|| D::variable(model.parameters[own], 0)));
     values.iter().map(|x| x.slope[0]).collect()
 }

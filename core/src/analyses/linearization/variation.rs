@@ -7,14 +7,16 @@
 //! The code of the equations themselves is evaluated. All terms are therefore included: curvature of the constraints,
 //! centrifugal and gyroscopic terms, laws, and forces that depend on reactions.
 
+use crate::elements::derive::ByThree;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, mass, reactions, Compiled, Powers};
-use crate::math::{Dual, Lift, Real};
+use crate::math::{Lift, Real};
 use crate::model::Model;
 
-/// A number with its derivative along the direction.
-pub(in crate::analyses) type D = Dual<1>;
+/// A number with its derivative along the direction, the first slope. The others are zero: the scalar is that of the
+/// tangent, because one more scalar would be one more copy of the equations.
+pub(in crate::analyses) type D = ByThree<f64>;
 
 /// A state with accelerations and multipliers, or a direction in their space; an empty slice is zero.
 #[derive(Clone, Copy, Debug, Default)]
@@ -42,7 +44,11 @@ pub(in crate::analyses) struct Slopes {
 /// `point` with the derivatives `along`.
 pub(in crate::analyses) fn seeded(point: &[f64], along: &[f64]) -> Vec<D> {
     let slopes = along.iter().copied().chain(std::iter::repeat(0.0));
-    point.iter().zip(slopes).map(|(value, slope)| Dual { value: *value, slope: [slope] }).collect()
+    point
+        .iter()
+        .zip(slopes)
+        .map(|(value, slope)| D { value: *value, slope: [slope, 0.0, 0.0] })
+        .collect()
 }
 
 fn slopes(x: &[D]) -> Vec<f64> {
@@ -70,7 +76,7 @@ impl<'a> Variation<'a> {
     /// the derivatives of the parameters.
     pub fn by_parameters(&self, slopes: &[f64]) -> Self {
         let mut parameters = self.model.parameters.clone();
-        parameters.iter_mut().zip(slopes).for_each(|(p, slope)| p.slope = [*slope]);
+        parameters.iter_mut().zip(slopes).for_each(|(p, slope)| p.slope[0] = *slope);
         let model = Model::new(&self.model.blueprint, &parameters);
         Self { compiled: Compiled::new(&model), model, ..*self }
     }
@@ -91,7 +97,7 @@ impl<'a> Variation<'a> {
         constraints::velocity_terms(model, &motions, t, &mut phi, &mut rates, &mut gamma);
         let mut jacobian = vec![D::zero(); model.layout.n_entries];
         constraints::jacobian(model, &motions, t, &mut jacobian);
-        [phi, rates, gamma, jacobian].into_iter().flatten().any(|x| x.slope != [0.0])
+        [phi, rates, gamma, jacobian].into_iter().flatten().any(|x| x.slope[0] != 0.0)
     }
 
     /// The derivatives along a direction.

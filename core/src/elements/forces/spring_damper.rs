@@ -78,6 +78,7 @@ fn pull<S: Real>(
 }
 
 /// ḋ.
+#[inline]
 fn apart<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>) -> Vec2<S> {
     at.j().point_velocity(e.j.s) - at.i().point_velocity(e.i.s)
 }
@@ -97,6 +98,7 @@ fn both_senses<S: Real>(
 }
 
 /// The force of an element that only pulls or pushes.
+#[inline]
 fn one_sense<S: Real>(
     e: &SpringDamper<S>,
     only: Only,
@@ -116,10 +118,12 @@ impl Force for SpringDamper {
         Part { name: "damping", nature: Nature::Dissipative },
     ];
 
+    #[inline]
     fn bodies<S>(e: &SpringDamper<S>) -> Vec<BodyId> {
         vec![e.i.body, e.j.body]
     }
 
+    #[inline]
     fn measure<S: Real>(e: &SpringDamper<S>, at: &At<'_, S>, out: &mut [S]) {
         out[0] = measure::length(at, &e.i, &e.j);
     }
@@ -146,6 +150,7 @@ impl Force for SpringDamper {
         }
     }
 
+    #[inline]
     fn switch_count<S>(e: &SpringDamper<S>) -> usize {
         match e.only {
             None => 0,
@@ -153,6 +158,7 @@ impl Force for SpringDamper {
         }
     }
 
+    #[inline]
     fn switches<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>, out: &mut [S]) {
         if let Some(only) = e.only {
             let Pull { beyond, sum, .. } = pull(e, only, at, &Line::new(at, &e.i, &e.j));
@@ -160,6 +166,7 @@ impl Force for SpringDamper {
         }
     }
 
+    #[inline]
     fn points<S: Real>(e: &SpringDamper<S>) -> Option<[Local<S>; 2]> {
         Some([e.i.s, e.j.s])
     }

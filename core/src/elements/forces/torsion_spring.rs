@@ -36,10 +36,12 @@ impl Force for TorsionSpring {
         Part { name: "damping", nature: Nature::Dissipative },
     ];
 
+    #[inline]
     fn bodies<S>(e: &TorsionSpring<S>) -> Vec<BodyId> {
         vec![e.i, e.j]
     }
 
+    #[inline]
     fn measure<S: Real>(_: &TorsionSpring<S>, at: &At<'_, S>, out: &mut [S]) {
         out[0] = measure::turned(at);
     }
@@ -63,10 +65,12 @@ impl Force for TorsionSpring {
         out.put(1, 1, Wrench::torque(damping));
     }
 
+    #[inline]
     fn free_angle<S: Real>(e: &TorsionSpring<S>) -> Option<S> {
         Some(e.free_angle)
     }
 
+    #[inline]
     fn potential<S: Real>(e: &TorsionSpring<S>, at: &Situation<'_, S>) -> S {
         let stretch = at.j().pose.angle - at.i().pose.angle - e.free_angle;
         S::constant(0.5) * e.stiffness * stretch * stretch + e.preload * stretch

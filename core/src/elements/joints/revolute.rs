@@ -69,15 +69,10 @@ impl Joint for Revolute {
         let gap = (j.pose.r + a_j) - (i.pose.r + a_i);
         let rate = (j.twist.velocity + b_j.scale(w_j)) - (i.twist.velocity + b_i.scale(w_i));
         let gamma = a_j.scale(w_j * w_j) - a_i.scale(w_i * w_i);
-        out.residual.copy_from_slice(&[gap.x, gap.y]);
-        out.rate.copy_from_slice(&[rate.x, rate.y]);
-        out.gamma.copy_from_slice(&[gamma.x, gamma.y]);
         let (zero, one) = (S::zero(), S::one());
-        out.columns.copy_from_slice(&[
-            [-one, zero, -b_i.x],
-            [zero, -one, -b_i.y],
-            [one, zero, b_j.x],
-            [zero, one, b_j.y],
-        ]);
+        let of_i = [[-one, zero, -b_i.x], [zero, -one, -b_i.y]];
+        let of_j = [[one, zero, b_j.x], [zero, one, b_j.y]];
+        let terms = [[gap.x, gap.y], [rate.x, rate.y], [gamma.x, gamma.y]];
+        out.put(terms, [of_i[0], of_i[1], of_j[0], of_j[1]]);
     }
 }

@@ -85,15 +85,13 @@ impl Joint for Translational {
         let (two, zero, one) = (S::constant(2.0), S::zero(), S::one());
         let gamma = w_j * w_j * n.dot(arm) + two * w_i * u.dot(speed) + w_i * w_i * n.dot(from_i);
         let apart = j.pose.point(e.j.s) - i.pose.point(e.i.s);
-        out.residual.copy_from_slice(&[n.dot(apart), turned(e, &i.pose, &j.pose)]);
-        out.rate.copy_from_slice(&[n.dot(speed) - w_i * u.dot(from_i), w_j - w_i]);
-        out.gamma.copy_from_slice(&[gamma, zero]);
-        out.columns.copy_from_slice(&[
-            [-n.x, -n.y, -u.dot(from_i)],
-            [zero, zero, -one],
-            [n.x, n.y, u.dot(arm)],
-            [zero, zero, one],
-        ]);
+        let terms = [
+            [n.dot(apart), turned(e, &i.pose, &j.pose)],
+            [n.dot(speed) - w_i * u.dot(from_i), w_j - w_i],
+            [gamma, zero],
+        ];
+        let (of_i, of_j) = ([-n.x, -n.y, -u.dot(from_i)], [n.x, n.y, u.dot(arm)]);
+        out.put(terms, [of_i, [zero, zero, -one], of_j, [zero, zero, one]]);
     }
 }
 

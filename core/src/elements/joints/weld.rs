@@ -64,16 +64,15 @@ impl Joint for Weld {
         let gamma = a_j.scale(w_j * w_j) - a_i.scale(w_i * w_i);
         let turned = j.pose.angle - i.pose.angle - e.angle;
         let (zero, one) = (S::zero(), S::one());
-        out.residual.copy_from_slice(&[gap.x, gap.y, turned]);
-        out.rate.copy_from_slice(&[rate.x, rate.y, w_j - w_i]);
-        out.gamma.copy_from_slice(&[gamma.x, gamma.y, zero]);
-        out.columns.copy_from_slice(&[
+        let terms = [[gap.x, gap.y, turned], [rate.x, rate.y, w_j - w_i], [gamma.x, gamma.y, zero]];
+        let columns = [
             [-one, zero, -b_i.x],
             [zero, -one, -b_i.y],
             [zero, zero, -one],
             [one, zero, b_j.x],
             [zero, one, b_j.y],
             [zero, zero, one],
-        ]);
+        ];
+        out.put(terms, columns);
     }
 }
