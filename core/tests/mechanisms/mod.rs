@@ -224,6 +224,14 @@ pub fn close(what: &str, a: f64, b: f64, tolerance: f64) {
     );
 }
 
+/// The size of a sample: `part`, or `all` with `KEMPE_FULL=1` in the environment.
+pub fn count(part: u64, all: u64) -> u64 {
+    match std::env::var("KEMPE_FULL").as_deref() {
+        Ok("1") => all,
+        _ => part,
+    }
+}
+
 /// Numbers without pattern in [-1, 1], reproducible.
 pub struct Random(u64);
 
