@@ -1,6 +1,6 @@
 //! Passes near change points keep their branch, or end with an error.
 
-use crate::mechanisms::{column, model, Random};
+use crate::mechanisms::{column, count, model, Random};
 use kempe::analyses::kinematics::{kinematics, Point};
 use kempe::analyses::State;
 use kempe::integrate::Flow;
@@ -68,13 +68,14 @@ fn near_change(random: &mut Random, kind: usize, off: f64) -> [f64; 4] {
     }
 }
 
-/// 10 000 passes of crank angles at which all links are nearly in line: two or more in each turn.
+/// Passes of crank angles at which all links are nearly in line: two or more in each turn; 10 000 in the full sample.
 #[test]
 fn no_pass_near_a_change_point_flips_silently() {
     let mut random = Random::new(4);
     let base = four_bar([3.0, 1.0, 3.0, 1.0]);
+    let all = count(2000, 10_000) as usize;
     let (mut passes, mut failed) = (0, 0);
-    while passes < 10_000 {
+    while passes < all {
         let kind = passes / 2 % 3;
         let off = 10.0_f64.powf(-4.5 + 3.5 * random.next());
         let links = near_change(&mut random, kind, off);
@@ -105,5 +106,5 @@ fn no_pass_near_a_change_point_flips_silently() {
         }
     }
     println!("{passes} passes, {failed} turns ended with an error");
-    assert!(failed < 50, "{failed}");
+    assert!(failed < all / 200, "{failed}");
 }

@@ -1,7 +1,7 @@
 //! All positions of mechanisms with slides and slots, against the roots of their closure equations. The list is proven to
 //! be complete for each of them.
 
-use crate::mechanisms::{asked, column, model, Random};
+use crate::mechanisms::{asked, column, count, model, Random};
 use kempe::analyses::assemble::Request;
 use kempe::analyses::configurations::configurations;
 use kempe::model::Model;
@@ -62,7 +62,8 @@ const CRANK: &str = "[bodies.crank]\nmass = 1\ninertia = 1\npoints = { O = [0, 0
 fn a_pin_in_the_slot_of_a_lever() {
     let mut random = Random::new(5);
     let mut counts = [0; 3];
-    for case in 0..40 {
+    let cases = count(16, 40);
+    for case in 0..cases {
         let [r, x, y, e, axis]: [f64; 5] = std::array::from_fn(|_| random.next());
         let (r, angle) = (0.3 + r.abs(), 3.0 * random.next());
         let ground = format!("[bodies.ground]\npoints = {{ O = [0, 0], D = [{x}, {y}] }}\n");
@@ -89,7 +90,7 @@ fn a_pin_in_the_slot_of_a_lever() {
             agree(values(&text, &set, ("lever", 2)), &exact, &format!("{what} {case}"));
         }
     }
-    assert!(counts[0] > 3 && counts[2] > 20, "{counts:?}");
+    assert!(counts[0] > 1 && counts[2] > cases / 2, "{counts:?}");
 }
 
 /// The end of a rod moves along a slot of ground.

@@ -113,7 +113,11 @@ fn rubbed([phi, omega]: [f64; 2], arm: f64) -> (f64, f64) {
         let (ax, ay) =
             (-length * (s * alpha + c * omega * omega), length * (c * alpha - s * omega * omega));
         load = mass * ax.hypot(ay + G);
-        alpha = (-mass * G * length * c - arm * load * (omega / 0.4f64).tanh()) / inertia;
+        let torque = -mass * G * length * c - arm * load * (omega / 0.4f64).tanh();
+        let before = std::mem::replace(&mut alpha, torque / inertia);
+        if alpha == before {
+            break;
+        }
     }
     (alpha, load)
 }

@@ -36,7 +36,15 @@ joint = "pin"
 
 /// The root of f(x) = x, where f contracts.
 fn fixed(f: impl Fn(f64) -> f64) -> f64 {
-    (0..400).fold(0.0, |x, _| f(x))
+    let mut x = 0.0;
+    for _ in 0..400 {
+        let next = f(x);
+        if next == x {
+            break;
+        }
+        x = next;
+    }
+    x
 }
 
 /// Energy that a run loses by friction, with the energy balance checked.

@@ -102,7 +102,7 @@ fn constant_pulses_have_their_impulse_by_every_method() {
 #[test]
 fn smooth_pulses_have_their_impulse_within_the_tolerance() {
     let mut random = Random::new(12);
-    for _ in 0..count(30, 500) {
+    for _ in 0..count(10, 500) {
         let (Pulse { law, impulse }, on) = smooth_pulse(&mut random);
         let (model, state) = wheel(&law);
         for method in methods(1e-6, 0.002) {
