@@ -3,10 +3,10 @@
     .venv/bin/python tools/mutation_core.py FOLDER --shards 1 2
 
 cargo-mutants lists the changes, the mutants. All of a sample are compiled at once: each changed
-function begins with a switch on the environment variable KEMPE_MUTANT. Each mutant runs the tests of
-the core, module by module, then the tests in Python, until the first fails. FOLDER receives two
-copies of the repository at HEAD, one of them changed, and the outcomes; a second call continues
-there.
+function begins with a switch on the environment variable KEMPE_MUTANT. Each mutant runs the tests
+of the core, module by module, then the tests in Python, until the first fails. FOLDER receives
+two copies of the repository at HEAD, one of them changed, and the outcomes; a second call
+continues there.
 """
 
 import argparse

@@ -1,26 +1,11 @@
 //! Passes near change points keep their branch, or end with an error.
 
-use crate::mechanisms::{column, count, model, Random};
+use crate::mechanisms::{column, count, four_bar_of, motor, Random};
 use kempe::analyses::kinematics::{kinematics, Point};
 use kempe::analyses::State;
 use kempe::integrate::Flow;
 use kempe::model::Model;
 use std::f64::consts::TAU;
-
-fn four_bar([g, a, b, c]: [f64; 4]) -> Model {
-    model(&format!(
-        "[parameters]\ng = {g}\na = {a}\nb = {b}\nc = {c}\n\
-         [bodies.ground]\npoints = {{ A = [0, 0], D = ['g', 0] }}\n\
-         [bodies.crank]\ntype = 'bar'\nmass = 1\nlength = 'a'\nends = ['A', 'B']\n\
-         [bodies.coupler]\ntype = 'bar'\nmass = 1\nlength = 'b'\nends = ['B', 'C']\n\
-         [bodies.rocker]\ntype = 'bar'\nmass = 1\nlength = 'c'\nends = ['D', 'C']\n\
-         [joints]\nA = {{ type = 'revolute', i = 'ground.A', j = 'crank.A' }}\n\
-         B = {{ type = 'revolute', i = 'crank.B', j = 'coupler.B' }}\n\
-         C = {{ type = 'revolute', i = 'coupler.C', j = 'rocker.C' }}\n\
-         D = {{ type = 'revolute', i = 'ground.D', j = 'rocker.D' }}\n\
-         [drivers.motor]\ntype = 'coordinate_driver'\ncoordinate = 'crank.angle'\nvalue = 't'\n"
-    ))
-}
 
 /// Angles of coupler and rocker on a side of the line from B to D; None where the linkage does not close.
 fn pose([g, a, b, c]: [f64; 4], angle: f64, side: f64) -> Option<[f64; 2]> {
@@ -72,7 +57,8 @@ fn near_change(random: &mut Random, kind: usize, off: f64) -> [f64; 4] {
 #[test]
 fn no_pass_near_a_change_point_flips_silently() {
     let mut random = Random::new(4);
-    let base = four_bar([3.0, 1.0, 3.0, 1.0]);
+    let lengths = "[parameters]\ng = 3\na = 1\nb = 3\nc = 1\n".to_string();
+    let base = four_bar_of(["'g'", "'a'", "'b'", "'c'"], &(lengths + &motor("crank.angle", "t")));
     let all = count(2000, 10_000) as usize;
     let (mut passes, mut failed) = (0, 0);
     while passes < all {

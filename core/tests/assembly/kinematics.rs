@@ -1,25 +1,10 @@
 //! Driven mechanisms without integration, against closed forms.
 
-use crate::mechanisms::{column, model, start};
+use crate::mechanisms::{column, four_bar_of, model, motor, start};
 use kempe::analyses::kinematics::{kinematics, recorded, Failure, Limit, Motion, Reason};
 use kempe::integrate::Flow;
 use kempe::model::Model;
 use std::f64::consts::{PI, TAU};
-
-/// Ground pins at a distance g, a crank a, a coupler b and a rocker c.
-fn four_bar([g, a, b, c]: [f64; 4], driver: &str) -> Model {
-    model(&format!(
-        "[bodies.ground]\npoints = {{ A = [0, 0], D = [{g}, 0] }}\n\
-         [bodies.crank]\ntype = 'bar'\nmass = 1\nlength = {a}\nends = ['A', 'B']\n\
-         [bodies.coupler]\ntype = 'bar'\nmass = 1\nlength = {b}\nends = ['B', 'C']\n\
-         [bodies.rocker]\ntype = 'bar'\nmass = 1\nlength = {c}\nends = ['D', 'C']\n\
-         [joints]\nA = {{ type = 'revolute', i = 'ground.A', j = 'crank.A' }}\n\
-         B = {{ type = 'revolute', i = 'crank.B', j = 'coupler.B' }}\n\
-         C = {{ type = 'revolute', i = 'coupler.C', j = 'rocker.C' }}\n\
-         D = {{ type = 'revolute', i = 'ground.D', j = 'rocker.D' }}\n\
-         [drivers.motor]\ntype = 'coordinate_driver'\n{driver}\n"
-    ))
-}
 
 fn through(m: &Model, hints: &[(&str, &str)], times: &[f64]) -> Result<Motion, Box<Failure>> {
     let (state, _) = start(m, &[], hints);
@@ -81,10 +66,9 @@ fn a_slider_crank_over_a_turn() {
 /// A crank-rocker, driven at its rocker: the rocker stops where crank and coupler are in line.
 #[test]
 fn the_limits_of_a_rocker() {
-    let [g, a, b, c] = [4.0, 1.0, 3.5, 2.5];
+    let [g, a, b, c] = [4.0, 1.0, 3.5, 2.5_f64];
     for (way, reach) in [(1.0, b - a), (-1.0, a + b)] {
-        let m =
-            four_bar([g, a, b, c], &format!("coordinate = 'rocker.angle'\nvalue = '2 + {way}*t'"));
+        let m = four_bar_of([g, a, b, c], &motor("rocker.angle", &format!("2 + {way}*t")));
         let (limit, motion) = limit_of(through(
             &m,
             &[("crank.angle", "1"), ("coupler.angle", "0.3")],
@@ -105,8 +89,8 @@ fn the_limits_of_a_rocker() {
 /// The crank of a double rocker does not turn fully.
 #[test]
 fn the_limit_of_a_crank_is_named() {
-    let [g, a, b, c] = [4.0, 3.0, 2.0, 2.5];
-    let m = four_bar([g, a, b, c], "coordinate = 'crank.angle'\nvalue = '0.5 + t'");
+    let [g, a, b, c] = [4.0, 3.0, 2.0, 2.5_f64];
+    let m = four_bar_of([g, a, b, c], &motor("crank.angle", "0.5 + t"));
     let hints = [("coupler.angle", "0.5"), ("rocker.angle", "1.5")];
     let (limit, _) = limit_of(through(&m, &hints, &even(40, TAU)));
     let exact = ((g * g + a * a - (b + c) * (b + c)) / (2.0 * g * a)).acos();
@@ -120,7 +104,7 @@ fn the_limit_of_a_crank_is_named() {
 /// A parallelogram passes its change points, also with outputs exactly there, and does not fold.
 #[test]
 fn a_parallelogram_passes_its_change_points() {
-    let m = four_bar([3.0, 1.0, 3.0, 1.0], "coordinate = 'crank.angle'\nvalue = 't + pi/2'");
+    let m = four_bar_of([3.0, 1.0, 3.0, 1.0], &motor("crank.angle", "t + pi/2"));
     for n in [8, 36, 37, 1000] {
         let times = even(n, 4.0 * PI);
         let hints = [("coupler.angle", "0"), ("rocker.angle", "pi/2")];

@@ -1,6 +1,6 @@
 //! Large mechanisms: ladders of unit squares, free bodies and chains.
 
-use crate::mechanisms::{close, count, largest, model, request, residual, start};
+use crate::mechanisms::{clock, close, count, largest, model, request, residual, start};
 use kempe::analyses::assemble::{assemble, assemble_until, Fault, Request};
 use kempe::analyses::mobility;
 use std::cell::Cell;
@@ -114,13 +114,6 @@ fn a_stretched_dyad_is_singular_but_not_redundant() {
     let m = model(&text);
     let (_, report) = start(&m, &[("rod0.angle", "0")], &[]);
     assert!(report.warnings.iter().any(|w| w.contains("singular position")), "{report:?}");
-}
-
-/// Time of this thread on a processor, s; where it is not known, time.
-fn clock(begin: Instant) -> f64 {
-    let known = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanoseconds = known.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
-    nanoseconds.map_or_else(|| begin.elapsed().as_secs_f64(), |ns| 1e-9 * ns)
 }
 
 /// The time of some assemblies, s.

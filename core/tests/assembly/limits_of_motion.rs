@@ -1,26 +1,11 @@
 //! Limits of motion and full turns, against closed forms.
 
-use crate::mechanisms::{model, request, start, Random};
+use crate::mechanisms::{four_bar_of, model, motor, request, start, Random};
 use kempe::analyses::assemble::{assemble, Request};
 use kempe::analyses::limits::{limits, Limits};
 use kempe::integrate::Flow;
 use kempe::model::Model;
 use std::f64::consts::TAU;
-
-/// Ground pins at a distance g, a crank a, a coupler b and a rocker c; the driver has the value t.
-fn four_bar([g, a, b, c]: [f64; 4], coordinate: &str) -> Model {
-    model(&format!(
-        "[bodies.ground]\npoints = {{ A = [0, 0], D = [{g}, 0] }}\n\
-         [bodies.crank]\ntype = 'bar'\nmass = 1\nlength = {a}\nends = ['A', 'B']\n\
-         [bodies.coupler]\ntype = 'bar'\nmass = 1\nlength = {b}\nends = ['B', 'C']\n\
-         [bodies.rocker]\ntype = 'bar'\nmass = 1\nlength = {c}\nends = ['D', 'C']\n\
-         [joints]\nA = {{ type = 'revolute', i = 'ground.A', j = 'crank.A' }}\n\
-         B = {{ type = 'revolute', i = 'crank.B', j = 'coupler.B' }}\n\
-         C = {{ type = 'revolute', i = 'coupler.C', j = 'rocker.C' }}\n\
-         D = {{ type = 'revolute', i = 'ground.D', j = 'rocker.D' }}\n\
-         [drivers.motor]\ntype = 'coordinate_driver'\ncoordinate = '{coordinate}'\nvalue = 't'\n"
-    ))
-}
 
 /// The limits from the position with this value of the driver.
 fn found(m: &Model, value: f64, hints: &[(&str, &str)]) -> Limits {
@@ -61,7 +46,7 @@ fn posed([g, a, b, c]: [f64; 4], angle: f64) -> Option<[f64; 2]> {
 
 fn check_crank(links: [f64; 4], angle: f64) {
     let Some([coupler, rocker]) = posed(links, angle) else { return };
-    let m = four_bar(links, "crank.angle");
+    let m = four_bar_of(links, &motor("crank.angle", "t"));
     let hints = [("coupler.angle", format!("{coupler}")), ("rocker.angle", format!("{rocker}"))];
     let hints: Vec<(&str, &str)> = hints.iter().map(|(k, v)| (*k, v.as_str())).collect();
     let found = found(&m, angle, &hints);

@@ -34,8 +34,8 @@ fn quadratures_do_not_touch_the_steps() {
 }
 
 /// Motion on the unit circle, put back onto it after every step.
-struct OnCircle {
-    calls: usize,
+pub(super) struct OnCircle {
+    pub calls: usize,
 }
 
 impl Ode for OnCircle {

@@ -1,7 +1,8 @@
 //! DOP853: pair, estimate and extension those of scipy, of order 8 and 7; steps of its own.
 
+use super::contract::OnCircle;
 use super::*;
-use kempe::integrate::{Atol, Dop853, Manifold, StepControl};
+use kempe::integrate::{Atol, Dop853, StepControl};
 
 /// Sees the steps from their ends only.
 struct Ends;
@@ -210,35 +211,6 @@ fn observed_orders() {
     assert!((slope(false, 1) - 4.0).abs() < 0.1, "{}", slope(false, 1));
 }
 
-/// Motion on the unit circle, put back onto it after every step.
-struct OnCircle;
-
-impl Ode for OnCircle {
-    type Stop = String;
-    fn len(&self) -> usize {
-        2
-    }
-    fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), String> {
-        oscillator(t, y, dy);
-        Ok(())
-    }
-    fn manifold(&mut self) -> Option<&mut dyn Manifold<Stop = String>> {
-        Some(self)
-    }
-}
-
-impl Manifold for OnCircle {
-    type Stop = String;
-    fn rate_projected(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), String> {
-        self.rate(t, y, dy)
-    }
-    fn project(&mut self, _: f64, y: &mut [f64]) -> Result<bool, String> {
-        let r = y[0].hypot(y[1]);
-        y.iter_mut().for_each(|y| *y /= r);
-        Ok(true)
-    }
-}
-
 #[test]
 fn projection_is_taken_up_by_state_derivative_and_extension() {
     let mut observer = |step: &Step<'_>| {
@@ -250,7 +222,8 @@ fn projection_is_taken_up_by_state_derivative_and_extension() {
         Flow::Continue
     };
     let (mut y, method) = ([1.0, 0.0], Dop853::new(1e-3, 1e-6));
-    let done = method.integrate(&mut OnCircle, 0.0, 5.0, &mut y, &mut observer).unwrap();
+    let done =
+        method.integrate(&mut OnCircle { calls: 0 }, 0.0, 5.0, &mut y, &mut observer).unwrap();
     assert_eq!(done.evaluations, 2 + 15 * done.steps + 11 * done.rejected);
     assert!((y[0] - 5.0_f64.cos()).abs() < 1e-3);
 }
