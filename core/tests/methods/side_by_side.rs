@@ -36,9 +36,9 @@ fn variants(text: &str) -> Vec<Made> {
     all
 }
 
-/// Methods that may run side by side.
-fn ways() -> Vec<Options> {
-    let base = Options { dense_output: false, ..Options::new(0.4) };
+/// Methods that may run side by side, to a time.
+fn ways(t_end: f64) -> Vec<Options> {
+    let base = Options { dense_output: false, ..Options::new(t_end) };
     let gains = Gains { alpha: 10.0, beta: 200.0 };
     vec![
         Options { method: Scheme::Auto(Auto::default()), ..base.clone() },
@@ -103,7 +103,7 @@ fn every_example_runs_as_alone() {
     let mut files: Vec<_> = folder.map(|file| file.expect("a file").path()).collect();
     files.retain(|file| file.extension().is_some_and(|ending| ending == "toml"));
     files.sort();
-    let ways = ways();
+    let ways = ways(0.1 * count(2, 4) as f64);
     let (mut all, mut beside) = (0, 0);
     for (k, file) in files.iter().enumerate() {
         let made = variants(&std::fs::read_to_string(file).expect("a text"));
@@ -120,7 +120,7 @@ fn every_example_runs_as_alone() {
 #[test]
 fn ordinary_steps_are_taken_side_by_side() {
     let made = variants(mechanisms::FOUR_BAR);
-    for way in ways() {
+    for way in ways(0.4) {
         let trials = compare(&made, &way);
         assert!(trials.beside > 9 * trials.alone, "{trials:?}");
     }
@@ -152,7 +152,7 @@ fn variants_of_another_structure_and_runs_that_end_early_do_not_disturb_others()
         let (state, _) = mechanisms::start(&model, &set, &[]);
         (model, state)
     });
-    for way in ways() {
+    for way in ways(0.4) {
         compare(&made, &way);
         // too few steps are allowed
         let mut few = way.clone();
