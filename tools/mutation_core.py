@@ -281,13 +281,8 @@ def _rust_programs(copy: Path) -> list[Program]:
 
 def _modules(name: str, executable: str, folder: Path) -> Iterator[Program]:
     """One program for the tests of each module of a test program."""
-    done = subprocess.run(
-        [executable, "--list", "--format=terse"],
-        cwd=folder,
-        check=True,
-        capture_output=True,
-        text=True,
-    )
+    listed = [executable, "--list", "--format=terse"]
+    done = subprocess.run(listed, cwd=folder, check=True, capture_output=True, text=True)
     modules: dict[str, list[str]] = defaultdict(list)
     for line in done.stdout.splitlines():
         if line.endswith(": test"):

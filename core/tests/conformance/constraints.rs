@@ -318,15 +318,8 @@ fn duals_over_a_parameter_are_differences() {
         c.map(&mut |_| parameters += 1);
         for parameter in 0..parameters {
             let moved = |h: f64| {
-                let mut k = 0;
-                let shifted = c.map(&mut |x| {
-                    k += 1;
-                    if k - 1 == parameter {
-                        x + h
-                    } else {
-                        *x
-                    }
-                });
+                let mut k = 0..;
+                let shifted = c.map(&mut |x| if k.next() == Some(parameter) { x + h } else { *x });
                 terms(&shifted, at, TIME).0
             };
             let mut k = 0;
