@@ -3,10 +3,10 @@
     .venv/bin/python tools/mutation_core.py FOLDER --shards 1 2
 
 cargo-mutants lists the changes, the mutants. All of a sample are compiled at once: each changed
-function begins with a switch on the environment variable KEMPE_MUTANT. Each mutant runs the test
-programs of the core, then the tests in Python, until the first fails. FOLDER receives two
-copies of the repository at HEAD, one of them changed, and the outcomes; a second call continues
-there.
+function begins with a switch on the environment variable KEMPE_MUTANT. Each mutant runs the tests
+of the core, module by module, then the tests in Python, until the first fails. FOLDER receives
+two copies of the repository at HEAD, one of them changed, and the outcomes; a second call
+continues there.
 """
 
 import argparse
@@ -26,8 +26,9 @@ from typing import Any, TypeAlias
 
 ROOT = Path(__file__).resolve().parents[1]
 FILES = ("core/src/elements/**", "core/src/equations/**")
-#: Quick programs run first, and this one, which finds many changes, after those that take 1 s.
-_EARLY = "conformance"
+#: Quick modules run first, and those of this program, which find many changes, as if each took
+#: no more than this time in s.
+_EARLY, _EARLY_TIME = "conformance", 0.1
 #: Tests in Python that use the core, by subject. Those of pages in a browser are left out.
 _PYTHON = (
     "tests/truth",
@@ -271,10 +272,26 @@ def _rust_programs(copy: Path) -> list[Program]:
     done = subprocess.run(command, cwd=copy, check=True, capture_output=True, text=True)
     built = [json.loads(line) for line in done.stdout.splitlines()]
     return [
-        Program(one["target"]["name"], (one["executable"], "--test-threads=1"), copy / "core")
+        program
         for one in built
         if one.get("executable") and one["profile"]["test"]
+        for program in _modules(one["target"]["name"], one["executable"], copy / "core")
     ]
+
+
+def _modules(name: str, executable: str, folder: Path) -> Iterator[Program]:
+    """One program for the tests of each module of a test program."""
+    listed = [executable, "--list", "--format=terse"]
+    done = subprocess.run(listed, cwd=folder, check=True, capture_output=True, text=True)
+    modules: dict[str, list[str]] = defaultdict(list)
+    for line in done.stdout.splitlines():
+        if line.endswith(": test"):
+            test = line.removesuffix(": test")
+            modules[test.partition("::")[0]].append(test)
+    for module, tests in sorted(modules.items()):
+        # whole names: a part of a name would also select modules within other modules
+        command = (executable, "--test-threads=1", "--exact", *tests)
+        yield Program(f"{name} {module}", command, folder)
 
 
 def _python_programs(copy: Path) -> list[Program]:
@@ -322,11 +339,13 @@ def _timed(place: Place, programs: list[Program]) -> list[Program]:
         place.times[one.name] = end.children_user - begin.children_user
         place.store()
         print(f"{one.name}: {place.times[one.name]:.1f} s", flush=True)
-    early = place.times | {_EARLY: 1.0}
-    return [
-        replace(one, patience=_PATIENCE * place.times[one.name] + _GRACE)
-        for one in sorted(programs, key=lambda one: early[one.name])
-    ]
+    ordered = sorted(programs, key=lambda one: _rank(one.name, place.times[one.name]))
+    return [replace(one, patience=_PATIENCE * place.times[one.name] + _GRACE) for one in ordered]
+
+
+def _rank(name: str, time: float) -> float:
+    """The time by which the programs are ordered."""
+    return min(time, _EARLY_TIME) if name.startswith(_EARLY) else time
 
 
 def _outcome(mutant: Mutant, programs: list[Program], passes: str) -> str:

@@ -1,7 +1,7 @@
 //! Joints and drivers: derivatives, invariance, scalars, and what they declare about themselves. Every
 //! row is compared by itself.
 
-use crate::mechanisms::{close, worst, Random};
+use crate::mechanisms::{close, count, worst, Random};
 use crate::samples::{constraints, motion, phi, terms, Participants};
 use kempe::elements::{Constraint, Fixes};
 use kempe::expression::{Expression, Tape};
@@ -9,11 +9,16 @@ use kempe::math::{Dual, Jet, Lanes, Lift, Real, Rotation, Vec2};
 
 const TIME: f64 = 0.7;
 
-/// Each sample with random states of its participants, several times.
-fn each(mut check: impl FnMut(&Constraint, &Participants)) {
+/// Each sample with 200 random states of its participants.
+fn each(check: impl FnMut(&Constraint, &Participants)) {
+    each_in(200, check);
+}
+
+/// The same with another number of states.
+fn each_in(states: u64, mut check: impl FnMut(&Constraint, &Participants)) {
     let mut numbers = Random::new(1);
     for sample in constraints() {
-        for _ in 0..200 {
+        for _ in 0..states {
             let at = Participants::random(&sample, &mut numbers);
             check(&sample, &at);
         }
@@ -308,20 +313,13 @@ fn lanes_are_scalars_side_by_side() {
 
 #[test]
 fn duals_over_a_parameter_are_differences() {
-    each(|c, at| {
-        let mut count = 0;
-        c.map(&mut |_| count += 1);
-        for parameter in 0..count {
+    each_in(count(20, 200), |c, at| {
+        let mut parameters = 0;
+        c.map(&mut |_| parameters += 1);
+        for parameter in 0..parameters {
             let moved = |h: f64| {
-                let mut k = 0;
-                let shifted = c.map(&mut |x| {
-                    k += 1;
-                    if k - 1 == parameter {
-                        x + h
-                    } else {
-                        *x
-                    }
-                });
+                let mut k = 0..;
+                let shifted = c.map(&mut |x| if k.next() == Some(parameter) { x + h } else { *x });
                 terms(&shifted, at, TIME).0
             };
             let mut k = 0;

@@ -10,6 +10,8 @@ use kempe::case::{read, Format};
 use kempe::equations::kinematics::Motions;
 use kempe::integrate::{Flow, Rk45};
 use kempe::model::{build, Model, Value};
+use std::fmt::Display;
+use std::time::Instant;
 
 /// The flagship, as users get it.
 pub const FOUR_BAR: &str = include_str!("../../../examples/four_bar.toml");
@@ -159,6 +161,27 @@ pub fn four_bar() -> (Model, State) {
     (m, state)
 }
 
+/// A four-bar linkage of bars of 1 kg, with the lengths of ground, crank, coupler and rocker and further tables.
+pub fn four_bar_of([ground, crank, coupler, rocker]: [impl Display; 4], more: &str) -> Model {
+    model(&format!(
+        "[bodies.ground]\npoints = {{ A = [0, 0], D = [{ground}, 0] }}\n\
+         [bodies.crank]\ntype = 'bar'\nmass = 1\nlength = {crank}\nends = ['A', 'B']\n\
+         [bodies.coupler]\ntype = 'bar'\nmass = 1\nlength = {coupler}\nends = ['B', 'C']\n\
+         [bodies.rocker]\ntype = 'bar'\nmass = 1\nlength = {rocker}\nends = ['D', 'C']\n\
+         [joints]\nA = {{ type = 'revolute', i = 'ground.A', j = 'crank.A' }}\n\
+         B = {{ type = 'revolute', i = 'crank.B', j = 'coupler.B' }}\n\
+         C = {{ type = 'revolute', i = 'coupler.C', j = 'rocker.C' }}\n\
+         D = {{ type = 'revolute', i = 'ground.D', j = 'rocker.D' }}\n{more}\n"
+    ))
+}
+
+/// A driver of a coordinate by a law.
+pub fn motor(coordinate: &str, law: &str) -> String {
+    format!(
+        "[drivers.motor]\ntype = 'coordinate_driver'\ncoordinate = '{coordinate}'\nvalue = '{law}'\n"
+    )
+}
+
 /// Options with the given tolerances.
 pub fn tolerances(t_end: f64, rtol: f64, atol: f64) -> Options {
     let scheme = Scheme::Rk45(Rk45::new(rtol, atol));
@@ -222,6 +245,21 @@ pub fn close(what: &str, a: f64, b: f64, tolerance: f64) {
         error <= tolerance,
         "{what}: {a} is not {b}: off by {error:.3e}, allowed {tolerance:.1e}"
     );
+}
+
+/// Time of this thread on a processor, s; where it is not known, time since `begin`.
+pub fn clock(begin: Instant) -> f64 {
+    let known = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanoseconds = known.and_then(|text| text.split(' ').next()?.parse::<f64>().ok());
+    nanoseconds.map_or_else(|| begin.elapsed().as_secs_f64(), |ns| 1e-9 * ns)
+}
+
+/// The size of a sample: `part`, or `all` with `KEMPE_FULL=1` in the environment.
+pub fn count(part: u64, all: u64) -> u64 {
+    match std::env::var("KEMPE_FULL").as_deref() {
+        Ok("1") => all,
+        _ => part,
+    }
 }
 
 /// Numbers without pattern in [-1, 1], reproducible.

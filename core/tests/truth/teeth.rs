@@ -2,6 +2,7 @@
 
 use crate::mechanisms::{faults, model, run, start};
 use crate::solved::{direction, same, same_vector, Solved};
+use crate::wheels::planetary;
 use kempe::analyses::dynamics::{Options, Scheme};
 use kempe::integrate::{AlphaParameters, GeneralizedAlpha, Radau};
 use kempe::math::Vec2;
@@ -87,56 +88,11 @@ fn a_ring_and_its_wheel_are_pushed_together_whichever_is_named_first() {
     }
 }
 
-/// Sun, planet on a carrier, fixed ring.
-const PLANETARY: &str = r#"
-[bodies.ground]
-points = { O = [0, 0] }
-[bodies.sun]
-mass = 2
-inertia = 0.03
-points = { O = [0, 0] }
-[bodies.carrier]
-mass = 1
-inertia = 0.05
-points = { O = [0, 0], P = [0.3, 0] }
-[bodies.planet]
-mass = 0.7
-inertia = 0.004
-points = { P = [0, 0] }
-[joints.S]
-type = "revolute"
-i = "ground.O"
-j = "sun.O"
-[joints.C]
-type = "revolute"
-i = "ground.O"
-j = "carrier.O"
-[joints.P]
-type = "revolute"
-i = "carrier.P"
-j = "planet.P"
-[joints.inner]
-type = "gear"
-i = "sun.O"
-j = "planet.P"
-radii = [0.2, 0.1]
-pressure_angle = 0.35
-[joints.outer]
-type = "gear"
-i = "ground.O"
-j = "planet.P"
-radii = [0.4, 0.1]
-internal = true
-pressure_angle = 0.35
-[forces.motor]
-type = "torque"
-j = "sun"
-torque = 1.5
-"#;
+const PRESSURE: &str = "pressure_angle = 0.35";
 
 #[test]
 fn a_planet_carries_the_difference_of_both_radial_forces() {
-    let s = Solved::new(PLANETARY, &[("sun.omega", "6"), ("carrier.angle", "0.8")], &[]);
+    let s = Solved::new(&planetary(PRESSURE), &[("sun.omega", "6"), ("carrier.angle", "0.8")], &[]);
     let (carrier, planet) = (0.2 / 0.6, -0.4 / 0.6 * 1.5);
     let swung = 0.05 + 0.7 * 0.3 * 0.3;
     let alpha = 1.5 / (0.03 + swung * carrier * carrier + 0.004 * planet * planet);
@@ -160,8 +116,8 @@ fn a_planet_carries_the_difference_of_both_radial_forces() {
 
 #[test]
 fn the_motion_does_not_depend_on_the_pressure_angle() {
-    let with = model(PLANETARY);
-    let without = model(&PLANETARY.replace("pressure_angle = 0.35", ""));
+    let with = model(&planetary(PRESSURE));
+    let without = model(&planetary(""));
     for method in [Options::new(1.0).method, Scheme::Radau(Radau::default())] {
         let end = |m| {
             let (state, _) = start(m, &[("sun.omega", "6")], &[]);

@@ -121,20 +121,28 @@ type = "gear"
 i = "sun.O"
 j = "planet.P"
 radii = [0.2, 0.1]
+TEETH
 [joints.outer]
 type = "gear"
 i = "ground.O"
 j = "planet.P"
 radii = [0.4, 0.1]
 internal = true
+TEETH
+[forces.motor]
+type = "torque"
+j = "sun"
+torque = 1.5
 "#;
 
-const ON_THE_SUN: &str = "[forces.motor]\ntype = \"torque\"\nj = \"sun\"\ntorque = 1.5\n";
+/// The set with a torque on the sun and further fields of both gears.
+pub fn planetary(teeth: &str) -> String {
+    PLANETARY.replace("TEETH", teeth)
+}
 
 #[test]
 fn a_planetary_set_follows_willis_with_its_inertias() {
-    let text = format!("{PLANETARY}{ON_THE_SUN}");
-    let s = Solved::new(&text, &[("sun.omega", "6")], &[]);
+    let s = Solved::new(&planetary(""), &[("sun.omega", "6")], &[]);
     let (carrier, planet) = (0.2 / 0.6, 0.2 / 0.6 * (1.0 - 4.0));
     same("ω of the carrier", s.of("carrier", 2)[1], 6.0 * carrier);
     same("ω of the planet", s.of("planet", 2)[1], 6.0 * planet);
@@ -159,7 +167,7 @@ fn a_planetary_set_follows_willis_with_its_inertias() {
 
 #[test]
 fn a_planetary_set_stays_in_mesh_for_many_turns_of_its_carrier() {
-    let model = model(&format!("{PLANETARY}{ON_THE_SUN}"));
+    let model = model(&planetary(""));
     let (state, _) = start(&model, &[], &[]);
     let method = Scheme::Dop853(Dop853::new(1e-12, 1e-14));
     let run = run(&model, &state, &Options { method, ..Options::new(5.0) });
