@@ -9,8 +9,6 @@ import kempe as kp
 import numpy as np
 import pytest
 
-pytestmark = pytest.mark.alone
-
 
 def points(n: int, high: float, spread: float, **law: float) -> tuple[kp.Model, kp.State]:
     """A model of n points above a line, or in it, each higher than the one before by the spread."""
