@@ -1,11 +1,10 @@
-"""The command line within the process of the tests, which takes a hundredth of the time of its own process.
+"""The command line in the process of the tests: a hundredth of the time of a process of its own.
 
 Tests of pipes, signals and exit codes of processes start real ones.
 """
 
 import io
 import os
-import sys
 import warnings
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -27,7 +26,7 @@ def kempe(
 
 
 def run_into(out: io.TextIOWrapper, *words: str, cwd: Path) -> tuple[int, str]:
-    """The exit code and the errors of one command that writes to a stream, which is closed after it."""
+    """The exit code and the errors of one command that writes to a stream, and closes it."""
     err = _stream()
     with _inside(cwd, {}), out:
         return _run(out, err, list(words)), _text(err)
