@@ -29,7 +29,7 @@ def sized(page: Path) -> object:
     return pytest.param(page, marks=only_full) if page_name(page) in LONG else page
 
 
-@pytest.mark.parametrize("page", map(sized, PAGES), ids=page_name)
+@pytest.mark.parametrize("page", [sized(page) for page in PAGES], ids=page_name)
 def test_the_blocks_of_a_page_run(
     page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
