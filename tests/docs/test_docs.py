@@ -16,8 +16,14 @@ from sizes import only_full
 LANGUAGES = {"python", "console", "text", "toml", "json", "sh", "math", ""}
 
 
-#: Pages whose runs take ten seconds and more; tests/sweeps and tests/truth test what they show.
-LONG = {"docs/sweeps.md", "docs/tutorials/spring_choice.md", "docs/tutorials/geneva_drive.md"}
+#: Pages whose runs take ten seconds and more. What they show is tested in tests/sweeps,
+#: tests/lab_report and tests/truth.
+LONG = {
+    "docs/report.md",
+    "docs/sweeps.md",
+    "docs/tutorials/geneva_drive.md",
+    "docs/tutorials/spring_choice.md",
+}
 
 
 def page_name(page: Path) -> str:
