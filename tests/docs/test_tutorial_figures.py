@@ -9,7 +9,6 @@ from sizes import FULL
 
 from tools import tutorial_figures
 
-
 #: Their runs take ten seconds and more.
 LONG = ("geneva_drive", "spring_choice")
 NAMES = [name for name in tutorial_figures.tutorials() if FULL or name not in LONG]
