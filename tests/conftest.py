@@ -1,9 +1,13 @@
-"""Figures are closed after each test, one browser serves all tests, examples have no time limit."""
+"""Figures are closed after each test, one browser serves all tests, examples have no time limit.
+
+Before its last line, pytest prints the times of the stages of `./test`.
+"""
 
 import os
 import sys
 import warnings
 from collections.abc import Iterator
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -39,3 +43,18 @@ def _no_figure_is_left_open() -> Iterator[None]:
         yield
     if "matplotlib.pyplot" in sys.modules:
         sys.modules["matplotlib.pyplot"].close("all")
+
+
+def pytest_ignore_collect(collection_path: Path, config: pytest.Config) -> bool | None:
+    """With `-m alone`, files without such tests are not even imported."""
+    if config.option.markexpr != "alone" or not collection_path.name.startswith("test_"):
+        return None
+    return True if "mark.alone" not in collection_path.read_text("utf-8") else None
+
+
+def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:
+    """Print the seconds of each stage of `./test`, which writes them to a file."""
+    stages = os.environ.get("KEMPE_STAGES")
+    if stages:
+        terminalreporter.section("seconds of the stages before")
+        terminalreporter.write(Path(stages).read_text("utf-8"))

@@ -3,6 +3,7 @@
 #
 #     tools/check_packages.sh            as they are released, into dist/; with all Pythons in PATH
 #     tools/check_packages.sh --quick    without optimisation, into target/packages/quick; with one Python
+#     tools/check_packages.sh --source   only the source distribution and the licences; compiles nothing
 #
 # Further arguments are passed to pytest. The emulation needs qemu-x86_64 (Debian: qemu-user); without it
 # its test is skipped. docs/internals/release.md describes the rest of a release.
@@ -17,6 +18,15 @@ cd "$ROOT" || exit 5
 PATH=$PATH:${CARGO_HOME:-$HOME/.cargo}/bin
 python() { "$VENV/bin/python" "$@"; }
 
+if [ "${1:-}" = --source ]; then
+    shift
+    export KEMPE_PACKAGES="$ROOT/target/packages/source"
+    rm -rf "$KEMPE_PACKAGES"
+    python -m maturin sdist --out "$KEMPE_PACKAGES" || exit 5
+    python -m pytest tests/packages/test_notices.py \
+        tests/packages/test_contents.py::test_the_source_distribution_has_what_a_build_needs "$@"
+    exit
+fi
 python -m pip install --quiet -c constraints.txt maturin wheel ziglang || exit 5
 if [ "${1:-}" = --quick ]; then
     shift

@@ -11,8 +11,6 @@ from peers.setting import Setting
 from problems import Motion, problem
 from problems.truth import reference
 
-pytestmark = pytest.mark.alone
-
 
 def tool(run: Any) -> Any:
     """A tool whose runs are `run`."""

@@ -114,29 +114,50 @@ class Watched:
 Opener = Callable[..., Watched]
 
 
+@pytest.fixture(scope="session")
+def pages() -> dict[str, Watched]:
+    """Pages that tests leave to each other, by the options of their contexts."""
+    return {}
+
+
 @pytest.fixture
-def opened(browser: "sync_api.Browser", tmp_path: Path) -> Iterator[Opener]:
+def opened(
+    browser: "sync_api.Browser", pages: dict[str, Watched], tmp_path: Path
+) -> Iterator[Opener]:
     """Open the player of a solution in a window of a size; what it complains of fails the test."""
-    watched: list[Watched] = []
+    watched: dict[str, Watched] = {}
 
     def open_player(
         solution: kp.Solution | kp.State, width: int, height: int, **more: object
     ) -> Watched:
-        path = kp.player(solution, tmp_path / "animation.html")
-        context = browser.new_context(viewport={"width": width, "height": height}, **more)
-        context.add_init_script(RECORDER)
-        one = Watched(context.new_page())
-        one.page.on("console", lambda message: one.messages.append(message.text))
-        one.page.on("pageerror", lambda error: one.messages.append(str(error)))
-        context.on("request", lambda request: one.requests.append(request.url))
+        path = kp.player(solution, tmp_path / f"animation{len(watched)}.html")
+        kind = repr(more)
+        if kind in watched:  # a second window beside the first
+            kind = f"{kind}, {len(watched)}"
+        if kind not in pages:
+            pages[kind] = new_page(browser, **more)
+        one = watched[kind] = pages[kind]
+        one.messages.clear()
+        one.requests.clear()
+        one.page.set_viewport_size({"width": width, "height": height})
         one.page.goto(path.as_uri())
         one.settle()
-        watched.append(one)
         return one
 
     yield open_player
-    for one in watched:
-        one.page.context.close()
+    for one in watched.values():
+        one.page.goto("about:blank")  # nothing runs on
         assert one.messages == []
-        outside = [url for url in one.requests if not url.startswith("blob:")]  # files offered
+        outside = [url for url in one.requests if not url.startswith(("blob:", "about:"))]
         assert len(outside) == 1, outside  # the page itself
+
+
+def new_page(browser: "sync_api.Browser", **more: Any) -> Watched:
+    """A page that notes its messages, errors and requests, and the texts on its canvases."""
+    context = browser.new_context(**more)
+    context.add_init_script(RECORDER)
+    one = Watched(context.new_page())
+    one.page.on("console", lambda message: one.messages.append(message.text))
+    one.page.on("pageerror", lambda error: one.messages.append(str(error)))
+    context.on("request", lambda request: one.requests.append(request.url))
+    return one

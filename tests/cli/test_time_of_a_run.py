@@ -7,10 +7,9 @@ from pathlib import Path
 
 import kempe as kp
 import pytest
+from sizes import only_full
 
 from examples.n_four_bar import windows
-
-pytestmark = pytest.mark.alone
 
 FOUR_BAR = Path(__file__).parents[2] / "examples" / "four_bar.toml"
 TRIES = 3
@@ -54,6 +53,7 @@ def test_the_flagship_takes_less_than_3_s(tmp_path: Path) -> None:
     assert takes_less_than(3.0, FOUR_BAR, tmp_path)
 
 
+@only_full
 @pytest.mark.skipif(sys.platform == "win32", reason="times of processes as POSIX has them")
 def test_21_bodies_take_less_than_6_s(tmp_path: Path) -> None:
     model = windows(10)

@@ -10,16 +10,32 @@ from docs.pages import PAGES, anchors, blocks, links
 from docs.reader import Reader
 from house.places import ROOT
 from kempe import _core, _reference
+from sizes import only_full
 
 #: Languages of blocks. The tests do not run `sh` blocks, which contain installations and `./test`.
 LANGUAGES = {"python", "console", "text", "toml", "json", "sh", "math", ""}
+
+
+#: Pages whose runs take ten seconds and more. What they show is tested in tests/sweeps,
+#: tests/lab_report and tests/truth.
+LONG = {
+    "docs/report.md",
+    "docs/sweeps.md",
+    "docs/tutorials/geneva_drive.md",
+    "docs/tutorials/spring_choice.md",
+}
 
 
 def page_name(page: Path) -> str:
     return page.relative_to(ROOT).as_posix()
 
 
-@pytest.mark.parametrize("page", PAGES, ids=page_name)
+def sized(page: Path) -> object:
+    """A page, to be run only in full size if its runs take long."""
+    return pytest.param(page, marks=only_full) if page_name(page) in LONG else page
+
+
+@pytest.mark.parametrize("page", [sized(page) for page in PAGES], ids=page_name)
 def test_the_blocks_of_a_page_run(
     page: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -2,10 +2,10 @@
 
 from pathlib import Path
 
-import kempe as kp
 import numpy as np
 import pytest
 from house.places import ROOT
+from motions import results
 
 from examples import n_four_bar
 
@@ -14,14 +14,14 @@ EXAMPLES = sorted((ROOT / "examples").glob("*.toml"))
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_an_example_runs(path: Path) -> None:
-    for solution in kp.load(path).run().values():
+    for solution in results(path.stem).values():
         assert solution.success
         assert solution.drift.position.max() < 1e-6
         assert np.abs(solution.energy.balance).max() < 1e-5
 
 
 def test_the_period_of_the_pendulum_agrees_with_the_elliptic_integral() -> None:
-    swing = kp.load(ROOT / "examples/pendulum.toml").run()["swing"]
+    swing = results("pendulum")["swing"]
     # T = 4 K(sin(θ₀/2)) / ω₀, ω₀² = 3 g / (2 L), θ₀ = 30°; K(m = sin² 15°) = 1.598142002112540
     period = 4 * 1.598142002112540 / np.sqrt(1.5 * 9.81)
     back = swing(period)
@@ -30,7 +30,7 @@ def test_the_period_of_the_pendulum_agrees_with_the_elliptic_integral() -> None:
 
 
 def test_the_six_bar_returns_after_a_turn() -> None:
-    turns = kp.load(ROOT / "examples/six_bar.toml").run()["turns"]
+    turns = results("six_bar")["turns"]
     # one radian per radian of the crank; the other bodies come back
     np.testing.assert_allclose(turns(1.0).q[3:], turns.q[0, 3:], atol=1e-7)
     assert turns.q[-1, 2] - turns.q[0, 2] == pytest.approx(4 * np.pi, abs=1e-7)
@@ -47,7 +47,7 @@ def test_the_rates_of_windows_agree_with_their_energy(
 
 
 def test_the_yoke_moves_harmonically_and_its_pin_carries_the_inertia() -> None:
-    turns = kp.load(ROOT / "examples/scotch_yoke.toml").run()["turns"]
+    turns = results("scotch_yoke")["turns"]
     speed = 10 * np.pi
     cos, sin = np.cos(speed * turns.t), np.sin(speed * turns.t)
     np.testing.assert_allclose(turns["yoke.x"], 0.08 * cos, atol=1e-11)
@@ -58,7 +58,7 @@ def test_the_yoke_moves_harmonically_and_its_pin_carries_the_inertia() -> None:
 
 
 def test_the_planetary_gear_reaches_the_speed_and_torque_of_its_ratio() -> None:
-    run = kp.load(ROOT / "examples/planetary_gear.toml").run()["speeding_up"]
+    run = results("planetary_gear")["speeding_up"]
     np.testing.assert_allclose(run["sun.omega"], 3.6 * run["carrier.omega"], atol=1e-8)
     arm, carrier, planet = 0.036, 1 / 3.6, 1 / 3.6 * (1 - 52 / 16)
     equivalent = 6e-5 + (3e-4 + 0.2 * arm**2) * carrier**2 + 3e-5 * planet**2
@@ -72,7 +72,7 @@ def test_the_planetary_gear_reaches_the_speed_and_torque_of_its_ratio() -> None:
 
 
 def test_the_shaper_returns_faster_than_it_cuts() -> None:
-    cuts = kp.load(ROOT / "examples/quick_return.toml").run()["cuts"]
+    cuts = results("quick_return")["cuts"]
     pin = 0.1 * np.exp(2j * np.pi * cuts.t) + 0.25j
     np.testing.assert_allclose(cuts["lever.angle"], np.angle(pin), atol=1e-10)
     # the lever is at its extremes where the crank is normal to it

@@ -5,10 +5,12 @@ import pytest
 from docs.pages import links
 from PIL import Image
 from plot.test_pictures import pinned, unlike
+from sizes import only_full
 
 from tools import sweep_figures
 
 
+@only_full  # its sweep takes a minute and a half
 def test_the_figure_of_the_page_is_up_to_date() -> None:
     shown = links(sweep_figures.PAGE.read_text("utf-8"))
     assert f"images/sweeps/{sweep_figures.TARGET.name}" in shown

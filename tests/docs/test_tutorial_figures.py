@@ -5,11 +5,16 @@ import pytest
 from docs.pages import links
 from PIL import Image
 from plot.test_pictures import pinned, unlike
+from sizes import FULL
 
 from tools import tutorial_figures
 
+#: Their runs take ten seconds and more.
+LONG = ("geneva_drive", "spring_choice")
+NAMES = [name for name in tutorial_figures.tutorials() if FULL or name not in LONG]
 
-@pytest.mark.parametrize("name", tutorial_figures.tutorials())
+
+@pytest.mark.parametrize("name", NAMES)
 def test_the_figures_of_a_tutorial_are_up_to_date(name: str) -> None:
     page = (tutorial_figures.PAGES / f"{name}.md").read_text("utf-8")
     drawn = tutorial_figures.pictures(name)

@@ -8,6 +8,7 @@ from pathlib import Path
 import kempe as kp
 import numpy as np
 import pytest
+from command_line import kempe
 from draw.mechanisms import HOSTILE, moving, slider_crank
 from house.places import ROOT
 from kempe.draw import mp4
@@ -142,15 +143,12 @@ def test_what_cannot_be_is_refused(
 
 def test_the_command_line(four_bar: kp.Solution, tmp_path: Path) -> None:
     four_bar.save(tmp_path / "solution.npz")
-    command = [sys.executable, "-m", "kempe", "animate", "solution.npz"]
     for words, name in (
         ([], "animation.html"),
         (["-o", "new/film.gif", "--fps", "5"], "new/film.gif"),
         (["-o", "film", "--format", "html"], "film.html"),
     ):
-        done = subprocess.run(
-            [*command, *words], cwd=tmp_path, capture_output=True, text=True, check=False
-        )
+        done = kempe("animate", "solution.npz", *words, cwd=tmp_path)
         assert (done.returncode, done.stdout, done.stderr) == (0, f"{name}\n", "")
         assert (tmp_path / name).stat().st_size > 10_000
 
@@ -159,13 +157,7 @@ def test_run_writes_and_lists_the_drawings(tmp_path: Path) -> None:
     text = (ROOT / "examples" / "four_bar.toml").read_text(encoding="utf-8")
     assert "t_end = 15" in text
     (tmp_path / "bar.toml").write_text(text.replace("t_end = 15", "t_end = 0.05"), encoding="utf-8")
-    done = subprocess.run(
-        [sys.executable, "-m", "kempe", "run", "bar.toml", "--no-figures", "--animate", "gif"],
-        cwd=tmp_path,
-        capture_output=True,
-        text=True,
-        check=False,
-    )
+    done = kempe("run", "bar.toml", "--no-figures", "--animate", "gif", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     folder = tmp_path / "out" / "bar"
     listed = json.loads((folder / "summary.json").read_text(encoding="utf-8"))["files"]

@@ -15,6 +15,7 @@ _RUST = re.compile(
 )
 #: Comment marks at the beginning of a line, which may occur within a sentence.
 _MARKS = re.compile(r"(?m)^[ \t]*(?://[/!]?|\#[:!]?|\*)[ \t]?")
+_CODE = re.compile(r"[^\n]+")
 _PYTHON_TEXTS = {
     tokenize.COMMENT,
     tokenize.STRING,
@@ -46,7 +47,12 @@ def _python(text: str) -> str:
 
 def _kept(text: str, spans: list[tuple[int, int]]) -> str:
     """The text with everything outside the spans replaced by blanks."""
-    kept = ["\n" if character == "\n" else " " for character in text]
+    parts, last = [], 0
     for begin, end in spans:
-        kept[begin:end] = text[begin:end]
-    return "".join(kept)
+        parts += [_blank(text[last:begin]), text[begin:end]]
+        last = end
+    return "".join([*parts, _blank(text[last:])])
+
+
+def _blank(code: str) -> str:
+    return _CODE.sub(lambda line: " " * len(line[0]), code)

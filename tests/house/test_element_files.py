@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -62,6 +63,8 @@ def element(struct: str) -> Element:
 
 def named(text: str, element: Element) -> list[str]:
     """The lines of a source that name an element; examples in comments are skipped."""
+    if element.struct not in text and element.kind not in text:
+        return []  # most sources
     text = _EXAMPLE.sub(lambda found: "\n" * found[0].count("\n"), text)
     return [line.strip() for line in text.splitlines() if names(line, element)]
 
@@ -82,14 +85,19 @@ def names(line: str, element: Element) -> bool:
     return bool(of_type or struct)
 
 
-def others(element: Element) -> list[Path]:
-    """The sources that may not name an element."""
+@cache
+def files() -> list[Path]:
+    """The sources that may not name elements, and those of the elements."""
     folders = (CORE, ROOT / "bindings", PACKAGE)
     suffixes = (".rs", ".py", ".pyi", ".js", ".html")
     found = [path for folder in folders for path in folder.rglob("*") if path.suffix in suffixes]
-    found = [path for path in found if not {"built", "tests"} & set(path.parts)]
+    return sorted(path for path in found if not {"built", "tests"} & set(path.parts))
+
+
+def others(element: Element) -> list[Path]:
+    """The sources that may not name an element."""
     beside = {element.source, LIST, *WRITERS}
-    return [path for path in sorted(found) if path not in beside]
+    return [path for path in files() if path not in beside]
 
 
 ELEMENTS = elements()

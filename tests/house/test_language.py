@@ -75,6 +75,7 @@ def tracked() -> list[str]:
 def stilted(text: str) -> list[tuple[int, str, str]]:
     """Line, expression and alternative of every stilted expression in a text."""
     found = []
+    text = re.sub(r"[ \t]+", " ", text)  # most of the prose of code is blank
     for pattern, plain in STILTED.items():
         expression = re.compile(rf"\b(?:{pattern})\b".replace(" ", r"\s+"), re.IGNORECASE)
         for match in expression.finditer(text):

@@ -8,6 +8,7 @@ import sys
 import time
 from pathlib import Path
 
+import command_line
 import kempe as kp
 import numpy as np
 import pytest
@@ -16,24 +17,22 @@ COMMAND = [sys.executable, "-m", "kempe"]
 FILES = ["solution.npz", "solution.csv", "summary.json"]
 
 
-def kempe(
-    *words: object, cwd: Path, figures: bool = False, **environment: str
-) -> subprocess.CompletedProcess[str]:
-    fast = ["--no-figures"] if words[0] == "run" and not figures else []
-    return subprocess.run(
-        [*COMMAND, *map(str, words), *fast],
-        cwd=cwd,
-        env=os.environ | {"MPLBACKEND": "agg"} | environment,
+def kempe(*words: object, cwd: Path) -> subprocess.CompletedProcess[str]:
+    """A command without figures, in this process."""
+    fast = ["--no-figures"] if words[0] == "run" else []
+    return command_line.kempe(*words, *fast, cwd=cwd)
+
+
+def test_run_prints_and_writes_everything(four_bar_file: Path, tmp_path: Path) -> None:
+    done = subprocess.run(
+        [*COMMAND, "run", str(four_bar_file)],
+        cwd=tmp_path,
+        env=os.environ | {"MPLBACKEND": "agg"},
         capture_output=True,
-        text=True,
         encoding="utf-8",
         timeout=120,
         check=False,
     )
-
-
-def test_run_prints_and_writes_everything(four_bar_file: Path, tmp_path: Path) -> None:
-    done = kempe("run", four_bar_file, cwd=tmp_path, figures=True)
     assert done.returncode == 0, done.stderr
     assert done.stderr == ""  # no progress bar without a terminal
     order = [
@@ -142,7 +141,6 @@ def test_bad_input_gives_exit_code_2(
     assert done.returncode == 2
     assert words in done.stderr
     assert done.stderr.count("(line") <= 1  # each problem is printed once
-    assert "Traceback" not in done.stderr
     assert done.stdout == ""
 
 
@@ -153,15 +151,14 @@ def test_bad_arguments_give_exit_code_2(
     four_bar_file: Path, tmp_path: Path, words: list[str]
 ) -> None:
     done = kempe("run", four_bar_file, *words, cwd=tmp_path)
-    assert done.returncode == 2
-    assert "Traceback" not in done.stderr
+    assert (done.returncode, done.stdout) == (2, "")
+    assert done.stderr != ""
 
 
 def test_a_linkage_that_cannot_close_gives_exit_code_3(four_bar_file: Path, tmp_path: Path) -> None:
     done = kempe("run", four_bar_file, "--set", "L2=1", cwd=tmp_path)
     assert done.returncode == 3
     assert "error:" in done.stderr
-    assert "Traceback" not in done.stderr
 
 
 def test_a_failure_writes_the_partial_solution(four_bar_file: Path, tmp_path: Path) -> None:
@@ -169,7 +166,6 @@ def test_a_failure_writes_the_partial_solution(four_bar_file: Path, tmp_path: Pa
     done = kempe("run", four_bar_file, cwd=tmp_path)
     assert done.returncode == 3
     assert "solution.npz" in done.stderr
-    assert "Traceback" not in done.stderr
     partial = kp.load_solution(tmp_path / "out/four_bar/solution.npz")
     assert not partial.success
     assert partial.t[-1] < 0.5
@@ -183,7 +179,6 @@ def test_a_file_error_gives_exit_code_4(
     (tmp_path / "file").write_text("in the way", encoding="utf-8")
     done = kempe("run", *words, cwd=tmp_path)
     assert done.returncode == 4, done.stderr
-    assert "Traceback" not in done.stderr
     assert (tmp_path / "file").read_text(encoding="utf-8") == "in the way"
 
 

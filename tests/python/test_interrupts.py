@@ -13,8 +13,6 @@ import kempe as kp
 import numpy as np
 import pytest
 
-pytestmark = pytest.mark.alone
-
 ROOT = Path(__file__).parents[2]
 
 
@@ -32,6 +30,7 @@ def hanging_chain() -> kp.State:
     return kp.assemble(m, set={f"b{k}.angle": -0.02 * k for k in range(300)})
 
 
+@pytest.mark.alone
 @pytest.mark.skipif(os.name != "posix", reason="signals as POSIX has them")
 @pytest.mark.parametrize(
     ("made", "t_end", "output_step"),

@@ -12,8 +12,6 @@ import kempe as kp
 import numpy as np
 import pytest
 
-pytestmark = pytest.mark.alone
-
 
 def ladder(squares: int) -> kp.Model:
     """Rods on pins 1 m apart with couplers between neighbours: unit squares in a row."""
@@ -94,6 +92,7 @@ def many() -> tuple[kp.Model, dict[str, float]]:
     return free(100_000), {}
 
 
+@pytest.mark.alone
 @pytest.mark.skipif(os.name != "posix", reason="signals as POSIX has them")
 @pytest.mark.parametrize("made", [contradictory, many])
 def test_an_interruption_of_an_assembly_arrives_within_a_fifth_of_a_second(

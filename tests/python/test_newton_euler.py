@@ -6,6 +6,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from house.places import ROOT
+from motions import results
 from stress.mechanisms import KINDS
 
 from examples import n_four_bar
@@ -59,7 +60,7 @@ def sliding() -> kp.Model:
 
 def test_every_example_is_balanced() -> None:
     for path in EXAMPLES:
-        for solution in kp.load(path).run().values():
+        for solution in results(path.stem).values():
             assert solution.newton_euler.largest <= BALANCED, path.stem
 
 

@@ -11,6 +11,7 @@ from house.places import ROOT
 from kempe.cli import app
 from kempe.draw.player import page
 from kempe.plot.pages import pages
+from motions import results
 
 EXAMPLES = sorted((ROOT / "examples").glob("*.toml"))
 
@@ -96,7 +97,7 @@ def test_a_reaction_acts_at_its_point() -> None:
 
 
 def test_a_roller_pushes_at_the_point_of_contact() -> None:
-    sol = kp.load(ROOT / "examples/cam_roller.toml").run()[0]
+    sol = results("cam_roller")[0]
     (name,) = (n for n, info in sol.compiled.joints.items() if info.results)
     i, j = (sol[name].reaction(on=on) for on in (sol[name].info.i, sol[name].info.j))
     np.testing.assert_allclose(i.point, j.point, atol=1e-9)
@@ -106,7 +107,7 @@ def test_a_roller_pushes_at_the_point_of_contact() -> None:
 
 @pytest.mark.parametrize("path", EXAMPLES, ids=lambda path: path.stem)
 def test_action_is_reaction_on_every_body_that_a_joint_touches(path: Path) -> None:
-    sol = next(iter(kp.load(path).run().values()))
+    sol = next(iter(results(path.stem).values()))
     for name, info in sol.compiled.constraints.items():
         force, moment, size = np.zeros((len(sol.t), 2)), np.zeros(len(sol.t)), 1e-9
         for body in info.bodies:

@@ -21,7 +21,7 @@ BAUMGARTE = 'stabilization = { type = "baumgarte" }'
             ('"baumgarte"', '"projection"'),
         ),
         (f'method = {{ type = "radau" }}\n{BAUMGARTE}', "stabilization", ('"baumgarte"', '"none"')),
-        ("output_step = 1e-9", "output_step", ("1e-9", "1e-6")),
+        ("output_step = 1e-9", "output_step", ("1e-9", "1e-4")),
         ('method = { type = "rk45", first_step = 3 }', "method.first_step", ("3 }", "0.2 }")),
         ('method = { type = "rk4", step = 1e-9 }', "method.step", ("1e-9", "1e-3")),
         ('method = { type = "rk4", step = 1e-3 }\nmax_steps = 9', "method.step", ("= 9", "= 1000")),

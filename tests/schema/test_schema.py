@@ -11,6 +11,7 @@ import kempe as kp
 import pytest
 from kempe import _core
 from schema.cases import cases, mutated, places, typo
+from sizes import some
 
 SCHEMA = json.loads(_core.schema())
 VALIDATOR = jsonschema.Draft202012Validator(SCHEMA)
@@ -99,7 +100,11 @@ def tables(node: Any, path: list[Any]) -> list[tuple[list[Any], dict[str, Any]]]
     return own + [found for key, value in node.items() for found in tables(value, [*path, key])]
 
 
-@pytest.mark.parametrize("name", CASES)
+#: "everything" has every type.
+SOME = some([*CASES], 12)
+
+
+@pytest.mark.parametrize("name", sorted({*SOME, "everything"}))
 def test_one_typo_of_a_key_is_one_error_that_names_it(name: str) -> None:
     chance = random.Random(5)
     for path, table in tables(CASES[name], []):

@@ -11,8 +11,11 @@ import numpy as np
 import pytest
 from kempe import _core
 from schema.cases import cases, places, typo
+from sizes import FULL
 
 CASES = cases()
+#: Its curves take long to check: only each 15th place is mistyped, all of them with KEMPE_FULL=1.
+SLOW = "geneva_drive.toml"
 MEANT = re.compile(r"'([^']*)'[^;]*; did you mean '([^']*)'\?")
 
 
@@ -41,8 +44,8 @@ def replaced(node: dict[str, Any], key: str, wrong: str, meant: str) -> None:
 def test_suggestions_remove_the_fault(name: str) -> None:
     chance = random.Random(4)
     assert faults(CASES[name]) == []
-    applied = 0
-    for k, (node, key) in enumerate(places(CASES[name])):
+    applied, step = 0, 15 if name == SLOW and not FULL else 1
+    for k, (node, key) in list(enumerate(places(CASES[name])))[::step]:
         for is_key in (True, False):
             word = key if is_key else node[key]
             if not isinstance(word, str) or len(word) < 3 or (not is_key and key == "title"):
@@ -70,4 +73,4 @@ def test_suggestions_remove_the_fault(name: str) -> None:
                 # another valid formula, such as pi for pi*h, may lead to other faults
                 left = [text for text in left if f"'{part}'" in text]
             assert left == [], f"{wrong!r} of {word!r} at {key!r}: {part!r} as {meant!r}"
-    assert applied > 20
+    assert applied > 20 / step

@@ -1,14 +1,13 @@
 """Equal cranks on one rod: redundant constraints, and change points that the motion decides."""
 
-import os
-
 import kempe as kp
 import numpy as np
 import pytest
 from singular.equal_cranks import ASTRAY, T_END, cranks, error, outcome, run
+from sizes import count
 
-#: All 200 sets take a minute: ``KEMPE_SINGULAR=full``.
-SETS = range(200 if os.environ.get("KEMPE_SINGULAR") == "full" else 18)
+#: All 200 sets take a minute: ``KEMPE_FULL=1``.
+SETS = range(count(18, 200))
 
 
 def test_random_sets_pass_or_stop_with_an_error() -> None:

@@ -1,17 +1,15 @@
 """Every method passes change points: garage doors and random linkages, on their branch.
 
-KEMPE_SINGULAR=full takes all 40 linkages instead of one of each kind.
+KEMPE_FULL=1 takes all 40 linkages instead of one of each kind.
 """
-
-import os
 
 import kempe as kp
 import numpy as np
 import pytest
 from singular.every_method import LINKAGES, METHODS, compared, verdict
 from singular.linkages import four_bar
+from sizes import FULL
 
-FULL = os.environ.get("KEMPE_SINGULAR") == "full"
 CHOSEN = [n for n in LINKAGES if FULL or n.startswith("garage") or n.endswith(" 0")]
 
 

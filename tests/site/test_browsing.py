@@ -8,9 +8,10 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from sizes import only_full
 
 #: One process builds the site.
-pytestmark = pytest.mark.xdist_group("site")
+pytestmark = [pytest.mark.xdist_group("site"), only_full]
 
 WINDOWS = {"desktop": (1360, 900), "phone": (390, 844)}
 

@@ -10,9 +10,10 @@ import pytest
 from docs.pages import PAGES
 from house.places import ROOT
 from kempe import _core
+from sizes import only_full
 
 #: One process builds the site.
-pytestmark = pytest.mark.xdist_group("site")
+pytestmark = [pytest.mark.xdist_group("site"), only_full]
 
 #: Largest size of the site without videos, bytes.
 LARGEST = 20_000_000

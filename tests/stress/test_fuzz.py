@@ -8,9 +8,10 @@ from pathlib import Path
 
 import kempe as kp
 import pytest
+from sizes import count
 from stress.fuzz import STAGES, Outcome, passage, run
 
-RUNS = 400
+RUNS = count(400, 2000)
 
 
 @pytest.fixture(scope="module")

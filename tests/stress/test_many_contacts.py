@@ -8,8 +8,7 @@ import time
 import kempe as kp
 import numpy as np
 import pytest
-
-pytestmark = pytest.mark.alone
+from sizes import count
 
 
 def points(n: int, high: float, spread: float, **law: float) -> tuple[kp.Model, kp.State]:
@@ -50,12 +49,15 @@ def seconds(n: int, high: float, spread: float = 0.0, **law: float) -> float:
 def test_a_thousand_contacts_cost_linear_time(high: float, law: dict[str, float]) -> None:
     # 16 times as many: linear 16, quadratic 256. 250 contacts fit into a cache near the core, 4000
     # do not: measured 23 to 52 on one machine; another took 38 times as long for 8 times as many
-    assert seconds(4000, high, **law) < 128 * seconds(250, high, **law)
+    few = count(100, 250)
+    assert seconds(16 * few, high, **law) < 128 * seconds(few, high, **law)
 
 
 def test_hits_at_different_instants_cost_quadratic_time() -> None:
     # 4 times as many steps, each 4 times as long: quadratic 16, cubic 64
-    assert seconds(240, 0.1, 1e-6, restitution=0.5) < 40 * seconds(60, 0.1, 1e-6, restitution=0.5)
+    few = count(40, 60)
+    many = seconds(4 * few, 0.1, 1e-6, restitution=0.5)
+    assert many < 40 * seconds(few, 0.1, 1e-6, restitution=0.5)
 
 
 @pytest.mark.parametrize("n", [1, 2, 3, 5, 10, 17, 50])

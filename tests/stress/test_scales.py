@@ -10,6 +10,7 @@ from typing import Any
 import kempe as kp
 import numpy as np
 import pytest
+from sizes import count
 from stress.mechanisms import KINDS
 
 SCALE = 2.0**-30
@@ -49,7 +50,7 @@ def outcome(model: kp.Model, held: dict[str, float], guess: dict[str, float], t_
 
 
 @pytest.mark.filterwarnings("ignore::kempe.AssemblyWarning")
-@pytest.mark.parametrize("seed", range(60))
+@pytest.mark.parametrize("seed", range(count(20, 60)))
 def test_the_motion_is_the_same_at_a_billionth_of_the_size(seed: int) -> None:
     random = np.random.default_rng(seed)
     drawn = list(KINDS.values())[seed % len(KINDS)](random)

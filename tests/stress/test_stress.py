@@ -10,10 +10,11 @@ from functools import partial
 import kempe as kp
 import numpy as np
 import pytest
+from sizes import count
 from stress.mechanisms import KINDS
 from stress.trial import CLOSED, Outcome, gap, judge, judge_error, run
 
-RUNS = 3000
+RUNS = count(1000, 3000)
 #: Runs that had faults, which have been corrected.
 FOUND = {
     435: "success with numbers that are not finite",

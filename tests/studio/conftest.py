@@ -12,7 +12,10 @@ from studio.window import Studio
 
 sync_api = pytest.importorskip("playwright.sync_api", reason="the package playwright is missing")
 
-PAGE = Path(__file__).parents[2] / "studio" / "dist" / "index.html"
+ROOT = Path(__file__).parents[2]
+PAGE = ROOT / "studio" / "dist" / "index.html"
+#: The case with which a page begins.
+FIRST = ROOT / "examples" / "four_bar.toml"
 
 
 @pytest.fixture(scope="session")
@@ -47,11 +50,11 @@ def check_silence(one: Studio, pages: int) -> None:
 
 
 @pytest.fixture
-def studio(
+def fresh(
     built: None,  # noqa: ARG001 - without the page no browser is started
     browser: "sync_api.Browser",
 ) -> Iterator[Callable[..., Studio]]:
-    """Open the studio in a window of a size; what it complains of, or requests, fails the test."""
+    """Open the studio in a new window of a size; its complaints and requests fail the test."""
     windows: list[Studio] = []
 
     def open_studio(width: int = 1280, height: int = 800, **more: Any) -> Studio:
@@ -74,6 +77,30 @@ def lasting(
     one = opened(browser, viewport={"width": 1280, "height": 800}, accept_downloads=True)
     yield one
     one.page.context.close()
+
+
+@pytest.fixture
+def studio(lasting: Studio) -> Iterator[Callable[..., Studio]]:
+    """The lasting window in a size, as it opens: in *Edit*, with the first example."""
+    lasting.messages.clear()
+    lasting.requests.clear()
+
+    def reset(width: int = 1280, height: int = 800) -> Studio:
+        lasting.page.set_viewport_size({"width": width, "height": height})
+        lasting.page.keyboard.press("Escape")
+        if lasting.page.locator("#guide-leave").count():
+            lasting.page.locator("#guide-leave").click()
+        lasting.load(FIRST.read_text(encoding="utf-8"))
+        lasting.page.locator("#tab-main").click()
+        lasting.page.locator("#length-unit").select_option("m")
+        lasting.settle()
+        return lasting
+
+    yield reset
+    try:
+        check_silence(lasting, 0)
+    finally:
+        reset()  # the next test may take the window as it is
 
 
 @pytest.fixture

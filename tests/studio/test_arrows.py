@@ -63,6 +63,7 @@ def test_arrows_have_the_forces_and_velocities_of_the_run(one: Studio, tmp_path:
 def test_the_length_of_an_arrow_is_its_share_of_the_largest(one: Studio, tmp_path: Path) -> None:
     one.load(CASE.read_text(encoding="utf-8"))
     one.mode("read")
+    one.page.get_by_label("Reactions", exact=True).uncheck()
     show(one, 0.4, "Velocities")
     texts(one, tmp_path, 2)
     picture = drawing(one, tmp_path)

@@ -182,7 +182,6 @@ def test_points_of_a_table_in_another_file_are_in_the_text(tmp_path: Path) -> No
     assert kempe.load(alone).tree()["tables"]["lift"]["y"] == [0, 2, 3]
 
 
-@pytest.mark.alone
 def test_the_server_serves_the_page_on_loopback_only(carried: Path) -> None:
     code = (
         "import sys; from pathlib import Path; from kempe.studio import page\n"

@@ -1,10 +1,11 @@
-"""The runs of all examples in the page are those of the native core."""
+"""The runs of the examples in the page are those of the native core."""
 
 from pathlib import Path
 
 import kempe as kp
 import numpy as np
 import pytest
+from sizes import some
 from studio.window import Studio
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -44,7 +45,10 @@ def sizes(names: list[str], rows: np.ndarray) -> np.ndarray:
     return np.where(angles, np.maximum(peaks, 1.0), peaks[~angles].max() or 1.0)
 
 
-@pytest.mark.parametrize("name", [path.stem for path in sorted(EXAMPLES.glob("*.toml"))])
+NAMES = [path.stem for path in sorted(EXAMPLES.glob("*.toml"))]
+
+
+@pytest.mark.parametrize("name", some(NAMES, 16))
 def test_an_example_runs_in_the_page_as_in_python(one: Studio, tmp_path: Path, name: str) -> None:
     path = tmp_path / f"{name}.toml"
     path.write_text(text_of(EXAMPLES / path.name), encoding="utf-8")

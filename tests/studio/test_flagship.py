@@ -86,8 +86,8 @@ def prescribe(one: Studio, name: str, value: str) -> None:
     one.settle()
 
 
-def test_the_flagship_is_drawn_released_and_read(studio: Opener, tmp_path: Path) -> None:
-    one = studio(accept_downloads=True)
+def test_the_flagship_is_drawn_released_and_read(fresh: Opener, tmp_path: Path) -> None:
+    one = fresh(accept_downloads=True)
     draw_linkage(one)
     write_properties(one)
     prescribe(one, "crank.angle", "70*deg")

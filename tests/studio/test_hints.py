@@ -8,8 +8,8 @@ def hint(one: Studio) -> str:
     return found.inner_text() if found.count() else ""
 
 
-def test_each_mode_and_kind_of_tool_has_its_hint_once(studio: Opener) -> None:
-    one = studio()
+def test_each_mode_and_kind_of_tool_has_its_hint_once(fresh: Opener) -> None:
+    one = fresh()
     found = [hint(one)]
     for use in ("bar", "ground", "torsion_spring", "body", "point_mass"):
         one.tool(use)
@@ -24,8 +24,8 @@ def test_each_mode_and_kind_of_tool_has_its_hint_once(studio: Opener) -> None:
         assert hint(one) == ""
 
 
-def test_a_hint_is_dismissed_and_stays_so_after_a_reload(studio: Opener) -> None:
-    one = studio()
+def test_a_hint_is_dismissed_and_stays_so_after_a_reload(fresh: Opener) -> None:
+    one = fresh()
     assert hint(one)
     one.page.locator("#hint button").click()
     assert hint(one) == ""
@@ -35,8 +35,8 @@ def test_a_hint_is_dismissed_and_stays_so_after_a_reload(studio: Opener) -> None
     one.requests.remove(one.page.url)  # the page was loaded twice
 
 
-def test_without_storage_hints_are_remembered_while_the_page_is_open(studio: Opener) -> None:
-    one = studio()
+def test_without_storage_hints_are_remembered_while_the_page_is_open(fresh: Opener) -> None:
+    one = fresh()
     one.page.add_init_script(
         "Object.defineProperty(window, 'localStorage', { get() { throw new Error('none'); } })"
     )
@@ -50,9 +50,9 @@ def test_without_storage_hints_are_remembered_while_the_page_is_open(studio: Ope
     assert hint(one)
 
 
-def test_a_hint_covers_neither_the_drawing_nor_a_control(studio: Opener) -> None:
+def test_a_hint_covers_neither_the_drawing_nor_a_control(fresh: Opener) -> None:
     for window in ((1280, 800), (390, 844)):
-        one = studio(*window)
+        one = fresh(*window)
         box = one.page.locator("#hint").bounding_box()
         assert box
         others = one.page.locator("canvas#sheet, header button, .tabs button, .tab-body input")

@@ -19,14 +19,14 @@ def saved(one: Studio, path: Path) -> Path:
     return path
 
 
-def test_a_saved_page_opens_with_the_case_and_computes(studio: Opener, tmp_path: Path) -> None:
+def test_a_saved_page_opens_with_the_case_and_computes(fresh: Opener, tmp_path: Path) -> None:
     case = EXAMPLES / "slider_crank.toml"
     text = case.read_text(encoding="utf-8") + "# </script><script>alert(1)</script>\n"
-    one = studio(accept_downloads=True)
+    one = fresh(accept_downloads=True)
     one.load(text)
     one.mode("read")  # what is drawn in the page by now is not saved
     first = saved(one, tmp_path / "first.html")
-    two = studio(page=first, accept_downloads=True)
+    two = fresh(page=first, accept_downloads=True)
     assert two.toml() == text
     assert two.page.locator("#mode-edit").get_attribute("aria-checked") == "true"
     angle = kp.load(case).start()["rod.angle"]

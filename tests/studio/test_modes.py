@@ -63,9 +63,9 @@ devices = pytest.mark.parametrize(("window", "hand"), [DESKTOP, PHONE], ids=["de
 
 @devices
 def test_a_crank_is_dragged_through_a_turn_on_one_branch(
-    studio: Opener, window: dict[str, Any], hand: type[Mouse | Finger]
+    studio: Opener, fresh: Opener, window: dict[str, Any], hand: type[Mouse | Finger]
 ) -> None:
-    one = studio(**window)
+    one = fresh(**window) if hand is Finger else studio(**window)
     assert one.load(CRANK_ROCKER)["problems"] == []
     one.mode("move")
     angles = [math.radians(30 + 15 * k) for k in range(25)]
@@ -80,9 +80,9 @@ def test_a_crank_is_dragged_through_a_turn_on_one_branch(
 
 @devices
 def test_a_crank_that_cannot_turn_stops_at_its_dead_point(
-    studio: Opener, window: dict[str, Any], hand: type[Mouse | Finger]
+    studio: Opener, fresh: Opener, window: dict[str, Any], hand: type[Mouse | Finger]
 ) -> None:
-    one = studio(**window)
+    one = fresh(**window) if hand is Finger else studio(**window)
     one.load(
         CRANK_ROCKER.replace("length = 3.5,", "length = 2.5,").replace("length = 3,", "length = 2,")
     )

@@ -49,13 +49,13 @@ def test_the_gallery_opens_an_example(studio: Opener) -> None:
     assert one.toml() == (EXAMPLES / "pendulum.toml").read_text(encoding="utf-8")
 
 
-def test_a_link_holds_the_model(studio: Opener) -> None:
+def test_a_link_holds_the_model(studio: Opener, fresh: Opener) -> None:
     one = studio()
     text = (EXAMPLES / "slider_crank.toml").read_text(encoding="utf-8")
     one.load(text)
     one.page.locator("#share").click()
     address = one.page.locator("#link").input_value()
-    other = studio(link="#" + address.split("#")[1])
+    other = fresh(link="#" + address.split("#")[1])
     assert other.toml() == text
 
 
@@ -83,8 +83,8 @@ def test_the_licences_of_the_software_in_the_page(studio: Opener) -> None:
         "#m=" + 70_000 * "A",
     ],
 )
-def test_a_hostile_link_gives_a_message(studio: Opener, hostile: str) -> None:
-    one = studio(link=hostile)
+def test_a_hostile_link_gives_a_message(fresh: Opener, hostile: str) -> None:
+    one = fresh(link=hostile)
     assert "link" in one.message()
     assert "Four-bar" in one.page.locator("h1").inner_text()
 

@@ -41,7 +41,6 @@ def same(one: kp.SweepResult, two: kp.SweepResult) -> None:
     assert one.reasons == two.reasons
 
 
-@pytest.mark.alone
 def test_a_killed_sweep_resumes(folder: Path) -> None:
     path = folder / "sweep.db"
     with subprocess.Popen([sys.executable, "-c", SCRIPT, str(path)]) as child:
@@ -113,7 +112,6 @@ def test_an_interruption_keeps_what_is_finished(case: kp.Case, folder: Path) -> 
     same(whole, kp.sweep(case, given, ["pin.max"]))
 
 
-@pytest.mark.alone
 def test_an_interruption_within_a_block_arrives_at_once(folder: Path) -> None:
     script = SCRIPT.replace("flagship(8.0)", "flagship(5000.0)")
     with subprocess.Popen(

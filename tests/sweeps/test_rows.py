@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from house.places import ROOT
 from kempe import _core
+from sizes import only_full
 from sweeps.conftest import flagship
 
 #: Statistics that the core computes without Python.
@@ -106,7 +107,10 @@ def test_a_frequency_and_an_energy_are_those_of_single_runs(case: kp.Case) -> No
     same(kp.sweep(case, {"k": [8e5, 1e6]}, texts), [0, 1])
 
 
-@pytest.mark.parametrize("name", ["slider_crank", "geneva_drive", "slamming_door", "trebuchet"])
+LONG = pytest.param("geneva_drive", marks=only_full)
+
+
+@pytest.mark.parametrize("name", ["slider_crank", LONG, "slamming_door", "trebuchet"])
 def test_other_examples_equal_single_runs(name: str) -> None:
     case = kp.load(ROOT / "examples" / f"{name}.toml")
     parameter = next(iter(case.model.parameters))

@@ -69,7 +69,6 @@ def test_one_window_has_no_pole() -> None:
     assert not swept(1).remarks
 
 
-@pytest.mark.alone
 @pytest.mark.parametrize("options", [{"out": "sweep.db"}, {"scheduler": "dask", "workers": 1}])
 def test_remarks_pass_through_files_and_processes(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, options: dict[str, object]

@@ -6,6 +6,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from house.places import ROOT
+from motions import results
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
@@ -146,7 +147,7 @@ CLEAR, SOFT = 5e-5, 2e6
 
 @pytest.fixture(scope="module")
 def geneva() -> kp.Solution:
-    return example("geneva_drive").run()["turns"]
+    return results("geneva_drive")["turns"]
 
 
 def of_pin(sol: kp.Solution) -> tuple[np.ndarray, np.ndarray]:
