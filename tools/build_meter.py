@@ -15,6 +15,7 @@ import argparse
 import os
 import platform
 import re
+import subprocess
 import sys
 from collections import Counter
 from pathlib import Path
@@ -208,7 +209,7 @@ def main(arguments: list[str]) -> int:
     }
     try:
         return run[chosen.command]()
-    except (FileNotFoundError, ValueError) as error:
+    except (FileNotFoundError, ValueError, subprocess.CalledProcessError) as error:
         print(error, file=sys.stderr)
         return 1
 
