@@ -146,14 +146,16 @@ impl<const N: usize, S: Real> Mul for Series<N, S> {
 }
 impl<const N: usize, S: Real> Div for Series<N, S> {
     type Output = Self;
+    #[inline]
     fn div(self, o: Self) -> Self {
-        let mut quotient = self.0;
-        for k in 0..N {
+        let (mut quotient, inverse) = (self.0, S::one() / o.0[0]);
+        quotient[0] = quotient[0] / o.0[0];
+        for k in 1..N {
             for j in 0..k {
                 let before = quotient[j];
                 quotient[k] -= before * o.0[k - j];
             }
-            quotient[k] = quotient[k] / o.0[0];
+            quotient[k] = quotient[k] * inverse;
         }
         Self(quotient)
     }
@@ -277,6 +279,10 @@ impl<const N: usize, S: Real> Real for Series<N, S> {
     }
     fn of_lanes(values: [f64; 4]) -> Self {
         Self::lift(S::of_lanes(values))
+    }
+    fn is_constant(self) -> bool {
+        let zero = |x: &S| x.is_constant() && x.largest_magnitude() == 0.0;
+        self.0[0].is_constant() && self.0[1..].iter().all(zero)
     }
     fn is_finite(self) -> bool {
         self.0.iter().all(|x| x.is_finite())
