@@ -8,6 +8,8 @@
 
 SETUP_FAILED=5
 RUST_MINOR=85 # rust-version = "1.85" in Cargo.toml
+# The profile of Cargo.toml with which the core is built: the one that compiles fast, or that of wheels, `release`.
+PROFILE=${KEMPE_PROFILE:-checkout}
 FIRST_BUILD="about two minutes" # measured on two processors; README.md and docs say the same
 
 VENV=$ROOT/.venv
@@ -86,7 +88,7 @@ choose_instructions() {
 sources_sum() {
     (
         cd "$ROOT" && choose_instructions && {
-            printf '%s\n' "${RUSTFLAGS:-}"
+            printf '%s\n' "$PROFILE ${RUSTFLAGS:-}"
             find .cargo Cargo.toml Cargo.lock pyproject.toml core drawing bindings/python \
                 \( -path core/tests -o -path drawing/tests -o -path core/benches -o -name target \) -prune -o \
                 -type f -exec cksum {} + | LC_ALL=C sort
@@ -316,5 +318,5 @@ compile() (
     unset CONDA_PREFIX
     export VIRTUAL_ENV="$VENV"
     choose_instructions
-    "$VENV/bin/python" -m maturin develop --profile checkout --locked --skip-install
+    "$VENV/bin/python" -m maturin develop --profile "$PROFILE" --locked --skip-install
 )

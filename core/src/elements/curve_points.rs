@@ -54,23 +54,45 @@ impl<S: Real> CurvePoints<S> {
         })
     }
 
+    /// x and y over the chord length as numbers, if they are known and the points have no derivatives. They need not
+    /// be solved for a scalar with derivatives that concern other quantities.
+    fn numbers(&self) -> Option<&Both<f64>> {
+        let known = self.before.as_ref()?.downcast_ref()?;
+        self.points.iter().all(|s| s.x.is_constant() && s.y.is_constant()).then_some(known)
+    }
+
     /// The ends of u.
     pub(super) fn range(&self) -> [S; 2] {
-        let knots = self.splines()[0].knots();
-        [S::of_base(knots[0]), S::of_base(knots[knots.len() - 1])]
+        if let Some([x, _]) = self.numbers() {
+            return ends(x.knots(), S::constant);
+        }
+        ends(self.splines()[0].knots(), S::of_base)
     }
 
     /// The values of u at the points.
     pub(super) fn knots(&self) -> Vec<f64> {
-        self.splines()[0].knots().iter().map(|u| u.in_lanes()[0]).collect()
+        match self.numbers() {
+            Some([x, _]) => x.knots().to_vec(),
+            None => self.splines()[0].knots().iter().map(|u| u.in_lanes()[0]).collect(),
+        }
     }
 
     /// C, C′, C″ and C‴ at u.
     pub(super) fn derivatives(&self, u: S) -> [Local<S>; 4] {
+        if let Some([x, y]) = self.numbers() {
+            return together(x.derivatives(u, S::constant), y.derivatives(u, S::constant));
+        }
         let [x, y] = self.splines();
-        let [x, y] = [x.derivatives::<S, 4>(u, S::of_base), y.derivatives(u, S::of_base)];
-        indexed(|n| Local::new(x[n], y[n]))
+        together(x.derivatives(u, S::of_base), y.derivatives(u, S::of_base))
     }
+}
+
+fn ends<B: Copy, S>(knots: &[B], lift: fn(B) -> S) -> [S; 2] {
+    [lift(knots[0]), lift(knots[knots.len() - 1])]
+}
+
+fn together<S: Real>(x: [S; 4], y: [S; 4]) -> [Local<S>; 4] {
+    indexed(|n| Local::new(x[n], y[n]))
 }
 
 /// The splines of x and y through points.

@@ -71,6 +71,7 @@ pub struct Linearized<'a, S> {
 
 impl<S: Real> Linearized<'_, S> {
     /// Sets Φ, Φ̇ and γ of `M` equations, and their columns.
+    #[allow(clippy::manual_memcpy)] // a copy of slices is not inlined without optimisation across crates
     #[inline(always)]
     pub fn put<const M: usize, const COLUMNS: usize>(
         self,

@@ -37,6 +37,7 @@ impl Piecewise {
     }
 
     /// Its number of operands.
+    #[inline]
     pub fn operands(self) -> usize {
         match self {
             Self::Choose(_) => 3,
@@ -66,6 +67,7 @@ impl Piecewise {
     }
 
     /// σ.
+    #[inline]
     pub fn function<S: Real>(self, operands: &[S]) -> S {
         match self {
             Self::Choose(_) | Self::Unary(_) => operands[0],
@@ -86,6 +88,7 @@ impl Piecewise {
     }
 
     /// The value, with the piece determined by the operands.
+    #[inline]
     pub fn value<S: Real>(self, x: &[S]) -> S {
         match self {
             Self::Choose(relation) => relation.choose(x[0], x[1], x[2]),
@@ -99,6 +102,7 @@ impl Piecewise {
     }
 
     /// The value on a piece, which extends smoothly beyond its boundaries.
+    #[inline]
     pub fn value_on<S: Real>(self, piece: f64, x: &[S]) -> S {
         match self {
             Self::Choose(relation) => relation.choose(S::constant(piece), x[1], x[2]),

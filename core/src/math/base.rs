@@ -52,7 +52,7 @@ macro_rules! is_base {
     };
 }
 pub(crate) use is_base;
-is_base!(Lanes, Interval, Dual<1>, Dual<1, Interval>, Dual<6>, Dual<6, Dual<6>>);
+is_base!(Lanes, Interval, Dual<1, Interval>);
 
 impl OverBase for f64 {
     type Base = Self;

@@ -231,6 +231,14 @@ where
         Self { value, slope }
     }
     #[inline]
+    fn is_constant(self) -> bool {
+        let mut constant = self.value.is_constant();
+        for d in self.slope {
+            constant &= d.is_constant() && d.largest_magnitude() == 0.0;
+        }
+        constant
+    }
+    #[inline]
     fn is_finite(self) -> bool {
         let mut finite = self.value.is_finite();
         for d in self.slope {

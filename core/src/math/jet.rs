@@ -239,6 +239,14 @@ impl<S: Real> Real for Jet<S> {
         Self::new(value, rate, (after - value - value + before) / S::constant(tau * tau))
     }
     #[inline]
+    fn is_constant(self) -> bool {
+        let mut constant = self.value.is_constant();
+        for d in [self.rate, self.second] {
+            constant &= d.is_constant() && d.largest_magnitude() == 0.0;
+        }
+        constant
+    }
+    #[inline]
     fn is_finite(self) -> bool {
         self.value.is_finite() && self.rate.is_finite() && self.second.is_finite()
     }

@@ -81,6 +81,10 @@ pub trait Real:
     }
     /// Whether every part is finite, including derivatives.
     fn is_finite(self) -> bool;
+    /// Whether all derivatives are zero.
+    fn is_constant(self) -> bool {
+        true
+    }
     /// A function of which only values are available. Derivatives are finite differences. NaN for a scalar without
     /// values.
     fn of_values(f: &dyn Fn(&[f64]) -> f64, x: &[Self]) -> Self {

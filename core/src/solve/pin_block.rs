@@ -4,6 +4,8 @@
 //! With W⁻¹ = diag(d₀⁻¹, d₁⁻¹, 0) + d₂⁻¹ e eᵀ, the product with another pair is ±diag(d₀⁻¹, d₁⁻¹) + d₂⁻¹ ρ ρ′ᵀ, where
 //! ρ = [±I b] e. The functions are generic in the block size because their callers are; they are meant for two rows.
 
+#![allow(clippy::needless_range_loop)] // as in block.rs
+
 use super::mass_block::InverseMass;
 use crate::math::{each, indexed, Real};
 

@@ -11,6 +11,8 @@
 //! ratio near 1e-16, whatever its scale. A mechanism near a singular position leaves a small ratio, which
 //! [`Saddle::cancellation`] returns.
 
+#![allow(clippy::needless_range_loop)] // as in block.rs
+
 use super::block::{
     add, columns, factorise, forward, part, part_mut, scaled, store, subtract, subtract_times,
     DiagonalBlock, DiagonalFactor, TransformedRow,

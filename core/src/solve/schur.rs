@@ -4,6 +4,8 @@
 //! The row blocks are independent of each other here. The owner may add the row blocks of [`Pattern::pin_rows`] one
 //! by one while it computes their numbers. The others are read from the entries.
 
+#![allow(clippy::needless_range_loop)] // as in block.rs
+
 use super::block::{
     add, add_times, part, part_mut, subtract_transposed, DiagonalBlock, TransformedRow,
 };

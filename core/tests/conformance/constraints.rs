@@ -42,7 +42,7 @@ fn the_jacobian_is_that_of_dual_numbers() {
         let (_, columns) = terms(c, at, TIME);
         let m = c.equations().len();
         for coordinate in 0..width(c) {
-            type D = Dual<1>;
+            type D = Dual<3>;
             let mut seeded = at.map(D::lift);
             let bodies = seeded.bodies.len();
             let seed = match seeded.bodies.get_mut(coordinate / 3) {
@@ -326,12 +326,12 @@ fn duals_over_a_parameter_are_differences() {
             let dual = c.map(&mut |x| {
                 k += 1;
                 if k - 1 == parameter {
-                    Dual::<1>::variable(*x, 0)
+                    Dual::<3>::variable(*x, 0)
                 } else {
                     Dual::lift(*x)
                 }
             });
-            let (derived, _) = terms(&dual, &at.map(Dual::<1>::lift), Dual::lift(TIME));
+            let (derived, _) = terms(&dual, &at.map(Dual::<3>::lift), Dual::lift(TIME));
             // a step that suits a function near a singular place crosses the jump of another
             let steps = [1e-4, 1e-5, 1e-6, 1e-7].map(|h| {
                 let [far_down, down, up, far_up] = [-2.0, -1.0, 1.0, 2.0].map(|k| moved(k * h));

@@ -162,12 +162,12 @@ fn duals_over_a_parameter_are_differences() {
             let dual = f.map(&mut |x| {
                 k += 1;
                 if k - 1 == parameter {
-                    Dual::<1>::variable(*x, 0)
+                    Dual::<3>::variable(*x, 0)
                 } else {
                     Dual::lift(*x)
                 }
             });
-            let over = |s: [f64; 6]| s.map(Dual::<1>::lift);
+            let over = |s: [f64; 6]| s.map(Dual::<3>::lift);
             let derived = flat(&actions(&dual, &at(over(i), over(j))));
             for ((up, down), d) in moved(h).iter().zip(moved(-h)).zip(derived) {
                 close(f.kind(), d.slope[0], (up - down) / (2.0 * h), 1e-7);

@@ -58,7 +58,7 @@ fn where_the_points_meet_the_force_is_finite_and_damps() {
 #[test]
 fn the_slope_without_a_free_length_is_the_stiffness_even_where_the_points_meet() {
     for x in [0.0, 1e-200, 1e-9, 0.3] {
-        let there = together(Dual::<1>::variable(x, 0));
+        let there = together(Dual::<3>::variable(x, 0));
         let e = SpringDamper::map(&spring(0.0), &mut |s| Dual::lift(*s));
         let [_, stiffness, ..] = action(&e, &there);
         assert_eq!(stiffness.force.x.value, -50.0 * x);

@@ -38,7 +38,7 @@ fn derivatives_by_parameters_are_those_of_differences() {
     let at = |r: f64, h: f64| numbers(&Model::new(&model.blueprint, &[r, h]));
     for k in 0..2 {
         let seed = |j: usize, x: f64| match j == k {
-            true => Dual::<1>::variable(x, 0),
+            true => Dual::<3>::variable(x, 0),
             false => Dual::constant(x),
         };
         let exact = numbers(&Model::new(&model.blueprint, &[seed(0, 0.3), seed(1, 0.1)]));

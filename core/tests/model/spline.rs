@@ -132,8 +132,8 @@ fn derivatives_to_a_point_are_differences() {
             y[2] += h;
             Spline::new(kind, false, &X, &y).value(1.7, |c| c)
         };
-        let x = X.map(Dual::<1>::constant);
-        let mut y = Y.map(Dual::<1>::constant);
+        let x = X.map(Dual::<3>::constant);
+        let mut y = Y.map(Dual::<3>::constant);
         y[2] = Dual::variable(Y[2], 0);
         let value = Spline::new(kind, false, &x, &y).value(Dual::constant(1.7), |c| c);
         close(value.slope[0], (moved(1e-6) - moved(-1e-6)) / 2e-6, 1e-8);

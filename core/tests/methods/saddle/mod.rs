@@ -334,15 +334,15 @@ fn dual_solutions_carry_the_derivative() {
         moved.saddle(&pattern).factor_and_solve(&pattern, &mut x).unwrap();
         x
     };
-    let dual = |value: f64, slope: f64| Dual { value, slope: [slope] };
-    let mut saddle = Saddle::<Dual<1>>::new(&pattern);
+    let dual = |value: f64, slope: f64| Dual { value, slope: [slope, 0.0, 0.0] };
+    let mut saddle = Saddle::<Dual<3>>::new(&pattern);
     for ((mass, d), s) in saddle.masses.iter_mut().zip(&m.masses).zip(&drift) {
         *mass = inverse_mass(&std::array::from_fn(|c| dual(d[c], s[c])));
     }
     for ((row, e), s) in saddle.entries.iter_mut().zip(&m.entries).zip(&slope) {
         *row = std::array::from_fn(|c| dual(e[c], s[c]));
     }
-    let mut x: Vec<Dual<1>> = b.iter().map(|&b| Dual::constant(b)).collect();
+    let mut x: Vec<Dual<3>> = b.iter().map(|&b| Dual::constant(b)).collect();
     saddle.factor_and_solve(&pattern, &mut x).unwrap();
     let h = 1e-4;
     let sample = [at(-2.0 * h), at(-h), at(h), at(2.0 * h)];

@@ -74,8 +74,8 @@ fn duals_match_central_differences() {
     for (text, points) in CASES {
         let tape = tape(text);
         for &(a, b) in *points {
-            let by_a = at(&tape, Dual::<1>::variable(a, 0), Dual::constant(b));
-            let by_b = at(&tape, Dual::<1>::constant(a), Dual::variable(b, 0));
+            let by_a = at(&tape, Dual::<3>::variable(a, 0), Dual::constant(b));
+            let by_b = at(&tape, Dual::<3>::constant(a), Dual::variable(b, 0));
             let slope_a = (at(&tape, a + h, b) - at(&tape, a - h, b)) / (2.0 * h);
             let slope_b = (at(&tape, a, b + h) - at(&tape, a, b - h)) / (2.0 * h);
             assert_close(text, "value", by_a.value, at(&tape, a, b), 1e-14);
@@ -124,20 +124,20 @@ fn scalars_nest() {
     let b = Lanes::new([1.0, 1.0, 1.0, 4.0]);
     let nested = at(
         &tape,
-        Dual::<1, _>::variable(a, 0),
-        Dual::constant(1.0) + Dual { value: b - Lanes::one(), slope: [Lanes::zero()] },
+        Dual::<3, _>::variable(a, 0),
+        Dual::constant(1.0) + Dual { value: b - Lanes::one(), slope: [Lanes::zero(); 3] },
     );
     let ([a, b], [value, slope]) =
         ([a, b].map(Lanes::to_array), [nested.value, nested.slope[0]].map(Lanes::to_array));
     for k in 0..4 {
-        let plain = at(&tape, Dual::<1>::variable(a[k], 0), Dual::constant(b[k]));
+        let plain = at(&tape, Dual::<3>::variable(a[k], 0), Dual::constant(b[k]));
         assert_eq!((value[k], slope[k]), (plain.value, plain.slope[0]));
     }
 }
 
 #[test]
 fn kinks_have_symmetric_derivatives() {
-    let slope = |text, a, b| at(&tape(text), Dual::<1>::variable(a, 0), Dual::constant(b)).slope[0];
+    let slope = |text, a, b| at(&tape(text), Dual::<3>::variable(a, 0), Dual::constant(b)).slope[0];
     assert_eq!(slope("abs(a)", 0.0, 0.0), 0.0);
     assert_eq!(slope("max(a, b)", 1.0, 1.0), 0.5);
     assert_eq!(slope("min(a, b)", 1.0, 1.0), 0.5);

@@ -26,8 +26,8 @@ fn what_depends_on_a_given_value_follows_it() {
             .unwrap();
     let sweep = parameters.evaluate(|k| (k == 1).then_some(Lanes::new([2.0, 3.0, -1.0, 0.0])));
     assert_eq!(sweep[0], Lanes::new([6.0, 12.0, 0.0, 0.0]));
-    let slope = parameters.evaluate(|k| (k == 1).then_some(Dual::<1>::variable(2.0, 0)));
-    assert_eq!(slope[0].slope, [5.0]);
+    let slope = parameters.evaluate(|k| (k == 1).then_some(Dual::<3>::variable(2.0, 0)));
+    assert_eq!(slope[0].slope, [5.0, 0.0, 0.0]);
     assert!(parameters.evaluate(|k| (k == 2).then_some(-1.0))[0].is_finite());
 }
 
