@@ -13,6 +13,7 @@ from house.places import ROOT
 from tools import build_meter
 from tools.meter import llvm_lines, machine_code, timing, v0_names
 
+POSIX = pytest.mark.skipif(os.name != "posix", reason="./kempe is a script for POSIX shells")
 LINUX = pytest.mark.skipif(sys.platform != "linux", reason="the extension is not an ELF file")
 
 LL = """; ModuleID = 'kempe'
@@ -141,27 +142,58 @@ def test_the_page_contains_the_agreed_numbers() -> None:
         build_meter.agreed("| size | ? |\n", "size")
 
 
-def test_a_check_fails_if_the_agreed_number_is_exceeded(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
+@pytest.fixture
+def checkout(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A checkout with an extension that was built by the set-up, and an agreed size of 1000."""
     page = tmp_path / build_meter.PAGE
-    page.parent.mkdir(parents=True)
+    for folder in (page.parent, tmp_path / "tools", tmp_path / "python/kempe", tmp_path / ".venv"):
+        folder.mkdir(parents=True)
     page.write_text(f"| {build_meter.CODE} | 1 000 |\n")
-    extension, stamp = tmp_path / "_core.so", tmp_path / ".venv" / "stamp-build"
-    stamp.parent.mkdir()
-    extension.touch()
-    stamp.touch()
+    shutil.copy(ROOT / "tools" / "setup.sh", tmp_path / "tools")
+    (tmp_path / "python/kempe/_core.abi3.so").touch()
     monkeypatch.setattr(build_meter, "ROOT", tmp_path)
     monkeypatch.setattr(build_meter, "why_incomparable", lambda *_: None)
-    monkeypatch.setattr(machine_code, "extension", lambda _: extension)
+    monkeypatch.setenv("KEMPE_PROFILE", "release")
+    return tmp_path
+
+
+def stamped(root: Path, profile: str) -> None:
+    """Write the stamp of a build in a profile."""
+    script = 'ROOT=$1; . "$ROOT/tools/setup.sh"; write_stamp build "$(sources_sum)"'
+    environment = os.environ | {"KEMPE_PROFILE": profile}
+    subprocess.run(
+        ["sh", "-c", script, "sh", root], env=environment, capture_output=True, check=True
+    )
+
+
+@POSIX
+def test_a_check_fails_if_the_agreed_number_is_exceeded(
+    checkout: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    stamped(checkout, build_meter.PROFILE)
     for size, code in ((1049, 0), (1051, 1)):
         monkeypatch.setattr(machine_code, "code_bytes", lambda _, size=size: size)
         assert build_meter.main(["check"]) == code
-    assert "5.1 % more" in capsys.readouterr().out
-    # an extension that is newer than the set-up may have another profile
-    os.utime(stamp, (0, 0))
-    assert build_meter.main(["check"]) == 0
-    assert "skipped" in capsys.readouterr().out
+    printed = capsys.readouterr().out
+    assert "1 049, agreed 1 000" in printed
+    assert "5.1 % more" in printed
+
+
+@POSIX
+def test_an_extension_of_another_profile_is_not_compared(
+    checkout: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for prepare in (
+        lambda: None,
+        lambda: stamped(checkout, "release"),
+        lambda: (
+            stamped(checkout, build_meter.PROFILE),
+            os.utime(checkout / ".venv/stamp-build", (0, 0)),
+        ),
+    ):
+        prepare()
+        assert build_meter.main(["check"]) == 0
+        assert "skipped, because" in capsys.readouterr().out
 
 
 def test_other_builds_are_not_compared() -> None:
@@ -176,7 +208,9 @@ def test_other_builds_are_not_compared() -> None:
 
 def test_the_profile_is_that_of_the_set_up() -> None:
     script = (ROOT / "tools" / "setup.sh").read_text(encoding="utf-8")
-    assert re.findall(r"--profile (\w+)", script) == [timing.PROFILE]
+    assert re.findall(r"^PROFILE=\$\{KEMPE_PROFILE:-(\w+)\}", script, re.MULTILINE) == [
+        build_meter.PROFILE
+    ]
 
 
 @LINUX

@@ -16,7 +16,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 
-PROFILE = "checkout"  # as in tools/setup.sh
 #: Files of the core in which one line is changed: an analysis, an equation and an element.
 CHANGED = (
     "core/src/analyses/limits.rs",
@@ -27,11 +26,17 @@ LINE = "let _changed = std::hint::black_box(17);"
 _BODY = re.compile(r"^ *(?:pub(?:\(\w+\))? )?(?:const )?fn [^;{]*\{\n", re.MULTILINE)
 _SOURCES = ("Cargo.toml", "Cargo.lock", "README.md", "core", "drawing", "bindings/python")
 _PROCESSES = 9
+# ru_maxrss contains the memory of the program that started the process, unlike VmHWM
 _IMPORT = """
-import json, resource, time
+import json, pathlib, re, resource, time
 begin = time.perf_counter()
-import kempe
-print(json.dumps([time.perf_counter() - begin, resource.getrusage(resource.RUSAGE_SELF).ru_maxrss]))
+{}
+seconds, status = time.perf_counter() - begin, pathlib.Path("/proc/self/status")
+if status.exists():
+    size = int(re.search(r"VmHWM:\\s*(\\d+)", status.read_text())[1]) << 10
+else:
+    size = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+print(json.dumps([seconds, size]))
 """
 
 
@@ -74,9 +79,9 @@ def _copy(root: Path) -> Iterator[Path]:
         shutil.rmtree(folder, ignore_errors=True)
 
 
-def _build(root: Path, tree: Path, target: Path) -> Seconds:
+def _build(root: Path, profile: str, tree: Path, target: Path) -> Seconds:
     """Build the extension in a tree, as ./kempe does."""
-    command = ["cargo", "build", "--profile", PROFILE, "--locked", "--quiet", "-p", "kempe-python"]
+    command = ["cargo", "build", "--profile", profile, "--locked", "--quiet", "-p", "kempe-python"]
     variables = {"CARGO_TARGET_DIR": str(target), "PYO3_PYTHON": python(root)}
     before, begin = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
     subprocess.run(command, cwd=tree, env=os.environ | variables, check=True)
@@ -84,7 +89,7 @@ def _build(root: Path, tree: Path, target: Path) -> Seconds:
     return Seconds(wall, after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime)
 
 
-def builds(root: Path) -> dict[str, Seconds]:
+def builds(root: Path, profile: str) -> dict[str, Seconds]:
     """Times of a build in an empty target folder, and of one after each change of a line.
 
     The changes accumulate in a copy of the working tree: each build differs from the one before by
@@ -94,23 +99,22 @@ def builds(root: Path) -> dict[str, Seconds]:
     shutil.rmtree(target, ignore_errors=True)
     try:
         with _copy(root) as tree:
-            times = {"cold": _build(root, tree, target)}
+            times = {"cold": _build(root, profile, tree, target)}
             for name in CHANGED:
                 path = tree / name
                 path.write_text(changed(path.read_text(encoding="utf-8")), encoding="utf-8")
-                times[name] = _build(root, tree, target)
+                times[name] = _build(root, profile, tree, target)
             return times
     finally:
         shutil.rmtree(target, ignore_errors=True)
 
 
-def imports(root: Path) -> tuple[float, float]:
-    """Seconds of `import kempe` and resident memory in MiB: medians of some processes."""
-    command = [python(root), "-c", _IMPORT]
+def imports(root: Path, statement: str) -> tuple[float, float]:
+    """Seconds of a statement in a new process, and its memory in MiB: medians of some processes."""
+    command = [python(root), "-c", _IMPORT.format(statement)]
     environment = os.environ | {"PYTHONPATH": str(root / "python")}
     found = [
         json.loads(subprocess.run(command, env=environment, capture_output=True, check=True).stdout)
         for _ in range(_PROCESSES)
     ]
-    unit = 1 << (20 if sys.platform == "darwin" else 10)
-    return median(seconds for seconds, _ in found), median(size for _, size in found) / unit
+    return median(seconds for seconds, _ in found), median(size for _, size in found) / (1 << 20)
