@@ -16,8 +16,9 @@ KNOWN: dict[str, list[tuple[set[str], str]]] = {
     ],
     "math": [
         (
-            {"lanes", "real", "sine"},
-            "one polynomial over Real gives the sine of f64 and of Lanes, and Real has a sine",
+            {"base", "dual", "lanes", "real", "sine"},
+            "Real has a sine, which one polynomial over Real gives for f64 and for Lanes, and a base, which is that of "
+            "Dual<3> too",
         ),
     ],
 }

@@ -4,7 +4,7 @@
 //! derivatives that the scalar adds follow from the higher derivatives by u.
 
 use crate::expression::{switch_places, Knots, Symbol, Tape, Values};
-use crate::math::{compose, indexed, Lift, Local, Real, Series};
+use crate::math::{compose, indexed, Lift, Local, Real, TaylorSeries};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// x(u) and y(u).
@@ -122,11 +122,12 @@ impl<S: Real> Formula<S> {
 
     /// The derivatives of x and y of order 0 to N - 1.
     fn orders<const N: usize>(&self, u: S::Base) -> [[S::Base; N]; 2] {
-        let lift = |x: &S| Series::lift(x.base());
+        let lift = |x: &S| TaylorSeries::lift(x.base());
         let values = self.values.iter().map(lift).collect();
         let parameters = &self.written.parameters;
-        let names = FormulaNames { parameters, values, u: Series::variable(u) };
-        let derivatives = |tape: &Tape| tape.evaluate::<Series<N, S::Base>>(&names).derivatives();
+        let names = FormulaNames { parameters, values, u: TaylorSeries::variable(u) };
+        let derivatives =
+            |tape: &Tape| tape.evaluate::<TaylorSeries<N, S::Base>>(&names).derivatives();
         [derivatives(&self.written.x), derivatives(&self.written.y)]
     }
 }

@@ -174,14 +174,14 @@ pub(super) enum ByBlock<'a, S> {
 }
 
 /// Memory for Φ, Φ̇, γ and the rows of Φ_q of one constraint.
-struct Rows<S> {
+struct RowMemory<S> {
     bodies: OfBodies<Motion<S>>,
     /// Φ, Φ̇ and γ.
     terms: Few<S, 9>,
     columns: Few<[S; 3], 9>,
 }
 
-impl<S: Real> Rows<S> {
+impl<S: Real> RowMemory<S> {
     /// Memory for `m` equations and the columns of `count` bodies or blocks.
     #[inline(always)]
     fn new(bodies: &[BodyId], motions: &Motions<S>, [m, count]: [usize; 2]) -> Self {
@@ -207,7 +207,7 @@ pub(super) fn linearize_element<E: Joint, S: Real, R>(
     let (bodies, slots) = (&model.constraints[k].bodies, &model.layout.constraints[k]);
     let (own, own_rates) = motions.own(slots.own);
     let m = slots.rows.len();
-    let mut rows = Rows::new(bodies, motions, [m, participants(bodies.len(), own.len())]);
+    let mut rows = RowMemory::new(bodies, motions, [m, participants(bodies.len(), own.len())]);
     let at = Moving { bodies: rows.bodies.all(), own, own_rates, t };
     let (residual, rest) = rows.terms.all().split_at_mut(m);
     let (rate, gamma) = rest.split_at_mut(m);
@@ -231,7 +231,7 @@ pub(super) fn linearize_one<S: Real>(
         None => participants(bodies.len(), own.len()),
         Some(_) => slots.blocks.len(),
     };
-    let mut rows = Rows::new(bodies, motions, [m, count]);
+    let mut rows = RowMemory::new(bodies, motions, [m, count]);
     let at = Moving { bodies: rows.bodies.all(), own, own_rates, t };
     let (residual, rest) = rows.terms.all().split_at_mut(m);
     let (rate, gamma) = rest.split_at_mut(m);

@@ -65,7 +65,6 @@ pub struct Workspace<S = f64> {
 const REDUNDANT: f64 = 1e-10;
 
 /// Damping with which the multipliers of redundant constraints become the smallest that balance the loads.
-#[inline]
 fn redundant_rows<S: Real>(model: &Model<S>, compiled: &Compiled<S>) -> impl Iterator<Item = S> {
     let mu = compiled.compliance() * S::constant(REDUNDANT);
     std::iter::repeat_n(mu, model.layout.n_rows)
@@ -73,14 +72,12 @@ fn redundant_rows<S: Real>(model: &Model<S>, compiled: &Compiled<S>) -> impl Ite
 
 impl<S: Real> Workspace<S> {
     /// A workspace with all memory for evaluations of this model.
-    #[inline]
     pub fn new(model: &Model<S>) -> Self {
         Self::on(model, Arc::new(Plan::of_motion(model)))
     }
 
     /// A workspace with the plan of elimination of `other`, which belongs to the same model with other numbers. It
     /// omits the rows that `other` omits.
-    #[inline]
     pub fn like<P: Real>(model: &Model<S>, other: &Workspace<P>) -> Self {
         let mut workspace = Self::on(model, Arc::clone(other.matrix.plan()));
         if !other.matrix.omitted().is_empty() {
@@ -128,7 +125,6 @@ impl<S: Real> Workspace<S> {
     }
 
     /// Whether the equations of another variant of the model, over any scalar, have the same structure.
-    #[inline]
     pub fn is_like<P: Real>(&self, other: &Workspace<P>) -> bool {
         let (plan, of_other) = (self.matrix.plan(), other.matrix.plan());
         let own = self.compiled.lent(plan.condenses);
@@ -139,13 +135,11 @@ impl<S: Real> Workspace<S> {
 
     /// Declares that no rows are damped, so that one elimination solves the equations unless forces depend on
     /// reactions.
-    #[inline]
     pub(super) fn set_direct(&mut self) {
         self.modified = self.depends;
     }
 
     /// Sets a constant `term`, shape (n_rows), which is subtracted from γ at every state.
-    #[inline]
     pub fn set_offset(&mut self, term: &[S]) {
         self.offset.clear();
         self.offset.extend_from_slice(term);

@@ -97,7 +97,6 @@ impl RadauStep {
     }
 
     /// Discards the data of earlier steps after a change of the state.
-    #[inline]
     pub fn forget(&mut self) {
         (self.h_before, self.factored, self.fresh) = (None, None, false);
     }
@@ -125,7 +124,6 @@ impl RadauStep {
 
     /// Computes the tangent at the beginning of the step, but with the positions at its middle. Because bodies
     /// rotate, this makes the iteration converge twice as fast.
-    #[inline]
     pub fn linearize<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, t: f64, h: f64) {
         let ImplicitState { q, v, .. } = &self.start;
         self.dq.iter_mut().zip(q.iter().zip(v)).for_each(|(mid, (q, v))| *mid = q + 0.5 * h * v);
@@ -361,7 +359,6 @@ impl RadauStep {
     }
 
     /// The change h Σ bᵢ powerᵢ of one quadrature.
-    #[inline]
     pub fn work(&self, k: usize, h: f64) -> f64 {
         h * (0..3).map(|i| A[2][i] * self.stages[i].powers[k]).sum::<f64>()
     }
@@ -392,7 +389,6 @@ fn coefficients<F: Field>(step: F) -> NewtonCoefficients<F> {
 }
 
 /// h divided by the complex eigenvalue.
-#[inline]
 fn complex_step(h: f64) -> Complex {
     Complex::new(COMPLEX[0], COMPLEX[1]).reciprocal() * Field::from_real(h)
 }

@@ -1,10 +1,7 @@
 //! The scalar in which the data of a model are given, below the derivatives that the equations add.
 
 use super::dual::Dual;
-use super::interval::Interval;
-use super::jet::Jet;
-use super::lanes::Lanes;
-use super::real::{Lift, Real};
+use super::real::Real;
 
 /// A scalar over its base.
 ///
@@ -52,8 +49,6 @@ macro_rules! is_base {
     };
 }
 pub(crate) use is_base;
-is_base!(Lanes, Interval, Dual<1, Interval>);
-
 impl OverBase for f64 {
     type Base = Self;
     type Three = Dual<3>;
@@ -72,48 +67,6 @@ impl OverBase for f64 {
     #[inline(always)]
     fn of_three(x: Dual<3>) -> Dual<3> {
         x
-    }
-}
-
-impl<S: Real> OverBase for Dual<3, S> {
-    type Base = S::Three;
-    type Three = S::Three;
-    #[inline]
-    fn base(self) -> S::Three {
-        S::three(self)
-    }
-    #[inline]
-    fn of_base(x: S::Three) -> Self {
-        S::of_three(x)
-    }
-    #[inline]
-    fn three(x: Dual<3, Self>) -> S::Three {
-        S::three(x.value)
-    }
-    #[inline]
-    fn of_three(x: S::Three) -> Dual<3, Self> {
-        Lift::lift(S::of_three(x))
-    }
-}
-
-impl<S: Real> OverBase for Jet<S> {
-    type Base = S::Base;
-    type Three = S::Base;
-    #[inline]
-    fn base(self) -> S::Base {
-        self.value.base()
-    }
-    #[inline]
-    fn of_base(x: S::Base) -> Self {
-        Self::lift(S::of_base(x))
-    }
-    #[inline]
-    fn three(x: Dual<3, Self>) -> S::Base {
-        x.value.value.base()
-    }
-    #[inline]
-    fn of_three(x: S::Base) -> Dual<3, Self> {
-        Lift::lift(Self::of_base(x))
     }
 }
 

@@ -110,6 +110,27 @@ impl<const N: usize, S: Real> SubAssign for Dual<N, S> {
     }
 }
 
+impl<S: Real> OverBase for Dual<3, S> {
+    type Base = S::Three;
+    type Three = S::Three;
+    #[inline]
+    fn base(self) -> S::Three {
+        S::three(self)
+    }
+    #[inline]
+    fn of_base(x: S::Three) -> Self {
+        S::of_three(x)
+    }
+    #[inline]
+    fn three(x: Dual<3, Self>) -> S::Three {
+        S::three(x.value)
+    }
+    #[inline]
+    fn of_three(x: S::Three) -> Dual<3, Self> {
+        Lift::lift(S::of_three(x))
+    }
+}
+
 impl<const N: usize, S: Real> Real for Dual<N, S>
 where
     Self: OverBase,

@@ -127,6 +127,8 @@ impl SubAssign for Interval {
     }
 }
 
+super::base::is_base!(Interval, super::dual::Dual<1, Interval>);
+
 impl Real for Interval {
     fn constant(x: f64) -> Self {
         Self { low: x, high: x }

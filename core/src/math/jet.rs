@@ -4,6 +4,8 @@
 //! sides ν and γ of the velocity and acceleration equations (Haug 3.6.10, 3.6.11), which therefore need no separate
 //! formulas.
 
+use super::base::OverBase;
+use super::dual::Dual;
 use super::real::{Lift, Real};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -98,6 +100,27 @@ impl<S: Real> SubAssign for Jet<S> {
     #[inline]
     fn sub_assign(&mut self, o: Self) {
         *self = *self - o;
+    }
+}
+
+impl<S: Real> OverBase for Jet<S> {
+    type Base = S::Base;
+    type Three = S::Base;
+    #[inline]
+    fn base(self) -> S::Base {
+        self.value.base()
+    }
+    #[inline]
+    fn of_base(x: S::Base) -> Self {
+        Self::lift(S::of_base(x))
+    }
+    #[inline]
+    fn three(x: Dual<3, Self>) -> S::Base {
+        x.value.value.base()
+    }
+    #[inline]
+    fn of_three(x: S::Base) -> Dual<3, Self> {
+        Lift::lift(Self::of_base(x))
     }
 }
 

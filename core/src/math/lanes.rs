@@ -184,6 +184,8 @@ impl SubAssign for Lanes {
     }
 }
 
+super::base::is_base!(Lanes);
+
 impl Real for Lanes {
     #[inline(always)]
     fn constant(x: f64) -> Self {

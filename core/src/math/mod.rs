@@ -3,8 +3,8 @@
 //! Every formula of the core is written once over [`Real`]. The scalar determines the result: `f64` gives a value,
 //! [`Dual`] first derivatives, [`Jet`] time derivatives, and [`Lanes`] several states or designs at once. Scalars can
 //! be nested: `Dual<3, Lanes>` gives the Jacobian of four designs. Derivatives of higher order in one variable are a
-//! [`Series`]. [`Interval`] gives bounds of all values on an
-//! interval.
+//! [`TaylorSeries`]. [`Interval`] gives bounds of all values on an interval.
+//!
 //! Linear equations may also be [`Complex`]; they require only a [`Field`].
 
 mod array;
@@ -32,5 +32,5 @@ pub use jet::Jet;
 pub use lanes::Lanes;
 pub use plane::{Lever, Local, Motion, Pose, Rotation, Twist, Vec2, Wrench};
 pub use real::{Largest, Lift, Real};
-pub use series::Series;
+pub use series::TaylorSeries;
 pub use spline::{Interpolation, Spline};

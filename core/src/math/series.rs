@@ -11,11 +11,14 @@ use super::dual::Dual;
 use super::real::{Lift, Real};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
+/// Largest exponent of a power that is computed by products; `f64` computes such powers alike.
+const MOST_PRODUCTS: f64 = 16.0;
+
 /// The coefficients of 1, x, x², … of a function near a point: its derivatives of order n divided by n!.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Series<const N: usize, S = f64>(pub [S; N]);
+pub struct TaylorSeries<const N: usize, S = f64>(pub [S; N]);
 
-impl<const N: usize, S: Real> Series<N, S> {
+impl<const N: usize, S: Real> TaylorSeries<N, S> {
     /// The independent variable at a point.
     pub fn variable(at: S) -> Self {
         let mut series = Self::lift(at);
@@ -81,6 +84,21 @@ impl<const N: usize, S: Real> Series<N, S> {
         self.compose(f)
     }
 
+    /// A power with a positive whole exponent, by squares.
+    fn whole_power(self, mut exponent: u32) -> Self {
+        let (mut result, mut square) = (Self::one(), self);
+        loop {
+            if exponent & 1 == 1 {
+                result = result * square;
+            }
+            exponent >>= 1;
+            if exponent == 0 {
+                return result;
+            }
+            square = square * square;
+        }
+    }
+
     /// Two functions whose derivatives are ± each other: d(first) = second dx, d(second) = sign first dx.
     fn pair(self, (first, second): (S, S), sign: f64) -> (Self, Self) {
         let (mut a, mut b) = (Self::lift(first), Self::lift(second));
@@ -108,7 +126,7 @@ impl<const N: usize, S: Real> Series<N, S> {
     }
 }
 
-impl<const N: usize, S: Real> Lift<S> for Series<N, S> {
+impl<const N: usize, S: Real> Lift<S> for TaylorSeries<N, S> {
     #[inline]
     fn lift(s: S) -> Self {
         let mut all = [S::zero(); N];
@@ -117,21 +135,21 @@ impl<const N: usize, S: Real> Lift<S> for Series<N, S> {
     }
 }
 
-impl<const N: usize, S: Real> Add for Series<N, S> {
+impl<const N: usize, S: Real> Add for TaylorSeries<N, S> {
     type Output = Self;
     #[inline]
     fn add(self, o: Self) -> Self {
         self.with(o, |a, b| a + b)
     }
 }
-impl<const N: usize, S: Real> Sub for Series<N, S> {
+impl<const N: usize, S: Real> Sub for TaylorSeries<N, S> {
     type Output = Self;
     #[inline]
     fn sub(self, o: Self) -> Self {
         self.with(o, |a, b| a - b)
     }
 }
-impl<const N: usize, S: Real> Mul for Series<N, S> {
+impl<const N: usize, S: Real> Mul for TaylorSeries<N, S> {
     type Output = Self;
     #[inline]
     fn mul(self, o: Self) -> Self {
@@ -144,7 +162,7 @@ impl<const N: usize, S: Real> Mul for Series<N, S> {
         Self(product)
     }
 }
-impl<const N: usize, S: Real> Div for Series<N, S> {
+impl<const N: usize, S: Real> Div for TaylorSeries<N, S> {
     type Output = Self;
     #[inline]
     fn div(self, o: Self) -> Self {
@@ -160,27 +178,27 @@ impl<const N: usize, S: Real> Div for Series<N, S> {
         Self(quotient)
     }
 }
-impl<const N: usize, S: Real> Neg for Series<N, S> {
+impl<const N: usize, S: Real> Neg for TaylorSeries<N, S> {
     type Output = Self;
     #[inline]
     fn neg(self) -> Self {
         self.with(self, |a, _| -a)
     }
 }
-impl<const N: usize, S: Real> AddAssign for Series<N, S> {
+impl<const N: usize, S: Real> AddAssign for TaylorSeries<N, S> {
     #[inline]
     fn add_assign(&mut self, o: Self) {
         *self = *self + o;
     }
 }
-impl<const N: usize, S: Real> SubAssign for Series<N, S> {
+impl<const N: usize, S: Real> SubAssign for TaylorSeries<N, S> {
     #[inline]
     fn sub_assign(&mut self, o: Self) {
         *self = *self - o;
     }
 }
 
-impl<const N: usize, S: Real> OverBase for Series<N, S> {
+impl<const N: usize, S: Real> OverBase for TaylorSeries<N, S> {
     type Base = S::Base;
     type Three = S::Base;
     fn base(self) -> S::Base {
@@ -197,7 +215,7 @@ impl<const N: usize, S: Real> OverBase for Series<N, S> {
     }
 }
 
-impl<const N: usize, S: Real> Real for Series<N, S> {
+impl<const N: usize, S: Real> Real for TaylorSeries<N, S> {
     const ORDER: usize = S::ORDER + N - 1;
 
     #[inline]
@@ -248,6 +266,9 @@ impl<const N: usize, S: Real> Real for Series<N, S> {
         tanh
     }
     fn powc(self, exponent: f64) -> Self {
+        if exponent.fract() == 0.0 && (1.0..=MOST_PRODUCTS).contains(&exponent) {
+            return self.whole_power(exponent as u32);
+        }
         self.powers(S::constant(exponent), |x, n| x.powc(exponent - n as f64))
     }
     fn pow(self, exponent: Self) -> Self {
@@ -291,7 +312,7 @@ impl<const N: usize, S: Real> Real for Series<N, S> {
 
 #[cfg(test)]
 mod tests {
-    use super::Series;
+    use super::TaylorSeries;
     use crate::math::{Dual, Jet, Lift, Real};
 
     /// The derivatives of order 0 to 3 by jets of dual numbers.
@@ -303,19 +324,19 @@ mod tests {
     /// Compares derivatives of a function with those of nested scalars, and the derivative of order 7 with a difference.
     fn agrees(
         text: &str,
-        f: impl Fn(Series<8>) -> Series<8>,
-        low: impl Fn(Series<4>) -> Series<4>,
+        f: impl Fn(TaylorSeries<8>) -> TaylorSeries<8>,
+        low: impl Fn(TaylorSeries<4>) -> TaylorSeries<4>,
         over: impl Fn(Jet<Dual<3>>) -> Jet<Dual<3>>,
     ) {
         for x in [0.3, 0.55, 0.9] {
-            let found = f(Series::variable(x)).derivatives();
+            let found = f(TaylorSeries::variable(x)).derivatives();
             for (n, (found, known)) in found.iter().zip(nested(&over, x)).enumerate() {
                 let close = (found - known).abs() <= 1e-12 * (1.0 + known.abs());
                 assert!(close, "{text} at {x}, order {n}: {found}, not {known}");
             }
             // of fourth order, from derivatives of order 3 at neighbours
             let h = 2e-2;
-            let of = |k: f64| low(Series::variable(x + k * h)).derivatives()[3];
+            let of = |k: f64| low(TaylorSeries::variable(x + k * h)).derivatives()[3];
             let seventh =
                 (of(-2.0) + of(2.0) - 4.0 * (of(-1.0) + of(1.0)) + 6.0 * of(0.0)) / h.powi(4);
             let scale = found[7].abs().max(found[6].abs()).max(1.0);
@@ -355,18 +376,21 @@ mod tests {
 
     #[test]
     fn a_power_has_its_derivatives_where_higher_ones_are_not_finite() {
-        let x = Series::<8>::variable(0.0).powc(3.5).derivatives();
+        let x = TaylorSeries::<8>::variable(0.0).powc(3.5).derivatives();
         assert_eq!(x[..4], [0.0; 4]);
-        assert_eq!(Series::<4>::variable(0.0).powc(2.0).derivatives(), [0.0, 0.0, 2.0, 0.0]);
-        assert_eq!(Series::<4>::variable(-2.0).powc(3.0).derivatives(), [-8.0, 12.0, -12.0, 6.0]);
+        assert_eq!(TaylorSeries::<4>::variable(0.0).powc(2.0).derivatives(), [0.0, 0.0, 2.0, 0.0]);
+        assert_eq!(
+            TaylorSeries::<4>::variable(-2.0).powc(3.0).derivatives(),
+            [-8.0, 12.0, -12.0, 6.0]
+        );
     }
 
     #[test]
     fn a_choice_and_a_floor_have_the_derivatives_of_a_piece() {
-        let x = Series::<4>::variable(1.5);
-        assert_eq!(Series::select(x, x * x, x).0, [2.25, 3.0, 1.0, 0.0]);
+        let x = TaylorSeries::<4>::variable(1.5);
+        assert_eq!(TaylorSeries::select(x, x * x, x).0, [2.25, 3.0, 1.0, 0.0]);
         assert_eq!(x.floor().0, [1.0, 0.0, 0.0, 0.0]);
-        let lifted: Series<4> = Lift::lift(3.0);
+        let lifted: TaylorSeries<4> = Lift::lift(3.0);
         assert_eq!(lifted.0, [3.0, 0.0, 0.0, 0.0]);
     }
 }

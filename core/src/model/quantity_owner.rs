@@ -115,7 +115,7 @@ impl Values<Symbolic> for OwnerSymbols {
 }
 
 /// The record of an owner over symbols.
-struct Recorded<'a> {
+struct OwnerRecord<'a> {
     record: &'a Record,
     own: OwnerSymbols,
     over: QuantityOwner<Symbolic>,
@@ -123,7 +123,7 @@ struct Recorded<'a> {
     symbols: Vec<(Symbolic, Symbol)>,
 }
 
-impl Recorded<'_> {
+impl OwnerRecord<'_> {
     /// The quantity with index k.
     fn quantity(&self, k: usize) -> Symbolic {
         let at = At { bodies: &self.own.poses, own: &[], t: Symbolic::zero() };
@@ -165,7 +165,7 @@ impl FormulaModel {
     }
 
     /// Passes the record of an owner over symbols to a function.
-    fn recorded<R>(&self, owner: &QuantityOwner<Tape>, f: impl FnOnce(&Recorded<'_>) -> R) -> R {
+    fn recorded<R>(&self, owner: &QuantityOwner<Tape>, f: impl FnOnce(&OwnerRecord<'_>) -> R) -> R {
         record(|record| {
             let mut symbols = Vec::new();
             let mut symbol = |rate: Symbolic, meaning: Symbol| {
@@ -179,7 +179,7 @@ impl FormulaModel {
             let poses = bodies.iter().map(|body| self.pose(*body, &mut symbol)).collect();
             let own = OwnerSymbols { parameters, bodies, poses };
             let over = owner.map(&mut |tape| tape.evaluate(&own));
-            f(&Recorded { record, own, over, symbols })
+            f(&OwnerRecord { record, own, over, symbols })
         })
     }
 
