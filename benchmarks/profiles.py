@@ -2,9 +2,10 @@
 
     python benchmarks/profiles.py OTHER [--runs 15]
 
-OTHER is a folder with the package `kempe` and its extension, such as `python/` of another checkout that was set up with
-`KEMPE_PROFILE=release ./kempe --version`. The examples run in alternation in processes of their own. The table has the
-medians of the ratios: the package that is imported here, divided by the other one.
+OTHER is a folder with the package `kempe` and its extension, such as `python/` of another checkout
+that was set up with `KEMPE_PROFILE=release ./kempe --version`. The examples run in alternation in
+processes of their own. The table has the medians of the ratios: the package that is imported here,
+divided by the other one.
 """
 
 from __future__ import annotations
