@@ -17,8 +17,8 @@ KNOWN: dict[str, list[tuple[set[str], str]]] = {
     "math": [
         (
             {"base", "dual", "lanes", "real", "sine"},
-            "Real has a sine, which one polynomial over Real gives for f64 and for Lanes, and a base, which is that of "
-            "Dual<3> too",
+            "one polynomial over Real gives the sine of f64 and of Lanes, and Real has a sine; "
+            "a scalar has a base, and so has Dual over it",
         ),
     ],
 }

@@ -18,7 +18,7 @@ from tools.meter import v0_names
 
 #: Row of the functions that do not name a scalar with derivatives, lanes or symbols.
 PLAIN = "f64, or no scalar"
-_SCALAR = re.compile(r"\b(?:Dual|Jet|Series|Lanes|Interval|Symbolic|Complex)\b")
+_SCALAR = re.compile(r"\b(?:Dual|Jet|TaylorSeries|Lanes|Interval|Symbolic|Complex)\b")
 _DEFINED = re.compile(r'@"?([^"( ]+)"?\(')
 #: No optimization, and names from which the module can be read.
 _FLAGS = (

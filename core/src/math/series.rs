@@ -11,7 +11,7 @@ use super::dual::Dual;
 use super::real::{Lift, Real};
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
-/// Largest exponent of a power that is computed by products; `f64` computes such powers alike.
+/// Largest exponent of a power that is computed by products; `f64` computes such powers in the same way.
 const MOST_PRODUCTS: f64 = 16.0;
 
 /// The coefficients of 1, x, x², … of a function near a point: its derivatives of order n divided by n!.
