@@ -88,7 +88,7 @@ class Score:
 def main() -> int:
     """Run the sample and print a table in Markdown; 1 if the tests fail without a mutant."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=_Verbatim)
-    parser.add_argument("modules", nargs="*", default=list(TESTS), choices=[*TESTS, []])
+    parser.add_argument("modules", nargs="*", default=[], choices=[*TESTS, []])
     parser.add_argument("--sample", type=int, help="mutants for each module; all by default")
     parser.add_argument("--seed", type=int, default=1, help="of the sample")
     asked = parser.parse_args()
@@ -97,7 +97,7 @@ def main() -> int:
         _copy(Path(folder))
         os.chdir(folder)
         os.environ |= {"PYTHONPATH": str(Path("python").resolve()), "PYTHONDONTWRITEBYTECODE": "1"}
-        for module in asked.modules:
+        for module in asked.modules or list(TESTS):
             found = _run(module, asked.sample, asked.seed)
             if found is None:
                 return 1
