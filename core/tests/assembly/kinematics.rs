@@ -129,7 +129,7 @@ fn a_freedom_without_a_driver_is_refused() {
 
 /// 360 positions, velocities and accelerations of a six-bar linkage over a turn.
 #[test]
-#[ignore = "a measurement: cargo test --release -p kempe --test kinematics -- --ignored --nocapture"]
+#[ignore = "a measurement: cargo test --release -p kempe --test assembly kinematics -- --ignored --nocapture"]
 fn the_time_of_a_six_bar() {
     let text = include_str!("../../../examples/six_bar.toml");
     let m = model(text.split("[start").next().expect("the mechanism"));

@@ -7,7 +7,7 @@ use kempe::model::Model;
 
 /// The time of an evaluation with light bodies, and with heavy ones in their place.
 #[test]
-#[ignore = "a measurement: cargo test --release -p kempe --test light_bodies -- --ignored --nocapture"]
+#[ignore = "a measurement: cargo test --release -p kempe --test motion light_bodies -- --ignored --nocapture"]
 fn the_time_of_light_bodies() {
     let names = [
         "slider-crank",
