@@ -139,3 +139,34 @@ fn derivatives_to_a_point_are_differences() {
         close(value.slope[0], (moved(1e-6) - moved(-1e-6)) / 2e-6, 1e-8);
     }
 }
+
+/// The spline over numbers that is already solved must not replace points that have derivatives, at any size.
+#[test]
+fn a_solved_curve_keeps_the_derivatives_by_its_points() {
+    use kempe::elements::{Curve, CurvePoints};
+    use kempe::math::{Interpolation, Local};
+    for size in [1e-3, 1.0, 1e3] {
+        let points = |x: f64| {
+            let all = [(0.0, 0.0), (1.0, 0.4), (x, 0.9), (3.1, 0.2), (4.0, 1.0)];
+            all.map(|(x, y)| Local::new(size * x, size * y)).to_vec()
+        };
+        let curve =
+            |x: f64| Curve::Points(CurvePoints::new(points(x), Interpolation::Cubic, false));
+        let (plain, u) = (curve(2.2), 1.7 * size);
+        let known = plain.point(u).x; // solves the spline
+        let mut at = 0;
+        let by_third = plain.map(&mut |x: &f64| {
+            at += 1; // x and y of each point, in order
+            match at {
+                5 => Dual::<3> { value: *x, slope: [size, 0.0, 0.0] },
+                _ => Dual::constant(*x),
+            }
+        });
+        let found = by_third.point(Dual::constant(u)).x;
+        let h = 1e-6;
+        let difference = (curve(2.2 + h).point(u).x - curve(2.2 - h).point(u).x) / (2.0 * h);
+        assert!((found.value - known).abs() < 1e-13 * size);
+        assert!(difference.abs() > 0.1 * size);
+        close(found.slope[0] / size, difference / size, 1e-7);
+    }
+}
