@@ -122,7 +122,11 @@ impl<S: Real> Augmented<S> {
             let [m, j] = inertia.inverse;
             *mass = InverseMass::diagonal([m, m, j]);
         }
-        own.fill(InverseMass::diagonal([S::constant(1.0 / compiled.own_mass); 3]));
+        let inverse = S::constant(1.0 / compiled.own_mass);
+        let owners = &self.plan.owners[lent.inertias.len()..];
+        for (mass, columns) in own.iter_mut().zip(owners) {
+            *mass = InverseMass::first(columns.count, inverse);
+        }
         let condensed = 0..self.saddle.condensed.len();
         for (k, grounded) in condensed.zip(&compiled.grounded) {
             grounded.set(k, &mut self.saddle);
