@@ -3,14 +3,12 @@
 //! With W = M and μ = 0 it is the matrix of the equations of motion (Haug 6.3.18). With W = I it gives the smallest
 //! step of Newton's method, and with μ > 0 a damped step.
 
-use super::downdates::Downdate;
-use super::lending::Lent;
-use super::loans::{self, Addition};
+use super::light::{self, Internal, Light};
 use super::plan::Plan;
 use super::{mass, Compiled};
-use crate::math::{Motion, Real};
+use crate::math::{indexed, Motion, Real};
 use crate::model::Model;
-use crate::solve::{Breakdown, InverseMass, Saddle};
+use crate::solve::{Breakdown, InverseMass, LightGroup, Saddle};
 use std::sync::Arc;
 
 /// The ridge ε² near singular positions. A small ε amplifies the rounding errors of positions by 1/ε. A large ε
@@ -32,15 +30,33 @@ pub enum NearSingular {
     Refuse,
 }
 
+/// Sets W of internal coordinates to their E.
+#[inline]
+pub(super) fn weigh_internals<S: Real>(internals: &[Internal], saddle: &mut Saddle<S>) {
+    for Internal { owner, size, rows } in internals {
+        let mut sums = [S::zero(); 3];
+        for (row, weight) in rows {
+            for (sum, entry) in sums.iter_mut().zip(&saddle.entries[*row]) {
+                *sum += *entry * *entry * S::constant(*weight);
+            }
+        }
+        let least =
+            S::constant(rows.iter().map(|(_, weight)| *weight).fold(f64::MIN_POSITIVE, f64::max));
+        let inverse = |k: usize| match k < *size {
+            true => S::one() / S::select(sums[k], sums[k], least),
+            false => S::one(), // of no unknown of the group
+        };
+        saddle.masses[*owner] = InverseMass::diagonal(indexed(inverse));
+    }
+}
+
 /// The matrix and its factors, on a shared plan.
 #[derive(Clone, Debug)]
 pub struct Augmented<S = f64> {
     plan: Arc<Plan>,
     saddle: Saddle<S>,
-    /// The inertia that is lent or added to light bodies in W.
-    lent: Option<Arc<Lent<S>>>,
-    /// Whether the rows of the downdates remove all additions.
-    downdated: bool,
+    /// The light bodies and coordinates, if W = M.
+    light: Option<Arc<Light<S>>>,
     near_singular: NearSingular,
     /// Whether the current factors contain the ridge.
     regularised: bool,
@@ -60,8 +76,8 @@ impl<S: Real> Augmented<S> {
     pub fn on(plan: Arc<Plan>) -> Self {
         let saddle = Saddle::new(&plan.pattern);
         let near_singular = NearSingular::Ignore;
-        let (lent, omitted) = (None, Vec::new());
-        Self { saddle, plan, lent, downdated: false, near_singular, regularised: false, omitted }
+        let (light, omitted) = (None, Vec::new());
+        Self { saddle, plan, light, near_singular, regularised: false, omitted }
     }
 
     /// The plan, which other matrices of the same model can share.
@@ -71,70 +87,58 @@ impl<S: Real> Augmented<S> {
     }
 
     /// Plan and numbers, for an evaluation that writes its rows into the matrix one by one. The state-independent
-    /// inertia must have been set. The factors then contain no ridge, and the additions are removed if there are
-    /// [rows](Self::removes_additions) for this.
+    /// inertia must have been set. The factors then contain no ridge.
     #[inline(always)]
     pub(super) fn parts_mut(&mut self) -> (&Plan, &mut Saddle<S>) {
         self.regularised = false;
-        if !self.downdated && !self.plan.downdates.is_empty() {
-            self.set_downdates(true);
-        }
         (&self.plan, &mut self.saddle)
     }
 
-    /// Sets W = M at the given motions, including the inertia lent and added to light bodies.
+    /// Sets W = M at the given motions, including what is [added](super::light) to massless bodies.
     pub fn set_mass(&mut self, compiled: &Compiled<S>, motions: &[Motion<S>]) {
         self.set_inertia(compiled);
         let Self { plan, saddle, .. } = self;
-        let inertias = &compiled.lent(plan.condenses).inertias;
+        let inertias = &compiled.light.inertias;
         mass::turn_all(plan.pattern.coupled(), inertias, motions, &mut saddle.masses);
         for (grounded, group) in compiled.grounded.iter().zip(&mut saddle.condensed) {
             grounded.turn(inertias, motions, group);
         }
     }
 
-    /// Whether an evaluation removes all additions.
-    #[inline(always)]
-    pub(super) fn removes_additions(&self) -> bool {
-        let additions = self.lent.as_ref().map_or(&[][..], |lent| &lent.additions);
-        additions.len() == self.plan.downdates.len()
-    }
-
-    /// Fills the rows that remove the additions, or omits these rows.
-    #[inline(never)] // rare
-    fn set_downdates(&mut self, active: bool) {
-        let Self { plan, saddle, lent, .. } = self;
-        let all = lent.as_ref().map_or(&[][..], |lent| &lent.additions);
-        for (mu, downdate) in saddle.downdates.iter_mut().zip(&plan.downdates) {
-            let Downdate { column, entry: [row, place] } = downdate;
-            saddle.entries[*row][*place] = S::one();
-            let own = all.iter().find(|addition| addition.column == *column && active);
-            *mu = S::constant(own.map_or(OMITTED, |Addition { weight, .. }| -1.0 / weight));
-        }
-        self.downdated = active;
-    }
-
-    /// Sets the part of W = M that does not depend on the state. The matrix then contains the additions.
+    /// Sets the part of W = M that does not depend on the state.
     pub(super) fn set_inertia(&mut self, compiled: &Compiled<S>) {
-        let lent = compiled.lent(self.plan.condenses);
-        let (bodies, own) = self.saddle.masses.split_at_mut(lent.inertias.len());
-        for (mass, inertia) in bodies.iter_mut().zip(&lent.inertias) {
+        let light = &compiled.light;
+        for (mass, inertia) in self.saddle.masses.iter_mut().zip(&light.inertias) {
             let [m, j] = inertia.inverse;
             *mass = InverseMass::diagonal([m, m, j]);
-        }
-        let inverse = S::constant(1.0 / compiled.own_mass);
-        let owners = &self.plan.owners[lent.inertias.len()..];
-        for (mass, columns) in own.iter_mut().zip(owners) {
-            *mass = InverseMass::first(columns.count, inverse);
         }
         let condensed = 0..self.saddle.condensed.len();
         for (k, grounded) in condensed.zip(&compiled.grounded) {
             grounded.set(k, &mut self.saddle);
         }
-        self.lent = Some(Arc::clone(lent));
-        if !self.plan.downdates.is_empty() {
-            self.set_downdates(false);
+        if self.light.as_ref().is_none_or(|known| !Arc::ptr_eq(known, light)) {
+            self.set_light(compiled);
         }
+    }
+
+    /// Sets the light groups.
+    fn set_light(&mut self, compiled: &Compiled<S>) {
+        let Light { ratios, internals, .. } = &*compiled.light;
+        let mut groups: Vec<LightGroup> = ratios
+            .iter()
+            .enumerate()
+            .filter(|(_, ratios)| **ratios != [1.0; 2])
+            .map(|(group, ratios)| LightGroup { group, ratios: *ratios })
+            .collect();
+        for grounded in compiled.grounded.iter().filter(|_| self.plan.condenses) {
+            // the freedom of a pin is a rotation; that of other joints counts as a translation
+            let own = groups.iter_mut().find(|light| light.group == grounded.body.0 - 1);
+            own.into_iter().for_each(|light| light.ratios[1] = grounded.ratio(light.ratios));
+        }
+        let ratios = [light::FLOOR / light::COUNTED; 2];
+        groups.extend(internals.iter().map(|own| LightGroup { group: own.owner, ratios }));
+        self.saddle.set_light(&self.plan.pattern, &groups);
+        self.light = Some(Arc::clone(&compiled.light));
     }
 
     /// Sets a diagonal W, shape (n_q).
@@ -149,7 +153,8 @@ impl<S: Real> Augmented<S> {
             inverse.iter_mut().zip(d).for_each(|(inverse, d)| *inverse = S::one() / *d);
             *mass = InverseMass::diagonal(inverse);
         }
-        self.lent = None;
+        self.light = None;
+        self.saddle.set_light(&self.plan.pattern, &[]);
     }
 
     /// The entries of Φ_q, for writing.
@@ -231,6 +236,9 @@ impl<S: Real> Augmented<S> {
     /// The row of Φ_q that depends on other rows, or a coordinate without mass.
     pub fn factor(&mut self) -> Result<(), Breakdown> {
         self.regularised = false;
+        if let Some(light) = &self.light {
+            weigh_internals(&light.internals, &mut self.saddle);
+        }
         let refused = match self.saddle.factor(&self.plan.pattern) {
             Err(Breakdown::Row(row)) if self.near_singular != NearSingular::Ignore => row,
             outcome => return outcome,
@@ -242,59 +250,25 @@ impl<S: Real> Augmented<S> {
         }
     }
 
-    /// Whether inertia is added to light bodies, so that the matrix differs from that of the equations.
-    #[inline]
-    pub fn adds_inertia(&self) -> bool {
-        !self.additions().is_empty()
-    }
-
-    /// The additions to W, by which the matrix differs from that of the equations. None if they are removed.
+    /// Whether solutions need [corrections](super::refine), because of light bodies or coordinates.
     #[inline(always)]
-    pub(super) fn additions(&self) -> &[Addition] {
-        self.lent.as_ref().filter(|_| !self.downdated).map_or(&[], |lent| &lent.additions)
+    pub fn is_light(&self) -> bool {
+        self.light.as_ref().is_some_and(|light| !light.is_none())
     }
 
-    /// Solves in place. x has the parts (q, multipliers), shape (n_q + n_rows).
+    /// Solves in place. x has the parts (q, multipliers), with or without the unknowns that pad the last group.
     pub fn solve(&self, x: &mut [S]) {
-        let (n, all) = (self.plan.pattern.n_unknowns(), self.plan.pattern.n_rows());
-        let m = all - self.plan.downdates.len();
-        if x.len() == n + all {
-            return self.solve_padded(x);
+        let (n, m) = (self.plan.pattern.n_unknowns(), self.plan.pattern.n_rows());
+        if x.len() == n + m {
+            return self.saddle.solve(&self.plan.pattern, x);
         }
         let (q, rows) = x.split_at_mut(x.len() - m);
-        let mut padded = vec![S::zero(); n + all];
+        let mut padded = vec![S::zero(); n + m];
         padded[..q.len()].copy_from_slice(q);
-        padded[n..n + m].copy_from_slice(rows);
-        self.solve_padded(&mut padded);
+        padded[n..].copy_from_slice(rows);
+        self.saddle.solve(&self.plan.pattern, &mut padded);
         q.copy_from_slice(&padded[..q.len()]);
-        rows.copy_from_slice(&padded[n..n + m]);
-    }
-
-    /// Solves in place with the unknowns that pad the last group and the rows of the downdates. Applies the loans.
-    fn solve_padded(&self, x: &mut [S]) {
-        let Plan { pattern, .. } = &*self.plan;
-        let loans = self.lent.as_ref().map_or(&[][..], |lent| &lent.loans);
-        let (f, gamma) = x.split_at_mut(pattern.n_unknowns());
-        loans::take(loans, &self.saddle.entries, gamma, f);
-        self.saddle.solve(pattern, x);
-        let (a, lam) = x.split_at_mut(pattern.n_unknowns());
-        loans::give_back(loans, &self.saddle.entries, a, lam);
-    }
-
-    /// Solves for a load at a single coordinate into `x`, shape (n_unknowns + n_rows), without rows of downdates.
-    #[inline]
-    pub(super) fn put_response(&self, column: usize, load: S, x: &mut Vec<S>) {
-        x.clear();
-        x.resize(self.plan.pattern.n_unknowns() + self.plan.pattern.n_rows(), S::zero());
-        x[column] = load;
-        self.solve_padded(x);
-        x.truncate(x.len() - self.plan.downdates.len());
-    }
-
-    /// Whether solutions need [corrections](super::refine::correct), because the removal of additions lost digits.
-    #[inline(always)]
-    pub(super) fn is_inexact(&self) -> bool {
-        !self.plan.downdates.is_empty() && self.saddle.is_inexact(&self.plan.pattern)
+        rows.copy_from_slice(&padded[n..]);
     }
 
     /// The pivot that has lost most digits: its constraint row, and the ratio of the pivot to the largest number from

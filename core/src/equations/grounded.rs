@@ -90,6 +90,16 @@ impl<S: Real> Grounded<S> {
         Self { constraint, body, mass, about_pin }
     }
 
+    /// The ratio of the inertia along its freedom to that of its surroundings, from those of mass and moment of
+    /// inertia. At a pin, either is sufficient.
+    pub(super) fn ratio(&self, [mass, inertia]: [f64; 2]) -> f64 {
+        if self.about_pin.is_some() {
+            mass.max(inertia)
+        } else {
+            mass
+        }
+    }
+
     /// Writes the state-independent numbers into the matrix.
     pub(super) fn set(&self, k: usize, saddle: &mut Saddle<S>) {
         let mass = &mut saddle.masses[self.body.0 - 1];

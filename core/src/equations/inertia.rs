@@ -3,7 +3,7 @@
 use crate::math::{Local, Real};
 use crate::model::{Model, Weighed};
 
-/// Inertia of a moving body in W, including loans and additions.
+/// Inertia of a moving body in W, with what is [added](super::light) to massless ones.
 #[derive(Clone, Copy, Debug)]
 pub struct Inertia<S = f64> {
     /// 1/m, 1/kg, and 1/J about the mass centre, 1/(kg·m²).
@@ -17,13 +17,8 @@ pub struct Inertia<S = f64> {
     pub coupled: bool,
 }
 
-/// Inertias of the moving bodies from those of all bodies, ground first. Loans may have changed the mass centres of
-/// `moved`.
-pub(super) fn inertias<S: Real>(
-    model: &Model<S>,
-    all: &[Weighed<S>],
-    moved: &[bool],
-) -> Vec<Inertia<S>> {
+/// Inertias of the moving bodies from those of all bodies, ground first.
+pub(super) fn inertias<S: Real>(model: &Model<S>, all: &[Weighed<S>]) -> Vec<Inertia<S>> {
     let inertia = |(k, own): (usize, &Weighed<S>)| {
         let turns = model.bodies[k].turns;
         let turning = if turns { own.inertia } else { S::one() };
@@ -31,7 +26,7 @@ pub(super) fn inertias<S: Real>(
             inverse: [S::one() / own.mass, S::one() / turning],
             mass: own.mass,
             center: own.center,
-            coupled: turns && (moved[k] || !model.blueprint.bodies[k].is_centred()),
+            coupled: turns && !model.blueprint.bodies[k].is_centred(),
         }
     };
     all.iter().enumerate().skip(1).map(inertia).collect()

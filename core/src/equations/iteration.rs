@@ -11,8 +11,8 @@
 //! inertia. The residual is that of the true equations, so that the iteration still converges to their solution. μ =
 //! 0 except for redundant rows, which are omitted by a large μ.
 
-use super::added_mass::{self, Added};
 use super::coupling::Participants;
+use super::light::{own_mass_implicit, Light};
 use super::plan::row_blocks;
 use super::tangent::{Entry, Tangent};
 use crate::math::Field;
@@ -51,7 +51,7 @@ pub struct Places {
     /// The omitted rows.
     omitted: Vec<usize>,
     /// Mass and inertia added to the bodies.
-    added: Vec<Added>,
+    added: Vec<[f64; 2]>,
     /// Mass added to the internal coordinates of elements, kg.
     own_mass: f64,
 }
@@ -93,8 +93,8 @@ impl Places {
             rows,
             diagonal,
             omitted: Vec::new(),
-            added: added_mass::added_implicit(model)[1..].to_vec(),
-            own_mass: added_mass::own_mass_implicit(&model.bodies),
+            added: Light::new(model).added,
+            own_mass: own_mass_implicit(&model.bodies),
         }
     }
 
@@ -158,7 +158,7 @@ pub fn assemble<F: Field>(
     for (((mass, added), &size), &slot) in masses.zip(&places.pairs) {
         let block = lu.block_mut(slot);
         // added at the origin of the frame, since the solution of the iteration does not depend on the addition
-        let (m, j, b) = (mass.mass + added.mass, mass.inertia + added.inertia, mass.coupling);
+        let (m, j, b) = (mass.mass + added[0], mass.inertia + added[1], mass.coupling);
         let full = [[m, 0.0, b.x], [0.0, m, b.y], [b.x, b.y, j]];
         for (row, full) in block.iter_mut().zip(full).take(size) {
             row.iter_mut().zip(full).take(size).for_each(|(e, full)| *e += c_a * real(full));

@@ -3,14 +3,12 @@
 //! The equations are functions of a [`Model`](crate::model::Model) and slices. A [`Workspace`] contains their scratch
 //! memory.
 
-mod added_mass;
 pub mod augmented;
 pub mod balance;
 mod compiled;
 pub mod constraints;
 mod coupling;
 pub mod dense;
-mod downdates;
 pub mod energy;
 pub mod forces;
 pub mod formulas;
@@ -22,9 +20,7 @@ pub mod iteration;
 mod jumps;
 pub mod kinematics;
 mod laws;
-mod lending;
-mod loans;
-mod loose;
+mod light;
 pub mod mass;
 pub mod measured;
 pub mod motion;
@@ -38,7 +34,6 @@ pub mod refine;
 mod residuals;
 mod roles;
 pub mod switches;
-mod take_back;
 pub mod tangent;
 
 pub use compiled::Compiled;

@@ -7,17 +7,16 @@
 //!
 //! For the integrator, Baumgarte's γ̂ = γ - 2α Φ̇ - β² Φ (Haug 7.3.8) may replace γ.
 
-use super::augmented::{Augmented, NearSingular};
+use super::augmented::{self, Augmented, NearSingular};
 use super::constraints::{self, Stabilized};
 use super::forces::{self, Acting};
 use super::gains::Gains;
 use super::kinematics::Motions;
-use super::lending::Lent;
 use super::plan::Plan;
 use super::powers::Powers;
 use super::reaction_slopes::by_multiplier;
 use super::roles::{self, Roles};
-use super::{loans, mass, reactions, reactive, refine, Compiled};
+use super::{mass, reactions, reactive, refine, Compiled};
 use crate::math::Real;
 use crate::model::Model;
 use crate::solve::Breakdown;
@@ -55,7 +54,7 @@ pub struct Workspace<S = f64> {
     /// The rows of the multipliers on which forces or loads of joints depend.
     reactive: Vec<usize>,
     pub(super) n_q: usize,
-    /// Number of rows of Φ_q. The solution contains the rows of downdates after them.
+    /// Number of rows of Φ_q.
     pub(super) n_rows: usize,
     /// Number of unknowns of the solver: n_q, and the padding of a last group with fewer than three unknowns.
     pub(super) n_unknowns: usize,
@@ -118,19 +117,16 @@ impl<S: Real> Workspace<S> {
         }
     }
 
-    /// Whether one elimination solves the equations at almost all states.
+    /// Whether one elimination solves the equations at almost all states, with corrections if bodies are light.
     #[inline(always)]
     pub fn solves_directly(&self) -> bool {
-        !self.modified && self.matrix.removes_additions()
+        !self.modified
     }
 
     /// Whether the equations of another variant of the model, over any scalar, have the same structure.
     pub fn is_like<P: Real>(&self, other: &Workspace<P>) -> bool {
         let (plan, of_other) = (self.matrix.plan(), other.matrix.plan());
-        let own = self.compiled.lent(plan.condenses);
-        let others = other.compiled.lent(plan.condenses);
-        let lent = own.loans == others.loans && own.additions == others.additions;
-        lent && (Arc::ptr_eq(plan, of_other) || plan.is_like(of_other))
+        Arc::ptr_eq(plan, of_other) || plan.is_like(of_other)
     }
 
     /// Declares that no rows are damped, so that one elimination solves the equations unless forces depend on
@@ -198,9 +194,7 @@ impl<S: Real> Workspace<S> {
     pub fn respond(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
         if self.solves_directly() {
             match self.solve_directly(model, t, gains) {
-                Ok(()) if self.matrix.is_inexact() && !self.correct(model, t, gains) => {}
-                // the row of a downdate
-                Err(Breakdown::Row(row)) if row >= model.layout.n_rows => {}
+                Ok(()) if self.matrix.is_light() => return self.correct(model, t, gains),
                 Err(Breakdown::Row(_)) if self.matrix.near_singular() != NearSingular::Ignore => {}
                 outcome => return outcome,
             }
@@ -213,7 +207,7 @@ impl<S: Real> Workspace<S> {
     #[inline]
     pub fn respond_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> bool {
         let solved = self.solves_directly() && self.solve_directly(model, t, gains).is_ok();
-        solved && !self.matrix.is_inexact()
+        solved && (!self.matrix.is_light() || self.correct(model, t, gains).is_ok())
     }
 
     /// Computes q̈ and λ if the matrix is that of the equations. Each joint is added to the matrix when it is
@@ -223,28 +217,23 @@ impl<S: Real> Workspace<S> {
         let Self { motions, z, compiled, roles, matrix, solution, powers, offset, .. } = self;
         let (plan, saddle) = matrix.parts_mut();
         let stabilized = Stabilized::new(gains);
-        let Lent { loans, inertias, .. } = &**compiled.lent(plan.condenses);
+        let inertias = &compiled.light.inertias[..];
         let at = roles::At { model, compiled, plan, inertias, motions, t, stabilized, offset };
         mass::turn_all(plan.pattern.coupled(), inertias, motions, &mut saddle.masses);
         let (x, right) = solution.split_at_mut(self.n_unknowns);
-        right[model.layout.n_rows..].fill(S::zero());
         let acting = Acting { z, lam: None, t };
         forces::generalized(model, compiled, motions, acting, x, powers);
         roles::put_others(roles, at, saddle, right);
-        roles::put_lending(roles, at, saddle, right);
-        loans::take(loans, &saddle.entries, right, x);
+        augmented::weigh_internals(&compiled.light.internals, saddle);
         roles::condense(roles, at, saddle, (x, right));
         saddle.divide_by_masses(&plan.pattern, x);
         roles::put(roles, at, saddle, (x, right));
-        saddle.finish(&plan.pattern, solution)?;
-        let (a, lam) = solution.split_at_mut(self.n_unknowns);
-        loans::give_back(loans, &saddle.entries, a, lam);
-        Ok(())
+        saddle.finish(&plan.pattern, solution)
     }
 
-    /// Corrects the direct solution. Returns whether only rounding errors remain.
+    /// Corrects the direct solution for light bodies and coordinates.
     #[inline(never)] // rare
-    fn correct(&mut self, model: &Model<S>, t: S, gains: Gains) -> bool {
+    fn correct(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
         let Self { motions, z, compiled, matrix, solution, powers, offset, memory, .. } = self;
         let mut right = vec![S::zero(); self.n_rows];
         constraints::linearize(model, motions, t, gains, &mut right, matrix.jacobian_mut());
@@ -252,7 +241,7 @@ impl<S: Real> Workspace<S> {
         let mut f = vec![S::zero(); self.n_q];
         let acting = Acting { z, lam: None, t };
         forces::generalized(model, compiled, motions, acting, &mut f, powers);
-        refine::correct(model, motions, matrix, [&f, &right], solution, memory)
+        refine::correct((model, motions, matrix), [&f, &right], solution, memory)
     }
 
     /// Solves with the whole matrix. Its factors may be those of a modified matrix. Iterates forces that depend on

@@ -1,9 +1,7 @@
 //! The structure of the augmented matrix of a model without its numbers: pattern and elimination program.
 
 use super::compiled::Compiled;
-use super::downdates::{downdates, Downdate};
 use super::inertia::Inertia;
-use super::lending::Lent;
 use crate::math::Real;
 use crate::model::{Block, Columns, Model, Slots, StateLayout};
 use crate::solve::{Group, Pattern, RowBlock};
@@ -25,8 +23,6 @@ pub struct Plan {
     pub(super) owners: Vec<Columns>,
     /// Whether grounded bodies are condensed.
     pub(super) condenses: bool,
-    /// The rows after those of the constraints, which remove inertia added to light bodies.
-    pub(super) downdates: Vec<Downdate>,
 }
 
 impl Plan {
@@ -48,8 +44,7 @@ impl Plan {
     #[inline]
     pub(super) fn is_like(&self, other: &Self) -> bool {
         let coupled = [self, other].map(|plan| plan.pattern.coupled());
-        let same = self.condensed == other.condensed && self.downdates == other.downdates;
-        same && coupled[0] == coupled[1]
+        self.condensed == other.condensed && coupled[0] == coupled[1]
     }
 
     /// Whether redundant constraints are accepted.
@@ -67,19 +62,16 @@ impl Plan {
 
     fn with<S: Real>(model: &Model<S>, condenses: bool) -> Self {
         let compiled = Compiled::new(model);
-        let (mut blocks, owners) = row_blocks(&model.layout);
+        let (blocks, owners) = row_blocks(&model.layout);
         let first = |k: usize| owners.partition_point(|owner| *owner < k);
         let grounded = compiled.grounded.iter().filter(|_| condenses);
         let condensed: Vec<usize> = grounded.map(|grounded| grounded.constraint).collect();
         let condensed_blocks: Vec<usize> = condensed.iter().map(|k| first(*k)).collect();
-        let Lent { inertias, additions, .. } = &**compiled.lent(condenses);
-        let additions = if condenses { &additions[..] } else { &[] };
-        let (rows, before) = downdates(&model.layout, &compiled.added, additions, &mut blocks);
-        let groups = groups(model, inertias);
-        let pattern = Pattern::with_downdates(&groups, &blocks, &condensed_blocks, &before);
+        let groups = groups(model, &compiled.light.inertias);
+        let pattern = Pattern::new(&groups, &blocks, &condensed_blocks);
         let pins = pattern.pin_rows().iter().map(|rows| owners[rows.block as usize]).collect();
         let owners = model.layout.owners.clone();
-        Self { pattern, condensed, pins, owners, condenses, downdates: rows }
+        Self { pattern, condensed, pins, owners, condenses }
     }
 
     /// Number of unknowns of the solver: the coordinates, and the padding of a last group with fewer than three.

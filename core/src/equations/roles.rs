@@ -26,10 +26,6 @@ pub(super) struct Roles<S> {
     others: JointPools<S>,
     /// Indices of the joints and drivers with laws.
     laws: Vec<usize>,
-    /// Pins at which inertia is lent, and their indices among [`Pattern::pin_rows`](crate::solve::Pattern::pin_rows).
-    /// Their γ is needed before bodies are eliminated.
-    lending: JointPools<S>,
-    slots: Vec<usize>,
 }
 
 impl<S: Real> Roles<S> {
@@ -40,14 +36,11 @@ impl<S: Real> Roles<S> {
             pins: JointPools::default(),
             others: JointPools::default(),
             laws: compiled.joints_with_laws.clone(),
-            lending: JointPools::default(),
-            slots: Vec::new(),
         };
         let place = |k: usize, slot: usize| {
             let item = &model.constraints[k];
             Place::new(k, &item.bodies, model.layout.constraints[k].rows.start).with_slot(slot)
         };
-        let loans = &compiled.lent(plan.condenses).loans;
         let mut others = vec![true; model.constraints.len()];
         compiled.joints_with_laws.iter().for_each(|k| others[*k] = false);
         for (slot, k) in plan.condensed.iter().enumerate() {
@@ -55,10 +48,7 @@ impl<S: Real> Roles<S> {
             others[*k] = false;
         }
         for (slot, k) in plan.pins.iter().enumerate() {
-            let lends = loans.iter().any(|loan| loan.constraint == *k);
-            let pool = if lends { &mut roles.lending } else { &mut roles.pins };
-            pool.push(&model.constraints[*k].element, place(*k, slot));
-            roles.slots.extend(lends.then_some(slot));
+            roles.pins.push(&model.constraints[*k].element, place(*k, slot));
             others[*k] = false;
         }
         for k in (0..others.len()).filter(|k| others[*k]) {
@@ -177,40 +167,6 @@ impl<S: Real> PutOthers<'_, S> {
     }
 }
 
-/// Writes the rows of pins that lend inertia into the entries of Φ_q and into `right`.
-#[inline(always)] // most models have none
-pub(super) fn put_lending<S: Real>(
-    roles: &Roles<S>,
-    at: At<'_, S>,
-    saddle: &mut Saddle<S>,
-    right: &mut [S],
-) {
-    if !roles.slots.is_empty() {
-        roles.lending.visit(&mut PutLending { at, saddle, right });
-    }
-}
-
-struct PutLending<'a, S> {
-    at: At<'a, S>,
-    saddle: &'a mut Saddle<S>,
-    right: &'a mut [S],
-}
-
-impl<S: Real> VisitJoints<S> for PutLending<'_, S> {
-    #[inline(never)] // one loop for each type
-    fn visit<E: Joint>(&mut self, pool: &[Pooled<E::Over<S>>]) {
-        let Self { at, saddle, right } = self;
-        let all: &[PinRows] = at.plan.pattern.pin_rows();
-        for Pooled { element, place } in pool {
-            let (terms, columns) = at.two_rows::<E>(element, place.bodies);
-            for end in all[place.slot as usize].ends() {
-                saddle.put_pin_entries(end, turning(&columns, end));
-            }
-            put_two(right, place.row as usize, at.gamma(&terms, place.row));
-        }
-    }
-}
-
 /// Stores the right sides of two rows.
 #[inline(always)]
 fn put_two<S: Real>(right: &mut [S], row: usize, [first, second]: [S; 2]) {
@@ -278,9 +234,6 @@ pub(super) fn put<S: Real>(
     (x, right): (&[S], &mut [S]),
 ) {
     roles.pins.visit(&mut PutPins { at, saddle, x, right });
-    for slot in &roles.slots {
-        saddle.put_known_pin(&at.plan.pattern.pin_rows()[*slot], x, right);
-    }
 }
 
 struct PutPins<'a, S> {

@@ -21,8 +21,8 @@
 //! | `masses` | W⁻¹ = diag(d₀⁻¹, d₁⁻¹, 0) + d₂⁻¹ e eᵀ: 7 numbers | groups | owner; condensed e by step 1 | before 1 |
 //! | `condensed` | W and the particular solution P: 10 numbers | condensed pairs | W by owner, P by step 1 | before 1 |
 //! | `entries` | A in rows of three; columns ±I are constant | rows × groups touched | owner | before 1, or in 1, 3 |
+//! | `light` | rows at light groups, which count with reference masses in pivot tests | such rows | owner | before 4 |
 //! | `damping` | μ | rows, or 0 | owner | before 3 |
-//! | `downdates` | μ < 0 of the last rows, which remove parts of W | downdates | owner | before 3 |
 //! | `pins` | rows [±I b] with the mass of their group: 6 numbers | such rows × groups | step 3 | 3, read in 4 and 5 |
 //! | `u` | other rows, transformed by W⁻¹: 6 numbers | such rows × groups | step 3 | 3, read in 4 and 5 |
 //! | `factors` | S, then L D and D⁻¹; sums of the pivot test | blocks of L | step 3 (diagonal), step 4 | 3, 4 |
@@ -46,6 +46,7 @@
 //! | `saddle` | the matrix, and its elimination |
 //! | `schur` | assembly of the Schur complement |
 //! | `substitute` | the solution with the factors |
+//! | `reference` | reference masses of light groups in the pivot tests |
 //! | `regularised` | regularised factors near singular positions (Tikhonov) |
 //!
 //! # Others
@@ -73,6 +74,7 @@ mod pattern;
 mod pin_block;
 mod rank;
 mod records;
+mod reference;
 mod regularised;
 mod saddle;
 mod schur;
@@ -94,6 +96,7 @@ pub use order::{groups_first, touched_first};
 pub use pattern::Pattern;
 pub use rank::{normalize_rows, rank, Rank, RANK_TOLERANCE};
 pub use records::{PinEnd, PinRows};
+pub use reference::LightGroup;
 pub use saddle::Saddle;
 pub use schur::PinSum;
 pub use sparse_rank::{SparseRank, SparseRow};

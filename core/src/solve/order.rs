@@ -32,18 +32,6 @@ pub fn groups_first(
     entries: &[(usize, usize)],
     blocks: Option<&[usize]>,
 ) -> Vec<usize> {
-    groups_first_after(n_first, n, entries, blocks, &[])
-}
-
-/// As [`groups_first`], if some blocks come after others. Each item of `after` contains a block from `n_first` on and
-/// the blocks that must be eliminated before it, which wait for no other blocks.
-pub(super) fn groups_first_after(
-    n_first: usize,
-    n: usize,
-    entries: &[(usize, usize)],
-    blocks: Option<&[usize]>,
-    after: &[(usize, Vec<usize>)],
-) -> Vec<usize> {
     let single: Vec<usize>;
     let starts = match blocks {
         Some(starts) => starts,
@@ -55,7 +43,6 @@ pub(super) fn groups_first_after(
     check_blocks(starts, n_first, n);
     let end = |b: usize| starts.get(b + 1).copied().unwrap_or(n);
     let mut graph = Graph::new(starts, n_first, n, entries);
-    graph.hold(after);
     let mut order = Vec::with_capacity(n);
     while let Some(block) = graph.next() {
         order.extend(starts[block]..end(block));
@@ -96,8 +83,8 @@ fn check_blocks(starts: &[usize], n_first: usize, n: usize) {
     assert!(boundary, "n_first = {n_first} cuts a block");
 }
 
-/// (turn, approximate degree, block). The block with the smallest key is eliminated next. Blocks of the second set, or
-/// those that wait for others, have a later turn.
+/// (turn, approximate degree, block). The block with the smallest key is eliminated next. Blocks of the second set have
+/// a later turn, or those that wait for others.
 type Key = (u8, usize, usize);
 
 /// The quotient graph: blocks not yet eliminated, and elements (cliques left by eliminated blocks).
@@ -118,12 +105,10 @@ struct Graph {
     /// Weight of an element outside the newest element. Valid if `outside_of` is the newest element.
     outside: Vec<usize>,
     outside_of: Vec<usize>,
-    /// For each block, the blocks that wait for it; and for how many blocks each block waits. Empty if every block of
-    /// the second set waits for the whole first set, and for no other blocks.
+    /// For each block of the first set, the blocks that wait for it; and for how many blocks each block waits. Empty
+    /// if every block of the second set waits for the whole first set.
     waiters: Vec<Vec<usize>>,
     waits_for: Vec<usize>,
-    /// The turn of blocks that waited, once they need not wait any longer.
-    released: u8,
 }
 
 const NOBODY: usize = usize::MAX;
@@ -161,24 +146,7 @@ impl Graph {
             outside_of: vec![NOBODY; count],
             waiters: Vec::new(),
             waits_for: Vec::new(),
-            released: 0,
         }
-    }
-
-    /// Lets blocks of the second set wait for others of this set.
-    fn hold(&mut self, after: &[(usize, Vec<usize>)]) {
-        if after.is_empty() {
-            return;
-        }
-        self.released = 1;
-        self.waits_for = vec![0; self.weight.len()];
-        self.waiters = vec![Vec::new(); self.weight.len()];
-        for (b, others) in after {
-            others.iter().for_each(|other| self.waiters[*other].push(*b));
-            self.waits_for[*b] = others.len();
-            self.key[*b].0 = self.released + u8::from(!others.is_empty());
-        }
-        self.queue = self.key.iter().copied().map(Reverse).collect();
     }
 
     /// Lets each block from `n_first` on wait only for its own neighbours in the first set.
@@ -213,7 +181,7 @@ impl Graph {
         if let Some(waiters) = self.waiters.get_mut(p) {
             for b in std::mem::take(waiters) {
                 self.waits_for[b] -= 1;
-                self.key[b].0 = self.released + u8::from(self.waits_for[b] > 0);
+                self.key[b].0 = u8::from(self.waits_for[b] > 0);
                 self.queue.push(Reverse(self.key[b]));
             }
         }

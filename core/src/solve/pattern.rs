@@ -8,10 +8,19 @@
 
 use super::condensed::{condensations, Condensation, Loads};
 use super::mass_block::kinds;
-use super::records::{PinRows, Program, Row};
-use super::storage::{is_pin_only, Source, Storage};
+use super::records::{next, PinRows, Program, Row};
+use super::storage::{is_pin_only, Storage};
 use super::structure::{count_entries, group_starts, index, row_starts, Group, RowBlock};
 use super::symbolic;
+
+/// A row of three entries at a group.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct GroupRow {
+    pub entry: u32,
+    pub group: u32,
+    /// Index, among the factors, of the sum with which the pivot of the row is compared.
+    pub sum: u32,
+}
 
 /// The pattern and the program, shared by any number of matrices.
 #[derive(Clone, Debug)]
@@ -27,9 +36,9 @@ pub struct Pattern {
     /// The other row blocks at condensed groups.
     pub(super) loads: Loads,
     n_unknowns: usize,
+    /// Number of unknowns of the last group.
+    last: usize,
     n_rows: usize,
-    /// The first row of the downdates.
-    pub(super) first_downdate: usize,
     pub(super) n_entries: usize,
     pub(super) storage: Storage,
     /// Row blocks that consist of pin blocks only, in the order of elimination.
@@ -51,36 +60,15 @@ impl Pattern {
     /// a list without gaps, or an index exceeds 32 bits.
     #[inline]
     pub fn new(groups: &[Group], blocks: &[RowBlock], condensed: &[usize]) -> Self {
-        Self::with_downdates(groups, blocks, condensed, &[])
-    }
-
-    /// As [`new`](Self::new), with downdates: the last row blocks, each of one row u at one group, have a negative μ =
-    /// -1/κ ([`Saddle::downdates`](super::Saddle::downdates)). With such a row, the solution is that for the matrix W - κ uᵀ u, without the digits that its inverse would
-    /// lose. A downdate is eliminated after the row blocks that `downdates` contains for it. These rows should leave the
-    /// group no freedom without inertia.
-    ///
-    /// # Panics
-    /// As [`new`](Self::new), or if a downdate has more than one row.
-    pub fn with_downdates(
-        groups: &[Group],
-        blocks: &[RowBlock],
-        condensed: &[usize],
-        downdates: &[Vec<usize>],
-    ) -> Self {
         let (starts, n_unknowns) = group_starts(groups);
         let rows = row_starts(blocks);
         let (condensed_blocks, loads) = condensations(&starts, blocks, &rows, condensed);
         let remaining = Remaining::new(blocks, &rows, condensed);
-        let n = downdates.len();
-        assert!(
-            blocks[blocks.len() - n..].iter().all(|block| block.size == 1),
-            "downdates of one row"
-        );
-        let order = symbolic::order(groups.len(), &remaining.blocks, &remaining.after(downdates));
+        let order = symbolic::order(groups.len(), &remaining.blocks);
         let rows_below = symbolic::rows_below(groups.len(), &remaining.blocks, &order);
-        let (storage, touches) = Storage::new(&starts, &remaining.blocks, &order, n);
+        let (storage, touches) = Storage::new(&starts, &remaining.blocks, &order);
         let (program, n_factors) =
-            symbolic::program(&remaining.blocks, &remaining.rows, &order, &rows_below, &touches, n);
+            symbolic::program(&remaining.blocks, &remaining.rows, &order, &rows_below, &touches);
         let pin_only = |(own, _): &(&usize, &Row)| is_pin_only(&touches[**own]);
         let record =
             |(own, row): (&usize, &Row)| PinRows::new(&touches[*own], remaining.numbers[*own], row);
@@ -96,8 +84,8 @@ impl Pattern {
             condensed: condensed_blocks,
             loads,
             n_unknowns,
+            last: groups.last().map_or(0, |group| group.size),
             n_rows: rows[blocks.len()],
-            first_downdate: rows[blocks.len()] - n,
             n_entries: count_entries(blocks),
             storage,
             pin_rows,
@@ -107,13 +95,31 @@ impl Pattern {
         }
     }
 
-    /// Each row of three entries with its group, except those of condensed row blocks.
-    #[inline]
-    pub(super) fn rows_of_groups(&self) -> impl Iterator<Item = (usize, usize)> + '_ {
-        let ends = self.pin_rows.iter().flat_map(PinRows::ends).chain(&self.storage.mixed);
-        let of_pins = ends.flat_map(|end| [(end.entry, end.group), (end.entry + 1, end.group)]);
-        let rows = self.storage.rows.iter().map(|Source { entry, group }| (*entry, *group));
-        rows.chain(of_pins).map(|(entry, group)| (entry as usize, group as usize))
+    /// Each row of three entries at a group, except those of condensed row blocks.
+    pub(super) fn rows_of_groups(&self) -> Vec<GroupRow> {
+        let mut rows = Vec::new();
+        let mut add = |entry, group, diagonal, size| {
+            rows.extend((0..size).map(|k| GroupRow {
+                entry: entry + k,
+                group,
+                sum: diagonal + size + k,
+            }));
+        };
+        for pins in &self.pin_rows {
+            pins.ends().iter().for_each(|end| add(end.entry, end.group, pins.diagonal, 2));
+        }
+        let mut touches = &self.program.touches[..];
+        for start in &self.program.starts {
+            let own = next(&mut touches, start.touches);
+            own.iter().for_each(|at| add(at.entry, at.group, start.diagonal, start.size));
+        }
+        rows
+    }
+
+    /// Number of unknowns of a group.
+    pub(super) fn size(&self, group: usize) -> usize {
+        let end = self.starts.get(group + 1);
+        end.map_or(self.last, |end| (*end - self.starts[group]) as usize)
     }
 
     /// The row blocks that consist of pin blocks only, in the order of elimination.
@@ -178,16 +184,6 @@ impl Remaining {
             rows: numbers().map(|k| starts[k]).collect(),
             numbers: numbers().map(index).collect(),
         }
-    }
-
-    /// The downdates, with the remaining row blocks that are eliminated before them.
-    fn after(&self, downdates: &[Vec<usize>]) -> Vec<(usize, Vec<usize>)> {
-        let first = self.blocks.len() - downdates.len();
-        let place = |block: &usize| self.numbers.binary_search(&index(*block)).ok();
-        let of_one = |(k, before): (usize, &Vec<usize>)| {
-            (first + k, before.iter().filter_map(place).collect())
-        };
-        downdates.iter().enumerate().map(of_one).collect()
     }
 }
 

@@ -101,8 +101,6 @@ pub(super) struct Row {
     pub pins: bool,
     /// Whether in addition all blocks below its diagonal block are 2 × 2.
     pub pins_below: bool,
-    /// Whether it is a downdate, whose pivot is negative.
-    pub downdate: bool,
 }
 
 /// A group that a row block touches.

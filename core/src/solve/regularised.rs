@@ -16,7 +16,7 @@ use super::breakdown::Breakdown;
 use super::mass_block::{dot, InverseMass, PIVOT_TOLERANCE};
 use super::pattern::Pattern;
 use super::saddle::Saddle;
-use crate::math::Real;
+use crate::math::{indexed, Real};
 
 /// Pivots below this fraction of S_kk are examined; this corresponds to σ below about 0.05.
 const NEAR: f64 = 2e-3;
@@ -41,8 +41,9 @@ impl<S: Real> Saddle<S> {
         let near = self.least;
         let even = self.even_masses(pattern);
         let masses = std::mem::replace(&mut self.masses, even);
+        let light = std::mem::take(&mut self.light);
         let geometric = self.factor_reduced(pattern).is_err();
-        self.masses = masses;
+        (self.masses, self.light) = (masses, light);
         self.least = PIVOT_TOLERANCE;
         self.ridge = if geometric { ridge } else { 0.0 };
         let outcome = self.factor_reduced(pattern);
@@ -51,7 +52,8 @@ impl<S: Real> Saddle<S> {
     }
 
     /// Unit masses, with radii of gyration such that no row turns its body more than it moves it. Condensed groups
-    /// have a unit mass along e.
+    /// have a unit mass along e. The unknowns of groups with fewer than three have masses with which each is at most 1
+    /// in all rows: they may be parameters of curves, in any unit.
     fn even_masses(&self, pattern: &Pattern) -> Vec<InverseMass<S>> {
         let (zero, one) = (S::zero(), S::one());
         let mut even = vec![InverseMass::diagonal([one; 3]); self.masses.len()];
@@ -61,15 +63,24 @@ impl<S: Real> Saddle<S> {
             even[group] = InverseMass { translation: [zero; 2], along: one, direction, held: one };
         }
         let mut arms = vec![zero; even.len()];
-        for (row, group) in pattern.rows_of_groups() {
-            let entries = &self.entries[row];
-            let moved = entries[0] * entries[0] + entries[1] * entries[1];
+        let mut steepest = vec![[zero; 2]; even.len()];
+        for row in pattern.rows_of_groups() {
+            let (entries, group) = (&self.entries[row.entry as usize], row.group as usize);
+            let squares = [entries[0] * entries[0], entries[1] * entries[1]];
+            let moved = squares[0] + squares[1];
+            if pattern.size(group) < 3 {
+                let most = &mut steepest[group];
+                *most = indexed(|k| most[k].max(squares[k]));
+            }
             let turned = dot(entries, &even[group].direction);
             let arm = &mut arms[group];
             *arm = S::select(moved, arm.max(turned * turned / moved), *arm);
         }
-        for (mass, arm) in even.iter_mut().zip(arms) {
+        for ((mass, arm), steepest) in even.iter_mut().zip(arms).zip(steepest) {
             mass.along = S::select(arm, one / arm, one);
+            for (inverse, most) in mass.translation.iter_mut().zip(steepest) {
+                *inverse = S::select(most, one / most, *inverse);
+            }
         }
         even
     }

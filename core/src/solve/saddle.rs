@@ -23,12 +23,9 @@ use super::mass_block::{above_zero, check, is_usable, InverseMass, PIVOT_TOLERAN
 use super::pattern::Pattern;
 use super::pin_block::PinBlock;
 use super::records::{next, Ahead, Left, Row, Update};
+use super::reference::LightRow;
 use crate::math::Real;
 
-/// Smallest accepted pivot of a downdate, relative to its terms. Rounding errors grow by the inverse of this number.
-const LEAST_DOWNDATE: f64 = 1e-12;
-/// A downdate with a smaller pivot, relative to its terms, loses digits that the solution needs.
-const EXACT_DOWNDATE: f64 = 0.01;
 /// Smallest accepted pivot. Its inverse is finite. Pivots of a matrix with NaN or inf are refused.
 const LEAST_PIVOT: f64 = 1e-300;
 
@@ -44,10 +41,10 @@ pub struct Saddle<S> {
     pub condensed: Vec<CondensedGroup<S>>,
     /// Entries of A in rows of three, in the places that the pattern assigns.
     pub entries: Vec<[S; 3]>,
-    /// μ of each row except downdates; empty if zero. Condensed rows are not damped.
+    /// μ of each row; empty if zero. Condensed rows are not damped.
     pub damping: Vec<S>,
-    /// μ of each downdate: -1/κ, or a large positive number if the downdate is omitted.
-    pub downdates: Vec<S>,
+    /// The rows at light groups.
+    pub(super) light: Vec<LightRow>,
     /// Smallest accepted ratio of a pivot to S_kk; [`PIVOT_TOLERANCE`] by default.
     pub(super) least: f64,
     /// Fraction of S_kk that is added to the diagonal; 0 by default.
@@ -76,7 +73,7 @@ impl<S: Real> Saddle<S> {
             condensed: vec![condensed; pattern.condensed.len()],
             entries,
             damping: Vec::new(),
-            downdates: vec![one; pattern.n_rows() - pattern.first_downdate],
+            light: Vec::new(),
             least: PIVOT_TOLERANCE,
             ridge: 0.0,
             pins: vec![PinBlock::zero(); n_pins],
@@ -188,7 +185,7 @@ impl<S: Real> Saddle<S> {
     pub fn cancellation(&self, pattern: &Pattern) -> Option<(usize, f64)> {
         // searches for the largest S_kk / d, so that only one division is needed
         let mut worst = None;
-        for row in pattern.program.rows.iter().filter(|row| !row.downdate) {
+        for row in &pattern.program.rows {
             let (first, size) = (row.row as usize, usize::from(row.size));
             let (inverse, rest) = self.factors[row.diagonal as usize..].split_at(size);
             for (k, (inverse, magnitude)) in inverse.iter().zip(rest).enumerate() {
@@ -204,7 +201,7 @@ impl<S: Real> Saddle<S> {
     /// The smallest ratio d / S_kk in each lane; 1 without rows.
     pub fn cancellations(&self, pattern: &Pattern) -> S {
         let mut worst = S::one();
-        for row in pattern.program.rows.iter().filter(|row| !row.downdate) {
+        for row in &pattern.program.rows {
             let size = usize::from(row.size);
             let (inverse, rest) = self.factors[row.diagonal as usize..].split_at(size);
             for (inverse, magnitude) in inverse.iter().zip(rest) {
@@ -214,18 +211,12 @@ impl<S: Real> Saddle<S> {
         S::one() / worst
     }
 
-    /// Whether the pivot of a downdate lost so many digits, in any lane, that solutions need corrections.
-    #[inline]
-    pub fn is_inexact(&self, pattern: &Pattern) -> bool {
-        let rows = pattern.program.rows.iter().filter(|row| row.downdate);
-        rows.map(|row| &self.factors[row.diagonal as usize..]).any(|block| {
-            (block[0] * block[1]).largest_magnitude() > 1.0 / EXACT_DOWNDATE // S_kk / d
-        })
-    }
-
     /// Eliminates row by row, with `RHS` also the right side. The error is the row that depends on other rows.
     #[inline(never)] // with few pointers, most of them remain in registers
     fn eliminate<const RHS: bool>(&mut self, pattern: &Pattern, g: &mut [S]) -> Result<(), usize> {
+        if !self.light.is_empty() {
+            self.count_light_as_reference();
+        }
         let mut ahead = pattern.program.ahead();
         for row in &pattern.program.rows {
             if row.pins {
@@ -299,12 +290,8 @@ impl<S: Real> Saddle<S> {
         magnitude: &[S; N],
     ) -> Result<(), usize> {
         for i in 0..N {
-            let (pivot, least) = match N == 1 && row.downdate {
-                true => (diagonal.pivot[i].abs(), LEAST_DOWNDATE),
-                false => (diagonal.pivot[i], self.least),
-            };
-            let least = magnitude[i] * S::constant(least) + S::constant(LEAST_PIVOT);
-            if !above_zero(pivot - least) {
+            let least = magnitude[i] * S::constant(self.least) + S::constant(LEAST_PIVOT);
+            if !above_zero(diagonal.pivot[i] - least) {
                 return Err(row.row as usize + i);
             }
         }

@@ -95,18 +95,6 @@ impl<S: Real> Saddle<S> {
         each(*part::<[S; 3], 2>(&self.entries, end.entry), |row| row[2])
     }
 
-    /// Adds rows of [`Pattern::pin_rows`] whose entries are stored and whose right sides are in `g`. `x` contains W⁻¹
-    /// f of all groups.
-    pub fn put_known_pin(&mut self, rows: &PinRows, x: &[S], g: &mut [S]) {
-        let g = part_mut::<S, 2>(g, rows.row);
-        let mut sum = PinSum::new(*g);
-        for end in rows.ends() {
-            self.add_pin(end, self.third_column(end), x, &mut sum);
-        }
-        self.put_pin_rows(rows, &sum);
-        *g = sum.right;
-    }
-
     /// Computes the right sides y of [`Pattern::pin_rows`] from the entries into `g`.
     pub(super) fn put_right_sides_of_pins(&self, pattern: &Pattern, x: &[S], g: &mut [S]) {
         for rows in &pattern.pin_rows {
@@ -138,14 +126,14 @@ impl<S: Real> Saddle<S> {
         for start in &pattern.program.starts {
             let own = next(&mut touches, start.touches);
             match start.size {
-                1 => self.put_rows::<1>(start, own, pattern.first_downdate),
-                2 => self.put_rows::<2>(start, own, pattern.first_downdate),
-                _ => self.put_rows::<3>(start, own, pattern.first_downdate),
+                1 => self.put_rows::<1>(start, own),
+                2 => self.put_rows::<2>(start, own),
+                _ => self.put_rows::<3>(start, own),
             }
         }
     }
 
-    fn put_rows<const N: usize>(&mut self, start: &Start, touches: &[Touch], downdates: usize) {
+    fn put_rows<const N: usize>(&mut self, start: &Start, touches: &[Touch]) {
         let (mut s, mut held) = ([[S::zero(); N]; N], [S::zero(); N]);
         for Touch { first, group, sign, .. } in touches {
             let of_group = self.masses[*group as usize].held;
@@ -159,11 +147,6 @@ impl<S: Real> Saddle<S> {
                     *held += of_group * (*x * *x + *y * *y);
                 }
             }
-        }
-        if N == 1 && start.row as usize >= downdates {
-            let mu = self.downdates[start.row as usize - downdates];
-            s[0][0] += mu;
-            held[0] += mu.abs() - mu; // s is part of the magnitude
         }
         self.put(start.row, start.diagonal, s, held);
     }

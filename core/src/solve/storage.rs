@@ -1,8 +1,8 @@
 //! The storage map: where the rows U of a [`Pattern`](super::Pattern) are stored, and the entries from which they
 //! come.
 //!
-//! At groups where all row blocks but downdates are pairs [±I b], each pair is a pin block. Downdates, and the rows at
-//! other groups, are stored one by one. Both are stored in the order of elimination.
+//! At groups where all row blocks are pairs [±I b], each pair is a pin block. The rows at other groups are stored one by
+//! one. Both are stored in the order of elimination.
 
 use super::records::{PinEnd, Touch};
 use super::structure::{index, RowBlock};
@@ -27,16 +27,10 @@ pub(super) struct Source {
 
 impl Storage {
     /// The storage of the `blocks` to be eliminated, and the groups that each of them touches. `starts` contains the
-    /// first unknown of each group. The last `n_downdates` blocks are downdates.
-    pub fn new(
-        starts: &[usize],
-        blocks: &[RowBlock],
-        order: &[usize],
-        n_downdates: usize,
-    ) -> (Self, Vec<Vec<Touch>>) {
+    /// first unknown of each group.
+    pub fn new(starts: &[usize], blocks: &[RowBlock], order: &[usize]) -> (Self, Vec<Vec<Touch>>) {
         let mut with_pins = vec![true; starts.len()];
-        let rows = &blocks[..blocks.len() - n_downdates];
-        for block in rows.iter().filter(|block| block.signs.is_empty()) {
+        for block in blocks.iter().filter(|block| block.signs.is_empty()) {
             block.touches.iter().for_each(|&(group, _)| with_pins[group] = false);
         }
         let mut storage = Self::default();

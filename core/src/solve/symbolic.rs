@@ -1,20 +1,18 @@
 //! Symbolic factorisation: elimination order, fill, and the elimination program.
 
 use super::block::numbers;
-use super::order::groups_first_after;
+use super::order::groups_first;
 use super::records::{Below, Left, Pair, Program, Row, Start, Touch, Update};
 use super::storage::is_pin_only;
 use super::structure::{index, row_starts, RowBlock};
 
-/// The program with all products, row by row, and the number of values in the blocks of L. The last `n_downdates` row
-/// blocks are downdates.
+/// The program with all products, row by row, and the number of values in the blocks of L.
 pub(super) fn program(
     blocks: &[RowBlock],
     first_rows: &[usize],
     order: &[usize],
     rows_below: &[Vec<usize>],
     touches: &[Vec<Touch>],
-    n_downdates: usize,
 ) -> (Program, usize) {
     let (of_rows, n_factors) = Factors::new(blocks, order, rows_below);
     let updates = of_rows.updates(blocks, order, rows_below);
@@ -47,7 +45,6 @@ pub(super) fn program(
             left: index(left.len()),
             below: index(below.len()),
             size: blocks[own].size as u8,
-            downdate: own >= blocks.len() - n_downdates,
             pins,
             pins_below: pins && below.iter().all(|below| below.size == 2),
         });
@@ -69,7 +66,7 @@ impl Program {
     }
 }
 
-/// Two row blocks, once for each group that they share. A downdate is paired with pin blocks as well.
+/// Two row blocks, once for each group that they share.
 fn pairs<'a>(one: &'a [Touch], other: &'a [Touch]) -> impl Iterator<Item = Pair> + 'a {
     one.iter().filter_map(|own| {
         let partner = other.iter().find(|t| t.group == own.group)?;
@@ -142,13 +139,8 @@ impl Factors {
     }
 }
 
-/// The order in which row blocks are eliminated, after all groups. Each item of `after` contains a row block and those
-/// that are eliminated before it.
-pub(super) fn order(
-    groups: usize,
-    blocks: &[RowBlock],
-    after: &[(usize, Vec<usize>)],
-) -> Vec<usize> {
+/// The order in which row blocks are eliminated, after all groups.
+pub(super) fn order(groups: usize, blocks: &[RowBlock]) -> Vec<usize> {
     let (n_first, starts) = (3 * groups, row_starts(blocks));
     let first: Vec<usize> = (0..n_first)
         .step_by(3)
@@ -160,11 +152,7 @@ pub(super) fn order(
         .flat_map(|(b, s)| b.touches.iter().map(move |&(group, _)| (n_first + s, 3 * group)))
         .collect();
     let n = n_first + starts[blocks.len()];
-    let of_block = |(block, others): &(usize, Vec<usize>)| {
-        (groups + block, others.iter().map(|other| groups + other).collect())
-    };
-    let after: Vec<(usize, Vec<usize>)> = after.iter().map(of_block).collect();
-    let order = groups_first_after(n_first, n, &entries, Some(&first), &after);
+    let order = groups_first(n_first, n, &entries, Some(&first));
     let starting = |i: &usize| i.checked_sub(n_first).and_then(|i| starts.binary_search(&i).ok());
     order.iter().filter_map(starting).collect()
 }

@@ -87,7 +87,7 @@ fn correct(
 /// Solves for a correction in the metric. If the motion of a massless body is undetermined, all of its rates have the
 /// same energy; the factorisation with added mass selects one of them.
 fn nearest(model: &Model, motions: &Motions, matrix: &Augmented, x: &mut Vec<f64>) {
-    if matrix.adds_inertia() {
+    if matrix.is_light() {
         let mut exact = x.clone();
         let memory = &mut refine::Memory::default();
         if refine::solve(model, motions, matrix, &mut exact, memory).is_ok() {

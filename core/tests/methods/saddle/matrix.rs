@@ -117,11 +117,6 @@ impl Matrix {
         Pattern::new(&self.groups(), &self.blocks, &[])
     }
 
-    /// The last blocks are downdates, each after the blocks in `before`.
-    pub fn pattern_with_downdates(&self, before: &[Vec<usize>]) -> Pattern {
-        Pattern::with_downdates(&self.groups(), &self.blocks, &[], before)
-    }
-
     pub fn saddle(&self, pattern: &Pattern) -> Saddle<f64> {
         let mut saddle = Saddle::new(pattern);
         saddle.masses = self.masses.iter().map(inverse_mass).collect();

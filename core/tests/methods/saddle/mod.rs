@@ -1,6 +1,5 @@
 //! Saddle-point matrices solved by blocks against a dense reference, on random mechanisms.
 
-mod downdates;
 mod matrix;
 
 use kempe::math::{Dual, Lanes, Real};
