@@ -253,7 +253,7 @@ impl<S: Real> Augmented<S> {
     /// Whether solutions need [corrections](super::refine), because of light bodies or coordinates.
     #[inline(always)]
     pub fn is_light(&self) -> bool {
-        self.light.as_ref().is_some_and(|light| !light.is_none())
+        self.light.as_ref().is_some_and(|light| light.any)
     }
 
     /// Solves in place. x has the parts (q, multipliers), with or without the unknowns that pad the last group.

@@ -47,6 +47,8 @@ pub struct Light<S> {
     /// 1 if it is not light.
     pub ratios: Vec<[f64; 2]>,
     pub(super) internals: Vec<Internal>,
+    /// Whether any coordinate is light, so that one elimination is not exact.
+    pub any: bool,
 }
 
 /// The internal coordinates of an element. Their E is Σ w Φ_u² over the rows of the element, so that it does not depend
@@ -76,12 +78,8 @@ impl<S: Real> Light<S> {
         }
         let inertias = inertia::inertias(model, &bodies);
         let internals = internals(model, &all);
-        Self { bodies, inertias, added, ratios, internals }
-    }
-
-    /// Whether no coordinate is light, so that one elimination is exact to rounding.
-    pub fn is_none(&self) -> bool {
-        self.internals.is_empty() && self.ratios.iter().flatten().all(|ratio| *ratio == 1.0)
+        let any = !internals.is_empty() || ratios.iter().any(|ratios| *ratios != [1.0; 2]);
+        Self { bodies, inertias, added, ratios, internals, any }
     }
 }
 

@@ -82,14 +82,16 @@ pub(super) fn put_blocks<S: Real>(
     blocks: &mut Vec<MassBlock<S>>,
 ) {
     blocks.clear();
-    let bodies = model.bodies.iter().zip(motions).skip(1);
-    blocks.extend(bodies.map(|(body, motion)| block(body, motion)));
+    for k in 1..model.bodies.len() {
+        blocks.push(block(&model.bodies[k], &motions[k]));
+    }
 }
 
 /// [`add_times`] with precomputed blocks.
 #[inline]
 pub(super) fn add_blocks<S: Real>(model: &Model<S>, blocks: &[MassBlock<S>], x: &[S], y: &mut [S]) {
-    for (block, columns) in blocks.iter().zip(&model.layout.bodies[1..]) {
+    for (k, block) in blocks.iter().enumerate() {
+        let columns = model.layout.bodies[k + 1];
         columns.add(block.times(columns.of(x)), y);
     }
 }

@@ -20,6 +20,7 @@ use super::{mass, reactions, reactive, refine, Compiled};
 use crate::math::Real;
 use crate::model::Model;
 use crate::solve::Breakdown;
+use std::cell::Cell;
 use std::sync::Arc;
 
 /// Memory for the equations of motion of one model, and the results of the last evaluation: motions, accelerations,
@@ -194,7 +195,7 @@ impl<S: Real> Workspace<S> {
     pub fn respond(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
         if self.solves_directly() {
             match self.solve_directly(model, t, gains) {
-                Ok(()) if self.matrix.is_light() => return self.correct(model, t, gains),
+                Ok(()) if self.matrix.is_light() => return self.correct(model),
                 Err(Breakdown::Row(_)) if self.matrix.near_singular() != NearSingular::Ignore => {}
                 outcome => return outcome,
             }
@@ -207,24 +208,33 @@ impl<S: Real> Workspace<S> {
     #[inline]
     pub fn respond_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> bool {
         let solved = self.solves_directly() && self.solve_directly(model, t, gains).is_ok();
-        solved && (!self.matrix.is_light() || self.correct(model, t, gains).is_ok())
+        solved && (!self.matrix.is_light() || self.correct(model).is_ok())
     }
 
-    /// Computes q̈ and λ if the matrix is that of the equations. Each joint is added to the matrix when it is
-    /// evaluated.
+    /// Computes q̈ and λ if the matrix is that of the equations, or differs from it by what corrections remove. Each
+    /// joint is added to the matrix when it is evaluated.
     #[inline(always)]
     fn solve_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
-        let Self { motions, z, compiled, roles, matrix, solution, powers, offset, .. } = self;
+        let Self { motions, z, compiled, roles, matrix, solution, powers, offset, memory, .. } =
+            self;
+        let light = matrix.is_light();
         let (plan, saddle) = matrix.parts_mut();
         let stabilized = Stabilized::new(gains);
         let inertias = &compiled.light.inertias[..];
-        let at = roles::At { model, compiled, plan, inertias, motions, t, stabilized, offset };
+        let [f, kept] = memory.right_side(if light { [self.n_q, self.n_rows] } else { [0; 2] });
+        let kept = Cell::from_mut(kept).as_slice_of_cells();
+        let at =
+            roles::At { model, compiled, plan, inertias, motions, t, stabilized, offset, kept };
         mass::turn_all(plan.pattern.coupled(), inertias, motions, &mut saddle.masses);
         let (x, right) = solution.split_at_mut(self.n_unknowns);
         let acting = Acting { z, lam: None, t };
         forces::generalized(model, compiled, motions, acting, x, powers);
         roles::put_others(roles, at, saddle, right);
-        augmented::weigh_internals(&compiled.light.internals, saddle);
+        if light {
+            f.copy_from_slice(&x[..self.n_q]);
+            kept.iter().zip(&*right).for_each(|(kept, right)| kept.set(*right));
+            augmented::weigh_internals(&compiled.light.internals, saddle);
+        }
         roles::condense(roles, at, saddle, (x, right));
         saddle.divide_by_masses(&plan.pattern, x);
         roles::put(roles, at, saddle, (x, right));
@@ -233,15 +243,9 @@ impl<S: Real> Workspace<S> {
 
     /// Corrects the direct solution for light bodies and coordinates.
     #[inline(never)] // rare
-    fn correct(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
-        let Self { motions, z, compiled, matrix, solution, powers, offset, memory, .. } = self;
-        let mut right = vec![S::zero(); self.n_rows];
-        constraints::linearize(model, motions, t, gains, &mut right, matrix.jacobian_mut());
-        right.iter_mut().zip(offset).for_each(|(right, offset)| *right -= *offset);
-        let mut f = vec![S::zero(); self.n_q];
-        let acting = Acting { z, lam: None, t };
-        forces::generalized(model, compiled, motions, acting, &mut f, powers);
-        refine::correct((model, motions, matrix), [&f, &right], solution, memory)
+    fn correct(&mut self, model: &Model<S>) -> Result<(), Breakdown> {
+        let Self { motions, matrix, solution, memory, .. } = self;
+        refine::correct_direct((model, motions, matrix), solution, memory)
     }
 
     /// Solves with the whole matrix. Its factors may be those of a modified matrix. Iterates forces that depend on

@@ -23,6 +23,8 @@ pub struct Plan {
     pub(super) owners: Vec<Columns>,
     /// Whether grounded bodies are condensed.
     pub(super) condenses: bool,
+    /// Row, column and index of each entry of Φ_q.
+    pub(super) positions: Vec<[u32; 3]>,
 }
 
 impl Plan {
@@ -71,7 +73,9 @@ impl Plan {
         let pattern = Pattern::new(&groups, &blocks, &condensed_blocks);
         let pins = pattern.pin_rows().iter().map(|rows| owners[rows.block as usize]).collect();
         let owners = model.layout.owners.clone();
-        Self { pattern, condensed, pins, owners, condenses }
+        let positions = model.layout.positions();
+        let positions = positions.map(|(row, column, at)| [row, column, at].map(|k| k as u32));
+        Self { pattern, condensed, pins, owners, condenses, positions: positions.collect() }
     }
 
     /// Number of unknowns of the solver: the coordinates, and the padding of a last group with fewer than three.

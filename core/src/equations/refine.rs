@@ -46,6 +46,17 @@ impl<S> Default for Memory<S> {
     }
 }
 
+impl<S: Real> Memory<S> {
+    /// Room for b of the next [`correct_direct`], in two parts of these lengths.
+    #[inline(always)]
+    pub(super) fn right_side(&mut self, [n, rows]: [usize; 2]) -> [&mut [S]; 2] {
+        if self.b.len() != n + rows {
+            self.b.resize(n + rows, S::zero());
+        }
+        self.b.split_at_mut(n).into()
+    }
+}
+
 /// A model at a state, with the factors of its matrix.
 type At<'a, S> = (&'a Model<S>, &'a Motions<S>, &'a Augmented<S>);
 
@@ -78,35 +89,44 @@ pub fn solve<S: Real>(
     outcome
 }
 
+/// [`correct`] for b of [`Memory::right_side`].
+pub(super) fn correct_direct<S: Real>(
+    at: At<'_, S>,
+    solution: &mut [S],
+    memory: &mut Memory<S>,
+) -> Result<(), Breakdown> {
+    let b = std::mem::take(&mut memory.b);
+    let (f, right) = b.split_at(at.0.layout.n_q);
+    let outcome = correct(at, [f, right], solution, memory);
+    memory.b = b;
+    outcome
+}
+
 /// Corrects a solution of K x = b with the factors of the matrix. The `solution` has the layout of the matrix, b the
 /// shapes (n_q), (n_rows).
 ///
 /// # Errors
 /// A load on a coordinate without mass or inertia that no joint supports.
 pub(super) fn correct<S: Real>(
-    (model, motions, matrix): At<'_, S>,
+    of: At<'_, S>,
     b: [&[S]; 2],
     solution: &mut [S],
     memory: &mut Memory<S>,
 ) -> Result<(), Breakdown> {
+    let (model, motions, matrix) = of;
     let Memory { correction, masses, .. } = memory;
     let (n, at, rows) = (model.layout.n_q, matrix.plan().n_unknowns(), model.layout.n_rows);
     mass::put_blocks(model, motions, masses);
-    let put_remainder = |solution: &[S], out: &mut Vec<S>| {
-        out.clear();
-        out.resize(solution.len(), S::zero());
-        let (upper, lower) = out.split_at_mut(at);
-        let x = [&solution[..n], &solution[at..]];
-        put_parts(model, masses, matrix.jacobian(), b, x, [&mut upper[..n], lower]);
-    };
     let (least, light) = ([0.0, LEAST * most(b[0])], matrix.is_light());
     // a ridge must stay where rows are dependent
     let settles = light && !matrix.regularised();
     let mut last = f64::INFINITY;
     for corrections in 1..=MOST {
-        put_remainder(solution, correction);
+        put_remainder(of, masses, b, solution, correction);
         matrix.solve(correction);
-        solution.iter_mut().zip(&*correction).for_each(|(x, dx)| *x += *dx);
+        for (k, dx) in correction.iter().enumerate() {
+            solution[k] += *dx;
+        }
         let of_part = |(part, least): (Range<usize>, f64)| {
             let (change, size) = (most(&correction[part.clone()]), most(&solution[part]));
             if change == 0.0 {
@@ -125,7 +145,7 @@ pub(super) fn correct<S: Real>(
     if !settles || last <= SIGNIFICANT {
         return Ok(());
     }
-    put_remainder(solution, correction);
+    put_remainder(of, masses, b, solution, correction);
     let terms = terms(model, masses, matrix.jacobian(), b, [&solution[..n], &solution[at..]]);
     match largest(&correction[..n], &terms) {
         (column, left) if left > SIGNIFICANT => Err(Breakdown::Column(column)),
@@ -136,7 +156,9 @@ pub(super) fn correct<S: Real>(
 /// The largest magnitude; NaN if a number is NaN.
 fn most<S: Real>(x: &[S]) -> f64 {
     let mut largest = Largest::new();
-    x.iter().for_each(|x| largest.add(*x));
+    for x in x {
+        largest.add(*x);
+    }
     largest.get()
 }
 
@@ -147,20 +169,27 @@ fn largest<S: Real>(remainder: &[S], terms: &[S]) -> (usize, f64) {
     ratios.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
 }
 
-/// Computes b - K x into `out`, which is zero before. Coordinates and rows are given separately.
-fn put_parts<S: Real>(
-    model: &Model<S>,
+/// Computes b - K x into `out`, in the layout of the matrix.
+fn put_remainder<S: Real>(
+    (model, _, matrix): At<'_, S>,
     masses: &[MassBlock<S>],
-    jacobian: &[S],
     [f, right]: [&[S]; 2],
-    [a, lam]: [&[S]; 2],
-    [upper, lower]: [&mut [S]; 2],
+    x: &[S],
+    out: &mut Vec<S>,
 ) {
-    constraints::add_transposed(model, jacobian, lam, upper);
-    mass::add_blocks(model, masses, a, upper);
-    constraints::times_all(model, jacobian, a, lower);
-    upper.iter_mut().zip(f).for_each(|(out, b)| *out = *b - *out);
-    lower.iter_mut().zip(right).for_each(|(out, b)| *out = *b - *out);
+    let (n, at, entries) = (f.len(), matrix.plan().n_unknowns(), matrix.jacobian());
+    out.clear();
+    out.resize(x.len(), S::zero());
+    mass::add_blocks(model, masses, &x[..n], out);
+    for k in 0..n {
+        out[k] = f[k] - out[k];
+    }
+    out[at..].copy_from_slice(right);
+    for &[row, column, entry] in &matrix.plan().positions {
+        let (row, column, entry) = (at + row as usize, column as usize, entries[entry as usize]);
+        out[column] = out[column].minus_product(entry, x[row]);
+        out[row] = out[row].minus_product(entry, x[column]);
+    }
 }
 
 /// |f| + |M a| + |Φ_qᵀ| |λ|, the terms whose difference is the remainder of each coordinate, shape (n_q).

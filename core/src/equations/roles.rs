@@ -14,6 +14,7 @@ use crate::elements::{BodyId, Joint, JointPools, Linearized, Moving, Place, Pool
 use crate::math::{each, Real};
 use crate::model::Model;
 use crate::solve::{PinEnd, PinRows, PinSum, Saddle};
+use std::cell::Cell;
 
 /// Joints and drivers by role.
 #[derive(Clone, Debug)]
@@ -71,6 +72,8 @@ pub(super) struct At<'a, S> {
     pub stabilized: Stabilized<S>,
     /// A vector that is subtracted from γ̂, shape (n_rows), or empty.
     pub offset: &'a [S],
+    /// Where γ̂ of pins and condensed joints is kept, shape (n_rows), or empty.
+    pub kept: &'a [Cell<S>],
 }
 
 /// Φ, Φ̇ and γ of two rows, and their columns for bodies i and j.
@@ -103,6 +106,10 @@ impl<S: Real> At<'_, S> {
             for (k, right) in right.iter_mut().enumerate() {
                 *right -= self.offset[row as usize + k];
             }
+        }
+        if let Some([first, second]) = self.kept.get(row as usize..row as usize + 2) {
+            first.set(right[0]);
+            second.set(right[1]);
         }
         right
     }
