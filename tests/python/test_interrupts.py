@@ -74,17 +74,15 @@ def test_an_interruption_arrives_within_a_fifth_of_a_second(
 
 
 def interrupted(work: Callable[[], object], after: float = 0.4) -> tuple[float, BaseException]:
-    """The time from a signal to the exception of a computation, s, and the exception."""
-    sent: list[float] = []
+    """The time from a signal to the exception of a computation, s, and the exception.
 
-    def interrupt() -> None:
-        sent.append(time.monotonic())
-        signal.raise_signal(signal.SIGINT)
-
-    threading.Timer(after, interrupt).start()
+    A computation that holds the interpreter's lock also delays the signal, which counts.
+    """
+    due = time.monotonic() + after
+    threading.Timer(after, signal.raise_signal, [signal.SIGINT]).start()
     with pytest.raises(KeyboardInterrupt) as caught:
         work()
-    return time.monotonic() - sent[0], caught.value
+    return time.monotonic() - due, caught.value
 
 
 @pytest.mark.alone
@@ -119,16 +117,15 @@ def net(n: int) -> kp.Model:
     return m
 
 
-def wheels(n: int) -> kp.Solution:
-    """A train of many gears, whose teeth are computed for a drawing."""
-    m = kp.Model("train")
-    for k in range(n):
-        m.ground.points(**{f"A{k}": (2.0 * k, 0)})
-        m.body(f"w{k}", mass=1, inertia=1, points={"C": (0, 0)})
-        m.revolute(f"p{k}", f"ground.A{k}", f"w{k}.C")
-        if k:
-            m.gear(f"g{k}", f"w{k - 1}.C", f"w{k}.C", radii=(1, 1))
-    m.coordinate_driver("drive", "w0.angle", value="t")
+def wheels(ratio: float) -> kp.Solution:
+    """A pair of gears, whose larger one is drawn with 18 teeth times the ratio."""
+    m = kp.Model("pair")
+    m.ground.points(A=(0, 0), B=(1 + ratio, 0))
+    for name in "AB":
+        m.body(f"w{name}", mass=1, inertia=1, points={"C": (0, 0)})
+        m.revolute(f"p{name}", f"ground.{name}", f"w{name}.C")
+    m.gear("g", "wA.C", "wB.C", radii=(1, ratio))
+    m.coordinate_driver("drive", "wA.angle", value="t")
     return kp.kinematics(m, kp.assemble(m), t_end=0.1, output_step=0.1)
 
 
@@ -139,7 +136,7 @@ def test_an_interruption_of_a_long_analysis_arrives_within_a_fifth_of_a_second(
     name: str, tmp_path: Path
 ) -> None:
     if name == "teeth":
-        drawn = wheels(500)
+        drawn = wheels(3e4)
         took, _ = interrupted(lambda: [kp.player(drawn, tmp_path / "train.html") for _ in range(1000)])
     else:
         m = net(600)

@@ -120,6 +120,11 @@ pub fn because(reason: &driven::Reason) -> Failure {
             .name(name)
             .at(*t)
             .hint("kp.assemble(model, from_state=state) assembles the mechanism anew"),
+        driven::Reason::Beyond { t, name, .. } => {
+            Failure::new(Kind::Assembly, message).name(name).at(*t).hint(
+                "start where the gap is not negative, or give a stiffness in place of restitution",
+            )
+        }
         driven::Reason::Singular { t, name, .. } => Failure::new(Kind::Singularity, message)
             .name(name)
             .at(*t)

@@ -103,6 +103,10 @@ fn because(py: Python<'_>, failure: &linear::Failure, outputs: &[String]) -> PyE
                 .name(name)
                 .at(*t)
                 .hint("give a state beside this one, or change the mechanism"),
+            Reason::Start { t, name, .. } => made(Kind::Assembly)
+                .name(name)
+                .at(*t)
+                .hint("give it a stiffness in place of restitution"),
             _ => made(Kind::Singularity).hint("give a state beside this one"),
         },
         linear::Failure::Name(problem) => {
