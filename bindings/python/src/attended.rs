@@ -7,7 +7,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 use crate::guard::{caught, raised};
-use crate::watch::Stop;
+use crate::watch::ToEnd;
 
 /// Time between checks for signals.
 const GLANCE: Duration = Duration::from_millis(40);
@@ -31,7 +31,7 @@ pub enum Attended<T> {
 /// The exception of a signal handler, such as `KeyboardInterrupt`.
 pub fn attended<T: Send + 'static>(
     py: Python<'_>,
-    work: impl FnOnce(Stop<'_>) -> T + Send + 'static,
+    work: impl FnOnce(ToEnd<'_>) -> T + Send + 'static,
 ) -> PyResult<T> {
     match attend(py, Duration::ZERO, work)? {
         Attended::Done(result) => Ok(result),
@@ -46,7 +46,7 @@ pub fn attended<T: Send + 'static>(
 pub fn attend<T: Send + 'static>(
     py: Python<'_>,
     ending: Duration,
-    work: impl FnOnce(Stop<'_>) -> T + Send + 'static,
+    work: impl FnOnce(ToEnd<'_>) -> T + Send + 'static,
 ) -> PyResult<Attended<T>> {
     let stop = Arc::new(AtomicBool::new(false));
     let (send, receive) = channel();

@@ -4,7 +4,7 @@ use crate::attended::attended;
 use crate::convert::{refuse, rows, table, Row, Rows};
 use crate::guard::guard;
 use crate::model::PyModel;
-use crate::watch::Stop;
+use crate::watch::ToEnd;
 use kempe_drawing::display::{place_labels, width, Taken};
 use kempe_drawing::{At, Effort, Pose, Request, Scene, View};
 use numpy::{PyArray2, PyReadonlyArray3};
@@ -57,7 +57,7 @@ pub fn display<'py>(
         let (low, scale, size) = view;
         let view = View { low, scale, size };
         let work =
-            move |_: Stop<'_>| to_string(&kempe_drawing::display(&scene, &poses, &view, &asked));
+            move |_: ToEnd<'_>| to_string(&kempe_drawing::display(&scene, &poses, &view, &asked));
         attended(py, work)?.map_err(|e| refuse(py, "display", e.to_string()))
     })
 }

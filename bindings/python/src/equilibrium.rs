@@ -6,7 +6,7 @@ use crate::errors::{raise_plain, Failure, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
 use crate::options;
-use crate::watch::{Stop, Watch};
+use crate::watch::{ToEnd, Watch};
 use kempe::analyses::equilibrium as statics;
 use kempe::analyses::options::Declared;
 use kempe::analyses::State;
@@ -72,7 +72,7 @@ pub fn compliance(
             let hint = "give one such as crank.B";
             return Err(Failure::new(Kind::Model, message).name(point).hint(hint).raise(py));
         };
-        let work = move |_: Stop<'_>| statics::compliance(&core, &start, &hold, body, place);
+        let work = move |_: ToEnd<'_>| statics::compliance(&core, &start, &hold, body, place);
         attended(py, work)?.map_err(|reason| because(py, &reason))
     })
 }

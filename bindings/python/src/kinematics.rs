@@ -7,7 +7,7 @@ use crate::errors::{raise_plain, Failure, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
 use crate::options;
-use crate::watch::{Stop, Watch};
+use crate::watch::{ToEnd, Watch};
 use kempe::analyses::dynamics::{Run, Statistics};
 use kempe::analyses::kinematics as driven;
 use kempe::analyses::options::Declared;
@@ -52,7 +52,7 @@ pub fn kinematics(
         let core = Arc::clone(&model.get().model);
         let start = state(py, &core, t, [&q, &v, &z])?;
         let times = row(py, "times", &times, times.as_array().len())?;
-        let work = move |stop: Stop<'_>| {
+        let work = move |stop: ToEnd<'_>| {
             let mut watch = Watch::until(progress.as_ref(), stop);
             let (run, reason) = followed(&core, &start, &times, |t| watch.look(t));
             (run, reason, watch.raised)
@@ -80,7 +80,7 @@ fn followed(
     mut look: impl FnMut(f64) -> Flow,
 ) -> (Run, Option<driven::Reason>) {
     let began = std::time::Instant::now();
-    let mut recorder = driven::Recorder::new(model, start);
+    let mut recorder = driven::MotionRecorder::new(model, start);
     let outcome = driven::kinematics(model, start, times, |motion| {
         recorder.follow(motion);
         motion.points.last().map_or(Flow::Continue, |point| look(point.t))

@@ -11,13 +11,13 @@ const GLANCE: Duration = Duration::from_millis(40);
 const PACE: Duration = Duration::from_micros(250);
 
 /// Whether an attended computation is to end.
-pub type Stop<'a> = &'a (dyn Fn() -> bool + Sync);
+pub type ToEnd<'a> = &'a (dyn Fn() -> bool + Sync);
 
 /// Checks for signals and reports progress, at intervals that make the cost negligible.
 pub struct Watch<'a> {
     progress: Option<&'a Py<PyAny>>,
     /// Whether the run is to end, for a run on a thread of its own, to which no signals come.
-    stop: Option<Stop<'a>>,
+    stop: Option<ToEnd<'a>>,
     /// The time of the last check for signals.
     told: Instant,
     /// The time of the last reading of the clock.
@@ -36,7 +36,7 @@ impl<'a> Watch<'a> {
     }
 
     /// The watch of an attended computation.
-    pub fn until(progress: Option<&'a Py<PyAny>>, stop: Stop<'a>) -> Self {
+    pub fn until(progress: Option<&'a Py<PyAny>>, stop: ToEnd<'a>) -> Self {
         Self { stop: Some(stop), ..Self::new(progress) }
     }
 

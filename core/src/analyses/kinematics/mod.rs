@@ -41,7 +41,7 @@ pub use motion::Motion;
 pub use options::{InverseOptions, Options};
 pub use over::{over, Over};
 pub use solution::Point;
-pub use works::{recorded, Recorded, Recorder};
+pub use works::{recorded, MotionRecorder, Recorded};
 
 use super::State;
 use crate::integrate::Flow;

@@ -30,13 +30,13 @@ pub struct Recorded {
 
 /// Records a motion from `start` with the works of its forces and drivers.
 pub fn recorded(model: &Model, start: &State, motion: &Motion) -> Recorded {
-    let mut recorder = Recorder::new(model, start);
+    let mut recorder = MotionRecorder::new(model, start);
     recorder.follow(motion);
     recorder.recorded
 }
 
 /// Records a motion while it is computed, so that the record is complete at any time.
-pub struct Recorder<'a> {
+pub struct MotionRecorder<'a> {
     works: Works<'a>,
     /// The record so far.
     pub recorded: Recorded,
@@ -45,7 +45,7 @@ pub struct Recorder<'a> {
     outputs: usize,
 }
 
-impl<'a> Recorder<'a> {
+impl<'a> MotionRecorder<'a> {
     /// The record of a motion from `start`.
     pub fn new(model: &'a Model, start: &State) -> Self {
         let dense = PiecewiseInterpolant { degree: DEGREE, ..PiecewiseInterpolant::default() };
