@@ -137,7 +137,8 @@ def test_an_interruption_of_a_long_analysis_arrives_within_a_fifth_of_a_second(
 ) -> None:
     if name == "teeth":
         drawn = wheels(3e4)
-        took, _ = interrupted(lambda: [kp.player(drawn, tmp_path / "train.html") for _ in range(1000)])
+        page = tmp_path / "pair.html"
+        took, _ = interrupted(lambda: [kp.player(drawn, page) for _ in range(1000)])
     else:
         m = net(600)
         start = kp.assemble(m, set={f"b{k}.angle": -0.3 for k in range(600)})
