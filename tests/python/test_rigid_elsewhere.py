@@ -8,6 +8,7 @@ from collections.abc import Callable
 import kempe as kp
 import numpy as np
 import pytest
+from kempe.draw.scene import scene
 
 #: Length of the arm, m, and its mass, kg.
 SIZES = [(1e-3, 1e3), (1.0, 2.0), (1e3, 1e-3)]
@@ -128,3 +129,11 @@ def test_a_run_decides_what_a_state_cannot(law: dict[str, float]) -> None:
     soft = arm(stiffness=1e6)
     state = kp.equilibrium(soft, kp.assemble(soft, set={"arm.angle": "10 deg"})).state
     assert state["lim.torque"] == pytest.approx(held, rel=1e-4)
+
+
+def test_a_state_that_presses_on_a_stop_is_drawn_without_arrows() -> None:
+    m = arm()
+    drawn = scene(kp.assemble(m, set={"arm.angle": "-45 deg"}))
+    assert drawn["largest"]["force"] == drawn["largest"]["acceleration"] == 0
+    free = scene(kp.assemble(m, set={"arm.angle": "45 deg"}))
+    assert free["largest"]["acceleration"] == pytest.approx(1.5 * 9.81 / math.sqrt(2), rel=1e-3)
