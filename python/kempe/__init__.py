@@ -104,6 +104,7 @@ if TYPE_CHECKING:
     from kempe.events import EventWarning as EventWarning
     from kempe.freedom import MobilityResult as MobilityResult
     from kempe.freedom import mobility as mobility
+    from kempe.functions import FunctionWarning as FunctionWarning
     from kempe.functions import Sampled as Sampled
     from kempe.lab_report import write_report as write_report
     from kempe.linearization import ModesResult as ModesResult
@@ -168,6 +169,7 @@ _HOME = {
     "Event": "event",
     "EventWarning": "events",
     "FileError": "errors",
+    "FunctionWarning": "functions",
     "GeneralizedAlpha": "options",
     "HHT": "options",
     "IntegrationError": "errors",

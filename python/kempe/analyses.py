@@ -15,6 +15,7 @@ from kempe.assembly_report import AssemblyReport
 from kempe.compiled import CompiledModel
 from kempe.errors import ModelError
 from kempe.event import Action, Events, with_actions
+from kempe.functions import FunctionWarning
 from kempe.model import Model, Redundancy, compiled_model
 from kempe.names import one_of, unknown
 from kempe.option import Option, core_options
@@ -173,7 +174,10 @@ def _simulate(
     acting = (list(actions), Acting(model, start, actions)) if actions else None
     try:
         at = start.q, start.v, start.z
-        run = _core.dynamics(model.core, t, *at, text, progress, wanted.t_end, acting)
+        with model.run() as remembered:
+            for remark in remembered:
+                warnings.warn(remark, FunctionWarning, stacklevel=3)
+            run = _core.dynamics(model.core, t, *at, text, progress, wanted.t_end, acting)
     except BaseException as error:  # including interruptions and exceptions of progress
         partial = vars(error).pop("run", None)  # which cannot be pickled with the error
         if partial is not None and len(partial.t):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import AbstractContextManager, nullcontext
 from functools import cached_property
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
@@ -97,6 +98,10 @@ class CompiledModel:
         if self._analyses is None:
             return self._case
         return json.dumps({**json.loads(self._case), "analyses": self._analyses})
+
+    def run(self) -> AbstractContextManager[list[str]]:
+        """A run of the model; gives a text for each controller that remembers an earlier one."""
+        return nullcontext([]) if self._functions is None else self._functions.run()
 
     def _refuse_functions(self) -> None:
         if self._functions is not None and self._functions.laws:

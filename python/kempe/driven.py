@@ -130,7 +130,11 @@ def follow_with_forces(
             hint="use dynamics, or leave out the inductance",
         )
     solution = follow(model, start, entry, progress)
-    _ = solution.lam  # reactions that are not unique are an error here
+    try:
+        _ = solution.lam  # reactions that are not unique are an error here
+    except KeyboardInterrupt as error:
+        error.solution = solution  # type: ignore[attr-defined]
+        raise
     return solution
 
 

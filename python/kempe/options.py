@@ -524,8 +524,9 @@ class Modes(Analysis):
 class Limits(Analysis):
     """Analysis of type ``limits``, an entry of ``[analyses]``.
 
-    Limits of a driver or position quantity in both directions. A limit is a dead point or the
-    end of a curve. An angle without limits makes full turns.
+    Limits of a driver or position quantity in both directions. A limit is a dead point, a stop
+    or contact with restitution, or the end of a curve. An angle without limits makes full
+    turns.
 
     Attributes:
         over: Driver, or position quantity such as `crank.angle`. If absent, the only driver.

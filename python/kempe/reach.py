@@ -136,10 +136,11 @@ def limits(
 ) -> LimitsResult:
     """The range of a driver or position quantity in both directions from a state.
 
-    The motion is followed as by ``kinematics`` in both directions until a dead point or the end of
-    a curve, which is found to 1e-9. An angle without a limit turns fully: the mechanism returns to
-    its start after one or several turns. A length without a limit is followed for 100 times the
-    size of the mechanism. Masses are not needed, and the law of the driver is not used.
+    The motion is followed as by ``kinematics`` in both directions until a dead point, a stop or
+    contact with restitution, or the end of a curve, which is found to 1e-9. An angle without a
+    limit turns fully: the mechanism returns to its start after one or several turns. A length
+    without a limit is followed for 100 times the size of the mechanism. Masses are not needed, and
+    the law of the driver is not used.
 
     Args:
         model: the mechanism.

@@ -258,3 +258,71 @@ def test_a_sampled_mass_follows_the_discrete_system() -> None:
     work = np.cumsum(expected[:-1, 1] * np.diff(expected[:, 0]))
     assert solution["energy.work"][1:-1] == pytest.approx(work, abs=1e-9)
     assert np.ptp(solution["energy.total"]) < 1e-9
+
+
+class Integral:
+    """An integrating controller, with the memory of a class."""
+
+    def __init__(self, gain: float = 60.0) -> None:
+        self.gain, self.total = gain, 0.0
+
+    def __call__(self, _: float, state: kp.State) -> float:
+        error = 0.5 - state["rod.angle"]
+        self.total += 0.01 * error
+        return 40 * error + self.gain * self.total - 12 * state["rod.omega"]
+
+
+def enclosed() -> Callable[[float, kp.State], float]:
+    """The same controller, with the memory of a closure."""
+    total = 0.0
+
+    def law(_: float, state: kp.State) -> float:
+        nonlocal total
+        total += 0.01 * (0.5 - state["rod.angle"])
+        return 40 * (0.5 - state["rod.angle"]) + 60 * total - 12 * state["rod.omega"]
+
+    return law
+
+
+def controlled(controller: Any, runs: int = 2) -> list[np.ndarray]:
+    m = pendulum(kp.Sampled(controller, period=0.01))
+    start = kp.assemble(m)
+    return [kp.dynamics(m, start, t_end=0.3).q for _ in range(runs)]
+
+
+def test_a_controller_with_reset_starts_each_run_afresh() -> None:
+    class Forgetting(Integral):
+        def reset(self) -> None:
+            self.total = 0.0
+
+    (first,) = controlled(Integral(), runs=1)
+    for q in controlled(Forgetting(), runs=3) + controlled(Forgetting().__call__):
+        assert np.array_equal(q, first)
+    law = enclosed()
+    law.reset = lambda: setattr(law, "told", True)  # type: ignore[attr-defined]
+    controlled(law)
+    assert law.told  # type: ignore[attr-defined]
+
+
+def test_a_run_with_the_memory_of_an_earlier_one_gives_a_warning() -> None:
+    class Local(Integral):
+        """A class that cannot be pickled."""
+
+    for controller in (Integral(), Local(), Integral().__call__, enclosed()):
+        with pytest.warns(kp.FunctionWarning, match=r"forces\.motor\.torque: .* reset\(\)") as told:
+            first, second = controlled(controller)
+        assert len(told) == 1 and told[0].filename == __file__
+        assert not np.array_equal(first, second)
+
+
+def test_a_controller_without_a_memory_of_runs_gives_no_warning() -> None:
+    def forgets(t: float, state: kp.State) -> float:
+        return Integral()(t, state)
+
+    controlled(feedback)
+    controlled(forgets)
+    controller = Integral()
+    m = pendulum(kp.Sampled(controller, period=0.01))
+    for gain in (60.0, 50.0):
+        controller.gain, controller.total = gain, 0.0  # the caller resets it
+        kp.dynamics(m, kp.assemble(m), t_end=0.1)

@@ -73,6 +73,81 @@ def test_an_interruption_arrives_within_a_fifth_of_a_second(
     assert np.isfinite(solution.q).all()
 
 
+def interrupted(work: Callable[[], object], after: float = 0.4) -> tuple[float, BaseException]:
+    """The time from a signal to the exception of a computation, s, and the exception.
+
+    A computation that holds the interpreter's lock also delays the signal, which counts.
+    """
+    due = time.monotonic() + after
+    threading.Timer(after, signal.raise_signal, [signal.SIGINT]).start()
+    with pytest.raises(KeyboardInterrupt) as caught:
+        work()
+    return time.monotonic() - due, caught.value
+
+
+@pytest.mark.alone
+@pytest.mark.skipif(os.name != "posix", reason="signals as POSIX has them")
+@pytest.mark.parametrize("n", [3, 1000])
+@pytest.mark.parametrize("analysis", [kp.kinematics, kp.inverse_dynamics])
+def test_an_interruption_of_a_driven_motion_keeps_the_motion(
+    analysis: Callable[..., kp.Solution], n: int
+) -> None:
+    m = kp.Model("rod", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    m.bar("rod", mass=2, length=1.5, ends=("O", "P"))
+    m.revolute("pin", "ground.O", "rod.O")
+    start = kp.assemble(m, set={"rod.angle": 0.3})
+    took, error = interrupted(lambda: analysis(m, start, over="rod.angle", range=(0, 3e4), n=n))
+    assert took < 0.2
+    found = error.solution  # type: ignore[attr-defined]
+    assert not found.success and found.message == "interrupted"
+    assert 1 <= len(found.t) < n
+    np.testing.assert_allclose(found["rod.angle"], found.t, rtol=0, atol=1e-9)
+    lifted = 2 * 9.81 * 0.75 * np.sin(found.t)  # the work of the driver at unit rate
+    np.testing.assert_allclose(found["energy.work"], lifted, rtol=0, atol=1e-6)
+
+
+def net(n: int) -> kp.Model:
+    """Hanging bars whose dense matrices take long."""
+    m = kp.Model("net", gravity=(0, -9.81))
+    for k in range(n):
+        m.ground.points(**{f"A{k}": (k, 0)})
+        m.bar(f"b{k}", mass=1, length=1, ends=("O", "P"))
+        m.revolute(f"J{k}", f"ground.A{k}", f"b{k}.O")
+    return m
+
+
+def wheels(ratio: float) -> kp.Solution:
+    """A pair of gears, whose larger one is drawn with 18 teeth times the ratio."""
+    m = kp.Model("pair")
+    m.ground.points(A=(0, 0), B=(1 + ratio, 0))
+    for name in "AB":
+        m.body(f"w{name}", mass=1, inertia=1, points={"C": (0, 0)})
+        m.revolute(f"p{name}", f"ground.{name}", f"w{name}.C")
+    m.gear("g", "wA.C", "wB.C", radii=(1, ratio))
+    m.coordinate_driver("drive", "wA.angle", value="t")
+    return kp.kinematics(m, kp.assemble(m), t_end=0.1, output_step=0.1)
+
+
+@pytest.mark.alone
+@pytest.mark.skipif(os.name != "posix", reason="signals as POSIX has them")
+@pytest.mark.parametrize("name", ["modes", "equilibrium", "mobility", "assemble", "teeth"])
+def test_an_interruption_of_a_long_analysis_arrives_within_a_fifth_of_a_second(
+    name: str, tmp_path: Path
+) -> None:
+    if name == "teeth":
+        drawn = wheels(3e4)
+        page = tmp_path / "pair.html"
+        took, _ = interrupted(lambda: [kp.player(drawn, page) for _ in range(1000)])
+    else:
+        m = net(600)
+        start = kp.assemble(m, set={f"b{k}.angle": -0.3 for k in range(600)})
+        again = {"assemble": lambda: kp.assemble(m, from_state=start)}
+        run = again.get(name, lambda: getattr(kp, name)(m, start))
+        took, _ = interrupted(lambda: [run() for _ in range(1000)])
+    assert took < 0.2
+
+
 WRITER = """
 import sys
 import kempe as kp

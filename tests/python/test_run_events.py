@@ -146,7 +146,7 @@ def test_what_is_true_at_the_start_is_no_event() -> None:
         events={
             "above": "ball.y > 1",
             "still": "ball.vy",  # zero at the start, and never again
-            "down": "ball.vy < 0",
+            "down": "ball.vy <= 0",
             "early": "t > 0.25",
             "late": "t > 2",
         }
@@ -366,3 +366,26 @@ def test_a_stop_that_happens_later_or_is_false_is_not_reported() -> None:
         sol = kp.dynamics(thrown, start, t_end=3.0, stop="ball.y < 2")
         assert sol.t[-1] == pytest.approx((9 + math.sqrt(81 - 2 * G)) / G)
         dropped(t_end=0.1, stop="ball.y < 1", events={"other": "ball.y < 6"})
+
+
+@pytest.mark.parametrize("method", METHODS, ids=lambda method: method.kind)
+@pytest.mark.parametrize("t0", [0.0, 1.0, -1e3])
+def test_a_strict_comparison_that_is_equal_at_the_start_is_an_event_at_once(
+    method: kp.Option, t0: float
+) -> None:
+    m = kp.Model("ball", gravity=(0, -G))
+    m.point_mass("ball", mass=2, at=(0, 0))
+    m.coordinate_driver("hand", "ball.x", value="0", release=f"t > {t0}")
+    for size in (0.0, 1e-3, 1.0, 1e3):
+        for speed in (0.0, -1e-3 * size, -1e3 * size):
+            start = kp.assemble(m, set={"ball.y": size, "ball.vy": speed}, t=t0)
+            rules = {"low": f"ball.y < {size}", "back": f"ball.vy < {speed}", "late": f"t > {t0}"}
+            rules |= {"high": f"ball.y > {size}", "not strict": f"ball.y <= {size}"}
+            sol = kp.dynamics(m, start, t_end=t0 + 0.1, method=method, events=rules)
+            seen = 2e-4 * 0.1 + 1e-12 * abs(t0)  # a small fraction of the first step
+            for name in ("low", "back", "late", "hand.release"):
+                assert len(sol.events[name].t) == 1, name
+                assert t0 <= sol.events[name].t[0] <= t0 + seen, name
+            assert not len(sol.events["high"].t) and not len(sol.events["not strict"].t)
+            stopped = kp.dynamics(m, start, t_end=t0 + 0.1, method=method, stop=rules["low"])
+            assert stopped.status == 1 and stopped.t[-1] <= t0 + seen

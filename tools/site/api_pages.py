@@ -146,6 +146,7 @@ PAGES = {
             "kempe.InternalError",
             "kempe.AssemblyWarning",
             "kempe.EventWarning",
+            "kempe.FunctionWarning",
         ),
     ),
 }

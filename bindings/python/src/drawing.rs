@@ -1,13 +1,16 @@
 //! Scenes and display lists as JSON, and texts of figures.
 
+use crate::attended::attended;
 use crate::convert::{refuse, rows, table, Row, Rows};
 use crate::guard::guard;
 use crate::model::PyModel;
+use crate::watch::ToEnd;
 use kempe_drawing::display::{place_labels, width, Taken};
 use kempe_drawing::{At, Effort, Pose, Request, Scene, View};
 use numpy::{PyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 use serde_json::{from_str, to_string};
+use std::sync::Arc;
 
 /// Poses of the moving bodies: time, body, and x, y and angle.
 type Poses<'py> = PyReadonlyArray3<'py, f64>;
@@ -29,8 +32,10 @@ pub fn scene<'py>(
             Effort { element: element.clone(), force, torque: torque.as_array().to_vec() }
         };
         let efforts: Vec<Effort> = efforts.iter().map(read).collect();
-        let found = kempe_drawing::scene(&model.model, &poses, &efforts);
-        to_string(&found).map_err(|e| refuse(py, "scene", e.to_string()))
+        let core = Arc::clone(&model.model);
+        let found =
+            attended(py, move |_| to_string(&kempe_drawing::scene(&core, &poses, &efforts)))?;
+        found.map_err(|e| refuse(py, "scene", e.to_string()))
     })
 }
 
@@ -50,8 +55,10 @@ pub fn display<'py>(
         let asked: Request = from_str(request).map_err(|e| refuse(py, "request", e.to_string()))?;
         let poses = read_poses(py, &poses)?;
         let (low, scale, size) = view;
-        let found = kempe_drawing::display(&scene, &poses, &View { low, scale, size }, &asked);
-        to_string(&found).map_err(|e| refuse(py, "display", e.to_string()))
+        let view = View { low, scale, size };
+        let work =
+            move |_: ToEnd<'_>| to_string(&kempe_drawing::display(&scene, &poses, &view, &asked));
+        attended(py, work)?.map_err(|e| refuse(py, "display", e.to_string()))
     })
 }
 

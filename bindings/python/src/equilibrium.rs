@@ -1,17 +1,19 @@
 //! Statics for Python: without the interpreter's lock, interruptible, with progress.
 
+use crate::attended::attended;
 use crate::convert::{state, Row};
 use crate::errors::{raise_plain, Failure, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
 use crate::options;
-use crate::watch::Watch;
+use crate::watch::{ToEnd, Watch};
 use kempe::analyses::equilibrium as statics;
 use kempe::analyses::options::Declared;
 use kempe::analyses::State;
 use kempe::model::Model;
 use pyo3::prelude::*;
 use serde_json::{json, Value};
+use std::sync::Arc;
 
 /// An equilibrium, or a path of equilibria, with the options of an entry of a case, as JSON.
 #[pyfunction]
@@ -28,14 +30,16 @@ pub fn equilibrium(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<String> {
     guard("equilibrium", || {
-        let core = &model.model;
-        let start = state(py, core, t, [&q, &v, &z])?;
+        let core = Arc::clone(&model.model);
+        let start = state(py, &core, t, [&q, &v, &z])?;
         let fields = options::fields(py, text)?;
-        let chosen = statics::Options::checked(core, &fields, &[])
+        let chosen = statics::Options::checked(&core, &fields, &[])
             .map_err(|found| raise_plain(py, Kind::Model, &found))?;
-        let mut watch = Watch::new(progress.as_ref());
-        let found = py.detach(|| solved(core, &start, &chosen, &mut watch));
-        match (found, watch.raised) {
+        let outcome = attended(py, move |stop| {
+            let mut watch = Watch::until(progress.as_ref(), stop);
+            (solved(&core, &start, &chosen, &mut watch), watch.raised)
+        })?;
+        match outcome {
             (_, Some(error)) => Err(error),
             (Ok(found), None) => Ok(found.to_string()),
             (Err(reason), None) => Err(because(py, &reason)),
@@ -57,8 +61,8 @@ pub fn compliance(
     hold: Vec<String>,
 ) -> PyResult<[f64; 4]> {
     guard("compliance", || {
-        let core = &model.model;
-        let start = state(py, core, t, [&q, &v, &z])?;
+        let core = Arc::clone(&model.model);
+        let start = state(py, &core, t, [&q, &v, &z])?;
         let place = point.rsplit_once('.').and_then(|(body, point)| {
             let body = core.body(body)?;
             Some((body, *core.bodies[body.0].point(point)?))
@@ -68,7 +72,8 @@ pub fn compliance(
             let hint = "give one such as crank.B";
             return Err(Failure::new(Kind::Model, message).name(point).hint(hint).raise(py));
         };
-        statics::compliance(core, &start, &hold, body, place).map_err(|reason| because(py, &reason))
+        let work = move |_: ToEnd<'_>| statics::compliance(&core, &start, &hold, body, place);
+        attended(py, work)?.map_err(|reason| because(py, &reason))
     })
 }
 

@@ -1,18 +1,23 @@
 //! Kinematics for Python: without the interpreter's lock, interruptible, with progress.
 
+use crate::attended::{attend, Attended, ENDING};
 use crate::convert::{row, state, Row};
 use crate::dynamics::PyRun;
 use crate::errors::{raise_plain, Failure, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
 use crate::options;
-use crate::watch::Watch;
+use crate::watch::{ToEnd, Watch};
 use kempe::analyses::dynamics::{Run, Statistics};
 use kempe::analyses::kinematics as driven;
 use kempe::analyses::options::Declared;
+use kempe::analyses::State;
+use kempe::integrate::Flow;
+use kempe::model::Model;
 use kempe::stabilize::Projection;
 use pyo3::prelude::*;
 use serde_json::json;
+use std::sync::Arc;
 
 /// The checked options of `kinematics` or `inverse_dynamics`, as JSON with numbers in place of formulas.
 #[pyfunction]
@@ -44,31 +49,48 @@ pub fn kinematics(
     progress: Option<Py<PyAny>>,
 ) -> PyResult<PyRun> {
     guard("kinematics", || {
-        let core = &model.get().model;
-        let start = state(py, core, t, [&q, &v, &z])?;
+        let core = Arc::clone(&model.get().model);
+        let start = state(py, &core, t, [&q, &v, &z])?;
         let times = row(py, "times", &times, times.as_array().len())?;
-        let mut watch = Watch::new(progress.as_ref());
-        let began = std::time::Instant::now();
-        let outcome = py.detach(|| driven::kinematics(core, &start, &times, |t| watch.look(t)));
-        let made = |motion: driven::Motion, message: &str| {
-            let recorded = py.detach(|| driven::recorded(core, &start, &motion));
-            PyRun::new(py, model, run(&motion, recorded, began.elapsed().as_secs_f64()), message)
+        let work = move |stop: ToEnd<'_>| {
+            let mut watch = Watch::until(progress.as_ref(), stop);
+            let (run, reason) = followed(&core, &start, &times, |t| watch.look(t));
+            (run, reason, watch.raised)
         };
-        match (outcome, watch.raised) {
-            (Ok(motion), None) => made(motion, "the last value was reached"),
-            (Ok(motion), Some(error)) => {
-                error.value(py).setattr("run", made(motion, "interrupted")?)?;
-                Err(error)
-            }
-            (Err(failure), _) => {
-                let driven::Failure { reason, motion } = *failure;
-                let run = Py::new(py, made(motion, &reason.to_string())?)?;
-                let error = because(&reason).raise(py);
-                error.value(py).setattr("run", run)?;
-                Err(error)
-            }
-        }
+        let ((run, reason), error) = match attend(py, ENDING, work)? {
+            Attended::Done((run, reason, error)) => ((run, reason), error),
+            Attended::Interrupted(error, Some((run, reason, _))) => ((run, reason), Some(error)),
+            Attended::Interrupted(error, None) => return Err(error),
+        };
+        let (message, error) = match (error, reason) {
+            (None, None) => return PyRun::new(py, model, run, "the last value was reached"),
+            (Some(error), _) => ("interrupted".to_string(), error),
+            (None, Some(reason)) => (reason.to_string(), because(&reason).raise(py)),
+        };
+        error.value(py).setattr("run", PyRun::new(py, model, run, &message)?)?;
+        Err(error)
     })
+}
+
+/// The run through the given times, and the reason for which it ended early.
+fn followed(
+    model: &Model,
+    start: &State,
+    times: &[f64],
+    mut look: impl FnMut(f64) -> Flow,
+) -> (Run, Option<driven::Reason>) {
+    let began = std::time::Instant::now();
+    let mut recorder = driven::MotionRecorder::new(model, start);
+    let outcome = driven::kinematics(model, start, times, |motion| {
+        recorder.follow(motion);
+        motion.points.last().map_or(Flow::Continue, |point| look(point.t))
+    });
+    let (motion, reason) = match outcome {
+        Ok(motion) => (motion, None),
+        Err(failure) => (failure.motion, Some(failure.reason)),
+    };
+    recorder.follow(&motion);
+    (run(&motion, recorder.recorded, began.elapsed().as_secs_f64()), reason)
 }
 
 fn run(motion: &driven::Motion, recorded: driven::Recorded, seconds: f64) -> Run {
@@ -98,6 +120,11 @@ pub fn because(reason: &driven::Reason) -> Failure {
             .name(name)
             .at(*t)
             .hint("kp.assemble(model, from_state=state) assembles the mechanism anew"),
+        driven::Reason::Beyond { t, name, .. } => {
+            Failure::new(Kind::Assembly, message).name(name).at(*t).hint(
+                "start where the gap is not negative, or give a stiffness in place of restitution",
+            )
+        }
         driven::Reason::Singular { t, name, .. } => Failure::new(Kind::Singularity, message)
             .name(name)
             .at(*t)

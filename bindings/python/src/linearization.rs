@@ -1,5 +1,6 @@
 //! Linearized equations for Python.
 
+use crate::attended::attended;
 use crate::convert::{refuse, state, table, Row};
 use crate::errors::{raise_plain, Failure, Kind};
 use crate::guard::guard;
@@ -13,6 +14,7 @@ use numpy::ToPyArray;
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use serde_json::json;
+use std::sync::Arc;
 
 /// The checked options of `modes`, as JSON.
 #[pyfunction]
@@ -41,11 +43,13 @@ pub fn linearize<'py>(
     outputs: Vec<String>,
 ) -> PyResult<Bound<'py, PyDict>> {
     guard("linearize", || {
-        let core = &model.get().model;
-        let at = state(py, core, t, [&q, &v, &z])?;
-        let found = py.detach(|| linear::linearize(core, &at, &inputs, &outputs));
-        let found = found.map_err(|failure| because(py, &failure, &outputs))?;
-        arrays(py, core, &found, [inputs.len(), outputs.len()])
+        let core = Arc::clone(&model.get().model);
+        let at = state(py, &core, t, [&q, &v, &z])?;
+        let counts = [inputs.len(), outputs.len()];
+        let (outcome, outputs) =
+            attended(py, move |_| (linear::linearize(&core, &at, &inputs, &outputs), outputs))?;
+        let found = outcome.map_err(|failure| because(py, &failure, &outputs))?;
+        arrays(py, &model.get().model, &found, counts)
     })
 }
 
@@ -99,6 +103,10 @@ fn because(py: Python<'_>, failure: &linear::Failure, outputs: &[String]) -> PyE
                 .name(name)
                 .at(*t)
                 .hint("give a state beside this one, or change the mechanism"),
+            Reason::Start { t, name, .. } => made(Kind::Assembly)
+                .name(name)
+                .at(*t)
+                .hint("give it a stiffness in place of restitution"),
             _ => made(Kind::Singularity).hint("give a state beside this one"),
         },
         linear::Failure::Name(problem) => {

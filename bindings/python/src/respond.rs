@@ -54,7 +54,7 @@ pub fn because(py: Python<'_>, reason: core::Reason) -> PyErr {
 /// The exception for a state at which a result cannot be computed.
 pub fn missing(py: Python<'_>, reason: core::Reason) -> PyErr {
     let hint = match reason {
-        core::Reason::Redundant { hint, .. } => hint,
+        core::Reason::Redundant { hint, .. } | core::Reason::Start { hint, .. } => hint,
         core::Reason::Integration { .. } => "check forces and laws at this state",
         _ => "positions and velocities are there; look at times beside it, or change the mechanism",
     };

@@ -10,9 +10,14 @@ const GLANCE: Duration = Duration::from_millis(40);
 /// previous states causes no noticeable delay.
 const PACE: Duration = Duration::from_micros(250);
 
+/// Whether an attended computation is to end.
+pub type ToEnd<'a> = &'a (dyn Fn() -> bool + Sync);
+
 /// Checks for signals and reports progress, at intervals that make the cost negligible.
 pub struct Watch<'a> {
     progress: Option<&'a Py<PyAny>>,
+    /// Whether the run is to end, for a run on a thread of its own, to which no signals come.
+    stop: Option<ToEnd<'a>>,
     /// The time of the last check for signals.
     told: Instant,
     /// The time of the last reading of the clock.
@@ -27,7 +32,12 @@ pub struct Watch<'a> {
 impl<'a> Watch<'a> {
     pub fn new(progress: Option<&'a Py<PyAny>>) -> Self {
         let now = Instant::now();
-        Self { progress, told: now, looked: now, every: 1, left: 1, raised: None }
+        Self { progress, stop: None, told: now, looked: now, every: 1, left: 1, raised: None }
+    }
+
+    /// The watch of an attended computation.
+    pub fn until(progress: Option<&'a Py<PyAny>>, stop: ToEnd<'a>) -> Self {
+        Self { stop: Some(stop), ..Self::new(progress) }
     }
 
     pub fn look(&mut self, t: f64) -> Flow {
@@ -45,6 +55,9 @@ impl<'a> Watch<'a> {
         let late = (now - self.looked).as_secs_f64() / PACE.as_secs_f64();
         self.every = (f64::from(self.every) / late.max(0.5)).max(1.0) as u32;
         (self.left, self.looked) = (self.every, now);
+        if self.stop.is_some_and(|stop| stop()) {
+            return Flow::Stop;
+        }
         if now - self.told < GLANCE {
             return Flow::Continue;
         }

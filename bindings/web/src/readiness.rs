@@ -101,9 +101,9 @@ impl Obstacles<'_> {
         let message = reason.to_string();
         match &reason {
             NotDriven::Free { .. } => Some(Problem::at(&["drivers"], message)),
-            NotDriven::Open { name, .. } | NotDriven::Singular { name, .. } => {
-                self.at(name, message, "")
-            }
+            NotDriven::Open { name, .. }
+            | NotDriven::Beyond { name, .. }
+            | NotDriven::Singular { name, .. } => self.at(name, message, ""),
             NotDriven::Limit(limit) => self.at(&limit.driver, message, ""),
         }
     }

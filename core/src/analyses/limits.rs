@@ -1,17 +1,18 @@
 //! Limits of motion: how far a driven value can increase and decrease from a position, or whether it turns fully.
 //!
 //! The motion is followed in both directions by the continuation of `kinematics`. It ends at a dead point, which is
-//! located exactly, or at the end of a curve. An angle turns fully if it meets no limit before the mechanism returns
+//! located exactly, at a stop or contact with restitution, or at the end of a curve. An angle turns fully if it meets no limit before the mechanism returns
 //! to its start, after one or several turns. A length is unlimited if it exceeds [`FARTHEST`] times the size of the
 //! mechanism.
 
 use super::curves::Ranges;
-use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Reason};
+use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Point, Reason};
 use super::options::{name, options};
 use super::State;
 use crate::integrate::Flow;
 use crate::model::{size, Model};
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Number of turns after which an angle without a limit counts as unlimited, even if the mechanism never returns to
 /// its start.
@@ -20,12 +21,10 @@ pub const MOST_TURNS: usize = 24;
 pub const FARTHEST: f64 = 100.0;
 /// Largest difference between two positions that count as equal, in rad or relative to the size of the mechanism.
 const SAME: f64 = 1e-5;
-/// Width to which the end of a curve is located, as a fraction of a step.
-const LOCATED: f64 = 1e-14;
 
 options! {
-    /// Limits of a driver or position quantity in both directions. A limit is a dead point or the
-    /// end of a curve. An angle without limits makes full turns.
+    /// Limits of a driver or position quantity in both directions. A limit is a dead point, a stop or
+    /// contact with restitution, or the end of a curve. An angle without limits makes full turns.
     Options, "limits", "Limits" () {
         /// Driver, or position quantity such as `crank.angle`. If absent, the only driver.
         over: Option<name> = None,
@@ -156,7 +155,7 @@ impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
         for turn in 1..=turns {
             let goal = self.start.t + way * length * turn as f64;
             while motion.point().t != goal {
-                let before = (motion.point().t, motion.point().q.clone());
+                let before = Arc::clone(motion.point());
                 if let Err(reason) = motion.step(goal) {
                     let Reason::Limit(limit) = reason else { return Err(reason.into()) };
                     let bound = bound(*limit);
@@ -179,31 +178,16 @@ impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
         Ok((DirectionEnd::Never, path))
     }
 
-    /// Locates by bisection the end of a curve that a contact left in the last step.
-    fn end_of_curve(
-        &self,
-        motion: &mut Continuation<'_>,
-        before: (f64, Vec<f64>),
-    ) -> Option<Bound> {
-        self.curves.beyond(self.model, &motion.point().q)?;
-        let (mut inside, mut outside) = (before, (motion.point().t, motion.point().q.clone()));
-        while (outside.0 - inside.0).abs() > LOCATED * self.start.t.abs().max(1.0) {
-            let t = 0.5 * (inside.0 + outside.0);
-            if t == inside.0 || t == outside.0 {
-                break;
-            }
-            let middle = inside.1.iter().zip(&outside.1).map(|(a, b)| 0.5 * (a + b)).collect();
-            let Some(q) = motion.closed(t, middle) else { break };
-            match self.curves.beyond(self.model, &q) {
-                Some(_) => outside = (t, q),
-                None => inside = (t, q),
-            }
-        }
-        let (name, _) = self.curves.beyond(self.model, &outside.1)?;
-        let (driven, unit) = driven(self.model);
-        let value = written(inside.0, unit);
+    /// The end of a curve that a contact left in the last step.
+    fn end_of_curve(&self, motion: &mut Continuation<'_>, before: Arc<Point>) -> Option<Bound> {
+        let Self { model, curves, .. } = self;
+        let (name, _) = curves.beyond(model, &motion.point().q)?;
+        motion.back(before, |_, q| curves.beyond(model, q).is_none());
+        let Point { t, q, .. } = &**motion.point();
+        let (driven, unit) = driven(model);
+        let value = written(*t, unit);
         let reason = format!("{driven} cannot pass {value}: {name} is at the end of its curve");
-        Some(Bound { value: inside.0, q: inside.1, reason })
+        Some(Bound { value: *t, q: q.clone(), reason })
     }
 }
 

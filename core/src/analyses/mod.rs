@@ -25,6 +25,7 @@ mod quantities;
 pub mod readings;
 mod required;
 mod results;
+mod rigid;
 mod sequence;
 mod signal_names;
 mod signal_rows;

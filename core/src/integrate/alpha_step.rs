@@ -363,7 +363,8 @@ impl AlphaStep {
         y.copy_from_slice(&self.x[n..n + y.len()]);
     }
 
-    /// Projects the end onto the constraints. Keeps the normal part of its velocities for the next step.
+    /// Projects the end onto the constraints. Keeps the normal part of its velocities for the next step, which may
+    /// have another length: a deviation that belongs to h would grow in longer steps.
     pub fn project<Y: Dae>(
         &mut self,
         system: &mut CountedDae<'_, Y>,
@@ -372,7 +373,7 @@ impl AlphaStep {
         let ImplicitState { q, v, z, .. } = &mut self.end;
         self.normal.copy_from_slice(v);
         let state = DaeState { q, v, z };
-        let changed = system.project(t + h, state)?;
+        let changed = system.project(t + h, state, true)?;
         for (normal, v) in self.normal.iter_mut().zip(&self.end.v) {
             *normal = (*normal - v) / (h * h);
         }

@@ -173,12 +173,17 @@ pub trait Dae {
     /// [`accelerate`](Self::accelerate).
     fn normal(&mut self, x: &mut [f64]);
 
-    /// Projects q and v onto the constraints, if the options of the integration require it. Returns whether they
-    /// changed.
+    /// Projects q and v onto the constraints, if the options of the integration require it; v also if the method
+    /// requires it (`velocities`). Returns whether they changed.
     ///
     /// # Errors
     /// An error ends the integration.
-    fn project(&mut self, t: f64, state: DaeState<'_>) -> Result<bool, Self::Stop>;
+    fn project(
+        &mut self,
+        t: f64,
+        state: DaeState<'_>,
+        velocities: bool,
+    ) -> Result<bool, Self::Stop>;
 
     /// Error with which the integration ends if the matrix is singular for every step size.
     fn singular(&mut self, t: f64, state: [&[f64]; 3]) -> Option<Self::Stop>;

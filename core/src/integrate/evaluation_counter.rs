@@ -36,10 +36,16 @@ impl<Y: Dae> CountedDae<'_, Y> {
         }
     }
 
-    /// Projects a state. Returns whether it changed.
+    /// Projects a state, as [`Dae::project`] does. Returns whether it changed.
     #[inline]
-    pub fn project(&mut self, t: f64, state: DaeState<'_>) -> Result<bool, Cause<Y::Stop>> {
-        self.system.project(t, state).map_err(|error| Cause::Equations { t, error })
+    pub fn project(
+        &mut self,
+        t: f64,
+        state: DaeState<'_>,
+        velocities: bool,
+    ) -> Result<bool, Cause<Y::Stop>> {
+        let changed = self.system.project(t, state, velocities);
+        changed.map_err(|error| Cause::Equations { t, error })
     }
 
     /// Sets the state at the start of an integration, and returns the magnitude of the first step.

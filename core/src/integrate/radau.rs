@@ -272,7 +272,7 @@ impl RadauStepper {
         let (q, rest) = y_new.split_at_mut(n);
         let (v, rest) = rest.split_at_mut(n);
         let state = DaeState { q, v, z: &rest[..lengths.states] };
-        let changed = dae.project(t_new, state)?;
+        let changed = dae.project(t_new, state, false)?;
         if !all_finite(y_new) {
             return Err(Cause::NotFinite { t: t_new });
         }

@@ -57,6 +57,11 @@ def sampled(
         known = vars(drawn).get("_dynamics")
         if known is not None:
             vars(motion)["_dynamics"] = tuple(values[None] for values in known)
+        try:
+            _ = motion.lam
+        except KempeError:  # the state alone does not determine them: it is drawn without arrows
+            shapes = (1, len(drawn.q)), (1, drawn.compiled.n_multipliers), (1, 1)
+            vars(motion)["_dynamics"] = tuple(np.zeros(shape) for shape in shapes)
         return motion
     begin, end = whole = float(drawn.t[0]), float(drawn.t[-1])
     if span is not None:

@@ -12,7 +12,9 @@ use super::redundant_rows::{exchange, workspace_at};
 use super::run_results::Run;
 use super::shared_reaction;
 use super::trajectory::States;
+use super::undecided_contacts;
 use super::wide::Wide;
+use crate::analyses::rigid::RigidContacts;
 use crate::equations::augmented::NearSingular;
 use crate::equations::Workspace;
 use crate::integrate::{all_finite, Flow};
@@ -74,6 +76,7 @@ pub(super) fn accelerations(
     let wide = if independent.is_some() { None } else { cache.wide(model, count) };
     let mut many = wide.map(|wide| Many::new(wide, &one));
     let mut found = Accelerations::with_room(model, count);
+    let contacts = RigidContacts::of(model);
     for first in (0..count).step_by(Lanes::WIDTH) {
         let end = (first + Lanes::WIDTH).min(count);
         if watch(t[first]) == Flow::Stop {
@@ -87,6 +90,7 @@ pub(super) fn accelerations(
                 many.follow(&one);
             }
         }
+        undecided_contacts::check(model, &contacts, four, &found.a[first * n..])?;
     }
     Ok(found)
 }

@@ -20,6 +20,9 @@ const SLOPE: f64 = 1e-3;
 /// Largest magnitude of a function at its event, as a fraction of the value at the start of the step.
 const NEAR: f64 = 1e-6;
 
+/// Relative change of a state by which the rounding errors of functions are estimated.
+const ROUNDING: f64 = 8.0 * f64::EPSILON;
+
 /// Smallest and largest number of parts into which a step is divided.
 const PARTS: [usize; 2] = [6, 20_000];
 
@@ -90,6 +93,8 @@ pub(super) struct EventList<'a> {
     evaluator: Evaluator,
     /// The events at which the phase began, and the time of the start. They do not occur again there.
     began: (f64, Vec<usize>),
+    /// The largest values that count as zero: rounding errors of functions that are zero at the start of the phase.
+    zero: Option<Vec<f64>>,
     /// The event at which a step is to end: its time and index.
     awaited: Option<(f64, usize)>,
     tries: usize,
@@ -119,7 +124,8 @@ impl<'a> EventList<'a> {
             }
         }
         let evaluator = Evaluator::new(ode.model, solves, &ode.workspace, so_far);
-        Some(Self { watched, evaluator, began: (t, fired.to_vec()), awaited: None, tries: 0 })
+        let (began, zero, awaited) = ((t, fired.to_vec()), None, None);
+        Some(Self { watched, evaluator, began, zero, awaited, tries: 0 })
     }
 
     /// The run up to the last accepted step.
@@ -134,11 +140,14 @@ impl<'a> EventList<'a> {
 
     /// The events in a step of a phase that ends at `t_end` at the latest. The interpolant is prepared.
     pub fn look(&mut self, model: &Model, step: &Step<'_>, t_end: f64) -> StepEvents {
-        let found = self.scan(model, step);
+        if self.zero.is_none() {
+            self.zero = Some(self.rounding(model, step));
+        }
+        let arrived = self.awaited.filter(|(t, _)| *t == step.t);
+        let found = self.scan(model, step, arrived.is_some() || step.t == t_end);
         let spacing = CLOSE * f64::EPSILON * step.t.abs().max(step.t_old.abs());
         let together = |a: f64, b: f64| (a - b).abs() <= spacing;
         let ending = found.iter().find(|crossing| self.watched[crossing.index].ends).copied();
-        let arrived = self.awaited.filter(|(t, _)| *t == step.t);
         let end = match (ending, arrived) {
             (Some(event), _) => Some((event.t, event.index)),
             (None, Some((_, index))) => self.later(model, step, index, t_end).map(|t| (t, index)),
@@ -177,14 +186,48 @@ impl<'a> EventList<'a> {
         StepEvents::End(found)
     }
 
-    fn scan(&mut self, model: &Model, step: &Step<'_>) -> Vec<Crossing> {
-        let Self { watched, evaluator, began, .. } = self;
+    /// The rounding errors at the start of the phase of those functions of conditions that are zero there.
+    fn rounding(&mut self, model: &Model, step: &Step<'_>) -> Vec<f64> {
+        let Self { watched, evaluator, .. } = self;
+        let mut changed = |by: [f64; 2]| {
+            let parts = step.y_old.iter().enumerate();
+            let y: Vec<f64> = parts.map(|(k, y)| y * (1.0 + ROUNDING * by[k % 2])).collect();
+            let t = step.t_old * (1.0 + ROUNDING * by[0]);
+            evaluator.see(model, (t, &y), step, |seen| {
+                let values = watched.iter().map(|event| match event.function {
+                    EventFunction::Condition(condition) => condition.value(model, seen).abs(),
+                    _ => f64::NAN,
+                });
+                values.collect::<Vec<f64>>()
+            })
+        };
+        let mut zero: Vec<f64> = changed([0.0, 0.0]);
+        if zero.contains(&0.0) {
+            let [one, other] = [changed([1.0, 1.0]), changed([1.0, -1.0])];
+            for (zero, (one, other)) in zero.iter_mut().zip(one.into_iter().zip(other)) {
+                *zero = if *zero == 0.0 { 2.0 * one.max(other).max(0.0) } else { 0.0 };
+            }
+        } else {
+            zero.fill(0.0);
+        }
+        zero
+    }
+
+    /// The events in a step. At the end of a phase values count as they are, because the next one begins with them.
+    fn scan(&mut self, model: &Model, step: &Step<'_>, ends_phase: bool) -> Vec<Crossing> {
+        let Self { watched, evaluator, began, zero, .. } = self;
+        let zero = zero.as_ref().expect("it was computed");
         let directions: Vec<Direction> = watched.iter().map(|event| event.direction).collect();
         let mut functions = |t: f64, y: &[f64], out: &mut [f64]| {
             evaluator.see(model, (t, y), step, |seen| {
                 let values = watched.iter().map(|event| event.function.value(model, seen));
                 out.iter_mut().zip(values).for_each(|(out, value)| *out = value);
             });
+            let exact = ends_phase && t == step.t;
+            for ((event, out), zero) in watched.iter().zip(&mut *out).zip(zero) {
+                let zero = if exact { 0.0 } else { *zero };
+                *out = if out.abs() <= zero { event.function.at_zero() } else { *out };
+            }
             if t == began.0 {
                 began.1.iter().for_each(|index| out[*index] = 0.0);
                 // the mode may end again after a time that is short compared with the steps
@@ -193,10 +236,6 @@ impl<'a> EventList<'a> {
                 let modes =
                     watched.iter().zip(out).filter(|(event, _)| of_mode(event) && event.ends);
                 modes.for_each(|(_, out)| *out = out.max(f64::MIN_POSITIVE));
-                return;
-            }
-            for (event, out) in watched.iter().zip(out) {
-                *out = if *out == 0.0 { event.function.at_zero() } else { *out };
             }
         };
         let ends = |index: usize| watched[index].ends;

@@ -79,6 +79,7 @@ mod stiffness_detection;
 mod switch_schedule;
 mod switching;
 mod trajectory;
+mod undecided_contacts;
 mod wide;
 
 pub use accelerations::Accelerations;

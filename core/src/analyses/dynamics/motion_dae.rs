@@ -13,13 +13,15 @@ use crate::integrate::{
 use crate::math::Complex;
 use crate::model::Model;
 use crate::solve::{BlockLu, Breakdown};
-use crate::stabilize::Projector;
+use crate::stabilize::{Projection, Projector};
 
 /// The mechanism and the memory of implicit methods.
 pub(super) struct MotionDae<'a> {
     model: &'a Model,
     workspace: Workspace,
-    projector: Option<Projector<'a>>,
+    projector: Projector<'a>,
+    /// Whether the options require projection.
+    projects: bool,
     balance: Balance,
     tangent: Tangent,
     places: Places,
@@ -35,9 +37,9 @@ pub(super) struct MotionDae<'a> {
 impl<'a> MotionDae<'a> {
     /// Uses the elimination plan of `one`, and omits the same rows.
     pub fn new(model: &'a Model, options: &Options, one: &Workspace) -> Self {
-        let projector = match options.stabilization {
-            Stabilization::Projection(projection) => Some(Projector::new(model, projection)),
-            _ => None,
+        let (projection, projects) = match options.stabilization {
+            Stabilization::Projection(projection) => (projection, true),
+            _ => (Projection::default(), false),
         };
         let tangent = Tangent::new(model);
         let mut places = Places::new(model, &tangent);
@@ -45,7 +47,8 @@ impl<'a> MotionDae<'a> {
         Self {
             model,
             workspace: Workspace::like(model, one),
-            projector,
+            projector: Projector::new(model, projection),
+            projects,
             balance: Balance::new(model),
             real: BlockLu::new(&places.plan),
             solution: vec![0.0; model.layout.n_q + model.layout.n_rows],
@@ -71,7 +74,7 @@ impl<'a> MotionDae<'a> {
 
     /// Factorisations of the augmented matrix.
     pub fn factorisations(&self) -> usize {
-        self.accelerations + self.projector.as_ref().map_or(0, |p| p.factorisations)
+        self.accelerations + self.projector.factorisations
     }
 
     /// The least ratio of a pivot to its largest summand in the augmented matrix of the last acceleration or projection.
@@ -180,15 +183,23 @@ impl Dae for MotionDae<'_> {
         x.copy_from_slice(&solution[..n]);
     }
 
-    fn project(&mut self, t: f64, state: DaeState<'_>) -> Result<bool, Self::Stop> {
+    fn project(
+        &mut self,
+        t: f64,
+        state: DaeState<'_>,
+        velocities: bool,
+    ) -> Result<bool, Self::Stop> {
         let DaeState { q, v, z } = state;
-        let Some(projector) = &mut self.projector else {
-            // `normal` needs the factors of a nearby state, which projection would provide
-            self.accelerations += 1;
-            let outcome = self.workspace.accelerate(self.model, t, [q, v, z], Gains::default());
-            return outcome.map(|()| false);
-        };
-        projector.project(&mut self.workspace, t, (q, v), false)
+        if self.projects {
+            return self.projector.project(&mut self.workspace, t, (q, v), false);
+        }
+        // `normal` needs the factors of a nearby state, which projection would provide
+        self.accelerations += 1;
+        self.workspace.accelerate(self.model, t, [q, v, z], Gains::default())?;
+        match velocities {
+            true => self.projector.project_velocities(&mut self.workspace, t, (q, v)),
+            false => Ok(false),
+        }
     }
 
     fn singular(&mut self, t: f64, state: [&[f64]; 3]) -> Option<Self::Stop> {

@@ -4,15 +4,10 @@ use super::failure::Reason;
 use super::search::{relative, zero};
 use super::statics::{StaticState, Statics};
 use crate::analyses::linearization::coordinate;
+use crate::analyses::rigid::RigidContacts;
 use crate::analyses::State;
-use crate::elements::Behaviour;
-use crate::equations::forces::{self, Acting};
-use crate::equations::kinematics::Motions;
-use crate::model::{size, Model, Problem};
+use crate::model::{Model, Problem};
 use crate::solve::Eigen;
-
-/// Penetration that counts as a rounding error, relative to the size of the mechanism.
-const BEYOND: f64 = 1e-9;
 
 /// An equilibrium position.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,20 +78,12 @@ impl Equilibrium {
 
 /// Rejects a position beyond a stop or contact with restitution, which exerts no force there.
 fn not_beyond_a_stop(model: &Model, t: f64, place: &StaticState) -> Result<(), Reason> {
-    let motions = Motions::at_rest(&model.layout, &place.q);
-    let acting = Acting { z: &place.z, lam: None, t };
-    let beyond = |k: &usize| {
-        let impacts =
-            matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Impacts { .. }));
-        impacts && forces::threshold(model, *k, &motions, acting) < -BEYOND * size(model)
-    };
-    match (0..model.forces.len()).find(beyond) {
+    match RigidContacts::of(model).beyond(model, t, &place.q) {
         None => Ok(()),
-        Some(k) => {
-            let name = &model.forces[k].name;
+        Some((name, _)) => {
             let message =
                 "the mechanism would come to rest beyond it, where restitution gives no force";
-            let problem = Problem::at(&["forces", name], message);
+            let problem = Problem::at(&["forces", &name], message);
             Err(Reason::Option(vec![problem.hint("give it a stiffness in place of restitution")]))
         }
     }

@@ -5,11 +5,13 @@
 //! little from a linear prediction. A position on another branch would be farther away or have a different velocity.
 //! A rejected step is halved.
 
+use super::dead_point::Limit;
 use super::failure::{Failure, Reason};
 use super::passage;
 use super::quintic::Quintic;
 use super::solution::{Point, Solver};
 use crate::analyses::mobility::mobility;
+use crate::analyses::rigid::RigidContacts;
 use crate::analyses::State;
 use crate::model::Model;
 use std::sync::Arc;
@@ -30,6 +32,9 @@ const SHORT: f64 = 0.2;
 /// Largest scaled residual at which the start, or an interpolated position, counts as closed.
 const START: f64 = 1e-9;
 
+/// Width to which the last position within limits is located, as a fraction of t or of 1.
+const LOCATED: f64 = 1e-14;
+
 /// Follows a motion.
 pub(in crate::analyses) struct Continuation<'a> {
     solver: Solver<'a>,
@@ -41,6 +46,8 @@ pub(in crate::analyses) struct Continuation<'a> {
     /// The sign of det Φ_q at the point, if it is known.
     orientation: Option<f64>,
     rejected: usize,
+    /// Stops and contacts that the motion must not pass.
+    contacts: RigidContacts,
 }
 
 impl<'a> Continuation<'a> {
@@ -52,6 +59,10 @@ impl<'a> Continuation<'a> {
         let open = |gap: f64| gap.is_nan() || gap.abs() > START;
         if let Some(row) = (0..gaps.len()).find(|row| open(gaps[*row])) {
             return Err(Reason::open(model, *t, row, gaps[row] * solver.rows[row]).into());
+        }
+        let contacts = RigidContacts::of(model);
+        if let Some((name, gap)) = contacts.beyond(model, *t, q) {
+            return Err(Reason::Beyond { t: *t, name, gap }.into());
         }
         let freedom = mobility(model, *t, q);
         if freedom.degrees_of_freedom > 0 && freedom.singular.is_empty() {
@@ -65,6 +76,7 @@ impl<'a> Continuation<'a> {
                 length: f64::INFINITY,
                 orientation: None,
                 rejected: 0,
+                contacts,
             }),
             None => Err(Reason::singular_start(model, *t, q, &freedom).into()),
         }
@@ -80,13 +92,41 @@ impl<'a> Continuation<'a> {
         self.rejected
     }
 
-    /// Closes the nearby position `q` at `t`. None if Newton's method fails.
-    pub fn closed(&mut self, t: f64, q: Vec<f64>) -> Option<Vec<f64>> {
-        self.solver.point(t, q).map(|point| point.q)
+    /// Takes a step, at most to `goal`. The motion ends at a limit, which is then the current point if it is a stop
+    /// or contact.
+    pub fn step(&mut self, goal: f64) -> Result<(), Reason> {
+        let from = Arc::clone(&self.point);
+        self.advance(goal)?;
+        let model = self.solver.model;
+        let Some((name, _)) = self.contacts.beyond(model, self.point.t, &self.point.q) else {
+            return Ok(());
+        };
+        let contacts = std::mem::take(&mut self.contacts);
+        self.back(from, |t, q| contacts.allow(model, t, q));
+        Err(Reason::Limit(Box::new(Limit::of_contact(model, &self.point, name))))
     }
 
-    /// Takes a step, at most to `goal`.
-    pub fn step(&mut self, goal: f64) -> Result<(), Reason> {
+    /// Goes back, within the last step from a point, to the last position that is `inside`, by bisection.
+    pub fn back(&mut self, from: Arc<Point>, inside: impl Fn(f64, &[f64]) -> bool) {
+        let mut outside = std::mem::replace(&mut self.point, from);
+        (self.before, self.orientation, self.length) = (None, None, f64::INFINITY);
+        loop {
+            let Point { t, q, .. } = &*self.point;
+            let middle = 0.5 * (t + outside.t);
+            let width = LOCATED * t.abs().max(1.0);
+            if (outside.t - t).abs() <= width || middle == *t || middle == outside.t {
+                return;
+            }
+            let guess = q.iter().zip(&outside.q).map(|(a, b)| 0.5 * (a + b)).collect();
+            let Some(between) = self.solver.point(middle, guess) else { return };
+            match inside(middle, &between.q) {
+                true => self.point = between.into(),
+                false => outside = between.into(),
+            }
+        }
+    }
+
+    fn advance(&mut self, goal: f64) -> Result<(), Reason> {
         let left = goal - self.point.t;
         let pace = self.solver.norm(&self.point.v);
         let most = if pace > 0.0 { LONGEST / pace } else { f64::INFINITY };

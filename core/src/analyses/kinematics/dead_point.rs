@@ -1,5 +1,6 @@
 //! Dead points: positions that a driven value cannot pass, in terms of the mechanism.
 
+use super::solution::Point;
 use crate::analyses::assemble::trimmed;
 use crate::elements::{Attachment, BodyId, Coordinate, Fixes, Followed, Group};
 use crate::equations::at;
@@ -35,6 +36,8 @@ pub struct Limit {
     pub in_line: Option<[String; 2]>,
     /// A body and a slide at right angles to each other, if any.
     pub across: Option<[String; 2]>,
+    /// The stop or contact with restitution that is reached, if it is not a dead point.
+    pub stop: Option<String>,
 }
 
 impl Limit {
@@ -52,14 +55,25 @@ impl Limit {
             unit,
             in_line: moving.in_line(),
             across: moving.across(),
+            stop: None,
             q,
         }
+    }
+
+    /// The limit at which the motion through a position reaches a stop or contact.
+    pub(super) fn of_contact(model: &Model, from: &Point, stop: String) -> Self {
+        let limit = Self::new(model, from.t, from.q.clone(), &from.v);
+        Self { in_line: None, across: None, stop: Some(stop), ..limit }
     }
 }
 
 impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} cannot pass {}: dead point", self.driven, written(self.value, self.unit))?;
+        write!(f, "{} cannot pass {}: ", self.driven, written(self.value, self.unit))?;
+        if let Some(stop) = &self.stop {
+            return write!(f, "{stop} is reached");
+        }
+        write!(f, "dead point")?;
         match (&self.in_line, &self.across) {
             (Some([a, b]), _) => write!(f, ", {a} and {b} in line"),
             (None, Some([a, b])) => write!(f, ", {a} at right angles to {b}"),

@@ -40,6 +40,15 @@ pub enum Reason {
         /// Its unit.
         unit: &'static str,
     },
+    /// The start is beyond a stop or contact with restitution.
+    Beyond {
+        /// The time, s.
+        t: f64,
+        /// The stop or contact.
+        name: String,
+        /// Its gap, m or rad.
+        gap: f64,
+    },
     /// The velocities are not determined at the start or at a later position.
     Singular {
         /// The time, s.
@@ -147,6 +156,9 @@ impl fmt::Display for Reason {
                 "the start does not meet the constraints at t = {t:.6}: {name} is open by {:.3e} {unit}",
                 gap.abs()
             ),
+            Self::Beyond { t, name, gap } => {
+                write!(f, "the state is beyond {name} at t = {t:.6}: its gap is {gap:.3e}")
+            }
             Self::Singular { message, .. } => f.write_str(message),
             Self::Limit(limit) => limit.fmt(f),
         }

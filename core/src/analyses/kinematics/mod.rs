@@ -41,7 +41,7 @@ pub use motion::Motion;
 pub use options::{InverseOptions, Options};
 pub use over::{over, Over};
 pub use solution::Point;
-pub use works::{recorded, Recorded};
+pub use works::{recorded, MotionRecorder, Recorded};
 
 use super::State;
 use crate::integrate::Flow;
@@ -50,7 +50,7 @@ use crate::model::Model;
 /// The motion from `start` through the `times`, in ascending or descending order. The first time may be the start
 /// time.
 ///
-/// `watch` is called with the time after each step and may stop the analysis.
+/// `watch` is called with the motion so far after each step and may stop the analysis.
 ///
 /// # Errors
 /// [`Failure`] if the drivers do not determine the motion, the start does not satisfy the constraints, or the motion
@@ -59,7 +59,7 @@ pub fn kinematics(
     model: &Model,
     start: &State,
     times: &[f64],
-    mut watch: impl FnMut(f64) -> Flow,
+    mut watch: impl FnMut(&Motion) -> Flow,
 ) -> Result<Motion, Box<Failure>> {
     let mut continuation = Continuation::begin(model, start)?;
     let mut motion = Motion { points: vec![continuation.point().clone()], ..Motion::default() };
@@ -71,7 +71,7 @@ pub fn kinematics(
                 return Err(Box::new(Failure { reason, motion }));
             }
             motion.points.push(continuation.point().clone());
-            if watch(continuation.point().t) == Flow::Stop {
+            if watch(&motion) == Flow::Stop {
                 return Ok(motion);
             }
         }

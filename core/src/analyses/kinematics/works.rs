@@ -30,21 +30,54 @@ pub struct Recorded {
 
 /// Records a motion from `start` with the works of its forces and drivers.
 pub fn recorded(model: &Model, start: &State, motion: &Motion) -> Recorded {
-    let mut works = Works::new(model, start);
-    let t = motion.points.first().map(|point| point.t).into_iter().collect();
-    let dense = PiecewiseInterpolant { t, degree: DEGREE, ..PiecewiseInterpolant::default() };
-    let mut made = Recorded { dense, ..Recorded::default() };
-    let mut outputs = motion.outputs.iter().peekable();
-    for (place, point) in motion.points.iter().enumerate() {
-        if let Some(before) = place.checked_sub(1) {
-            works.add_step(&motion.points[before], point, &mut made.dense);
-        }
-        while outputs.next_if_eq(&&place).is_some() {
-            let y = [&point.q[..], &point.v, &start.z, &works.total].concat();
-            made.trajectory.add(&model.layout, point.t, &y);
+    let mut recorder = MotionRecorder::new(model, start);
+    recorder.follow(motion);
+    recorder.recorded
+}
+
+/// Records a motion while it is computed, so that the record is complete at any time.
+pub struct MotionRecorder<'a> {
+    works: Works<'a>,
+    /// The record so far.
+    pub recorded: Recorded,
+    /// The numbers of points and outputs in the record.
+    points: usize,
+    outputs: usize,
+}
+
+impl<'a> MotionRecorder<'a> {
+    /// The record of a motion from `start`.
+    pub fn new(model: &'a Model, start: &State) -> Self {
+        let dense = PiecewiseInterpolant { degree: DEGREE, ..PiecewiseInterpolant::default() };
+        let recorded = Recorded { dense, ..Recorded::default() };
+        Self { works: Works::new(model, start), recorded, points: 0, outputs: 0 }
+    }
+
+    /// Adds the points and outputs that the motion has in addition.
+    pub fn follow(&mut self, motion: &Motion) {
+        self.add_outputs(motion);
+        for (place, point) in motion.points.iter().enumerate().skip(self.points) {
+            match place.checked_sub(1) {
+                Some(k) => {
+                    self.works.add_step(&motion.points[k], point, &mut self.recorded.dense);
+                }
+                None => self.recorded.dense.t.push(point.t),
+            }
+            self.points += 1;
+            self.add_outputs(motion);
         }
     }
-    made
+
+    /// Adds the outputs at the last point of the record.
+    fn add_outputs(&mut self, motion: &Motion) {
+        let Self { works, recorded, points, outputs } = self;
+        for place in motion.outputs[*outputs..].iter().take_while(|place| **place + 1 == *points) {
+            let point = &motion.points[*place];
+            let y = [&point.q[..], &point.v, &works.z, &works.total].concat();
+            recorded.trajectory.add(&works.model.layout, point.t, &y);
+            *outputs += 1;
+        }
+    }
 }
 
 /// Integrates the works since the start: dissipated energy, work of drivers, work of applied forces, J.

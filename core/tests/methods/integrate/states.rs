@@ -216,7 +216,7 @@ impl Dae for Constrained {
         x.copy_from_slice(&[-2.0 * gap / MASS[0], gap / MASS[1]]);
     }
 
-    fn project(&mut self, _: f64, _: DaeState<'_>) -> Result<bool, String> {
+    fn project(&mut self, _: f64, _: DaeState<'_>, _: bool) -> Result<bool, String> {
         Ok(false)
     }
 

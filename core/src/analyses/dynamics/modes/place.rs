@@ -3,7 +3,8 @@
 use super::super::failure::Failure;
 use super::super::model_cache::ModelCache;
 use super::super::redundant_rows::workspace_at;
-use crate::elements::{Behaviour, Mode};
+pub use crate::analyses::rigid::{is_rigid as is_contact, unit};
+use crate::elements::Mode;
 use crate::equations::energy;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
@@ -124,20 +125,6 @@ impl StateAt<'_> {
     pub fn is_closed(gap: f64, model: &Model, force: usize) -> bool {
         gap <= TOUCHING * unit(model, force)
     }
-}
-
-/// The size of the mechanism for a gap that is a length, 1 rad for one that is an angle.
-pub fn unit(model: &Model, force: usize) -> f64 {
-    let measured = model.forces[force].element.measured();
-    match measured.first().is_some_and(|of| of.unit == "rad") {
-        true => 1.0,
-        false => size(model),
-    }
-}
-
-/// Whether a force with modes is a stop or contact.
-pub fn is_contact(model: &Model, force: usize) -> bool {
-    matches!(model.forces[force].element.behaviour(), Some(Behaviour::Impacts { .. }))
 }
 
 /// The forces with modes.

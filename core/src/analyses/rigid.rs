@@ -1,0 +1,71 @@
+//! Stops and contacts with restitution outside of runs, where nothing decides whether they hit, rest or release.
+//!
+//! They are limits of driven motions, as dead points are. Positions beyond them are refused, and so are accelerations
+//! of a state that presses or moves into them.
+
+use crate::elements::{Behaviour, Mode};
+use crate::equations::forces::{self, Acting};
+use crate::equations::kinematics::Motions;
+use crate::model::{size, Model};
+
+/// Largest depth beyond a stop or contact that counts as touching, relative to the size of the mechanism or in rad.
+pub(super) const TOUCHING: f64 = 1e-9;
+
+/// Whether a force is a stop or contact with restitution.
+pub fn is_rigid(model: &Model, force: usize) -> bool {
+    matches!(model.forces[force].element.behaviour(), Some(Behaviour::Impacts { .. }))
+}
+
+/// The size of the mechanism for a gap that is a length, 1 rad for one that is an angle.
+pub fn unit(model: &Model, force: usize) -> f64 {
+    let measured = model.forces[force].element.measured();
+    match measured.first().is_some_and(|of| of.unit == "rad") {
+        true => 1.0,
+        false => size(model),
+    }
+}
+
+/// The stops and contacts with restitution of a model, without those for which a run has decided.
+#[derive(Clone, Debug, Default)]
+pub(super) struct RigidContacts(Vec<usize>);
+
+impl RigidContacts {
+    pub fn of(model: &Model) -> Self {
+        let open = |k: &usize| model.forces[*k].mode == Mode::Open && is_rigid(model, *k);
+        Self((0..model.forces.len()).filter(open).collect())
+    }
+
+    /// The first one beyond which a position is, with its gap. It is beyond if the gap is below `-depth`, relative to
+    /// the size of the mechanism or in rad.
+    fn deeper(&self, model: &Model, t: f64, q: &[f64], depth: f64) -> Option<(usize, f64)> {
+        if self.0.is_empty() {
+            return None;
+        }
+        let (motions, z) = (Motions::at_rest(&model.layout, q), vec![0.0; model.layout.n_z]);
+        let acting = Acting { z: &z, lam: None, t };
+        let gap = |k: &usize| (*k, forces::threshold(model, *k, &motions, acting));
+        self.0.iter().map(gap).find(|(k, gap)| *gap < -depth * unit(model, *k))
+    }
+
+    /// The first one beyond which a position is: its name and its gap.
+    pub fn beyond(&self, model: &Model, t: f64, q: &[f64]) -> Option<(String, f64)> {
+        let (k, gap) = self.deeper(model, t, q, TOUCHING)?;
+        Some((model.forces[k].name.clone(), gap))
+    }
+
+    /// Whether a position is within all of them.
+    pub fn allow(&self, model: &Model, t: f64, q: &[f64]) -> bool {
+        self.deeper(model, t, q, 0.0).is_none()
+    }
+
+    /// Those that a position touches or is beyond.
+    pub fn touched(&self, model: &Model, t: f64, q: &[f64]) -> Self {
+        let closed = |k: &usize| Self(vec![*k]).deeper(model, t, q, -TOUCHING).is_some();
+        Self(self.0.iter().copied().filter(closed).collect())
+    }
+
+    /// The indices of the forces.
+    pub fn forces(&self) -> &[usize] {
+        &self.0
+    }
+}
