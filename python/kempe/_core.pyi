@@ -361,10 +361,13 @@ def force(
     z: _F,
     lam: _F | None = None,
 ) -> _F:
-    """Force and torque of a force element on a body about its origin: (n_t, 3).
+    """Force of a force element on a body, and its torque about its place: (n_t, 3).
 
     ``lam`` are the multipliers, (n_t, n_rows), for an element into which a reaction enters.
     """
+
+def force_place(model: Model, name: str, on: str, t: _F, q: _F, v: _F, z: _F) -> _F:
+    """The point at which a force element acts on a body, or the body's origin: (n_t, 2), m."""
 
 def impulse(model: Model, name: str, on: str, t: _F, q: _F, impulses: _F) -> _F: ...
 def force_results(model: Model, name: str, t: _F, q: _F, v: _F, z: _F, lam: _F) -> _F: ...

@@ -205,6 +205,17 @@ class Motion:
         )
         return self._as_given(found)
 
+    def action_place(self, name: str, on: str) -> Floats:
+        """The point at which a force element acts on a body, (…, 2), global, m.
+
+        It is the origin of the frame of the body for an element without points.
+        """
+        rows = *self._rows(), np.atleast_2d(self.z)
+        (found,) = self._by_phase(
+            lambda core, *of: (_core.force_place(core, name, on, *of),), *rows
+        )
+        return self._as_given(found)
+
     def force_results(self, name: str) -> Floats:
         """Results of a force element beside its wrenches, (…, n); see ``ForceInfo.results``."""
         rows = *self._rows(), np.atleast_2d(self.z), np.atleast_2d(self.lam)

@@ -2,7 +2,8 @@
 
 use crate::plane::At;
 use kempe::elements::Mark;
-use kempe::equations::forces::{each_wrench, Acting};
+use kempe::equations::actions::each_action;
+use kempe::equations::forces::Acting;
 use kempe::equations::kinematics::Motions;
 use kempe::{Model, State};
 
@@ -13,7 +14,7 @@ pub struct Effort {
     pub element: String,
     /// Force in the global frame, N.
     pub force: Vec<At>,
-    /// Torque, N·m.
+    /// Torque about the point of the force, N·m.
     pub torque: Vec<f64>,
 }
 
@@ -31,7 +32,7 @@ pub fn efforts(model: &Model, states: &[State]) -> Vec<Effort> {
             motions.place(&model.layout, &state.q, &state.v);
             let acting = Acting { z: &state.z, lam: None, t: state.t };
             let (mut force, mut torque) = ([0.0; 2], 0.0);
-            each_wrench(model, k, &motions, acting, |_, body, wrench| {
+            each_action(model, k, &motions, acting, |_, body, wrench| {
                 if body == symbol.j.body {
                     force = [force[0] + wrench.force.x, force[1] + wrench.force.y];
                     torque += wrench.torque;
