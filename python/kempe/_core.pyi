@@ -254,13 +254,22 @@ def dynamics(
             as for ``KeyboardInterrupt``.
     """
 
-def kinematics_options(model: Model, text: str) -> str:
+def kinematics_options(model: Model, text: str, inverse: bool) -> str:
     """The options of ``kinematics`` or ``inverse_dynamics``, checked, as JSON."""
 
 def kinematics(
-    model: Model, t: float, q: _F, v: _F, z: _F, times: _F, progress: Callable[[float], None] | None
+    model: Model,
+    t: float,
+    q: _F,
+    v: _F,
+    z: _F,
+    times: _F,
+    progress: Callable[[float], None] | None,
+    resting: bool = False,
 ) -> Run:
     """The motion that the drivers determine, at ``times``, (n_t,), from a state.
+
+    With ``resting``, rates are zero, and works are those of a mechanism at rest at each value.
 
     Raises:
         SingularityError: a limit; ``run`` holds the motion until then, as for

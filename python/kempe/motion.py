@@ -124,6 +124,8 @@ class Motion:
     def residuals(self) -> tuple[Floats, Floats]:
         """Φ and Φ_q q̇ + Φ_t, (n_t, n_rows) or (n_rows,), m or rad and per s."""
         position, velocity = self._by_phase(_core.residual, *self._rows())
+        if self.variable.static:  # at rest, with the driver at rest too
+            velocity = np.zeros_like(velocity)
         return self._as_given(position), self._as_given(velocity)
 
     @cached_property

@@ -16,14 +16,25 @@ use serde_json::json;
 
 /// The checked options of `kinematics` or `inverse_dynamics`, as JSON with numbers in place of formulas.
 #[pyfunction]
-pub fn kinematics_options(py: Python<'_>, model: &PyModel, text: &str) -> PyResult<String> {
+#[pyo3(signature = (model, text, inverse))]
+pub fn kinematics_options(
+    py: Python<'_>,
+    model: &PyModel,
+    text: &str,
+    inverse: bool,
+) -> PyResult<String> {
     guard("kinematics_options", || {
         let fields = options::fields(py, text)?;
-        let driven::Options { t_end, output_step, over, range, n, .. } =
-            driven::Options::checked(&model.model, &fields, &[])
-                .map_err(|found| raise_plain(py, Kind::Model, &found))?;
+        let found = match inverse {
+            true => driven::InverseOptions::checked(&model.model, &fields, &[])
+                .map(|found| (found.r#static, found.into())),
+            false => driven::Options::checked(&model.model, &fields, &[]).map(|all| (false, all)),
+        };
+        let (resting, all) = found.map_err(|found| raise_plain(py, Kind::Model, &found))?;
+        let driven::Options { t_end, output_step, over, range, n, .. } = all;
         let json = json!({
-            "t_end": t_end, "output_step": output_step, "over": over, "range": range, "n": n
+            "t_end": t_end, "output_step": output_step, "over": over, "range": range, "n": n,
+            "static": resting
         });
         Ok(json.to_string())
     })
@@ -31,7 +42,7 @@ pub fn kinematics_options(py: Python<'_>, model: &PyModel, text: &str) -> PyResu
 
 /// The motion that the drivers determine, at the given times.
 #[pyfunction]
-#[pyo3(signature = (model, t, q, v, z, times, progress))]
+#[pyo3(signature = (model, t, q, v, z, times, progress, resting=false))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
 pub fn kinematics(
     py: Python<'_>,
@@ -42,6 +53,7 @@ pub fn kinematics(
     z: Row<'_>,
     times: Row<'_>,
     progress: Option<Py<PyAny>>,
+    resting: bool,
 ) -> PyResult<PyRun> {
     guard("kinematics", || {
         let core = &model.get().model;
@@ -51,7 +63,7 @@ pub fn kinematics(
         let began = std::time::Instant::now();
         let outcome = py.detach(|| driven::kinematics(core, &start, &times, |t| watch.look(t)));
         let made = |motion: driven::Motion, message: &str| {
-            let recorded = py.detach(|| driven::recorded(core, &start, &motion));
+            let recorded = py.detach(|| driven::recorded(core, &start, &motion, resting));
             PyRun::new(py, model, run(&motion, recorded, began.elapsed().as_secs_f64()), message)
         };
         match (outcome, watch.raised) {

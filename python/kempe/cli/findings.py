@@ -27,6 +27,8 @@ def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
         console, f"{name}: {over}{start} to {end}{gap}{shown.symbol}, {span['outputs']} outputs"
     )
     console.print(Text(f"  {summary['message']}", style="" if summary["success"] else "red"))
+    if of.condition:
+        console.print(Text(f"  forces and efforts {of.condition}"))
     _show_peaks(console, summary["peaks"], of)
     _show_measures(console, summary["measures"], of)
     _show_events(console, summary["events"], of.unit)
