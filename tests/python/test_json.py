@@ -49,7 +49,7 @@ def test_summaries_of_runs_are_json(tmp_path: Path, monkeypatch: pytest.MonkeyPa
 
 
 def test_there_is_one_writer_of_json_files() -> None:
-    """``json.dumps`` writes ``Infinity`` unless it is told not to."""
+    """``json.dumps`` writes ``Infinity`` without ``allow_nan=False``."""
     calls = [
         (path.name, call)
         for path in (ROOT / "python" / "kempe").rglob("*.py")

@@ -18,7 +18,7 @@ from kempe.variable import Variable
 def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
     """Print peaks, energy balance, settling times and cost of one analysis."""
     span = summary["time"]
-    of = Variable(**summary["variable"])
+    of = Variable(**summary["variable"], static=summary["static"])
     shown = _shown(of.unit)
     start, end = (figure(span[key] / shown.divisor) for key in ("start", "end"))
     over = "" if of.is_time else f"over {of.name}, "

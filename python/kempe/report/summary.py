@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
@@ -45,7 +44,8 @@ def summary(solution: Solution) -> dict[str, Any]:
             "end": float(solution.t[-1]),
             "outputs": len(solution.t),
         },
-        "variable": asdict(solution.variable),
+        "variable": {"name": solution.variable.name, "unit": solution.variable.unit},
+        "static": solution.variable.static,
         "mechanism": mechanism(solution.initial),
         "start": solution.initial.coordinates(),
         "end": solution.final.coordinates(),
