@@ -66,7 +66,7 @@ def computed() -> Results:
 
 def written(results: Results) -> str:
     """As JSON."""
-    return json.dumps(asdict(results), indent=1, ensure_ascii=False) + "\n"
+    return json.dumps(asdict(results), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
 
 
 def read(path: Path = FILE) -> Results:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from kempe._core_sweeps import *  # noqa: F403
 
 _F = NDArray[np.float64]
+_Progress = Callable[[float], None] | None
 _View = tuple[tuple[float, float], float, tuple[float, float]]
 
 def version() -> str:
@@ -234,7 +235,7 @@ def dynamics(
     v: _F,
     z: _F,
     options: str,
-    progress: Callable[[float], None] | None,
+    progress: _Progress,
     t_end: float | None = None,
     actions: tuple[list[str], Callable[..., object]] | None = None,
 ) -> Run:
@@ -254,13 +255,22 @@ def dynamics(
             as for ``KeyboardInterrupt``.
     """
 
-def kinematics_options(model: Model, text: str) -> str:
+def kinematics_options(model: Model, text: str, inverse: bool) -> str:
     """The options of ``kinematics`` or ``inverse_dynamics``, checked, as JSON."""
 
 def kinematics(
-    model: Model, t: float, q: _F, v: _F, z: _F, times: _F, progress: Callable[[float], None] | None
+    model: Model,
+    t: float,
+    q: _F,
+    v: _F,
+    z: _F,
+    times: _F,
+    progress: _Progress,
+    resting: bool = False,
 ) -> Run:
     """The motion that the drivers determine, at ``times``, (n_t,), from a state.
+
+    With ``resting``, rates are zero, and works are those of a mechanism at rest at each value.
 
     Raises:
         SingularityError: a limit; ``run`` holds the motion until then, as for
@@ -269,9 +279,7 @@ def kinematics(
         ModelError: the drivers leave a freedom.
     """
 
-def equilibrium(
-    model: Model, t: float, q: _F, v: _F, z: _F, text: str, progress: Callable[[float], None] | None
-) -> str:
+def equilibrium(model: Model, t: float, q: _F, v: _F, z: _F, text: str, progress: _Progress) -> str:
     """The rest position that a state leads to, or a path of them, as JSON.
 
     ``text`` is an entry of ``analyses`` as in a file, in JSON. ``progress`` is called with the
@@ -302,9 +310,7 @@ def linearize(
         ModelError: an unknown input or output, or a parameter that changes the geometry.
     """
 
-def limits(
-    model: Model, t: float, q: _F, v: _F, z: _F, progress: Callable[[float], None] | None
-) -> tuple[str, _F, _F]:
+def limits(model: Model, t: float, q: _F, v: _F, z: _F, progress: _Progress) -> tuple[str, _F, _F]:
     """The limits of the value of t: JSON, the values on the way, and the positions (n, n_q)."""
 
 def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False) -> tuple[_F, _F, _F]:
@@ -349,22 +355,14 @@ def measured(model: Model, name: str, t: _F, q: _F, v: _F, a: _F | None = None) 
     Without accelerations ``a``, (n_t, n_q), these are taken as zero.
     """
 
-def force(
-    model: Model,
-    name: str,
-    on: str,
-    part: str | None,
-    frame: str,
-    t: _F,
-    q: _F,
-    v: _F,
-    z: _F,
-    lam: _F | None = None,
-) -> _F:
-    """Force and torque of a force element on a body about its origin: (n_t, 3).
+def force(model: Model, name: str, on: str, part: str | None, frame: str, *states: _F | None) -> _F:
+    """Force of a force element on a body, and its torque about its place: (n_t, 3).
 
-    ``lam`` are the multipliers, (n_t, n_rows), for an element into which a reaction enters.
+    ``states`` are t, q, v and z, and the multipliers, (n_t, n_rows), if it depends on a reaction.
     """
+
+def force_place(model: Model, name: str, on: str, t: _F, q: _F, v: _F, z: _F) -> _F:
+    """The point at which a force element acts on a body, or the body's origin: (n_t, 2), m."""
 
 def impulse(model: Model, name: str, on: str, t: _F, q: _F, impulses: _F) -> _F: ...
 def force_results(model: Model, name: str, t: _F, q: _F, v: _F, z: _F, lam: _F) -> _F: ...

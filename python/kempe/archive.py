@@ -76,6 +76,7 @@ def _about(solution: Solution) -> dict[str, Any]:
         "projection": solution._run.projection,
         "settings": [[row, list(map(list, p)), *rest] for row, (p, *rest) in settings],
         "variable": [solution.variable.name, solution.variable.unit],
+        "static": solution.variable.static,
         "events": [[name, len(t)] for name, t, *_ in solution._run.events],
     }
 
@@ -311,7 +312,11 @@ def _variable(about: Mapping[str, Any]) -> Variable:
     given = about.get("variable", [TIME.name, TIME.unit])
     if not isinstance(given, list) or [type(word) for word in given] != [str, str]:
         _refuse("its variable is damaged")
-    return Variable(*given)
+    static = about.get("static", False)
+    if not isinstance(static, bool):
+        _refuse("its variable is damaged")
+    name, unit = given
+    return Variable(name, unit, static)
 
 
 def _method(case: Mapping[str, Any]) -> str:

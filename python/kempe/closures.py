@@ -17,7 +17,7 @@ from kempe.options import Configurations
 from kempe.request_cache import encode
 from kempe.result import Result
 from kempe.state import State
-from kempe.table import Column
+from kempe.table import Column, column
 from kempe.values import numbers
 
 if TYPE_CHECKING:
@@ -101,7 +101,7 @@ class ConfigurationsResult(Result, Sequence[State]):
         rows = np.array([state.q for state in self.states])
         number = Column("configuration", "", np.arange(1, len(self) + 1, dtype=float))
         columns = zip(model.column_names(), model.column_units(), rows.T, strict=True)
-        return {"configurations": [number, *(Column(*column) for column in columns)]}
+        return {"configurations": [number, *(column(*of) for of in columns)]}
 
     def __repr__(self) -> str:
         return f"<ConfigurationsResult: {self.report()[0]}>"

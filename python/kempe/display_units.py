@@ -13,6 +13,7 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cache
+from itertools import product
 from types import TracebackType
 from typing import NoReturn
 
@@ -175,7 +176,19 @@ def _table(chosen: tuple[str, ...]) -> dict[str, Shown]:
             base = found[quantity]
             for rate, over in zip(rates, ("/s", "/s^2"), strict=True):
                 found.setdefault(rate, Shown(base.unit + over, base.divisor))
-    return found
+    return found | _derivatives(found)
+
+
+def _derivatives(found: Mapping[str, Shown]) -> dict[str, Shown]:
+    """The units of derivatives by a length or an angle, such as mm/° for m/rad."""
+    derived = {}
+    for of, by in product(("m", "rad", "J"), ("m", "rad")):
+        if of in found or by in found:
+            top, bottom = found.get(of, Shown(of)), found.get(by, Shown(by))
+            for order in ("", "^2"):
+                divisor = top.divisor / bottom.divisor ** (2 if order else 1)
+                derived[f"{of}/{by}{order}"] = Shown(f"{top.unit}/{bottom.unit}{order}", divisor)
+    return derived
 
 
 def _parsed(text: str) -> tuple[str, float]:

@@ -28,7 +28,7 @@ def static_scene(
     Args:
         model: the mechanism.
         poses: x, y and angle of the moving bodies, (n_t, n_bodies, 3), m and rad.
-        efforts: force, (n_t, 2), N, and torque, (n_t,), N·m, on body j of elements with arrows.
+        efforts: what gives the arrows of elements their directions, see ``draw.arrows.efforts``.
     """
     rows = [
         (name, np.ascontiguousarray(force), np.ascontiguousarray(torque))

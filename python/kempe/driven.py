@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -80,19 +81,35 @@ def inverse_dynamics(
     over: str | None = None,
     range: tuple[Number, Number] | None = None,  # noqa: A002 - as in a file
     n: int = POINTS,
+    static: bool = False,
     progress: Progress | None = None,
 ) -> Solution:
     """Efforts of the drivers and reactions of the joints for the motion that the drivers prescribe.
 
-    ``kinematics`` computes the motion; its arguments and errors apply here too. The multipliers
+    ``kinematics`` computes the motion; its errors apply here too. The multipliers
     follow from M a + Φ_qᵀ λ = Q at each output. Work is the integral of power by adaptive
-    quadrature. In a motion over a value instead of time, this value changes at unit rate.
+    quadrature.
+
+    In a motion over a value instead of time, this value changes at unit rate: efforts and reactions
+    contain inertia and damping at 1 rad/s or 1 m/s. With ``static``, the mechanism is at rest at
+    each value, and rates, accelerations, and forces that depend on rates are zero: Φ_qᵀ λ = Q.
+
+    Args:
+        model: the mechanism.
+        start: an assembled state.
+        t_end: end time, s.
+        output_step: time between outputs, s; 1/360 of the interval when None.
+        over: name of a driver, or a position quantity such as ``"crank.angle"``.
+        range: first and last value, in SI units and rad.
+        n: number of values in the range, both ends included.
+        static: whether the mechanism is at rest at each value; needs ``over``.
+        progress: function that is called repeatedly with the time reached.
 
     Raises:
         ModelError: a force has first-order states, such as the current of a motor, which do not
             follow from the motion.
     """
-    entry = InverseDynamics(t_end, output_step, over, range, n).tree()
+    entry = InverseDynamics(t_end, output_step, over, range, n, static=static).tree()
     return follow_with_forces(compiled_model(model), start, entry, progress)
 
 
@@ -106,7 +123,9 @@ def follow(
         raise ModelError(f"progress: {progress!r} is not a function")
     refuse_foreign(model, start)
     kept = model.with_analyses({str(entry["type"]): dict(entry)})
-    options = json.loads(_core.kinematics_options(model.core, encode(core_options(entry))))
+    inverse = entry["type"] == InverseDynamics.kind
+    text = encode(core_options(entry))
+    options = json.loads(_core.kinematics_options(model.core, text, inverse))
     over = options["over"]
     if over is None:
         return _through(kept, start, _times(start.t, options), progress)
@@ -116,6 +135,7 @@ def follow(
     if first != value:
         at = _through(driven, at, np.array([first]), progress).final
     values = np.linspace(first, last, options["n"])
+    variable = replace(variable, static=options["static"])
     return _through(driven, at, values, progress, variable)
 
 
@@ -147,7 +167,8 @@ def _through(
 ) -> Solution:
     """The motion through given times, or values of a driven quantity."""
     try:
-        run = _core.kinematics(model.core, start.t, start.q, start.v, start.z, times, progress)
+        state = start.t, start.q, start.v, start.z
+        run = _core.kinematics(model.core, *state, times, progress, variable.static)
     except BaseException as error:  # including interruptions and exceptions of progress
         partial = vars(error).pop("run", None)
         if isinstance(error, SingularityError):

@@ -6,14 +6,16 @@ A reader therefore receives either the old or the new content, never a part (POS
 
 from __future__ import annotations
 
+import json
+import math
 import os
 import re
 import secrets
 import stat
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import BinaryIO
+from typing import Any, BinaryIO
 
 from kempe.errors import FileError
 
@@ -93,6 +95,21 @@ def read_text(path: Path | str) -> str:
     except OSError as error:
         raise trouble(path, "read", error) from error
     return decoded(data, path)
+
+
+def json_text(content: Any) -> str:
+    """Plain data as indented JSON; numbers that are not finite, which JSON lacks, become null."""
+    return json.dumps(_finite(content), indent=2, ensure_ascii=False, allow_nan=False)
+
+
+def _finite(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _finite(entry) for key, entry in value.items()}
+    if isinstance(value, list | tuple):
+        return [_finite(entry) for entry in value]
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value
 
 
 def decoded(data: bytes, path: Path | str) -> str:

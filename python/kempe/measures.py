@@ -127,7 +127,7 @@ class Measure:
     @property
     def unit(self) -> str:
         """SI unit of the values."""
-        return self.info.unit
+        return self._solution.variable.rate(self.info.unit)
 
     @cached_property
     def unique(self) -> bool:

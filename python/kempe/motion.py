@@ -124,6 +124,8 @@ class Motion:
     def residuals(self) -> tuple[Floats, Floats]:
         """Φ and Φ_q q̇ + Φ_t, (n_t, n_rows) or (n_rows,), m or rad and per s."""
         position, velocity = self._by_phase(_core.residual, *self._rows())
+        if self.variable.static:  # at rest, with the driver at rest too
+            velocity = np.zeros_like(velocity)
         return self._as_given(position), self._as_given(velocity)
 
     @cached_property
@@ -202,6 +204,17 @@ class Motion:
         lam = np.atleast_2d(self.lam) if seen else None
         (found,) = self._by_phase(
             lambda core, *of: (_core.force(core, name, on, part, frame, *of),), *rows, lam
+        )
+        return self._as_given(found)
+
+    def action_place(self, name: str, on: str) -> Floats:
+        """The point at which a force element acts on a body, (…, 2), global, m.
+
+        It is the origin of the frame of the body for an element without points.
+        """
+        rows = *self._rows(), np.atleast_2d(self.z)
+        (found,) = self._by_phase(
+            lambda core, *of: (_core.force_place(core, name, on, *of),), *rows
         )
         return self._as_given(found)
 

@@ -434,6 +434,9 @@ class InverseDynamics(Analysis):
         n: Number of values in the range, including both ends.
         after: State at which the analysis starts: "start", or the name of an earlier analysis
             to use its final state. If absent, the final state of the previous analysis.
+        static: Whether the mechanism is at rest at each value of `over`: without inertia,
+            damping and other forces that depend on rates. Otherwise the value grows at unit
+            rate.
         name: its name in the case.
     """
 
@@ -443,6 +446,7 @@ class InverseDynamics(Analysis):
     range: Pair | None = None
     n: int = 361
     after: str | None = None
+    static: bool = False
     name: str = "inverse_dynamics"
     kind: ClassVar[str] = "inverse_dynamics"
     shapes: ClassVar[Mapping[str, Shape]] = {
@@ -452,6 +456,7 @@ class InverseDynamics(Analysis):
         "range": "pair",
         "n": "count",
         "after": "name",
+        "static": "flag",
     }
 
 

@@ -8,7 +8,7 @@ a joint or force element describe body j as seen from body i; its force or torqu
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -55,11 +55,16 @@ Family: TypeAlias = Mapping[str, Quantity]
 
 
 def named(motion: Motion, name: str) -> Quantity:
-    """A quantity by name.
+    """A quantity by name; in a motion over a driven quantity, rates are derivatives by it.
 
     Raises:
         ModelError: there is no such quantity; the error is also a ``KeyError``.
     """
+    found = _named(motion, name)
+    return replace(found, unit=motion.variable.rate(found.unit))
+
+
+def _named(motion: Motion, name: str) -> Quantity:
     if name in motion.compiled.measures:
         return _measure_of(motion, name)
     owner, _, quantity = name.rpartition(".")

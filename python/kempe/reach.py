@@ -19,7 +19,7 @@ from kempe.motion import Motion
 from kempe.options import Limits
 from kempe.result import Result
 from kempe.state import State
-from kempe.table import Column
+from kempe.table import Column, column
 
 if TYPE_CHECKING:
     from kempe.compiled import CompiledModel
@@ -119,9 +119,9 @@ class LimitsResult(Result):
         """``limits``: the values on the way and the coordinates of all bodies."""
         path = self.path
         names, units = path.compiled.column_names(), path.compiled.column_units()
-        value = Column(self.over, self.unit, np.asarray(path.t))
+        value = column(self.over, self.unit, np.asarray(path.t))
         rows = zip(names, units, path.q.T, strict=True)
-        return {"limits": [value, *(Column(name, unit, q) for name, unit, q in rows)]}
+        return {"limits": [value, *(column(name, unit, q) for name, unit, q in rows)]}
 
     def __repr__(self) -> str:
         return f"<LimitsResult {self.report()[0]}>"

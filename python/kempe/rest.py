@@ -13,9 +13,10 @@ from kempe import quantities
 from kempe.arrays import Floats, fixed
 from kempe.compiled import CompiledModel
 from kempe.display_units import display
+from kempe.measures import parameter_unit
 from kempe.result import Result
 from kempe.state import State
-from kempe.table import Column
+from kempe.table import Column, column
 
 #: Largest asymmetry of a stiffness that has a potential, relative to its largest entry.
 _SYMMETRIC = 1e-9
@@ -135,6 +136,12 @@ class EquilibriumResult(Result):
         names = (*self.coordinates, *self.hold)
         return {name: quantities.named(self.state, name).unit for name in names}
 
+    @property
+    def _unit_over(self) -> str:
+        """The unit of the parameter of a path; empty for a parameter without one."""
+        found = parameter_unit(self.start.compiled, self.over or "")
+        return "" if found == "SI" else found
+
     def unit_of_effort(self, name: str) -> str:
         """N for a length, N*m for an angle."""
         drivers = self.state.compiled.drivers
@@ -187,17 +194,21 @@ class EquilibriumResult(Result):
             lines.append(f"on {', '.join(self.coordinates[:_MOST])}{more}")
         for name, value in self.effort.items():
             who = "the driver" if name in self.state.compiled.drivers else "a holder"
-            unit = self.unit_of_effort(name)
-            lines.append(f"{name}: {who} applies {value:.6g} {display(unit).symbol}")
+            unit = display(self.unit_of_effort(name))
+            applied = f"{value / unit.divisor:.6g} {unit.symbol}"
+            lines.append(f"{name}: {who} applies {applied}")
         return lines
 
     def _path_report(self) -> list[str]:
-        first, last = self.values[0], self.values[-1]
-        lines = [f"{len(self.values)} points over {self.over} from {first:.6g} to {last:.6g}"]
+        shown = display(self._unit_over)
+        values = self.values / shown.divisor
+        of = f"{self.over} from {values[0]:.6g} to {values[-1]:.6g}{_space(shown.symbol)}"
+        lines = [f"{len(values)} points over {of}"]
         for what, places in (("fold", self.fold_points), ("crossing", self.branch_points)):
             for place in places[:_MOST]:
                 at = ", ".join(self._where(place))
-                lines.append(f"{what} at {self.over} = {self.values[place]:.10g}: {at}")
+                value = f"{values[place]:.10g}{_space(shown.symbol)}"
+                lines.append(f"{what} at {self.over} = {value}: {at}")
         changes = np.flatnonzero(np.diff(np.asarray(self.stable, dtype=int)))
         kind = "stable" if np.all(self.stable) else "not stable"
         mixed = f"{int(np.sum(self.stable))} points are stable"
@@ -216,9 +227,9 @@ class EquilibriumResult(Result):
         model = self.state.compiled
         units = model.column_units()
         q = np.array([state.q for state in self.states])
-        columns = [] if self.over is None else [Column(self.over, "", self.values)]
+        columns = [] if self.over is None else [column(self.over, self._unit_over, self.values)]
         columns += [
-            Column(name, unit, q[:, k])
+            column(name, unit, q[:, k])
             for k, (name, unit) in enumerate(zip(model.column_names(), units, strict=True))
         ]
         stable = np.atleast_1d(np.asarray(self.stable, dtype=float))
@@ -228,7 +239,7 @@ class EquilibriumResult(Result):
             Column(f"eigenvalue_{k + 1}", "", rows[:, k]) for k in range(len(self.coordinates))
         ]
         columns += [
-            Column(f"{name}.effort", self.unit_of_effort(name), np.atleast_1d(values))
+            column(f"{name}.effort", self.unit_of_effort(name), np.atleast_1d(values))
             for name, values in self.effort.items()
         ]
         return {"equilibrium": columns}
@@ -268,4 +279,4 @@ def _per(unit: str) -> str:
 
 
 def _space(symbol: str) -> str:
-    return symbol if symbol == "°" else f" {symbol}"
+    return symbol if symbol in ("°", "") else f" {symbol}"

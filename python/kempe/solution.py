@@ -282,7 +282,9 @@ class Solution(Motion):
         motion._passing, motion._phases = self._passing, self._phases_at(times)
         if (tolerance := self._run.projection) is not None:
             q, v = motion._by_phase(partial(_project, tolerance), times, q, v, z)
-            motion.q, motion.v = fixed(q), fixed(v)
+            rates = np.zeros_like(v) if self.variable.static else v
+            q, v = fixed(q), fixed(rates)
+            motion.q, motion.v = q, v
         if at.ndim:
             return motion
         own = motion._phases

@@ -143,11 +143,12 @@ class State(Motion):
 
         Angles are in degrees unless ``kp.units`` chose another unit.
         """
-        header = [heading(name, unit, usual) for name, unit, usual in _COLUMNS]
+        columns = [(name, self.variable.rate(unit), usual) for name, unit, usual in _COLUMNS]
+        header = [heading(name, unit, usual) for name, unit, usual in columns]
         rows = []
         for name, info in self.compiled.bodies.items():
             body, row = self.body(name), [name]
-            for quantity, unit, usual in _COLUMNS:
+            for quantity, unit, usual in columns:
                 turning = quantity in ("angle", "omega")
                 value = getattr(body, quantity) / display(unit, usual).divisor
                 row.append("" if turning and not info.turns else f"{value + 0.0:.6g}")

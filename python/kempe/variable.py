@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
+
+#: Per second, in a unit; "N*s/m" does not contain it.
+_RATE = re.compile(r"/s(?![A-Za-z])")
 
 
 @dataclass(frozen=True)
@@ -12,10 +16,13 @@ class Variable:
     Attributes:
         name: "t", or a position quantity such as "crank.angle".
         unit: its SI unit: "s", "m" or "rad".
+        static: whether the mechanism is at rest at each value; otherwise the value grows at unit
+            rate.
     """
 
     name: str = "t"
     unit: str = "s"
+    static: bool = False
 
     @property
     def is_time(self) -> bool:
@@ -26,6 +33,17 @@ class Variable:
     def words(self) -> str:
         """Its name in a sentence or on an axis: "time t", or the name of the quantity."""
         return f"time {self.name}" if self.is_time else self.name
+
+    def rate(self, unit: str) -> str:
+        """The SI unit of a rate: m/s over time, m/rad over an angle, and so on; W becomes J/rad."""
+        return unit if self.is_time else _RATE.sub(f"/{self.unit}", "J/s" if unit == "W" else unit)
+
+    @property
+    def condition(self) -> str:
+        """What forces over a driven quantity contain, in words; empty over time."""
+        if self.static:
+            return "at rest, without inertia and damping"
+        return "" if self.is_time else f"with inertia and damping at 1 {self.unit}/s"
 
 
 #: The variable of all motions that are not over a driven quantity.

@@ -57,7 +57,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "kinematics": lambda: _core.kinematics(MODEL, T, Q, V, Z, TIMES, None),
     "linearize": lambda: _core.linearize(MODEL, T, Q, V, Z, [], []),
     "modes_options": lambda: _core.modes_options(MODEL, '{"type": "modes"}'),
-    "kinematics_options": lambda: _core.kinematics_options(MODEL, '{"type": "kinematics"}'),
+    "kinematics_options": lambda: _core.kinematics_options(MODEL, '{"type": "kinematics"}', False),
     "line_at": lambda: _core.line_at(MODEL, "C", "rocker"),
     "transmitting": lambda: _core.transmitting(MODEL),
     "limits": lambda: _core.limits(MODEL, T, Q, V, Z, None),
@@ -104,6 +104,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "force": lambda: _core.force(
         MODEL, "spring", "rocker", None, "global", TIMES, ROW, ROW, STATES
     ),
+    "force_place": lambda: _core.force_place(MODEL, "spring", "rocker", TIMES, ROW, ROW, STATES),
     "matrices": lambda: _core.matrices(MODEL, T, Q, V, Z, "{}"),
     "formulas": lambda: _core.formulas(MODEL, "C", {}, "latex"),
     "scene": lambda: _core.scene(MODEL, POSES, []),

@@ -15,7 +15,8 @@ use std::sync::Arc;
 /// Poses of the moving bodies: time, body, and x, y and angle.
 type Poses<'py> = PyReadonlyArray3<'py, f64>;
 
-/// The static part of a scene as JSON. `efforts` are the elements with their forces and torques on body j over time.
+/// The static part of a scene as JSON. `efforts` are the elements with the forces and torques that
+/// give their arrows directions.
 #[pyfunction]
 #[pyo3(signature = (model, poses, efforts))]
 pub fn scene<'py>(

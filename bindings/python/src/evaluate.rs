@@ -8,6 +8,7 @@ use crate::respond::{self, missing, responses, Table};
 use kempe::analyses::assemble::{holding, Request};
 use kempe::analyses::dynamics as core;
 use kempe::elements::BodyId;
+use kempe::equations::actions::{self, each_action};
 use kempe::equations::constraints;
 use kempe::equations::forces::{self, Acting};
 use kempe::equations::kinematics::Motions;
@@ -214,7 +215,7 @@ pub fn unknown(py: Python<'_>, what: &str, name: &str) -> PyErr {
     refuse(py, name, format!("there is no {what} of this name"))
 }
 
-/// Force, and torque about the body's origin, that a force element or one of its parts exerts on a body.
+/// Force, and torque about its place, that a force element or one of its parts exerts on a body.
 #[pyfunction]
 #[pyo3(signature = (model, name, on, part, frame, t, q, v, z, lam=None))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
@@ -253,7 +254,7 @@ pub fn force<'py>(
             let mut sum = Wrench::zero();
             let lam = lam.as_ref().map(|lam| &lam[at * m..(at + 1) * m]);
             let acting = Acting { z: &z[at * n_z..(at + 1) * n_z], lam, t };
-            forces::each_wrench(model, k, motions, acting, |part, at, wrench| {
+            each_action(model, k, motions, acting, |part, at, wrench| {
                 if at == body && wanted.is_none_or(|wanted| wanted == part) {
                     sum = sum + wrench;
                 }
@@ -263,6 +264,35 @@ pub fn force<'py>(
             out.extend([force[0], force[1], sum.torque]);
         });
         table(py, out, (count, 3))
+    })
+}
+
+/// The point at which a force element acts on a body, or the origin of the body: (n_t, 2), global, m.
+#[pyfunction]
+pub fn force_place<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    name: &str,
+    on: &str,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+    z: Rows<'py>,
+) -> PyResult<Table<'py>> {
+    guard("force_place", || {
+        let model = &*model.model;
+        let k = model.force(name).ok_or_else(|| unknown(py, "force", name))?;
+        let body = one_of(py, model, &model.forces[k].bodies, name, on)?;
+        let states = Rates::read(py, model, &t, &q, &v)?;
+        let (count, n_z) = (states.t.len(), model.layout.n_z);
+        let z = rows(py, "z", &z, (count, n_z))?;
+        let mut out = Vec::with_capacity(2 * count);
+        states.each(model, |at, t, motions| {
+            let acting = Acting { z: &z[at * n_z..(at + 1) * n_z], lam: None, t };
+            let place = actions::place(model, k, body, motions, acting);
+            out.extend([place.x, place.y]);
+        });
+        table(py, out, (count, 2))
     })
 }
 

@@ -21,14 +21,25 @@ use std::sync::Arc;
 
 /// The checked options of `kinematics` or `inverse_dynamics`, as JSON with numbers in place of formulas.
 #[pyfunction]
-pub fn kinematics_options(py: Python<'_>, model: &PyModel, text: &str) -> PyResult<String> {
+#[pyo3(signature = (model, text, inverse))]
+pub fn kinematics_options(
+    py: Python<'_>,
+    model: &PyModel,
+    text: &str,
+    inverse: bool,
+) -> PyResult<String> {
     guard("kinematics_options", || {
         let fields = options::fields(py, text)?;
-        let driven::Options { t_end, output_step, over, range, n, .. } =
-            driven::Options::checked(&model.model, &fields, &[])
-                .map_err(|found| raise_plain(py, Kind::Model, &found))?;
+        let found = match inverse {
+            true => driven::InverseOptions::checked(&model.model, &fields, &[])
+                .map(|found| (found.r#static, found.into())),
+            false => driven::Options::checked(&model.model, &fields, &[]).map(|all| (false, all)),
+        };
+        let (resting, all) = found.map_err(|found| raise_plain(py, Kind::Model, &found))?;
+        let driven::Options { t_end, output_step, over, range, n, .. } = all;
         let json = json!({
-            "t_end": t_end, "output_step": output_step, "over": over, "range": range, "n": n
+            "t_end": t_end, "output_step": output_step, "over": over, "range": range, "n": n,
+            "static": resting
         });
         Ok(json.to_string())
     })
@@ -36,7 +47,7 @@ pub fn kinematics_options(py: Python<'_>, model: &PyModel, text: &str) -> PyResu
 
 /// The motion that the drivers determine, at the given times.
 #[pyfunction]
-#[pyo3(signature = (model, t, q, v, z, times, progress))]
+#[pyo3(signature = (model, t, q, v, z, times, progress, resting=false))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
 pub fn kinematics(
     py: Python<'_>,
@@ -47,6 +58,7 @@ pub fn kinematics(
     z: Row<'_>,
     times: Row<'_>,
     progress: Option<Py<PyAny>>,
+    resting: bool,
 ) -> PyResult<PyRun> {
     guard("kinematics", || {
         let core = Arc::clone(&model.get().model);
@@ -54,7 +66,7 @@ pub fn kinematics(
         let times = row(py, "times", &times, times.as_array().len())?;
         let work = move |stop: ToEnd<'_>| {
             let mut watch = Watch::until(progress.as_ref(), stop);
-            let (run, reason) = followed(&core, &start, &times, |t| watch.look(t));
+            let (run, reason) = followed(&core, (&start, resting), &times, |t| watch.look(t));
             (run, reason, watch.raised)
         };
         let ((run, reason), error) = match attend(py, ENDING, work)? {
@@ -75,12 +87,12 @@ pub fn kinematics(
 /// The run through the given times, and the reason for which it ended early.
 fn followed(
     model: &Model,
-    start: &State,
+    (start, resting): (&State, bool),
     times: &[f64],
     mut look: impl FnMut(f64) -> Flow,
 ) -> (Run, Option<driven::Reason>) {
     let began = std::time::Instant::now();
-    let mut recorder = driven::MotionRecorder::new(model, start);
+    let mut recorder = driven::MotionRecorder::new(model, start, resting);
     let outcome = driven::kinematics(model, start, times, |motion| {
         recorder.follow(motion);
         motion.points.last().map_or(Flow::Continue, |point| look(point.t))

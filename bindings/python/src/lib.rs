@@ -141,6 +141,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(reactions::not_unique, module)?)?;
     module.add_function(wrap_pyfunction!(reactions::results, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::force, module)?)?;
+    module.add_function(wrap_pyfunction!(evaluate::force_place, module)?)?;
     module.add_function(wrap_pyfunction!(reactions::impulse, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::force_energy, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::force_results, module)?)?;

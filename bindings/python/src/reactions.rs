@@ -6,6 +6,7 @@ use crate::guard::guard;
 use crate::model::PyModel;
 use crate::respond::Table;
 use kempe::elements::{BodyId, Mode};
+use kempe::equations::actions::each_action;
 use kempe::equations::forces::{self, Acting};
 use kempe::equations::newton_euler::balances;
 use kempe::equations::reactions;
@@ -83,7 +84,7 @@ pub fn impulse<'py>(
             let mode = Mode::Holds(forces::side(model, k, motions, acting));
             let resting = model.marked(&[ForceMode { force: k, mode, value: 0.0, slack: 0.0 }]);
             let mut sum = Wrench::zero();
-            forces::each_wrench(&resting, k, motions, acting, |_, on, wrench| {
+            each_action(&resting, k, motions, acting, |_, on, wrench| {
                 if on == body {
                     sum = sum + wrench;
                 }

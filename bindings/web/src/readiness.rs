@@ -112,7 +112,7 @@ impl Obstacles<'_> {
     fn of_reactions(&self) -> Option<Problem> {
         let motion =
             kinematics(self.model, self.state, &[self.state.t], |_| Flow::Continue).ok()?;
-        let trajectory = recorded(self.model, self.state, &motion).trajectory;
+        let trajectory = recorded(self.model, self.state, &motion, false).trajectory;
         let found = Prepared::new(Arc::clone(self.model));
         let found = found.accelerations(trajectory.states(), false, |_| Flow::Continue);
         match found.err()?.reason {

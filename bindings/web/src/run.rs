@@ -89,9 +89,18 @@ impl Ran {
                 let options = read(model, &entry.fields, &path).map_err(problems)?;
                 Ok(Self::dynamics(model, start, &options))
             }
-            Some(Written::Text(kind)) if kind == "kinematics" || kind == "inverse_dynamics" => {
+            Some(Written::Text(kind)) if kind == "kinematics" => {
                 let options = driven::Options::checked(model, &entry.fields, &path);
                 Self::kinematics(loaded, start, &options.map_err(problems)?)
+            }
+            Some(Written::Text(kind)) if kind == "inverse_dynamics" => {
+                let options = driven::InverseOptions::checked(model, &entry.fields, &path);
+                let options = options.map_err(problems)?;
+                if options.r#static {
+                    let message = format!("the analysis '{}' is static", entry.name);
+                    return Err(Fault::new(message).hint("kempe run computes it"));
+                }
+                Self::kinematics(loaded, start, &options.into())
             }
             _ => Err(Fault::new(format!("the analysis '{}' has no motion", entry.name)).hint(
                 "its result is in kempe.run; here dynamics, kinematics and inverse_dynamics run",
@@ -236,7 +245,7 @@ fn times(begin: f64, options: &driven::Options) -> Vec<f64> {
 
 fn run_of(model: &Model, start: &State, motion: &Motion) -> Run {
     Run {
-        trajectory: recorded(model, start, motion).trajectory,
+        trajectory: recorded(model, start, motion, false).trajectory,
         phases: vec![0],
         reached: motion.reached,
         passing: true,

@@ -7,7 +7,7 @@ use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::measured::{self, ElementId};
 use crate::equations::reactions::{self, Frame};
-use crate::equations::{constraints, energy};
+use crate::equations::{actions, constraints, energy};
 use crate::math::{Local, Real, Vec2, Wrench};
 use crate::model::Model;
 
@@ -197,7 +197,7 @@ fn reaction<S: Real>(model: &Model<S>, k: usize, lam: &[S], seen: &Seen<'_, S>) 
 
 fn force_on_j<S: Real>(model: &Model<S>, k: usize, seen: &Seen<'_, S>) -> Wrench<S> {
     let (on, mut sum) = (body_j(&model.forces[k].bodies), Wrench::zero());
-    forces::each_wrench(model, k, seen.motions, seen.acting(), |_, body, wrench| {
+    actions::each_action(model, k, seen.motions, seen.acting(), |_, body, wrench| {
         if body == on {
             sum = sum + wrench;
         }

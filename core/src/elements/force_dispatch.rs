@@ -156,6 +156,10 @@ macro_rules! forces {
             pub fn points(&self) -> Option<[Local<S>; 2]> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::points(e),)+ }
             }
+            /// The vectors from the origins of bodies i and j to the point at which the force acts, if it has one.
+            pub fn arms(&self, at: &Situation<'_, S>) -> Option<[Vec2<S>; 2]> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::arms(e, at),)+ }
+            }
             /// Energy stored in the states, J.
             pub fn own_energy(&self, at: &Situation<'_, S>) -> S {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name>::own_energy(e, at),)+ }

@@ -8,7 +8,7 @@ use super::mode::{Behaviour, Mode};
 use super::symbols::SceneSymbol;
 use super::Constraint;
 use crate::expression::Tape;
-use crate::math::{Local, Motion, Real, Wrench};
+use crate::math::{Local, Motion, Real, Vec2, Wrench};
 
 /// The quantities that a force may depend on.
 #[derive(Clone, Copy, Debug)]
@@ -283,6 +283,13 @@ pub trait Force: Element {
     fn points<S: Real>(e: &Self::Over<S>) -> Option<[Local<S>; 2]> {
         let _ = e;
         None
+    }
+
+    /// The vectors from the origins of bodies i and j to the point at which the force acts, in the global frame. Torques
+    /// are reported about this point. None for a torque, and for an effort on a quantity.
+    #[inline]
+    fn arms<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> Option<[Vec2<S>; 2]> {
+        Self::points(e).map(|[i, j]| [at.i().pose.global(i), at.j().pose.global(j)])
     }
 
     /// Energy stored in the states, J.

@@ -18,6 +18,12 @@ pub(super) struct Line<S> {
     arms: [Vec2<S>; 2],
 }
 
+/// The vectors from the origins of bodies i and j to a point of body j.
+pub(super) fn arms<S: Real>(j: &PointOn<S>, at: &Situation<'_, S>) -> [Vec2<S>; 2] {
+    let arm = at.j().pose.global(j.s);
+    [at.j().pose.r + arm - at.i().pose.r, arm]
+}
+
 impl<S: Real> Line<S> {
     /// The line through points on body i and body j.
     pub fn new(at: &Situation<'_, S>, i: &PointOn<S>, j: &PointOn<S>) -> Self {

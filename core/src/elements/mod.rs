@@ -109,7 +109,7 @@ pub mod forces {
 pub mod test_elements;
 
 use crate::expression::Tape;
-use crate::math::{Lift, Local, Pose, Real, Wrench};
+use crate::math::{Lift, Local, Pose, Real, Vec2, Wrench};
 pub use attachment::Attachment;
 
 pub use curve_forms::{CurveForm, CURVE_FORMS};

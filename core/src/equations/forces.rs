@@ -174,7 +174,7 @@ pub(super) fn situation<'a, S: Real>(
 
 /// The situation of force `k` for reports. If the force holds, it contains the multiplier.
 #[inline]
-fn reported<'a, S: Real>(
+pub(super) fn reported<'a, S: Real>(
     model: &'a Model<S>,
     k: usize,
     motions: &'a Motions<S>,

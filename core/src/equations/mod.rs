@@ -3,6 +3,7 @@
 //! The equations are functions of a [`Model`](crate::model::Model) and slices. A [`Workspace`] contains their scratch
 //! memory.
 
+pub mod actions;
 pub mod augmented;
 pub mod balance;
 mod compiled;

@@ -3,8 +3,8 @@
 use super::lexer::{Lexer, Token, TokenKind};
 use super::names::constant;
 use super::operation::{Binary, Call, Function, Relation, Unary};
+use super::quantity::multiplied;
 use super::tree::{Node, NodeKind};
-use super::unit::Unit;
 use super::{ExpressionError, MAX_DEPTH};
 use std::ops::Range;
 
@@ -286,31 +286,29 @@ impl Parser<'_> {
     }
 
     /// The number that ends just before byte `end`.
-    fn number_before(&self, end: usize) -> Option<(f64, Range<usize>)> {
+    fn number_before(&self, end: usize) -> Option<Range<usize>> {
         let end = self.text[..end].trim_end().len();
         self.nodes.iter().rev().find_map(|node| match node.kind {
-            NodeKind::Number(value) if node.span.end == end => Some((value, node.span.clone())),
+            NodeKind::Number(_) if node.span.end == end => Some(node.span.clone()),
             _ => None,
         })
     }
 
     /// The error for two adjacent operands. The second operand, at `span`, may be a unit.
     fn missing_operator(&self, written: &str, span: Range<usize>) -> ExpressionError {
-        if let (Some((value, number)), Ok(unit)) =
-            (self.number_before(span.start), Unit::parse(written))
-        {
-            let hint = match (written, unit.scale(value)) {
-                ("deg", _) => Some(format!("write {}*deg", &self.text[number.clone()])),
-                (_, Some(si)) => Some(format!("write {si:?}, in SI units")),
-                (_, None) => None,
-            };
+        let number = self.number_before(span.start);
+        let multiplied = multiplied(self.text, span.clone());
+        if let (Some(_), Some(text)) = (&number, &multiplied) {
             let message = "a unit may follow only a number that stands alone";
-            return ExpressionError::new(span, message).hint(hint);
+            return ExpressionError::new(span, message).hint(format!("write {text}"));
         }
-        let hint = match (self.number_before(span.start), &self.token.kind) {
-            (Some((_, number)), TokenKind::Name(name)) if constant(name).is_none() => {
+        let hint = match (number, multiplied, &self.token.kind) {
+            (Some(number), _, TokenKind::Name(name)) if constant(name).is_none() => {
                 let number = &self.text[number];
                 format!("'{written}' is not a unit; if it is a name, write {number}*{written}")
+            }
+            (_, Some(text), _) if constant(written).is_none() => {
+                format!("write '*' to multiply, or {text} for the unit")
             }
             _ => "write '*' to multiply".to_string(),
         };

@@ -5,6 +5,7 @@ use super::names::is_name_part;
 use super::tree::{Node, NodeKind};
 use super::unit::{atom, meant, Unit};
 use super::ExpressionError;
+use std::ops::Range;
 
 /// Reads `["-" | "+"] number unit`; `None` if the text is something else.
 ///
@@ -73,12 +74,27 @@ fn continued(text: &str, start: usize) -> ExpressionError {
         return ExpressionError::new(start..text.len(), "units are separated by spaces")
             .hint(format!("write '{product}'"));
     }
-    let hint = match word {
-        "deg" => "in an expression, write 30*deg",
-        _ => "in an expression, write numbers in SI units",
+    let hint = multiplied(text, span.clone()).map(|text| format!("write {text}"));
+    ExpressionError::new(span, "a unit may follow only a number that stands alone").hint(hint)
+}
+
+/// The longest text that is repeated in a hint, in characters.
+const MOST_REPEATED: usize = 60;
+
+/// The text with a factor in SI units in place of the unit at `span`: `1/2 in` → `1/2*0.0254`. None if it is not a unit.
+///
+/// The product has the value of all factors before the unit, times the unit. Of a long text, only the factor is given.
+pub(super) fn multiplied(text: &str, span: Range<usize>) -> Option<String> {
+    let unit = Unit::parse(&text[span.clone()]).ok()?;
+    let factor = match (&text[span.clone()], unit.scale(1.0)?) {
+        ("deg" | "°", _) => "*deg".to_string(),
+        (_, 1.0) => String::new(),
+        (_, factor) => format!("*{factor:?}"),
     };
-    ExpressionError::new(span, "a unit may follow only a number that stands alone")
-        .hint(hint.to_string())
+    let (before, after) = (text[..span.start].trim(), text[span.end..].trim_end());
+    let visible = |c: char| c == ' ' || c.is_ascii_graphic();
+    let repeats = text.len() <= MOST_REPEATED && (before.chars().chain(after.chars())).all(visible);
+    Some(if repeats { format!("{before}{factor}{after}") } else { format!("…{factor}") })
 }
 
 /// Units with spaces between them as a product: `kg m^2`.

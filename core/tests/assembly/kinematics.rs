@@ -54,7 +54,7 @@ fn a_slider_crank_over_a_turn() {
         }
     }
     // the work of the motor is the change of the kinetic energy of all bodies, without gravity
-    let trajectory = recorded(&m, &start(&m, &[], &hints).0, &motion).trajectory;
+    let trajectory = recorded(&m, &start(&m, &[], &hints).0, &motion, false).trajectory;
     let energy = kempe::analyses::dynamics::Prepared::new(&m)
         .energies(trajectory.states(), &trajectory.works)
         .expect("energies");

@@ -96,7 +96,7 @@ pub fn turn_stop(symbol: &Symbol) -> Vec<Item> {
     vec![Item::line(&symbol.element, &frame, rows, &colour_of(i), 4.0)]
 }
 
-/// An arrow around the pin, counter-clockwise unless its sense is negative.
+/// An arrow around the pin, counter-clockwise unless its sense is negative: a torque, or the rotation of a driver.
 pub fn curved_arrow(
     symbol: &Symbol,
     mut around: Around<'_>,

@@ -10,6 +10,10 @@ use crate::numbers::rounded;
 use crate::plane::{direction, dot, left_of, minus, placed, size, At, Pose};
 use kempe::elements::SceneSymbol;
 use kempe::model::Model;
+use std::f64::consts::PI;
+
+/// The largest speed of a driver at rest, m/s or rad/s: a rounding error.
+const AT_REST: f64 = 1e-9;
 
 type Found<'a> = Vec<(&'a str, Vec<SceneSymbol>)>;
 
@@ -65,7 +69,11 @@ fn symbol(
     }
     match (found.mark, effort) {
         (Mark::ForceArrow, Some(effort)) => found.axes[0] = pushing(paths, &found, &effort.force),
-        (Mark::TorqueArrow, Some(effort)) => found.sense = sign(&effort.torque),
+        (Mark::TorqueArrow, Some(effort)) => found.sense = sign(&effort.torque, 0.0),
+        (Mark::DriveTurn, Some(effort)) => found.sense = sign(&effort.torque, AT_REST),
+        (Mark::DriveShift, Some(effort)) if against(paths, &found, &effort.force) => {
+            found.axes[0] += PI;
+        }
         _ => {}
     }
     found
@@ -151,15 +159,23 @@ fn pushing(paths: Paths<'_>, of: &Symbol, forces: &[At]) -> f64 {
     largest.1
 }
 
-/// The sign of the value with the largest magnitude.
-fn sign(values: &[f64]) -> i8 {
+/// Whether velocities are opposite to the axis of i where they are largest along it.
+fn against(paths: Paths<'_>, of: &Symbol, velocities: &[At]) -> bool {
+    let axis = of.axes[0];
+    let along = velocities.iter().zip(paths.of(of.bodies[0]));
+    let along: Vec<f64> = along.map(|(velocity, i)| in_axes(i, axis, *velocity)[0]).collect();
+    sign(&along, AT_REST) < 0
+}
+
+/// The sign of the value with the largest magnitude; positive if this magnitude is at most `least`.
+fn sign(values: &[f64], least: f64) -> i8 {
     let mut most = 0.0_f64;
     for &value in values {
         if value.abs() > most.abs() {
             most = value;
         }
     }
-    if most < 0.0 {
+    if most < -least {
         -1
     } else {
         1

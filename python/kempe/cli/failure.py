@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import asdict
@@ -10,7 +9,7 @@ from typing import Any
 
 from rich.text import Text
 
-from kempe import errors
+from kempe import errors, files
 from kempe.cli import exit_codes
 from kempe.cli.console import remarks
 
@@ -68,7 +67,7 @@ def document(as_json: bool) -> Iterator[dict[str, Any]]:
 
 def print_json(content: dict[str, Any]) -> None:
     """Print plain data as JSON; numbers that are not finite become null."""
-    print(json.dumps(_finite(content), indent=2, ensure_ascii=False, allow_nan=False))
+    print(files.json_text(content))
 
 
 def error_tree(error: errors.KempeError) -> dict[str, Any]:
@@ -84,13 +83,3 @@ def error_tree(error: errors.KempeError) -> dict[str, Any]:
         "problems": [asdict(problem) for problem in error.problems],
         "exit_code": exit_code(error),
     }
-
-
-def _finite(value: Any) -> Any:
-    if isinstance(value, dict):
-        return {key: _finite(entry) for key, entry in value.items()}
-    if isinstance(value, list | tuple):
-        return [_finite(entry) for entry in value]
-    if isinstance(value, float) and value - value != 0.0:
-        return None
-    return value

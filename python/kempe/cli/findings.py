@@ -18,7 +18,7 @@ from kempe.variable import Variable
 def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
     """Print peaks, energy balance, settling times and cost of one analysis."""
     span = summary["time"]
-    of = Variable(**summary["variable"])
+    of = Variable(**summary["variable"], static=summary["static"])
     shown = _shown(of.unit)
     start, end = (figure(span[key] / shown.divisor) for key in ("start", "end"))
     over = "" if of.is_time else f"over {of.name}, "
@@ -27,6 +27,8 @@ def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
         console, f"{name}: {over}{start} to {end}{gap}{shown.symbol}, {span['outputs']} outputs"
     )
     console.print(Text(f"  {summary['message']}", style="" if summary["success"] else "red"))
+    if of.condition:
+        console.print(Text(f"  forces and efforts {of.condition}"))
     _show_peaks(console, summary["peaks"], of)
     _show_measures(console, summary["measures"], of)
     _show_events(console, summary["events"], of.unit)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -63,5 +62,4 @@ def _write_summary(path: Path, summary: dict[str, Any], written: list[Path]) -> 
     from kempe import files
 
     names = [each.relative_to(path.parent).as_posix() for each in written]
-    content = json.dumps({**summary, "files": names}, indent=2, ensure_ascii=False)
-    files.write_text(path, content + "\n")
+    files.write_text(path, files.json_text({**summary, "files": names}) + "\n")

@@ -157,7 +157,9 @@ def _polygon(
 ) -> Polygon:
     at_pole = {POLE: np.zeros(2)}
     kept = MappingProxyType({name: fixed(i) for name, i in {**images, **at_pole}.items()})
-    return Polygon(kind, unit, state.variable, float(state.t), kept, tuple(sides), state)
+    return Polygon(
+        kind, state.variable.rate(unit), state.variable, float(state.t), kept, tuple(sides), state
+    )
 
 
 def state_at(solution_or_state: Solution | State, t: float | None) -> State:

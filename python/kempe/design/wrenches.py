@@ -84,14 +84,9 @@ def _of_joint(motion: Motion, info: ConstraintInfo, body: str) -> Load:
 
 def _of_element(motion: Motion, info: ForceInfo, body: str) -> Load:
     """The action of an element at its point on the body, or at the origin of the body's frame."""
-    view, own = motion.force(info.name), motion.body(body)
-    force, moment = view.force(on=body), np.asarray(view.torque(on=body))
-    place = own.r
-    if info.points is not None and body in (info.i, info.j):
-        s = info.points[1] if body == info.j else info.points[0]
-        place = own.at(s).position
-        moment = moment - cross(place - own.r, force)
-    return Load(info.name, "element", force, fixed(moment), place)
+    view = motion.force(info.name)
+    moment = fixed(np.asarray(view.torque(on=body)))
+    return Load(info.name, "element", view.force(on=body), moment, view.place(on=body))
 
 
 def _by_multipliers(

@@ -27,7 +27,11 @@ Tracked = tuple[int, Sequence[float]]
 
 
 def efforts(motion: Motion) -> dict[str, tuple[Floats, Floats]]:
-    """Force, (n_t, 2), N, and torque, (n_t,), N·m, on body j of elements that arrows show."""
+    """Force, (n_t, 2), N, and torque, (n_t,), N·m, on body j of elements that arrows show.
+
+    For a driver, they are the velocity, m/s, and the angular velocity, rad/s, of body j relative
+    to body i at the point on j.
+    """
     names, count = list(motion.compiled.all_bodies), len(np.atleast_1d(motion.t))
     found = {}
     for symbol in motion.compiled.symbols:
@@ -37,6 +41,13 @@ def efforts(motion: Motion) -> dict[str, tuple[Floats, Floats]]:
             force = np.atleast_2d(motion.force(element).force(on=on))
         elif symbol["mark"] == "torque_arrow":
             torque = np.atleast_1d(motion.force(element).torque(on=on))
+        elif symbol["mark"] in ("drive_turn", "drive_shift"):
+            i, j = motion.body(names[symbol["i"]["body"]]), motion.body(on)
+            point = j.at(symbol["j"]["point"] or (0.0, 0.0))
+            x, y = np.moveaxis(point.position - i.r, -1, 0)
+            of_i = i.velocity + np.stack([-i.omega * y, i.omega * x], axis=-1)
+            force = np.atleast_2d(point.velocity - of_i)
+            torque = np.atleast_1d(j.omega - i.omega)
         else:
             continue
         found[element] = (force, torque)

@@ -8,7 +8,7 @@ from typing import Any
 
 from kempe import mobility
 from kempe.catalogue import about, declared
-from kempe.display_units import Shown, heading
+from kempe.display_units import Shown, display, heading
 from kempe.errors import KempeError
 from kempe.lab_report.blocks import Block, Cell, Paragraph, Points, Section, Table
 from kempe.lab_report.figures import drawn
@@ -49,7 +49,7 @@ def data(subject: Subject) -> Section:
     """Parameters, bodies, points, force elements, and fields of joints and drivers."""
     model, tree = subject.model, subject.tree
     gravity = ", ".join(number(part, "m/s^2").text for part in model.gravity)
-    unit = Shown("m/s^2").symbol
+    unit = display("m/s^2").symbol
     return Section(
         "Data",
         [

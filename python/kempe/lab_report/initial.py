@@ -131,7 +131,7 @@ def _mass(state: State) -> Iterator[Block]:
             values = np.diag(full)[info.columns].tolist()
             cells: list[Cell] = [number(value, unit) for value, unit in _of_body(values)]
             rows.append([name, *cells, *["–"] * (3 - len(cells))])
-        header = ("body", "x / kg", "y / kg", "φ / kg·m²")
+        header = ("body", heading("x", "kg"), heading("y", "kg"), heading("φ", "kg*m^2"))
         yield Table("Diagonal of the mass matrix M", header, rows)
         return
     yield from _parts(shown, "Mass matrix M")

@@ -65,7 +65,7 @@ def motion(name: str, solution: Solution) -> Section:
     """All results of a motion."""
     told, figures = Told(solution), Figures(solution, name)
     span = told.summary["time"]
-    over = f"over {solution.variable.words}"
+    over, over_value = f"over {solution.variable.words}", not solution.variable.is_time
     return Section(
         f"Results of {name}",
         [
@@ -74,6 +74,7 @@ def motion(name: str, solution: Solution) -> Section:
                 f"has {span['outputs']} outputs. End: {told.summary['message']}.",
                 warning=not told.summary["success"],
             ),
+            Paragraph(f"Forces and efforts are {told.variable.condition}." if over_value else ""),
         ],
         [
             Section("Motion", [*figures.named("motion"), *_velocities(solution, figures)]),
@@ -216,7 +217,8 @@ def _accuracy(told: Told) -> list[Block]:
         where = f"{worst['equation']} at {told.place(worst['at'])}"
         rows.append(("largest residual of a constraint", value, symbol, where))
         rate = number(summary["peaks"]["residual_rate"], digits=FEW)
-        rows.append(("largest residual of a velocity equation", rate, "m/s or rad/s", ""))
+        unit = told.variable.rate("m/s or rad/s")
+        rows.append(("largest residual of a velocity equation", rate, unit, ""))
     balance = number(summary["newton_euler"], digits=FEW)
     rows.append(("Newton–Euler balance", balance, "", "of the largest force or moment on a body"))
     blocks: list[Block] = [Table("Accuracy", ("", "value", "unit", ""), rows)]

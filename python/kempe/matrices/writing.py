@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import re
+from collections.abc import Callable, Sequence
 
 from kempe.arrays import Floats
 from kempe.files import csv_cell
@@ -121,6 +122,20 @@ _ESCAPED = {
 }
 
 
+_SIGNS = {escaped: sign for sign, escaped in _ESCAPED.items()}
+_ESCAPE = re.compile("|".join(map(re.escape, _SIGNS)))
+_NAMED = re.compile(rf"\\text{{((?:{_ESCAPE.pattern}|[^\\{{}}])*)}}")
+
+
 def named(name: str) -> str:
     """A name as upright text in a formula."""
     return "\\text{" + "".join(_ESCAPED.get(sign, sign) for sign in name) + "}"
+
+
+def replace_names(latex: str, made: Callable[[str], str]) -> str:
+    """A formula with another text in place of each name, which ``made`` gets as it was written."""
+
+    def replaced(found: re.Match[str]) -> str:
+        return made(_ESCAPE.sub(lambda escape: _SIGNS[escape[0]], found[1]))
+
+    return _NAMED.sub(replaced, latex)

@@ -113,6 +113,7 @@ def body_panel(motion: Motion, body: str, quantity: str, index_base: int) -> Pan
     title = body_title(info, index_base)
     line = {"color": style.colour(max(1, info.number)), "linestyle": "-"}
     symbol, unit = QUANTITIES[quantity]
+    unit = motion.variable.rate(unit)
     return Panel(
         symbol,
         unit,
@@ -184,12 +185,12 @@ def _draw_all(
 ) -> None:
     """Draw both translations on the axes, and the rotation, if any, on their twin."""
     x, y, *turn = (_curve(motion, body, name, style.line(k)) for k, name in enumerate(names))
-    t, unit = times(motion), QUANTITIES[names[0]][1]
+    t, unit = times(motion), motion.variable.rate(QUANTITIES[names[0]][1])
     both = Panel(f"{x.label}, {y.label}", unit, [x, y], title, variable=motion.variable)
     draw(axes, t, both, cut=cut)
     lines = [*axes.lines]
     if turn:
-        unit = QUANTITIES[names[2]][1]
+        unit = motion.variable.rate(QUANTITIES[names[2]][1])
         still = unit == "rad"
         panel = Panel(turn[0].label, unit, turn, turning_points=still, variable=motion.variable)
         lines += _draw_turning(axes, t, panel, cut)

@@ -73,7 +73,10 @@ def torque_speed(solution: Solution, drive: str, *, ax: Axes | None = None) -> A
     found = duty(solution, drive)
     symbol, unit = _quantity(found)
     turning = symbol == "T"
-    speed = scale("rad/s" if turning else "m/s", float(np.abs(found.rate).max(initial=0.0)))
+    of = found.variable
+    speed = scale(
+        of.rate("rad/s" if turning else "m/s"), float(np.abs(found.rate).max(initial=0.0))
+    )
     with style.on(ax, 90.0) as axes:
         x, y = found.rate / speed.divisor, found.effort / unit.divisor
         axes.axhline(0.0, color="#888888", linewidth=0.7, zorder=0.5)
@@ -85,7 +88,7 @@ def torque_speed(solution: Solution, drive: str, *, ax: Axes | None = None) -> A
         set_ticks(axes.xaxis)
         axes.set_xlabel(speed.axis("ω" if turning else "v"))
         axes.set_ylabel(unit.axis(f"${symbol}$"))
-        power = scale("W", abs(found.peak_power.value))
+        power = scale(of.rate("W"), abs(found.peak_power.value))
         told = f"{found.peak_power.value / power.divisor:.4g} {power.unit}".replace("-", "−")
         title = f"Duty of {style.short(drive)}: peak power {told}{remark(unique=found.unique)}"
         titled(axes, title, note(found.unbounded_at, found.variable))

@@ -53,9 +53,9 @@ def measure_panel(motion: Motion, name: str) -> Panel:
         line = Curve(name, values(motion, name), style.line(0))
     else:
         line = curve(motion, name, partial(values, name=name), style.line(0))
-    unit = info.unit.replace("^2", "²").translate(_PRINTED)
+    unit = motion.variable.rate(info.unit).replace("^2", "²").translate(_PRINTED)
     told = remark(unique=is_unique(motion, name))
     title = f"{style.short(name, 24)} = {style.short(info.expression, 60 - len(told))}{told}"
-    below = note(measure_unbounded_at(motion, info), motion.variable)
+    below = note(measure_unbounded_at(motion, info), motion.variable) if info.solves else ""
     named, of = f"measure {name}", motion.variable
     return Panel(style.short(name, 12), unit, [line], title, named, variable=of, note=below)

@@ -146,7 +146,7 @@ def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None =
             poles.update(times_of)
     of = motion.variable
     told = note(sorted(poles), of)
-    below = f"{NO_BOUND} {told}" if told else ""
+    below = f"{NO_BOUND} {told}" if poles else told
     panel = Panel("|F|", "N", curves, "Reactions", "reactions", variable=of, note=below)
     unit, time = scale("N", panel.peak), TimeAxis.of(times(motion), None, of).unit
     with_peaks = [

@@ -25,8 +25,13 @@ SIZE, _GAP = 7.5, 4.0
 
 
 def note(times: Sequence[float], variable: Variable) -> str:
-    """The line below a title, from the times beside which values have no bound; or empty."""
-    return verbatim(remark(unique=True, times=times, variable=variable).removeprefix(", "))
+    """The line below the title of a figure of forces; or empty.
+
+    It gives the times beside which values have no bound, and over a driven quantity, whether the
+    forces contain inertia and damping.
+    """
+    unbounded = remark(unique=True, times=times, variable=variable).removeprefix(", ")
+    return verbatim(", ".join(filter(None, (variable.condition, unbounded))))
 
 
 def titled(axes: Axes, title: str, below: str = "") -> None:

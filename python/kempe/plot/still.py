@@ -32,7 +32,7 @@ def largest_values(motion: Motion) -> dict[str, float]:
     for name in motion.compiled.bodies:
         body = motion.body(name)
         for quantity in (*COORDINATES, *RATES, *ACCELERATIONS):
-            note(QUANTITIES[quantity][1], getattr(body, quantity))
+            note(motion.variable.rate(QUANTITIES[quantity][1]), getattr(body, quantity))
     for name, joint in motion.compiled.constraints.items():
         reaction = motion.constraint(name)
         for on in dict.fromkeys((joint.i, joint.j)):

@@ -167,6 +167,7 @@ class TimePages:
             if quantity in info.quantities
         ]
         symbol, unit = QUANTITIES[quantity]
+        unit = self.solution.variable.rate(unit)
         return Panel(symbol, unit, curves, name=symbol, variable=self.solution.variable)
 
     def of_measure(self, name: str, file: str) -> Page:

@@ -9,6 +9,7 @@ from kempe.motion import Motion
 from kempe.plot import style
 from kempe.plot.curves import draw
 from kempe.plot.panel import Panel, curve, times
+from kempe.plot.remarked import note
 from kempe.values import instance
 
 if TYPE_CHECKING:
@@ -63,4 +64,5 @@ def torque_panel(motion: Motion, force: str, on: str | None = None) -> Panel:
     title = f"{style.short(force, 16)} on {style.short(body, 14)}"
     curves = [*acting, total] if len(acting) > 1 else [total]
     named = f"torque of {title}"
-    return Panel("T", "N·m", curves, title, named, legend=True, variable=motion.variable)
+    of = motion.variable
+    return Panel("T", "N·m", curves, title, named, legend=True, variable=of, note=note((), of))

@@ -45,6 +45,7 @@ def summary(solution: Solution) -> dict[str, Any]:
             "outputs": len(solution.t),
         },
         "variable": {"name": solution.variable.name, "unit": solution.variable.unit},
+        "static": solution.variable.static,
         "mechanism": mechanism(solution.initial),
         "start": solution.initial.coordinates(),
         "end": solution.final.coordinates(),

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 import math
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -152,7 +151,7 @@ def json_text(study: Outcomes) -> str:
         "findings": findings(study),
         "variants": records(study),
     }
-    return json.dumps(whole, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+    return files.json_text(whole) + "\n"
 
 
 def write(study: Outcomes, folder: Path) -> list[Path]:

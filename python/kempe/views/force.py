@@ -65,7 +65,10 @@ class ForceView(Generic[S]):
         return fixed(self._action(on, frame, part)[..., :2])
 
     def torque(self, *, on: str, part: str | None = None) -> S:
-        """Torque on a body about the origin of its frame, (n_t,), N·m.
+        """Torque on a body, (n_t,), N·m, counter-clockwise.
+
+        The torque is about the point at which the force acts, ``place(on=…)``. It is zero for a
+        spring-damper, an actuator and a contact, whose forces act at their points.
 
         Args:
             on: the body; one of those that the element connects.
@@ -76,6 +79,21 @@ class ForceView(Generic[S]):
         """
         return cast(S, scalar(self._action(on, "global", part)[..., 2]))
 
+    def place(self, *, on: str) -> Floats:
+        """The point of a body at which the force acts, (n_t, 2), global, m.
+
+        It is point i or j of a spring-damper or actuator, point j of a bushing or force, the
+        point of contact of a contact, and point j of the joint for friction. Torques, motors,
+        stops and generalized forces have no point; it is then the origin of the frame of the body.
+
+        Args:
+            on: a body on which the element acts.
+
+        Raises:
+            ModelError: ``on`` is another body.
+        """
+        return self._motion.action_place(self.name, checked_body(self.info, on))
+
     @property
     def power(self) -> S:
         """Power of its forces and torques on its bodies, (n_t,), W; negative for a damper."""
@@ -83,7 +101,9 @@ class ForceView(Generic[S]):
         for on in dict.fromkeys(self.info.bodies):
             fx, fy, torque = np.moveaxis(self._action(on, "global", None), -1, 0)
             body = self._motion.body(on)
-            total = total + fx * body.vx + fy * body.vy + torque * body.omega
+            x, y = np.moveaxis(self.place(on=on) - body.r, -1, 0)
+            about_origin = torque + x * fy - y * fx
+            total = total + fx * body.vx + fy * body.vy + about_origin * body.omega
         return cast(S, scalar(total))
 
     @property

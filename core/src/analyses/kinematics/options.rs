@@ -1,13 +1,13 @@
 //! Options of kinematics and of inverse dynamics, which are the same.
 
-use crate::analyses::options::{count, interval, name, number, options, positive};
+use crate::analyses::options::{count, flag, interval, name, number, options, positive};
 
 /// Default number of values over a range: one value for each degree of a full turn.
 const VALUES: usize = 361;
 
 /// Declares an analysis of a driven motion.
 macro_rules! driven_motion {
-    ($(#[doc = $doc:literal])* $Name:ident, $name:literal, $class:literal) => {
+    ($(#[doc = $doc:literal])* $Name:ident, $name:literal, $class:literal, {$($more:tt)*}, $fault:expr) => {
         options! {
             $(#[doc = $doc])*
             $Name, $name, $class () {
@@ -25,6 +25,7 @@ macro_rules! driven_motion {
                 /// State at which the analysis starts: "start", or the name of an earlier analysis
                 /// to use its final state. If absent, the final state of the previous analysis.
                 from: Option<name> = None,
+                $($more)*
             }
             excludes { over: t_end, output_step; }
             conflict |options, _| {
@@ -33,7 +34,7 @@ macro_rules! driven_motion {
                     (None, Some(_), _) => ("over", "missing; range needs it: over = \"crank.angle\""),
                     (None, None, None) => ("t_end", "missing; give t_end, or over and range"),
                     _ if options.n < 2 => ("n", "1; must be a whole number from 2"),
-                    _ => return None,
+                    _ => return $fault(options),
                 };
                 Some((key, message.to_string()))
             };
@@ -45,11 +46,25 @@ driven_motion! {
     /// Positions, velocities and accelerations of a mechanism whose drivers determine its motion.
     /// They are computed without integration: over time, or over the value of a driver or position
     /// quantity.
-    Options, "kinematics", "Kinematics"
+    Options, "kinematics", "Kinematics", {}, |_: &Options| None
 }
 
 driven_motion! {
     /// Efforts of drivers and reactions of joints in the motion that the drivers prescribe, as
     /// computed by `kinematics`.
-    InverseOptions, "inverse_dynamics", "InverseDynamics"
+    InverseOptions, "inverse_dynamics", "InverseDynamics", {
+        /// Whether the mechanism is at rest at each value of `over`: without inertia, damping and
+        /// other forces that depend on rates. Otherwise the value grows at unit rate.
+        r#static: flag = false,
+    }, |options: &InverseOptions| {
+        let fault = || ("static", "true, over time; give over and range".to_string());
+        (options.r#static && options.over.is_none()).then(fault)
+    }
+}
+
+impl From<InverseOptions> for Options {
+    fn from(of: InverseOptions) -> Self {
+        let InverseOptions { t_end, output_step, over, range, n, from, r#static: _ } = of;
+        Self { t_end, output_step, over, range, n, from }
+    }
 }

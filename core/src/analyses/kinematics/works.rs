@@ -6,8 +6,10 @@ use super::quintic::{Quintic, DEGREE};
 use super::solution::Point;
 use crate::analyses::dynamics::{PiecewiseInterpolant, Trajectory};
 use crate::analyses::State;
+use crate::elements::Nature;
 use crate::equations::augmented::NearSingular;
 use crate::equations::forces::{self, Acting};
+use crate::equations::kinematics::Motions;
 use crate::equations::{energy, mass, reactive, Gains, Powers, Workspace};
 use crate::model::{Model, WORKS};
 
@@ -29,8 +31,11 @@ pub struct Recorded {
 }
 
 /// Records a motion from `start` with the works of its forces and drivers.
-pub fn recorded(model: &Model, start: &State, motion: &Motion) -> Recorded {
-    let mut recorder = MotionRecorder::new(model, start);
+///
+/// In a `resting` motion, the mechanism is at rest at each value: its rates are zero, and so are the forces that depend
+/// on them. The works are those of the remaining forces along the path.
+pub fn recorded(model: &Model, start: &State, motion: &Motion, resting: bool) -> Recorded {
+    let mut recorder = MotionRecorder::new(model, start, resting);
     recorder.follow(motion);
     recorder.recorded
 }
@@ -46,11 +51,11 @@ pub struct MotionRecorder<'a> {
 }
 
 impl<'a> MotionRecorder<'a> {
-    /// The record of a motion from `start`.
-    pub fn new(model: &'a Model, start: &State) -> Self {
+    /// The record of a motion from `start`, `resting` as for [`recorded`].
+    pub fn new(model: &'a Model, start: &State, resting: bool) -> Self {
         let dense = PiecewiseInterpolant { degree: DEGREE, ..PiecewiseInterpolant::default() };
         let recorded = Recorded { dense, ..Recorded::default() };
-        Self { works: Works::new(model, start), recorded, points: 0, outputs: 0 }
+        Self { works: Works::new(model, start, resting), recorded, points: 0, outputs: 0 }
     }
 
     /// Adds the points and outputs that the motion has in addition.
@@ -73,7 +78,7 @@ impl<'a> MotionRecorder<'a> {
         let Self { works, recorded, points, outputs } = self;
         for place in motion.outputs[*outputs..].iter().take_while(|place| **place + 1 == *points) {
             let point = &motion.points[*place];
-            let y = [&point.q[..], &point.v, &works.z, &works.total].concat();
+            let y = [&point.q[..], works.rates(point), &works.z, &works.total].concat();
             recorded.trajectory.add(&works.model.layout, point.t, &y);
             *outputs += 1;
         }
@@ -90,18 +95,29 @@ struct Works<'a> {
     reactive: bool,
     /// The largest work or kinetic energy so far.
     scale: f64,
+    /// The rates of a resting motion, which are zero; otherwise None.
+    rest: Option<Vec<f64>>,
+    /// The motion along the path.
+    along: Motions,
 }
 
 type Three = [f64; WORKS];
 
 impl<'a> Works<'a> {
-    fn new(model: &'a Model, start: &State) -> Self {
+    fn new(model: &'a Model, start: &State, resting: bool) -> Self {
         let (mut workspace, z) = (Workspace::new(model), start.z.clone());
         if !model.allow_redundancy {
             workspace.matrix.set_near_singular(NearSingular::Regularise);
         }
         let reactive = reactive::depends(model);
-        Self { model, workspace, z, total: vec![0.0; WORKS], reactive, scale: 0.0 }
+        let rest = resting.then(|| vec![0.0; model.layout.n_q]);
+        let (total, along) = (vec![0.0; WORKS], Motions::new(&model.layout));
+        Self { model, workspace, z, total, reactive, scale: 0.0, rest, along }
+    }
+
+    /// The rates of the states at a point.
+    fn rates<'p>(&'p self, point: &'p Point) -> &'p [f64] {
+        self.rest.as_ref().unwrap_or(&point.v)
     }
 
     /// Adds the works of a step, and its polynomials.
@@ -112,13 +128,14 @@ impl<'a> Works<'a> {
         self.scale = self.scale.max(kinetic);
         let works = self.over(&Quintic::new(from, to), [0.0, 1.0], ends, DEPTH);
         dense.t.push(to.t);
-        dense.y.extend([&from.q[..], &from.v, &self.z, &self.total].concat());
+        dense.y.extend([&from.q[..], self.rates(from), &self.z, &self.total].concat());
         let quintic = Quintic::new(from, to);
         for k in 0..from.q.len() {
             dense.c.extend(quintic.position(k).map(|c| c / h));
         }
         for k in 0..from.q.len() {
-            dense.c.extend(quintic.rate(k).map(|c| c / h));
+            let moves = if self.rest.is_some() { 0.0 } else { 1.0 };
+            dense.c.extend(quintic.rate(k).map(|c| moves * c / h));
         }
         dense.c.extend(std::iter::repeat_n(0.0, DEGREE * self.z.len()));
         for (k, work) in works.iter().enumerate() {
@@ -132,13 +149,36 @@ impl<'a> Works<'a> {
 
     /// The powers at a point.
     fn powers(&mut self, Point { t, q, v, a }: &Point) -> Three {
-        let state = [&q[..], v, &self.z];
+        let rates = self.rest.as_ref().unwrap_or(v);
+        let state = [&q[..], rates, &self.z];
         let solved = self.workspace.accelerate(self.model, *t, state, Gains::default()).is_ok();
-        let powers = match solved && (!self.workspace.matrix.regularised() || self.reactive) {
+        let mut powers = match solved && (!self.workspace.matrix.regularised() || self.reactive) {
             true => self.workspace.powers(self.model, v),
-            false => self.balanced(*t, v, a),
+            false => self.balanced(*t, v, if self.rest.is_some() { rates } else { a }),
         };
+        if self.rest.is_some() {
+            self.along.place(&self.model.layout, q, v);
+            powers.applied += self.applied(*t);
+        }
         [powers.dissipated, powers.drivers, powers.applied]
+    }
+
+    /// The power along the path of the forces at rest that have no potential. Forces that depend on reactions have no
+    /// effect at rest.
+    fn applied(&self, t: f64) -> f64 {
+        let acting = Acting { z: &self.z, lam: None, t };
+        let (motions, mut power) = (&self.workspace.motions, 0.0);
+        for (k, item) in self.model.forces.iter().enumerate() {
+            forces::each_wrench(self.model, k, motions, acting, |part, body, wrench| {
+                let nature = item.element.parts()[part].nature;
+                let follows = item.law.is_none() || item.element.follows();
+                let nature = if follows { nature } else { nature.under_law() };
+                if nature != Nature::Conservative {
+                    power += wrench.power(self.along[body.0].twist);
+                }
+            });
+        }
+        power
     }
 
     /// The powers near a singular position, without multipliers: the drivers supply q̇ᵀ (M q̈ - Q).

@@ -120,7 +120,7 @@ macro_rules! options {
                         doc: doc(&[$($what),*]),
                     },)*
                     $($crate::elements::Field {
-                        name: stringify!($field),
+                        name: $crate::elements::plain(stringify!($field)),
                         shape: <$kind as OptionKind>::shape(),
                         unit: concat!($($(stringify!($unit)),*)?).to_string(),
                         default: Some(<$kind as OptionKind>::data(&$default)),
@@ -140,7 +140,7 @@ macro_rules! options {
                 $(let $required = <$must as $crate::analyses::options::OptionKind>::required(
                     reader, stringify!($required), concat!($($(stringify!($in)),*)?));)*
                 $(let $field = <$kind as $crate::analyses::options::OptionKind>::optional(
-                    reader, stringify!($field), concat!($($(stringify!($unit)),*)?), $default);)*
+                    reader, $crate::elements::plain(stringify!($field)), concat!($($(stringify!($unit)),*)?), $default);)*
                 Some(Self { $($required: $required?,)* $($field: $field?),* })
             }
 

@@ -5,11 +5,12 @@
 //! at the same point. ẋ and ẏ are the time derivatives of x and y, as seen by an observer on body i: (ẋ, ẏ) = Aᵢᵀ (ḋ
 //! - ωᵢ ẑ × d). V = ½ (kₓ x² + k_y y² + k_θ θ²). All states are allowed.
 
+use crate::elements::line::arms;
 use crate::elements::{
     element, measure, At, BodyId, Force, Mark, Measured, Nature, Part, SceneSymbol, Situation,
     Wrenches,
 };
-use crate::math::{indexed, Local, Real, Wrench};
+use crate::math::{indexed, Local, Real, Vec2, Wrench};
 
 element! {
     /// Bushing: a spring and damper in two directions and in rotation. x and y are the components
@@ -73,10 +74,13 @@ impl Force for Bushing {
         Some(S::zero())
     }
 
+    fn arms<S: Real>(e: &Bushing<S>, at: &Situation<'_, S>) -> Option<[Vec2<S>; 2]> {
+        Some(arms(&e.j, at))
+    }
+
     fn action<S: Real>(e: &Bushing<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
-        let (i, j) = (at.i().pose, at.j().pose);
-        let arm = j.global(e.j.s);
-        let from_i = j.r + arm - i.r;
+        let i = at.i().pose;
+        let [from_i, arm] = arms(&e.j, at);
         let parts = [(e.stiffness, position(e, at)), (e.damping, rate(e, at))];
         for (part, (factor, of)) in parts.into_iter().enumerate() {
             let [x, y, torque] = indexed(|k| -factor[k] * of[k]);

@@ -184,6 +184,10 @@ impl Force for Contact {
         out[0] = near((&e.i, &e.curve, e.side), at.i(), at.j()).distance - e.radius;
     }
 
+    fn arms<S: Real>(e: &Contact<S>, at: &Situation<'_, S>) -> Option<[Vec2<S>; 2]> {
+        Some(TouchPoint::new(e, at).arms)
+    }
+
     fn action<S: Real>(e: &Contact<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
         if is_free(e, at) {
             return;

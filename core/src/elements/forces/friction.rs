@@ -18,7 +18,7 @@ use crate::elements::{
     Part, ResultQuantity, SceneSymbol, Situation, SymbolEnd, Wrenches,
 };
 use crate::expression::Tape;
-use crate::math::{Real, Wrench};
+use crate::math::{Real, Vec2, Wrench};
 
 element! {
     /// Friction in a joint: the force on body j along the slide, or around the pin, is -(load μ s +
@@ -131,10 +131,16 @@ impl<S: Real> Friction<S> {
             out.put(part, 1, Wrench::torque(effort));
             return;
         }
-        let place = self.joint.place(&at.j().pose);
+        let [from_i, from_j] = self.from_bodies(at);
         let force = self.joint.direction(&at.i().pose).scale(effort);
-        out.put(part, 0, Wrench::at(place - at.i().pose.r, -force));
-        out.put(part, 1, Wrench::at(place - at.j().pose.r, force));
+        out.put(part, 0, Wrench::at(from_i, -force));
+        out.put(part, 1, Wrench::at(from_j, force));
+    }
+
+    /// The vectors from the origins of bodies i and j to the point of the joint on body j.
+    fn from_bodies(&self, at: &Situation<'_, S>) -> [Vec2<S>; 2] {
+        let place = self.joint.place(&at.j().pose);
+        [place - at.i().pose.r, place - at.j().pose.r]
     }
 }
 
@@ -150,6 +156,10 @@ impl Force for Friction {
 
     fn reaction<S>(e: &Friction<S>) -> Option<JointId> {
         e.load.is_none().then_some(e.joint.joint)
+    }
+
+    fn arms<S: Real>(e: &Friction<S>, at: &Situation<'_, S>) -> Option<[Vec2<S>; 2]> {
+        Some(e.from_bodies(at))
     }
 
     fn action<S: Real>(e: &Friction<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {

@@ -4,6 +4,7 @@
 //! about its origin is (-F, -(Pⱼ - rᵢ) × F). The power is therefore F times the velocity of Pⱼ relative to body i at
 //! this point; the work counts as applied. All states are allowed.
 
+use crate::elements::line::arms;
 use crate::elements::{
     element, At, BodyId, Force, Frame, Mark, Measured, Nature, Part, SceneSymbol, Situation,
     SymbolEnd, Wrenches,
@@ -42,6 +43,10 @@ impl Force for PointForce {
         out.copy_from_slice(&[place.x, place.y]);
     }
 
+    fn arms<S: Real>(e: &PointForce<S>, at: &Situation<'_, S>) -> Option<[Vec2<S>; 2]> {
+        Some(arms(&e.j, at))
+    }
+
     fn action<S: Real>(e: &PointForce<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
         let [x, y] = e.force;
         let force = match e.frame {
@@ -49,8 +54,7 @@ impl Force for PointForce {
             Frame::I => at.i().pose.global(Local::new(x, y)),
             Frame::J => at.j().pose.global(Local::new(x, y)),
         };
-        let arm = at.j().pose.global(e.j.s);
-        let from_i = at.j().pose.r + arm - at.i().pose.r;
+        let [from_i, arm] = arms(&e.j, at);
         out.put(0, 0, Wrench::at(from_i, -force));
         out.put(0, 1, Wrench::at(arm, force));
     }

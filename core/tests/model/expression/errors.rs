@@ -147,11 +147,37 @@ fn constant_parts_must_be_finite() {
 #[test]
 fn units_in_expressions() {
     let alone = "a unit may follow only a number that stands alone";
-    fails("30 deg + 1", alone, "deg", "in an expression, write 30*deg");
-    fails("a + 30 deg", alone, "deg", "write 30*deg");
-    fails("a + 250 mm", alone, "mm", "write 0.25, in SI units");
-    fails("250 mm + a", alone, "mm", "in an expression, write numbers in SI units");
-    fails("(30 deg)", alone, "deg", "write 30*deg");
+    fails("30 deg + 1", alone, "deg", "write 30*deg + 1");
+    fails("a + 30 deg", alone, "deg", "write a + 30*deg");
+    fails("a + 250 mm", alone, "mm", "write a + 250*0.001");
+    fails("250 mm + a", alone, "mm", "write 250*0.001 + a");
+    fails("(30 deg)", alone, "deg", "write (30*deg)");
+    fails("1/2 m", alone, "m", "write 1/2");
+    let or = "write '*' to multiply, or (1/2)*0.0254 for the unit";
+    fails("(1/2) in", "an operator is missing before 'in'", "in", or);
+}
+
+#[test]
+fn the_remedy_for_a_unit_in_an_expression_has_the_meant_value() {
+    for (text, value) in [
+        ("1/2 in", 0.0127),
+        ("3/8 in", 0.009525),
+        ("2*3 mm", 6e-3),
+        ("2^3 mm", 8e-3),
+        ("-1/4 kN", -250.0),
+        ("1e3/2 um", 5e-4),
+        ("3*(1/2 in)", 0.0381),
+        ("2 + 1/2 m", 2.5),
+        ("90/2 deg", 45f64.to_radians()),
+        ("10 mm + 3", 3.01),
+    ] {
+        let hint = error(text).hint.unwrap();
+        let remedy = hint.strip_prefix("write ").unwrap();
+        let nothing: &[&str] = &[];
+        let tape = Expression::parse(remedy).unwrap().compile(nothing).unwrap();
+        let found = tape.constant().unwrap();
+        assert!((found - value).abs() <= 1e-15 * value.abs(), "{text}: {remedy} = {found}");
+    }
 }
 
 #[test]

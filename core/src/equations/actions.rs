@@ -1,0 +1,50 @@
+//! The actions of force elements as they are reported: with torques about the places at which the forces act.
+
+use super::forces::{at_state, each_wrench, reported, Acting};
+use super::kinematics::Motions;
+use crate::elements::BodyId;
+use crate::math::{Real, Vec2, Wrench};
+use crate::model::Model;
+
+/// Calls `visit` with the part, body and value of every wrench of force `k`, in the global frame. The torque is about
+/// the [place](place) of the force on this body.
+#[inline]
+pub fn each_action<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+    mut visit: impl FnMut(usize, BodyId, Wrench<S>),
+) {
+    let arms = arms(model, k, motions, acting);
+    each_wrench(model, k, motions, acting, |part, body, w| {
+        let arm = arms.iter().find(|(own, _)| *own == body).map_or(Vec2::zero(), |(_, arm)| *arm);
+        visit(part, body, Wrench { torque: w.torque - arm.cross(w.force), ..w });
+    });
+}
+
+/// The global point at which force `k` acts on a body: its point, or the origin of the body for an element without
+/// points.
+pub fn place<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    body: BodyId,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+) -> Vec2<S> {
+    let arms = arms(model, k, motions, acting);
+    let arm = arms.iter().find(|(own, _)| *own == body).map_or(Vec2::zero(), |(_, arm)| *arm);
+    motions[body.0].pose.r + arm
+}
+
+/// The bodies on which force `k` acts at a point, each with the vector from its origin to this point.
+fn arms<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+) -> Vec<(BodyId, Vec2<S>)> {
+    let at = reported(model, k, motions, acting);
+    let arms = at_state(model, &model.forces[k], motions, acting).arms(&at);
+    arms.into_iter().flatten().enumerate().map(|(k, arm)| (at.bodies[k], arm)).collect()
+}
