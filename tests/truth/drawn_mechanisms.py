@@ -147,6 +147,7 @@ class Drawing:
         self.curves: dict[int, dict[str, dict[str, Any]]] = {-1: {}}
         self.joints: list[Callable[[kp.Model], Any]] = []
         self.freedoms = 0
+        self.pins: list[str] = []
 
     def power(self, exponent: float) -> float:
         return float(10 ** self.random.uniform(-exponent, exponent))
@@ -177,7 +178,9 @@ class Drawing:
         x, y = self.place()
         ends = [self.made.local(body, x, y) for body in (i, j)]
         a, b = (self.name(at) for at in ends)
-        self.joints.append(lambda m, n=len(self.joints): m.revolute(f"j{n}", a, b))
+        name = f"j{len(self.joints)}"
+        self.pins.append(name)
+        self.joints.append(lambda m: m.revolute(name, a, b))
 
         def rows(place: Place) -> list[Jet]:
             (xi, yi), (xj, yj) = (self.made.point(place, at) for at in ends)
@@ -320,8 +323,11 @@ class Drawing:
         )
         self.made.springs.append((*ends, stiffness, free))
 
-    def mechanism(self, on_curves: int) -> Drawn:
-        """A mechanism with this number of joints on curves and at least one freedom."""
+    def mechanism(self, on_curves: int, rubs: bool = False) -> Drawn:
+        """A mechanism with this number of joints on curves and at least one freedom.
+
+        If it ``rubs``, its pins have a friction too small to matter.
+        """
         for _ in range(int(self.random.integers(2, 5))):
             k = self.body()
             other = int(self.random.integers(-1, k)) if k else -1
@@ -351,6 +357,8 @@ class Drawing:
             )
         for joint in self.joints:
             joint(m)
+        for pin in self.pins if rubs else []:
+            m.friction(f"{pin}_rubs", pin, kinetic=1e-12, radius=0.01 * self.size)
         self.made.q += self.made.parameters
         return self.made
 
@@ -364,3 +372,11 @@ class Drawing:
         drawn = self.random.normal(size=len(q)) * math.sqrt(G / self.size)
         found = drawn - np.linalg.pinv(jacobian) @ (jacobian @ drawn)
         return scale * found
+
+
+def scales(made: Drawn) -> Vector:
+    """The sizes of the coordinates: lengths for x and y, 1 for angles and parameters."""
+    scale = np.ones(len(made.q))
+    for body in range(made.bodies):
+        scale[3 * body : 3 * body + 2] = made.size
+    return scale

@@ -33,20 +33,11 @@ pub enum NearSingular {
 /// Sets W of internal coordinates to their E.
 #[inline]
 pub(super) fn weigh_internals<S: Real>(internals: &[Internal], saddle: &mut Saddle<S>) {
-    for Internal { owner, size, rows } in internals {
-        let mut sums = [S::zero(); 3];
-        for (row, weight) in rows {
-            for (sum, entry) in sums.iter_mut().zip(&saddle.entries[*row]) {
-                *sum += *entry * *entry * S::constant(*weight);
-            }
-        }
-        let least =
-            S::constant(rows.iter().map(|(_, weight)| *weight).fold(f64::MIN_POSITIVE, f64::max));
-        let inverse = |k: usize| match k < *size {
-            true => S::one() / S::select(sums[k], sums[k], least),
-            false => S::one(), // of no unknown of the group
-        };
-        saddle.masses[*owner] = InverseMass::diagonal(indexed(inverse));
+    for own in internals {
+        let added = own.inertia(|row| saddle.entries[row]);
+        // 1 for what is no unknown of the group
+        let inverse = |k: usize| if k < own.size { S::one() / added[k] } else { S::one() };
+        saddle.masses[own.owner] = InverseMass::diagonal(indexed(inverse));
     }
 }
 

@@ -12,7 +12,7 @@
 //! 0 except for redundant rows, which are omitted by a large μ.
 
 use super::coupling::Participants;
-use super::light::{own_mass_implicit, Light};
+use super::light::{Internal, Light};
 use super::plan::row_blocks;
 use super::tangent::{Entry, Tangent};
 use crate::math::Field;
@@ -52,8 +52,8 @@ pub struct Places {
     omitted: Vec<usize>,
     /// Mass and inertia added to the bodies.
     added: Vec<[f64; 2]>,
-    /// Mass added to the internal coordinates of elements, kg.
-    own_mass: f64,
+    /// The internal coordinates of elements.
+    internals: Vec<Internal>,
 }
 
 impl Places {
@@ -77,6 +77,7 @@ impl Places {
             entries.extend(coupled(participants, &states, &rows));
         }
         let plan = LuPlan::new(sizes, n, &entries);
+        let light = Light::new(model);
         let pairs = tangent.pairs().iter().map(|&(row, column)| plan.slot(row, column)).collect();
         let slots = |(row, size, (group, first)): (usize, usize, (usize, usize))| {
             (first, size, plan.slot(row, group), plan.slot(group, row))
@@ -93,8 +94,8 @@ impl Places {
             rows,
             diagonal,
             omitted: Vec::new(),
-            added: Light::new(model).added,
-            own_mass: own_mass_implicit(&model.bodies),
+            added: light.added,
+            internals: light.internals,
         }
     }
 
@@ -164,9 +165,10 @@ pub fn assemble<F: Field>(
             row.iter_mut().zip(full).take(size).for_each(|(e, full)| *e += c_a * real(full));
         }
     }
-    let own = places.groups.iter().zip(&places.pairs).skip(tangent.mass.len());
-    for (&size, &slot) in own {
-        (0..size).for_each(|d| lu.block_mut(slot)[d][d] += c_a * real(places.own_mass));
+    for own in &places.internals {
+        let block = lu.block_mut(places.pairs[own.owner]);
+        let added = own.inertia(|row| std::array::from_fn(|c| tangent.jacobian[3 * row + c]));
+        (0..own.size).for_each(|d| block[d][d] += c_a * real(added[d]));
     }
     for &(first, m, lower, upper) in &places.jacobian {
         let (plain, rate) = (&tangent.jacobian[first..], &tangent.rate[first..]);

@@ -15,7 +15,7 @@
 //! the heaviest connected body counts.
 
 use super::inertia::{self, Inertia};
-use crate::math::Real;
+use crate::math::{each, Real};
 use crate::model::{Body, ConstraintItem, Model, Slots, Weighed};
 
 /// Mass, relative to the bodies between which a body lies, below which the body is light.
@@ -31,9 +31,6 @@ const MASSLESS: f64 = 1e-14;
 pub(super) const FLOOR: f64 = 1e-8;
 /// Factor on both limits for moments of inertia relative to m l². A slender bar has 1/12 of m l².
 const TURNING: f64 = 0.1;
-/// Mass of the internal coordinates in the matrix of implicit methods, relative to the heaviest body.
-const OWN_IMPLICIT: f64 = 1e-7;
-
 /// The inertias of a model in the matrix, and its light bodies and coordinates.
 #[derive(Clone, Debug)]
 pub struct Light<S> {
@@ -83,6 +80,23 @@ impl<S: Real> Light<S> {
     }
 }
 
+impl Internal {
+    /// E of each coordinate, from the rows of three entries of Φ_q.
+    #[inline]
+    pub fn inertia<S: Real>(&self, entries: impl Fn(usize) -> [S; 3]) -> [S; 3] {
+        let mut sums = [S::zero(); 3];
+        let mut least = 0.0;
+        for (row, weight) in &self.rows {
+            let entries = entries(*row);
+            for (sum, entry) in sums.iter_mut().zip(entries) {
+                *sum += entry * entry * S::constant(*weight);
+            }
+            least = f64::max(least, *weight);
+        }
+        each(sums, |sum| S::select(sum, sum, S::constant(least)))
+    }
+}
+
 /// The internal coordinates of all elements.
 fn internals<S: Real>(model: &Model<S>, all: &Bodies) -> Vec<Internal> {
     let of_element = |(item, slots): (&ConstraintItem<S>, &Slots)| {
@@ -106,12 +120,6 @@ fn mean(masses: impl Iterator<Item = f64> + Clone) -> Option<f64> {
     let positive = masses.filter(|mass| *mass > 0.0);
     let least = positive.clone().reduce(f64::min)?;
     Some((least * positive.reduce(f64::max)?).sqrt())
-}
-
-/// Mass added to the internal coordinates in the matrix of implicit methods, kg.
-pub(super) fn own_mass_implicit(bodies: &[Body]) -> f64 {
-    let heaviest = bodies.iter().map(|body| body.mass).fold(0.0, f64::max);
-    OWN_IMPLICIT * if heaviest > 0.0 { heaviest } else { 1.0 }
 }
 
 /// The own inertia of a body.
