@@ -6,6 +6,7 @@
 //! here, and write a test sample and a page. No other source file contains its name.
 
 mod attachment;
+mod clearance;
 
 pub(crate) mod contact;
 mod corner;
@@ -111,6 +112,7 @@ pub mod test_elements;
 use crate::expression::Tape;
 use crate::math::{Lift, Local, Pose, Real, Wrench};
 pub use attachment::Attachment;
+pub use clearance::{Apart, Clearance};
 
 pub use curve_forms::{CurveForm, CURVE_FORMS};
 pub use curve_formula::Formula as CurveFormula;

@@ -5,6 +5,7 @@
 //! closer, and skips each circle that is farther away than the nearest chord found so far. Its cost is of the order
 //! of the depth of the tree. Newton's method on (C - p)·C′ = 0 begins at the nearest point of the chords.
 
+use super::contact::curvature;
 use super::plane_curve::Curve;
 use crate::math::Local;
 
@@ -13,6 +14,9 @@ const PIECES: usize = 512;
 
 /// Number of pieces of a spline for each of its points.
 const OF_POINT: usize = 12;
+
+/// Factor of the largest curvature of many places, for the places between them.
+const MARGIN: f64 = 1.5;
 
 /// Largest number of steps of Newton's method.
 const STEPS: usize = 20;
@@ -44,6 +48,8 @@ pub(super) struct CurveSearch {
     /// C at the ends of the pieces.
     points: Vec<Local>,
     range: [f64; 2],
+    /// A curvature that is nowhere exceeded, 1/m.
+    pub most_curved: f64,
     /// The root first, the children of k at 2k + 1 and 2k + 2.
     tree: Vec<Circle>,
 }
@@ -95,7 +101,10 @@ impl CurveSearch {
                 false => around(tree[2 * k + 1], tree[2 * k + 2]),
             };
         }
-        Self { numbers, points, range: [a, b], tree, curve }
+        let share = |k: usize| a + (b - a) * k as f64 / (2 * count) as f64;
+        let bend = |k: usize| curvature(&curve.derivatives(share(k))).abs();
+        let most_curved = MARGIN * (0..=2 * count).map(bend).fold(0.0, f64::max);
+        Self { numbers, points, range: [a, b], most_curved, tree, curve }
     }
 
     /// The nearest point to p, in the frame of the curve.

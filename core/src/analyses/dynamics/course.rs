@@ -234,7 +234,7 @@ fn conditions(
 
 fn watched<'c>(
     model: &Model,
-    events: &[Planned],
+    events: &'c [Planned],
     conditions: &'c [Option<Condition>],
     released: &[String],
 ) -> Vec<Watched<'c>> {
@@ -243,6 +243,7 @@ fn watched<'c>(
             let (function, direction) = watched_mode(model, force, place);
             let ends = modes::has_mode(model, force);
             return Watched {
+                name: &event.name,
                 function: EventFunction::Mode(function),
                 direction,
                 ends,
@@ -252,6 +253,7 @@ fn watched<'c>(
         let done = matches!(&event.effect, Effect::Release(driver) if released.contains(driver));
         let condition = condition.as_ref().filter(|_| !done);
         Watched {
+            name: &event.name,
             function: condition.map_or(EventFunction::Never, EventFunction::Condition),
             direction: condition.map_or(event.direction, |c| c.direction(event.direction)),
             ends: event.effect != Effect::None,

@@ -8,7 +8,9 @@ use super::motion_ode::MotionOde;
 use crate::analyses::conditions::{Condition, Evaluator};
 use crate::analyses::signals::Seen;
 use crate::analyses::so_far::SoFar;
-use crate::integrate::{crossings, Crossing, Direction, Step};
+use crate::analyses::step_part::{self, StepPart};
+use crate::integrate::{crossings, Bounds, Crossing, Direction, Path, Step, TooFast, Watch};
+use crate::math::Real;
 use crate::model::Model;
 
 /// Largest number of times that a step is taken again to end at an event.
@@ -19,17 +21,6 @@ const CLOSE: f64 = 32.0;
 const SLOPE: f64 = 1e-3;
 /// Largest magnitude of a function at its event, as a fraction of the value at the start of the step.
 const NEAR: f64 = 1e-6;
-
-/// Smallest and largest number of parts into which a step is divided.
-const PARTS: [usize; 2] = [6, 20_000];
-
-/// Number of parts of a step in which no body turns by more than a radian, so that functions of angles are resolved.
-fn parts(model: &Model, step: &Step<'_>) -> usize {
-    let turned = model.layout.bodies[1..].iter().filter(|columns| columns.count == 3);
-    let turned =
-        turned.map(|columns| (step.y[columns.first + 2] - step.y_old[columns.first + 2]).abs());
-    (turned.fold(0.0, f64::max).ceil() as usize).clamp(PARTS[0], PARTS[1])
-}
 
 /// A function of the state.
 #[derive(Clone, Copy)]
@@ -51,6 +42,15 @@ impl EventFunction<'_> {
         }
     }
 
+    /// Bounds in a part of a step. None if they are not known.
+    fn bounds(&self, part: &StepPart<'_>) -> Option<Bounds> {
+        match self {
+            Self::Condition(condition) => condition.bounds(part),
+            Self::Mode(of) => of.bounds(part),
+            Self::Never => Some(Bounds::one()),
+        }
+    }
+
     /// The value that replaces a zero of the function, because a quantity may rest where both sides of a comparison
     /// are equal.
     fn at_zero(&self) -> f64 {
@@ -65,6 +65,7 @@ impl EventFunction<'_> {
 /// An event of a phase.
 #[derive(Clone, Copy)]
 pub(super) struct Watched<'a> {
+    pub name: &'a str,
     pub function: EventFunction<'a>,
     pub direction: Direction,
     /// Whether the event ends the phase.
@@ -82,6 +83,39 @@ pub(super) enum StepEvents {
     End(Vec<Crossing>),
     /// The step is taken again, to end at this time.
     Again(f64),
+}
+
+/// The functions of events during a step.
+struct InStep<'l, 'a> {
+    list: &'l mut EventList<'a>,
+    model: &'l Model,
+    step: &'l Step<'l>,
+}
+
+impl Watch for InStep<'_, '_> {
+    fn values(&mut self, t: f64, y: &[f64], out: &mut [f64]) {
+        let EventList { watched, evaluator, began, .. } = &mut *self.list;
+        evaluator.see(self.model, (t, y), self.step, |seen| {
+            let values = watched.iter().map(|event| event.function.value(self.model, seen));
+            out.iter_mut().zip(values).for_each(|(out, value)| *out = value);
+        });
+        if t == began.0 {
+            began.1.iter().for_each(|index| out[*index] = 0.0);
+            // the mode may end again after a time that is short compared with the steps
+            let of_mode = |event: &Watched<'_>| matches!(event.function, EventFunction::Mode(_));
+            let modes = watched.iter().zip(out).filter(|(event, _)| of_mode(event) && event.ends);
+            modes.for_each(|(_, out)| *out = out.max(f64::MIN_POSITIVE));
+            return;
+        }
+        for (event, out) in watched.iter().zip(out) {
+            *out = if *out == 0.0 { event.function.at_zero() } else { *out };
+        }
+    }
+
+    fn bounds(&mut self, index: usize, path: &Path<'_>, span: [f64; 2]) -> Option<Bounds> {
+        let part = StepPart::new(self.model, path, span, &[]);
+        self.list.watched[index].function.bounds(&part)
+    }
 }
 
 /// The events of a phase.
@@ -132,9 +166,22 @@ impl<'a> EventList<'a> {
         self.watched[index].listed
     }
 
+    /// The name of an event.
+    pub fn name(&self, index: usize) -> &'a str {
+        self.watched[index].name
+    }
+
     /// The events in a step of a phase that ends at `t_end` at the latest. The interpolant is prepared.
-    pub fn look(&mut self, model: &Model, step: &Step<'_>, t_end: f64) -> StepEvents {
-        let found = self.scan(model, step);
+    ///
+    /// # Errors
+    /// [`TooFast`] with the index of an event.
+    pub fn look(
+        &mut self,
+        model: &Model,
+        step: &Step<'_>,
+        t_end: f64,
+    ) -> Result<StepEvents, TooFast> {
+        let found = self.scan(model, step)?;
         let spacing = CLOSE * f64::EPSILON * step.t.abs().max(step.t_old.abs());
         let together = |a: f64, b: f64| (a - b).abs() <= spacing;
         let ending = found.iter().find(|crossing| self.watched[crossing.index].ends).copied();
@@ -147,17 +194,17 @@ impl<'a> EventList<'a> {
         let Some((t, index)) = end else {
             self.evaluator.advance(model, step);
             // the phase ends where the event was expected, and the next one continues
-            return if arrived.is_some() {
+            return Ok(if arrived.is_some() {
                 StepEvents::End(found)
             } else {
                 StepEvents::Events(found)
-            };
+            });
         };
         let done = together(t, step.t) || self.tries >= AGAIN && arrived.is_some();
         if !done {
             self.tries += 1;
             self.awaited = Some((t, index));
-            return StepEvents::Again(t);
+            return Ok(StepEvents::Again(t));
         }
         (self.awaited, self.tries) = (None, 0);
         self.evaluator.advance(model, step);
@@ -174,33 +221,15 @@ impl<'a> EventList<'a> {
         }
         let sign = (step.t - step.t_old).signum();
         found.sort_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)).then(a.index.cmp(&b.index)));
-        StepEvents::End(found)
+        Ok(StepEvents::End(found))
     }
 
-    fn scan(&mut self, model: &Model, step: &Step<'_>) -> Vec<Crossing> {
-        let Self { watched, evaluator, began, .. } = self;
-        let directions: Vec<Direction> = watched.iter().map(|event| event.direction).collect();
-        let mut functions = |t: f64, y: &[f64], out: &mut [f64]| {
-            evaluator.see(model, (t, y), step, |seen| {
-                let values = watched.iter().map(|event| event.function.value(model, seen));
-                out.iter_mut().zip(values).for_each(|(out, value)| *out = value);
-            });
-            if t == began.0 {
-                began.1.iter().for_each(|index| out[*index] = 0.0);
-                // the mode may end again after a time that is short compared with the steps
-                let of_mode =
-                    |event: &Watched<'_>| matches!(event.function, EventFunction::Mode(_));
-                let modes =
-                    watched.iter().zip(out).filter(|(event, _)| of_mode(event) && event.ends);
-                modes.for_each(|(_, out)| *out = out.max(f64::MIN_POSITIVE));
-                return;
-            }
-            for (event, out) in watched.iter().zip(out) {
-                *out = if *out == 0.0 { event.function.at_zero() } else { *out };
-            }
-        };
-        let ends = |index: usize| watched[index].ends;
-        crossings(step, parts(model, step), &directions, &mut functions, &ends)
+    fn scan(&mut self, model: &Model, step: &Step<'_>) -> Result<Vec<Crossing>, TooFast> {
+        let directions: Vec<Direction> = self.watched.iter().map(|of| of.direction).collect();
+        let ends: Vec<bool> = self.watched.iter().map(|of| of.ends).collect();
+        let parts = step_part::parts(model, step);
+        let mut seen = InStep { list: self, model, step };
+        crossings(&Path::new(step), parts, &directions, &mut seen, &|index| ends[index])
     }
 
     /// The time of an event that is expected at the end of a step but lies slightly later. Returns None if there is

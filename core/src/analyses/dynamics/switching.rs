@@ -1,7 +1,7 @@
 //! Switches during a run. The piece of each switch is constant during a step, and steps end where a piece ends.
 //!
 //! Switches that depend on time alone are listed in a [`Schedule`]. The functions of the other switches are scanned
-//! on the interpolant of each step (`integrate::scan`). Where a switch leaves its piece, the step is taken again up
+//! with their bounds on the interpolant of each step (`integrate::scan`). Where a switch leaves its piece, the step is taken again up
 //! to this time with the old piece, and the next step begins with the new piece.
 //!
 //! A switch that changes back at once holds the motion between two pieces (`sliding`). If the accelerations of both
@@ -11,19 +11,21 @@
 
 mod calm;
 mod curve_break;
-mod narrow;
+mod margins;
 mod sliding;
 
 use super::contact_resolution::{self, StepChoice};
 use super::law_jump::LawJump;
 use super::motion_ode::MotionOde;
 use super::switch_schedule::{changed_constraints, Schedule};
+use crate::analyses::step_part;
 use crate::equations::forces::Acting;
 use crate::equations::kinematics::Motions;
 use crate::equations::{switches, Gains, Workspace};
-use crate::integrate::{scan, Cause, Direction, Scan, Step};
+use crate::integrate::{scan, Cause, Direction, Path, Scan, Step, TooFast};
 use crate::model::{Model, SwitchOwner};
 use crate::solve::Breakdown;
+use margins::{Margins, SwitchForm};
 
 /// Number of changes of one switch within [`SHORT`] of the run after which it counts as stuck.
 const STUCK: usize = 8;
@@ -76,6 +78,8 @@ pub(super) struct Switching {
     pub pieces: Vec<f64>,
     /// The switches that depend on the state.
     on_state: Vec<usize>,
+    /// The form of the function of each of them.
+    forms: Vec<SwitchForm>,
     history: Vec<History>,
     due: Option<Due>,
     /// Evaluates the functions of switches.
@@ -118,6 +122,7 @@ impl Switching {
             length: (t_end - t).abs(),
             sign: (t_end - t).signum(),
             history: vec![History { last: f64::NAN, quick: 0, calm }; n],
+            forms: on_state.iter().map(|k| SwitchForm::of(model, *k)).collect(),
             on_state,
             due: None,
             workspace: reactive.then(|| Box::new(ode.workspace.clone())),
@@ -281,14 +286,17 @@ impl Switching {
     }
 
     /// Scans a step, with its interpolant prepared.
-    pub fn look(&mut self, model: &Model, step: &Step<'_>) -> After {
+    ///
+    /// # Errors
+    /// [`TooFast`] with the index of a switch.
+    pub fn look(&mut self, model: &Model, step: &Step<'_>) -> Result<After, TooFast> {
         if let Some(after) = self.approach(model, step) {
-            return after;
+            return Ok(after);
         }
         let spacing = 4.0 * f64::EPSILON * step.t.abs().max(step.t_old.abs());
-        let scanned = self.scan(model, step, spacing);
+        let scanned = self.scan(model, step, spacing)?;
         let Some(first) = scanned.first.first().map(|crossing| crossing.t) else {
-            return self.after_smooth_step(model, step, &scanned);
+            return Ok(self.after_smooth_step(model, step, &scanned));
         };
         let tries = self.due.as_ref().map_or(0, |due| due.tries);
         let together = scanned.first.iter().map(|crossing| self.on_state[crossing.index]);
@@ -301,15 +309,15 @@ impl Switching {
             self.graded = contact_resolution::before_release(model, &changes, within, self.steps);
         }
         self.due = Some(Due { t: first, changes, tries: tries + 1 });
-        match first == step.t {
+        Ok(match first == step.t {
             true => After::Accept,
             false => After::Again,
-        }
+        })
     }
 
     /// The first crossings of the margins of the held pieces. With a more accurate interpolant the crossing may be
     /// slightly earlier than the due time, so it is approached in a few repetitions.
-    fn scan(&mut self, model: &Model, step: &Step<'_>, spacing: f64) -> Scan {
+    fn scan(&mut self, model: &Model, step: &Step<'_>, spacing: f64) -> Result<Scan, TooFast> {
         let on_state = std::mem::take(&mut self.on_state);
         let due = self.due.take();
         let (sign, length) = (self.sign, (step.t - step.t_old).abs());
@@ -319,13 +327,12 @@ impl Switching {
             let earlier = if due.tries >= AGAIN { length } else { 1e3 * spacing };
             is_due.then_some(due.t - sign * earlier)
         };
-        let mut margins = |t: f64, y: &[f64], out: &mut [f64]| {
-            self.evaluate(model, t, y);
-            for (out, k) in out.iter_mut().zip(&on_state) {
-                *out = model.switches[*k].boundaries.margin(self.sigma[*k], self.pieces[*k]);
-            }
-        };
-        let scanned = scan(step, on_state.len(), &mut margins, Direction::Falling, &until);
+        let (count, pieces) = (on_state.len(), self.pieces.clone());
+        let mut margins = Margins { switching: self, model, on_state: &on_state, pieces };
+        let parts = step_part::parts(model, step);
+        let scanned =
+            scan(&Path::new(step), (count, parts), &mut margins, Direction::Falling, &until);
+        let scanned = scanned.map_err(|TooFast(index)| TooFast(on_state[index]));
         (self.on_state, self.due) = (on_state, due);
         scanned
     }
@@ -333,10 +340,6 @@ impl Switching {
     /// Accepts a step without a crossing. Switches that were never in their held piece change at its beginning.
     fn after_smooth_step(&mut self, model: &Model, step: &Step<'_>, scanned: &Scan) -> After {
         if !scanned.negative.is_empty() {
-            if let Some((t, k, piece)) = self.first_through(model, step, &scanned.negative) {
-                self.due = Some(Due { t, changes: vec![(k, piece)], tries: 0 });
-                return After::Again;
-            }
             self.evaluate_at(model, step, step.t_old + 0.5 * (step.t - step.t_old));
             let of = |k: usize| {
                 let k = self.on_state[k];

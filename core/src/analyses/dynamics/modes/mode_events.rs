@@ -1,9 +1,11 @@
 //! The functions whose zeros may change the mode of a force. Each is positive while the mode lasts.
 
 use crate::analyses::signals::Seen;
+use crate::analyses::step_part::StepPart;
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
-use crate::integrate::Direction;
+use crate::integrate::{Bounds, Direction};
+use crate::math::Real;
 use crate::model::Model;
 
 /// A function of a force.
@@ -41,6 +43,18 @@ impl ModeFunction {
     /// Whether the function needs multipliers.
     pub fn needs_solution(self) -> bool {
         matches!(self, Self::Reserve { .. })
+    }
+
+    /// Bounds of the function in a part of a step. None if they are not known.
+    pub fn bounds(self, part: &StepPart<'_>) -> Option<Bounds> {
+        let constant = Bounds::constant;
+        match self {
+            Self::Threshold { force, sign, slack } => {
+                Some(constant(sign) * part.clearance(force, None)? + constant(slack))
+            }
+            Self::Never => Some(Bounds::one()),
+            Self::Reserve { .. } | Self::Begins { .. } => None,
+        }
     }
 
     /// The value of the function at a state.
