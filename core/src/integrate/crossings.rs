@@ -269,22 +269,27 @@ impl<'a, 'b, 'w> Search<'a, 'b, 'w> {
             if looked > MOST_PARTS {
                 return Err(TooFast(index));
             }
-            let new = match self.part(index, [from, to], depth) {
+            let sign = match self.part(index, [from, to], depth) {
                 Part::Divided(between) => {
                     ahead.push(([between, to], depth + 1));
                     ahead.push(([from, between], depth + 1));
                     continue;
                 }
-                Part::Sign(sign) => (to, sign),
-                Part::Ends => (to, self.at(to)[index]),
+                Part::Sign(sign) => Some(sign),
+                Part::Ends => None,
             };
-            found.negative &= new.1 < 0.0;
-            if let Some(rising) = direction.counts(last.1, new.1) {
-                found.negative = false;
-                let (old, new) = (self.point(index, last), self.point(index, new));
-                found.changes.push(SignChange { index, old, new, rising });
+            // the state at the end may differ from the interpolant
+            let end = (sign.is_none() || to == t).then(|| self.at(to)[index]);
+            for value in [sign, end].into_iter().flatten() {
+                let new = (to, value);
+                found.negative &= value < 0.0;
+                if let Some(rising) = direction.counts(last.1, value) {
+                    found.negative = false;
+                    let (old, new) = (self.point(index, last), self.point(index, new));
+                    found.changes.push(SignChange { index, old, new, rising });
+                }
+                last = new;
             }
-            last = new;
         }
         Ok(found)
     }

@@ -33,6 +33,8 @@ const STUCK: usize = 8;
 const SHORT: f64 = 1e-9;
 /// Number of steps on one piece after which a released switch is held again.
 const CALM: usize = 10;
+/// Rounding errors of a function that does not jump, relative to its values.
+const ROUNDING: f64 = 1e-12;
 /// Number of times that a step is taken again for one switch while its interpolant becomes more accurate.
 const AGAIN: usize = 3;
 
@@ -239,6 +241,7 @@ impl Switching {
         let model = ode.model;
         let before = self.pieces.clone();
         changes.iter().for_each(|(switch, piece)| self.pieces[*switch] = *piece);
+        self.follow_jumps(model, (t, y), &before, changes);
         let [q, v, ..] = model.layout.split(y);
         self.motions.place(&model.layout, q, v);
         self.motions.pieces.clone_from(&self.pieces);
@@ -266,6 +269,35 @@ impl Switching {
             self.follow_reactions(model, t, y);
         }
         Ok(())
+    }
+
+    /// Updates the switches whose functions jump because other switches within them have changed.
+    fn follow_jumps(
+        &mut self,
+        model: &Model,
+        (t, y): (f64, &[f64]),
+        before: &[f64],
+        changes: &[(usize, f64)],
+    ) {
+        if self.on_state.iter().all(|k| !model.switches[*k].law) {
+            return;
+        }
+        let now = std::mem::replace(&mut self.pieces, before.to_vec());
+        self.evaluate(model, t, y);
+        let old = self.sigma.clone();
+        self.pieces = now;
+        self.evaluate(model, t, y);
+        // a function contains others whose switches have lower numbers
+        for place in 0..self.on_state.len() {
+            let k = self.on_state[place];
+            let by = (self.sigma[k] - old[k]).abs();
+            let jumps = by > ROUNDING * (self.sigma[k].abs() + old[k].abs());
+            let piece = model.switches[k].boundaries.piece(self.sigma[k]);
+            if jumps && !piece.is_nan() && changes.iter().all(|(switch, _)| *switch != k) {
+                self.pieces[k] = piece;
+                self.evaluate(model, t, y);
+            }
+        }
     }
 
     /// Updates the switches that depend on reactions, because reactions jump at a switch.
@@ -340,10 +372,16 @@ impl Switching {
     /// Accepts a step without a crossing. Switches that were never in their held piece change at its beginning.
     fn after_smooth_step(&mut self, model: &Model, step: &Step<'_>, scanned: &Scan) -> After {
         if !scanned.negative.is_empty() {
-            self.evaluate_at(model, step, step.t_old + 0.5 * (step.t - step.t_old));
+            self.evaluate_at(model, step, step.t_old);
             let of = |k: usize| {
                 let k = self.on_state[k];
-                (k, model.switches[k].boundaries.piece(self.sigma[k]))
+                let boundaries = &model.switches[k].boundaries;
+                match boundaries.piece(self.sigma[k]) {
+                    piece if piece.is_nan() || piece == self.pieces[k] => {
+                        (k, boundaries.next(self.sigma[k], self.pieces[k]))
+                    }
+                    piece => (k, piece),
+                }
             };
             let changes: Vec<_> = scanned.negative.iter().map(|k| of(*k)).collect();
             self.due = Some(Due { t: step.t_old, changes, tries: 0 });
