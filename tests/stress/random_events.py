@@ -38,9 +38,7 @@ class Trial:
     def run(self, method: object, accuracy: float) -> None:
         """Run by a method and check."""
         start = kp.assemble(self.model, set=self.set)
-        found = kp.dynamics(
-            self.model, start, t_end=self.t_end, method=method, events=self.events
-        )
+        found = kp.dynamics(self.model, start, t_end=self.t_end, method=method, events=self.events)
         self.check(found, accuracy)
 
 

@@ -134,3 +134,18 @@ def test_more_than_a_million_switches_are_refused() -> None:
     m.torque("c", "wheel", torque="if(sin(1e8*t) > 0, 1, 0)")
     with pytest.raises(kp.KempeError, match="more than a million switches"):
         kp.dynamics(m, kp.assemble(m), t_end=1)
+
+
+@pytest.mark.parametrize("size", [1e-3, 1, 1e3])
+@pytest.mark.parametrize("beside", [-1e-12, 0.0, 1e-12])
+def test_a_tangent_passage_is_listed_as_graze(size: float, beside: float) -> None:
+    """A point passes a peg of half the size at a distance within the error of a step."""
+    m = kp.Model("passage")
+    m.ground.curves(peg={"circle": (0, 0, 0.5 * size)})
+    m.point_mass("ball", mass=1)
+    m.contact("c", "ball.P", "ground.peg", restitution=0.5)
+    given = {"ball.x": -3 * size, "ball.y": size * (0.5 + beside), "ball.vx": size}
+    found = kp.dynamics(m, kp.assemble(m, set=given), t_end=5)
+    assert len(found.events["c.hit"].t) == 0
+    assert found.events["c.graze"].t == pytest.approx([3], abs=1e-4)
+    assert found["ball.vy"][-1] == 0

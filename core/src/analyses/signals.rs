@@ -145,15 +145,11 @@ impl Signal {
                 part.point(*body, *s, *axis, *order == 1)
             }
             Self::Measured { id, order: order @ (0 | 1), .. } => {
-                let of_force = match id {
+                let of = |part: &StepPart<'_>| match id {
                     ElementId::Force(k) if part.is_contact(*k) => part.clearance(*k, None),
-                    _ => None,
+                    _ => formula.map(|of| part.followed(of)),
                 };
-                let of = of_force.or_else(|| formula.map(|of| part.followed(of)))?;
-                match order {
-                    0 => of,
-                    _ => Bounds { value: of.slope[0], ..Bounds::constant(f64::NAN) },
-                }
+                return if *order == 0 { of(part) } else { part.rate(of) };
             }
             Self::Energy(Energy::Dissipated) => part.work(0),
             Self::Energy(Energy::Work) => part.work(1) + part.work(2),

@@ -6,7 +6,7 @@
 
 use crate::elements::{Apart, Behaviour, BodyId, Clearance, Coordinate, Followed, ForceElement};
 use crate::expression::{Tape, Values};
-use crate::integrate::{Bounds, Path, Step};
+use crate::integrate::{Bounds, Step, StepPath};
 use crate::math::{Interval, Local, Pose, Real, Vec2};
 use crate::model::{ForceItem, Model, Variable};
 use std::cell::RefCell;
@@ -28,10 +28,12 @@ pub fn parts(model: &Model, step: &Step<'_>) -> usize {
 /// A part of a step.
 pub struct StepPart<'a> {
     model: &'a Model,
-    path: &'a Path<'a>,
+    path: &'a StepPath<'a>,
     span: [f64; 2],
     /// The held pieces of the switches of the model; empty if none is held.
     pieces: &'a [f64],
+    /// Whether the slopes of coordinates are the bounds of their rates, which differ from those of the interpolant.
+    rates: bool,
     /// The bounds of components of the state that were computed.
     known: RefCell<Vec<(usize, Bounds)>>,
 }
@@ -62,8 +64,20 @@ impl Values<Bounds> for StepPart<'_> {
 
 impl<'a> StepPart<'a> {
     /// The part between two times.
-    pub fn new(model: &'a Model, path: &'a Path<'a>, span: [f64; 2], pieces: &'a [f64]) -> Self {
-        Self { model, path, span, pieces, known: RefCell::default() }
+    pub fn new(
+        model: &'a Model,
+        path: &'a StepPath<'a>,
+        span: [f64; 2],
+        pieces: &'a [f64],
+    ) -> Self {
+        Self { model, path, span, pieces, rates: false, known: RefCell::default() }
+    }
+
+    /// The bounds of the rate of a position quantity, which `of` gives.
+    pub fn rate(&self, of: impl FnOnce(&Self) -> Option<Bounds>) -> Option<Bounds> {
+        let known = RefCell::default();
+        let [value] = of(&Self { rates: true, known, ..*self })?.slope;
+        Some(Bounds { value, ..Bounds::constant(f64::NAN) })
     }
 
     /// A component of y = (q, v, z, works).
@@ -71,7 +85,10 @@ impl<'a> StepPart<'a> {
         if let Some((_, bounds)) = self.known.borrow().iter().find(|(known, _)| *known == k) {
             return *bounds;
         }
-        let bounds = self.path.component(k, self.span);
+        let mut bounds = self.path.component(k, self.span);
+        if self.rates && k < self.model.layout.n_q {
+            bounds.slope = [self.path.component(k + self.model.layout.n_q, self.span).value];
+        }
         self.known.borrow_mut().push((k, bounds));
         bounds
     }
@@ -165,6 +182,19 @@ impl<'a> StepPart<'a> {
         let wanted = all.iter().enumerate().filter(|(k, _)| place.is_none_or(|place| *k == place));
         let bounds = wanted.map(|(_, of)| self.distance(of, item));
         bounds.reduce(|a, b| Some(a?.min(b?)))?
+    }
+
+    /// The function 1 + c δ̇ of a compliant contact, which is 1 where the bodies are apart.
+    pub fn pushes(&self, force: usize, place: usize) -> Option<Bounds> {
+        let behaviour = self.model.forces[force].element.behaviour();
+        let Some(Behaviour::Compliant { damping, .. }) = behaviour else { return None };
+        let gap = self.clearance(force, Some(place))?;
+        if damping == 0.0 || gap.value.low > 0.0 {
+            return Some(Bounds::one());
+        }
+        let rate = self.rate(|part| part.clearance(force, Some(place)))?;
+        let factor = Bounds::one() - Bounds::constant(damping) * rate;
+        Some(Bounds::select(-gap, factor, Bounds::one()))
     }
 
     fn distance(&self, of: &Clearance<'_>, item: &ForceItem) -> Option<Bounds> {

@@ -1,8 +1,7 @@
-//! Distances whose zeros begin and end a contact, with bounds of their change while their points move.
+//! Distances whose zeros begin and end a contact.
 
 use super::foot::Rim;
 use super::kinds::{PointOn, Side};
-use crate::math::Local;
 
 /// A distance between two bodies, positive if they are apart.
 #[derive(Clone, Copy, Debug)]
@@ -36,33 +35,4 @@ pub enum Clearance<'e> {
         /// ±1.
         sign: f64,
     },
-}
-
-/// A distance at a place in the frame of body j.
-#[derive(Clone, Copy, Debug)]
-pub struct Apart {
-    /// The distance.
-    pub distance: f64,
-    /// Its gradient, a unit vector.
-    pub away: Local,
-    /// The largest rate at which the gradient turns within the radius in question, 1/m.
-    pub bend: f64,
-}
-
-impl Apart {
-    /// The distance of a point from the origin.
-    pub fn from_origin(p: Local, within: f64) -> Self {
-        let distance = p.norm();
-        let away = p.scale(1.0 / distance);
-        Self { distance, away, bend: from_corner(distance, within) }
-    }
-}
-
-/// The largest rate at which the direction from a corner turns within a radius around a point.
-pub(super) fn from_corner(distance: f64, within: f64) -> f64 {
-    if distance > within {
-        1.0 / (distance - within)
-    } else {
-        f64::INFINITY
-    }
 }

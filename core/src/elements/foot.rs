@@ -8,7 +8,7 @@
 //! ends bound the body, so that the gap is continuous there. Behind other open curves, the normals bound the body
 //! only beyond the ends.
 
-use super::clearance::{from_corner, Apart};
+use super::apart::{from_corner, Apart};
 use super::field::{Field, Shape};
 use super::kinds::{self, CurveOn, Kind, Side, Source};
 use super::nearest::{AlongCurve, CurveSearch};
@@ -92,7 +92,7 @@ impl Rim {
                 }
             }
             curve => {
-                let most = self.searches()[0].most_curved;
+                let most = self.searches()[0].curved(p, distance.abs() + 2.0 * within);
                 let left = 1.0 - most * (distance.abs() + within);
                 let inner = if left > 0.0 { most / left } else { f64::INFINITY };
                 let ends = curve.range().map(|u| (p - curve.point(u)).norm());

@@ -48,8 +48,8 @@ pub(super) struct CurveSearch {
     /// C at the ends of the pieces.
     points: Vec<Local>,
     range: [f64; 2],
-    /// A curvature that is nowhere exceeded, 1/m.
-    pub most_curved: f64,
+    /// A curvature that is not exceeded in each part, 1/m.
+    bends: Vec<f64>,
     /// The root first, the children of k at 2k + 1 and 2k + 2.
     tree: Vec<Circle>,
 }
@@ -101,10 +101,31 @@ impl CurveSearch {
                 false => around(tree[2 * k + 1], tree[2 * k + 2]),
             };
         }
-        let share = |k: usize| a + (b - a) * k as f64 / (2 * count) as f64;
-        let bend = |k: usize| curvature(&curve.derivatives(share(k))).abs();
-        let most_curved = MARGIN * (0..=2 * count).map(bend).fold(0.0, f64::max);
-        Self { numbers, points, range: [a, b], most_curved, tree, curve }
+        let bend = |k: f64| curvature(&curve.derivatives(a + (b - a) * k / count as f64)).abs();
+        let most = |k: f64| MARGIN * bend(k).max(bend(k + 0.5)).max(bend(k + 1.0));
+        let mut bends = vec![0.0; tree.len()];
+        for k in (0..tree.len()).rev() {
+            bends[k] = match k >= count - 1 {
+                true => most((k + 1 - count) as f64),
+                false => f64::max(bends[2 * k + 1], bends[2 * k + 2]),
+            };
+        }
+        Self { numbers, points, range: [a, b], bends, tree, curve }
+    }
+
+    /// A curvature that the curve does not exceed within a distance of p, 1/m.
+    pub fn curved(&self, p: Local, within: f64) -> f64 {
+        let leaves = self.points.len() - 1;
+        let (mut most, mut open) = (0.0, vec![0]);
+        while let Some(k) = open.pop() {
+            let far = apart(p, self.tree[k].center) - self.tree[k].radius > within;
+            match far || self.bends[k] <= most {
+                true => {}
+                false if k >= leaves - 1 => most = self.bends[k],
+                false => open.extend([2 * k + 1, 2 * k + 2]),
+            }
+        }
+        most
     }
 
     /// The nearest point to p, in the frame of the curve.

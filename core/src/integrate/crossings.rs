@@ -1,30 +1,26 @@
 //! Locates the sign changes of several functions of the state within a step, all of them.
 //!
-//! A function is bounded over parts of the step ([`Watch::bounds`]). A part is left where the bounds exclude zero. The
-//! signs at its ends are compared where the bounds of the slope exclude zero, or where the bounds do not exceed
-//! rounding errors. Every other part is halved. Bisection and inverse quadratic interpolation locate each sign change
-//! (`events`).
+//! A function is bounded over parts of the step (`watched`). Bisection and inverse quadratic interpolation locate each
+//! sign change (`events`).
 //!
 //! Functions without bounds, such as those of reactions, are smooth in time while no body turns far. They are sampled
 //! so densely that they follow parabolas.
 
 use super::events::{Bracket, Direction};
-use super::path::{Bounds, Path};
+use super::path::StepPath;
 use super::step::Step;
-use crate::math::{Interval, Real};
-use std::collections::HashMap;
+use super::watched::{sign_of, Part, TooFast, Watch, WatchedStep};
+use crate::math::Real;
 
 /// Two sign changes count as one time if they differ by at most this number of floating-point spacings.
 const TOGETHER: f64 = 8.0;
 /// Multiple of that time for which rounding errors may shift a sign change. A change within it before the first one
 /// counts as simultaneous; a change within it after a change that ends the step is kept.
 const NEAR: f64 = 8.0;
-/// Bounds count as rounding errors if they are at most this number of times as wide as those at a single time.
-const NOISE: f64 = 4.0;
+/// A part of a function counts as flat if its bounds are at most this fraction of the range of minima apart.
+const FLAT: f64 = 0.1;
 /// Largest number of parts of a step for one function.
 const MOST_PARTS: usize = 1_000_000;
-/// Largest number of times of which the values of all functions are kept.
-const MOST_KEPT: usize = 4_096;
 
 /// A change of sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,19 +43,6 @@ pub struct Scan {
     pub negative: Vec<usize>,
 }
 
-/// A function that may change its sign more often in a step than can be followed: its index.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct TooFast(pub usize);
-
-/// Functions of the state whose changes of sign are wanted.
-pub trait Watch {
-    /// Writes the values of all functions at a time and a state. NaN has no sign.
-    fn values(&mut self, t: f64, y: &[f64], out: &mut [f64]);
-
-    /// Bounds of a function and of its time derivative between two times of a step. None if they are not known.
-    fn bounds(&mut self, index: usize, path: &Path<'_>, span: [f64; 2]) -> Option<Bounds>;
-}
-
 /// Locates the first sign changes of `count` functions to within four floating-point spacings. A change at the very
 /// beginning belongs to the step before. A change of function `i` after the time `until(i)` is ignored. Functions
 /// without bounds are sampled in at least `parts` parts.
@@ -67,13 +50,13 @@ pub trait Watch {
 /// # Errors
 /// [`TooFast`].
 pub fn scan(
-    path: &Path<'_>,
+    path: &StepPath<'_>,
     (count, parts): (usize, usize),
     watch: &mut dyn Watch,
     direction: Direction,
     until: &dyn Fn(usize) -> Option<f64>,
 ) -> Result<Scan, TooFast> {
-    let mut search = Search::new(path, (count, parts), watch);
+    let mut search = WatchedStep::new(path, (count, parts), watch);
     let (mut changes, mut negative) = (Vec::new(), Vec::new());
     for index in 0..count {
         let found = search.changes(index, direction, (1, None))?;
@@ -91,14 +74,14 @@ pub fn scan(
 /// # Errors
 /// [`TooFast`].
 pub fn crossings(
-    path: &Path<'_>,
+    path: &StepPath<'_>,
     parts: usize,
     directions: &[Direction],
     watch: &mut dyn Watch,
     ends: &dyn Fn(usize) -> bool,
 ) -> Result<Vec<Crossing>, TooFast> {
     let (step, count) = (path.step, directions.len());
-    let mut search = Search::new(path, (count, parts), watch);
+    let mut search = WatchedStep::new(path, (count, parts), watch);
     let mut changes: Vec<SignChange> = Vec::new();
     let mut end = None;
     for index in (0..count).filter(|index| ends(*index)) {
@@ -106,8 +89,14 @@ pub fn crossings(
         end = found.last().map(|change| change.new.0).or(end);
         changes.extend(found);
     }
+    let mut minima = Vec::new();
     for index in (0..count).filter(|index| !ends(*index)) {
-        changes.extend(search.changes(index, directions[index], (usize::MAX, end))?.changes);
+        match search.watch.minima(index) {
+            Some(range) => minima.extend(search.minima(index, range)?),
+            None => {
+                changes.extend(search.changes(index, directions[index], (usize::MAX, end))?.changes)
+            }
+        }
     }
     changes.sort_by_key(|change| change.index);
     let around = search.earliest(changes.iter().filter(|change| ends(change.index)));
@@ -115,6 +104,9 @@ pub fn crossings(
         None => changes.iter().map(|change| search.close(change)).collect(),
         Some(around) => search.up_to(around, &changes),
     };
+    let sign = (step.t - step.t_old).signum();
+    minima.retain(|found| around.as_ref().is_none_or(|[_, (end, _)]| sign * (end - found.t) > 0.0));
+    all.append(&mut minima);
     sort(step, &mut all);
     all.dedup_by(|b, a| a.index == b.index && (b.t - a.t).abs() <= together(step));
     Ok(all)
@@ -174,79 +166,7 @@ struct Changes {
     negative: bool,
 }
 
-/// What is known of a function over a part of a step.
-enum Part {
-    /// It has this sign throughout.
-    Sign(f64),
-    /// It changes its sign at most once.
-    Ends,
-    /// The part is divided at this time.
-    Divided(f64),
-}
-
-/// Place of a further sample between two samples. The middle is avoided because samples could repeat the period of a
-/// function.
-const BETWEEN: f64 = 0.45;
-/// Largest number of divisions of one part.
-const DEEPEST: usize = 10;
-
-/// Whether a function may have further sign changes among three samples. It may if a parabola through the values a
-/// and b with the curvature of the samples can have two zeros.
-#[inline]
-fn may_turn([a, m, b]: [f64; 3]) -> bool {
-    let line = a + BETWEEN * (b - a);
-    let bend = (m - line).abs() / (BETWEEN * (1.0 - BETWEEN));
-    bend > a.abs() + b.abs()
-}
-
-/// The sign of bounds that exclude zero.
-fn sign_of(value: Interval) -> Option<f64> {
-    match value {
-        Interval { low, .. } if low > 0.0 => Some(1.0),
-        Interval { high, .. } if high < 0.0 => Some(-1.0),
-        _ => None,
-    }
-}
-
-struct Search<'a, 'b, 'w> {
-    path: &'a Path<'b>,
-    step: &'b Step<'b>,
-    watch: &'w mut dyn Watch,
-    count: usize,
-    /// Number of parts for functions without bounds.
-    parts: usize,
-    y: Vec<f64>,
-    /// The values of all functions at times that were evaluated.
-    known: HashMap<u64, Vec<f64>>,
-}
-
-impl<'a, 'b, 'w> Search<'a, 'b, 'w> {
-    #[inline]
-    fn new(path: &'a Path<'b>, (count, parts): (usize, usize), watch: &'w mut dyn Watch) -> Self {
-        let step = path.step;
-        Self { path, step, watch, count, parts, y: step.y.to_vec(), known: HashMap::new() }
-    }
-
-    /// Evaluates all functions at a time.
-    fn at(&mut self, t: f64) -> &[f64] {
-        let Self { step, watch, count, y, known, .. } = self;
-        if known.len() > MOST_KEPT {
-            known.clear();
-        }
-        known.entry(t.to_bits()).or_insert_with(|| {
-            if t == step.t {
-                y.copy_from_slice(step.y);
-            } else if t == step.t_old {
-                y.copy_from_slice(step.y_old);
-            } else {
-                step.interpolate(t, y);
-            }
-            let mut values = vec![0.0; *count];
-            watch.values(t, y, &mut values);
-            values
-        })
-    }
-
+impl WatchedStep<'_, '_, '_> {
     /// The first `most` sign changes of a function. Those after `end` may be missing.
     fn changes(
         &mut self,
@@ -257,6 +177,9 @@ impl<'a, 'b, 'w> Search<'a, 'b, 'w> {
         let (t_old, t) = (self.step.t_old, self.step.t);
         let sign = (t - t_old).signum();
         let mut last = (t_old, self.at(t_old)[index]);
+        // the last time at which a function that may be shallow was positive
+        let (shallow, mut firm) = (self.watch.shallow(index), last);
+        last.1 += shallow;
         let mut found = Changes { changes: Vec::new(), negative: true };
         // a stack, with the next part on top; each has the number of divisions before it
         let mut ahead = vec![([t_old, t], 0)];
@@ -279,16 +202,51 @@ impl<'a, 'b, 'w> Search<'a, 'b, 'w> {
                 Part::Ends => None,
             };
             // the state at the end may differ from the interpolant
-            let end = (sign.is_none() || to == t).then(|| self.at(to)[index]);
-            for value in [sign, end].into_iter().flatten() {
+            let exact = (sign.is_none() || to == t || shallow > 0.0).then(|| self.at(to)[index]);
+            for value in [sign, exact.map(|value| value + shallow)].into_iter().flatten() {
                 let new = (to, value);
                 found.negative &= value < 0.0;
                 if let Some(rising) = direction.counts(last.1, value) {
                     found.negative = false;
-                    let (old, new) = (self.point(index, last), self.point(index, new));
+                    let old = if shallow > 0.0 { firm } else { self.point(index, last) };
+                    let new = self.point(index, new);
                     found.changes.push(SignChange { index, old, new, rising });
                 }
                 last = new;
+            }
+            if let Some(value) = exact.filter(|value| *value > 0.0) {
+                firm = (to, value);
+            }
+        }
+        Ok(found)
+    }
+
+    /// The minima of a function whose values lie in a range.
+    fn minima(&mut self, index: usize, [low, high]: [f64; 2]) -> Result<Vec<Crossing>, TooFast> {
+        let mut found = Vec::new();
+        let mut falling = false;
+        let mut ahead = vec![[self.step.t_old, self.step.t]];
+        let mut looked = 0;
+        let sign = (self.step.t - self.step.t_old).signum();
+        while let Some([from, to]) = ahead.pop() {
+            let Some(bounds) = self.watch.bounds(index, self.path, [from, to]) else { break };
+            looked += 1;
+            if looked > MOST_PARTS {
+                return Err(TooFast(index));
+            }
+            let (middle, [slope]) = (from + 0.5 * (to - from), bounds.slope);
+            if bounds.value.low > high || bounds.value.high < low {
+                falling = false;
+            } else if sign_of(slope).is_some_and(|slope| sign * slope < 0.0) {
+                falling = true;
+            } else if sign_of(slope).is_some() {
+                if falling && (low..=high).contains(&self.at(from)[index]) {
+                    found.push(Crossing { index, t: from, rising: false });
+                }
+                falling = false;
+            } else if middle != from && middle != to && bounds.value.spread() > FLAT * (high - low)
+            {
+                ahead.extend([[middle, to], [from, middle]]);
             }
         }
         Ok(found)
@@ -298,57 +256,6 @@ impl<'a, 'b, 'w> Search<'a, 'b, 'w> {
     fn point(&mut self, index: usize, (t, sign): Point) -> Point {
         let value = self.at(t)[index];
         (t, if value * sign > 0.0 { value } else { sign })
-    }
-
-    /// What is known of a function over a part of the step.
-    fn part(&mut self, index: usize, [from, to]: [f64; 2], depth: usize) -> Part {
-        let Some(bounds) = self.watch.bounds(index, self.path, [from, to]) else {
-            return self.sampled(index, [from, to], depth);
-        };
-        if let Some(sign) = sign_of(bounds.value) {
-            return Part::Sign(sign);
-        }
-        let middle = from + 0.5 * (to - from);
-        if middle == from || middle == to {
-            return Part::Ends;
-        }
-        let value = self.at(middle)[index];
-        if value.is_nan() {
-            return self.sampled(index, [from, to], depth);
-        }
-        let [slope] = bounds.slope;
-        let moved = slope * Interval::around(0.0, 0.5 * (to - from).abs());
-        let nearer = bounds.value.and(Interval::new(value, value) + moved);
-        if let Some(sign) = sign_of(nearer) {
-            return Part::Sign(sign);
-        }
-        if sign_of(slope).is_some() {
-            return Part::Ends;
-        }
-        let there = self.watch.bounds(index, self.path, [middle, middle]);
-        match there.is_some_and(|there| nearer.spread() <= NOISE * there.spread()) {
-            true => Part::Ends,
-            false => Part::Divided(middle),
-        }
-    }
-
-    /// Whether a function without bounds follows a parabola.
-    fn sampled(&mut self, index: usize, [from, to]: [f64; 2], depth: usize) -> Part {
-        let least = self.parts.next_power_of_two().trailing_zeros() as usize;
-        let between = from + if depth < least { 0.5 } else { BETWEEN } * (to - from);
-        if depth >= least + DEEPEST || between == from || between == to {
-            return Part::Ends;
-        }
-        if depth >= least {
-            let values = [from, between, to].map(|t| self.at(t)[index]);
-            if !may_turn(values) && values.iter().all(|value| value * values[0] > 0.0) {
-                return Part::Sign(values[0].signum());
-            }
-            if !may_turn(values) {
-                return Part::Ends;
-            }
-        }
-        Part::Divided(between)
     }
 
     /// The time just past a sign change.

@@ -16,7 +16,7 @@ const ROUNDING: f64 = 32.0 * f64::EPSILON;
 
 /// The path of the state during a step.
 #[derive(Clone, Debug)]
-pub struct Path<'a> {
+pub struct StepPath<'a> {
     /// The step.
     pub step: &'a Step<'a>,
     degree: usize,
@@ -24,7 +24,7 @@ pub struct Path<'a> {
     coefficients: Vec<f64>,
 }
 
-impl<'a> Path<'a> {
+impl<'a> StepPath<'a> {
     /// The path of a step with its interpolant prepared.
     pub fn new(step: &'a Step<'a>) -> Self {
         let degree = step.interpolant.degree();

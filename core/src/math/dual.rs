@@ -145,7 +145,11 @@ where
 
     #[inline]
     fn constant(x: f64) -> Self {
-        Self::lift(S::constant(x))
+        let value = S::constant(x);
+        match value.spread() > 0.0 {
+            true => Self::of_jump(value),
+            false => Self::lift(value),
+        }
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {

@@ -9,7 +9,7 @@ use crate::analyses::conditions::{Condition, Evaluator};
 use crate::analyses::signals::Seen;
 use crate::analyses::so_far::SoFar;
 use crate::analyses::step_part::{self, StepPart};
-use crate::integrate::{crossings, Bounds, Crossing, Direction, Path, Step, TooFast, Watch};
+use crate::integrate::{crossings, Bounds, Crossing, Direction, Step, StepPath, TooFast, Watch};
 use crate::math::Real;
 use crate::model::Model;
 
@@ -42,15 +42,6 @@ impl EventFunction<'_> {
         }
     }
 
-    /// Bounds in a part of a step. None if they are not known.
-    fn bounds(&self, part: &StepPart<'_>) -> Option<Bounds> {
-        match self {
-            Self::Condition(condition) => condition.bounds(part),
-            Self::Mode(of) => of.bounds(part),
-            Self::Never => Some(Bounds::one()),
-        }
-    }
-
     /// The value that replaces a zero of the function, because a quantity may rest where both sides of a comparison
     /// are equal.
     fn at_zero(&self) -> f64 {
@@ -66,6 +57,10 @@ impl EventFunction<'_> {
 #[derive(Clone, Copy)]
 pub(super) struct Watched<'a> {
     pub name: &'a str,
+    /// The depth below zero up to which a gap that opens again is not closed, because of the error of the steps.
+    pub shallow: f64,
+    /// The values of minima that are wanted in place of changes of sign.
+    pub minima: Option<[f64; 2]>,
     pub function: EventFunction<'a>,
     pub direction: Direction,
     /// Whether the event ends the phase.
@@ -90,6 +85,8 @@ struct InStep<'l, 'a> {
     list: &'l mut EventList<'a>,
     model: &'l Model,
     step: &'l Step<'l>,
+    /// The last distance that was bounded: its force and the times.
+    known: Option<(usize, [f64; 2], Option<Bounds>)>,
 }
 
 impl Watch for InStep<'_, '_> {
@@ -112,9 +109,27 @@ impl Watch for InStep<'_, '_> {
         }
     }
 
-    fn bounds(&mut self, index: usize, path: &Path<'_>, span: [f64; 2]) -> Option<Bounds> {
+    fn bounds(&mut self, index: usize, path: &StepPath<'_>, span: [f64; 2]) -> Option<Bounds> {
         let part = StepPart::new(self.model, path, span, &[]);
-        self.list.watched[index].function.bounds(&part)
+        let known = &mut self.known;
+        // several events of a contact have the same gap
+        let mut clearance = |force: usize| match *known {
+            Some((last, at, bounds)) if last == force && at == span => bounds,
+            _ => known.insert((force, span, part.clearance(force, None))).2,
+        };
+        match self.list.watched[index].function {
+            EventFunction::Condition(condition) => condition.bounds(&part),
+            EventFunction::Mode(of) => of.bounds(&mut clearance),
+            EventFunction::Never => Some(Bounds::one()),
+        }
+    }
+
+    fn shallow(&self, index: usize) -> f64 {
+        self.list.watched[index].shallow
+    }
+
+    fn minima(&self, index: usize) -> Option<[f64; 2]> {
+        self.list.watched[index].minima
     }
 }
 
@@ -228,8 +243,8 @@ impl<'a> EventList<'a> {
         let directions: Vec<Direction> = self.watched.iter().map(|of| of.direction).collect();
         let ends: Vec<bool> = self.watched.iter().map(|of| of.ends).collect();
         let parts = step_part::parts(model, step);
-        let mut seen = InStep { list: self, model, step };
-        crossings(&Path::new(step), parts, &directions, &mut seen, &|index| ends[index])
+        let mut seen = InStep { list: self, model, step, known: None };
+        crossings(&StepPath::new(step), parts, &directions, &mut seen, &|index| ends[index])
     }
 
     /// The time of an event that is expected at the end of a step but lies slightly later. Returns None if there is

@@ -155,11 +155,8 @@ impl Failure {
                             must meet the constraints; check the size of the forces";
                 return Reason::Integration { t, message, hint }.into();
             }
-            Breakdown::Jump { .. }
-            | Breakdown::Sliding(_)
-            | Breakdown::TooFast(_)
-            | Breakdown::Unresolved { .. } => return at_switch(model, t, breakdown),
             Breakdown::NotFinite => return Self::undefined(model, t, q),
+            _ => return at_switch(model, t, breakdown),
         };
         Reason::Singular { t, name, message }.into()
     }

@@ -11,6 +11,7 @@
 
 mod calm;
 mod curve_break;
+mod forms;
 mod margins;
 mod sliding;
 
@@ -18,14 +19,13 @@ use super::contact_resolution::{self, StepChoice};
 use super::law_jump::LawJump;
 use super::motion_ode::MotionOde;
 use super::switch_schedule::{changed_constraints, Schedule};
-use crate::analyses::step_part;
 use crate::equations::forces::Acting;
 use crate::equations::kinematics::Motions;
 use crate::equations::{switches, Gains, Workspace};
-use crate::integrate::{scan, Cause, Direction, Path, Scan, Step, TooFast};
+use crate::integrate::{Cause, Scan, Step, TooFast};
 use crate::model::{Model, SwitchOwner};
 use crate::solve::Breakdown;
-use margins::{Margins, SwitchForm};
+use forms::SwitchForm;
 
 /// Number of changes of one switch within [`SHORT`] of the run after which it counts as stuck.
 const STUCK: usize = 8;
@@ -345,28 +345,6 @@ impl Switching {
             true => After::Accept,
             false => After::Again,
         })
-    }
-
-    /// The first crossings of the margins of the held pieces. With a more accurate interpolant the crossing may be
-    /// slightly earlier than the due time, so it is approached in a few repetitions.
-    fn scan(&mut self, model: &Model, step: &Step<'_>, spacing: f64) -> Result<Scan, TooFast> {
-        let on_state = std::mem::take(&mut self.on_state);
-        let due = self.due.take();
-        let (sign, length) = (self.sign, (step.t - step.t_old).abs());
-        let until = |index: usize| {
-            let due = due.as_ref()?;
-            let is_due = due.changes.iter().any(|(switch, _)| *switch == on_state[index]);
-            let earlier = if due.tries >= AGAIN { length } else { 1e3 * spacing };
-            is_due.then_some(due.t - sign * earlier)
-        };
-        let (count, pieces) = (on_state.len(), self.pieces.clone());
-        let mut margins = Margins { switching: self, model, on_state: &on_state, pieces };
-        let parts = step_part::parts(model, step);
-        let scanned =
-            scan(&Path::new(step), (count, parts), &mut margins, Direction::Falling, &until);
-        let scanned = scanned.map_err(|TooFast(index)| TooFast(on_state[index]));
-        (self.on_state, self.due) = (on_state, due);
-        scanned
     }
 
     /// Accepts a step without a crossing. Switches that were never in their held piece change at its beginning.

@@ -241,8 +241,8 @@ impl Force for Contact {
     }
 
     fn behaviour<S: Real>(e: &Contact<S>) -> Option<Behaviour<S>> {
-        let (rest_speed, exponent) = (e.rest_speed, e.exponent);
-        let compliant = |stiffness| Behaviour::Compliant { stiffness, exponent };
+        let (rest_speed, exponent, damping) = (e.rest_speed, e.exponent, e.damping);
+        let compliant = |stiffness| Behaviour::Compliant { stiffness, exponent, damping };
         let impacts = |restitution| Behaviour::Impacts { restitution, rest_speed };
         e.restitution.map(impacts).or(e.stiffness.map(compliant))
     }

@@ -2,7 +2,7 @@
 
 use super::*;
 use kempe::integrate::{
-    locate, scan, Bounds, Direction, Path, Rk4, Rk45, Scan, StepControl, Watch,
+    locate, scan, Bounds, Direction, Rk4, Rk45, Scan, StepControl, StepPath, Watch,
 };
 use std::f64::consts::PI;
 
@@ -98,7 +98,7 @@ impl Watch for Unbounded<'_> {
     fn values(&mut self, t: f64, y: &[f64], out: &mut [f64]) {
         self.0(t, y, out);
     }
-    fn bounds(&mut self, _: usize, _: &Path<'_>, _: [f64; 2]) -> Option<Bounds> {
+    fn bounds(&mut self, _: usize, _: &StepPath<'_>, _: [f64; 2]) -> Option<Bounds> {
         None
     }
 }
@@ -110,7 +110,7 @@ fn first(
     direction: Direction,
     until: &dyn Fn(usize) -> Option<f64>,
 ) -> Scan {
-    let path = Path::new(step);
+    let path = StepPath::new(step);
     scan(&path, (count, 12), &mut Unbounded(functions), direction, until).expect("few changes")
 }
 

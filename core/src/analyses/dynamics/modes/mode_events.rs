@@ -1,12 +1,14 @@
 //! The functions whose zeros may change the mode of a force. Each is positive while the mode lasts.
 
 use crate::analyses::signals::Seen;
-use crate::analyses::step_part::StepPart;
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::integrate::{Bounds, Direction};
 use crate::math::Real;
 use crate::model::Model;
+
+/// The place of the event at which a contact is passed within the error of a step.
+pub const GRAZE: usize = 2;
 
 /// A function of a force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,12 +47,12 @@ impl ModeFunction {
         matches!(self, Self::Reserve { .. })
     }
 
-    /// Bounds of the function in a part of a step. None if they are not known.
-    pub fn bounds(self, part: &StepPart<'_>) -> Option<Bounds> {
+    /// Bounds of the function in a part of a step, given those of the distances of forces. None if they are not known.
+    pub fn bounds(self, clearance: &mut dyn FnMut(usize) -> Option<Bounds>) -> Option<Bounds> {
         let constant = Bounds::constant;
         match self {
             Self::Threshold { force, sign, slack } => {
-                Some(constant(sign) * part.clearance(force, None)? + constant(slack))
+                Some(constant(sign) * clearance(force)? + constant(slack))
             }
             Self::Never => Some(Bounds::one()),
             Self::Reserve { .. } | Self::Begins { .. } => None,
@@ -86,9 +88,10 @@ pub fn watched_mode(model: &Model, force: usize, place: usize) -> (ModeFunction,
     let reserve = ModeFunction::Reserve { force, slack };
     match (item.element.behaviour(), item.mode, place) {
         (Some(Behaviour::Compliant { .. }), _, 0) => (gap, falling),
-        (Some(Behaviour::Compliant { .. }), _, _) => (gap, Direction::Rising),
+        (Some(Behaviour::Compliant { .. }), _, 1) => (gap, Direction::Rising),
+        (Some(Behaviour::Compliant { .. }), _, GRAZE) => (gap, falling),
         (Some(Behaviour::Sticks), Mode::Slides(sign), 0) => (threshold(sign), falling),
-        (Some(Behaviour::Impacts { .. }), Mode::Free, 0) => (gap, falling),
+        (Some(Behaviour::Impacts { .. }), Mode::Free, 0 | GRAZE) => (gap, falling),
         (Some(_), Mode::Holds(_), 1) => (reserve, falling),
         (Some(Behaviour::Sticks), Mode::Idle, 1) => {
             (ModeFunction::Begins { force, at: slack }, falling)

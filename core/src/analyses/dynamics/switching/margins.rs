@@ -1,72 +1,19 @@
 //! The margins of the held pieces during a step, with their bounds.
 
-use super::Switching;
-use crate::analyses::step_part::StepPart;
-use crate::expression::{Boundaries, Tape};
-use crate::integrate::{Bounds, Path, Step, Watch};
+use super::forms::SwitchForm;
+use super::{Switching, AGAIN};
+use crate::analyses::step_part::{self, StepPart};
+use crate::expression::Boundaries;
+use crate::integrate::{scan, Bounds, Direction, Scan, Step, StepPath, TooFast, Watch};
 use crate::math::Real;
-use crate::model::{Model, SwitchOwner, Variable};
-
-/// The form of the function of a switch.
-pub(super) enum SwitchForm {
-    /// A formula in this law.
-    Law(Tape),
-    /// The opposite of a distance of a force, by its index.
-    Clearance(usize, usize),
-    /// An internal coordinate, by its column.
-    Column(usize),
-    /// A function of the state without bounds.
-    Unknown,
-}
-
-impl SwitchForm {
-    pub fn of(model: &Model, switch: usize) -> Self {
-        let mut found = None;
-        let mut look = |tape: &Tape| {
-            if tape.switch_range().contains(&switch) {
-                found = Some(tape.clone());
-            }
-        };
-        let of_element = match model.switches[switch].owner {
-            SwitchOwner::Constraint(k) => {
-                let item = &model.constraints[k];
-                if let Some(law) = &item.law {
-                    law.map(&mut look);
-                }
-                match item.curve_switch == Some(switch) {
-                    true => Self::Column(model.layout.constraints[k].own.first),
-                    false => Self::Unknown,
-                }
-            }
-            SwitchOwner::Force(k) => {
-                let item = &model.forces[k];
-                if let Some(law) = &item.law {
-                    law.map(&mut look);
-                }
-                // a contact has two switches: its onset, and the sign of its force
-                match switch.checked_sub(item.first_switch) {
-                    Some(own) if own % 2 == 0 => Self::Clearance(k, own / 2),
-                    _ => Self::Unknown,
-                }
-            }
-        };
-        let of_host = |tape: &Tape| {
-            tape.variables().any(|k| matches!(Variable::at(k), Variable::Function(_)))
-        };
-        match found {
-            Some(tape) if of_host(&tape) => Self::Unknown,
-            Some(tape) => Self::Law(tape),
-            None => of_element,
-        }
-    }
-}
+use crate::model::Model;
 
 /// The margins of the held pieces.
-pub(super) struct Margins<'s> {
-    pub switching: &'s mut Switching,
-    pub model: &'s Model,
-    pub on_state: &'s [usize],
-    pub pieces: Vec<f64>,
+struct Margins<'s> {
+    switching: &'s mut Switching,
+    model: &'s Model,
+    on_state: &'s [usize],
+    pieces: Vec<f64>,
 }
 
 impl Watch for Margins<'_> {
@@ -78,12 +25,13 @@ impl Watch for Margins<'_> {
         }
     }
 
-    fn bounds(&mut self, index: usize, path: &Path<'_>, span: [f64; 2]) -> Option<Bounds> {
+    fn bounds(&mut self, index: usize, path: &StepPath<'_>, span: [f64; 2]) -> Option<Bounds> {
         let switch = self.on_state[index];
         let part = StepPart::new(self.model, path, span, &self.pieces);
         let sigma = match &self.switching.forms[index] {
             SwitchForm::Law(tape) => part.switch(tape, switch),
             SwitchForm::Clearance(force, place) => -part.clearance(*force, Some(*place))?,
+            SwitchForm::Pushes(force, place) => part.pushes(*force, *place)?,
             SwitchForm::Column(column) => part.column(*column, false),
             SwitchForm::Unknown => return None,
         };
@@ -106,6 +54,33 @@ fn margin(boundaries: &Boundaries, sigma: Bounds, piece: f64) -> Option<Bounds> 
 }
 
 impl Switching {
+    /// The first crossings of the margins of the held pieces. With a more accurate interpolant the crossing may be
+    /// slightly earlier than the due time, so it is approached in a few repetitions.
+    pub(super) fn scan(
+        &mut self,
+        model: &Model,
+        step: &Step<'_>,
+        spacing: f64,
+    ) -> Result<Scan, TooFast> {
+        let on_state = std::mem::take(&mut self.on_state);
+        let due = self.due.take();
+        let (sign, length) = (self.sign, (step.t - step.t_old).abs());
+        let until = |index: usize| {
+            let due = due.as_ref()?;
+            let is_due = due.changes.iter().any(|(switch, _)| *switch == on_state[index]);
+            let earlier = if due.tries >= AGAIN { length } else { 1e3 * spacing };
+            is_due.then_some(due.t - sign * earlier)
+        };
+        let (count, pieces) = (on_state.len(), self.pieces.clone());
+        let mut margins = Margins { switching: self, model, on_state: &on_state, pieces };
+        let parts = step_part::parts(model, step);
+        let scanned =
+            scan(&StepPath::new(step), (count, parts), &mut margins, Direction::Falling, &until);
+        let scanned = scanned.map_err(|TooFast(index)| TooFast(on_state[index]));
+        (self.on_state, self.due) = (on_state, due);
+        scanned
+    }
+
     /// The functions of all switches at a time of a step.
     pub(super) fn evaluate_at(&mut self, model: &Model, step: &Step<'_>, t: f64) {
         let mut y = step.y.to_vec();
