@@ -121,7 +121,11 @@ impl<'a> StepPart<'a> {
             return Pose::identity();
         }
         let of = |coordinate| self.coordinate(body, coordinate);
-        Pose::new(of(Coordinate::X), of(Coordinate::Y), of(Coordinate::Angle))
+        let r = Vec2::new(of(Coordinate::X), of(Coordinate::Y));
+        match self.model.layout.bodies[body.0].count {
+            3 => Pose::new(r.x, r.y, of(Coordinate::Angle)),
+            _ => Pose { r, ..Pose::identity() },
+        }
     }
 
     /// The pose of a body in the middle of the part.
@@ -188,8 +192,11 @@ impl<'a> StepPart<'a> {
     pub fn pushes(&self, force: usize, place: usize) -> Option<Bounds> {
         let behaviour = self.model.forces[force].element.behaviour();
         let Some(Behaviour::Compliant { damping, .. }) = behaviour else { return None };
+        if damping == 0.0 {
+            return Some(Bounds::one());
+        }
         let gap = self.clearance(force, Some(place))?;
-        if damping == 0.0 || gap.value.low > 0.0 {
+        if gap.value.low > 0.0 {
             return Some(Bounds::one());
         }
         let rate = self.rate(|part| part.clearance(force, Some(place)))?;
@@ -215,9 +222,13 @@ impl<'a> StepPart<'a> {
             _ if law.is_some() => None,
             Clearance::Curve { i, curve, side, radius } => {
                 let ((moving, there), (frame, held)) = (at(0), at(1));
-                let p = frame.rotation.inverse(moving.point(local(i.s)) - frame.r);
+                let p = moving.point(local(i.s)) - frame.r;
+                let p = match bodies[1].is_ground() {
+                    true => Local::new(p.x, p.y),
+                    false => frame.rotation.inverse(p),
+                };
                 let middle = held.rotation.inverse(there.point(i.s) - held.r);
-                let apart = |within: f64| curve.apart(middle, side, within);
+                let apart = |within: f64| curve.apart(middle, side, [within, radius]);
                 Some(
                     self.moved([p.x, p.y], &apart, there.r.norm() + held.r.norm())
                         - constant(radius),
@@ -241,10 +252,10 @@ impl<'a> StepPart<'a> {
         let speed = x.largest_magnitude().hypot(y.largest_magnitude());
         let half = 0.5 * (self.span[1] - self.span[0]).abs();
         let within = speed * half;
-        let Apart { distance, away, bend } = apart(within);
+        let Apart { distance, away, bend, error } = apart(within);
         let rounding = ROUNDING * (far + distance.abs() + p[0].value.largest_magnitude());
         let fixed = |by: f64| Interval::around(0.0, by);
-        let mut value = Interval::around(distance, within);
+        let mut value = Interval::around(distance, within + error);
         let mut slope = fixed(speed);
         if bend.is_finite() {
             let times = |k: f64, of: Interval| Interval::new(k, k) * of;

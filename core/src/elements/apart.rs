@@ -9,8 +9,10 @@ pub struct Apart {
     pub distance: f64,
     /// Its gradient, a unit vector.
     pub away: Local,
-    /// The largest rate at which the gradient turns within the radius in question, 1/m.
+    /// The largest rate at which the gradient turns within the radius in question, 1/m; infinite if it is not known.
     pub bend: f64,
+    /// The error of the distance.
+    pub error: f64,
 }
 
 impl Apart {
@@ -18,7 +20,7 @@ impl Apart {
     pub fn from_origin(p: Local, within: f64) -> Self {
         let distance = p.norm();
         let away = p.scale(1.0 / distance);
-        Self { distance, away, bend: from_corner(distance, within) }
+        Self { distance, away, bend: from_corner(distance, within), error: 0.0 }
     }
 }
 

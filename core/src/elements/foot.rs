@@ -73,8 +73,15 @@ pub(super) struct Near<S> {
 
 impl Rim {
     /// The distance of p from the curve, positive on the given side, with the turning of its gradient within a radius
-    /// around p.
-    pub fn apart(&self, p: Local, side: Side, within: f64) -> Apart {
+    /// around p. Farther from the curve than `far`, the distance is only approximate.
+    pub fn apart(&self, p: Local, side: Side, [within, far]: [f64; 2]) -> Apart {
+        if !self.is_closed_form() && self.on.curve.periodic() {
+            let (right, error) = self.searches()[0].rough(p);
+            if right.abs() > far + within + 2.0 * error {
+                let distance = if side == Side::Right { right } else { -right };
+                return Apart { distance, away: Local::zero(), bend: f64::INFINITY, error };
+            }
+        }
         let Near { distance, away, .. } = self.near(p, side);
         let bend = match &self.on.curve {
             Curve::Circle { center, .. } => from_corner((p - *center).norm(), within),
@@ -103,7 +110,7 @@ impl Rim {
                 }
             }
         };
-        Apart { distance, away, bend }
+        Apart { distance, away, bend, error: 0.0 }
     }
 }
 

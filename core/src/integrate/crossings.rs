@@ -179,7 +179,10 @@ impl WatchedStep<'_, '_, '_> {
         let mut last = (t_old, self.at(t_old)[index]);
         // the last time at which a function that may be shallow was positive
         let (shallow, mut firm) = (self.watch.shallow(index), last);
-        last.1 += shallow;
+        if shallow > 0.0 {
+            firm.1 = firm.1.max(f64::MIN_POSITIVE);
+            last.1 += shallow;
+        }
         let mut found = Changes { changes: Vec::new(), negative: true };
         // a stack, with the next part on top; each has the number of divisions before it
         let mut ahead = vec![([t_old, t], 0)];
@@ -203,7 +206,9 @@ impl WatchedStep<'_, '_, '_> {
             };
             // the state at the end may differ from the interpolant
             let exact = (sign.is_none() || to == t || shallow > 0.0).then(|| self.at(to)[index]);
-            for value in [sign, exact.map(|value| value + shallow)].into_iter().flatten() {
+            // a function that is negative at the end may not return
+            let depth = if to == t { 0.0 } else { shallow };
+            for value in [sign, exact.map(|value| value + depth)].into_iter().flatten() {
                 let new = (to, value);
                 found.negative &= value < 0.0;
                 if let Some(rising) = direction.counts(last.1, value) {

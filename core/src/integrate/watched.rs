@@ -10,6 +10,8 @@ use std::collections::HashMap;
 
 /// Bounds count as rounding errors if they are at most this number of times as wide as those at a single time.
 const NOISE: f64 = 4.0;
+/// Number of divisions after which bounds of distances are compared with rounding errors.
+const ROUGH: usize = 8;
 /// Largest number of times of which the values of all functions are kept.
 const MOST_KEPT: usize = 4_096;
 
@@ -24,6 +26,12 @@ pub trait Watch {
 
     /// Bounds of a function and of its time derivative between two times of a step. None if they are not known.
     fn bounds(&mut self, index: usize, path: &StepPath<'_>, span: [f64; 2]) -> Option<Bounds>;
+
+    /// Whether the bounds of a function converge with the square of the length of a part, as those of distances do.
+    fn converges(&self, index: usize) -> bool {
+        let _ = index;
+        false
+    }
 
     /// The values of minima that are wanted in place of the changes of sign of a function with bounds.
     fn minima(&self, index: usize) -> Option<[f64; 2]> {
@@ -128,6 +136,10 @@ impl<'a, 'b, 'w> WatchedStep<'a, 'b, 'w> {
         let middle = from + 0.5 * (to - from);
         if middle == from || middle == to {
             return Part::Ends;
+        }
+        // the mean value form is not better, and rounding errors matter in short parts only
+        if self.watch.converges(index) && sign_of(bounds.slope[0]).is_none() && depth < ROUGH {
+            return Part::Divided(middle);
         }
         let Some(there) = self.watch.bounds(index, self.path, [middle, middle]) else {
             return Part::Ends;

@@ -124,6 +124,10 @@ impl Watch for InStep<'_, '_> {
         }
     }
 
+    fn converges(&self, index: usize) -> bool {
+        matches!(self.list.watched[index].function, EventFunction::Mode(_))
+    }
+
     fn shallow(&self, index: usize) -> f64 {
         self.list.watched[index].shallow
     }

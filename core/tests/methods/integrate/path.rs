@@ -89,7 +89,7 @@ fn changes(mut watch: impl Watch) -> [Vec<f64>; 2] {
 #[test]
 fn every_change_in_a_step_is_found() {
     let constant = Bounds::constant;
-    for found in changes(Bounded(|_, y| (1e4 * y).sin(), |_, y| (constant(1e4) * y).sin())) {
+    for found in changes(Bounded(|_, y: f64| (1e4 * y).sin(), |_, y| (constant(1e4) * y).sin())) {
         assert_eq!(found.len(), 2 * 3183 + 1);
         let pi = std::f64::consts::PI;
         let exact = |k: usize| (k as f64 - 3183.0) * pi * 1e-4;
@@ -109,7 +109,7 @@ fn every_change_in_a_step_is_found() {
     }
     let touching = |above: f64| {
         let square = |y: Bounds| (y - constant(0.3)) * (y - constant(0.3)) + constant(above);
-        changes(Bounded(move |_, y| (y - 0.3) * (y - 0.3) + above, move |_, y| square(y)))
+        changes(Bounded(move |_, y: f64| (y - 0.3) * (y - 0.3) + above, move |_, y| square(y)))
     };
     assert!(touching(1e-12).iter().all(Vec::is_empty) && touching(0.0).iter().all(|t| t.len() < 2));
     assert!(touching(-1e-12).iter().all(|found| found.len() == 2));
@@ -117,7 +117,7 @@ fn every_change_in_a_step_is_found() {
 
 #[test]
 fn functions_that_are_too_fast_are_named() {
-    let mut watch = Bounded(|_, y| (1e9 * y).sin(), |_, y| (Bounds::constant(1e9) * y).sin());
+    let mut watch = Bounded(|_, y: f64| (1e9 * y).sin(), |_, y| (Bounds::constant(1e9) * y).sin());
     let mut system = plain(1, |_: f64, _: &[f64], dy: &mut [f64]| dy[0] = 1.0);
     let mut observer = |step: &Step<'_>| {
         let path = StepPath::new(step);

@@ -37,6 +37,10 @@ impl Watch for Margins<'_> {
         };
         margin(&self.model.switches[switch].boundaries, sigma, self.pieces[switch])
     }
+
+    fn converges(&self, index: usize) -> bool {
+        matches!(self.switching.forms[index], SwitchForm::Clearance(..))
+    }
 }
 
 /// Bounds of the margin of a piece.
