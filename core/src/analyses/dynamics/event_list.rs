@@ -12,6 +12,7 @@ use crate::analyses::step_part::{self, StepPart};
 use crate::integrate::{crossings, Bounds, Crossing, Direction, Step, StepPath, TooFast, Watch};
 use crate::math::Real;
 use crate::model::Model;
+use std::collections::HashMap;
 
 /// Largest number of times that a step is taken again to end at an event.
 const AGAIN: usize = 6;
@@ -85,8 +86,8 @@ struct InStep<'l, 'a> {
     list: &'l mut EventList<'a>,
     model: &'l Model,
     step: &'l Step<'l>,
-    /// The last distance that was bounded: its force and the times.
-    known: Option<(usize, [f64; 2], Option<Bounds>)>,
+    /// The distances of forces that were bounded. Several events of a contact have the same distance.
+    known: HashMap<(usize, [u64; 2]), Option<Bounds>>,
 }
 
 impl Watch for InStep<'_, '_> {
@@ -112,10 +113,9 @@ impl Watch for InStep<'_, '_> {
     fn bounds(&mut self, index: usize, path: &StepPath<'_>, span: [f64; 2]) -> Option<Bounds> {
         let part = StepPart::new(self.model, path, span, &[]);
         let known = &mut self.known;
-        // several events of a contact have the same gap
-        let mut clearance = |force: usize| match *known {
-            Some((last, at, bounds)) if last == force && at == span => bounds,
-            _ => known.insert((force, span, part.clearance(force, None))).2,
+        let mut clearance = |force: usize| {
+            let key = (force, span.map(f64::to_bits));
+            *known.entry(key).or_insert_with(|| part.clearance(force, None))
         };
         match self.list.watched[index].function {
             EventFunction::Condition(condition) => condition.bounds(&part),
@@ -247,7 +247,7 @@ impl<'a> EventList<'a> {
         let directions: Vec<Direction> = self.watched.iter().map(|of| of.direction).collect();
         let ends: Vec<bool> = self.watched.iter().map(|of| of.ends).collect();
         let parts = step_part::parts(model, step);
-        let mut seen = InStep { list: self, model, step, known: None };
+        let mut seen = InStep { list: self, model, step, known: HashMap::new() };
         crossings(&StepPath::new(step), parts, &directions, &mut seen, &|index| ends[index])
     }
 

@@ -31,6 +31,12 @@ impl Watch for Margins<'_> {
         let sigma = match &self.switching.forms[index] {
             SwitchForm::Law(tape) => part.switch(tape, switch),
             SwitchForm::Clearance(force, place) => -part.clearance(*force, Some(*place))?,
+            // it is 1 where the bodies are apart, so that only a contact that is held has to be bounded
+            SwitchForm::Pushes(..)
+                if self.pieces[switch - 1] < 0.0 && self.pieces[switch] > 0.0 =>
+            {
+                Bounds::one()
+            }
             SwitchForm::Pushes(force, place) => part.pushes(*force, *place)?,
             SwitchForm::Column(column) => part.column(*column, false),
             SwitchForm::Unknown => return None,
