@@ -1,5 +1,6 @@
 //! The forms of the functions of switches.
 
+use crate::elements::Behaviour;
 use crate::expression::Tape;
 use crate::model::{Model, SwitchOwner, Variable};
 
@@ -44,7 +45,14 @@ impl SwitchForm {
                 // a contact has two switches: its onset, and the sign of its force
                 match switch.checked_sub(item.first_switch) {
                     Some(own) if own % 2 == 0 => Self::Clearance(k, own / 2),
-                    Some(own) => Self::Pushes(k, own / 2),
+                    Some(own)
+                        if matches!(
+                            item.element.behaviour(),
+                            Some(Behaviour::Compliant { .. })
+                        ) =>
+                    {
+                        Self::Pushes(k, own / 2)
+                    }
                     _ => Self::Unknown,
                 }
             }
