@@ -152,8 +152,7 @@ pub(super) fn run(
     loop {
         let (model, cache) = own.as_ref().map_or(base, |own| (&own.model, &own.cache));
         let conditions = conditions(model, &setting, &events)?;
-        let accuracy = options.method.control().rtol.min(LOOSEST);
-        let watched = watched(model, &events, &conditions, &setting.released, accuracy);
+        let watched = watched(model, &events, &conditions, &setting.released, options);
         run.settings.push(setting.clone());
         let phase = Phase { model, cache, project_velocities: holds(&setting) };
         let outcome = run_phase(phase, watched, &mut at, options, &mut run, &mut watch);
@@ -241,8 +240,9 @@ fn watched<'c>(
     events: &'c [Planned],
     conditions: &'c [Option<Condition>],
     released: &[String],
-    accuracy: f64,
+    options: &Options,
 ) -> Vec<Watched<'c>> {
+    let accuracy = options.method.control().rtol.min(LOOSEST);
     let watched = events.iter().zip(conditions).map(|(event, condition)| {
         if let Effect::Mode { force, place } = event.effect {
             let (function, direction) = watched_mode(model, force, place);
