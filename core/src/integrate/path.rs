@@ -74,7 +74,10 @@ impl<'a> StepPath<'a> {
         taylor[degree] *= power;
         let [low, high] = enclosed(&mut taylor[..=degree]);
         let moved = Interval::new(low, high) * Interval::new(h, h);
-        let error = ROUNDING * (size * h).abs() + f64::EPSILON * self.step.y_old[component].abs();
+        // the times are rounded, too
+        let late = 4.0 * from.abs().max(to.abs()) * steepest;
+        let error =
+            ROUNDING * (size * h).abs() + f64::EPSILON * (self.step.y_old[component].abs() + late);
         let y_old = Interval::around(self.step.y_old[component], error);
         let [low, high] = enclosed(&mut slopes[..degree]);
         let error = ROUNDING * steepest;
