@@ -3,18 +3,23 @@
 use super::quantities::{QuantityNames, QuantityValues};
 use super::signals::{energies, Energy, Seen, Signal};
 use super::so_far::{SoFar, PLACES};
+use super::step_part::StepPart;
+use crate::elements::Followed;
 use crate::equations::kinematics::Motions;
 use crate::equations::newton_euler::balances;
 use crate::equations::Workspace;
-use crate::expression::{Expression, ExpressionError, Inferred, Sense, Symbol, Tape};
-use crate::integrate::{Direction, Step};
-use crate::model::{Model, Problem};
+use crate::expression::{Expression, ExpressionError, Inferred, Sense, Symbol, Tape, Values};
+use crate::integrate::{Bounds, Direction, Step};
+use crate::math::Real;
+use crate::model::{quantity_of, Model, Offered, Problem};
 
 /// A condition on the quantities of a model. Its event is a change of sign of its function.
 #[derive(Clone, Debug)]
 pub(super) struct Condition {
     tape: Tape,
     signals: Vec<Signal>,
+    /// The formulas of those signals that are position quantities or their rates.
+    formulas: Vec<Option<Followed<Tape>>>,
     /// The sense of a comparison. None for an expression.
     comparison: Option<Sense>,
     /// Whether a quantity needs accelerations or multipliers.
@@ -47,9 +52,14 @@ impl Condition {
             return Err(fault.hint(hint.to_string()));
         }
         let found = quantities.found.into_inner();
+        let formula = |(name, signal): &(String, Signal)| match signal {
+            Signal::Measured { .. } => formula(model, name),
+            _ => None,
+        };
+        let formulas = found.iter().map(formula).collect();
         let signals: Vec<Signal> = found.into_iter().map(|(_, signal)| signal).collect();
         let needs_solution = signals.iter().any(|signal| signal.needs_solution(model));
-        Ok(Self { tape, signals, comparison, needs_solution })
+        Ok(Self { tape, signals, formulas, comparison, needs_solution })
     }
 
     /// Adds the quantities of the run so far that the condition uses to `so_far`.
@@ -83,9 +93,45 @@ impl Condition {
         self.comparison.map_or(1.0, |sense| sense.sign) * self.tape.evaluate(&at)
     }
 
+    /// Bounds of the function in a part of a step. None if those of a quantity are not known.
+    pub fn bounds(&self, part: &StepPart<'_>) -> Option<Bounds> {
+        let all = self.signals.iter().zip(&self.formulas);
+        let quantities = all.map(|(signal, formula)| signal.bounds(part, formula.as_ref()));
+        let quantities: Vec<Bounds> = quantities.collect::<Option<_>>()?;
+        let value = self.tape.evaluate(&QuantityBounds { part, quantities });
+        Some(Bounds::constant(self.comparison.map_or(1.0, |sense| sense.sign)) * value)
+    }
+
     /// The changes of sign that are events.
     pub fn direction(&self, wanted: Direction) -> Direction {
         self.comparison.map_or(wanted, |_| Direction::Rising)
+    }
+}
+
+/// A position quantity or its rate as a formula of the coordinates.
+fn formula(model: &Model, name: &str) -> Option<Followed<Tape>> {
+    let (owner, word) = name.rsplit_once('.')?;
+    match quantity_of(&model.blueprint, owner, word)? {
+        Offered::Position(of, ..) => Some(of),
+        Offered::Other(_) => None,
+    }
+}
+
+/// Bounds of the names of a formula.
+struct QuantityBounds<'a> {
+    part: &'a StepPart<'a>,
+    quantities: Vec<Bounds>,
+}
+
+impl Values<Bounds> for QuantityBounds<'_> {
+    fn parameter(&self, k: usize) -> Bounds {
+        self.part.parameter(k)
+    }
+    fn time(&self) -> Bounds {
+        self.part.time()
+    }
+    fn variable(&self, k: usize) -> Bounds {
+        self.quantities[k]
     }
 }
 

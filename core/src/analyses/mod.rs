@@ -34,6 +34,7 @@ mod signals;
 mod so_far;
 mod state;
 pub mod statistics;
+mod step_part;
 pub mod sweep;
 pub mod transmission;
 mod uniqueness;

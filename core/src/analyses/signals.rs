@@ -2,12 +2,15 @@
 
 use super::balances::{total, Energies};
 use super::so_far::SoFar;
-use crate::elements::BodyId;
+use super::step_part::StepPart;
+use crate::elements::{BodyId, Followed};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::measured::{self, ElementId};
 use crate::equations::reactions::{self, Frame};
 use crate::equations::{actions, constraints, energy};
+use crate::expression::Tape;
+use crate::integrate::Bounds;
 use crate::math::{Local, Real, Vec2, Wrench};
 use crate::model::Model;
 
@@ -129,6 +132,29 @@ impl Signal {
             Self::Constant(_) | Self::State(_) | Self::Energy(_) => false,
             Self::Drift { .. } => false,
         }
+    }
+
+    /// Bounds of the quantity in a part of a step. `formula` is the formula of a position quantity or of its integral.
+    /// None if they are not known.
+    pub fn bounds(&self, part: &StepPart<'_>, formula: Option<&Followed<Tape>>) -> Option<Bounds> {
+        Some(match self {
+            Self::Constant(x) => Bounds::constant(*x),
+            Self::Column { order: order @ (0 | 1), column } => part.column(*column, *order == 1),
+            Self::State(k) => part.state(*k),
+            Self::Point { body, s, axis, order: order @ (0 | 1) } => {
+                part.point(*body, *s, *axis, *order == 1)
+            }
+            Self::Measured { id, order: order @ (0 | 1), .. } => {
+                let of = |part: &StepPart<'_>| match id {
+                    ElementId::Force(k) if part.is_contact(*k) => part.clearance(*k, None),
+                    _ => formula.map(|of| part.followed(of)),
+                };
+                return if *order == 0 { of(part) } else { part.rate(of) };
+            }
+            Self::Energy(Energy::Dissipated) => part.work(0),
+            Self::Energy(Energy::Work) => part.work(1) + part.work(2),
+            _ => return None,
+        })
     }
 
     /// The value of the quantity at a state.

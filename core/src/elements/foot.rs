@@ -8,6 +8,7 @@
 //! ends bound the body, so that the gap is continuous there. Behind other open curves, the normals bound the body
 //! only beyond the ends.
 
+use super::apart::{from_corner, Apart};
 use super::field::{Field, Shape};
 use super::kinds::{self, CurveOn, Kind, Side, Source};
 use super::nearest::{AlongCurve, CurveSearch};
@@ -68,6 +69,49 @@ pub(super) struct Near<S> {
     pub away: Local<S>,
     /// The nearest point.
     pub place: Local<S>,
+}
+
+impl Rim {
+    /// The distance of p from the curve, positive on the given side, with the turning of its gradient within a radius
+    /// around p. Farther from the curve than `far`, the distance is only approximate.
+    pub fn apart(&self, p: Local, side: Side, [within, far]: [f64; 2]) -> Apart {
+        if !self.is_closed_form() && self.on.curve.periodic() {
+            let (right, error) = self.searches()[0].rough(p);
+            if right.abs() > far + within + 2.0 * error {
+                let distance = if side == Side::Right { right } else { -right };
+                return Apart { distance, away: Local::zero(), bend: f64::INFINITY, error };
+            }
+        }
+        let Near { distance, away, .. } = self.near(p, side);
+        let bend = match &self.on.curve {
+            Curve::Circle { center, .. } => from_corner((p - *center).norm(), within),
+            Curve::Line { from, to } => {
+                let (along, arm) = (*to - *from, p - *from);
+                let length = along.norm();
+                let (u, up) = (along.dot(arm) / length, along.cross(arm).abs() / length);
+                // the nearest point stays between the ends, or the ends are corners
+                let inside = u.min(length - u) - within;
+                let level = inside > 0.0 && up > within || inside > up + within;
+                match distance > 0.0 {
+                    true if level => 0.0,
+                    false if inside > up + within => 0.0,
+                    _ => from_corner(distance, within),
+                }
+            }
+            curve => {
+                let most = self.searches()[0].curved(p, distance.abs() + 2.0 * within);
+                let left = 1.0 - most * (distance.abs() + within);
+                let inner = if left > 0.0 { most / left } else { f64::INFINITY };
+                let ends = curve.range().map(|u| (p - curve.point(u)).norm());
+                let far = distance.abs() + 2.0 * within;
+                match curve.periodic() || ends[0].min(ends[1]) > far {
+                    true => inner,
+                    false => inner.max(from_corner(distance, within)),
+                }
+            }
+        };
+        Apart { distance, away, bend, error: 0.0 }
+    }
 }
 
 impl<S: Real> Rim<S> {

@@ -71,6 +71,10 @@ macro_rules! forces {
             pub fn follows(&self) -> bool {
                 match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::FOLLOWS,)+ }
             }
+            /// The position quantity that the element follows.
+            pub fn followed(&self) -> Option<&Followed<S>> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::followed(e),)+ }
+            }
             /// The named parts, in the order of [`ForceElement::action`].
             pub fn parts(&self) -> &'static [Part] {
                 match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::PARTS,)+ }
@@ -93,6 +97,10 @@ macro_rules! forces {
         }
 
         impl ForceElement {
+            /// The distances whose zeros begin and end a contact.
+            pub fn clearances(&self) -> Vec<Clearance<'_>> {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::clearances(e),)+ }
+            }
             /// The symbols of the force in a drawing.
             pub fn symbols(&self) -> Vec<SceneSymbol> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::symbols(e),)+ }

@@ -1,7 +1,8 @@
 //! The physics of a force.
 
+use super::clearance::Clearance;
 use super::declare::Element;
-use super::followed::{BodyId, JointId};
+use super::followed::{BodyId, Followed, JointId};
 use super::joint_trait::{At, ResultQuantity};
 use super::measured::Measured;
 use super::mode::{Behaviour, Mode};
@@ -246,6 +247,20 @@ pub trait Force: Element {
     fn threshold<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> S {
         let _ = (e, at);
         S::one()
+    }
+
+    /// The distances whose zeros begin and end a contact, one for each contact.
+    #[inline]
+    fn clearances(e: &Self::Over<f64>) -> Vec<Clearance<'_>> {
+        let _ = e;
+        Vec::new()
+    }
+
+    /// The position quantity that the element follows.
+    #[inline]
+    fn followed<S>(e: &Self::Over<S>) -> Option<&Followed<S>> {
+        let _ = e;
+        None
     }
 
     /// The largest effort of sticking friction.

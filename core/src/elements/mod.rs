@@ -5,7 +5,9 @@
 //! all derivatives are obtained from these two definitions. To add an element, write its file, add it to the list
 //! here, and write a test sample and a page. No other source file contains its name.
 
+mod apart;
 mod attachment;
+mod clearance;
 
 pub(crate) mod contact;
 mod corner;
@@ -110,7 +112,9 @@ pub mod test_elements;
 
 use crate::expression::Tape;
 use crate::math::{Lift, Local, Pose, Real, Vec2, Wrench};
+pub use apart::Apart;
 pub use attachment::Attachment;
+pub use clearance::Clearance;
 
 pub use curve_forms::{CurveForm, CURVE_FORMS};
 pub use curve_formula::Formula as CurveFormula;

@@ -38,28 +38,30 @@ impl Mode {
 pub enum Behaviour<S> {
     /// The force slides and sticks; events `stick` and `slip`.
     Sticks,
-    /// The contact has impacts and may rest; events `hit` and `release`.
+    /// The contact has impacts and may rest; events `hit`, `release` and `graze`.
     Impacts {
         /// Coefficient of restitution, 0 to 1.
         restitution: S,
         /// The speed below which the contact rests.
         rest_speed: S,
     },
-    /// The contact touches and separates without a change of mode; events `hit` and `release`.
+    /// The contact touches and separates without a change of mode; events as above.
     Compliant {
         /// k of the force k δⁿ, N/mⁿ.
         stiffness: S,
         /// n.
         exponent: S,
+        /// c of the factor 1 + c δ̇, s/m.
+        damping: S,
     },
 }
 
 impl<S> Behaviour<S> {
     /// The names of its events.
-    pub fn events(&self) -> [&'static str; 2] {
+    pub fn events(&self) -> &'static [&'static str] {
         match self {
-            Self::Sticks => ["stick", "slip"],
-            Self::Impacts { .. } | Self::Compliant { .. } => ["hit", "release"],
+            Self::Sticks => &["stick", "slip"],
+            Self::Impacts { .. } | Self::Compliant { .. } => &["hit", "release", "graze"],
         }
     }
 

@@ -5,6 +5,7 @@
 //! closer, and skips each circle that is farther away than the nearest chord found so far. Its cost is of the order
 //! of the depth of the tree. Newton's method on (C - p)·C′ = 0 begins at the nearest point of the chords.
 
+use super::contact::curvature;
 use super::plane_curve::Curve;
 use crate::math::Local;
 
@@ -13,6 +14,9 @@ const PIECES: usize = 512;
 
 /// Number of pieces of a spline for each of its points.
 const OF_POINT: usize = 12;
+
+/// Factor of the largest curvature of many places, for the places between them.
+const MARGIN: f64 = 1.5;
 
 /// Largest number of steps of Newton's method.
 const STEPS: usize = 20;
@@ -44,6 +48,10 @@ pub(super) struct CurveSearch {
     /// C at the ends of the pieces.
     points: Vec<Local>,
     range: [f64; 2],
+    /// The largest distance of the curve from its chords, m.
+    rise: f64,
+    /// A curvature that is not exceeded in each part, 1/m.
+    bends: Vec<f64>,
     /// The root first, the children of k at 2k + 1 and 2k + 2.
     tree: Vec<Circle>,
 }
@@ -95,7 +103,33 @@ impl CurveSearch {
                 false => around(tree[2 * k + 1], tree[2 * k + 2]),
             };
         }
-        Self { numbers, points, range: [a, b], tree, curve }
+        let rise = |k: usize| tree[k + count - 1].radius - 0.5 * apart(points[k], points[k + 1]);
+        let rise = (0..count).map(rise).fold(0.0, f64::max);
+        let bend = |k: f64| curvature(&curve.derivatives(a + (b - a) * k / count as f64)).abs();
+        let most = |k: f64| MARGIN * bend(k).max(bend(k + 0.5)).max(bend(k + 1.0));
+        let mut bends = vec![0.0; tree.len()];
+        for k in (0..tree.len()).rev() {
+            bends[k] = match k >= count - 1 {
+                true => most((k + 1 - count) as f64),
+                false => f64::max(bends[2 * k + 1], bends[2 * k + 2]),
+            };
+        }
+        Self { numbers, points, range: [a, b], rise, bends, tree, curve }
+    }
+
+    /// A curvature that the curve does not exceed within a distance of p, 1/m.
+    pub fn curved(&self, p: Local, within: f64) -> f64 {
+        let leaves = self.points.len() - 1;
+        let (mut most, mut open) = (0.0, vec![0]);
+        while let Some(k) = open.pop() {
+            let far = apart(p, self.tree[k].center) - self.tree[k].radius > within;
+            match far || self.bends[k] <= most {
+                true => {}
+                false if k >= leaves - 1 => most = self.bends[k],
+                false => open.extend([2 * k + 1, 2 * k + 2]),
+            }
+        }
+        most
     }
 
     /// The nearest point to p, in the frame of the curve.
@@ -103,11 +137,21 @@ impl CurveSearch {
         if !(p.x.is_finite() && p.y.is_finite()) {
             return AlongCurve::Within(f64::NAN);
         }
-        self.refined(p, self.start(p))
+        self.refined(p, self.start(p).0)
     }
 
-    /// The u of the nearest point of the chords.
-    fn start(&self, p: Local) -> f64 {
+    /// The distance of p from the chords, positive on their right, and its error.
+    pub fn rough(&self, p: Local) -> (f64, f64) {
+        let share = self.start(p).1;
+        let k = (share as usize).min(self.points.len() - 2);
+        let (from, to) = (self.points[k], self.points[k + 1]);
+        let away = p - between(from, to, share - k as f64);
+        let sign = (away.x * (to.y - from.y) - away.y * (to.x - from.x)).signum();
+        (sign * away.norm(), self.rise)
+    }
+
+    /// The u of the nearest point of the chords, and its place among them.
+    fn start(&self, p: Local) -> (f64, f64) {
         let leaves = self.points.len() - 1;
         let (mut best, mut share) = (f64::INFINITY, 0.0);
         let mut stack = [(0_usize, 0.0_f64); 64];
@@ -133,7 +177,7 @@ impl CurveSearch {
             open += 2;
         }
         let [a, b] = self.range;
-        a + (b - a) * share / leaves as f64
+        (a + (b - a) * share / leaves as f64, share)
     }
 
     /// Newton's method from u.

@@ -3,12 +3,11 @@
 //! The function σ(t) of a switch is bounded on an interval by interval arithmetic, in the mean value form σ(c) +
 //! σ′([a, b]) ([a, b] - c). Where the bounds contain no boundary, no switch lies there. Where σ′ has one sign, each
 //! boundary between σ(a) and σ(b) is passed once, at a time found by bisection. Otherwise the interval is halved.
-//! Every switch is therefore found, with two exceptions: σ passes a boundary twice within the spacing of
-//! floating-point numbers, or halving needs more than [`MOST_INTERVALS`] intervals. In these cases, only the signs at
-//! the ends of the remaining intervals are compared.
+//! Every switch is therefore found, unless σ passes a boundary twice within rounding errors; the signs at the ends of
+//! such an interval are compared.
 //!
-//! A function that contains a table is sampled at [`SAMPLES`] times instead. σ may contain other switches. The search
-//! then proceeds between the times of these switches, where each of them holds one piece.
+//! σ may contain other switches. The search then proceeds between the times of these switches, where each of them
+//! holds one piece.
 
 use super::tape::Values;
 use super::{FormulaSwitch, Tape};
@@ -17,9 +16,9 @@ use crate::math::{Dual, Interval, Lift, Real};
 /// Largest number of times.
 const MOST_TIMES: usize = 1_000_000;
 /// Largest number of intervals for one switch between two times of other switches.
-const MOST_INTERVALS: usize = 100_000;
-/// Times at which a function that contains a table is sampled.
-const SAMPLES: usize = 4096;
+const MOST_INTERVALS: usize = 20 * MOST_TIMES;
+/// Bounds count as rounding errors if they are at most this number of times as wide as those at a single time.
+const NOISE: f64 = 4.0;
 /// Slopes below this value count as rounding errors of a constant.
 const CONSTANT: f64 = 1e-280;
 
@@ -170,24 +169,19 @@ impl SwitchSearch<'_> {
         span: [f64; 2],
         out: &mut Vec<f64>,
     ) -> Result<(), TooManySwitches> {
-        if self.switch.table {
-            // a table has no bounds on an interval, so that the signs at many times are compared
-            let at = |k: usize| part[0] + (part[1] - part[0]) * k as f64 / SAMPLES as f64;
-            return (0..SAMPLES).try_for_each(|k| self.pass([at(k), at(k + 1)], out));
-        }
         let spacing = 4.0 * f64::EPSILON * span[0].abs().max(span[1].abs());
         let mut budget = MOST_INTERVALS;
         let mut open = vec![part];
         while let Some([a, b]) = open.pop() {
-            budget = budget.saturating_sub(1);
+            budget = budget.checked_sub(1).ok_or(TooManySwitches)?;
             let c = middle(a, b);
-            let (bounds, slope) = self.bounds([a, b], c);
+            let (bounds, slope, noise) = self.bounds([a, b], c);
             let (_, count) = self.switch.boundaries.between(bounds.low, bounds.high);
             if count == 0.0 || slope.largest_magnitude() < CONSTANT {
                 continue;
             }
-            if slope.contains_zero() && b - a > spacing && budget > 0 {
-                open.extend([[a, c], [c, b]]);
+            if slope.contains_zero() && b - a > spacing && bounds.spread() > NOISE * noise {
+                open.extend([[c, b], [a, c]]);
             } else {
                 self.pass([a, b], out)?;
             }
@@ -195,14 +189,14 @@ impl SwitchSearch<'_> {
         Ok(())
     }
 
-    /// Bounds of σ and of its derivative from a to b.
-    fn bounds(&self, [a, b]: [f64; 2], c: f64) -> (Interval, Interval) {
+    /// Bounds of σ and of its derivative from a to b, and the width of the bounds at c.
+    fn bounds(&self, [a, b]: [f64; 2], c: f64) -> (Interval, Interval, f64) {
         let t = Interval::new(a, b);
         let whole = self.sigma(Dual::<1, Interval>::variable(t, 0));
         let centre = self.sigma(Dual::<1, Interval>::lift(Interval::constant(c))).value;
         let slope = whole.slope[0];
         let mean = centre + slope * (t - Interval::constant(c));
-        (whole.value.and(mean), slope)
+        (whole.value.and(mean), slope, centre.spread())
     }
 
     /// Adds the times at which σ passes the boundaries between its values at a and b.

@@ -131,8 +131,6 @@ pub struct FormulaSwitch {
     pub time: bool,
     /// Whether its function depends on the state.
     pub state: bool,
-    /// Whether its function reads a table.
-    pub table: bool,
     /// Whether the expression is C² where the piece changes.
     pub smooth: bool,
 }
@@ -258,24 +256,20 @@ impl Tape {
 
     /// The switches of the expression, in the order of their indices.
     pub fn switches(&self) -> Vec<FormulaSwitch> {
-        let mut stack: Vec<[bool; 3]> = Vec::new(); // time, state, table
+        let mut stack: Vec<[bool; 2]> = Vec::new(); // time, state
         let mut switches = Vec::with_capacity(self.switches);
-        let any = |all: &[[bool; 3]]| -> [bool; 3] {
+        let any = |all: &[[bool; 2]]| -> [bool; 2] {
             std::array::from_fn(|k| all.iter().any(|operand| operand[k]))
         };
         for instruction in &self.code {
             let operands = stack.split_off(stack.len() - instruction.operands());
             if let Some((boundaries, arguments, smooth)) = self.switch_of(instruction) {
-                let [time, state, table] = any(&operands[..arguments]);
-                switches.push(FormulaSwitch { boundaries, time, state, table, smooth });
+                let [time, state] = any(&operands[..arguments]);
+                switches.push(FormulaSwitch { boundaries, time, state, smooth });
             }
             stack.push(match instruction {
-                Instruction::Load(Symbol::Time) => [true, false, false],
-                Instruction::Load(Symbol::Variable(_)) => [false, true, false],
-                Instruction::Table(_) => {
-                    let [time, state, _] = any(&operands);
-                    [time, state, true]
-                }
+                Instruction::Load(Symbol::Time) => [true, false],
+                Instruction::Load(Symbol::Variable(_)) => [false, true],
                 _ => any(&operands),
             });
         }

@@ -1,22 +1,26 @@
-//! Locates the sign changes of several functions of the state within a step, including several changes of a function.
+//! Locates the sign changes of several functions of the state within a step, all of them.
 //!
-//! The functions are sampled at [`PARTS`] + 1 times of the interpolant. Bisection and inverse quadratic interpolation
-//! locate a sign change between two samples (`events`). Where the samples approach zero and turn back, a parabola
-//! through three samples shows whether the function reaches zero between them. An even number of changes within
-//! 1/[`PARTS`] of a step can be missed; a shorter step finds them.
+//! A function is bounded over parts of the step (`watched`). Bisection and inverse quadratic interpolation locate each
+//! sign change (`events`).
+//!
+//! Functions without bounds, such as those of reactions, are smooth in time while no body turns far. They are sampled
+//! so densely that they follow parabolas.
 
 use super::events::{Bracket, Direction};
+use super::path::StepPath;
 use super::step::Step;
+use super::watched::{sign_of, Part, TooFast, Watch, WatchedStep};
+use crate::math::Real;
 
-/// Number of intervals between the samples of a step.
-const PARTS: usize = 12;
 /// Two sign changes count as one time if they differ by at most this number of floating-point spacings.
 const TOGETHER: f64 = 8.0;
 /// Multiple of that time for which rounding errors may shift a sign change. A change within it before the first one
 /// counts as simultaneous; a change within it after a change that ends the step is kept.
 const NEAR: f64 = 8.0;
-/// Largest number of parabolas that search for a zero between samples of equal sign.
-const PARABOLAS: usize = 4;
+/// A part of a function counts as flat if its bounds are at most this fraction of the range of minima apart.
+const FLAT: f64 = 0.1;
+/// Largest number of parts of a step for one function.
+const MOST_PARTS: usize = 1_000_000;
 
 /// A change of sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -35,60 +39,77 @@ pub struct Scan {
     /// The earliest sign changes in the given direction. It contains several changes, in the order of the functions,
     /// if the functions change sign together.
     pub first: Vec<Crossing>,
-    /// Indices of the functions that are negative at all samples after the beginning.
+    /// Indices of the functions that are negative at all times after the beginning.
     pub negative: Vec<usize>,
 }
 
-/// Evaluates functions at a time and a state and writes the values into the last argument. NaN has no sign.
-pub type Functions<'a> = &'a mut dyn FnMut(f64, &[f64], &mut [f64]);
-
-/// Samples `count` functions over a step and locates the first sign changes to within four floating-point spacings. A
-/// change at the very beginning belongs to the step before. A change of function `i` after the time `until(i)` is
-/// ignored.
+/// Locates the first sign changes of `count` functions to within four floating-point spacings. A change at the very
+/// beginning belongs to the step before. A change of function `i` after the time `until(i)` is ignored. Functions
+/// without bounds are sampled in at least `parts` parts.
+///
+/// # Errors
+/// [`TooFast`].
 pub fn scan(
-    step: &Step<'_>,
-    count: usize,
-    functions: Functions<'_>,
+    path: &StepPath<'_>,
+    (count, parts): (usize, usize),
+    watch: &mut dyn Watch,
     direction: Direction,
     until: &dyn Fn(usize) -> Option<f64>,
-) -> Scan {
-    let mut sampled = Sampled::new(step, count, functions);
+) -> Result<Scan, TooFast> {
+    let mut search = WatchedStep::new(path, (count, parts), watch);
     let (mut changes, mut negative) = (Vec::new(), Vec::new());
-    for (index, points) in sampled.points().into_iter().enumerate() {
-        changes.extend(sampled.changes(index, &points, direction, 1));
-        if points[1..].iter().all(|(_, value)| *value < 0.0) {
+    for index in 0..count {
+        let found = search.changes(index, direction, (1, None))?;
+        changes.extend(found.changes);
+        if found.negative {
             negative.push(index);
         }
     }
-    Scan { first: sampled.first(changes, until), negative }
+    Ok(Scan { first: search.first(changes, until), negative })
 }
 
 /// Returns all sign changes, with a direction for each function. They are sorted by time, and simultaneous changes by
-/// function. Changes after the first change of a function that `ends` the step are omitted. The step is divided into
-/// `parts`. A part is divided further where a parabola through three samples reaches zero or the samples do not
-/// follow a parabola. This resolves functions that oscillate within a step.
+/// function. Changes after the first change of a function that `ends` the step are omitted.
+///
+/// # Errors
+/// [`TooFast`].
 pub fn crossings(
-    step: &Step<'_>,
+    path: &StepPath<'_>,
     parts: usize,
     directions: &[Direction],
-    functions: Functions<'_>,
+    watch: &mut dyn Watch,
     ends: &dyn Fn(usize) -> bool,
-) -> Vec<Crossing> {
-    let mut sampled = Sampled::new(step, directions.len(), functions);
-    let rows = sampled.resolved(parts);
-    let mut changes = Vec::new();
-    for (index, direction) in directions.iter().enumerate() {
-        let points: Vec<Point> = rows.iter().map(|(t, row)| (*t, row[index])).collect();
-        changes.extend(sampled.changes(index, &points, *direction, usize::MAX));
+) -> Result<Vec<Crossing>, TooFast> {
+    let (step, count) = (path.step, directions.len());
+    let mut search = WatchedStep::new(path, (count, parts), watch);
+    let mut changes: Vec<SignChange> = Vec::new();
+    let mut end = None;
+    for index in (0..count).filter(|index| ends(*index)) {
+        let found = search.changes(index, directions[index], (1, end))?.changes;
+        end = found.last().map(|change| change.new.0).or(end);
+        changes.extend(found);
     }
-    let around = sampled.earliest(changes.iter().filter(|change| ends(change.index)));
+    let mut minima = Vec::new();
+    for index in (0..count).filter(|index| !ends(*index)) {
+        match search.watch.minima(index) {
+            Some(range) => minima.extend(search.minima(index, range)?),
+            None => {
+                changes.extend(search.changes(index, directions[index], (usize::MAX, end))?.changes)
+            }
+        }
+    }
+    changes.sort_by_key(|change| change.index);
+    let around = search.earliest(changes.iter().filter(|change| ends(change.index)));
     let mut all = match &around {
-        None => changes.iter().map(|change| sampled.close(change)).collect(),
-        Some(around) => sampled.up_to(around, &changes),
+        None => changes.iter().map(|change| search.close(change)).collect(),
+        Some(around) => search.up_to(around, &changes),
     };
+    let sign = (step.t - step.t_old).signum();
+    minima.retain(|found| around.as_ref().is_none_or(|[_, (end, _)]| sign * (end - found.t) > 0.0));
+    all.append(&mut minima);
     sort(step, &mut all);
     all.dedup_by(|b, a| a.index == b.index && (b.t - a.t).abs() <= together(step));
-    all
+    Ok(all)
 }
 
 /// Largest difference of the times of two sign changes that count as simultaneous.
@@ -138,121 +159,108 @@ impl SignChange {
     }
 }
 
-/// Place of a further sample between two samples. The middle is avoided because samples could repeat the period of a
-/// function.
-const BETWEEN: f64 = 0.45;
-/// Largest number of divisions of one part.
-const DEEPEST: usize = 10;
-
-/// Whether a function may have further sign changes among three samples. It may if a parabola through the values a
-/// and b with the curvature of the samples can have two zeros.
-#[inline]
-fn may_turn([a, m, b]: [f64; 3]) -> bool {
-    let line = a + BETWEEN * (b - a);
-    let bend = (m - line).abs() / (BETWEEN * (1.0 - BETWEEN));
-    bend > a.abs() + b.abs()
+/// The sign changes of a function.
+struct Changes {
+    changes: Vec<SignChange>,
+    /// Whether the function is negative at all times after the beginning.
+    negative: bool,
 }
 
-struct Sampled<'a, 'b> {
-    step: &'a Step<'a>,
-    functions: Functions<'b>,
-    y: Vec<f64>,
-    values: Vec<f64>,
-}
-
-impl<'a, 'b> Sampled<'a, 'b> {
-    #[inline]
-    fn new(step: &'a Step<'a>, count: usize, functions: Functions<'b>) -> Self {
-        Self { step, functions, y: step.y.to_vec(), values: vec![0.0; count] }
-    }
-
-    /// Samples each function.
-    #[inline]
-    fn points(&mut self) -> Vec<Vec<Point>> {
-        let times: Vec<f64> = (0..=PARTS).map(|k| self.time(k as f64 / PARTS as f64)).collect();
-        let rows: Vec<Vec<f64>> = times.iter().map(|t| self.at(*t).to_vec()).collect();
-        let of = |index: usize| times.iter().zip(&rows).map(move |(t, row)| (*t, row[index]));
-        (0..self.values.len()).map(|index| of(index).collect()).collect()
-    }
-
-    /// Samples all functions so densely that they are resolved.
-    fn resolved(&mut self, parts: usize) -> Vec<Sample> {
-        let times: Vec<f64> = (0..=parts).map(|k| self.time(k as f64 / parts as f64)).collect();
-        let mut coarse = times.into_iter().map(|t| (t, self.at(t).to_vec())).collect::<Vec<_>>();
-        let mut found = vec![coarse.remove(0)];
-        // a stack, with the next sample on top; each sample has the number of divisions before it
-        let mut ahead: Vec<(Sample, usize)> = coarse.into_iter().rev().map(|s| (s, 0)).collect();
-        while let Some((next, depth)) = ahead.pop() {
-            let last = found.last().expect("the first sample");
-            let t = last.0 + BETWEEN * (next.0 - last.0);
-            if depth == DEEPEST || t == last.0 || t == next.0 {
-                found.push(next);
-                continue;
-            }
-            let between = (t, self.at(t).to_vec());
-            let last = found.last().expect("the first sample");
-            if (0..between.1.len()).any(|k| may_turn([last, &between, &next].map(|s| s.1[k]))) {
-                ahead.push((next, depth + 1));
-                ahead.push((between, depth + 1));
-            } else {
-                found.extend([between, next]);
-            }
-        }
-        found
-    }
-
-    #[inline]
-    fn time(&self, part: f64) -> f64 {
-        match part {
-            1.0 => self.step.t,
-            part => self.step.t_old + part * (self.step.t - self.step.t_old),
-        }
-    }
-
-    /// Evaluates all functions at a time.
-    fn at(&mut self, t: f64) -> &[f64] {
-        if t == self.step.t {
-            self.y.copy_from_slice(self.step.y);
-        } else if t == self.step.t_old {
-            self.y.copy_from_slice(self.step.y_old);
-        } else {
-            self.step.interpolate(t, &mut self.y);
-        }
-        (self.functions)(t, &self.y, &mut self.values);
-        &self.values
-    }
-
-    /// The first `most` sign changes of a function with the given samples.
+impl WatchedStep<'_, '_, '_> {
+    /// The first `most` sign changes of a function. Those after `end` may be missing.
     fn changes(
         &mut self,
         index: usize,
-        points: &[Point],
         direction: Direction,
-        most: usize,
-    ) -> Vec<SignChange> {
-        let between = |old: Point, new: Point| {
-            direction.counts(old.1, new.1).map(|rising| SignChange { index, old, new, rising })
-        };
-        let mut found = Vec::new();
-        for k in 1..points.len() {
-            if found.len() >= most {
+        (most, end): (usize, Option<f64>),
+    ) -> Result<Changes, TooFast> {
+        let (t_old, t) = (self.step.t_old, self.step.t);
+        let sign = (t - t_old).signum();
+        let mut last = (t_old, self.at(t_old)[index]);
+        // the last time at which a function that may be shallow was positive
+        let (shallow, mut firm) = (self.watch.shallow(index), last);
+        if shallow > 0.0 {
+            firm.1 = firm.1.max(f64::MIN_POSITIVE);
+            last.1 += shallow;
+        }
+        let mut found = Changes { changes: Vec::new(), negative: true };
+        // a stack, with the next part on top; each has the number of divisions before it
+        let mut ahead = vec![([t_old, t], 0)];
+        let mut looked = 0;
+        while let Some(([from, to], depth)) = ahead.pop() {
+            if found.changes.len() >= most || end.is_some_and(|end| sign * (from - end) > 0.0) {
                 break;
             }
-            if let Some(change) = between(points[k - 1], points[k]) {
-                found.push(change);
-                continue;
+            looked += 1;
+            if looked > MOST_PARTS {
+                return Err(TooFast(index));
             }
-            // the samples approach zero and turn back
-            let Some(next) = points.get(k + 1) else { continue };
-            if let Some([before, beyond, after]) =
-                self.turn(index, [points[k - 1], points[k], *next])
-            {
-                found.extend(between(before, beyond));
-                found.extend(between(beyond, after));
+            let sign = match self.part(index, [from, to], depth) {
+                Part::Divided(between) => {
+                    ahead.push(([between, to], depth + 1));
+                    ahead.push(([from, between], depth + 1));
+                    continue;
+                }
+                Part::Sign(sign) => Some(sign),
+                Part::Ends => None,
+            };
+            // the state at the end may differ from the interpolant
+            let exact = (sign.is_none() || to == t || shallow > 0.0).then(|| self.at(to)[index]);
+            // a function that is negative at the end may not return
+            let depth = if to == t { 0.0 } else { shallow };
+            for value in [sign, exact.map(|value| value + depth)].into_iter().flatten() {
+                let new = (to, value);
+                found.negative &= value < 0.0;
+                if let Some(rising) = direction.counts(last.1, value) {
+                    found.negative = false;
+                    let old = if shallow > 0.0 { firm } else { self.point(index, last) };
+                    let new = self.point(index, new);
+                    found.changes.push(SignChange { index, old, new, rising });
+                }
+                last = new;
+            }
+            if let Some(value) = exact.filter(|value| *value > 0.0) {
+                firm = (to, value);
             }
         }
-        found.truncate(most);
-        found
+        Ok(found)
+    }
+
+    /// The minima of a function whose values lie in a range.
+    fn minima(&mut self, index: usize, [low, high]: [f64; 2]) -> Result<Vec<Crossing>, TooFast> {
+        let mut found = Vec::new();
+        let mut falling = false;
+        let mut ahead = vec![[self.step.t_old, self.step.t]];
+        let mut looked = 0;
+        let sign = (self.step.t - self.step.t_old).signum();
+        while let Some([from, to]) = ahead.pop() {
+            let Some(bounds) = self.watch.bounds(index, self.path, [from, to]) else { break };
+            looked += 1;
+            if looked > MOST_PARTS {
+                return Err(TooFast(index));
+            }
+            let (middle, [slope]) = (from + 0.5 * (to - from), bounds.slope);
+            if bounds.value.low > high || bounds.value.high < low {
+                falling = false;
+            } else if sign_of(slope).is_some_and(|slope| sign * slope < 0.0) {
+                falling = true;
+            } else if sign_of(slope).is_some() {
+                if falling && (low..=high).contains(&self.at(from)[index]) {
+                    found.push(Crossing { index, t: from, rising: false });
+                }
+                falling = false;
+            } else if middle != from && middle != to && bounds.value.spread() > FLAT * (high - low)
+            {
+                ahead.extend([[middle, to], [from, middle]]);
+            }
+        }
+        Ok(found)
+    }
+
+    /// A point of which the sign is known, with its value.
+    fn point(&mut self, index: usize, (t, sign): Point) -> Point {
+        let value = self.at(t)[index];
+        (t, if value * sign > 0.0 { value } else { sign })
     }
 
     /// The time just past a sign change.
@@ -333,50 +341,5 @@ impl<'a, 'b> Sampled<'a, 'b> {
     #[inline]
     fn sample(&mut self, t: f64) -> Sample {
         (t, self.at(t).to_vec())
-    }
-
-    /// Searches between three samples of equal sign for a point on the other side of zero. Returns the point with its
-    /// two neighbours.
-    fn turn(&mut self, index: usize, mut points: [Point; 3]) -> Option<[Point; 3]> {
-        let sign = points[1].1.signum();
-        for _ in 0..PARABOLAS {
-            let [a, b, c] = points.map(|(_, value)| sign * value);
-            if !(b > 0.0 && b <= a && b <= c && (b < a || b < c)) {
-                return None;
-            }
-            let t = vertex(points)?;
-            let latest = (t, self.at(t)[index]);
-            if sign * latest.1 <= 0.0 {
-                let earlier = (t - points[1].0) * (points[2].0 - points[0].0) < 0.0;
-                return Some(match earlier {
-                    true => [points[0], latest, points[1]],
-                    false => [points[1], latest, points[2]],
-                });
-            }
-            points = around([points[0], points[1], points[2]], latest, sign);
-        }
-        None
-    }
-}
-
-/// The time at which the parabola through three points has its extremum, if its value there is near zero.
-fn vertex([a, b, c]: [Point; 3]) -> Option<f64> {
-    let (left, right) = ((b.1 - a.1) / (b.0 - a.0), (c.1 - b.1) / (c.0 - b.0));
-    let bend = (right - left) / (c.0 - a.0);
-    let slope = left + bend * (b.0 - a.0); // at b
-    let by = -0.5 * slope / bend;
-    let value = b.1 + 0.5 * slope * by;
-    let near = value * b.1 < 0.5 * b.1 * b.1;
-    (near && by != 0.0 && by.is_finite()).then_some(b.0 + by)
-}
-
-/// The three points around the smallest absolute value, after one more evaluation.
-fn around([a, b, c]: [Point; 3], latest: Point, sign: f64) -> [Point; 3] {
-    let earlier = (latest.0 - b.0) * (c.0 - a.0) < 0.0;
-    match (sign * latest.1 < sign * b.1, earlier) {
-        (true, true) => [a, latest, b],
-        (true, false) => [b, latest, c],
-        (false, true) => [latest, b, c],
-        (false, false) => [a, b, latest],
     }
 }

@@ -23,7 +23,9 @@
 //! | `stepper`, `step` | the interface of all methods; an accepted step |
 //! | `failure`, `arguments` | causes of failure; checks of arguments before the first evaluation |
 //! | `step_control`, `step_size`, `fixed_step` | options of steps; choice of the step from the error; constant steps |
-//! | `events`, `crossings` | where a function of the state changes sign; several functions and changes |
+//! | `events`, `crossings` | where a function of the state changes sign; all changes of several functions |
+//! | `watched` | what is known of functions over parts of a step |
+//! | `path` | bounds of the interpolant over parts of a step |
 //! | `interpolant`, `hermite_birkhoff` | the state between the ends of a step; the same for systems of second order |
 //! | `explicit_stepper`, `explicit_work` | the stepper of explicit methods; its memory |
 //! | `step_acceptance`, `step_placement` | the end of a step; steps that avoid a time |
@@ -58,6 +60,7 @@ mod implicit_steps;
 mod interpolant;
 mod lane_steps;
 mod ode;
+mod path;
 mod radau;
 mod radau_coefficients;
 mod radau_step;
@@ -76,10 +79,11 @@ mod step_size;
 mod stepper;
 mod tolerances;
 mod trial;
+mod watched;
 
 pub use alpha_parameters::AlphaParameters;
 pub(crate) use component_polynomials::HIGHEST;
-pub use crossings::{crossings, scan, Crossing, Functions, Scan};
+pub use crossings::{crossings, scan, Crossing, Scan};
 pub use dae::{
     ConstraintLevel, Dae, DaeLengths, DaeRates, DaeResidual, DaeState, Iterate, NewtonCoefficients,
 };
@@ -90,6 +94,7 @@ pub use generalized_alpha::GeneralizedAlpha;
 pub use interpolant::Interpolant;
 pub use lane_steps::{LaneOde, LaneSteps, Mask, SideBySide, Steppers, Taken};
 pub use ode::{Manifold, Ode, Structure, TimesToAvoid, TrialChanges};
+pub use path::{Bounds, StepPath};
 pub use radau::Radau;
 pub(crate) use right_hand_side::all_finite;
 pub use rk4::Rk4;
@@ -98,3 +103,4 @@ pub use statistics::StepCounts;
 pub use step::{Flow, Step};
 pub use step_control::{Atol, StepControl};
 pub use stepper::{BoxedStepper, ExplicitMethod, ImplicitMethod, Stepper};
+pub use watched::{TooFast, Watch};

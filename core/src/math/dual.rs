@@ -24,6 +24,12 @@ impl<const N: usize, S: Real> Dual<N, S> {
         Self { value, slope }
     }
 
+    /// A range over which a function jumps, so that its derivatives have no bounds.
+    #[inline(never)]
+    fn of_jump(value: S) -> Self {
+        Self { value, slope: [S::constant(f64::NAN); N] }
+    }
+
     /// f(x) from f and f′ at the value, by the chain rule.
     #[inline]
     fn chain(self, f: S, df: S) -> Self {
@@ -139,7 +145,11 @@ where
 
     #[inline]
     fn constant(x: f64) -> Self {
-        Self::lift(S::constant(x))
+        let value = S::constant(x);
+        match value.spread() > 0.0 {
+            true => Self::of_jump(value),
+            false => Self::lift(value),
+        }
     }
     #[inline]
     fn sin_cos(self) -> (Self, Self) {
@@ -174,7 +184,11 @@ where
     fn atan2(self, x: Self) -> Self {
         let (a, b) = (self.value, x.value);
         let r2 = a * a + b * b;
-        Self { value: a.atan2(b), slope: zip(self.slope, x.slope, |da, db| (b * da - a * db) / r2) }
+        let value = a.atan2(b);
+        if value.spread() > std::f64::consts::PI {
+            return Self::of_jump(value);
+        }
+        Self { value, slope: zip(self.slope, x.slope, |da, db| (b * da - a * db) / r2) }
     }
     #[inline]
     fn sinh(self) -> Self {
@@ -218,7 +232,15 @@ where
     }
     #[inline]
     fn floor(self) -> Self {
-        Self::lift(self.value.floor())
+        let value = self.value.floor();
+        match value.spread() > 0.0 {
+            true => Self::of_jump(value),
+            false => Self::lift(value),
+        }
+    }
+    #[inline(always)]
+    fn spread(self) -> f64 {
+        self.value.spread()
     }
     #[inline]
     fn least_magnitude(self) -> f64 {

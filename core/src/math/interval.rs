@@ -27,6 +27,11 @@ impl Interval {
         Self { low, high }
     }
 
+    /// All numbers that are at most `by` away from `x`.
+    pub fn around(x: f64, by: f64) -> Self {
+        Self::rounded(x - by, x + by)
+    }
+
     /// Whether zero is inside the interval or on a bound.
     pub fn contains_zero(self) -> bool {
         self.low <= 0.0 && self.high >= 0.0
@@ -130,8 +135,15 @@ impl SubAssign for Interval {
 super::base::is_base!(Interval, super::dual::Dual<1, Interval>);
 
 impl Real for Interval {
+    /// NaN gives every number.
     fn constant(x: f64) -> Self {
+        if x.is_nan() {
+            return Self::ALL;
+        }
         Self { low: x, high: x }
+    }
+    fn spread(self) -> f64 {
+        self.high - self.low
     }
     fn sin_cos(self) -> (Self, Self) {
         let quarter = Self::constant(FRAC_PI_2);
@@ -162,7 +174,11 @@ impl Real for Interval {
         if x.low > 0.0 {
             return (self / x).atan();
         }
-        Self::rounded(-PI, PI)
+        if self.contains_zero() {
+            return Self::rounded(-PI, PI);
+        }
+        let half = if self.low > 0.0 { FRAC_PI_2 } else { -FRAC_PI_2 };
+        Self::rounded(half, half) - (x / self).atan()
     }
     fn sinh(self) -> Self {
         self.rising(f64::sinh)

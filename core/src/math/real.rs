@@ -81,6 +81,11 @@ pub trait Real:
     }
     /// Whether every part is finite, including derivatives.
     fn is_finite(self) -> bool;
+    /// The width of a scalar that is a range of numbers, such as an interval; 0 for numbers.
+    #[inline(always)]
+    fn spread(self) -> f64 {
+        0.0
+    }
     /// Whether all derivatives are zero.
     fn is_constant(self) -> bool {
         true

@@ -125,17 +125,16 @@ impl<S: Real> Spline<S> {
             let inner = &self.knots[1..self.knots.len() - 1];
             *found = inner.partition_point(|knot| knot.in_lanes()[lane] < at[lane]);
         }
-        let mut order = found;
-        order.sort_unstable();
-        let mut result = self.piece(order[0], x, lift);
-        for k in 1..order.len() {
-            if order[k] != order[k - 1] {
-                // lanes on different pieces: the later piece applies where x is beyond its first knot
-                let beyond = x - lift(self.knots[order[k]]);
-                let piece: [T; N] = self.piece(order[k], x, lift);
-                for (result, piece) in result.iter_mut().zip(piece) {
-                    *result = T::select(beyond, piece, *result);
-                }
+        found.sort_unstable();
+        let [first, .., last] = found;
+        let mut result = self.piece(first, x, lift);
+        // lanes on different pieces, or a range over all pieces between its ends
+        for k in (first + 1..=last).filter(|k| found.contains(k) || x.spread() > 0.0) {
+            // the later piece applies where x is beyond its first knot
+            let beyond = x - lift(self.knots[k]);
+            let piece: [T; N] = self.piece(k, x, lift);
+            for (result, piece) in result.iter_mut().zip(piece) {
+                *result = T::select(beyond, piece, *result);
             }
         }
         result

@@ -57,6 +57,8 @@ pub enum Breakdown {
         /// The step size, s.
         step: f64,
     },
+    /// This switch may change more often than steps can follow.
+    TooFast(usize),
     /// The motion returns to this switch from both sides.
     Sliding(usize),
 }

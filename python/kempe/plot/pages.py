@@ -97,7 +97,7 @@ def _families(
     yield [over_time.of_measure(*names) for names in _filed(model.measures)[:most]]
     yield [over_time.of_residual()]
     yield [over_time.of_energy()]
-    yield [over_time.of_all_reactions()]
+    yield [over_time.of_all_reactions()] if model.constraints else []
     yield [over_time.of_motion()]
 
 

@@ -99,7 +99,7 @@ impl Onset {
         let begun = changes.iter().filter(|(_, piece)| *piece > 0.0);
         let compliant = begun.filter_map(|(switch, _)| match model.switches[*switch].owner {
             SwitchOwner::Force(force) => match model.forces[force].element.behaviour()? {
-                Behaviour::Compliant { stiffness, exponent } if steps.depend_on(exponent) => {
+                Behaviour::Compliant { stiffness, exponent, .. } if steps.depend_on(exponent) => {
                     Some((force, stiffness, exponent))
                 }
                 _ => None,

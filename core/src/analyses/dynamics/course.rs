@@ -56,6 +56,9 @@ struct Planned {
     effect: Effect,
 }
 
+/// Largest error of a step at which a gap counts as open, relative to the size of the mechanism.
+const LOOSEST: f64 = 1e-10;
+
 /// The name of the event at which a driver is released.
 fn release_of(driver: &str) -> String {
     format!("{driver}.release")
@@ -88,8 +91,8 @@ fn planned(model: &Model, options: &Options) -> Vec<Planned> {
         })
     });
     let modes = model.forces.iter().enumerate().flat_map(|(force, item)| {
-        let names = item.element.behaviour().map(|behaviour| behaviour.events());
-        let named = names.into_iter().flatten().enumerate();
+        let names = item.element.behaviour().map_or(&[][..], |behaviour| behaviour.events());
+        let named = names.iter().enumerate();
         named.map(move |(place, name)| Planned {
             name: format!("{}.{name}", item.name),
             condition: String::new(),
@@ -149,7 +152,7 @@ pub(super) fn run(
     loop {
         let (model, cache) = own.as_ref().map_or(base, |own| (&own.model, &own.cache));
         let conditions = conditions(model, &setting, &events)?;
-        let watched = watched(model, &events, &conditions, &setting.released);
+        let watched = watched(model, &events, &conditions, &setting.released, options);
         run.settings.push(setting.clone());
         let phase = Phase { model, cache, project_velocities: holds(&setting) };
         let outcome = run_phase(phase, watched, &mut at, options, &mut run, &mut watch);
@@ -234,15 +237,24 @@ fn conditions(
 
 fn watched<'c>(
     model: &Model,
-    events: &[Planned],
+    events: &'c [Planned],
     conditions: &'c [Option<Condition>],
     released: &[String],
+    options: &Options,
 ) -> Vec<Watched<'c>> {
+    let accuracy = options.method.control().rtol.min(LOOSEST);
     let watched = events.iter().zip(conditions).map(|(event, condition)| {
         if let Effect::Mode { force, place } = event.effect {
             let (function, direction) = watched_mode(model, force, place);
-            let ends = modes::has_mode(model, force);
+            let has_mode = modes::has_mode(model, force);
+            let ends = has_mode && place != modes::GRAZE;
+            // a compliant contact acts as soon as the gap is negative
+            let error = accuracy * modes::unit(model, force);
+            let shallow = if modes::is_contact(model, force) { error } else { 0.0 };
             return Watched {
+                name: &event.name,
+                shallow: if place == 0 { shallow } else { 0.0 },
+                minima: (place == modes::GRAZE).then_some([-shallow, error]),
                 function: EventFunction::Mode(function),
                 direction,
                 ends,
@@ -252,6 +264,9 @@ fn watched<'c>(
         let done = matches!(&event.effect, Effect::Release(driver) if released.contains(driver));
         let condition = condition.as_ref().filter(|_| !done);
         Watched {
+            name: &event.name,
+            shallow: 0.0,
+            minima: None,
             function: condition.map_or(EventFunction::Never, EventFunction::Condition),
             direction: condition.map_or(event.direction, |c| c.direction(event.direction)),
             ends: event.effect != Effect::None,

@@ -8,8 +8,11 @@ use super::motion_ode::MotionOde;
 use crate::analyses::conditions::{Condition, Evaluator};
 use crate::analyses::signals::Seen;
 use crate::analyses::so_far::SoFar;
-use crate::integrate::{crossings, Crossing, Direction, Step};
+use crate::analyses::step_part::{self, StepPart};
+use crate::integrate::{crossings, Bounds, Crossing, Direction, Step, StepPath, TooFast, Watch};
+use crate::math::Real;
 use crate::model::Model;
+use std::collections::HashMap;
 
 /// Largest number of times that a step is taken again to end at an event.
 const AGAIN: usize = 6;
@@ -22,17 +25,6 @@ const NEAR: f64 = 1e-6;
 
 /// Relative change of a state by which the rounding errors of functions are estimated.
 const ROUNDING: f64 = 8.0 * f64::EPSILON;
-
-/// Smallest and largest number of parts into which a step is divided.
-const PARTS: [usize; 2] = [6, 20_000];
-
-/// Number of parts of a step in which no body turns by more than a radian, so that functions of angles are resolved.
-fn parts(model: &Model, step: &Step<'_>) -> usize {
-    let turned = model.layout.bodies[1..].iter().filter(|columns| columns.count == 3);
-    let turned =
-        turned.map(|columns| (step.y[columns.first + 2] - step.y_old[columns.first + 2]).abs());
-    (turned.fold(0.0, f64::max).ceil() as usize).clamp(PARTS[0], PARTS[1])
-}
 
 /// A function of the state.
 #[derive(Clone, Copy)]
@@ -68,6 +60,11 @@ impl EventFunction<'_> {
 /// An event of a phase.
 #[derive(Clone, Copy)]
 pub(super) struct Watched<'a> {
+    pub name: &'a str,
+    /// The depth below zero up to which a gap that opens again is not closed, because of the error of the steps.
+    pub shallow: f64,
+    /// The values of minima that are wanted in place of changes of sign.
+    pub minima: Option<[f64; 2]>,
     pub function: EventFunction<'a>,
     pub direction: Direction,
     /// Whether the event ends the phase.
@@ -85,6 +82,65 @@ pub(super) enum StepEvents {
     End(Vec<Crossing>),
     /// The step is taken again, to end at this time.
     Again(f64),
+}
+
+/// The functions of events during a step.
+struct InStep<'l, 'a> {
+    list: &'l mut EventList<'a>,
+    model: &'l Model,
+    step: &'l Step<'l>,
+    /// Whether the phase ends with the step.
+    ends_phase: bool,
+    /// The distances of forces that were bounded. Several events of a contact have the same distance.
+    known: HashMap<(usize, [u64; 2]), Option<Bounds>>,
+}
+
+impl Watch for InStep<'_, '_> {
+    fn values(&mut self, t: f64, y: &[f64], out: &mut [f64]) {
+        let EventList { watched, evaluator, began, zero, .. } = &mut *self.list;
+        evaluator.see(self.model, (t, y), self.step, |seen| {
+            let values = watched.iter().map(|event| event.function.value(self.model, seen));
+            out.iter_mut().zip(values).for_each(|(out, value)| *out = value);
+        });
+        let exact = self.ends_phase && t == self.step.t;
+        for (index, (event, out)) in watched.iter().zip(&mut *out).enumerate() {
+            let zero = zero.as_ref().filter(|_| !exact).map_or(0.0, |zero| zero[index]);
+            *out = if out.abs() <= zero { event.function.at_zero() } else { *out };
+        }
+        if t == began.0 {
+            began.1.iter().for_each(|index| out[*index] = 0.0);
+            // the mode may end again after a time that is short compared with the steps
+            let of_mode = |event: &Watched<'_>| matches!(event.function, EventFunction::Mode(_));
+            let modes = watched.iter().zip(out).filter(|(event, _)| of_mode(event) && event.ends);
+            modes.for_each(|(_, out)| *out = out.max(f64::MIN_POSITIVE));
+        }
+    }
+
+    fn bounds(&mut self, index: usize, path: &StepPath<'_>, span: [f64; 2]) -> Option<Bounds> {
+        let part = StepPart::new(self.model, path, span, &[]);
+        let known = &mut self.known;
+        let mut clearance = |force: usize| {
+            let key = (force, span.map(f64::to_bits));
+            *known.entry(key).or_insert_with(|| part.clearance(force, None))
+        };
+        match self.list.watched[index].function {
+            EventFunction::Condition(condition) => condition.bounds(&part),
+            EventFunction::Mode(of) => of.bounds(&mut clearance),
+            EventFunction::Never => Some(Bounds::one()),
+        }
+    }
+
+    fn converges(&self, index: usize) -> bool {
+        matches!(self.list.watched[index].function, EventFunction::Mode(_))
+    }
+
+    fn shallow(&self, index: usize) -> f64 {
+        self.list.watched[index].shallow
+    }
+
+    fn minima(&self, index: usize) -> Option<[f64; 2]> {
+        self.list.watched[index].minima
+    }
 }
 
 /// The events of a phase.
@@ -138,13 +194,26 @@ impl<'a> EventList<'a> {
         self.watched[index].listed
     }
 
+    /// The name of an event.
+    pub fn name(&self, index: usize) -> &'a str {
+        self.watched[index].name
+    }
+
     /// The events in a step of a phase that ends at `t_end` at the latest. The interpolant is prepared.
-    pub fn look(&mut self, model: &Model, step: &Step<'_>, t_end: f64) -> StepEvents {
+    ///
+    /// # Errors
+    /// [`TooFast`] with the index of an event.
+    pub fn look(
+        &mut self,
+        model: &Model,
+        step: &Step<'_>,
+        t_end: f64,
+    ) -> Result<StepEvents, TooFast> {
         if self.zero.is_none() {
             self.zero = Some(self.rounding(model, step));
         }
         let arrived = self.awaited.filter(|(t, _)| *t == step.t);
-        let found = self.scan(model, step, arrived.is_some() || step.t == t_end);
+        let found = self.scan(model, step, arrived.is_some() || step.t == t_end)?;
         let spacing = CLOSE * f64::EPSILON * step.t.abs().max(step.t_old.abs());
         let together = |a: f64, b: f64| (a - b).abs() <= spacing;
         let ending = found.iter().find(|crossing| self.watched[crossing.index].ends).copied();
@@ -156,17 +225,17 @@ impl<'a> EventList<'a> {
         let Some((t, index)) = end else {
             self.evaluator.advance(model, step);
             // the phase ends where the event was expected, and the next one continues
-            return if arrived.is_some() {
+            return Ok(if arrived.is_some() {
                 StepEvents::End(found)
             } else {
                 StepEvents::Events(found)
-            };
+            });
         };
         let done = together(t, step.t) || self.tries >= AGAIN && arrived.is_some();
         if !done {
             self.tries += 1;
             self.awaited = Some((t, index));
-            return StepEvents::Again(t);
+            return Ok(StepEvents::Again(t));
         }
         (self.awaited, self.tries) = (None, 0);
         self.evaluator.advance(model, step);
@@ -183,7 +252,7 @@ impl<'a> EventList<'a> {
         }
         let sign = (step.t - step.t_old).signum();
         found.sort_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)).then(a.index.cmp(&b.index)));
-        StepEvents::End(found)
+        Ok(StepEvents::End(found))
     }
 
     /// The rounding errors at the start of the phase of those functions of conditions that are zero there.
@@ -214,32 +283,17 @@ impl<'a> EventList<'a> {
     }
 
     /// The events in a step. At the end of a phase values count as they are, because the next one begins with them.
-    fn scan(&mut self, model: &Model, step: &Step<'_>, ends_phase: bool) -> Vec<Crossing> {
-        let Self { watched, evaluator, began, zero, .. } = self;
-        let zero = zero.as_ref().expect("it was computed");
-        let directions: Vec<Direction> = watched.iter().map(|event| event.direction).collect();
-        let mut functions = |t: f64, y: &[f64], out: &mut [f64]| {
-            evaluator.see(model, (t, y), step, |seen| {
-                let values = watched.iter().map(|event| event.function.value(model, seen));
-                out.iter_mut().zip(values).for_each(|(out, value)| *out = value);
-            });
-            let exact = ends_phase && t == step.t;
-            for ((event, out), zero) in watched.iter().zip(&mut *out).zip(zero) {
-                let zero = if exact { 0.0 } else { *zero };
-                *out = if out.abs() <= zero { event.function.at_zero() } else { *out };
-            }
-            if t == began.0 {
-                began.1.iter().for_each(|index| out[*index] = 0.0);
-                // the mode may end again after a time that is short compared with the steps
-                let of_mode =
-                    |event: &Watched<'_>| matches!(event.function, EventFunction::Mode(_));
-                let modes =
-                    watched.iter().zip(out).filter(|(event, _)| of_mode(event) && event.ends);
-                modes.for_each(|(_, out)| *out = out.max(f64::MIN_POSITIVE));
-            }
-        };
-        let ends = |index: usize| watched[index].ends;
-        crossings(step, parts(model, step), &directions, &mut functions, &ends)
+    fn scan(
+        &mut self,
+        model: &Model,
+        step: &Step<'_>,
+        ends_phase: bool,
+    ) -> Result<Vec<Crossing>, TooFast> {
+        let directions: Vec<Direction> = self.watched.iter().map(|of| of.direction).collect();
+        let ends: Vec<bool> = self.watched.iter().map(|of| of.ends).collect();
+        let parts = step_part::parts(model, step);
+        let mut seen = InStep { list: self, model, step, ends_phase, known: HashMap::new() };
+        crossings(&StepPath::new(step), parts, &directions, &mut seen, &|index| ends[index])
     }
 
     /// The time of an event that is expected at the end of a step but lies slightly later. Returns None if there is

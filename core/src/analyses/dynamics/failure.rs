@@ -155,10 +155,8 @@ impl Failure {
                             must meet the constraints; check the size of the forces";
                 return Reason::Integration { t, message, hint }.into();
             }
-            Breakdown::Jump { .. } | Breakdown::Sliding(_) | Breakdown::Unresolved { .. } => {
-                return at_switch(model, t, breakdown)
-            }
             Breakdown::NotFinite => return Self::undefined(model, t, q),
+            _ => return at_switch(model, t, breakdown),
         };
         Reason::Singular { t, name, message }.into()
     }
@@ -177,6 +175,15 @@ impl Failure {
             message.push_str("; a run with stabilization projection passes this position");
         }
         failure
+    }
+
+    /// Failure of a condition that changes faster than steps can follow.
+    pub(super) fn too_fast(name: &str, t: f64) -> Box<Self> {
+        let message = format!(
+            "the condition of {name} may change more than a million times in the step from t = {t:.6} s"
+        );
+        let hint = "use a condition that changes less often, or a smooth mean value; or limit the steps by max_step";
+        Reason::Integration { t, message, hint }.into()
     }
 
     /// Failure of an integrator that stopped at a time `t` and a state `y`.
@@ -237,6 +244,11 @@ impl Failure {
 fn at_switch(model: &Model, t: f64, breakdown: Breakdown) -> Box<Failure> {
     let switch = match breakdown {
         Breakdown::Sliding(switch) => switch,
+        Breakdown::TooFast(switch) => {
+            let Switch { owner, law, .. } = model.switches[switch];
+            let what = if law { "a law of " } else { "" };
+            return Failure::too_fast(&format!("{what}{}", owner_name(model, owner)), t);
+        }
         Breakdown::Jump { constraint, position, values } => {
             let message = LawJump { constraint, position, values }.describe(model, t);
             return Reason::Integration { t, message, hint: SMOOTH }.into();

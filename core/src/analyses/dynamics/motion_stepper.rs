@@ -17,7 +17,7 @@ use super::switching::{After, Switching};
 use crate::analyses::mobility::dependent;
 use crate::integrate::{
     BoxedStepper, Cause, Direction, ExplicitMethod, SideBySide, Step, StepControl, StepCounts,
-    Stepper,
+    Stepper, TooFast,
 };
 use crate::solve::Breakdown;
 use crate::stabilize::Projector;
@@ -161,7 +161,9 @@ impl<'a> MotionStepper<'a> {
             self.prepare_interpolant()?;
             let step = self.last_step().expect("a step was taken");
             let (t_old, y_old) = (step.t_old, step.y_old.to_vec());
-            match switching.look(self.ode.model, &step) {
+            let after = switching.look(self.ode.model, &step);
+            let error = |TooFast(k)| Cause::Equations { t: t_old, error: Breakdown::TooFast(k) };
+            match after.map_err(error)? {
                 After::Accept => return Ok(()),
                 After::Again => {}
                 After::Change => switching.pass(&mut self.ode, t_old, &y_old)?,

@@ -14,7 +14,7 @@ use super::switch_schedule::Schedule;
 use crate::analyses::curves::Ranges;
 use crate::analyses::so_far::SoFar;
 use crate::analyses::State;
-use crate::integrate::{Cause, Flow};
+use crate::integrate::{Cause, Flow, TooFast};
 use crate::model::Model;
 use crate::solve::Breakdown;
 
@@ -219,6 +219,13 @@ impl<'a> PhaseSteps<'a> {
                 beyond.map(failure).map_or(Ok(None), Err)
             }
             Ok(Next::Step(Flow::Stop)) => Ok(Some(PhaseEnd::Stopped)),
+            Ok(Next::TooFast(index)) => {
+                let name = self.events.as_ref().map_or("", |events| events.name(index));
+                Err(Failure::too_fast(
+                    name,
+                    self.stepper.last_step().map_or(0.0, |step| step.t_old),
+                ))
+            }
             // the step is taken again, to end at the event
             Ok(Next::Event(t)) => {
                 let (t_start, y_start) = (self.start.0, &self.start.1);
@@ -247,6 +254,8 @@ enum Next {
     Step(Flow),
     /// The phase ends at an event near this time.
     Event(f64),
+    /// The event with this index may occur more often in the step than can be listed.
+    TooFast(usize),
 }
 
 /// Passes the last step to the recorder and to the caller. Adds the events in the step to the run. Events that end
@@ -264,7 +273,11 @@ fn observe(
     }
     let step = stepper.last_step().expect("a step was taken");
     let found = events.as_mut().map(|events| events.look(model, &step, recorder.t_end));
-    let happened = match found {
+    let happened = match found.transpose() {
+        Err(TooFast(index)) => return Ok(Next::TooFast(index)),
+        Ok(found) => found,
+    };
+    let happened = match happened {
         Some(StepEvents::Again(t)) => return Ok(Next::Event(t)),
         Some(StepEvents::End(happened)) => {
             recorder.t_end = step.t;

@@ -1,7 +1,7 @@
 //! Switches during a run. The piece of each switch is constant during a step, and steps end where a piece ends.
 //!
 //! Switches that depend on time alone are listed in a [`Schedule`]. The functions of the other switches are scanned
-//! on the interpolant of each step (`integrate::scan`). Where a switch leaves its piece, the step is taken again up
+//! with their bounds on the interpolant of each step (`integrate::scan`). Where a switch leaves its piece, the step is taken again up
 //! to this time with the old piece, and the next step begins with the new piece.
 //!
 //! A switch that changes back at once holds the motion between two pieces (`sliding`). If the accelerations of both
@@ -11,7 +11,8 @@
 
 mod calm;
 mod curve_break;
-mod narrow;
+mod forms;
+mod margins;
 mod sliding;
 
 use super::contact_resolution::{self, StepChoice};
@@ -21,9 +22,10 @@ use super::switch_schedule::{changed_constraints, Schedule};
 use crate::equations::forces::Acting;
 use crate::equations::kinematics::Motions;
 use crate::equations::{switches, Gains, Workspace};
-use crate::integrate::{scan, Cause, Direction, Scan, Step};
+use crate::integrate::{Cause, Scan, Step, TooFast};
 use crate::model::{Model, SwitchOwner};
 use crate::solve::Breakdown;
+use forms::SwitchForm;
 
 /// Number of changes of one switch within [`SHORT`] of the run after which it counts as stuck.
 const STUCK: usize = 8;
@@ -31,6 +33,8 @@ const STUCK: usize = 8;
 const SHORT: f64 = 1e-9;
 /// Number of steps on one piece after which a released switch is held again.
 const CALM: usize = 10;
+/// Rounding errors of a function that does not jump, relative to its values.
+const ROUNDING: f64 = 1e-12;
 /// Number of times that a step is taken again for one switch while its interpolant becomes more accurate.
 const AGAIN: usize = 3;
 
@@ -76,6 +80,8 @@ pub(super) struct Switching {
     pub pieces: Vec<f64>,
     /// The switches that depend on the state.
     on_state: Vec<usize>,
+    /// The form of the function of each of them.
+    forms: Vec<SwitchForm>,
     history: Vec<History>,
     due: Option<Due>,
     /// Evaluates the functions of switches.
@@ -118,6 +124,7 @@ impl Switching {
             length: (t_end - t).abs(),
             sign: (t_end - t).signum(),
             history: vec![History { last: f64::NAN, quick: 0, calm }; n],
+            forms: on_state.iter().map(|k| SwitchForm::of(model, *k)).collect(),
             on_state,
             due: None,
             workspace: reactive.then(|| Box::new(ode.workspace.clone())),
@@ -234,6 +241,7 @@ impl Switching {
         let model = ode.model;
         let before = self.pieces.clone();
         changes.iter().for_each(|(switch, piece)| self.pieces[*switch] = *piece);
+        self.follow_jumps(model, (t, y), &before, changes);
         let [q, v, ..] = model.layout.split(y);
         self.motions.place(&model.layout, q, v);
         self.motions.pieces.clone_from(&self.pieces);
@@ -263,6 +271,35 @@ impl Switching {
         Ok(())
     }
 
+    /// Updates the switches whose functions jump because other switches within them have changed.
+    fn follow_jumps(
+        &mut self,
+        model: &Model,
+        (t, y): (f64, &[f64]),
+        before: &[f64],
+        changes: &[(usize, f64)],
+    ) {
+        if self.on_state.iter().all(|k| !model.switches[*k].law) {
+            return;
+        }
+        let now = std::mem::replace(&mut self.pieces, before.to_vec());
+        self.evaluate(model, t, y);
+        let old = self.sigma.clone();
+        self.pieces = now;
+        self.evaluate(model, t, y);
+        // a function contains others whose switches have lower numbers
+        for place in 0..self.on_state.len() {
+            let k = self.on_state[place];
+            let by = (self.sigma[k] - old[k]).abs();
+            let jumps = by > ROUNDING * (self.sigma[k].abs() + old[k].abs());
+            let piece = model.switches[k].boundaries.piece(self.sigma[k]);
+            if jumps && !piece.is_nan() && changes.iter().all(|(switch, _)| *switch != k) {
+                self.pieces[k] = piece;
+                self.evaluate(model, t, y);
+            }
+        }
+    }
+
     /// Updates the switches that depend on reactions, because reactions jump at a switch.
     fn follow_reactions(&mut self, model: &Model, t: f64, y: &[f64]) {
         self.evaluate(model, t, y);
@@ -281,14 +318,17 @@ impl Switching {
     }
 
     /// Scans a step, with its interpolant prepared.
-    pub fn look(&mut self, model: &Model, step: &Step<'_>) -> After {
+    ///
+    /// # Errors
+    /// [`TooFast`] with the index of a switch.
+    pub fn look(&mut self, model: &Model, step: &Step<'_>) -> Result<After, TooFast> {
         if let Some(after) = self.approach(model, step) {
-            return after;
+            return Ok(after);
         }
         let spacing = 4.0 * f64::EPSILON * step.t.abs().max(step.t_old.abs());
-        let scanned = self.scan(model, step, spacing);
+        let scanned = self.scan(model, step, spacing)?;
         let Some(first) = scanned.first.first().map(|crossing| crossing.t) else {
-            return self.after_smooth_step(model, step, &scanned);
+            return Ok(self.after_smooth_step(model, step, &scanned));
         };
         let tries = self.due.as_ref().map_or(0, |due| due.tries);
         let together = scanned.first.iter().map(|crossing| self.on_state[crossing.index]);
@@ -301,46 +341,25 @@ impl Switching {
             self.graded = contact_resolution::before_release(model, &changes, within, self.steps);
         }
         self.due = Some(Due { t: first, changes, tries: tries + 1 });
-        match first == step.t {
+        Ok(match first == step.t {
             true => After::Accept,
             false => After::Again,
-        }
-    }
-
-    /// The first crossings of the margins of the held pieces. With a more accurate interpolant the crossing may be
-    /// slightly earlier than the due time, so it is approached in a few repetitions.
-    fn scan(&mut self, model: &Model, step: &Step<'_>, spacing: f64) -> Scan {
-        let on_state = std::mem::take(&mut self.on_state);
-        let due = self.due.take();
-        let (sign, length) = (self.sign, (step.t - step.t_old).abs());
-        let until = |index: usize| {
-            let due = due.as_ref()?;
-            let is_due = due.changes.iter().any(|(switch, _)| *switch == on_state[index]);
-            let earlier = if due.tries >= AGAIN { length } else { 1e3 * spacing };
-            is_due.then_some(due.t - sign * earlier)
-        };
-        let mut margins = |t: f64, y: &[f64], out: &mut [f64]| {
-            self.evaluate(model, t, y);
-            for (out, k) in out.iter_mut().zip(&on_state) {
-                *out = model.switches[*k].boundaries.margin(self.sigma[*k], self.pieces[*k]);
-            }
-        };
-        let scanned = scan(step, on_state.len(), &mut margins, Direction::Falling, &until);
-        (self.on_state, self.due) = (on_state, due);
-        scanned
+        })
     }
 
     /// Accepts a step without a crossing. Switches that were never in their held piece change at its beginning.
     fn after_smooth_step(&mut self, model: &Model, step: &Step<'_>, scanned: &Scan) -> After {
         if !scanned.negative.is_empty() {
-            if let Some((t, k, piece)) = self.first_through(model, step, &scanned.negative) {
-                self.due = Some(Due { t, changes: vec![(k, piece)], tries: 0 });
-                return After::Again;
-            }
-            self.evaluate_at(model, step, step.t_old + 0.5 * (step.t - step.t_old));
+            self.evaluate_at(model, step, step.t_old);
             let of = |k: usize| {
                 let k = self.on_state[k];
-                (k, model.switches[k].boundaries.piece(self.sigma[k]))
+                let boundaries = &model.switches[k].boundaries;
+                match boundaries.piece(self.sigma[k]) {
+                    piece if piece.is_nan() || piece == self.pieces[k] => {
+                        (k, boundaries.next(self.sigma[k], self.pieces[k]))
+                    }
+                    piece => (k, piece),
+                }
             };
             let changes: Vec<_> = scanned.negative.iter().map(|k| of(*k)).collect();
             self.due = Some(Due { t: step.t_old, changes, tries: 0 });

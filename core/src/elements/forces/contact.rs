@@ -14,9 +14,9 @@
 use crate::elements::foot::Near;
 use crate::elements::hertz::{self, Depth, Hertz, Normal, SWITCHES};
 use crate::elements::{
-    contact, element, At, Attachment, Behaviour, BodyId, Constraint, Equation, Force, Joint, Mark,
-    Measured, Nature, Part, PointOn, ResultQuantity, Rim, SceneSymbol, Side, Situation, SymbolEnd,
-    Wrenches,
+    contact, element, At, Attachment, Behaviour, BodyId, Clearance, Constraint, Equation, Force,
+    Joint, Mark, Measured, Nature, Part, PointOn, ResultQuantity, Rim, SceneSymbol, Side,
+    Situation, SymbolEnd, Wrenches,
 };
 use crate::expression::Tape;
 use crate::math::{Local, Pose, Real, Vec2, Wrench};
@@ -245,8 +245,8 @@ impl Force for Contact {
     }
 
     fn behaviour<S: Real>(e: &Contact<S>) -> Option<Behaviour<S>> {
-        let (rest_speed, exponent) = (e.rest_speed, e.exponent);
-        let compliant = |stiffness| Behaviour::Compliant { stiffness, exponent };
+        let (rest_speed, exponent, damping) = (e.rest_speed, e.exponent, e.damping);
+        let compliant = |stiffness| Behaviour::Compliant { stiffness, exponent, damping };
         let impacts = |restitution| Behaviour::Impacts { restitution, rest_speed };
         e.restitution.map(impacts).or(e.stiffness.map(compliant))
     }
@@ -254,6 +254,10 @@ impl Force for Contact {
     fn threshold<S: Real>(e: &Contact<S>, at: &Situation<'_, S>) -> S {
         let near = near((&e.i, &e.curve, e.side), &at.i().pose, &at.j().pose);
         near.distance - e.radius
+    }
+
+    fn clearances(e: &Contact) -> Vec<Clearance<'_>> {
+        vec![Clearance::Curve { i: &e.i, curve: &e.curve, side: e.side, radius: e.radius }]
     }
 
     fn holding(e: &Contact<Tape>, _: f64, _: f64) -> Option<Constraint<Tape>> {

@@ -14,8 +14,8 @@
 
 use crate::elements::line::Line;
 use crate::elements::{
-    element, measure, At, BodyId, Force, Mark, Measured, Nature, Only, Part, SceneSymbol,
-    Situation, Wrenches,
+    element, measure, At, BodyId, Clearance, Force, Mark, Measured, Nature, Only, Part,
+    SceneSymbol, Situation, Wrenches,
 };
 use crate::math::{Local, Real, Vec2};
 
@@ -164,6 +164,15 @@ impl Force for SpringDamper {
             let Pull { beyond, sum, .. } = pull(e, only, at, &Line::new(at, &e.i, &e.j));
             (out[TAUT], out[ACTS]) = (beyond, sum);
         }
+    }
+
+    fn clearances(e: &SpringDamper) -> Vec<Clearance<'_>> {
+        let sign = e.only.map(|only| match only {
+            Only::Tension => -1.0,
+            Only::Compression => 1.0,
+        });
+        let line = |sign| Clearance::Length { i: &e.i, j: &e.j, length: e.free_length, sign };
+        sign.map(line).into_iter().collect()
     }
 
     #[inline]

@@ -12,8 +12,8 @@
 
 use crate::elements::hertz::{self, Depth, Hertz, SWITCHES};
 use crate::elements::{
-    element, holding, Acted, At, Behaviour, BodyId, Constraint, Followed, Force, Mark, Measured,
-    Nature, Part, ResultQuantity, SceneSymbol, Situation, SymbolEnd, Wrenches,
+    element, holding, Acted, At, Behaviour, BodyId, Clearance, Constraint, Followed, Force, Mark,
+    Measured, Nature, Part, ResultQuantity, SceneSymbol, Situation, SymbolEnd, Wrenches,
 };
 use crate::expression::Tape;
 use crate::math::{Local, Real, Vec2, Wrench};
@@ -187,8 +187,8 @@ impl Force for Stop {
     }
 
     fn behaviour<S: Real>(e: &Stop<S>) -> Option<Behaviour<S>> {
-        let (rest_speed, exponent) = (e.rest_speed, e.exponent);
-        let compliant = |stiffness| Behaviour::Compliant { stiffness, exponent };
+        let (rest_speed, exponent, damping) = (e.rest_speed, e.exponent, e.damping);
+        let compliant = |stiffness| Behaviour::Compliant { stiffness, exponent, damping };
         let impacts = |restitution| Behaviour::Impacts { restitution, rest_speed };
         e.restitution.map(impacts).or(e.stiffness.map(compliant))
     }
@@ -202,6 +202,14 @@ impl Force for Stop {
         let apart = |limit: &(usize, S)| -depth([s, S::zero()], *limit).value.in_lanes()[0];
         let nearest = limits(e).min_by(|a, b| apart(a).total_cmp(&apart(b)));
         nearest.map_or(-1.0, |(k, _)| -SIGNS[k])
+    }
+
+    fn clearances(e: &Stop) -> Vec<Clearance<'_>> {
+        limits(e).map(|(k, limit)| Clearance::Limit { limit, sign: SIGNS[k] }).collect()
+    }
+
+    fn followed<S>(e: &Stop<S>) -> Option<&Followed<S>> {
+        Some(&e.coordinate.of)
     }
 
     fn holding(e: &Stop<Tape>, side: f64, value: f64) -> Option<Constraint<Tape>> {

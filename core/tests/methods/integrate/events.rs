@@ -1,7 +1,9 @@
 //! Changes of sign within a step.
 
 use super::*;
-use kempe::integrate::{locate, scan, Direction, Rk4, Rk45, StepControl};
+use kempe::integrate::{
+    locate, scan, Bounds, Direction, Rk4, Rk45, Scan, StepControl, StepPath, Watch,
+};
 use std::f64::consts::PI;
 
 /// All events of cos t - c on (0, 20) at the given tolerance.
@@ -89,6 +91,29 @@ fn roots_at_the_ends_belong_to_one_step() {
     });
 }
 
+/// Functions without bounds.
+struct Unbounded<'a>(&'a mut dyn FnMut(f64, &[f64], &mut [f64]));
+
+impl Watch for Unbounded<'_> {
+    fn values(&mut self, t: f64, y: &[f64], out: &mut [f64]) {
+        self.0(t, y, out);
+    }
+    fn bounds(&mut self, _: usize, _: &StepPath<'_>, _: [f64; 2]) -> Option<Bounds> {
+        None
+    }
+}
+
+fn first(
+    step: &Step<'_>,
+    count: usize,
+    functions: &mut dyn FnMut(f64, &[f64], &mut [f64]),
+    direction: Direction,
+    until: &dyn Fn(usize) -> Option<f64>,
+) -> Scan {
+    let path = StepPath::new(step);
+    scan(&path, (count, 12), &mut Unbounded(functions), direction, until).expect("few changes")
+}
+
 #[test]
 fn several_functions_are_scanned_for_their_first_changes() {
     let band = |t: f64, middle: f64, half: f64| half - (t - middle).abs();
@@ -110,7 +135,7 @@ fn several_functions_are_scanned_for_their_first_changes() {
         // the first ones are left out in turn
         let mut check = |without: &[usize], expected: &[(usize, bool)], t: f64| {
             let until = |k: usize| without.contains(&k).then_some(-0.9);
-            let found = scan(step, 9, &mut evaluate, Direction::Any, &until);
+            let found = first(step, 9, &mut evaluate, Direction::Any, &until);
             let which: Vec<_> = found.first.iter().map(|c| (c.index, c.rising)).collect();
             assert_eq!(which, expected);
             assert!(found.first.iter().all(|c| (c.t - t).abs() < 1e-14), "{found:?}");
@@ -119,7 +144,7 @@ fn several_functions_are_scanned_for_their_first_changes() {
         check(&[], &[(1, true)], -0.45);
         check(&[1, 2], &[(0, true), (8, true)], 0.25);
         check(&[0, 1, 2, 8], &[(7, false)], 1.0);
-        let falling = scan(step, 9, &mut evaluate, Direction::Falling, &|_| None);
+        let falling = first(step, 9, &mut evaluate, Direction::Falling, &|_| None);
         assert_eq!(falling.first.len(), 1);
         assert_eq!(falling.first[0].index, 1);
         assert!((falling.first[0].t + 0.15).abs() < 1e-14);
@@ -139,7 +164,7 @@ fn a_thousand_changes_in_a_step_cost_few_evaluations() {
             }
         };
         with_unit_step(|step| {
-            let found = scan(step, 1000, &mut evaluate, Direction::Any, &|_| None);
+            let found = first(step, 1000, &mut evaluate, Direction::Any, &|_| None);
             assert_eq!(found.first.len(), if spread == 0.0 { 1000 } else { 1 });
             assert_eq!(found.first[0].index, 0);
             assert!((found.first[0].t - 0.3).abs() < 1e-14);

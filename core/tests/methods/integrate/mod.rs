@@ -5,6 +5,7 @@ mod dop853;
 mod events;
 mod failures;
 mod order;
+mod path;
 mod scipy;
 mod second_order;
 mod states;

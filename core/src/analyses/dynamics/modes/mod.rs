@@ -14,10 +14,10 @@ mod impacts;
 mod mode_events;
 mod place;
 
-pub(super) use mode_events::{watched_mode, ModeFunction};
-pub(super) use place::{has_mode, StateAt};
+pub(super) use mode_events::{watched_mode, ModeFunction, GRAZE};
+pub(super) use place::{has_mode, is_contact, unit, StateAt};
 
-use place::{is_contact, largest, with_modes};
+use place::{largest, with_modes};
 
 use super::failure::{Failure, Reason};
 use crate::analyses::mobility;

@@ -3,8 +3,12 @@
 use crate::analyses::signals::Seen;
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
-use crate::integrate::Direction;
+use crate::integrate::{Bounds, Direction};
+use crate::math::Real;
 use crate::model::Model;
+
+/// The place of the event at which a contact is passed within the error of a step.
+pub const GRAZE: usize = 2;
 
 /// A function of a force.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,6 +47,18 @@ impl ModeFunction {
         matches!(self, Self::Reserve { .. })
     }
 
+    /// Bounds of the function in a part of a step, given those of the distances of forces. None if they are not known.
+    pub fn bounds(self, clearance: &mut dyn FnMut(usize) -> Option<Bounds>) -> Option<Bounds> {
+        let constant = Bounds::constant;
+        match self {
+            Self::Threshold { force, sign, slack } => {
+                Some(constant(sign) * clearance(force)? + constant(slack))
+            }
+            Self::Never => Some(Bounds::one()),
+            Self::Reserve { .. } | Self::Begins { .. } => None,
+        }
+    }
+
     /// The value of the function at a state.
     pub fn value(self, model: &Model, seen: &Seen<'_>) -> f64 {
         let acting = Acting { z: seen.state[2], lam: Some(seen.solved[1]), t: seen.t };
@@ -72,9 +88,10 @@ pub fn watched_mode(model: &Model, force: usize, place: usize) -> (ModeFunction,
     let reserve = ModeFunction::Reserve { force, slack };
     match (item.element.behaviour(), item.mode, place) {
         (Some(Behaviour::Compliant { .. }), _, 0) => (gap, falling),
-        (Some(Behaviour::Compliant { .. }), _, _) => (gap, Direction::Rising),
+        (Some(Behaviour::Compliant { .. }), _, 1) => (gap, Direction::Rising),
+        (Some(Behaviour::Compliant { .. }), _, GRAZE) => (gap, falling),
         (Some(Behaviour::Sticks), Mode::Slides(sign), 0) => (threshold(sign), falling),
-        (Some(Behaviour::Impacts { .. }), Mode::Free, 0) => (gap, falling),
+        (Some(Behaviour::Impacts { .. }), Mode::Free, 0 | GRAZE) => (gap, falling),
         (Some(_), Mode::Holds(_), 1) => (reserve, falling),
         (Some(Behaviour::Sticks), Mode::Idle, 1) => {
             (ModeFunction::Begins { force, at: slack }, falling)
