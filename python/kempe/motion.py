@@ -128,7 +128,7 @@ class Motion:
 
     @cached_property
     def newton_euler(self) -> NewtonEuler:
-        """Residuals of the Newton–Euler equations of each body with the reported reactions.
+        """Residuals of the Newton–Euler equations with the reported reactions; see ``NewtonEuler``.
 
         At a single time the arrays have one row.
 
@@ -139,7 +139,12 @@ class Motion:
         (rows,) = self._by_phase(
             lambda core, *of: (_core.newton_euler(core, *of),), *self._rows(), *given
         )
-        return newton_euler(tuple(self.compiled.bodies), rows)
+        own = [
+            f"{name}.{coordinate}"
+            for name, info in self.compiled.constraints.items()
+            for coordinate, _ in info.coordinates
+        ]
+        return newton_euler(tuple(self.compiled.bodies), tuple(own), rows)
 
     def measured(self, name: str, k: int, order: int) -> Floats:
         """Position quantity ``k`` of an element, (n_t,), or its derivative of this order in time.

@@ -120,7 +120,8 @@ pub fn place<'py>(
 }
 
 /// The balance of each moving body: |Σ F - m a|, |Σ M - J α|, the largest single force and moment, and the largest
-/// lever arm, (n_t, 5 n_bodies).
+/// lever arm; then of each internal coordinate: |Σ λ ∂Φ/∂u|, the largest term and the largest |∂Φ/∂u|,
+/// (n_t, 5 n_bodies + 3 n_coordinates).
 #[pyfunction]
 #[pyo3(signature = (model, t, q, v, z, a, lam))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
@@ -146,11 +147,16 @@ pub fn newton_euler<'py>(
         states.each(model, |k, t, motions| {
             let lam = Some(&lam[k * m..(k + 1) * m]);
             let acting = Acting { z: &z[k * n_z..(k + 1) * n_z], lam, t };
-            for of in balances(model, motions, &a[k * n..(k + 1) * n], acting) {
+            let at = balances(model, motions, &a[k * n..(k + 1) * n], acting);
+            for of in at.bodies {
                 out.extend([of.force, of.moment, of.largest_force, of.largest_moment, of.lever]);
             }
+            for of in at.coordinates {
+                out.extend([of.effort, of.largest_effort, of.lever]);
+            }
         });
-        table(py, out, (count, 5 * (model.bodies.len() - 1)))
+        let width = if count == 0 { 0 } else { out.len() / count };
+        table(py, out, (count, width))
     })
 }
 

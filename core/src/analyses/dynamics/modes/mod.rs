@@ -15,7 +15,7 @@ mod mode_events;
 mod place;
 
 pub(super) use mode_events::{watched_mode, ModeFunction};
-pub(super) use place::{has_mode, StateAt};
+pub(super) use place::{has_mode, unit as gap_unit, StateAt};
 
 use place::{is_contact, largest, with_modes};
 
@@ -74,7 +74,7 @@ pub(super) fn settle(
 /// [`Failure`] with [`Reason::Start`].
 pub(super) fn check(model: &Model, place: &StateAt<'_>) -> Result<(), Box<Failure>> {
     let t = place.t;
-    let all: Vec<usize> = with_modes(model).filter(|k| is_contact(model, *k)).collect();
+    let all: Vec<usize> = rigid_contacts(model).collect();
     for (k, gap) in all.iter().zip(place.thresholds(model, &all)) {
         let name = model.forces[*k].name.clone();
         if StateAt::is_closed(-gap, model, *k) {
@@ -113,6 +113,11 @@ fn held_by(model: &Model, place: &StateAt<'_>, force: usize) -> Option<String> {
     let group = found.redundant.into_iter().find(|group| group.contains(&last))?;
     let driver = group.iter().find(|k| model.constraints.get(**k).is_some_and(|item| item.driven));
     driver.map(|k| model.constraints[*k].name.clone())
+}
+
+/// The stops and contacts with restitution.
+pub(super) fn rigid_contacts(model: &Model) -> impl Iterator<Item = usize> + '_ {
+    with_modes(model).filter(|k| is_contact(model, *k))
 }
 
 /// Whether a model has forces with modes.
