@@ -336,6 +336,9 @@ def place(model: Model, joint: str, on: str, t: _F, q: _F) -> _F:
 def newton_euler(model: Model, t: _F, q: _F, v: _F, z: _F, a: _F, lam: _F) -> _F:
     """The balances of bodies and coordinates; see ``kempe.newton_euler``."""
 
+def friction_range(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool) -> tuple[_F, _F] | None:
+    """The least and the largest multipliers while drivers hold friction at rest, (n_t, m)."""
+
 def not_unique(model: Model, t: _F, q: _F) -> list[str]:
     """The joints and drivers without a unique reaction at one of the states."""
 

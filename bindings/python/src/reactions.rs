@@ -4,11 +4,13 @@ use crate::convert::{rows, table, Row, Rows};
 use crate::evaluate::{frame_named, one_of, unknown, Rates};
 use crate::guard::guard;
 use crate::model::PyModel;
-use crate::respond::Table;
+use crate::respond::{missing, Table};
+use kempe::analyses::dynamics::States;
 use kempe::elements::{BodyId, Mode};
 use kempe::equations::forces::{self, Acting};
 use kempe::equations::newton_euler::balances;
 use kempe::equations::reactions;
+use kempe::integrate::Flow;
 use kempe::math::Wrench;
 use kempe::model::{ForceMode, Model};
 use pyo3::prelude::*;
@@ -81,7 +83,13 @@ pub fn impulse<'py>(
         states.each(model, |at, t, motions| {
             let acting = Acting { z: &z, lam: Some(&impulses[at * m..(at + 1) * m]), t };
             let mode = Mode::Holds(forces::side(model, k, motions, acting));
-            let resting = model.marked(&[ForceMode { force: k, mode, value: 0.0, slack: 0.0 }]);
+            let resting = model.marked(&[ForceMode {
+                force: k,
+                mode,
+                value: 0.0,
+                slack: 0.0,
+                prescribed: false,
+            }]);
             let mut sum = Wrench::zero();
             forces::each_wrench(&resting, k, motions, acting, |_, on, wrench| {
                 if on == body {
@@ -157,6 +165,39 @@ pub fn newton_euler<'py>(
         });
         let width = if count == 0 { 0 } else { out.len() / count };
         table(py, out, (count, width))
+    })
+}
+
+/// The least and the largest multipliers at states while drivers hold friction at rest, (n_t, m) each. None if no
+/// friction is at rest in this way.
+#[pyfunction]
+#[pyo3(signature = (model, t, q, v, z, passing))]
+pub fn friction_range<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+    z: Rows<'py>,
+    passing: bool,
+) -> PyResult<Option<(Table<'py>, Table<'py>)>> {
+    guard("friction_range", || {
+        let active = &model.active;
+        let (layout, count) = (&model.model.layout, t.as_array().len());
+        let t = t.as_array().to_vec();
+        let [q, v] =
+            [rows(py, "q", &q, (count, layout.n_q))?, rows(py, "v", &v, (count, layout.n_q))?];
+        let z = rows(py, "z", &z, (count, layout.n_z))?;
+        let states = States { t: &t, q: &q, v: &v, z: &z };
+        let solved = active.prepared.accelerations(states, passing, |_| Flow::Continue);
+        let solved = solved.map_err(|failure| missing(py, failure.reason))?;
+        let found =
+            kempe::analyses::friction_range(active.prepared.model(), states, passing, &solved.lam);
+        let found = found.map_err(|failure| missing(py, failure.reason))?;
+        let Some([low, high]) = found else { return Ok(None) };
+        let all =
+            |lam: Vec<f64>| table(py, active.expand(lam, count), (count, active.n_multipliers()));
+        Ok(Some((all(low)?, all(high)?)))
     })
 }
 

@@ -6,8 +6,9 @@
 
 use super::super::failure::Failure;
 use super::dependence::independent;
+use super::held_by;
 use super::impacts::{self, restitution};
-use super::place::{largest, mode_of, unit, with_modes, StateAt, STILL};
+use super::place::{drivers_rest, largest, mode_of, unit, with_modes, StateAt, STILL};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
@@ -44,13 +45,21 @@ pub(super) fn decide(
     // after an impact that stops the mechanism, only rounding errors of the speeds remain
     let speed = place.speed_scale(model, before).max(jumped.unwrap_or(0.0));
     let jumped = jumped.is_some();
+    let sticks =
+        |k: &usize| matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Sticks));
+    let prescribed: Vec<bool> = all
+        .iter()
+        .map(|k| model.driven && sticks(k) && held_by(model, place, *k).is_some())
+        .collect();
+    let rests = model.driven && drivers_rest(model, place.t, place.state(model)[0]);
     let mut modes: Vec<ForceMode> = Vec::new();
     let mut candidates = Vec::new();
-    for (k, threshold) in all.iter().zip(&thresholds) {
+    for ((k, threshold), prescribed) in all.iter().zip(&thresholds).zip(&prescribed) {
         let free = match model.forces[*k].element.behaviour() {
             Some(Behaviour::Sticks) => {
                 let old = mode_of(before, *k);
-                let still = threshold.abs() <= STILL * speed || *threshold == 0.0;
+                let still =
+                    threshold.abs() <= STILL * speed || *threshold == 0.0 || *prescribed && rests;
                 let was = !jumped && (fired.contains(k) || old.holds());
                 if was || still {
                     candidates.push(*k);
@@ -68,7 +77,7 @@ pub(super) fn decide(
                 Mode::Free
             }
         };
-        modes.push(ForceMode { force: *k, mode: free, value: 0.0, slack: 0.0 });
+        modes.push(ForceMode { force: *k, mode: free, value: 0.0, slack: 0.0, prescribed: false });
     }
     let contact =
         |k: &usize| !matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Sticks));
@@ -78,6 +87,10 @@ pub(super) fn decide(
     let ended: Vec<usize> = candidates.iter().copied().filter(ended).collect();
     let mut modes = hold(model, place, modes, (&candidates, &ended))?;
     give_slack(model, place, touching, &mut modes);
+    for own in &mut modes {
+        own.prescribed =
+            prescribed[all.iter().position(|k| *k == own.force).expect("it has modes")];
+    }
     for (own, threshold) in modes.iter_mut().zip(&thresholds) {
         if let (Mode::Slides(sign), true) = (own.mode, threshold.abs() <= STILL * speed) {
             // a rounding error of the speed may have the opposite direction, and at rest the speed consists of

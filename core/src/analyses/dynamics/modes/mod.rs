@@ -101,7 +101,13 @@ pub(super) fn check(model: &Model, place: &StateAt<'_>) -> Result<(), Box<Failur
 fn held_by(model: &Model, place: &StateAt<'_>, force: usize) -> Option<String> {
     let [q, ..] = place.state(model);
     let at = |value: f64| {
-        model.in_modes(&[ForceMode { force, mode: Mode::Holds(0.0), value, slack: 0.0 }])
+        model.in_modes(&[ForceMode {
+            force,
+            mode: Mode::Holds(0.0),
+            value,
+            slack: 0.0,
+            prescribed: false,
+        }])
     };
     let open = at(0.0);
     let row = open.forces[force].held_row?;
