@@ -182,7 +182,6 @@ class Run:
     """"reached", "event" or "stopped"."""
     message: str
     doubts: list[str]
-    """Balances beyond the limits of the run that belong to its method."""
     statistics: str
     """JSON: ``{"steps", "rejected", "evaluations", "jacobians", "iterations", "factorisations",
     "seconds"}``, with ``"method"`` and ``"why"`` for the automatic choice."""
@@ -337,8 +336,7 @@ def newton_euler(model: Model, t: _F, q: _F, v: _F, z: _F, a: _F, lam: _F) -> _F
     """The balances of bodies and coordinates; see ``kempe.newton_euler``."""
 
 def friction_range(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool) -> tuple[_F, _F] | None:
-    """The least and the largest multipliers while drivers hold friction at rest, (n_t, m)."""
-
+    """The least and the largest multipliers, (n_t, m), while drivers hold friction at rest."""
 def not_unique(model: Model, t: _F, q: _F) -> list[str]:
     """The joints and drivers without a unique reaction at one of the states."""
 

@@ -6,8 +6,9 @@
 
 use super::dynamics::{Failure, Prepared, States};
 use crate::elements::{Behaviour, Mode};
-use crate::equations::forces::{self, Acting};
+use crate::equations::forces::Acting;
 use crate::equations::kinematics::Motions;
+use crate::equations::static_ratio;
 use crate::integrate::Flow;
 use crate::model::Model;
 
@@ -34,7 +35,7 @@ pub fn friction_range(
     let acting = Acting { z: &states.z[..n_z], lam: Some(&lam[..m]), t: states.t[0] };
     let [mut low, mut high] = [lam.to_vec(), lam.to_vec()];
     for k in idle {
-        let ratio = forces::static_ratio(model, k, &motions, acting);
+        let ratio = static_ratio(model, k, &motions, acting);
         let mut ends = Vec::new();
         for sense in [-ratio, ratio] {
             let mut modes = model.blueprint.modes.clone();

@@ -247,20 +247,6 @@ pub fn reserve(model: &Model, k: usize, motions: &Motions, acting: Acting<'_, f6
     }
 }
 
-/// The largest effort of friction `k` at rest relative to its effort while it slides slowly; 1 without load.
-pub fn static_ratio(model: &Model, k: usize, motions: &Motions, acting: Acting<'_, f64>) -> f64 {
-    let element = at_state(model, &model.forces[k], motions, acting);
-    let at = Situation { mode: Mode::Slides(1.0), ..reported(model, k, motions, acting) };
-    let mut slides = [0.0; 3];
-    element.results(&at, &mut slides);
-    let ratio = element.limit(&at) / slides[0].abs();
-    if ratio.is_finite() {
-        ratio
-    } else {
-        1.0
-    }
-}
-
 /// The results of force `k` in addition to its wrenches, in `out`.
 #[inline]
 pub fn results<S: Real>(

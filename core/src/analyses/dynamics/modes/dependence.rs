@@ -151,3 +151,34 @@ fn passes(
         sign * jet.value > 0.5 * begins && !(model.driven && drivers_rest(model, place.t, q));
     moves || sign * jet.rate > STILL * fastest
 }
+
+/// The driver, or the joint, that holds the coordinate of a stop or of friction.
+pub fn held_by(model: &Model, place: &StateAt<'_>, force: usize) -> Option<String> {
+    let [q, ..] = place.state(model);
+    let at = |value: f64| {
+        model.in_modes(&[ForceMode {
+            force,
+            mode: Mode::Holds(0.0),
+            value,
+            slack: 0.0,
+            prescribed: false,
+        }])
+    };
+    let open = at(0.0);
+    let row = open.forces[force].held_row?;
+    let mut residual = vec![0.0; open.layout.n_rows];
+    constraints::residual(&open, &Motions::at_rest(&open.layout, q), place.t, &mut residual);
+    let held = at(residual[row]);
+    let last = held.layout.owner(row).0;
+    let found = mobility(&held, place.t, q);
+    let group = found.redundant.into_iter().find(|group| group.contains(&last))?;
+    let driver = group.iter().find(|k| model.constraints.get(**k).is_some_and(|item| item.driven));
+    driver.map(|k| model.constraints[*k].name.clone())
+}
+
+/// Whether drivers hold the coordinates of forces with friction.
+pub fn prescribed(model: &Model, place: &StateAt<'_>, forces: &[usize]) -> Vec<bool> {
+    let sticks = |k: usize| matches!(model.forces[k].element.behaviour(), Some(Behaviour::Sticks));
+    let held = |k: &usize| model.driven && sticks(*k) && held_by(model, place, *k).is_some();
+    forces.iter().map(held).collect()
+}

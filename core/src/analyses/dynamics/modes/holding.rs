@@ -5,8 +5,7 @@
 //! friction exceeds its limit, the force with the largest excess is released.
 
 use super::super::failure::Failure;
-use super::dependence::independent;
-use super::held_by;
+use super::dependence::{independent, prescribed};
 use super::impacts::{self, restitution};
 use super::place::{drivers_rest, largest, mode_of, unit, with_modes, StateAt, STILL};
 use crate::elements::{Behaviour, Mode};
@@ -45,12 +44,7 @@ pub(super) fn decide(
     // after an impact that stops the mechanism, only rounding errors of the speeds remain
     let speed = place.speed_scale(model, before).max(jumped.unwrap_or(0.0));
     let jumped = jumped.is_some();
-    let sticks =
-        |k: &usize| matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Sticks));
-    let prescribed: Vec<bool> = all
-        .iter()
-        .map(|k| model.driven && sticks(k) && held_by(model, place, *k).is_some())
-        .collect();
+    let prescribed = prescribed(model, place, &all);
     let rests = model.driven && drivers_rest(model, place.t, place.state(model)[0]);
     let mut modes: Vec<ForceMode> = Vec::new();
     let mut candidates = Vec::new();
@@ -87,10 +81,7 @@ pub(super) fn decide(
     let ended: Vec<usize> = candidates.iter().copied().filter(ended).collect();
     let mut modes = hold(model, place, modes, (&candidates, &ended))?;
     give_slack(model, place, touching, &mut modes);
-    for own in &mut modes {
-        own.prescribed =
-            prescribed[all.iter().position(|k| *k == own.force).expect("it has modes")];
-    }
+    mark_prescribed(&mut modes, &all, &prescribed);
     for (own, threshold) in modes.iter_mut().zip(&thresholds) {
         if let (Mode::Slides(sign), true) = (own.mode, threshold.abs() <= STILL * speed) {
             // a rounding error of the speed may have the opposite direction, and at rest the speed consists of
@@ -99,6 +90,14 @@ pub(super) fn decide(
         }
     }
     Ok(modes)
+}
+
+/// Marks the friction whose coordinate drivers hold.
+fn mark_prescribed(modes: &mut [ForceMode], all: &[usize], prescribed: &[bool]) {
+    for own in modes {
+        let at = all.iter().position(|k| *k == own.force);
+        own.prescribed = at.is_some_and(|at| prescribed[at]);
+    }
 }
 
 /// Sets the slack of contacts that touch and of forces that hold, from the rounding errors of gaps and forces.
