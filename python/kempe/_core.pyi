@@ -337,6 +337,7 @@ def newton_euler(model: Model, t: _F, q: _F, v: _F, z: _F, a: _F, lam: _F) -> _F
 
 def friction_range(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool) -> tuple[_F, _F] | None:
     """The least and the largest multipliers, (n_t, m), while drivers hold friction at rest."""
+
 def not_unique(model: Model, t: _F, q: _F) -> list[str]:
     """The joints and drivers without a unique reaction at one of the states."""
 
