@@ -73,6 +73,7 @@ if TYPE_CHECKING:
     from kempe import errors as errors
     from kempe import plot as plot
     from kempe import report as report
+    from kempe.analyses import AccuracyWarning as AccuracyWarning
     from kempe.analyses import AssemblyWarning as AssemblyWarning
     from kempe.analyses import assemble as assemble
     from kempe.analyses import dynamics as dynamics
@@ -155,6 +156,7 @@ if TYPE_CHECKING:
 _HOME = {
     "AssemblyError": "errors",
     "AssemblyReport": "assembly_report",
+    "AccuracyWarning": "analyses",
     "AssemblyWarning": "analyses",
     "Auto": "options",
     "Baumgarte": "options",

@@ -182,6 +182,7 @@ class Run:
     status: str
     """"reached", "event" or "stopped"."""
     message: str
+    doubts: list[str]
     statistics: str
     """JSON: ``{"steps", "rejected", "evaluations", "jacobians", "iterations", "factorisations",
     "seconds"}``, with ``"method"`` and ``"why"`` for the automatic choice."""
@@ -338,10 +339,10 @@ def place(model: Model, joint: str, on: str, t: _F, q: _F) -> _F:
     """The point at which the reaction on a body is given, (n_t, 2), global, m."""
 
 def newton_euler(model: Model, t: _F, q: _F, v: _F, z: _F, a: _F, lam: _F) -> _F:
-    """The balance of each moving body, (n_t, 5 n_bodies).
+    """The balances of bodies and coordinates; see ``kempe.newton_euler``."""
 
-    |Σ F - m a| and |Σ M - J α|, the largest single force and moment, and the largest lever.
-    """
+def friction_range(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool) -> tuple[_F, _F] | None:
+    """The least and the largest multipliers, (n_t, m), while drivers hold friction at rest."""
 
 def not_unique(model: Model, t: _F, q: _F) -> list[str]:
     """The joints and drivers without a unique reaction at one of the states."""

@@ -30,6 +30,10 @@ Progress: TypeAlias = "Callable[[float], None]"
 Coordinates: TypeAlias = "Mapping[str, float | str]"
 
 
+class AccuracyWarning(UserWarning):
+    """A result exceeds a limit of accuracy, by an error that belongs to the chosen method."""
+
+
 class AssemblyWarning(UserWarning):
     """The mechanism can be assembled, but the result may be unexpected."""
 
@@ -105,6 +109,7 @@ def dynamics(
     release: Sequence[str] = (),
     parameters: Mapping[str, Number] | None = None,
     progress: Progress | None = None,
+    **limits: Number,
 ) -> Solution:
     """Simulate the motion from a state.
 
@@ -116,9 +121,7 @@ def dynamics(
         output_step: time between outputs, s; None stores an output after every step.
         method: the integrator.
         stabilization: stabilization of the constraints; None for no stabilization.
-        max_steps: largest number of steps. None means 1 000 000 divided by the number of moving
-            bodies, but at least 50 000. A run also ends after half as many rejected steps, if
-            there are more than 10 000.
+        max_steps: largest number of steps; see ``kp.Dynamics`` for None and for rejected steps.
         dense_output: keep the interpolant for ``sol(t)``.
         redundancy: "allow" accepts redundant constraints; None uses the setting of ``start``.
         singularity: behaviour at a singular position where the velocity does not determine the
@@ -128,14 +131,15 @@ def dynamics(
         stop: condition at which the run ends, the event ``stop``.
         release: drivers that no longer act, in this run and in runs that start from its states.
         parameters: other values of parameters; the start must satisfy the constraints with them.
-        progress: function that is called repeatedly with the time reached, s; an exception in it
-            ends the simulation.
+        progress: function that is called often with the time reached, s; an exception ends the run.
+        limits: ``force_limit``, ``joint_limit``, ``penetration_limit``, ``energy_limit`` of
+            ``kp.Dynamics``; beyond them an IntegrationError, or an ``AccuracyWarning``.
 
     Raises:
-        AssemblyError: the start does not satisfy the constraints;
-            ``assemble(model, from_state=start)`` assembles it again.
-        IntegrationError: the integrator cannot continue. Its ``solution`` contains the solution up
-            to that time. A SingularityError and a ``KeyboardInterrupt`` contain it too.
+        AssemblyError: the start violates the constraints; see ``from_state`` of ``assemble``.
+        IntegrationError: the integrator cannot continue, or the result exceeds a limit. Its
+            ``solution`` contains the solution up to that time, as in a SingularityError and in a
+            ``KeyboardInterrupt``.
         SingularityError: the motion is not unique in a singular position.
         ModelError: an option is invalid.
     """
@@ -144,7 +148,7 @@ def dynamics(
     fields = (t_end, output_step, method, stabilization, max_steps)
     plain, actions = with_actions(events)
     given = {"events": plain, "stop": stop, "release": release, "parameters": parameters}
-    more = {name: value for name, value in given.items() if value}
+    more = {name: value for name, value in given.items() if value} | limits
     wanted = request(fields, dense_output, singularity, more)
     model = compiled.with_analyses({Dynamics.name: wanted.entry})
     return _simulate(model, start, wanted, progress, actions)
@@ -184,6 +188,8 @@ def _simulate(
             error.solution = Solution(model, partial, method)  # type: ignore[attr-defined]
         raise
     solution = Solution(model, run, method)
+    for doubt in run.doubts:
+        warnings.warn(doubt, AccuracyWarning, stacklevel=3)
     declared = any(any(info.events) for info in model.constraints.values())
     if declared or run.events:
         from kempe.events import EventWarning, true_at_start, warnings_of

@@ -21,6 +21,8 @@ from kempe.views import BodyView, ConstraintView, ForceView
 
 #: Largest number of states at which the uniqueness of reactions is examined.
 _EXAMINED = 11
+#: Ranges of multipliers below this part of the largest one are rounding errors.
+_NOTHING = 1e-9
 
 
 class Motion:
@@ -130,7 +132,7 @@ class Motion:
 
     @cached_property
     def newton_euler(self) -> NewtonEuler:
-        """Residuals of the Newton–Euler equations of each body with the reported reactions.
+        """Residuals of the Newton–Euler equations with the reported reactions; see ``NewtonEuler``.
 
         At a single time the arrays have one row.
 
@@ -141,7 +143,12 @@ class Motion:
         (rows,) = self._by_phase(
             lambda core, *of: (_core.newton_euler(core, *of),), *self._rows(), *given
         )
-        return newton_euler(tuple(self.compiled.bodies), rows)
+        own = [
+            f"{name}.{coordinate}"
+            for name, info in self.compiled.constraints.items()
+            for coordinate, _ in info.coordinates
+        ]
+        return newton_euler(tuple(self.compiled.bodies), tuple(own), rows)
 
     def measured(self, name: str, k: int, order: int) -> Floats:
         """Position quantity ``k`` of an element, (n_t,), or its derivative of this order in time.
@@ -177,6 +184,45 @@ class Motion:
     @cached_property
     def not_unique(self) -> frozenset[str]:
         """Joints and drivers without a unique reaction; see ``ConstraintView.unique``."""
+        return self._redundant | self._beside_friction_at_rest
+
+    @cached_property
+    def multiplier_range(self) -> tuple[Floats, Floats] | None:
+        """The least and the largest multipliers, (n_t, m) each.
+
+        They differ where drivers hold friction at rest. None if this never occurs.
+        """
+        found: list[tuple[Floats, Floats] | None] = []
+
+        def evaluate(core: _core.Model, *of: Floats) -> tuple[Floats, ...]:
+            t, q, v, z, lam = of
+            ends = _core.friction_range(core, t, q, v, z, self._passing)
+            found.append(ends)
+            return ends or (lam, lam)
+
+        if not self.compiled.core.setting[2] and self._phases is None:
+            return None
+        low, high = self._by_phase(
+            evaluate, *self._rows(), np.atleast_2d(self.z), np.atleast_2d(self.lam)
+        )
+        return (low, high) if any(ends is not None for ends in found) else None
+
+    @cached_property
+    def _beside_friction_at_rest(self) -> frozenset[str]:
+        """Joints and drivers whose multipliers have a range."""
+        if self._phases is None and not self.compiled.core.setting[2]:
+            return frozenset()
+        ends = self.multiplier_range
+        if ends is None:
+            return frozenset()
+        low, high = ends
+        wide = high - low > _NOTHING * np.abs(self.lam).max(initial=0.0)
+        all_ = self.compiled.constraints
+        return frozenset(name for name, info in all_.items() if wide[:, info.rows].any())
+
+    @cached_property
+    def _redundant(self) -> frozenset[str]:
+        """Joints and drivers that redundant constraints leave without a unique reaction."""
         if self.compiled.redundancy != "allow" or not len(np.atleast_1d(self.t)):
             return frozenset()
         t, q, _ = self._rows()

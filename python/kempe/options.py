@@ -343,6 +343,20 @@ class Dynamics(Analysis):
         stop: Condition at which the run ends.
         release: Drivers that are released in this analysis and in analyses that start from it.
         parameters: Values of parameters that replace those of the model in this analysis.
+        force_limit: Largest residual of the Newton-Euler equations of the result, relative to
+            the largest force. A result beyond this limit, or one of the next three, is an
+            error.
+        joint_limit: Largest opening of a joint in the result, relative to the size of the
+            mechanism, or in rad. If absent, 1e-9, or the tolerance of the projection if it is
+            larger. Without projection, an opening beyond the limit, 1e-4 if absent, is a
+            warning.
+        penetration_limit: Largest depth of a stop or contact with restitution in the result,
+            relative to the size of the mechanism, or in rad. If absent, 1e-6, or 100 rtol if it
+            is larger. Without projection, a larger depth is a warning.
+        energy_limit: Largest energy balance of the result, relative to the largest energy. If
+            absent, 1e-3, or 10 000 rtol if it is larger. Without projection, with constant
+            steps and with methods that damp (generalized_alpha, hht), a larger balance is a
+            warning.
         name: its name in the case.
     """
 
@@ -360,6 +374,10 @@ class Dynamics(Analysis):
     stop: str | None = None
     release: Words | None = None
     parameters: Terms | None = None
+    force_limit: Number = 1e-08
+    joint_limit: Number | None = None
+    penetration_limit: Number | None = None
+    energy_limit: Number | None = None
     name: str = "dynamics"
     kind: ClassVar[str] = "dynamics"
     shapes: ClassVar[Mapping[str, Shape]] = {
@@ -377,6 +395,10 @@ class Dynamics(Analysis):
         "stop": "condition",
         "release": "name_list",
         "parameters": "values",
+        "force_limit": "number",
+        "joint_limit": "number",
+        "penetration_limit": "number",
+        "energy_limit": "number",
     }
 
 

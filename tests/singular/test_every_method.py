@@ -13,6 +13,7 @@ from sizes import FULL
 CHOSEN = [n for n in LINKAGES if FULL or n.startswith("garage") or n.endswith(" 0")]
 
 
+@pytest.mark.filterwarnings("ignore::kempe.AccuracyWarning")
 @pytest.mark.parametrize("by", METHODS)
 def test_every_method_passes(by: str) -> None:
     method, allowed = METHODS[by]

@@ -73,6 +73,7 @@ def solution(stabilization: kp.Projection | None, step: float) -> kp.Solution:
     return kp.dynamics(m, start, t_end=1, method=kp.RK4(step=step), stabilization=stabilization)
 
 
+@pytest.mark.filterwarnings("ignore::kempe.AccuracyWarning")
 def test_an_open_joint_is_detected() -> None:
     sol = solution(None, 0.25)
     assert gap(sol) > CLOSED

@@ -45,6 +45,9 @@ pub struct PyRun {
     status: &'static str,
     #[pyo3(get)]
     message: String,
+    /// Balances beyond the limits that belong to the chosen method.
+    #[pyo3(get)]
+    doubts: Vec<String>,
     statistics: core::Statistics,
     choice: Option<core::MethodChoice>,
     passed: Vec<core::Passed>,
@@ -206,6 +209,7 @@ impl PyRun {
                 _ => "stopped",
             },
             message: message.to_string(),
+            doubts: run.doubts,
             statistics: run.statistics,
             choice: run.choice,
             passed: run.passed,

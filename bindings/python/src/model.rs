@@ -171,7 +171,7 @@ fn read_mode(
     if !has_modes(force) || matches!(mode, Mode::Follows { leader, .. } if !has_modes(&leader)) {
         return Err(refuse(py, "modes", format!("force {force} has no modes")));
     }
-    Ok(ForceMode { force: *force, mode, value: *value, slack: 0.0 })
+    Ok(ForceMode { force: *force, mode, value: *value, slack: 0.0, prescribed: false })
 }
 
 fn pair(s: &Local) -> Value {

@@ -4,12 +4,14 @@ use crate::convert::{rows, table, Row, Rows};
 use crate::evaluate::{frame_named, one_of, unknown, Rates};
 use crate::guard::guard;
 use crate::model::PyModel;
-use crate::respond::Table;
+use crate::respond::{missing, Table};
+use kempe::analyses::dynamics::States;
 use kempe::elements::{BodyId, Mode};
 use kempe::equations::actions::each_action;
 use kempe::equations::forces::{self, Acting};
 use kempe::equations::newton_euler::balances;
 use kempe::equations::reactions;
+use kempe::integrate::Flow;
 use kempe::math::Wrench;
 use kempe::model::{ForceMode, Model};
 use pyo3::prelude::*;
@@ -82,7 +84,13 @@ pub fn impulse<'py>(
         states.each(model, |at, t, motions| {
             let acting = Acting { z: &z, lam: Some(&impulses[at * m..(at + 1) * m]), t };
             let mode = Mode::Holds(forces::side(model, k, motions, acting));
-            let resting = model.marked(&[ForceMode { force: k, mode, value: 0.0, slack: 0.0 }]);
+            let resting = model.marked(&[ForceMode {
+                force: k,
+                mode,
+                value: 0.0,
+                slack: 0.0,
+                prescribed: false,
+            }]);
             let mut sum = Wrench::zero();
             each_action(&resting, k, motions, acting, |_, on, wrench| {
                 if on == body {
@@ -121,7 +129,8 @@ pub fn place<'py>(
 }
 
 /// The balance of each moving body: |Σ F - m a|, |Σ M - J α|, the largest single force and moment, and the largest
-/// lever arm, (n_t, 5 n_bodies).
+/// lever arm; then of each internal coordinate: |Σ λ ∂Φ/∂u|, the largest term and the largest |∂Φ/∂u|,
+/// (n_t, 5 n_bodies + 3 n_coordinates).
 #[pyfunction]
 #[pyo3(signature = (model, t, q, v, z, a, lam))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
@@ -147,11 +156,49 @@ pub fn newton_euler<'py>(
         states.each(model, |k, t, motions| {
             let lam = Some(&lam[k * m..(k + 1) * m]);
             let acting = Acting { z: &z[k * n_z..(k + 1) * n_z], lam, t };
-            for of in balances(model, motions, &a[k * n..(k + 1) * n], acting) {
+            let at = balances(model, motions, &a[k * n..(k + 1) * n], acting);
+            for of in at.bodies {
                 out.extend([of.force, of.moment, of.largest_force, of.largest_moment, of.lever]);
             }
+            for of in at.coordinates {
+                out.extend([of.effort, of.largest_effort, of.lever]);
+            }
         });
-        table(py, out, (count, 5 * (model.bodies.len() - 1)))
+        let width = if count == 0 { 0 } else { out.len() / count };
+        table(py, out, (count, width))
+    })
+}
+
+/// The least and the largest multipliers at states while drivers hold friction at rest, (n_t, m) each. None if no
+/// friction is at rest in this way.
+#[pyfunction]
+#[pyo3(signature = (model, t, q, v, z, passing))]
+pub fn friction_range<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+    z: Rows<'py>,
+    passing: bool,
+) -> PyResult<Option<(Table<'py>, Table<'py>)>> {
+    guard("friction_range", || {
+        let active = &model.active;
+        let (layout, count) = (&model.model.layout, t.as_array().len());
+        let t = t.as_array().to_vec();
+        let [q, v] =
+            [rows(py, "q", &q, (count, layout.n_q))?, rows(py, "v", &v, (count, layout.n_q))?];
+        let z = rows(py, "z", &z, (count, layout.n_z))?;
+        let states = States { t: &t, q: &q, v: &v, z: &z };
+        let solved = active.prepared.accelerations(states, passing, |_| Flow::Continue);
+        let solved = solved.map_err(|failure| missing(py, failure.reason))?;
+        let found =
+            kempe::analyses::friction_range(active.prepared.model(), states, passing, &solved.lam);
+        let found = found.map_err(|failure| missing(py, failure.reason))?;
+        let Some([low, high]) = found else { return Ok(None) };
+        let all =
+            |lam: Vec<f64>| table(py, active.expand(lam, count), (count, active.n_multipliers()));
+        Ok(Some((all(low)?, all(high)?)))
     })
 }
 

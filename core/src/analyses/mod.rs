@@ -14,6 +14,7 @@ pub mod equilibrium;
 mod errors;
 mod event_options;
 mod freedoms;
+mod friction_range;
 pub mod kinematics;
 pub mod limits;
 pub mod linearization;
@@ -41,6 +42,7 @@ mod uniqueness;
 
 pub use dependence::Dependent;
 pub use event_options::{EventOption, DIRECTIONS};
+pub use friction_range::friction_range;
 pub use mobility::{mobility, Mobility};
 pub use option_tables::{declarations, option_families};
 pub use results::NoResult;

@@ -7,12 +7,11 @@
 //! The balances measure integration errors. Inside a step they would measure the errors of the interpolant. They
 //! therefore keep their values during a step and change at its end. Shorter steps would not locate their events more
 //! accurately.
-//! events better.
 
 use super::balances::{Energies, EnergyBalance, ReactionBalance};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
-use crate::equations::newton_euler::BodyBalance;
+use crate::equations::newton_euler::Balances;
 use crate::model::Model;
 
 /// Nodes of the Gauss–Legendre rule on [0, 1], which is exact up to degree 9.
@@ -38,7 +37,8 @@ const WEIGHTS: [f64; 5] = [
 pub(super) struct SoFar {
     elements: Vec<(usize, f64)>,
     energy: Option<EnergyBalance>,
-    reactions: Option<ReactionBalance>,
+    /// The balance of the forces, and its value at the last state.
+    reactions: Option<(ReactionBalance, f64)>,
 }
 
 impl SoFar {
@@ -56,7 +56,7 @@ impl SoFar {
 
     /// Computes the balance of the forces on the bodies.
     pub fn watch_reactions(&mut self) {
-        self.reactions.get_or_insert_with(ReactionBalance::new);
+        self.reactions.get_or_insert_with(|| (ReactionBalance::default(), f64::NAN));
     }
 
     /// Whether dissipated energies are summed.
@@ -77,12 +77,12 @@ impl SoFar {
 
     /// The balance of energy. None if it is not computed.
     pub fn energy_balance(&self) -> Option<f64> {
-        self.energy.map(|balance| balance.present)
+        self.energy.map(|balance| balance.present())
     }
 
-    /// The largest balance of the forces on a body. None if it is not computed.
+    /// The largest balance of a body or internal coordinate. None if it is not computed.
     pub fn reaction_balance(&self) -> Option<f64> {
-        self.reactions.as_ref().map(|balance| balance.present)
+        self.reactions.as_ref().map(|(_, present)| *present)
     }
 
     /// The energy that a force element has dissipated, J. None if it is not summed.
@@ -108,13 +108,15 @@ impl SoFar {
     pub fn balance(
         &mut self,
         energies: impl FnOnce() -> Energies<f64>,
-        bodies: impl FnOnce() -> Vec<BodyBalance>,
+        reactions: impl FnOnce() -> Balances,
     ) {
         if let Some(balance) = &mut self.energy {
             balance.add(energies());
         }
-        if let Some(balance) = &mut self.reactions {
-            balance.add(&bodies());
+        if let Some((balance, present)) = &mut self.reactions {
+            let at = reactions();
+            balance.add(&at);
+            *present = balance.largest(&at);
         }
     }
 }

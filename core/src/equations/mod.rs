@@ -34,6 +34,7 @@ pub mod reactive;
 pub mod refine;
 mod residuals;
 mod roles;
+mod static_ratio;
 pub mod switches;
 pub mod tangent;
 
@@ -45,3 +46,4 @@ pub use motion::Workspace;
 pub use plan::Plan;
 pub use powers::Powers;
 pub use residuals::Residuals;
+pub use static_ratio::static_ratio;

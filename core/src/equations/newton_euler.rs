@@ -1,4 +1,4 @@
-//! The Newton–Euler balance of each body: reactions, applied forces and weight against m a and J α.
+//! The Newton–Euler balance of each body, and the balance of each internal coordinate.
 //!
 //! For a body with mass m, moment of inertia J and mass centre C, the residuals are
 //!
@@ -9,14 +9,18 @@
 //! Each F acts at its point P with the torque T about P, as [`reaction`] reports them for joints and drivers. The
 //! sums use neither Φ_q of the mechanism, nor the mass matrix, nor Q. They therefore check the reported forces, not
 //! the solution of the equations of motion.
+//!
+//! An internal coordinate u, such as the parameter of a joint on a curve, has no mass, and no force acts on it. Its
+//! balance is Σ λ ∂Φ/∂u = 0: the reaction has no component along the curve.
 
+use super::constraints::{linearize_one, store};
 use super::forces::{each_wrench, Acting};
 use super::kinematics::Motions;
 use super::measured;
 use super::reactions::{place, reaction, touched, Frame};
 use crate::elements::{BodyId, Group};
 use crate::math::{Vec2, Wrench};
-use crate::model::Model;
+use crate::model::{size, Model};
 
 /// The sums over the forces on one body at one state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -29,8 +33,29 @@ pub struct BodyBalance {
     pub largest_force: f64,
     /// The largest moment of a single force or torque about the mass centre, N·m.
     pub largest_moment: f64,
-    /// The largest distance from the mass centre to a point where a reaction acts, m.
+    /// The largest distance from the mass centre to a point where a reaction acts, and at least the size of the
+    /// mechanism, m.
     pub lever: f64,
+}
+
+/// The sum of the generalized forces on one internal coordinate at one state.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct CoordinateBalance {
+    /// |Σ λ ∂Φ/∂u|, N·m per unit of u.
+    pub effort: f64,
+    /// The largest term of the sum.
+    pub largest_effort: f64,
+    /// The largest |∂Φ/∂u|, which converts a multiplier to an effort.
+    pub lever: f64,
+}
+
+/// The balances at one state.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Balances {
+    /// All moving bodies, in the order of the model.
+    pub bodies: Vec<BodyBalance>,
+    /// All internal coordinates, in the order of the columns.
+    pub coordinates: Vec<CoordinateBalance>,
 }
 
 /// The sum of the forces on one body.
@@ -52,16 +77,12 @@ impl ForceSum {
     }
 }
 
-/// The balances of all moving bodies, in the order of the model.
+/// The balances of all moving bodies and internal coordinates.
 ///
 /// `a` contains the accelerations, shape (n_q); `acting` contains the multipliers.
-pub fn balances(
-    model: &Model,
-    motions: &Motions,
-    a: &[f64],
-    acting: Acting<'_, f64>,
-) -> Vec<BodyBalance> {
-    let mut sums = vec![ForceSum::default(); model.bodies.len()];
+pub fn balances(model: &Model, motions: &Motions, a: &[f64], acting: Acting<'_, f64>) -> Balances {
+    let of = BodyBalance { lever: size(model), ..BodyBalance::default() };
+    let mut sums = vec![ForceSum { of, ..ForceSum::default() }; model.bodies.len()];
     let center = |body: usize| motions[body].pose.point(model.bodies[body].center);
     add_reactions(model, motions, acting, &center, &mut sums);
     for k in 0..model.forces.len() {
@@ -78,7 +99,42 @@ pub fn balances(
         let moment = if body.turns { (sum.moment - body.inertia * alpha).abs() } else { 0.0 };
         BodyBalance { force: fx.hypot(fy), moment, ..sum.of }
     };
-    sums.into_iter().enumerate().skip(1).map(balance).collect()
+    let bodies = sums.into_iter().enumerate().skip(1).map(balance).collect();
+    Balances { bodies, coordinates: of_coordinates(model, motions, acting) }
+}
+
+/// The balances of the internal coordinates.
+fn of_coordinates(
+    model: &Model,
+    motions: &Motions,
+    acting: Acting<'_, f64>,
+) -> Vec<CoordinateBalance> {
+    let layout = &model.layout;
+    let first = layout.bodies.iter().map(|body| body.count).sum::<usize>();
+    let mut sums = vec![CoordinateBalance::default(); layout.n_q - first];
+    let lam = acting.lam.unwrap_or_default();
+    let mut entries = vec![0.0; if sums.is_empty() { 0 } else { layout.n_entries }];
+    for (k, slots) in layout.constraints.iter().enumerate() {
+        let own = || slots.blocks.iter().filter(|block| block.columns.first >= first);
+        if own().next().is_none() {
+            continue;
+        }
+        linearize_one(model, k, motions, acting.t, &mut |_, columns| {
+            store(columns, slots, &mut entries);
+        });
+        for (block, (r, row)) in
+            own().flat_map(|b| slots.rows.clone().enumerate().map(move |r| (b, r)))
+        {
+            for (column, at) in block.columns.range().zip(block.row(r)) {
+                let (sum, effort) = (&mut sums[column - first], lam[row] * entries[at]);
+                sum.effort += effort;
+                sum.largest_effort = sum.largest_effort.max(effort.abs());
+                sum.lever = sum.lever.max(entries[at].abs());
+            }
+        }
+    }
+    sums.iter_mut().for_each(|sum| sum.effort = sum.effort.abs());
+    sums
 }
 
 /// Adds the reactions of all joints and drivers, each at its reported point.

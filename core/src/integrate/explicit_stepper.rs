@@ -340,7 +340,18 @@ impl<P: RungeKutta> ExplicitStepper<P> {
         let Work { k, y, y_new, tolerances, .. } = &self.work;
         let squares = P::error_squares(k, [y, y_new], tolerances);
         let norm = P::error_norm(t_new - self.t, squares, tolerances.components());
+        let norm = norm.max(self.quadrature_norm(rhs, t_new - self.t));
         Ok(self.placement.strictness() * norm)
+    }
+
+    /// The error norm of the quadratures; 0 if they need no test of their own.
+    #[inline]
+    fn quadrature_norm<Y: Ode>(&self, rhs: &mut RightHandSide<'_, Y>, h: f64) -> f64 {
+        let Work { k, y, y_new, quadratures, .. } = &self.work;
+        let end = &y_new.as_flattened()[..self.n];
+        let Some(scale) = rhs.system.quadrature_scale(end) else { return 0.0 };
+        let squares = P::error_squares(k, [y, y_new], quadratures);
+        P::error_norm(h, squares, quadratures.components()) / scale
     }
 
     /// Computes the stages of a step to `t_new` and the state at `t_new`.

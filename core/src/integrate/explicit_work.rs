@@ -23,6 +23,8 @@ pub(super) struct Work {
     /// Tangential components of the stages.
     pub tangential: Vec<Block>,
     pub tolerances: Tolerances,
+    /// Tolerances of the quadratures alone, relative to their scale.
+    pub quadratures: Tolerances,
     /// The interpolant of a system of second order, for methods whose own interpolant needs extra stages.
     pub hermite_birkhoff: Option<HermiteBirkhoff>,
 }
@@ -42,6 +44,7 @@ impl Work {
             trial: room(1, n),
             tangential: Vec::new(),
             tolerances: Tolerances::new(control.rtol, &control.atol, structure.controlled()),
+            quadratures: Tolerances::of_quadratures(control.rtol, structure),
             hermite_birkhoff: second_order.then(|| HermiteBirkhoff::new(structure)),
         }
     }

@@ -30,6 +30,15 @@ pub trait Ode {
         Structure::first_order(self.len())
     }
 
+    /// The magnitude of the quadratures to which their errors are relative, after the evaluations of a trial step
+    /// that ends in `y`. None if the quadratures are as smooth as the other components: their errors then need no
+    /// test of their own.
+    #[inline]
+    fn quadrature_scale(&self, y: &[f64]) -> Option<f64> {
+        let _ = y;
+        None
+    }
+
     /// The manifold on which accepted states must lie.
     #[inline]
     fn manifold(&mut self) -> Option<&mut dyn Manifold<Stop = Self::Stop>> {
@@ -56,7 +65,8 @@ pub struct Structure {
     pub positions: usize,
     /// Number of further first-order states z.
     pub states: usize,
-    /// Number of quadratures w. No derivative depends on them, and they do not enter the error norm.
+    /// Number of quadratures w. No derivative depends on them. They enter the error test only where the system has
+    /// a [scale](Ode::quadrature_scale) for them.
     pub quadratures: usize,
 }
 

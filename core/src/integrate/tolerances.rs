@@ -1,5 +1,6 @@
 //! The scale of the errors of a step: atolᵢ + rtol max(|yᵢ|, |y_newᵢ|).
 
+use super::ode::Structure;
 use super::stages::{room, Block};
 use super::step_control::Atol;
 use crate::math::{indexed, Lanes, Real};
@@ -25,6 +26,14 @@ impl Tolerances {
             Atol::Each(atol) => counting.zip(atol).for_each(|(to, atol)| *to = *atol),
         }
         Self { rtol, atol: blocks, controlled }
+    }
+
+    /// Tolerances of the quadratures, which follow the other components. Their scale is 1.
+    pub fn of_quadratures(rtol: f64, structure: Structure) -> Self {
+        let mut atol = vec![f64::INFINITY; structure.controlled()];
+        atol.resize(structure.total(), rtol);
+        let tolerances = Self::new(0.0, &Atol::Each(atol), structure.total());
+        Self { controlled: structure.quadratures, ..tolerances }
     }
 
     /// √(Σ (xᵢ / scaleᵢ)² / n) at one state; 0 without controlled components.

@@ -125,6 +125,9 @@ pub struct ForceMode {
     pub value: f64,
     /// The rounding error of the gap or force of a contact. The mode changes only below minus this value.
     pub slack: f64,
+    /// Whether drivers hold the coordinate of friction. Where they stand still, it is at rest whatever the errors of
+    /// its speed.
+    pub prescribed: bool,
 }
 
 /// A force in a model.

@@ -58,7 +58,7 @@ pub use problems::{listed, more_problems, Problems, MOST_REPORTED};
 pub(crate) use quantity::{quantity_of, Offered};
 pub use scope::{Reach, Scope};
 pub use shape_fields::shape_tables;
-pub use size::{column_scales, row_scales, size};
+pub use size::{column_scales, row_scales, size, usual_energy};
 pub use switch::{Switch, SwitchOwner};
 pub use tables::table_fields;
 pub(crate) use unit_check::ANY_UNIT;

@@ -27,6 +27,14 @@ pub fn size<S: Real>(model: &Model<S>) -> f64 {
     }
 }
 
+/// The energy of a usual motion, J: the heaviest body moves by the size of the mechanism, against gravity or within a
+/// second. Positive.
+pub fn usual_energy(model: &Model) -> f64 {
+    let heaviest = model.bodies.iter().map(|body| body.mass).fold(0.0, f64::max);
+    let size = size(model);
+    (heaviest * size * (model.gravity.norm() + size)).max(f64::MIN_POSITIVE)
+}
+
 /// Scale of each coordinate, shape (n_q): the size for lengths, 1 for angles.
 pub fn column_scales<S: Real>(model: &Model<S>) -> Vec<f64> {
     let size = size(model);

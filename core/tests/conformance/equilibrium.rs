@@ -153,7 +153,7 @@ fn newton_and_euler_balance_every_body_and_find_a_wrong_multiplier() {
         let at = At::random(&m, seed);
         let of = |lam: &[f64]| {
             let acting = Acting { z: &[], lam: Some(lam), t: at.t };
-            balances(&m, &at.workspace.motions, at.workspace.a(), acting)
+            balances(&m, &at.workspace.motions, at.workspace.a(), acting).bodies
         };
         let mut lam = at.workspace.lam().to_vec();
         for found in of(&lam) {

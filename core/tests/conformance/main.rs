@@ -14,6 +14,7 @@ mod formulas;
 mod gaps;
 mod laws;
 mod mass;
+mod newton_euler;
 mod pins;
 mod rubbing;
 mod samples;

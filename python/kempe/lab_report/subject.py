@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe.analyses import AssemblyWarning
+from kempe.analyses import AccuracyWarning, AssemblyWarning
 from kempe.assembly_report import Iteration
 from kempe.case import Case, parsed
 from kempe.compiled import CompiledModel
@@ -86,6 +86,7 @@ def of_case(case: Case, listing: str | None, study: Study | None) -> Subject:
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AssemblyWarning)
         warnings.simplefilter("ignore", EventWarning)
+        warnings.simplefilter("ignore", AccuracyWarning)
         start = case.start()
         results = dict(case.each(start=start))
     text = _text(case) if listing is None else listing

@@ -7,6 +7,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Generic, cast
 
+import numpy as np
+
 from kempe.arrays import Floats, fixed, scalar
 from kempe.compiled import ConstraintInfo
 from kempe.errors import ModelError
@@ -84,8 +86,27 @@ class ConstraintView(Generic[S]):
         If not, redundant constraints share the loads, and the values follow from the multipliers of
         minimum norm. Accepted redundant constraints (``redundancy="allow"``) are examined at the
         outputs; in a long motion, at eleven of them.
+
+        While drivers hold friction at rest, it may carry any part of the load up to its limit. The
+        values are then those without friction; ``interval`` gives the range.
         """
         return self.name not in self._motion.not_unique
+
+    @property
+    def interval(self) -> Floats:
+        """The least and the largest effort of a driver, (n_t, 2), N or N·m.
+
+        They differ while the driver holds friction at rest.
+
+        Raises:
+            ModelError: the joint has no effort.
+        """
+        if self.info.group != "drivers":
+            hint = "drivers have an interval"
+            raise ModelError(f"{self.name} has no effort", name=self.name, hint=hint)
+        lam = np.atleast_2d(self._motion.lam)
+        ends = [-of[:, self.info.rows][:, 0] for of in self._motion.multiplier_range or (lam, lam)]
+        return fixed(np.sort(np.stack(ends, axis=-1), axis=-1))
 
     def torque(self, *, on: str) -> S:
         """Torque that the joint exerts on a body about the joint point, (n_t,), N·m.

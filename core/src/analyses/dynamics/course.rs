@@ -6,6 +6,7 @@
 use super::clock::Clock;
 use super::event_list::{EventFunction, Watched};
 use super::failure::{Failure, Reason};
+use super::guard::{self, Guard};
 use super::model_cache::ModelCache;
 use super::modes::{self, watched_mode, StateAt};
 use super::option_checks::check_lengths;
@@ -19,7 +20,7 @@ use crate::analyses::event_options::STOP;
 use crate::analyses::State;
 use crate::elements::Mode;
 use crate::integrate::{Direction, Flow};
-use crate::model::{Model, Problem};
+use crate::model::{usual_energy, Model, Problem};
 
 /// The changes that a caller makes at an event.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -135,15 +136,14 @@ pub(super) fn run(
     mut watch: impl FnMut(f64) -> Flow,
     mut act: Option<Act<'_>>,
 ) -> Result<Run, Box<Failure>> {
-    let began = clock();
+    let (began, mut setting) = (clock(), Setting::of(options));
     let events = planned(base.0, options);
-    let mut setting = Setting::of(options);
     let named = |event: &Planned| EventStates { name: event.name.clone(), ..Default::default() };
     let mut run = Run { events: events.iter().map(named).collect(), ..Run::default() };
     let mut own = Own::of(base.0, &setting, start.t)?;
     options.check(own.as_ref().map_or(base.0, |own| &own.model), start)?;
     let mut at = Progress::begin(base.0, start, options, &mut run);
-    let mut stall = Stall::default();
+    let (mut stall, mut guard) = (Stall::default(), Guard::new(usual_energy(base.0), options));
     if modes::has_modes(base.0) {
         check_modes(own.as_ref().map_or(base.0, |own| &own.model), start, options, &mut at)?;
         settle(&events, &mut at, (base.0, &mut setting), &mut run)?;
@@ -156,6 +156,7 @@ pub(super) fn run(
         run.settings.push(setting.clone());
         let phase = Phase { model, cache, project_velocities: holds(&setting) };
         let outcome = run_phase(phase, watched, &mut at, options, &mut run, &mut watch);
+        guard.look((model, cache), &run, outcome.is_ok());
         run.statistics.seconds = clock() - began;
         let ended = outcome.and_then(|ended| match ended {
             PhaseEnd::Reached => {
@@ -165,8 +166,8 @@ pub(super) fn run(
             PhaseEnd::Stopped => Ok(None),
             PhaseEnd::Event => {
                 let before = setting.clone();
-                let changing = (base.0, &mut setting);
-                let flow = take_effect(&events, &mut at, changing, options, &mut act, &mut run)?;
+                let (changing, calls) = ((base.0, &mut setting), (&mut act, &mut guard));
+                let flow = take_effect(&events, &mut at, changing, options, calls, &mut run)?;
                 if flow == Flow::Continue && modes::has_modes(base.0) {
                     stall.look(base.0, at.t, &setting)?;
                     settle(&events, &mut at, (base.0, &mut setting), &mut run)?;
@@ -175,7 +176,7 @@ pub(super) fn run(
             }
         });
         let before = match ended {
-            Ok(None) => return Ok(run),
+            Ok(None) => return guard::end(&guard, base.0, run),
             Ok(Some(before)) => before,
             Err(failure) => return Err(Box::new(Failure { run, ..*failure })),
         };
@@ -249,7 +250,7 @@ fn watched<'c>(
             let has_mode = modes::has_mode(model, force);
             let ends = has_mode && place != modes::GRAZE;
             // a compliant contact acts as soon as the gap is negative
-            let error = accuracy * modes::unit(model, force);
+            let error = accuracy * modes::gap_unit(model, force);
             let shallow = if modes::is_contact(model, force) { error } else { 0.0 };
             return Watched {
                 name: &event.name,
@@ -351,7 +352,7 @@ fn take_effect(
     at: &mut Progress,
     (base, setting): (&Model, &mut Setting),
     options: &Options,
-    act: &mut Option<Act<'_>>,
+    (act, guard): (&mut Option<Act<'_>>, &mut Guard),
     run: &mut Run,
 ) -> Result<Flow, Box<Failure>> {
     for event in at.fired.clone().into_iter().map(|index| &events[index]) {
@@ -367,10 +368,16 @@ fn take_effect(
                 let state = State { t: at.t, q, v, z };
                 let change = act.as_mut().and_then(|act| act(&event.name, &state, setting));
                 let Some(change) = change else { return Ok(Flow::Stop) };
+                let energy = |setting: &Setting, at: &Progress| {
+                    let found = setting.energy(base, at.t, &at.y);
+                    found.map_err(|problems| impossible(&problems, at.t))
+                };
+                let before = energy(setting, at)?;
                 setting.parameters.extend(change.parameters);
                 if let Some(state) = change.state {
                     put(base, setting, options, at, &state)?;
                 }
+                guard.allow(energy(setting, at)? - before);
             }
         }
     }

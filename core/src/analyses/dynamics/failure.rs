@@ -314,7 +314,7 @@ fn apart_in_print(a: f64, b: f64) -> [String; 2] {
 }
 
 /// The name and unit of a row of Φ, such as `B.x`.
-fn equation(model: &Model, row: usize) -> (String, &'static str) {
+pub(super) fn equation(model: &Model, row: usize) -> (String, &'static str) {
     let (k, equation) = model.layout.owner(row);
     let item = &model.constraints[k];
     let Equation { name, unit } = item.equations[equation];

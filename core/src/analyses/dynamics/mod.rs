@@ -25,6 +25,7 @@
 //! | `recorder`, `trajectory`, `report_projection`, `lane_batch`, `wide` | reported states |
 //! | `interpolated_states` | states between the reported states |
 //! | `constraint_violation` | joints that open too far |
+//! | `guard` | balances that a result must meet |
 //! | `accelerations`, `energies` | quantities that follow from reported states |
 //! | `prepared`, `model_cache` | a model for many runs |
 //! | `law_jump` | laws of joints and drivers that jump |
@@ -40,6 +41,7 @@ mod course;
 mod energies;
 mod event_list;
 mod failure;
+mod guard;
 mod implicit_motion;
 mod initial_stiffness;
 mod interpolated_states;

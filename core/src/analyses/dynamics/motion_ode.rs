@@ -7,15 +7,17 @@ use super::singularity_passage::{would_pass, SingularityPassage};
 use super::stabilizations::Stabilization;
 use crate::analyses::mobility;
 use crate::equations::augmented::NearSingular;
-use crate::equations::{constraints, Gains, Workspace};
+use crate::equations::{constraints, energy, Gains, Workspace};
 use crate::integrate::{all_finite, Manifold, Ode, Structure, TimesToAvoid, TrialChanges};
 use crate::math::Real;
-use crate::model::{size, Model};
+use crate::model::{size, usual_energy, Model};
 use crate::solve::Breakdown;
 use crate::stabilize::{Projection, Projector, StepwiseBaumgarte};
 
 /// Distance, in sizes of the mechanism or in rad, beyond which a trial state cannot belong to the motion.
 const FAR: f64 = 1e6;
+/// Part of the energy of a usual motion below which errors of works do not shorten steps.
+const LEAST: f64 = 1e-3;
 
 /// The right side of forward dynamics.
 pub(super) struct MotionOde<'a> {
@@ -28,6 +30,9 @@ pub(super) struct MotionOde<'a> {
     /// Whether singular positions are passed.
     pub passing: bool,
     pub passage: SingularityPassage,
+    /// An energy whose errors matter, J, if laws or forces are smooth in pieces only. Works may then be less smooth
+    /// than the motion.
+    least_energy: Option<f64>,
     /// Time and reason of the last evaluation without a solution. A shorter step may avoid it.
     pub paradox: Option<(f64, Breakdown)>,
 }
@@ -50,7 +55,19 @@ impl<'a> MotionOde<'a> {
             _ => None,
         };
         let (gains, paradox) = (options.gains(), None);
-        Self { model, workspace, gains, stepwise, projector, passing, passage, paradox }
+        let smooth = model.switches.is_empty() && model.blueprint.tables.is_empty();
+        let least_energy = (!smooth).then(|| LEAST * usual_energy(model));
+        Self {
+            model,
+            workspace,
+            gains,
+            stepwise,
+            projector,
+            passing,
+            passage,
+            least_energy,
+            paradox,
+        }
     }
 
     /// The options of projection, if the run uses projection.
@@ -233,6 +250,12 @@ impl Ode for MotionOde<'_> {
     fn structure(&self) -> Structure {
         let layout = &self.model.layout;
         Structure { positions: layout.n_q, states: layout.n_z, quadratures: layout.n_works }
+    }
+
+    /// The largest of the kinetic energy and the works.
+    fn quadrature_scale(&self, y: &[f64]) -> Option<f64> {
+        let least = self.least_energy?.max(energy::kinetic(self.model, &self.workspace.motions));
+        Some(self.model.layout.split(y)[3].iter().fold(least, |most, work| most.max(work.abs())))
     }
 
     fn manifold(&mut self) -> Option<&mut dyn Manifold<Stop = Self::Stop>> {

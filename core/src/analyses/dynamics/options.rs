@@ -76,6 +76,21 @@ options! {
         release: drivers = Vec::new(),
         /// Values of parameters that replace those of the model in this analysis.
         parameters: values = Vec::new(),
+        /// Largest residual of the Newton-Euler equations of the result, relative to the largest
+        /// force. A result beyond this limit, or one of the next three, is an error.
+        force_limit: positive = 1e-8,
+        /// Largest opening of a joint in the result, relative to the size of the mechanism, or in
+        /// rad. If absent, 1e-9, or the tolerance of the projection if it is larger. Without
+        /// projection, an opening beyond the limit, 1e-4 if absent, is a warning.
+        joint_limit: Option<positive> = None,
+        /// Largest depth of a stop or contact with restitution in the result, relative to the size
+        /// of the mechanism, or in rad. If absent, 1e-6, or 100 rtol if it is larger. Without
+        /// projection, a larger depth is a warning.
+        penetration_limit: Option<positive> = None,
+        /// Largest energy balance of the result, relative to the largest energy. If absent, 1e-3,
+        /// or 10 000 rtol if it is larger. Without projection, with constant steps and with
+        /// methods that damp (generalized_alpha, hht), a larger balance is a warning.
+        energy_limit: Option<positive> = None,
     }
     excludes { output_step: output; }
 }

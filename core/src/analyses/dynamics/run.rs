@@ -14,6 +14,8 @@ use super::switch_schedule::Schedule;
 use crate::analyses::curves::Ranges;
 use crate::analyses::so_far::SoFar;
 use crate::analyses::State;
+use crate::equations::energy;
+use crate::equations::kinematics::Motions;
 use crate::integrate::{Cause, Flow, TooFast};
 use crate::model::Model;
 use crate::solve::Breakdown;
@@ -160,6 +162,7 @@ pub(super) struct PhaseSteps<'a> {
     t_end: f64,
     /// The events that end the phase.
     fired: Vec<usize>,
+    motions: Motions,
 }
 
 impl<'a> PhaseSteps<'a> {
@@ -175,7 +178,8 @@ impl<'a> PhaseSteps<'a> {
             .map_err(|cause| Failure::of_integrator(model, cause, at.t, &at.y))?;
         let start = (at.t, at.y.clone());
         let (ranges, t_end, fired) = (Ranges::of(model), options.t_end, Vec::new());
-        Ok(Self { stepper, events, ranges, start, t_end, fired })
+        let motions = Motions::new(&model.layout);
+        Ok(Self { stepper, events, ranges, start, t_end, fired, motions })
     }
 
     /// How the phase ended, if the last step reached its end.
@@ -209,8 +213,8 @@ impl<'a> PhaseSteps<'a> {
         run: &mut Run,
     ) -> Result<Option<PhaseEnd>, Box<Failure>> {
         let model = self.stepper.ode.model;
-        let Self { stepper, events, fired, .. } = self;
-        match observe(stepper, events, observers, run, fired) {
+        let Self { stepper, events, fired, motions, .. } = self;
+        match observe(stepper, events, observers, (run, motions), fired) {
             Ok(Next::Step(Flow::Continue)) => {
                 let q = model.layout.split(self.stepper.y())[0];
                 let beyond = self.ranges.beyond(model, q);
@@ -249,6 +253,13 @@ impl<'a> PhaseSteps<'a> {
     }
 }
 
+/// The largest of the kinetic energy and the works at a state, J.
+fn largest_energy(model: &Model, motions: &mut Motions, y: &[f64]) -> f64 {
+    let [q, v, _, works] = model.layout.split(y);
+    motions.place(&model.layout, q, v);
+    works.iter().fold(energy::kinetic(model, motions), |most, work| most.max(work.abs()))
+}
+
 /// The outcome of a step.
 enum Next {
     Step(Flow),
@@ -264,7 +275,7 @@ fn observe(
     stepper: &mut MotionStepper<'_>,
     events: &mut Option<EventList<'_>>,
     (recorder, watch): (&mut Recorder<'_>, &mut impl FnMut(f64) -> Flow),
-    run: &mut Run,
+    (run, motions): (&mut Run, &mut Motions),
     fired: &mut Vec<usize>,
 ) -> Result<Next, Cause<Breakdown>> {
     let model = stepper.ode.model;
@@ -291,6 +302,7 @@ fn observe(
     // a step that will be taken again has no sample
     recorder.sample = stepper.sample().cloned();
     let step = stepper.last_step().expect("a step was taken");
+    run.largest_energy = largest_energy(model, motions, step.y).max(run.largest_energy);
     let mut flow = recorder.follow(&stepper.ode.workspace);
     if flow == Flow::Continue {
         flow = recorder.step(&step, watch);

@@ -83,6 +83,8 @@ pub struct Run {
     pub dense: Option<PiecewiseInterpolant>,
     /// Counts.
     pub statistics: Statistics,
+    /// The largest kinetic energy and work at the ends of the steps, J.
+    pub largest_energy: f64,
     /// The method that was chosen automatically.
     pub choice: Option<MethodChoice>,
     /// Whether t_end was reached; otherwise an event or the observer stopped the run.
@@ -91,6 +93,8 @@ pub struct Run {
     pub passing: bool,
     /// The singular positions that the run passed, in order.
     pub passed: Vec<Passed>,
+    /// Balances beyond the limits of the run that belong to the chosen method: drift and loss of energy.
+    pub doubts: Vec<String>,
     /// Projection of the states; None with another stabilization. See
     /// [`Prepared::project`](super::Prepared::project).
     pub projection: Option<Projection>,

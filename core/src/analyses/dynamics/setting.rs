@@ -1,6 +1,8 @@
 //! The setting of a phase: changed parameters, released drivers, and the modes of forces.
 
 use super::options::Options;
+use crate::equations::energy;
+use crate::equations::kinematics::Motions;
 use crate::model::{ForceMode, Model, Problem};
 
 /// Parameters that differ from the parameters of the model, drivers that are released, and the modes of forces that
@@ -46,5 +48,16 @@ impl Setting {
             false => model.with_values(&self.parameters)?,
         };
         Ok(if self.released.is_empty() { changed } else { changed.without(&self.released) })
+    }
+
+    /// The kinetic and potential energy of a state y = (q, v, z, works), J.
+    ///
+    /// # Errors
+    /// The errors of [`model`](Self::model).
+    pub(super) fn energy(&self, model: &Model, t: f64, y: &[f64]) -> Result<f64, Vec<Problem>> {
+        let own = self.open(model)?;
+        let [q, v, z, _] = own.layout.split(y);
+        let motions = Motions::at(&own.layout, q, v);
+        Ok(energy::kinetic(&own, &motions) + energy::potential(&own, &motions, z, t))
     }
 }

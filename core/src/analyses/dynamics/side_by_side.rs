@@ -5,6 +5,7 @@
 //! the results of a separate run to the last bit.
 
 use super::failure::Failure;
+use super::guard::{self, Guard};
 use super::lane_motion::{LaneEquations, LaneMotion};
 use super::methods::Scheme;
 use super::modes::has_modes;
@@ -18,7 +19,7 @@ use super::stabilizations::Stabilization;
 use crate::analyses::State;
 use crate::integrate::{Flow, LaneSteps, Steppers, Taken};
 use crate::math::Lanes;
-use crate::model::Model;
+use crate::model::{usual_energy, Model};
 
 const WIDTH: usize = Lanes::WIDTH;
 
@@ -37,7 +38,7 @@ pub type RunOutcome = Result<Run, Box<Failure>>;
 
 impl Variant<'_> {
     /// Whether the run can take its steps side by side with others: by an explicit method with error control, without
-    /// events, switches, outputs between start and end, or an interpolant.
+    /// events, switches, tables, outputs between start and end, or an interpolant.
     pub fn serves(&self) -> bool {
         let Options { method, stabilization, events, stop, dense_output, output_step, .. } =
             self.options;
@@ -53,6 +54,7 @@ impl Variant<'_> {
             && output_step.is_some_and(|h| h > span)
             && Setting::of(self.options).is_plain()
             && model.switches.is_empty()
+            && model.blueprint.tables.is_empty()
             && !has_modes(model)
             && model.constraints.iter().all(|item| item.element.release().is_none())
     }
@@ -62,7 +64,8 @@ impl Variant<'_> {
 struct Underway<'a> {
     /// Index among the variants.
     place: usize,
-    model: &'a Model,
+    prepared: &'a Prepared<&'a Model>,
+    options: &'a Options,
     at: Progress,
     run: Run,
     recorder: Recorder<'a>,
@@ -83,10 +86,12 @@ impl<'a> Underway<'a> {
         let phase = Phase { model, cache: prepared.cache(), project_velocities: false };
         match begin_phase(phase, Vec::new(), &mut at, options, &mut run) {
             Err(failure) => Err(Box::new(Err(Box::new(Failure { run, ..*failure })))),
-            Ok((Ok(Some(steps)), recorder)) => Ok(Self { place, model, at, run, recorder, steps }),
+            Ok((Ok(Some(steps)), recorder)) => {
+                Ok(Self { place, prepared, options, at, run, recorder, steps })
+            }
             Ok((stopped, recorder)) => {
                 let outcome = stopped.map(|_| PhaseEnd::Stopped);
-                Err(Box::new(conclude(model, recorder, &at, outcome, run)))
+                Err(Box::new(conclude((prepared, options), recorder, &at, outcome, run)))
             }
         }
     }
@@ -109,22 +114,26 @@ impl<'a> Underway<'a> {
         let reached = self.steps.reached(&self.recorder);
         let outcome = outcome.map(|()| reached.unwrap_or(PhaseEnd::Stopped));
         self.steps.end(&mut self.at, &mut self.run);
-        conclude(self.model, self.recorder, &self.at, outcome, self.run)
+        conclude((self.prepared, self.options), self.recorder, &self.at, outcome, self.run)
     }
 }
 
 fn conclude(
-    model: &Model,
+    (prepared, options): (&Prepared<&Model>, &Options),
     recorder: Recorder<'_>,
     at: &Progress,
     outcome: Result<PhaseEnd, Box<Failure>>,
     mut run: Run,
 ) -> RunOutcome {
+    let model: &Model = prepared.model();
     match end_phase(model, recorder, at, outcome, &mut run) {
-        Ok(end) => {
-            run.reached = matches!(end, PhaseEnd::Reached);
-            Ok(run)
+        Ok(PhaseEnd::Reached) => {
+            run.reached = true;
+            let mut guard = Guard::new(usual_energy(model), options);
+            guard.look((model, prepared.cache()), &run, true);
+            guard::end(&guard, model, run)
         }
+        Ok(_) => Ok(run),
         Err(failure) => Err(Box::new(Failure { run, ..*failure })),
     }
 }

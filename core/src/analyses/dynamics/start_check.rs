@@ -113,8 +113,7 @@ impl StartCheck {
             let most = rows.iter().map(|scale| most * scale).collect();
             ConstraintRows { rows: found, most, per }
         };
-        let closed =
-            (ROUNDING * largest(model, q)).clamp(self.closed, self.closed.max(self.rounded));
+        let closed = rounding(model, q).clamp(self.closed, self.closed.max(self.rounded));
         level(&phi, closed, "").check(model, t, self.hint)?;
         if let Some(Unmet { name, message, hint, .. }) = required::missed(model, t, q) {
             return Err(Reason::Start { t, name, message, hint }.into());
@@ -152,6 +151,11 @@ impl ConstraintRows<'_> {
         );
         Err(Reason::Start { t, name: item.name.clone(), message, hint }.into())
     }
+}
+
+/// The rounding error of Φ at a position, relative to the size or in rad.
+pub(super) fn rounding(model: &Model, q: &[f64]) -> f64 {
+    ROUNDING * largest(model, q)
 }
 
 /// The largest coordinate or rate, with lengths divided by the size of the mechanism.

@@ -6,7 +6,7 @@
 
 use super::super::model_cache::ModelCache;
 use super::super::redundant_rows::workspace_at;
-use super::place::{largest, mode_of, StateAt, STILL};
+use super::place::{drivers_rest, largest, mode_of, StateAt, STILL};
 use crate::analyses::mobility;
 use crate::elements::{Behaviour, Mode};
 use crate::equations::constraints;
@@ -30,6 +30,7 @@ pub(super) fn independent(
         mode: Mode::Holds(*side),
         value: 0.0,
         slack: 0.0,
+        prescribed: false,
     };
     let all: Vec<ForceMode> = candidates.iter().map(holds).collect();
     let [q, ..] = place.state(model);
@@ -84,7 +85,8 @@ fn dependent(
     held: &[ForceMode],
     (force, free): (usize, Mode),
 ) -> ForceMode {
-    let of = |mode: Mode, slack: f64| ForceMode { force, mode, value: 0.0, slack };
+    let of =
+        |mode: Mode, slack: f64| ForceMode { force, mode, value: 0.0, slack, prescribed: false };
     if !matches!(model.forces[force].element.behaviour(), Some(Behaviour::Sticks)) {
         return of(Mode::Idle, 0.0);
     }
@@ -142,6 +144,41 @@ fn passes(
     // the holding forces may keep the whole mechanism at rest; its accelerations are then rounding errors of the
     // accelerations without these forces
     let free = place.solved(model).map_or(0.0, |free| largest(free.a()));
-    let fastest = largest(workspace.a()).max(free);
-    sign * jet.value > 0.5 * begins || sign * jet.rate > STILL * fastest
+    let fastest = largest(workspace.a()).max(free).max(size(model));
+    // the speed of a joint whose drivers stand still is an error
+    let [q, ..] = place.state(model);
+    let moves =
+        sign * jet.value > 0.5 * begins && !(model.driven && drivers_rest(model, place.t, q));
+    moves || sign * jet.rate > STILL * fastest
+}
+
+/// The driver, or the joint, that holds the coordinate of a stop or of friction.
+pub fn held_by(model: &Model, place: &StateAt<'_>, force: usize) -> Option<String> {
+    let [q, ..] = place.state(model);
+    let at = |value: f64| {
+        model.in_modes(&[ForceMode {
+            force,
+            mode: Mode::Holds(0.0),
+            value,
+            slack: 0.0,
+            prescribed: false,
+        }])
+    };
+    let open = at(0.0);
+    let row = open.forces[force].held_row?;
+    let mut residual = vec![0.0; open.layout.n_rows];
+    constraints::residual(&open, &Motions::at_rest(&open.layout, q), place.t, &mut residual);
+    let held = at(residual[row]);
+    let last = held.layout.owner(row).0;
+    let found = mobility(&held, place.t, q);
+    let group = found.redundant.into_iter().find(|group| group.contains(&last))?;
+    let driver = group.iter().find(|k| model.constraints.get(**k).is_some_and(|item| item.driven));
+    driver.map(|k| model.constraints[*k].name.clone())
+}
+
+/// Whether drivers hold the coordinates of forces with friction.
+pub fn prescribed(model: &Model, place: &StateAt<'_>, forces: &[usize]) -> Vec<bool> {
+    let sticks = |k: usize| matches!(model.forces[k].element.behaviour(), Some(Behaviour::Sticks));
+    let held = |k: &usize| model.driven && sticks(*k) && held_by(model, place, *k).is_some();
+    forces.iter().map(held).collect()
 }

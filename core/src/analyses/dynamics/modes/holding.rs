@@ -5,9 +5,9 @@
 //! friction exceeds its limit, the force with the largest excess is released.
 
 use super::super::failure::Failure;
-use super::dependence::independent;
+use super::dependence::{independent, prescribed};
 use super::impacts::{self, restitution};
-use super::place::{largest, mode_of, unit, with_modes, StateAt, STILL};
+use super::place::{drivers_rest, largest, mode_of, unit, with_modes, StateAt, STILL};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
@@ -44,13 +44,16 @@ pub(super) fn decide(
     // after an impact that stops the mechanism, only rounding errors of the speeds remain
     let speed = place.speed_scale(model, before).max(jumped.unwrap_or(0.0));
     let jumped = jumped.is_some();
+    let prescribed = prescribed(model, place, &all);
+    let rests = model.driven && drivers_rest(model, place.t, place.state(model)[0]);
     let mut modes: Vec<ForceMode> = Vec::new();
     let mut candidates = Vec::new();
-    for (k, threshold) in all.iter().zip(&thresholds) {
+    for ((k, threshold), prescribed) in all.iter().zip(&thresholds).zip(&prescribed) {
         let free = match model.forces[*k].element.behaviour() {
             Some(Behaviour::Sticks) => {
                 let old = mode_of(before, *k);
-                let still = threshold.abs() <= STILL * speed || *threshold == 0.0;
+                let still =
+                    threshold.abs() <= STILL * speed || *threshold == 0.0 || *prescribed && rests;
                 let was = !jumped && (fired.contains(k) || old.holds());
                 if was || still {
                     candidates.push(*k);
@@ -68,7 +71,7 @@ pub(super) fn decide(
                 Mode::Free
             }
         };
-        modes.push(ForceMode { force: *k, mode: free, value: 0.0, slack: 0.0 });
+        modes.push(ForceMode { force: *k, mode: free, value: 0.0, slack: 0.0, prescribed: false });
     }
     let contact =
         |k: &usize| !matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Sticks));
@@ -78,6 +81,7 @@ pub(super) fn decide(
     let ended: Vec<usize> = candidates.iter().copied().filter(ended).collect();
     let mut modes = hold(model, place, modes, (&candidates, &ended))?;
     give_slack(model, place, touching, &mut modes);
+    mark_prescribed(&mut modes, &all, &prescribed);
     for (own, threshold) in modes.iter_mut().zip(&thresholds) {
         if let (Mode::Slides(sign), true) = (own.mode, threshold.abs() <= STILL * speed) {
             // a rounding error of the speed may have the opposite direction, and at rest the speed consists of
@@ -86,6 +90,14 @@ pub(super) fn decide(
         }
     }
     Ok(modes)
+}
+
+/// Marks the friction whose coordinate drivers hold.
+fn mark_prescribed(modes: &mut [ForceMode], all: &[usize], prescribed: &[bool]) {
+    for own in modes {
+        let at = all.iter().position(|k| *k == own.force);
+        own.prescribed = at.is_some_and(|at| prescribed[at]);
+    }
 }
 
 /// Sets the slack of contacts that touch and of forces that hold, from the rounding errors of gaps and forces.

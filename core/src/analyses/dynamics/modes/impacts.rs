@@ -122,6 +122,7 @@ fn hit(
         mode: Mode::Holds(*side),
         value: 0.0,
         slack: 0.0,
+        prescribed: false,
     };
     let modes: Vec<ForceMode> = contacts.iter().zip(&sides).map(held).collect();
     let closed = model.in_modes(&modes).allowing_redundancy();

@@ -15,16 +15,14 @@ mod mode_events;
 mod place;
 
 pub(super) use mode_events::{watched_mode, ModeFunction, GRAZE};
-pub(super) use place::{has_mode, is_contact, unit, StateAt};
+pub(super) use place::{has_mode, is_contact, unit as gap_unit, StateAt};
 
 use place::{largest, with_modes};
 
 use super::failure::{Failure, Reason};
-use crate::analyses::mobility;
-use crate::elements::{Behaviour, Mode};
-use crate::equations::constraints;
-use crate::equations::kinematics::Motions;
+use crate::elements::Behaviour;
 use crate::model::{ForceMode, Model};
+use dependence::held_by;
 use impacts::Hits;
 
 /// The modes of the next phase, and what happened.
@@ -74,7 +72,7 @@ pub(super) fn settle(
 /// [`Failure`] with [`Reason::Start`].
 pub(super) fn check(model: &Model, place: &StateAt<'_>) -> Result<(), Box<Failure>> {
     let t = place.t;
-    let all: Vec<usize> = with_modes(model).filter(|k| is_contact(model, *k)).collect();
+    let all: Vec<usize> = rigid_contacts(model).collect();
     for (k, gap) in all.iter().zip(place.thresholds(model, &all)) {
         let name = model.forces[*k].name.clone();
         if StateAt::is_closed(-gap, model, *k) {
@@ -97,22 +95,9 @@ pub(super) fn check(model: &Model, place: &StateAt<'_>) -> Result<(), Box<Failur
     Ok(())
 }
 
-/// The driver, or the joint, that holds the coordinate of a stop.
-fn held_by(model: &Model, place: &StateAt<'_>, force: usize) -> Option<String> {
-    let [q, ..] = place.state(model);
-    let at = |value: f64| {
-        model.in_modes(&[ForceMode { force, mode: Mode::Holds(0.0), value, slack: 0.0 }])
-    };
-    let open = at(0.0);
-    let row = open.forces[force].held_row?;
-    let mut residual = vec![0.0; open.layout.n_rows];
-    constraints::residual(&open, &Motions::at_rest(&open.layout, q), place.t, &mut residual);
-    let held = at(residual[row]);
-    let last = held.layout.owner(row).0;
-    let found = mobility(&held, place.t, q);
-    let group = found.redundant.into_iter().find(|group| group.contains(&last))?;
-    let driver = group.iter().find(|k| model.constraints.get(**k).is_some_and(|item| item.driven));
-    driver.map(|k| model.constraints[*k].name.clone())
+/// The stops and contacts with restitution.
+pub(super) fn rigid_contacts(model: &Model) -> impl Iterator<Item = usize> + '_ {
+    with_modes(model).filter(|k| is_contact(model, *k))
 }
 
 /// Whether a model has forces with modes.

@@ -1,5 +1,6 @@
 //! The functions whose zeros may change the mode of a force. Each is positive while the mode lasts.
 
+use super::place::drivers_rest;
 use crate::analyses::signals::Seen;
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
@@ -21,6 +22,8 @@ pub enum ModeFunction {
         sign: f64,
         /// Added to the function.
         slack: f64,
+        /// Whether the function is negative where the drivers stand still.
+        prescribed: bool,
     },
     /// The reserve until friction slips or a contact separates, and the slack of the mode.
     Reserve {
@@ -36,6 +39,8 @@ pub enum ModeFunction {
         force: usize,
         /// This speed.
         at: f64,
+        /// Whether it cannot begin while the drivers stand still.
+        prescribed: bool,
     },
     /// The mode does not end by itself.
     Never,
@@ -51,25 +56,28 @@ impl ModeFunction {
     pub fn bounds(self, clearance: &mut dyn FnMut(usize) -> Option<Bounds>) -> Option<Bounds> {
         let constant = Bounds::constant;
         match self {
-            Self::Threshold { force, sign, slack } => {
+            Self::Threshold { force, sign, slack, prescribed: false } => {
                 Some(constant(sign) * clearance(force)? + constant(slack))
             }
             Self::Never => Some(Bounds::one()),
-            Self::Reserve { .. } | Self::Begins { .. } => None,
+            Self::Threshold { .. } | Self::Reserve { .. } | Self::Begins { .. } => None,
         }
     }
 
     /// The value of the function at a state.
     pub fn value(self, model: &Model, seen: &Seen<'_>) -> f64 {
         let acting = Acting { z: seen.state[2], lam: Some(seen.solved[1]), t: seen.t };
+        let rests = || drivers_rest(model, seen.t, seen.state[0]);
         match self {
-            Self::Threshold { force, sign, slack } => {
+            Self::Threshold { prescribed: true, .. } if rests() => -1.0,
+            Self::Threshold { force, sign, slack, .. } => {
                 sign * forces::threshold(model, force, seen.motions, acting) + slack
             }
             Self::Reserve { force, slack } => {
                 forces::reserve(model, force, seen.motions, acting) + slack
             }
-            Self::Begins { force, at } => {
+            Self::Begins { at, prescribed: true, .. } if rests() => at,
+            Self::Begins { force, at, .. } => {
                 at - forces::threshold(model, force, seen.motions, acting).abs()
             }
             Self::Never => 1.0,
@@ -81,9 +89,9 @@ impl ModeFunction {
 /// [`Behaviour::events`]. The modes are read from the model.
 pub fn watched_mode(model: &Model, force: usize, place: usize) -> (ModeFunction, Direction) {
     let item = &model.forces[force];
-    let slack =
-        model.blueprint.modes.iter().find(|of| of.force == force).map_or(0.0, |of| of.slack);
-    let threshold = |sign: f64| ModeFunction::Threshold { force, sign, slack };
+    let own = model.blueprint.modes.iter().find(|of| of.force == force);
+    let (slack, prescribed) = own.map_or((0.0, false), |of| (of.slack, of.prescribed));
+    let threshold = |sign: f64| ModeFunction::Threshold { force, sign, slack, prescribed };
     let (gap, falling) = (threshold(1.0), Direction::Falling);
     let reserve = ModeFunction::Reserve { force, slack };
     match (item.element.behaviour(), item.mode, place) {
@@ -94,7 +102,7 @@ pub fn watched_mode(model: &Model, force: usize, place: usize) -> (ModeFunction,
         (Some(Behaviour::Impacts { .. }), Mode::Free, 0 | GRAZE) => (gap, falling),
         (Some(_), Mode::Holds(_), 1) => (reserve, falling),
         (Some(Behaviour::Sticks), Mode::Idle, 1) => {
-            (ModeFunction::Begins { force, at: slack }, falling)
+            (ModeFunction::Begins { force, at: slack, prescribed }, falling)
         }
         _ => (ModeFunction::Never, falling),
     }

@@ -5,12 +5,12 @@ use super::super::model_cache::ModelCache;
 use super::super::redundant_rows::workspace_at;
 pub use crate::analyses::rigid::{is_rigid as is_contact, unit};
 use crate::elements::Mode;
-use crate::equations::energy;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
+use crate::equations::{constraints, energy};
 use crate::equations::{Gains, Workspace};
 use crate::math::{Jet, Lift, Real};
-use crate::model::{size, ForceMode, Model};
+use crate::model::{row_scales, size, ForceMode, Model};
 
 /// Speeds of friction below this value count as zero, relative to the speeds of the mechanism; accelerations
 /// likewise.
@@ -125,6 +125,14 @@ impl StateAt<'_> {
     pub fn is_closed(gap: f64, model: &Model, force: usize) -> bool {
         gap <= TOUCHING * unit(model, force)
     }
+}
+
+/// Whether all drivers stand still at a position: their laws do not change there.
+pub fn drivers_rest(model: &Model, t: f64, q: &[f64]) -> bool {
+    let at_rest = Motions::at_rest(&model.layout, q);
+    let [mut phi, mut by_time, mut gamma] = [0, 1, 2].map(|_| vec![0.0; model.layout.n_rows]);
+    constraints::velocity_terms(model, &at_rest, t, &mut phi, &mut by_time, &mut gamma);
+    by_time.iter().zip(row_scales(model)).all(|(rate, scale)| rate.abs() <= STILL * scale)
 }
 
 /// The forces with modes.
