@@ -71,6 +71,10 @@ macro_rules! forces {
             pub fn follows(&self) -> bool {
                 match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::FOLLOWS,)+ }
             }
+            /// Whether bodies touch or rub in the element.
+            pub fn touches_or_rubs(&self) -> bool {
+                match self { $($(#[$on])* Self::$Name(_) => <$Name as Force>::TOUCHES_OR_RUBS,)+ }
+            }
             /// The position quantity that the element follows.
             pub fn followed(&self) -> Option<&Followed<S>> {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::followed(e),)+ }

@@ -153,6 +153,9 @@ pub trait Force: Element {
     /// parts then keep their nature, and its potential is counted.
     const FOLLOWS: bool = false;
 
+    /// Whether bodies touch or rub in the element, so that its work may be less smooth than the motion.
+    const TOUCHES_OR_RUBS: bool = false;
+
     /// The position quantities of an element, for types in which their units depend on the element.
     #[inline]
     fn measured<S>(e: &Self::Over<S>) -> &'static [Measured] {

@@ -142,6 +142,8 @@ struct Bodies {
     reach: Vec<f64>,
     /// The larger of J and m l², kg·m².
     turning: Vec<f64>,
+    /// The largest mass, and the largest of `turning`.
+    most: [f64; 2],
     /// The bodies of each joint and driver, and whether the joint is a pin.
     joints: Vec<(Vec<usize>, bool)>,
     /// The joints of each body.
@@ -177,16 +179,17 @@ impl Bodies {
         }
         let of = |f: &dyn Fn(&Body<S>) -> S| model.bodies.iter().map(|b| number(f(b))).collect();
         let (mass, inertia): (Vec<f64>, Vec<f64>) = (of(&|b| b.mass), of(&|b| b.inertia));
-        let turning = (0..n).map(|k| inertia[k].max(mass[k] * reach[k])).collect();
-        Self { mass, inertia, reach, turning, joints, of_body }
+        let turning: Vec<f64> = (0..n).map(|k| inertia[k].max(mass[k] * reach[k])).collect();
+        let most = [&mass, &turning].map(|own| own.iter().copied().fold(0.0, f64::max));
+        Self { mass, inertia, reach, turning, most, joints, of_body }
     }
 
     /// E and the ratios of a moving body.
     fn light(&self, k: usize, turns: bool) -> Found {
-        let most = |own: &[f64]| own.iter().copied().fold(0.0, f64::max);
         let (mass, inertia) = (self.mass[k], self.inertia[k]);
-        let least = TURNING * LIGHT * most(&self.turning).max(most(&self.mass) * self.reach[k]);
-        let heavy = mass > 0.0 && mass >= LIGHT * most(&self.mass);
+        let [most, turning] = self.most;
+        let least = TURNING * LIGHT * turning.max(most * self.reach[k]);
+        let heavy = mass > 0.0 && mass >= LIGHT * most;
         let mut found = Found { added: [0.0; 2], ratios: [1.0; 2] };
         if heavy && (!turns || inertia > 0.0 && inertia >= least) {
             return found;
@@ -242,20 +245,18 @@ impl Bodies {
         let arm = self.reach[k];
         let mass = second(light);
         let inertia = (second(turned) * arm).max(second(turning));
-        let most = |own: &[f64]| own.iter().copied().fold(0.0, f64::max);
         let all = branches.iter().fold(Branch::default(), |all, branch| all.joined(*branch));
         let or = |x: f64, others: [f64; 3]| {
             let mut candidates = std::iter::once(x).chain(others);
             candidates.find(|x| *x > 0.0).unwrap_or(1.0)
         };
         [
-            if self.mass[k] > 0.0 { mass } else { or(mass, [all.mass, most(&self.mass), 1.0]) },
+            if self.mass[k] > 0.0 { mass } else { or(mass, [all.mass, self.most[0], 1.0]) },
             match self.inertia[k] > 0.0 {
                 true => inertia,
-                false => or(
-                    inertia,
-                    [self.mass[k].max(all.mass) * arm, most(&self.turning), self.mass[k]],
-                ),
+                false => {
+                    or(inertia, [self.mass[k].max(all.mass) * arm, self.most[1], self.mass[k]])
+                }
             },
         ]
     }

@@ -136,7 +136,8 @@ pub(super) fn correct<S: Real>(
             }
         };
         let change = [0..n, at..at + rows].into_iter().zip(least).map(of_part).sum::<f64>(); // NaN if either is
-        let settled = change * change <= ROUNDING * last.min(1.0) || !(change <= 0.5 * last);
+        let stays = change.is_nan() || last <= 1.0 && change > 0.5 * last;
+        let settled = stays || change * change <= ROUNDING * last.min(1.0);
         last = change;
         if corrections >= FEWEST && (settled || !settles) {
             break;

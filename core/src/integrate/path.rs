@@ -12,7 +12,7 @@ use crate::math::{Dual, Interval};
 pub type Bounds = Dual<1, Interval>;
 
 /// Rounding errors of a bound, in floating-point spacings of the sum of its terms.
-const ROUNDING: f64 = 32.0 * f64::EPSILON;
+const ROUNDING: f64 = 512.0 * f64::EPSILON;
 
 /// The path of the state during a step.
 #[derive(Clone, Debug)]
@@ -76,8 +76,8 @@ impl<'a> StepPath<'a> {
         let moved = Interval::new(low, high) * Interval::new(h, h);
         // the times are rounded, too
         let late = 4.0 * from.abs().max(to.abs()) * steepest;
-        let error =
-            ROUNDING * (size * h).abs() + f64::EPSILON * (self.step.y_old[component].abs() + late);
+        let error = ROUNDING * (size * h).abs()
+            + f64::EPSILON * (4.0 * self.step.y_old[component].abs() + late);
         let y_old = Interval::around(self.step.y_old[component], error);
         let [low, high] = enclosed(&mut slopes[..degree]);
         let error = ROUNDING * steepest;

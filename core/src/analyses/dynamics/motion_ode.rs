@@ -30,8 +30,7 @@ pub(super) struct MotionOde<'a> {
     /// Whether singular positions are passed.
     pub passing: bool,
     pub passage: SingularityPassage,
-    /// An energy whose errors matter, J, if laws or forces are smooth in pieces only. Works may then be less smooth
-    /// than the motion.
+    /// An energy whose errors matter, J, if bodies touch or rub. Works may then be less smooth than the motion.
     least_energy: Option<f64>,
     /// Time and reason of the last evaluation without a solution. A shorter step may avoid it.
     pub paradox: Option<(f64, Breakdown)>,
@@ -55,8 +54,8 @@ impl<'a> MotionOde<'a> {
             _ => None,
         };
         let (gains, paradox) = (options.gains(), None);
-        let smooth = model.switches.is_empty() && model.blueprint.tables.is_empty();
-        let least_energy = (!smooth).then(|| LEAST * usual_energy(model));
+        let rough = model.forces.iter().any(|item| item.element.touches_or_rubs());
+        let least_energy = rough.then(|| LEAST * usual_energy(model));
         Self {
             model,
             workspace,

@@ -170,6 +170,7 @@ impl Force for Contact {
         Part { name: "damping", nature: Nature::Dissipative },
         Part { name: "friction", nature: Nature::Dissipative },
     ];
+    const TOUCHES_OR_RUBS: bool = true;
     const MEASURED: &'static [Measured] = &[Measured::GAP];
 
     fn bodies<S>(e: &Contact<S>) -> Vec<BodyId> {

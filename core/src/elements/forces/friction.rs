@@ -149,6 +149,7 @@ impl Force for Friction {
         Part { name: "dry", nature: Nature::Dissipative },
         Part { name: "viscous", nature: Nature::Dissipative },
     ];
+    const TOUCHES_OR_RUBS: bool = true;
 
     fn bodies<S>(e: &Friction<S>) -> Vec<BodyId> {
         e.joint.bodies().into()

@@ -124,6 +124,7 @@ impl Force for Stop {
     ];
     const MEASURED: &'static [Measured] = &[Measured::GAP];
     const FOLLOWS: bool = true;
+    const TOUCHES_OR_RUBS: bool = true;
 
     fn bodies<S>(e: &Stop<S>) -> Vec<BodyId> {
         e.coordinate.of.bodies().into()
