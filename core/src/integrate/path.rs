@@ -11,8 +11,9 @@ use crate::math::{Dual, Interval};
 /// Bounds of a quantity and of its time derivative.
 pub type Bounds = Dual<1, Interval>;
 
-/// Rounding errors of a bound, in floating-point spacings of the sum of its terms.
-const ROUNDING: f64 = 512.0 * f64::EPSILON;
+/// Rounding errors of a bound, relative to the sum of its terms. The coefficients are themselves sums over the stages of
+/// the step, whose weights are up to a hundred times as large.
+const ROUNDING: f64 = 1024.0 * f64::EPSILON;
 
 /// The path of the state during a step.
 #[derive(Clone, Debug)]
@@ -51,11 +52,12 @@ impl<'a> StepPath<'a> {
         let degree = self.degree;
         let ((first, h), (last, _)) = (self.place(from), self.place(to));
         let b = &self.coefficients[component * degree..][..degree];
-        let (mut size, mut steepest) = (0.0, 0.0);
+        let (mut size, mut steepest, mut sum) = (0.0, 0.0, 0.0);
         let mut taylor = [0.0; HIGHEST + 1];
         for (k, b) in (1..).zip(b) {
             taylor[k] = *b;
             size += b.abs();
+            sum += b;
             steepest += k as f64 * b.abs();
         }
         // the polynomial in θ - first
@@ -74,11 +76,12 @@ impl<'a> StepPath<'a> {
         taylor[degree] *= power;
         let [low, high] = enclosed(&mut taylor[..=degree]);
         let moved = Interval::new(low, high) * Interval::new(h, h);
-        // the times are rounded, too
+        // the state at the end of the step, and times, are rounded
+        let y = [self.step.y_old[component], self.step.y[component]];
+        let missed = (y[1] - (y[0] + h * sum)).abs();
         let late = 4.0 * from.abs().max(to.abs()) * steepest;
-        let error = ROUNDING * (size * h).abs()
-            + f64::EPSILON * (4.0 * self.step.y_old[component].abs() + late);
-        let y_old = Interval::around(self.step.y_old[component], error);
+        let error = missed + ROUNDING * (size * h).abs() + f64::EPSILON * (y[0].abs() + late);
+        let y_old = Interval::around(y[0], error);
         let [low, high] = enclosed(&mut slopes[..degree]);
         let error = ROUNDING * steepest;
         Bounds { value: y_old + moved, slope: [Interval::new(low - error, high + error)] }
