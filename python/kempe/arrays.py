@@ -7,6 +7,8 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from kempe.errors import ModelError
+
 Floats: TypeAlias = NDArray[np.float64]
 
 _FLOAT = np.dtype(np.float64)
@@ -37,3 +39,21 @@ def rotated(angle: Floats, s: tuple[Any, Any]) -> tuple[Floats, Floats]:
 def pairs(x: Any, y: Any) -> Floats:
     """Two components side by side, (…, 2)."""
     return fixed(np.stack([x, y], axis=-1))
+
+
+def finite(name: str, values: object, shape: tuple[int, ...]) -> Floats:
+    """Finite numbers of the given shape, as given to a motion.
+
+    Raises:
+        ModelError: they are not numbers, not finite, or have another shape.
+    """
+    try:
+        found = np.array(values, dtype=np.float64)
+    except (TypeError, ValueError, OverflowError) as error:
+        raise ModelError(f"{name} must be numbers: {error}") from error
+    if found.shape != shape:
+        hint = "model.column_names() gives the order of q"
+        raise ModelError(f"{name} has shape {found.shape}; must be {shape}", hint=hint)
+    if not np.isfinite(found).all():
+        raise ModelError(f"{name} contains a number that is not finite")
+    return found

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from kempe import _core, quantities
-from kempe.arrays import Floats, fixed, scalar
+from kempe.arrays import Floats, finite, fixed, scalar
 from kempe.compiled import CompiledModel, ConstraintInfo
 from kempe.errors import ModelError
 from kempe.model import Model, compiled_model
@@ -63,9 +63,9 @@ class Motion:
         self.compiled = compiled = compiled_model(model)
         if compiled is not model:  # arrays of a user
             shape = np.shape(t)
-            t = _checked("t", t, shape)
-            q, v = (_checked(*pair, (*shape, compiled.n_q)) for pair in (("q", q), ("v", v)))
-            z = None if z is None else _checked("z", z, (*shape, compiled.n_z))
+            t = finite("t", t, shape)
+            q, v = (finite(*pair, (*shape, compiled.n_q)) for pair in (("q", q), ("v", v)))
+            z = None if z is None else finite("z", z, (*shape, compiled.n_z))
         self.t = fixed(t)
         self.q = fixed(q)
         self.v = fixed(v)
@@ -392,17 +392,3 @@ class Motion:
         what = "times" if of.is_time else f"values of {of.name}"
         span = f"{len(self.t)} {what} from {self.t[0]:g} to {self.t[-1]:g} {of.unit}"
         return f"<Motion of {self.compiled.title!r}: {span if len(self.t) else f'no {what}'}>"
-
-
-def _checked(name: str, values: object, shape: tuple[int, ...]) -> Floats:
-    """Finite numbers of the given shape."""
-    try:
-        found = np.array(values, dtype=np.float64)
-    except (TypeError, ValueError, OverflowError) as error:
-        raise ModelError(f"{name} must be numbers: {error}") from error
-    if found.shape != shape:
-        hint = "model.column_names() gives the order of q"
-        raise ModelError(f"{name} has shape {found.shape}; must be {shape}", hint=hint)
-    if not np.isfinite(found).all():
-        raise ModelError(f"{name} contains a number that is not finite")
-    return found

@@ -112,6 +112,7 @@ def test_tolerances_keep_the_method() -> None:
     assert case.analyses["turns"]["method"] == {"type": "auto", "rtol": 1e-4}
 
 
+@pytest.mark.filterwarnings("ignore::kempe.analyses.AccuracyWarning")  # of the coarse run
 def test_the_method_is_used() -> None:
     usual = run(FOUR_BAR, "--t-end", "0.2")
     other = run(FOUR_BAR, "--t-end", "0.2", "--method", "dop853")

@@ -99,6 +99,9 @@ CALLS: dict[str, Callable[[], object]] = {
     "force_results": lambda: _core.force_results(
         MODEL, "spring", TIMES, ROW, ROW, STATES, np.zeros((1, 8))
     ),
+    "friction_range": lambda: _core.friction_range(
+        MODEL, TIMES, ROW, ROW, np.zeros((1, 0)), passing=True
+    ),
     "impulse": lambda: _core.impulse(MODEL, "C", "rocker", TIMES, ROW, np.zeros((1, 8))),
     "force_energy": lambda: _core.force_energy(MODEL, "spring", TIMES, ROW, ROW, STATES),
     "force": lambda: _core.force(

@@ -15,7 +15,7 @@ KNOWN = {
     # the model over lanes, with and without vector registers
     "Wide",
     # terms of mechanics or of files, and the same words in numerics or in printed equations
-    "At", "Block", "Bodies", "Entry", "Field", "Form", "Function", "Group", "Held", "Motion",
+    "At", "Block", "Bodies", "Entry", "Field", "Form", "Function", "Group", "Motion",
     "Pair", "Part", "Place", "Record", "Source", "Start", "Stepper", "Symbol", "Table", "Terms",
     "Variable", "Words",
 }  # fmt: skip

@@ -15,7 +15,6 @@ from typing import Any
 import kempe as kp
 import numpy as np
 from numpy.typing import NDArray
-
 from truth.jets import Jet, cos, inverse, jet, root, sin
 
 Vector = NDArray[np.float64]
@@ -99,8 +98,10 @@ class Drawn:
                 place = [Jet(x, float(n == k)) for n, x in enumerate(q)]
                 (xi, yi), (xj, yj) = self.point(place, i), self.point(place, j)
                 dx, dy = xj - xi, yj - yi
-                f[k] -= (root(dx * dx + dy * dy) - free).first * stiffness * (
-                    root(dx * dx + dy * dy).value - free
+                f[k] -= (
+                    (root(dx * dx + dy * dy) - free).first
+                    * stiffness
+                    * (root(dx * dx + dy * dy).value - free)
                 )
         return f
 
@@ -203,11 +204,13 @@ class Drawing:
         other = heading - self.made.angle(j)
         angle = self.made.angle(j) - self.made.angle(i)
 
-        def joint(m: kp.Model, n: int = len(self.joints)) -> None:
+        name = f"j{len(self.joints)}"
+
+        def joint(m: kp.Model) -> None:
             if guided:
-                m.translational(f"j{n}", a, b, axes=(axis, other))
+                m.translational(name, a, b, axes=(axis, other))
             else:
-                m.pin_in_slot(f"j{n}", a, b, axis=axis)
+                m.pin_in_slot(name, a, b, axis=axis)
 
         self.joints.append(joint)
 
@@ -226,7 +229,8 @@ class Drawing:
         still = [Jet(x) for x in self.made.q]
         (xi, yi), (xj, yj) = (self.made.point(still, at) for at in ends)
         length = math.hypot(xj.value - xi.value, yj.value - yi.value)
-        self.joints.append(lambda m, n=len(self.joints): m.distance(f"j{n}", a, b, length=length))
+        name = f"j{len(self.joints)}"
+        self.joints.append(lambda m: m.distance(name, a, b, length=length))
 
         def rows(place: Place) -> list[Jet]:
             (xi, yi), (xj, yj) = (self.made.point(place, at) for at in ends)
@@ -291,13 +295,15 @@ class Drawing:
         axis = math.atan2(ty.value, tx.value) - self.made.angle(i)
         a = self.name(end)
 
-        def joint(m: kp.Model, n: int = len(self.joints)) -> None:
+        name = f"j{len(self.joints)}"
+
+        def joint(m: kp.Model) -> None:
             if kind == 0:
-                m.point_on_curve(f"j{n}", a, rim)
+                m.point_on_curve(name, a, rim)
             elif kind == 1:
-                m.roller_on_curve(f"j{n}", a, rim, radius=radius, side="right")
+                m.roller_on_curve(name, a, rim, radius=radius, side="right")
             else:
-                m.flat_on_curve(f"j{n}", a, rim, axis=axis)
+                m.flat_on_curve(name, a, rim, axis=axis)
 
         self.joints.append(joint)
 
@@ -316,10 +322,9 @@ class Drawing:
         a, b = (self.name(at) for at in ends)
         stiffness = max(self.made.masses) * G / self.size * float(self.random.uniform(0, 3))
         free = self.length()
+        name = f"j{len(self.joints)}"
         self.joints.append(
-            lambda m, n=len(self.joints): m.spring_damper(
-                f"j{n}", a, b, stiffness=stiffness, free_length=free
-            )
+            lambda m: m.spring_damper(name, a, b, stiffness=stiffness, free_length=free)
         )
         self.made.springs.append((*ends, stiffness, free))
 
@@ -352,9 +357,7 @@ class Drawing:
                 m.ground.curves(**self.curves[body])
                 continue
             mass, _, inertia = self.made.masses[3 * body : 3 * body + 3]
-            m.body(
-                names(body), mass=mass, inertia=inertia, points=points, curves=self.curves[body]
-            )
+            m.body(names(body), mass=mass, inertia=inertia, points=points, curves=self.curves[body])
         for joint in self.joints:
             joint(m)
         for pin in self.pins if rubs else []:

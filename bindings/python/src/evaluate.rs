@@ -269,6 +269,7 @@ pub fn force<'py>(
 
 /// The point at which a force element acts on a body, or the origin of the body: (n_t, 2), global, m.
 #[pyfunction]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
 pub fn force_place<'py>(
     py: Python<'py>,
     model: &PyModel,

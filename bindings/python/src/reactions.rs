@@ -164,7 +164,7 @@ pub fn newton_euler<'py>(
                 out.extend([of.effort, of.largest_effort, of.lever]);
             }
         });
-        let width = if count == 0 { 0 } else { out.len() / count };
+        let width = out.len().checked_div(count).unwrap_or(0);
         table(py, out, (count, width))
     })
 }

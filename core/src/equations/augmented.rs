@@ -35,7 +35,7 @@ pub enum NearSingular {
 pub(super) fn weigh_internals<S: Real>(internals: &[Internal], saddle: &mut Saddle<S>) {
     for own in internals {
         let added = own.inertia(|row| saddle.entries[row]);
-        // 1 for what is no unknown of the group
+        // 1 beyond the unknowns of the group
         let inverse = |k: usize| if k < own.size { S::one() / added[k] } else { S::one() };
         saddle.masses[own.owner] = InverseMass::diagonal(indexed(inverse));
     }
@@ -85,7 +85,7 @@ impl<S: Real> Augmented<S> {
         (&self.plan, &mut self.saddle)
     }
 
-    /// Sets W = M at the given motions, including what is [added](super::light) to massless bodies.
+    /// Sets W = M at the given motions, including what is added to massless bodies.
     pub fn set_mass(&mut self, compiled: &Compiled<S>, motions: &[Motion<S>]) {
         self.set_inertia(compiled);
         let Self { plan, saddle, .. } = self;

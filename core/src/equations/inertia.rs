@@ -3,7 +3,7 @@
 use crate::math::{Local, Real};
 use crate::model::{Model, Weighed};
 
-/// Inertia of a moving body in W, with what is [added](super::light) to massless ones.
+/// Inertia of a moving body in W, with what is added to massless ones.
 #[derive(Clone, Copy, Debug)]
 pub struct Inertia<S = f64> {
     /// 1/m, 1/kg, and 1/J about the mass centre, 1/(kg·m²).

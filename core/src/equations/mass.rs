@@ -82,8 +82,8 @@ pub(super) fn put_blocks<S: Real>(
     blocks: &mut Vec<MassBlock<S>>,
 ) {
     blocks.clear();
-    for k in 1..model.bodies.len() {
-        blocks.push(block(&model.bodies[k], &motions[k]));
+    for (body, motion) in model.bodies.iter().zip(motions).skip(1) {
+        blocks.push(block(body, motion));
     }
 }
 

@@ -27,7 +27,8 @@ const ROUNDING: f64 = 1e-15;
 const SIGNIFICANT: f64 = 1e-9;
 /// Smallest multipliers, relative to the largest force, that are solved to all digits.
 const LEAST: f64 = 1e-10;
-/// Smallest value of the terms of a remainder relative to the largest terms, so that rounding errors are no load.
+/// Smallest value of the terms of a remainder relative to the largest terms, so that rounding errors do not
+/// count as loads.
 const LEAST_TERMS: f64 = 1e-4;
 
 /// Vectors of a solution, reused by the next one.
@@ -63,7 +64,7 @@ type At<'a, S> = (&'a Model<S>, &'a Motions<S>, &'a Augmented<S>);
 /// Solves K x = b. `x` contains b before and the solution afterwards, shape (n_q + n_rows).
 ///
 /// # Errors
-/// As [`correct`].
+/// A load on a coordinate without mass or inertia that no joint supports.
 pub fn solve<S: Real>(
     model: &Model<S>,
     motions: &Motions<S>,
@@ -148,10 +149,7 @@ pub(super) fn correct<S: Real>(
     }
     put_remainder(of, masses, b, solution, correction);
     let terms = terms(model, masses, matrix.jacobian(), b, [&solution[..n], &solution[at..]]);
-    match largest(&correction[..n], &terms) {
-        (column, left) if left > SIGNIFICANT => Err(Breakdown::Column(column)),
-        _ => Ok(()),
-    }
+    significant(&correction[..n], &terms).map_or(Ok(()), |column| Err(Breakdown::Column(column)))
 }
 
 /// The largest magnitude; NaN if a number is NaN.
@@ -163,11 +161,11 @@ fn most<S: Real>(x: &[S]) -> f64 {
     largest.get()
 }
 
-/// The column with the largest remainder relative to its terms, and this ratio.
-fn largest<S: Real>(remainder: &[S], terms: &[S]) -> (usize, f64) {
+/// The first column with a significant remainder relative to its terms.
+fn significant<S: Real>(remainder: &[S], terms: &[S]) -> Option<usize> {
     let part = |(r, terms): (&S, &S)| S::select(*terms, *r / *terms, S::zero());
-    let ratios = remainder.iter().zip(terms).map(|both| part(both).largest_magnitude());
-    ratios.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap_or((0, 0.0))
+    let mut ratios = remainder.iter().zip(terms).map(|both| part(both).largest_magnitude());
+    ratios.position(|ratio| ratio > SIGNIFICANT)
 }
 
 /// Computes b - K x into `out`, in the layout of the matrix.

@@ -161,6 +161,18 @@ pub(super) struct Update {
     pub size: u32,
 }
 
+/// A row of A at a light group, and the sum of its pivot.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct LightRow {
+    /// The row of three entries.
+    pub entry: u32,
+    pub group: u32,
+    /// Index of the sum among the factors.
+    pub sum: u32,
+    /// The parts of the terms that do not count.
+    pub excess: [f64; 2],
+}
+
 /// The records of blocks left of the diagonal that have not been read yet.
 #[derive(Clone, Debug)]
 pub(super) struct Ahead<'a> {

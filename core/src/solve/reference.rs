@@ -8,6 +8,7 @@
 
 use super::mass_block::dot;
 use super::pattern::Pattern;
+use super::records::LightRow;
 use super::saddle::Saddle;
 use crate::math::Real;
 
@@ -18,18 +19,6 @@ pub struct LightGroup {
     pub group: usize,
     /// W/M̃, at most 1.
     pub ratios: [f64; 2],
-}
-
-/// A row of A at a light group, and the sum of its pivot.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct LightRow {
-    /// The row of three entries.
-    entry: u32,
-    group: u32,
-    /// Index of the sum among the factors.
-    sum: u32,
-    /// The parts of the terms that do not count.
-    excess: [f64; 2],
 }
 
 impl<S: Real> Saddle<S> {

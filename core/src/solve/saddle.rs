@@ -22,8 +22,7 @@ use super::condensed::CondensedGroup;
 use super::mass_block::{above_zero, check, is_usable, InverseMass, PIVOT_TOLERANCE};
 use super::pattern::Pattern;
 use super::pin_block::PinBlock;
-use super::records::{next, Ahead, Left, Row, Update};
-use super::reference::LightRow;
+use super::records::{next, Ahead, Left, LightRow, Row, Update};
 use crate::math::Real;
 
 /// Smallest accepted pivot. Its inverse is finite. Pivots of a matrix with NaN or inf are refused.

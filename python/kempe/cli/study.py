@@ -64,7 +64,7 @@ def computed(case: Case, analysis: str | None = None) -> Study:
     """The study of an analysis; a terminal shows the variant that is computed."""
     import warnings
 
-    from kempe.analyses import AccuracyWarning, AssemblyWarning
+    from kempe.analyses import AssemblyWarning
     from kempe.events import EventWarning
     from kempe.studies import study as compute
 
@@ -72,7 +72,6 @@ def computed(case: Case, analysis: str | None = None) -> Study:
     with warnings.catch_warnings(), remarks().status("", spinner="line") as status:
         warnings.simplefilter("ignore", AssemblyWarning)
         warnings.simplefilter("ignore", EventWarning)
-        warnings.simplefilter("ignore", AccuracyWarning)
         return compute(case, analysis, progress=None if silent else status.update)
 
 

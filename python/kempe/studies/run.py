@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -9,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from kempe import files
-from kempe.analyses import simulate
+from kempe.analyses import AccuracyWarning, simulate
 from kempe.case import Case
 from kempe.errors import IntegrationError, ModelError, SingularityError
 from kempe.names import one_of
@@ -84,10 +85,20 @@ def study(
             "the case contains no analysis of type dynamics", hint="add one, as [analyses.release]"
         )
     name = names[0] if analysis is None else one_of("analysis", analysis, names)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", AccuracyWarning)  # the study compares what it warns of
+        outcomes = _outcomes(case, name, variants() if ways is None else ways, progress)
+    return Study(case.model.title, name, tuple(outcomes))
+
+
+def _outcomes(
+    case: Case, name: str, ways: Sequence[Variant], progress: Callable[[str], None] | None
+) -> list[Outcome]:
+    """The variants of an analysis, of which the first is the reference."""
     begin, entry = _beginning(case, name)
     reference: Solution | None = None
     outcomes = []
-    for way in variants() if ways is None else ways:
+    for way in ways:
         if progress is not None:
             progress(way.name)
         found = _computed(case, begin, {**entry, **way.entry()}, way, reference)
@@ -96,7 +107,7 @@ def study(
                 raise IntegrationError(f"{way.name}: {found.reason}", t=found.diverged_at)
             reference = found.solution
         outcomes.append(found)
-    return Study(case.model.title, name, tuple(outcomes))
+    return outcomes
 
 
 def _beginning(case: Case, name: str) -> tuple[State, dict[str, Any]]:

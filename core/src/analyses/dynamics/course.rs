@@ -14,6 +14,7 @@ use super::options::Options;
 use super::run::{run_phase, Phase, PhaseEnd, Progress};
 use super::run_results::{EventStates, Run};
 use super::setting::Setting;
+use super::stall::Stall;
 use super::start_check::StartCheck;
 use crate::analyses::conditions::Condition;
 use crate::analyses::event_options::STOP;
@@ -275,38 +276,6 @@ fn watched<'c>(
         }
     });
     watched.collect()
-}
-
-/// Counts changes of mode that occur at one time.
-#[derive(Default)]
-struct Stall {
-    t: f64,
-    count: usize,
-}
-
-impl Stall {
-    /// Largest number of changes at one time: a constant, and the addition for each force with modes.
-    const MOST: [usize; 2] = [200, 20];
-    /// Times count as equal within this number of floating-point spacings.
-    const SPACINGS: f64 = 64.0;
-
-    fn look(&mut self, model: &Model, t: f64, setting: &Setting) -> Result<(), Box<Failure>> {
-        let one_time = (t - self.t).abs() <= Self::SPACINGS * f64::EPSILON * t.abs();
-        (self.t, self.count) = (t, if one_time { self.count + 1 } else { 0 });
-        let [most, each] = Self::MOST;
-        if self.count <= most + each * setting.modes.len() {
-            return Ok(());
-        }
-        let names: Vec<&str> =
-            setting.modes.iter().map(|of| model.forces[of.force].name.as_str()).collect();
-        let message = format!(
-            "contacts or friction change their modes without end at t = {t:.6} s, among them {}",
-            names.join(", ")
-        );
-        let hint =
-            "give a stop or contact a stiffness in place of restitution, or friction a velocity";
-        Err(Reason::Integration { t, message, hint }.into())
-    }
 }
 
 /// Whether any force holds in a phase.

@@ -75,6 +75,7 @@ mod singularity_forecast;
 mod singularity_handover;
 mod singularity_passage;
 mod stabilizations;
+mod stall;
 mod start_check;
 mod stepper;
 mod stiffness_detection;

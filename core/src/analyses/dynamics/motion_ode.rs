@@ -30,10 +30,17 @@ pub(super) struct MotionOde<'a> {
     /// Whether singular positions are passed.
     pub passing: bool,
     pub passage: SingularityPassage,
-    /// An energy whose errors matter, J, if bodies touch or rub. Works may then be less smooth than the motion.
+    /// An energy whose errors matter, J, if [works are tested](tests_works).
     least_energy: Option<f64>,
     /// Time and reason of the last evaluation without a solution. A shorter step may avoid it.
     pub paradox: Option<(f64, Breakdown)>,
+}
+
+/// Whether works can be less smooth than the motion, so that their errors are tested: bodies touch or rub, or drivers
+/// follow laws that are smooth in pieces only.
+pub(super) fn tests_works(model: &Model) -> bool {
+    let pieces = !model.switches.is_empty() || !model.blueprint.tables.is_empty();
+    model.driven && pieces || model.forces.iter().any(|item| item.element.touches_or_rubs())
 }
 
 impl<'a> MotionOde<'a> {
@@ -54,8 +61,7 @@ impl<'a> MotionOde<'a> {
             _ => None,
         };
         let (gains, paradox) = (options.gains(), None);
-        let rough = model.forces.iter().any(|item| item.element.touches_or_rubs());
-        let least_energy = rough.then(|| LEAST * usual_energy(model));
+        let least_energy = tests_works(model).then(|| LEAST * usual_energy(model));
         Self {
             model,
             workspace,

@@ -9,6 +9,7 @@ use super::guard::{self, Guard};
 use super::lane_motion::{LaneEquations, LaneMotion};
 use super::methods::Scheme;
 use super::modes::has_modes;
+use super::motion_ode::tests_works;
 use super::options::Options;
 use super::prepared::Prepared;
 use super::recorder::Recorder;
@@ -38,7 +39,7 @@ pub type RunOutcome = Result<Run, Box<Failure>>;
 
 impl Variant<'_> {
     /// Whether the run can take its steps side by side with others: by an explicit method with error control, without
-    /// events, switches, contacts, friction, outputs between start and end, or an interpolant.
+    /// events, switches, tests of works, outputs between start and end, or an interpolant.
     pub fn serves(&self) -> bool {
         let Options { method, stabilization, events, stop, dense_output, output_step, .. } =
             self.options;
@@ -54,7 +55,7 @@ impl Variant<'_> {
             && output_step.is_some_and(|h| h > span)
             && Setting::of(self.options).is_plain()
             && model.switches.is_empty()
-            && model.forces.iter().all(|item| !item.element.touches_or_rubs())
+            && !tests_works(model)
             && !has_modes(model)
             && model.constraints.iter().all(|item| item.element.release().is_none())
     }

@@ -131,14 +131,14 @@ impl<S: Real> Friction<S> {
             out.put(part, 1, Wrench::torque(effort));
             return;
         }
-        let [from_i, from_j] = self.from_bodies(at);
+        let [from_i, from_j] = self.arms_of_bodies(at);
         let force = self.joint.direction(&at.i().pose).scale(effort);
         out.put(part, 0, Wrench::at(from_i, -force));
         out.put(part, 1, Wrench::at(from_j, force));
     }
 
     /// The vectors from the origins of bodies i and j to the point of the joint on body j.
-    fn from_bodies(&self, at: &Situation<'_, S>) -> [Vec2<S>; 2] {
+    fn arms_of_bodies(&self, at: &Situation<'_, S>) -> [Vec2<S>; 2] {
         let place = self.joint.place(&at.j().pose);
         [place - at.i().pose.r, place - at.j().pose.r]
     }
@@ -160,7 +160,7 @@ impl Force for Friction {
     }
 
     fn arms<S: Real>(e: &Friction<S>, at: &Situation<'_, S>) -> Option<[Vec2<S>; 2]> {
-        Some(e.from_bodies(at))
+        Some(e.arms_of_bodies(at))
     }
 
     fn action<S: Real>(e: &Friction<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {

@@ -91,8 +91,10 @@ fn roots_at_the_ends_belong_to_one_step() {
     });
 }
 
+type Functions<'a> = &'a mut dyn FnMut(f64, &[f64], &mut [f64]);
+
 /// Functions without bounds.
-struct Unbounded<'a>(&'a mut dyn FnMut(f64, &[f64], &mut [f64]));
+struct Unbounded<'a>(Functions<'a>);
 
 impl Watch for Unbounded<'_> {
     fn values(&mut self, t: f64, y: &[f64], out: &mut [f64]) {
@@ -106,7 +108,7 @@ impl Watch for Unbounded<'_> {
 fn first(
     step: &Step<'_>,
     count: usize,
-    functions: &mut dyn FnMut(f64, &[f64], &mut [f64]),
+    functions: Functions<'_>,
     direction: Direction,
     until: &dyn Fn(usize) -> Option<f64>,
 ) -> Scan {
