@@ -31,6 +31,7 @@ const MASSLESS: f64 = 1e-14;
 pub(super) const FLOOR: f64 = 1e-8;
 /// Factor on both limits for moments of inertia relative to m l². A slender bar has 1/12 of m l².
 const TURNING: f64 = 0.1;
+
 /// The inertias of a model in the matrix, and its light bodies and coordinates.
 #[derive(Clone, Debug)]
 pub struct Light<S> {
