@@ -186,7 +186,8 @@ def _keep_partial(finished: _Finished, error: BaseException, names: list[str]) -
     if partial is None:
         return
     finished.finish(name, partial)
-    reached = f"{float(partial.t[-1]):g} s"
+    of, last = partial.variable, f"{float(partial.t[-1]):g} {partial.variable.unit}"
+    reached = last if of.is_time else f"{of.name} = {last}"
     console.print(
         Text(f"the solution up to {reached} is in {finished.summaries[name]['files'][0]}")
     )
