@@ -7,7 +7,7 @@
 //! means that the rows are nearly dependent.
 
 use super::mass_block::dot;
-use super::pattern::Pattern;
+use super::pattern::{GroupRow, Pattern};
 use super::records::LightRow;
 use super::saddle::Saddle;
 use crate::math::Real;
@@ -22,18 +22,16 @@ pub struct LightGroup {
 }
 
 impl<S: Real> Saddle<S> {
-    /// Sets the light groups; none before.
+    /// Sets the light groups, in place of those before.
     pub fn set_light(&mut self, pattern: &Pattern, groups: &[LightGroup]) {
-        self.light.clear();
-        for row in pattern.rows_of_groups() {
-            let own = groups.iter().filter(|light| light.group == row.group as usize);
-            self.light.extend(own.map(|light| LightRow {
-                entry: row.entry,
-                group: row.group,
-                sum: row.sum,
-                excess: light.ratios.map(|ratio| 1.0 - ratio),
-            }));
-        }
+        let mut of_group = vec![None; self.masses.len()];
+        groups.iter().for_each(|light| of_group[light.group] = Some(light.ratios));
+        let rows = pattern.rows_of_groups().into_iter();
+        let light = |GroupRow { entry, group, sum }: GroupRow| {
+            let excess = of_group[group as usize]?.map(|ratio: f64| 1.0 - ratio);
+            Some(LightRow { entry, group, sum, excess })
+        };
+        self.light = rows.filter_map(light).collect();
     }
 
     /// Subtracts from the sums of the pivots what light groups exceed their reference masses by.

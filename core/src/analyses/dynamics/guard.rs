@@ -1,8 +1,9 @@
 //! The guard at the end of a run: a result that does not satisfy its own equations is an error.
 //!
-//! It looks at some [`EXAMINED`] reported states of each phase: at the energy balance, the joints, the gaps of rigid
-//! contacts, and the Newton–Euler balances of the reported forces. The limits are options of the run. Drift without projection, the energy that damped methods lose and the error of
-//! constant steps belong to the method that was chosen: they become [doubts](Run::doubts) of the result.
+//! It looks at up to [`EXAMINED`] reported states of each phase: at the energy balance, the joints, the gaps of rigid
+//! contacts, and the Newton–Euler balances of the reported forces. The limits are options of the run. Drift without
+//! projection, the energy that damped methods lose and the error of constant steps belong to the method that was chosen:
+//! they become [doubts](Run::doubts) of the result.
 
 use super::accelerations::{accelerations, Accelerations};
 use super::energies::energies;
