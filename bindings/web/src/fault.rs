@@ -1,5 +1,6 @@
 //! The reason that a request fails.
 
+use kempe::analyses::record::Outcome;
 use kempe::case::{Diagnostic, Document};
 use kempe::model::Problem;
 use serde_json::{json, Value};
@@ -43,6 +44,13 @@ impl Fault {
     /// The fault as a reply.
     pub fn reply(&self) -> String {
         json!({ "error": self.value() }).to_string()
+    }
+}
+
+impl From<Outcome> for Fault {
+    fn from(outcome: Outcome) -> Self {
+        let problems = outcome.problems.iter().map(problem).collect();
+        Self { message: outcome.message, hint: outcome.hint, problems }
     }
 }
 

@@ -15,7 +15,6 @@ mod loaded;
 mod mechanism;
 mod modes;
 mod named;
-mod over;
 mod pose;
 mod readiness;
 mod run;

@@ -6,7 +6,8 @@ use crate::fault::Fault;
 use crate::loaded::Loaded;
 use crate::pose::pose;
 use kempe::analyses::assemble::holding;
-use kempe::analyses::configurations::{configurations as core, Failure};
+use kempe::analyses::configurations::configurations as core;
+use kempe::analyses::record::Outcome;
 use kempe::{mobility, Model, State};
 use serde_json::{json, Value};
 
@@ -20,14 +21,7 @@ pub fn configurations(loaded: &Loaded, fields: &Fields<'_>) -> Result<Value, Fau
     let held = held(loaded)?;
     let names: Vec<&str> = held.iter().map(String::as_str).collect();
     let request = locked_at(model, state, &names)?;
-    let found = core(model, &request, limit, &|| false).map_err(|failure| match failure {
-        Failure::Assembly(failure) => {
-            Fault::new(failure.message.clone()).hint(failure.hint.clone())
-        }
-        Failure::Free { degrees_of_freedom } => {
-            Fault::new(format!("{degrees_of_freedom} freedoms are left"))
-        }
-    })?;
+    let found = core(model, &request, limit, &|| false).map_err(Outcome::from)?;
     let poses = found.states.iter().map(|(state, _)| pose(model, state));
     let poses: Vec<Value> = poses.collect();
     Ok(json!({ "complete": found.complete, "held": names, "poses": poses }))

@@ -15,6 +15,7 @@ use crate::readiness::readiness;
 use crate::run::Ran;
 use kempe::analyses::assemble::{self, Request};
 use kempe::analyses::readings;
+use kempe::analyses::record::Outcome;
 use kempe::case::{self, Format};
 use kempe::{assemble as close, State};
 use serde_json::{json, Value};
@@ -219,19 +220,9 @@ impl Session {
 impl Loaded {
     /// Assembles the mechanism. The state does not change if this fails.
     pub fn assemble(&mut self, request: Request) -> Result<(), Fault> {
-        let (state, _) = close(&self.model, &request)
-            .map_err(|failure| Fault::new(failure.message.clone()).hint(failure.hint.clone()))?;
+        let (state, _) = close(&self.model, &request).map_err(|failure| Outcome::from(*failure))?;
         (self.state, self.assembled) = (state, true);
         Ok(())
-    }
-
-    /// The start of the case.
-    pub fn start(&self) -> Result<State, Fault> {
-        let request = self.case.start.request(&self.model);
-        let request = request.map_err(|problems| Fault::new(problems.to_string()))?;
-        let (state, _) = close(&self.model, &request)
-            .map_err(|failure| Fault::new(failure.message.clone()).hint(failure.hint.clone()))?;
-        Ok(state)
     }
 
     /// The values of the parameters.

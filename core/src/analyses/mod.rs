@@ -1,5 +1,6 @@
 //! The analyses of a model: free functions of model, state and options.
 
+mod analysis_table;
 pub mod assemble;
 mod balances;
 mod closing;
@@ -20,10 +21,10 @@ pub mod limits;
 pub mod linearization;
 pub mod measures;
 mod mobility;
-mod option_tables;
 pub mod options;
 mod quantities;
 pub mod readings;
+pub mod record;
 mod required;
 mod results;
 mod rigid;
@@ -40,12 +41,12 @@ pub mod sweep;
 pub mod transmission;
 mod uniqueness;
 
+pub use analysis_table::{declarations, is_motion, kind_of, option_families, AnyAnalysis};
 pub use dependence::Dependent;
 pub use event_options::{EventOption, DIRECTIONS};
 pub use friction_range::friction_range;
 pub use mobility::{mobility, Mobility};
-pub use option_tables::{declarations, option_families};
 pub use results::NoResult;
-pub use sequence::check;
+pub use sequence::{check, run_after, start_of};
 pub use state::State;
 pub use uniqueness::not_unique;

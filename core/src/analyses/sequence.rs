@@ -1,91 +1,73 @@
-//! Checks of the analyses of a case that need no run.
+//! The analyses of a case in their order: where each starts, and the checks that need no run.
 
+use super::analysis_table::AnyAnalysis;
+use super::assemble::{assemble_until, Request};
 use super::conditions::Condition;
-use super::configurations::Options as ConfigurationsOptions;
-use super::diagnosis::Options as MobilityOptions;
-use super::dynamics;
-use super::equilibrium::Options as EquilibriumOptions;
-use super::kinematics::{InverseOptions, Options as KinematicsOptions};
-use super::limits::Options as LimitsOptions;
-use super::linearization::Options as ModesOptions;
-use super::options::Declared;
+use super::record::{ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished};
 use crate::model::{Entry, Model, Problem, Value};
+
+/// The index of the analysis at whose end an analysis starts: the one that `from` names, or the one before it. None at
+/// the start of the case.
+pub fn start_of(analyses: &[Entry], place: usize) -> Option<usize> {
+    match analyses[place].get("from") {
+        Some(Value::Text(name)) => analyses[..place].iter().rposition(|entry| entry.name == *name),
+        _ => place.checked_sub(1),
+    }
+}
+
+/// Runs an analysis from the end of another one. If joints have drifted there, it starts in the nearest state that
+/// meets the constraints, and a remark says so.
+///
+/// # Errors
+/// [`Unfinished`].
+pub fn run_after(
+    analysis: &AnyAnalysis,
+    subject: &Subject<'_>,
+    end: &StartState,
+    mut observer: Observer<'_>,
+) -> Result<Record, Box<Unfinished>> {
+    let failed = match analysis.run(subject, end, observer.again()) {
+        Err(failed) if is_open(&failed.outcome) && !analysis.changes_parameters() => failed,
+        other => return other,
+    };
+    let (t, state) = (end.state.t, Some(end.state.clone()));
+    let request = Request { state, t, ..Request::default() };
+    let (state, _) = assemble_until(&subject.released(end), &request, observer.stop)
+        .map_err(|failure| Outcome::from(*failure))?;
+    let mut record = analysis.run(subject, &end.at(state), observer)?;
+    let message = failed.outcome.message;
+    record.remarks.push(format!("{message}; it starts from the nearest state that does"));
+    Ok(record)
+}
+
+/// Whether an analysis failed because its start does not meet the constraints.
+fn is_open(outcome: &Outcome) -> bool {
+    outcome.class == ErrorClass::Assembly
+}
 
 /// All problems of a sequence of analyses that begins with an assembled start at t = 0.
 pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
     let mut problems = releases(model);
     // the end time of each analysis, if it is known
-    let mut ends = vec![("start", Some(0.0))];
-    for entry in analyses {
+    let mut ends: Vec<Option<f64>> = Vec::new();
+    for (place, entry) in analyses.iter().enumerate() {
+        let begin = start_of(analyses, place).map_or(Some(0.0), |before| ends[before]);
         let path = ["analyses".to_string(), entry.name.clone()];
-        let begin = match entry.get("from") {
-            Some(Value::Text(name)) => ends.iter().rev().find(|(known, _)| known == name),
-            _ => ends.last(),
-        };
-        let begin = begin.and_then(|(_, t)| *t);
-        let fields = &entry.fields;
-        let kind = match entry.get("type") {
-            Some(Value::Text(kind)) => kind.as_str(),
-            _ => "",
-        };
-        let end = match kind {
-            KinematicsOptions::NAME => {
-                KinematicsOptions::checked(model, fields, &path).map(|options| options.t_end)
-            }
-            InverseOptions::NAME => {
-                InverseOptions::checked(model, fields, &path).map(|options| options.t_end)
-            }
-            // an analysis of a position ends at the time at which it begins
-            EquilibriumOptions::NAME => {
-                EquilibriumOptions::checked(model, fields, &path).map(|_| begin)
-            }
-            ModesOptions::NAME => ModesOptions::checked(model, fields, &path).map(|_| begin),
-            LimitsOptions::NAME => LimitsOptions::checked(model, fields, &path).map(|_| begin),
-            MobilityOptions::NAME => MobilityOptions::checked(model, fields, &path).map(|_| begin),
-            ConfigurationsOptions::NAME => {
-                ConfigurationsOptions::checked(model, fields, &path).map(|_| begin)
-            }
-            _ => dynamics_end(model, fields, &path, begin),
-        };
-        ends.push((
-            &entry.name,
-            end.unwrap_or_else(|found| {
-                problems.extend(found);
-                None
-            }),
-        ));
+        let read = AnyAnalysis::read(model, &entry.fields, &path);
+        let end = read
+            .and_then(|analysis| analysis.ends(model, begin).map_err(|found| within(&path, found)));
+        ends.push(end.unwrap_or_else(|found| {
+            problems.extend(found);
+            None
+        }));
     }
     problems
 }
 
-/// The end of an analysis of type `dynamics` that begins at a known time.
-fn dynamics_end(
-    model: &Model,
-    fields: &[(String, Value)],
-    path: &[String],
-    begin: Option<f64>,
-) -> Result<Option<f64>, Vec<Problem>> {
-    let options = dynamics::read(model, fields, path)?;
-    let keys = |more: &[&str]| -> Vec<String> {
-        path.iter().cloned().chain(more.iter().map(ToString::to_string)).collect()
-    };
-    let at = |more: &[&str], message: String| {
-        let keys = keys(more);
-        Problem::at(&keys.iter().map(String::as_str).collect::<Vec<_>>(), message)
-    };
-    let mut problems = Vec::new();
-    problems.extend(
-        options
-            .fault(model, begin)
-            .map(|fault| at(&fault.path, fault.message).maybe_hint(fault.hint.map(str::to_string))),
-    );
-    let path = keys(&["t_end"]);
-    let path: Vec<&str> = path.iter().map(String::as_str).collect();
-    problems.extend(begin.and_then(|begin| options.backward(begin, &path)));
-    match problems.is_empty() {
-        true => Ok(Some(options.t_end)),
-        false => Err(problems),
-    }
+/// Problems with their paths in the file.
+fn within(path: &[String], problems: Vec<Problem>) -> Vec<Problem> {
+    let one = |problem: Problem| Problem { path: [path, &problem.path].concat(), ..problem };
+    problems.into_iter().map(one).collect()
 }
 
 /// The problems of release conditions of drivers.

@@ -50,6 +50,13 @@ fn table(table: &Table) -> Value {
 fn options(declared: &Declaration) -> Value {
     let mut value = table(&declared.table);
     value["class"] = json!(declared.class);
+    if declared.motion {
+        value["motion"] = json!(true);
+    }
+    if !declared.numbers.is_empty() {
+        let numbers = declared.numbers.iter().map(|(name, unit)| json!([name, unit]));
+        value["numbers"] = numbers.collect();
+    }
     value
 }
 

@@ -13,6 +13,7 @@
 //! | `names`, `values`, `fields`, `tables`, `bodies`, `start`, `check` | tree → [`Case`], with every fault of structure |
 //! | `write_value`, `write_json`, `write_toml`, `write` | [`Case`] → text |
 //! | `faults` | faults of the start and the analyses that can be found only with the model |
+//! | `run` | the analyses of a case in their order |
 //! | `schema`, `catalogue` | the JSON Schema; the declarations of the possible contents of a case |
 
 mod bodies;
@@ -30,6 +31,7 @@ mod fields;
 mod json;
 mod names;
 mod report;
+mod run;
 mod schema;
 mod start;
 mod start_builder;

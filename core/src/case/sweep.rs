@@ -3,7 +3,7 @@
 use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
 use super::values::{word, wrong};
-use crate::analyses::sweep;
+use crate::analyses::{is_motion, sweep};
 use crate::expression::suggest::did_you_mean;
 use crate::model::{Model, Problem, Value};
 
@@ -169,7 +169,7 @@ pub(super) fn faults(
         _ => kinds.last(),
     };
     let Some(Value::List(texts)) = get("measures") else { return found };
-    let Some((_, kind)) = swept.filter(|(_, kind)| sweep::MOTIONS.contains(&kind.as_str())) else {
+    let Some((_, kind)) = swept.filter(|(_, kind)| is_motion(kind)) else {
         return found;
     };
     for (k, text) in texts.iter().enumerate() {

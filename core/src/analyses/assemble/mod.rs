@@ -26,6 +26,7 @@ mod placements;
 mod placer;
 mod rates;
 mod report;
+mod report_json;
 mod request;
 mod rod_placement;
 mod slider_placement;

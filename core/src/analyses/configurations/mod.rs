@@ -15,6 +15,7 @@
 
 mod found;
 mod options;
+mod record;
 mod search;
 mod turns;
 mod walk;

@@ -24,6 +24,7 @@ use super::dependence;
 use super::freedoms::NEARLY;
 use super::mobility::{mobility, Mobility};
 use super::options::{name, options};
+use super::record::{Analysis, Observer, Record, StartState, Subject, Unfinished};
 use super::{dynamics, Dependent, State};
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
@@ -38,6 +39,30 @@ options! {
         /// State that is examined: "start", or the name of an earlier analysis to use its final
         /// state. If absent, the final state of the previous analysis.
         from: Option<name> = None,
+    }
+}
+
+impl Analysis for Options {
+    const NUMBERS: &'static [(&'static str, &'static str)] = &[
+        ("degrees_of_freedom", ""),
+        ("gruebler", ""),
+        ("rank", ""),
+        ("driven", ""),
+        ("redundant", ""),
+        ("singular", ""),
+        ("locked", ""),
+        ("loose", ""),
+        ("undetermined", ""),
+    ];
+
+    fn run(
+        &self,
+        subject: &Subject<'_>,
+        start: &StartState,
+        _: Observer<'_>,
+    ) -> Result<Record, Box<Unfinished>> {
+        let found = diagnose(&subject.released(start), &start.state);
+        Ok(Record::new(as_json(&found), start.clone()))
     }
 }
 

@@ -8,7 +8,7 @@ use super::switch_schedule::Schedule;
 use crate::analyses::options::{not_negative, positive, Bounded};
 use crate::analyses::State;
 use crate::equations::Gains;
-use crate::model::Model;
+use crate::model::{Model, Problem};
 use crate::stabilize::Projection;
 
 /// Largest number of reported states on a grid.
@@ -24,7 +24,7 @@ impl Options {
 
     /// The first option that no run of the model can have: its path and its fault. Only faults that can be found
     /// without a run are reported. `t0` is the start of the run, if it is known.
-    pub(in crate::analyses) fn fault(&self, model: &Model, t0: Option<f64>) -> Option<OptionFault> {
+    pub(in crate::analyses) fn fault(&self, model: &Model, t0: Option<f64>) -> Option<Problem> {
         let t0 = self.t_start.or(t0);
         let found = self.check_combination().and_then(|()| match t0 {
             Some(t0) => self.check_output(t0).and_then(|()| {
@@ -34,7 +34,7 @@ impl Options {
             None => Ok(()),
         });
         let step = if self.method.control().step.is_some() { "step" } else { "max_step" };
-        found.err().map(|failure| OptionFault::new(failure.reason, step))
+        found.err().map(|failure| option_problem(failure.reason, step))
     }
 
     /// Makes the checks that the integrator makes before its first step.
@@ -83,37 +83,24 @@ impl Options {
     }
 }
 
-/// An option in a file with a value that no run can have.
-pub(in crate::analyses) struct OptionFault {
-    /// Its keys in the analysis.
-    pub path: Vec<&'static str>,
-    /// Description.
-    pub message: String,
-    /// Remedy.
-    pub hint: Option<&'static str>,
-}
-
-impl OptionFault {
-    /// `step` is the option that sets the number of steps.
-    fn new(reason: Reason, step: &'static str) -> Self {
-        match reason {
-            Reason::Option { name, message } => {
-                let path = match name {
-                    "alpha" | "beta" | "tolerance" => vec!["stabilization", name],
-                    "output_step" | "stabilization" | "t_end" => vec![name],
-                    "t0" | "t_end - t0" => vec!["t_end"],
-                    _ => vec!["method", name],
-                };
-                let prefix = format!("{name}: ");
-                let message = message.strip_prefix(&prefix).unwrap_or(&message).to_string();
-                Self { path, message, hint: None }
-            }
-            Reason::Integration { message, hint, .. } => {
-                Self { path: vec!["method", step], message, hint: Some(hint) }
-            }
-            Reason::Law { message, hint, .. } => Self { path: vec![], message, hint: Some(hint) },
-            other => Self { path: Vec::new(), message: other.to_string(), hint: None },
+/// The problem of an option, with its path in the analysis. `step` is the option that sets the number of steps.
+fn option_problem(reason: Reason, step: &'static str) -> Problem {
+    match reason {
+        Reason::Option { name, message } => {
+            let path = match name {
+                "alpha" | "beta" | "tolerance" => vec!["stabilization", name],
+                "output_step" | "stabilization" | "t_end" => vec![name],
+                "t0" | "t_end - t0" => vec!["t_end"],
+                _ => vec!["method", name],
+            };
+            let prefix = format!("{name}: ");
+            Problem::at(&path, message.strip_prefix(&prefix).unwrap_or(&message))
         }
+        Reason::Integration { message, hint, .. } => {
+            Problem::at(&["method", step], message).hint(hint)
+        }
+        Reason::Law { message, hint, .. } => Problem::new(message).hint(hint),
+        other => Problem::new(other.to_string()),
     }
 }
 

@@ -29,6 +29,7 @@ mod options;
 mod parameter;
 mod path;
 mod points;
+mod record;
 mod relaxation;
 mod result;
 mod search;

@@ -16,6 +16,7 @@
 //! | `quintic` | polynomials between two points |
 //! | `works` | the work done over a motion, by quadrature, and the record of the motion |
 //! | `options` | options of kinematics and of inverse dynamics |
+//! | `record` | both analyses, and their record |
 //! | `failure` | reasons for which a motion ends early, in terms of the mechanism |
 
 mod circuit;
@@ -29,6 +30,7 @@ mod over;
 mod passage;
 mod path;
 mod quintic;
+mod record;
 mod solution;
 mod works;
 

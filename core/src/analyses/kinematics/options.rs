@@ -3,7 +3,7 @@
 use crate::analyses::options::{count, flag, interval, name, number, options, positive};
 
 /// Default number of values over a range: one value for each degree of a full turn.
-const VALUES: usize = 361;
+pub(super) const POINTS: usize = 361;
 
 /// Declares an analysis of a driven motion.
 macro_rules! driven_motion {
@@ -21,7 +21,7 @@ macro_rules! driven_motion {
                 /// First and last value of `over`, in SI units and rad.
                 range: Option<interval> = None,
                 /// Number of values in the range, including both ends.
-                n: count = VALUES,
+                n: count = POINTS,
                 /// State at which the analysis starts: "start", or the name of an earlier analysis
                 /// to use its final state. If absent, the final state of the previous analysis.
                 from: Option<name> = None,

@@ -19,6 +19,7 @@ mod linearize;
 mod names;
 mod options;
 mod parameters;
+mod record;
 mod response;
 mod variation;
 

@@ -13,6 +13,10 @@ pub struct Declaration {
     pub table: Table,
     /// Options that exclude others, each with the options that must not be given with it.
     pub excludes: &'static [(&'static str, &'static [&'static str])],
+    /// The numbers of the result of an analysis that sweeps read, with their units; otherwise empty.
+    pub numbers: &'static [(&'static str, &'static str)],
+    /// Whether it is an analysis whose result is a motion.
+    pub motion: bool,
 }
 
 impl Declaration {
@@ -27,7 +31,7 @@ impl Declaration {
                 field.doc += &format!(" Not together with {}.", others.join(" and "));
             }
         }
-        Self { class, table, excludes }
+        Self { class, table, excludes, numbers: &[], motion: false }
     }
 }
 

@@ -6,9 +6,6 @@ use crate::analyses::measures::Measure;
 use crate::expression::suggest::did_you_mean;
 use crate::model::{Model, Problem, Value};
 
-/// Types of analyses whose results are motions. Measures have statistics for these analyses only.
-pub const MOTIONS: [&str; 3] = ["dynamics", "kinematics", "inverse_dynamics"];
-
 /// A statistic that the front end computes from the values of a measure.
 const OF_FRONT: &str = "frequency";
 

@@ -12,7 +12,7 @@ mod readings;
 mod series;
 mod statistic;
 
-pub use faults::{measure_fault, variable_fault, MOTIONS};
+pub use faults::{measure_fault, variable_fault};
 pub use statistic::Statistic;
 
 use super::assemble::{self, state_until, Request};

@@ -1,0 +1,55 @@
+//! The list of configurations as an analysis.
+
+use super::options::Options;
+use super::{configurations, Failure};
+use crate::analyses::assemble::Request;
+use crate::analyses::record::{
+    Analysis, ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished,
+};
+use crate::analyses::State;
+use serde_json::json;
+
+impl Analysis for Options {
+    const NUMBERS: &'static [(&'static str, &'static str)] = &[("count", ""), ("complete", "")];
+
+    fn run(
+        &self,
+        subject: &Subject<'_>,
+        start: &StartState,
+        observer: Observer<'_>,
+    ) -> Result<Record, Box<Unfinished>> {
+        let (model, t) = (subject.released(start), start.state.t);
+        let request = Request { set: self.set.clone(), t, ..Request::default() };
+        let found = configurations(&model, &request, self.limit, observer.stop)?;
+        let rows = |part: fn(&State) -> &Vec<f64>| -> Vec<f64> {
+            found.states.iter().flat_map(|(state, _)| part(state).iter().copied()).collect()
+        };
+        let reports: Vec<_> = found.states.iter().map(|(_, report)| report.as_json()).collect();
+        let findings = json!({
+            "complete": found.complete, "left_out": found.left_out, "reports": reports,
+        });
+        let (n_q, n_z) = (model.layout.n_q, model.layout.n_z);
+        Ok(Record::new(findings, start.clone())
+            .with("q", n_q, rows(|state| &state.q))
+            .with("v", n_q, rows(|state| &state.v))
+            .with("z", n_z, rows(|state| &state.z)))
+    }
+}
+
+impl From<Failure> for Outcome {
+    fn from(failure: Failure) -> Self {
+        match failure {
+            Failure::Assembly(failure) => (*failure).into(),
+            Failure::Free { degrees_of_freedom: n } => {
+                let (plural, verb) = if n == 1 { ("", "is") } else { ("s", "are") };
+                let message = format!(
+                    "{n} degree{plural} of freedom {verb} left, so that there are infinitely many \
+                     configurations"
+                );
+                Self::new(ErrorClass::Model, message).hint(
+                    "set a coordinate for each, as set = { \"crank.angle\": 1 }, or add drivers",
+                )
+            }
+        }
+    }
+}

@@ -1,0 +1,263 @@
+//! Kinematics and inverse dynamics as analyses.
+
+use super::failure::Reason;
+use super::kinematics;
+use super::motion::Motion;
+use super::options::{InverseOptions, Options, POINTS};
+use super::over::{over, Over};
+use super::works::MotionRecorder;
+use crate::analyses::dynamics::{system_clock, Prepared, Run, Setting, Statistics};
+use crate::analyses::record::{
+    Analysis, Driven, ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished,
+    Variable,
+};
+use crate::analyses::State;
+use crate::integrate::Flow;
+use crate::model::{Model, Problem};
+use crate::stabilize::Projection;
+use std::sync::Arc;
+
+/// Largest number of outputs over time.
+const MOST_OUTPUTS: f64 = 1e6;
+/// Part of an output step that counts as a rounding error at the end of the motion.
+const ROUNDING: f64 = 1e-12;
+
+impl Analysis for Options {
+    const MOTION: bool = true;
+
+    fn ends(&self, _: &Model, begin: Option<f64>) -> Result<Option<f64>, Vec<Problem>> {
+        self.backward(begin).map_or(Ok(self.t_end), |problem| Err(vec![problem]))
+    }
+
+    fn run(
+        &self,
+        subject: &Subject<'_>,
+        start: &StartState,
+        observer: Observer<'_>,
+    ) -> Result<Record, Box<Unfinished>> {
+        Path { options: self, subject, start, rests: false }.follow(observer)
+    }
+}
+
+impl Analysis for InverseOptions {
+    const MOTION: bool = true;
+
+    fn ends(&self, model: &Model, begin: Option<f64>) -> Result<Option<f64>, Vec<Problem>> {
+        Options::from(self.clone()).ends(model, begin)
+    }
+
+    fn run(
+        &self,
+        subject: &Subject<'_>,
+        start: &StartState,
+        observer: Observer<'_>,
+    ) -> Result<Record, Box<Unfinished>> {
+        no_states(subject.model())?;
+        let options = &Options::from(self.clone());
+        let stop = observer.stop;
+        let path = Path { options, subject, start, rests: self.r#static };
+        let record = path.follow(observer)?;
+        with_responses(record, subject, start, stop)
+    }
+}
+
+/// Refuses first-order states, which do not follow from a motion.
+fn no_states(model: &Model) -> Result<(), Outcome> {
+    let of = model.forces.iter().filter(|item| !item.states.is_empty());
+    let names: Vec<&str> = of.map(|item| &item.name[..]).collect();
+    if names.is_empty() {
+        return Ok(());
+    }
+    let message = format!("{}: its states do not follow from the motion", names.join(", "));
+    Err(Outcome::new(ErrorClass::Model, message).hint("use dynamics, or leave out the inductance"))
+}
+
+/// The record with reactions and efforts, which must be unique.
+fn with_responses(
+    record: Record,
+    subject: &Subject<'_>,
+    start: &StartState,
+    stop: &dyn Fn() -> bool,
+) -> Result<Record, Box<Unfinished>> {
+    let run = record.motion.as_ref().expect("kinematics gives a motion");
+    let model = record.driven.as_ref().map(|driven| Arc::clone(&driven.model));
+    let prepared = Prepared::new(model.unwrap_or_else(|| subject.released(start)));
+    let look = |_| if stop() { Flow::Stop } else { Flow::Continue };
+    match prepared.accelerations(run.trajectory.states(), run.passing, look) {
+        Ok(found) => Ok(Record { responses: Some(found), ..record }),
+        Err(failure) => {
+            let outcome = Outcome::from(failure.reason);
+            Err(Box::new(Unfinished { outcome, record: Some(record) }))
+        }
+    }
+}
+
+/// A motion that is to be followed.
+struct Path<'a> {
+    options: &'a Options,
+    subject: &'a Subject<'a>,
+    start: &'a StartState,
+    /// Whether the mechanism is at rest at each value.
+    rests: bool,
+}
+
+impl Path<'_> {
+    fn follow(&self, observer: Observer<'_>) -> Result<Record, Box<Unfinished>> {
+        let Observer { look, .. } = observer;
+        let Self { options, subject, start, .. } = *self;
+        match options.over.as_ref().zip(options.range) {
+            None => {
+                let begin = start.state.t;
+                if let Some(problem) = options.backward(Some(begin)) {
+                    return Err(vec![problem].into());
+                }
+                self.through(&subject.released(start), start, &options.times(begin), look)
+            }
+            Some((over, [first, last])) => {
+                let driven = subject.driven_by(start, over, self.rests)?;
+                let at = start.at(State { t: driven.variable.start, ..start.state.clone() });
+                let model = &driven.model;
+                let begin = match first == at.state.t {
+                    true => at,
+                    false => self.through(model, &at, &[first], look)?.end,
+                };
+                let step = (last - first) / (options.n - 1) as f64;
+                let value = |k: usize| match k + 1 == options.n {
+                    true => last,
+                    false => first + step * k as f64,
+                };
+                let values: Vec<f64> = (0..options.n).map(value).collect();
+                match self.through(model, &begin, &values, look) {
+                    Ok(record) => Ok(Record { driven: Some(driven), ..record }),
+                    Err(mut failed) => {
+                        failed.record =
+                            failed.record.map(|it| Record { driven: Some(driven), ..it });
+                        Err(failed)
+                    }
+                }
+            }
+        }
+    }
+
+    /// The motion of a model at times, or at values of the quantity that replaces the time.
+    fn through(
+        &self,
+        model: &Model,
+        start: &StartState,
+        times: &[f64],
+        look: &mut dyn FnMut(f64) -> Flow,
+    ) -> Result<Record, Box<Unfinished>> {
+        let began = system_clock();
+        let mut recorder = MotionRecorder::new(model, &start.state, self.rests);
+        let outcome = kinematics(model, &start.state, times, |motion| {
+            recorder.follow(motion);
+            motion.points.last().map_or(Flow::Continue, |point| look(point.t))
+        });
+        let (motion, reason) = match outcome {
+            Ok(motion) => (motion, None),
+            Err(failure) => (failure.motion, Some(failure.reason)),
+        };
+        recorder.follow(&motion);
+        let run = run(&motion, recorder, &start.released, system_clock() - began);
+        let message = reason.as_ref().map(ToString::to_string);
+        let message = message.unwrap_or_else(|| "the last value was reached".to_string());
+        let record = Record::of_motion(run, start, message);
+        match reason {
+            None => Ok(record),
+            Some(reason) => {
+                Err(Box::new(Unfinished { outcome: reason.into(), record: Some(record) }))
+            }
+        }
+    }
+}
+
+fn run(motion: &Motion, recorder: MotionRecorder<'_>, released: &[String], seconds: f64) -> Run {
+    let (trajectory, dense) = (recorder.recorded.trajectory, recorder.recorded.dense);
+    let (steps, rejected) = (motion.steps(), motion.rejected);
+    Run {
+        trajectory,
+        phases: vec![0],
+        settings: vec![Setting { released: released.to_vec(), ..Setting::default() }],
+        dense: (!dense.t.is_empty()).then_some(dense),
+        statistics: Statistics { steps, rejected, seconds, ..Statistics::default() },
+        reached: motion.reached,
+        passing: true,
+        projection: Some(Projection::default()),
+        ..Run::default()
+    }
+}
+
+impl Options {
+    /// The times of the outputs, both ends included.
+    fn times(&self, begin: f64) -> Vec<f64> {
+        let end = self.t_end.unwrap_or(begin);
+        let Some(step) = self.output_step else {
+            let step = (end - begin) / (POINTS - 1) as f64;
+            let inner = (0..POINTS - 1).map(|k| begin + step * k as f64);
+            return inner.chain([end]).collect();
+        };
+        let count = ((end - begin) / step * (1.0 + ROUNDING)).min(MOST_OUTPUTS) as usize;
+        let mut times: Vec<f64> = (0..=count).map(|k| begin + step * k as f64).collect();
+        match times.last_mut() {
+            Some(last) if (end - *last).abs() <= ROUNDING * end.abs().max(last.abs()) => {}
+            _ => times.push(end),
+        }
+        times
+    }
+
+    /// The problem of an end before the start.
+    fn backward(&self, begin: Option<f64>) -> Option<Problem> {
+        let (begin, end) = (begin?, self.t_end?);
+        let message = || format!("{end} s lies before {begin} s, where the motion starts");
+        (end < begin)
+            .then(|| Problem::at(&["t_end"], message()).hint("t_end is a time, not a duration"))
+    }
+}
+
+impl Subject<'_> {
+    /// The mechanism in which t is the value of a driver or of a position quantity.
+    ///
+    /// # Errors
+    /// There is no such driver or quantity, or several drivers determine the motion already.
+    pub(in crate::analyses) fn driven_by(
+        &self,
+        start: &StartState,
+        quantity: &str,
+        rests: bool,
+    ) -> Result<Driven, Vec<Problem>> {
+        let mut definition = self.definition.clone();
+        definition.drivers.retain(|driver| !start.released.contains(&driver.name));
+        let found = over(&definition, &self.released(start), &start.state, quantity);
+        let Over { definition, quantity, unit, value } = found.map_err(|one| vec![one])?;
+        let model = self.rebuilt(&definition)?;
+        let variable = Variable { name: quantity, unit, start: value, rests };
+        Ok(Driven { model, definition, variable })
+    }
+}
+
+impl From<Reason> for Outcome {
+    fn from(reason: Reason) -> Self {
+        let message = reason.to_string();
+        match &reason {
+            Reason::Free { .. } => Self::new(ErrorClass::Model, message)
+                .hint("add a coordinate_driver for each, or use dynamics"),
+            Reason::Open { t, name, .. } => Self::new(ErrorClass::Assembly, message)
+                .name(name)
+                .at(*t)
+                .hint("kp.assemble(model, from_state=state) assembles the mechanism anew"),
+            Reason::Beyond { t, name, .. } => {
+                Self::new(ErrorClass::Assembly, message).name(name).at(*t).hint(
+                    "start where the gap is not negative, or give a stiffness in place of restitution",
+                )
+            }
+            Reason::Singular { t, name, .. } => Self::new(ErrorClass::Singularity, message)
+                .name(name)
+                .at(*t)
+                .hint("start at another position, or drive another coordinate"),
+            Reason::Limit(limit) => Self::new(ErrorClass::Singularity, message)
+                .name(&limit.driver)
+                .at(limit.t)
+                .hint("end the motion before, or drive another coordinate"),
+        }
+    }
+}

@@ -1,0 +1,100 @@
+//! Small motions about a state as an analysis.
+
+use super::failure::{coordinate, Failure};
+use super::linearize::linearize;
+use super::options::Options;
+use crate::analyses::record::{
+    Analysis, ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished,
+};
+use serde_json::json;
+
+impl Analysis for Options {
+    const NUMBERS: &'static [(&'static str, &'static str)] = &[
+        ("frequency", "Hz"),
+        ("damping", ""),
+        ("omega", "rad/s"),
+        ("eigenvalues", "1/s"),
+        ("stable", ""),
+        ("is_equilibrium", ""),
+        ("values", ""),
+        ("rates", ""),
+        ("acceleration", ""),
+    ];
+
+    fn run(
+        &self,
+        subject: &Subject<'_>,
+        start: &StartState,
+        _: Observer<'_>,
+    ) -> Result<Record, Box<Unfinished>> {
+        let model = subject.released(start);
+        let found = linearize(&model, &start.state, &self.inputs, &self.outputs);
+        let found = found.map_err(|failure| self.outcome(failure))?;
+        let (f, n_q) = (found.coordinates.len(), model.layout.n_q);
+        let n = 2 * f + found.states.len();
+        let names = found.coordinates.iter().map(|column| coordinate(&model, *column));
+        let findings = json!({
+            "coordinates": names.collect::<Vec<_>>(), "columns": found.coordinates,
+            "states": found.states, "inputs": self.inputs, "outputs": self.outputs, "n": self.n,
+        });
+        let (values, acceleration) = (found.values.len(), found.acceleration.len());
+        Ok(Record::new(findings, start.clone())
+            .with("basis", n_q, found.basis.concat())
+            .with("mass", f, found.mass)
+            .with("damping", f, found.damping)
+            .with("stiffness", f, found.stiffness)
+            .with("A", n, found.a)
+            .with("B", self.inputs.len(), found.b)
+            .with("C", n, found.c)
+            .with("D", self.inputs.len(), found.d)
+            .with("acceleration", acceleration, found.acceleration)
+            .with("values", values, found.values))
+    }
+}
+
+impl Options {
+    fn outcome(&self, failure: Failure) -> Outcome {
+        match failure {
+            Failure::NoDerivative(k) => {
+                let name = &self.outputs[k];
+                let message = format!(
+                    "{name}: it has no derivative at this state, such as the magnitude of a force \
+                     that is zero"
+                );
+                Outcome::new(ErrorClass::Model, message).name(name)
+            }
+            other => other.into(),
+        }
+    }
+}
+
+impl From<Failure> for Outcome {
+    fn from(failure: Failure) -> Self {
+        let outcome = |class| Self::new(class, failure.to_string());
+        match &failure {
+            Failure::Singular { t, name, .. } => outcome(ErrorClass::Singularity)
+                .name(name)
+                .at(*t)
+                .hint("give a state beside this position"),
+            Failure::Open { t, name, .. } => outcome(ErrorClass::Assembly)
+                .name(name)
+                .at(*t)
+                .hint("kp.assemble(model, from_state=state) assembles the mechanism anew"),
+            Failure::NoInertia { t, coordinate } => {
+                outcome(ErrorClass::Singularity).name(coordinate).at(*t)
+            }
+            Failure::Motion(motion) => {
+                let own = Self::from(motion.reason.clone());
+                match own.class {
+                    ErrorClass::Assembly => own.hint("give it a stiffness in place of restitution"),
+                    _ => Self { class: ErrorClass::Singularity, ..own }
+                        .hint("give a state beside this one, or change the mechanism"),
+                }
+            }
+            Failure::Name(problem) => {
+                outcome(ErrorClass::Model).hint(problem.hint.clone().unwrap_or_default())
+            }
+            Failure::Geometry { .. } | Failure::NoDerivative(_) => outcome(ErrorClass::Model),
+        }
+    }
+}

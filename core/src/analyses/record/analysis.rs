@@ -1,0 +1,148 @@
+//! The trait of analyses.
+
+use super::outcome::Unfinished;
+use super::result::Record;
+use crate::analyses::dynamics::{Act, Prepared, Run};
+use crate::analyses::options::Declared;
+use crate::analyses::State;
+use crate::integrate::Flow;
+use crate::model::{build, Definition, Model, Problem, Value};
+use std::sync::Arc;
+
+/// An analysis: its options, which the macro `options!` declares, and its computation.
+pub trait Analysis: Declared {
+    /// The numbers of its result that sweeps read, with their SI units; "over" stands for the unit of the quantity
+    /// `over`. Results that are motions have none: their quantities are numbers.
+    const NUMBERS: &'static [(&'static str, &'static str)] = &[];
+    /// Whether its result is a motion.
+    const MOTION: bool = false;
+
+    /// The time at which an analysis ends that begins at `begin`, where both are known.
+    ///
+    /// # Errors
+    /// The faults that follow from the time of the start, with their paths in the analysis.
+    fn ends(&self, _: &Model, begin: Option<f64>) -> Result<Option<f64>, Vec<Problem>> {
+        Ok(begin)
+    }
+
+    /// Whether it changes parameters, so that its start may not meet the constraints.
+    fn changes_parameters(&self) -> bool {
+        false
+    }
+
+    /// Runs the analysis.
+    ///
+    /// # Errors
+    /// [`Unfinished`], with the record so far if there is one.
+    fn run(
+        &self,
+        subject: &Subject<'_>,
+        start: &StartState,
+        observer: Observer<'_>,
+    ) -> Result<Record, Box<Unfinished>>;
+}
+
+/// The mechanism that an analysis examines.
+#[derive(Clone, Copy)]
+pub struct Subject<'a> {
+    /// Its definition, in which an analysis may drive another quantity.
+    pub definition: &'a Definition,
+    /// Its model, prepared for runs.
+    pub prepared: &'a Prepared<Arc<Model>>,
+}
+
+impl<'a> Subject<'a> {
+    /// The model, with all drivers.
+    pub fn model(&self) -> &'a Arc<Model> {
+        self.prepared.model()
+    }
+
+    /// The model without the drivers that were released before a start.
+    pub fn released(&self, start: &StartState) -> Arc<Model> {
+        match start.released.is_empty() {
+            true => Arc::clone(self.model()),
+            false => Arc::new(self.model().without(&start.released)),
+        }
+    }
+
+    /// The model of a changed definition, with the same values of the parameters.
+    ///
+    /// # Errors
+    /// The faults of the definition.
+    pub fn rebuilt(&self, definition: &Definition) -> Result<Arc<Model>, Vec<Problem>> {
+        let model = self.model();
+        let values = model.parameters.iter().map(|x| Value::Number(*x));
+        let values: Vec<_> = model.blueprint.parameters.iter().cloned().zip(values).collect();
+        let built = build(definition, &values)?;
+        let built = if model.allow_redundancy { built.allowing_redundancy() } else { built };
+        Ok(Arc::new(built))
+    }
+}
+
+/// The state in which an analysis starts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StartState {
+    /// The state.
+    pub state: State,
+    /// The drivers that were released before. They do not act.
+    pub released: Vec<String>,
+}
+
+impl StartState {
+    /// A start at which all drivers act.
+    pub const fn new(state: State) -> Self {
+        Self { state, released: Vec::new() }
+    }
+
+    /// The same drivers in another state.
+    pub fn at(&self, state: State) -> Self {
+        Self { state, released: self.released.clone() }
+    }
+
+    /// The end of a motion that begins here.
+    pub fn after(&self, run: &Run) -> Self {
+        let track = &run.trajectory;
+        let Some(last) = track.t.len().checked_sub(1) else { return self.clone() };
+        let row = |table: &[f64], width: usize| table[width * last..].to_vec();
+        let State { q, z, .. } = &self.state;
+        let state = State {
+            t: track.t[last],
+            q: row(&track.q, q.len()),
+            v: row(&track.v, q.len()),
+            z: row(&track.z, z.len()),
+        };
+        let released = run.settings.last().map(|setting| setting.released.clone());
+        Self { state, released: released.unwrap_or_else(|| self.released.clone()) }
+    }
+}
+
+/// Who watches an analysis.
+pub struct Observer<'a> {
+    /// Called with the time or value that was reached, or with the number of steps. It may stop the analysis.
+    pub look: &'a mut dyn FnMut(f64) -> Flow,
+    /// Whether the analysis is to stop. It is asked where `look` is not called.
+    pub stop: &'a dyn Fn() -> bool,
+    /// Acts at events of forward dynamics.
+    pub acting: Option<Acting<'a>>,
+}
+
+/// Acts at events of forward dynamics.
+pub struct Acting<'a> {
+    /// The names of the events.
+    pub events: &'a [String],
+    /// Called at each of them.
+    pub act: Act<'a>,
+}
+
+impl<'a> Observer<'a> {
+    /// An observer without actions. `stop` is not needed if `look` stops the analysis.
+    pub fn new(look: &'a mut dyn FnMut(f64) -> Flow) -> Self {
+        Self { look, stop: &|| false, acting: None }
+    }
+
+    /// The same observer for a part of the analysis.
+    pub fn again(&mut self) -> Observer<'_> {
+        let acting = self.acting.as_mut().map(|Acting { events, act }| Acting { events, act });
+        Observer { look: self.look, stop: self.stop, acting }
+    }
+}

@@ -1,0 +1,127 @@
+//! Forward dynamics as an analysis.
+
+use super::analysis::{Acting, Analysis, Observer, StartState, Subject};
+use super::outcome::{ErrorClass, Outcome, Unfinished};
+use super::result::Record;
+use crate::analyses::assemble;
+use crate::analyses::dynamics::{Options, Reason, Run};
+use crate::model::{Model, Problem};
+
+/// Advice where a motion ended and no reason has an own one.
+const LOOK: &str =
+    "look at the solution so far; change the start, or add what decides the motion here";
+
+impl Analysis for Options {
+    const MOTION: bool = true;
+
+    fn ends(&self, model: &Model, begin: Option<f64>) -> Result<Option<f64>, Vec<Problem>> {
+        let fault = self.fault(model, begin);
+        let backward = begin.and_then(|begin| self.backward(begin, &["t_end"]));
+        let problems: Vec<Problem> = fault.into_iter().chain(backward).collect();
+        if problems.is_empty() {
+            Ok(Some(self.t_end))
+        } else {
+            Err(problems)
+        }
+    }
+
+    fn changes_parameters(&self) -> bool {
+        !self.parameters.is_empty()
+    }
+
+    fn run(
+        &self,
+        subject: &Subject<'_>,
+        start: &StartState,
+        observer: Observer<'_>,
+    ) -> Result<Record, Box<Unfinished>> {
+        if let Some(problem) = self.backward(start.state.t, &["t_end"]) {
+            return Err(vec![problem].into());
+        }
+        let Observer { look, acting, .. } = observer;
+        let options = with_start(self, start, acting.as_ref());
+        let options = options.as_ref().unwrap_or(self);
+        let prepared = subject.prepared;
+        let outcome = match acting {
+            Some(Acting { act, .. }) => prepared.dynamics_with(&start.state, options, look, act),
+            None => prepared.dynamics(&start.state, options, look),
+        };
+        match outcome {
+            Ok(run) => {
+                let message = ended(&run);
+                Ok(Record::of_motion(run, start, message))
+            }
+            Err(failure) => {
+                let message = failure.reason.to_string();
+                let record = Record::of_motion(failure.run, start, message);
+                Err(Box::new(Unfinished { outcome: failure.reason.into(), record: Some(record) }))
+            }
+        }
+    }
+}
+
+/// The options with the drivers that were released before, and with the events that act; None without any.
+fn with_start(
+    options: &Options,
+    start: &StartState,
+    acting: Option<&Acting<'_>>,
+) -> Option<Options> {
+    if start.released.is_empty() && acting.is_none() {
+        return None;
+    }
+    let mut options = options.clone();
+    let before = start.released.iter().filter(|name| !options.release.contains(name));
+    options.release = before.chain(&options.release).cloned().collect();
+    for event in &mut options.events {
+        event.acts = acting.is_some_and(|acting| acting.events.contains(&event.name));
+    }
+    Some(options)
+}
+
+/// The reason that a run ended.
+fn ended(run: &Run) -> String {
+    match (&run.stopped_by, run.trajectory.t.last()) {
+        (Some(name), Some(t)) => format!("the event {name} stopped the run at t = {t:.6} s"),
+        _ => "t_end was reached".to_string(),
+    }
+}
+
+impl From<Reason> for Outcome {
+    fn from(reason: Reason) -> Self {
+        let message = reason.to_string();
+        match reason {
+            Reason::Option { .. } => Self::new(ErrorClass::Model, message),
+            Reason::Start { t, name, hint, .. } => {
+                Self::new(ErrorClass::Assembly, message).name(name).at(t).hint(hint)
+            }
+            Reason::Redundant { t, name, hint, .. } => {
+                Self::new(ErrorClass::Redundancy, message).name(name).at(t).hint(hint)
+            }
+            Reason::Law { t, name, hint, .. } => {
+                Self::new(ErrorClass::Model, message).name(name).at(t).hint(hint)
+            }
+            Reason::Singular { t, name, .. } => {
+                Self::new(ErrorClass::Singularity, message).name(name).at(t).hint(LOOK)
+            }
+            Reason::Integration { t, hint, .. } => {
+                Self::new(ErrorClass::Integration, message).at(t).hint(hint)
+            }
+        }
+    }
+}
+
+impl From<assemble::Failure> for Outcome {
+    fn from(failure: assemble::Failure) -> Self {
+        let class = match failure.fault {
+            assemble::Fault::Redundant => ErrorClass::Redundancy,
+            assemble::Fault::Open | assemble::Fault::Rates | assemble::Fault::Stopped => {
+                ErrorClass::Assembly
+            }
+        };
+        let contradicts =
+            |path: Vec<String>| Problem { path, ..Problem::new("contradicts the others") };
+        let problems = failure.places.into_iter().map(contradicts).collect();
+        let outcome = Self::new(class, failure.message).name(failure.name).hint(failure.hint);
+        Self { problems, ..outcome }
+    }
+}

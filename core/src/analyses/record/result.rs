@@ -1,0 +1,92 @@
+//! The record of an analysis.
+
+use super::analysis::StartState;
+use crate::analyses::dynamics::{Accelerations, Run};
+use crate::model::{Definition, Model};
+use serde_json::Value;
+use std::sync::Arc;
+
+/// What an analysis found.
+#[derive(Debug)]
+pub struct Record {
+    /// The motion, if the result is one.
+    pub motion: Option<Run>,
+    /// Its accelerations and multipliers, if the analysis has computed them.
+    pub responses: Option<Accelerations>,
+    /// The mechanism in which a quantity replaces the time, if one does.
+    pub driven: Option<Driven>,
+    /// Other numbers, by name.
+    pub numbers: Vec<Numbers>,
+    /// The other findings, by name.
+    pub findings: Value,
+    /// The reason for which the analysis ended.
+    pub message: String,
+    /// Remarks that a user must see.
+    pub remarks: Vec<String>,
+    /// The state in which the next analysis starts.
+    pub end: StartState,
+}
+
+impl Record {
+    /// A record with findings alone.
+    pub fn new(findings: Value, end: StartState) -> Self {
+        let (message, remarks, numbers) = (String::new(), Vec::new(), Vec::new());
+        Self {
+            motion: None,
+            responses: None,
+            driven: None,
+            numbers,
+            findings,
+            message,
+            remarks,
+            end,
+        }
+    }
+
+    /// The record of a motion, which ends in its last state with its last setting.
+    pub fn of_motion(motion: Run, start: &StartState, message: String) -> Self {
+        let end = start.after(&motion);
+        Self { motion: Some(motion), message, ..Self::new(Value::Null, end) }
+    }
+
+    /// Adds rows of numbers.
+    pub fn with(mut self, name: &'static str, width: usize, values: Vec<f64>) -> Self {
+        self.numbers.push(Numbers { name, width, values });
+        self
+    }
+}
+
+/// Rows of numbers.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Numbers {
+    /// Their name.
+    pub name: &'static str,
+    /// The length of a row.
+    pub width: usize,
+    /// The numbers, row by row.
+    pub values: Vec<f64>,
+}
+
+/// A mechanism in which a quantity replaces the time.
+#[derive(Clone, Debug)]
+pub struct Driven {
+    /// Its model.
+    pub model: Arc<Model>,
+    /// Its definition.
+    pub definition: Definition,
+    /// The quantity.
+    pub variable: Variable,
+}
+
+/// The quantity that replaces the time.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Variable {
+    /// Its name.
+    pub name: String,
+    /// Its SI unit.
+    pub unit: String,
+    /// Its value at the start.
+    pub start: f64,
+    /// Whether the mechanism is at rest at each value. Otherwise the value grows at unit rate.
+    pub rests: bool,
+}

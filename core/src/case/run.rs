@@ -1,0 +1,62 @@
+//! Running the analyses of a case.
+
+use super::Case;
+use crate::analyses::assemble::assemble_until;
+use crate::analyses::record::{Observer, Outcome, Record, StartState, Subject, Unfinished};
+use crate::analyses::{declarations, kind_of, run_after, start_of, AnyAnalysis};
+use crate::model::{Model, Problem, Value};
+
+/// The option that holds coordinates. An analysis without it holds those of the start.
+const HELD: &str = "set";
+
+impl Case {
+    /// The assembled mechanism at the start.
+    ///
+    /// # Errors
+    /// The faults of the start, or the reason that the mechanism does not close.
+    pub fn assembled(&self, model: &Model, stop: &dyn Fn() -> bool) -> Result<StartState, Outcome> {
+        let request = self.start.request(model).map_err(|problems| Outcome::from(problems.0))?;
+        let (state, _) = assemble_until(model, &request, stop).map_err(|failure| *failure)?;
+        Ok(StartState::new(state))
+    }
+
+    /// The options of an analysis.
+    ///
+    /// # Errors
+    /// Every faulty value, with its path in the file.
+    pub fn analysis(&self, model: &Model, place: usize) -> Result<AnyAnalysis, Vec<Problem>> {
+        let entry = &self.analyses[place];
+        let path = ["analyses".to_string(), entry.name.clone()];
+        let kind = kind_of(&entry.fields);
+        let declared = declarations().iter().find(|declared| declared.table.name == kind);
+        let holds = declared.is_some_and(|d| d.table.fields.iter().any(|f| f.name == HELD));
+        let mut fields = entry.fields.clone();
+        if holds && entry.get(HELD).is_none() {
+            fields.push((HELD.to_string(), Value::Table(self.start.set.clone())));
+        }
+        AnyAnalysis::read(model, &fields, &path)
+    }
+
+    /// Runs an analysis after the analyses at whose ends it starts.
+    ///
+    /// # Errors
+    /// The failure of the first analysis that cannot be run.
+    pub fn run_to(
+        &self,
+        place: usize,
+        subject: &Subject<'_>,
+        mut observer: Observer<'_>,
+    ) -> Result<Record, Box<Unfinished>> {
+        let analysis = self.analysis(subject.model(), place)?;
+        match start_of(&self.analyses, place) {
+            None => {
+                let start = self.assembled(subject.model(), observer.stop)?;
+                analysis.run(subject, &start, observer)
+            }
+            Some(before) => {
+                let end = self.run_to(before, subject, observer.again())?.end;
+                run_after(&analysis, subject, &end, observer)
+            }
+        }
+    }
+}
