@@ -74,7 +74,6 @@ if TYPE_CHECKING:
     from kempe import plot as plot
     from kempe import report as report
     from kempe.analyses import AccuracyWarning as AccuracyWarning
-    from kempe.analyses import AssemblyWarning as AssemblyWarning
     from kempe.analyses import assemble as assemble
     from kempe.analyses import dynamics as dynamics
     from kempe.archive import load_solution as load_solution
@@ -135,6 +134,7 @@ if TYPE_CHECKING:
     from kempe.options import Radau as Radau
     from kempe.reach import LimitsResult as LimitsResult
     from kempe.reach import limits as limits
+    from kempe.record import AssemblyWarning as AssemblyWarning
     from kempe.solution import Solution as Solution
     from kempe.start import Start as Start
     from kempe.state import State as State
@@ -157,7 +157,7 @@ _HOME = {
     "AssemblyError": "errors",
     "AssemblyReport": "assembly_report",
     "AccuracyWarning": "analyses",
-    "AssemblyWarning": "analyses",
+    "AssemblyWarning": "record",
     "Auto": "options",
     "Baumgarte": "options",
     "Case": "case",

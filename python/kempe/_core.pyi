@@ -72,19 +72,6 @@ class Case:
     def supply(self, table: str, x: _F, y: _F) -> Case:
         """The same case with the points that the file of a table contains, if there is one."""
 
-    def over(
-        self, model: Model, over: str, t: float, q: _F, v: _F, z: _F
-    ) -> tuple[str, str, str, float]:
-        """The case in which t is the value of a driver or position quantity, as JSON.
-
-        Returns:
-            the JSON, the quantity, its SI unit, and its value at the state.
-
-        Raises:
-            ModelError: there is no such driver or quantity, or several drivers determine the
-                motion already.
-        """
-
     def model(
         self,
         overrides: str,
@@ -110,8 +97,8 @@ class Case:
             ModelError: an entry is invalid; ``problems`` lists all problems.
         """
 
-    def analyses(self) -> str:
-        """``[{"name", "type", "from": null | "start" | name}, …]`` in order."""
+    def analyses(self) -> tuple[str, list[int | None]]:
+        """The analyses as JSON, in order; for each the index of the one at whose end it starts."""
 
 class Model:
     """A compiled, immutable model."""
@@ -229,90 +216,65 @@ def assemble(
         AssemblyError, RedundancyError, ModelError.
     """
 
-def dynamics(
+_At = tuple[float, _F, _F, _F]
+#: The compiled model, its case as JSON, the quantity that replaces the time, its unit, its value at
+#: the start, and whether the mechanism is at rest at each value.
+Driven = tuple[Model, str, str, str, float, bool]
+
+class Record:
+    """What an analysis found."""
+
+    run: Run | None
+    """The motion; None if the result is not one."""
+    driven: Driven | None
+    """The mechanism in which a quantity replaces the time."""
+    numbers: dict[str, _F]
+    """Other numbers by name, (n, width)."""
+    findings: str
+    """The other findings, as JSON."""
+    remarks: list[str]
+
+def run_analysis(
     model: Model,
-    t: float,
-    q: _F,
-    v: _F,
-    z: _F,
     options: str,
+    at: _At,
+    released: list[str],
     progress: _Progress,
+    after: bool = False,
     t_end: float | None = None,
     actions: tuple[list[str], Callable[..., object]] | None = None,
-) -> Run:
-    """Simulate the motion from a state.
+) -> Record:
+    """Run an analysis from a state.
 
     Args:
         model: the mechanism.
-        t: time of the state, s.
-        q, v, z: (n_q,), (n_q,), (n_z,).
         options: JSON, an entry of ``analyses`` as in a file.
-        progress: function that is called repeatedly with the time reached, s.
-        t_end: end time, s; replaces the one in the options. The options are parsed once for each
-            model and text.
+        at: t, q (n_q,), v (n_q,) and z (n_z,) of the state.
+        released: the drivers that were released before.
+        progress: function that is called repeatedly with the time or value reached.
+        after: whether it starts at the end of another analysis, where joints may have drifted.
+        t_end: end time of dynamics, s; it replaces the value in the options.
+        actions: names of events, and the function ``f(name, setting, t, q, v, z)`` called at each:
+            it returns values of parameters and None, or a new state (q, v, z).
 
     Raises:
-        IntegrationError: the integrator cannot continue; ``run`` holds the run up to that time,
-            as for ``KeyboardInterrupt``.
+        KempeError: the analysis failed; ``record`` of the error contains the motion so far.
     """
 
-def kinematics_options(model: Model, text: str, inverse: bool) -> str:
-    """The options of ``kinematics`` or ``inverse_dynamics``, checked, as JSON."""
+def driven_by(model: Model, over: str | None, at: _At, released: list[str]) -> Driven:
+    """The mechanism in which t is the value of a driver or position quantity.
 
-def kinematics(
-    model: Model,
-    t: float,
-    q: _F,
-    v: _F,
-    z: _F,
-    times: _F,
-    progress: _Progress,
-    resting: bool = False,
-) -> Run:
-    """The motion that the drivers determine, at ``times``, (n_t,), from a state.
-
-    With ``resting``, rates are zero, and works are those of a mechanism at rest at each value.
+    By default, ``over`` is the only driver.
 
     Raises:
-        SingularityError: a limit; ``run`` holds the motion until then, as for
-            ``KeyboardInterrupt``.
-        AssemblyError: the state does not meet the constraints.
-        ModelError: the drivers leave a freedom.
-    """
-
-def equilibrium(model: Model, t: float, q: _F, v: _F, z: _F, text: str, progress: _Progress) -> str:
-    """The rest position that a state leads to, or a path of them, as JSON.
-
-    ``text`` is an entry of ``analyses`` as in a file, in JSON. ``progress`` is called with the
-    number of steps, or with the value of the parameter.
+        ModelError: there is no such driver or quantity, or several drivers determine the motion
+            already.
     """
 
 def compliance(
     model: Model, t: float, q: _F, v: _F, z: _F, point: str, hold: list[str]
 ) -> list[float]:
     """∂(displacement)/∂(force) of a point at rest, m/N: xx, xy, yx, yy."""
-
-def modes_options(model: Model, text: str) -> str:
-    """The options of ``modes``, checked, as JSON."""
-
-def linearize(
-    model: Model, t: float, q: _F, v: _F, z: _F, inputs: list[str], outputs: list[str]
-) -> dict[str, Any]:
-    """The linear equations at a state on f independent coordinates, with n = 2 f + n_z states.
-
-    Returns:
-        ``coordinates`` (names), ``columns`` of q, places ``states`` of z; ``basis`` (f, n_q);
-        ``mass``, ``damping``, ``stiffness`` (f, f); ``A`` (n, n), ``B`` (n, inputs), ``C``
-        (outputs, n), ``D`` (outputs, inputs); ``acceleration`` (n_q,), ``values`` (outputs,).
-
-    Raises:
-        SingularityError: the position is singular, or no mass moves with a coordinate.
-        AssemblyError: the state does not meet the constraints.
-        ModelError: an unknown input or output, or a parameter that changes the geometry.
-    """
-
-def limits(model: Model, t: float, q: _F, v: _F, z: _F, progress: _Progress) -> tuple[str, _F, _F]:
-    """The limits of the value of t: JSON, the values on the way, and the positions (n, n_q)."""
 
 def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False) -> tuple[_F, _F, _F]:
     """Accelerations (n_t, n_q), multipliers (n_t, n_rows), with γ, not γ̂; regularity (n_t, 1).

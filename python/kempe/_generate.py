@@ -24,6 +24,7 @@ TYPES = dict.fromkeys(REFERENCES, "str") | {
     "number": "Number",
     "law": "Number",
     "pair": "Pair",
+    "ranges": "Pairs",
     "triple": "Numbers",
     "law_pair": "Pair",
     "laws": "Numbers",
@@ -80,7 +81,7 @@ from typing import ClassVar, Literal
 
 from kempe.event import Events
 from kempe.option import Analysis, Option, Shape
-from kempe.values import Number, Pair, Terms, Tolerance, Words
+from kempe.values import Number, Pair, Pairs, Terms, Tolerance, Words
 '''
 
 METHODS = '''\

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, Literal, TypeAlias
 
@@ -21,21 +21,17 @@ from kempe.names import one_of, unknown
 from kempe.option import Option, core_options
 from kempe.options import Auto, Dynamics, Projection
 from kempe.phases import Setting
+from kempe.record import AssemblyWarning, Progress, Record, check, released, run_analysis
 from kempe.request_cache import Request, encode, request
 from kempe.solution import Solution
 from kempe.state import State
 from kempe.values import Number, number, numbers
 
-Progress: TypeAlias = "Callable[[float], None]"
 Coordinates: TypeAlias = "Mapping[str, float | str]"
 
 
 class AccuracyWarning(UserWarning):
     """A result exceeds a limit of accuracy, by an error that belongs to the chosen method."""
-
-
-class AssemblyWarning(UserWarning):
-    """The mechanism can be assembled, but the result may be unexpected."""
 
 
 def assemble(
@@ -78,7 +74,7 @@ def assemble(
         raise ModelError("guess: a State", hint="pass it as from_state=")
     hint = encode(numbers(guess, "guess"))
     if from_state is not None:
-        refuse_foreign(compiled, from_state)
+        check(compiled, from_state, "from_state")
         compiled = compiled.variant(([], released(compiled, from_state), []))
         t = float(from_state.t) if t is None else t
         q, v, z = (np.array(part) for part in (from_state.q, from_state.v, from_state.z))
@@ -151,15 +147,20 @@ def dynamics(
     more = {name: value for name, value in given.items() if value} | limits
     wanted = request(fields, dense_output, singularity, more)
     model = compiled.with_analyses({Dynamics.name: wanted.entry})
-    return _simulate(model, start, wanted, progress, actions)
+    return _simulate(model, start, wanted, progress, actions=actions)
 
 
 def simulate(
-    model: CompiledModel, start: State, entry: Mapping[str, Any], progress: Progress | None
+    model: CompiledModel,
+    start: State,
+    entry: Mapping[str, Any],
+    progress: Progress | None = None,
+    after: str | None = None,
 ) -> Solution:
     """Simulate with the options of an entry of a case; see ``dynamics``."""
-    wanted = Request(entry, encode(core_options(entry)))
-    return _simulate(model, start, wanted, progress)
+    return _simulate(
+        model, start, Request(entry, encode(core_options(entry))), progress, after=after
+    )
 
 
 def _simulate(
@@ -167,50 +168,48 @@ def _simulate(
     start: State,
     wanted: Request,
     progress: Progress | None,
+    *,
+    after: str | None = None,
     actions: Mapping[str, Action] = MappingProxyType({}),
 ) -> Solution:
-    if not isinstance(start, State):
-        raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) returns one")
-    if progress is not None and not callable(progress):
-        raise ModelError(f"progress: {progress!r} is not a function")
-    refuse_foreign(model, start)
-    t, text, method = start.t, _with_released(model, start, wanted), _method(wanted.entry)
+    entry, method = wanted.entry, _method(wanted.entry)
     acting = (list(actions), Acting(model, start, actions)) if actions else None
+    text, t_end = wanted.text, wanted.t_end
     try:
-        at = start.q, start.v, start.z
         with model.run() as remembered:
             for remark in remembered:
                 warnings.warn(remark, FunctionWarning, stacklevel=3)
-            run = _core.dynamics(model.core, t, *at, text, progress, wanted.t_end, acting)
+            record = run_analysis(
+                model, start, entry, progress, after=after, text=text, t_end=t_end, acting=acting
+            )
     except BaseException as error:  # including interruptions and exceptions of progress
-        partial = vars(error).pop("run", None)  # which cannot be pickled with the error
-        if partial is not None and len(partial.t):
-            error.solution = Solution(model, partial, method)  # type: ignore[attr-defined]
+        keep_solution(error, method)
         raise
-    solution = Solution(model, run, method)
+    solution = solution_of(record, method)
+    run = record.run
+    assert run is not None
     for doubt in run.doubts:
         warnings.warn(doubt, AccuracyWarning, stacklevel=3)
     declared = any(any(info.events) for info in model.constraints.values())
     if declared or run.events:
         from kempe.events import EventWarning, true_at_start, warnings_of
 
-        for warning in [*warnings_of(solution), *true_at_start(solution, wanted.entry)]:
+        for warning in [*warnings_of(solution), *true_at_start(solution, entry)]:
             warnings.warn(warning, EventWarning, stacklevel=3)
     return solution
 
 
-def _with_released(model: CompiledModel, start: State, wanted: Request) -> str:
-    """The options for the core: drivers that were released before the start remain released."""
-    before = released(model, start)
-    if not before:
-        return wanted.text
-    release = list(dict.fromkeys([*before, *wanted.entry.get("release", ())]))
-    return encode({**core_options(wanted.entry), "release": release})
+def solution_of(record: Record, method: str) -> Solution:
+    """The motion that an analysis found."""
+    assert record.run is not None
+    return Solution(record.model, record.run, method, record.variable)
 
 
-def released(model: CompiledModel, state: State) -> list[str]:
-    """The drivers of a model that were released before a state."""
-    return [name for name in state.compiled.released if name in model.drivers]
+def keep_solution(error: BaseException, method: str) -> None:
+    """Add the motion so far to an error as ``solution``, if it has a state."""
+    partial: Record | None = vars(error).pop("record", None)
+    if partial is not None and partial.run is not None and len(partial.run.t):
+        error.solution = solution_of(partial, method)  # type: ignore[attr-defined]
 
 
 class Acting:
@@ -279,15 +278,3 @@ def _time(t: float) -> float:
     if isinstance(value, str):
         raise ModelError(f"t: {value!r} is not a number")
     return float(value)
-
-
-def refuse_foreign(model: CompiledModel, state: State) -> None:
-    """Refuse a state with other bodies. The core refuses states that violate the constraints."""
-    if not isinstance(state, State):
-        raise ModelError(f"from_state: {state!r} is not a State")
-    if list(state.compiled.bodies) != list(model.bodies):
-        raise ModelError(
-            f"the state has the bodies {', '.join(state.compiled.bodies)}; "
-            f"the model has the bodies {', '.join(model.bodies)}",
-            hint="assemble this model",
-        )

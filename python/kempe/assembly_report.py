@@ -162,7 +162,11 @@ class AssemblyReport:
     @classmethod
     def from_json(cls, text: str) -> AssemblyReport:
         """The report from the JSON text of the core."""
-        report: dict[str, Any] = json.loads(text)
+        return cls.from_tree(json.loads(text))
+
+    @classmethod
+    def from_tree(cls, report: Mapping[str, Any]) -> AssemblyReport:
+        """The report from the data of the core."""
         return cls(
             iterations=tuple(
                 Iteration(i["residual"], i["step"], i["damping"]) for i in report["iterations"]

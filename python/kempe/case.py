@@ -4,26 +4,25 @@ from __future__ import annotations
 
 import copy
 import json
-import warnings
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from kempe import _core, files
-from kempe.analyses import AssemblyWarning, Coordinates, Progress, assemble, simulate
+from kempe.analyses import Coordinates, assemble, simulate
 from kempe.closures import find_configurations
 from kempe.compiled import CompiledModel
-from kempe.driven import follow, follow_with_forces
-from kempe.errors import AssemblyError, FileError, KempeError, ModelError
+from kempe.driven import follow
+from kempe.errors import FileError, KempeError, ModelError
 from kempe.freedom import find_mobility
 from kempe.linearization import linearized
 from kempe.model import Model
 from kempe.names import entry as named
 from kempe.names import few, one_of
 from kempe.option import Analysis, Option
-from kempe.options import Configurations
 from kempe.reach import find_limits
+from kempe.record import Progress
 from kempe.result import Result
 from kempe.sequence import of_type, read_entries
 from kempe.solution import Solution
@@ -36,12 +35,13 @@ FORMATS = {".toml": "toml", ".json": "json"}
 
 #: The function that runs an analysis, by its ``type``.
 _Runner = Callable[
-    [CompiledModel, State, Mapping[str, Any], "Progress | None"], "Solution | Result"
+    [CompiledModel, State, Mapping[str, Any], "Progress | None", "str | None"],
+    "Solution | Result",
 ]
 _RUNNERS: dict[str, _Runner] = {
     "dynamics": simulate,
     "kinematics": follow,
-    "inverse_dynamics": follow_with_forces,
+    "inverse_dynamics": follow,
     "equilibrium": rest,
     "modes": linearized,
     "configurations": find_configurations,
@@ -210,29 +210,14 @@ class Case:
         compiled = self.model.compile()
         contained = json.dumps(self.model.with_points(self._with_rest(self.model.shown())))
         model = compiled.in_case(contained)
-        state = start or self.start()
-        ends = {"start": state}
-        for analysis in json.loads(self._core().analyses()):
-            name, after = analysis["name"], analysis.get("from")
-            begin = state if after is None else ends[after]
-            runner, entry = _RUNNERS[analysis["type"]], self._entries[name]
-            if analysis["type"] == Configurations.kind:
-                entry = {"set": self._start.set, **entry}
-            try:
-                solution = runner(model, begin, entry, progress)
-            except AssemblyError as error:
-                if begin is ends["start"] or entry.get("parameters"):
-                    raise
-                # the joints drifted in the analysis before
-                warnings.warn(
-                    f"{name}: {error.args[0]}; it starts from the nearest state that does",
-                    AssemblyWarning,
-                    stacklevel=2,
-                )
-                begin = assemble(model, from_state=begin)
-                solution = runner(model, begin, entry, progress)
+        begin = start or self.start()
+        text, after = self._core().analyses()
+        entries, ends = json.loads(text).get("analyses", {}), list[State]()
+        for (name, entry), before in zip(entries.items(), after, strict=True):
+            run, at = _RUNNERS[entry["type"]], begin if before is None else ends[before]
+            solution = run(model, at, entry, progress, None if before is None else name)
             yield name, solution
-            state = ends[name] = solution.final
+            ends.append(solution.final)
 
     def with_parameters(self, parameters: Mapping[str, Number]) -> Case:
         """A copy of the case with other values of some parameters; ``start()`` uses them.

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from kempe import _core
-from kempe.analyses import Coordinates, Progress, refuse_foreign, released
+from kempe.analyses import Coordinates
 from kempe.assembly_report import AssemblyReport
-from kempe.errors import ModelError
 from kempe.model import Model, compiled_model
 from kempe.options import Configurations
-from kempe.request_cache import encode
+from kempe.record import Progress, Record, run_analysis
 from kempe.result import Result
 from kempe.state import State
 from kempe.table import Column, column
-from kempe.values import numbers
 
 if TYPE_CHECKING:
     from kempe.compiled import CompiledModel
@@ -39,13 +35,17 @@ class ConfigurationsResult(Result, Sequence[State]):
 
     kind = "configurations"
 
-    def __init__(
-        self, states: Sequence[State], *, complete: bool, final: State, left_out: int = 0
-    ) -> None:
-        self.states = tuple(states)
-        self.complete = complete
-        self.left_out = left_out
-        self._final = final
+    def __init__(self, record: Record, *, found: bool = False) -> None:
+        start, numbers = record.initial, record.numbers
+        reports = record.findings["reports"]
+        rows = zip(numbers["q"], numbers["v"], numbers["z"], reports, strict=True)
+        self.states = tuple(
+            State(record.model, start.t, q, v, AssemblyReport.from_tree(report), z=z)
+            for q, v, z, report in rows
+        )
+        self.complete: bool = record.findings["complete"]
+        self.left_out: int = record.findings["left_out"]
+        self._final = self.states[0] if found else start
 
     @property
     def final(self) -> State:
@@ -135,34 +135,18 @@ def configurations(
         ModelError: a freedom is left in all positions found, so that there are infinitely many; or
             an argument is invalid.
     """
-    Configurations(limit=limit).tree()  # checks it
-    return _found(compiled_model(model), numbers(set, "set"), limit, t, None)
+    compiled = compiled_model(model)
+    entry = Configurations(set=set or None, limit=limit).tree()
+    at = State(compiled, t, np.zeros(compiled.n_q), np.zeros(compiled.n_q))
+    return ConfigurationsResult(run_analysis(compiled, at, entry), found=True)
 
 
 def find_configurations(
-    model: CompiledModel, start: State, entry: Mapping[str, Any], _: Progress | None
+    model: CompiledModel,
+    start: State,
+    entry: Mapping[str, Any],
+    progress: Progress | None = None,
+    after: str | None = None,
 ) -> ConfigurationsResult:
     """The configurations with the options of an entry of a case; see ``configurations``."""
-    refuse_foreign(model, start)
-    model = model.variant(([], released(model, start), []))
-    limit = int(entry.get("limit", LIMIT))
-    return _found(model, numbers(entry.get("set"), "set"), limit, float(start.t), start)
-
-
-def _found(
-    model: CompiledModel, held: Mapping[str, Any], limit: int, t: float, start: State | None
-) -> ConfigurationsResult:
-    if isinstance(limit, bool) or not isinstance(limit, int) or limit < 1:
-        raise ModelError(f"limit: {limit!r}; must be a whole number from 1")
-    q, v, z, text = _core.configurations(model.core, encode(held), limit, t)
-    found = json.loads(text)
-    states = [
-        State(model, t, at, rates, AssemblyReport.from_json(report), z=own)
-        for at, rates, own, report in zip(q, v, z, found["reports"], strict=True)
-    ]
-    return ConfigurationsResult(
-        states,
-        complete=found["complete"],
-        final=start or states[0],
-        left_out=found["left_out"],
-    )
+    return ConfigurationsResult(run_analysis(model, start, entry, progress, after=after))

@@ -127,6 +127,24 @@ class CompiledModel:
         other._functions, other._origin = self._functions, self
         return other
 
+    def replaced(
+        self, core: _core.Model, sections: Mapping[str, Any], without: Sequence[str]
+    ) -> CompiledModel:
+        """The compiled model of a mechanism that differs in some sections of the case.
+
+        Args:
+            core: the compiled model of the core.
+            sections: the sections that differ.
+            without: the sections that are left out.
+        """
+        kept = {name: part for name, part in self.tree.items() if name not in without}
+        tree = {**kept, **sections}
+        if self.core.setting[0]:
+            tree["parameters"] = dict(self.parameters)
+        other = CompiledModel(core, json.dumps(tree))
+        other._functions, other._origin = self._functions, self
+        return other
+
     def allowing_redundancy(self) -> CompiledModel:
         """The same model with redundant constraints accepted."""
         tree = {**json.loads(self._case), "redundancy": "allow"}

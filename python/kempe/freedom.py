@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
 from math import degrees
 from typing import TYPE_CHECKING, Any
 
-from kempe import _core
-from kempe.analyses import Progress, refuse_foreign
 from kempe.display_units import display
-from kempe.errors import ModelError
 from kempe.model import Model, compiled_model
 from kempe.names import few
+from kempe.record import Progress, Record, check, run_analysis
 from kempe.result import Result
 from kempe.state import State
 
@@ -125,8 +122,8 @@ class MobilityResult(Result):
 
     kind = "mobility"
 
-    def __init__(self, state: State, found: Mapping[str, Any]) -> None:
-        self._state = state
+    def __init__(self, record: Record) -> None:
+        self._state, found = record.initial, record.findings
         self.gruebler: int = found["gruebler"]
         self.degrees_of_freedom: int = found["degrees_of_freedom"]
         self.rank: int = found["rank"]
@@ -202,18 +199,19 @@ def mobility(model: Model | CompiledModel, state: State) -> MobilityResult:
             assembled.
         state: an assembled state.
     """
-    return find_mobility(compiled_model(model), state, {}, None)
+    return find_mobility(compiled_model(model), state, {"type": MobilityResult.kind})
 
 
 def find_mobility(
-    model: CompiledModel, state: State, _: Mapping[str, Any], __: Progress | None
+    model: CompiledModel,
+    state: State,
+    entry: Mapping[str, Any],
+    progress: Progress | None = None,
+    after: str | None = None,
 ) -> MobilityResult:
     """The mobility as an analysis of a case; see ``mobility``."""
-    if not isinstance(state, State):
-        raise ModelError(f"state: {state!r} is not a State", hint="kp.assemble(model) returns one")
-    refuse_foreign(model, state)
-    found = _core.mobility(model.core, float(state.t), state.q, state.v, state.z)
-    return MobilityResult(state, json.loads(found))
+    check(model, state, "state")
+    return MobilityResult(run_analysis(model, state, entry, progress, after=after))
 
 
 def _redundancy(found: Mapping[str, Any]) -> Redundancy:

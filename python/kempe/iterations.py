@@ -6,7 +6,8 @@ import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from kempe.analyses import AssemblyWarning, assemble
+from kempe.analyses import assemble
+from kempe.record import AssemblyWarning
 
 if TYPE_CHECKING:
     from kempe.assembly_report import Iteration

@@ -2,24 +2,20 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
 
-from kempe import _core
-from kempe.analyses import Progress, refuse_foreign, released
 from kempe.arrays import Floats, fixed
 from kempe.compiled import CompiledModel
 from kempe.eigenmodes import Complexes, eigenmodes
 from kempe.errors import ModelError
 from kempe.mode_shape import ModeShape
 from kempe.model import Model, compiled_model
-from kempe.option import core_options
 from kempe.options import Modes
-from kempe.request_cache import encode
+from kempe.record import Progress, Record, check, run_analysis
 from kempe.result import Result
 from kempe.state import State
 from kempe.table import Column
@@ -59,29 +55,25 @@ class ModesResult(Result):
 
     kind: ClassVar[str] = "modes"
 
-    def __init__(
-        self,
-        state: State,
-        found: Mapping[str, Any],
-        names: tuple[Sequence[str], Sequence[str]],
-        n: int | None = None,
-    ) -> None:
-        self.state = state
-        self.inputs, self.outputs = (tuple(each) for each in names)
-        self.coordinates: tuple[str, ...] = tuple(found["coordinates"])
-        model, columns = state.compiled, found["columns"]
+    def __init__(self, record: Record) -> None:
+        findings, found = record.findings, record.numbers
+        self.state = state = record.at_start
+        self.inputs, self.outputs = tuple(findings["inputs"]), tuple(findings["outputs"])
+        n = findings["n"]
+        self.coordinates: tuple[str, ...] = tuple(findings["coordinates"])
+        model, columns = state.compiled, findings["columns"]
         rates, own = model.rate_names(), model.state_names()
         self.state_names = (
             *self.coordinates,
             *(rates[column] for column in columns),
-            *(own[place] for place in found["states"]),
+            *(own[place] for place in findings["states"]),
         )
         self.mass_matrix, self.damping_matrix, self.stiffness_matrix = (
             fixed(found[name]) for name in ("mass", "damping", "stiffness")
         )
         self.A, self.B, self.C, self.D = (fixed(found[name]) for name in ("A", "B", "C", "D"))
-        self.values, self.basis = fixed(found["values"]), fixed(found["basis"])
-        self.acceleration = fixed(found["acceleration"][columns])
+        self.values, self.basis = fixed(found["values"].ravel()), fixed(found["basis"])
+        self.acceleration = fixed(found["acceleration"].ravel()[columns])
         self.rates = fixed(state.v[columns])
         values, vectors = eigenmodes(
             self.mass_matrix, self.damping_matrix, self.stiffness_matrix, self.A
@@ -277,18 +269,15 @@ def modes(
 
 
 def linearized(
-    model: CompiledModel, state: State, entry: Mapping[str, Any], _: Progress | None
+    model: CompiledModel,
+    state: State,
+    entry: Mapping[str, Any],
+    progress: Progress | None = None,
+    after: str | None = None,
 ) -> ModesResult:
     """The modes with the options of an entry of a case; see ``modes``."""
-    if not isinstance(state, State):
-        raise ModelError(f"state: {state!r} is not a State", hint="kp.assemble(model) returns one")
-    refuse_foreign(model, state)
-    model = model.variant(([], released(model, state), []))
-    options = json.loads(_core.modes_options(model.core, encode(core_options(entry))))
-    names = options["inputs"], options["outputs"]
-    found = _core.linearize(model.core, state.t, state.q, state.v, state.z, *names)
-    at = State(model, state.t, state.q, state.v, state.report, z=state.z)
-    return ModesResult(at, found, names, options["n"])
+    check(model, state, "state")
+    return ModesResult(run_analysis(model, state, entry, progress, after=after))
 
 
 def _scaled(shapes: Complexes) -> Complexes:

@@ -207,11 +207,6 @@ class Model(BodyMethods, ElementMethods, MeasureMethods, TreeMethods):
         """The model as a case of the core, and parameters that replace those of the case."""
         return self._source or (_core.Case(self.text(), "json", None), {})
 
-    @property
-    def core_case(self) -> _core.Case:
-        """The model as a case of the core."""
-        return self._written()[0]
-
     def compile(self) -> CompiledModel:
         """The compiled model; it is kept until the model changes.
 

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe import _core
-from kempe.analyses import Progress, refuse_foreign
-from kempe.arrays import Floats
 from kempe.display_units import display
-from kempe.driven import driven_by
-from kempe.errors import ModelError
 from kempe.model import Model, compiled_model
 from kempe.motion import Motion
 from kempe.options import Limits
+from kempe.record import Progress, Record, run_analysis
 from kempe.result import Result
 from kempe.state import State
 from kempe.table import Column, column
@@ -43,16 +38,19 @@ class LimitsResult(Result):
     kind = "limits"
     path: Motion
 
-    def __init__(
-        self, initial: State, over: str, found: Mapping[str, Any], start: float, path: Motion
-    ) -> None:
-        self._initial = initial
-        self.over, self.start, self.path = over, start, path
+    def __init__(self, record: Record) -> None:
+        found, numbers = record.findings, record.numbers
+        self._initial = record.initial
+        self.over: str = found["over"]
+        self.start: float = found["start"]
         self.unit: str = found["unit"]
         self.lower: float | None = found["lower"]
         self.upper: float | None = found["upper"]
         self.reasons: tuple[str, ...] = tuple(found["reasons"])
         self.turns: int | None = found["turns"]
+        values, q = numbers["values"][:, 0], numbers["positions"]
+        z = np.tile(record.initial.z, (len(values), 1))
+        self.path = Motion(record.model, values, q, np.zeros_like(q), z)
 
     @property
     def final(self) -> State:
@@ -158,36 +156,11 @@ def limits(
 
 
 def find_limits(
-    model: CompiledModel, start: State, entry: Mapping[str, Any], progress: Progress | None
+    model: CompiledModel,
+    start: State,
+    entry: Mapping[str, Any],
+    progress: Progress | None = None,
+    after: str | None = None,
 ) -> LimitsResult:
     """The limits with the options of an entry of a case; see ``limits``."""
-    if not isinstance(start, State):
-        raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) returns one")
-    if progress is not None and not callable(progress):
-        raise ModelError(f"progress: {progress!r} is not a function")
-    refuse_foreign(model, start)
-    over = entry.get("over") or only_driver(model)
-    driven, value, _ = driven_by(model, over, start)
-    text, values, positions = _core.limits(driven.core, value, start.q, start.v, start.z, progress)
-    path = Motion(driven, values, positions, np.zeros_like(positions), _repeated(start.z, values))
-    return LimitsResult(start, over, json.loads(text), value, path)
-
-
-def only_driver(model: CompiledModel) -> str:
-    """The driver of a model, which is ``over`` by default.
-
-    Raises:
-        ModelError: the model has none, or several.
-    """
-    drivers = list(model.drivers)
-    if len(drivers) == 1:
-        return drivers[0]
-    told = f"the model has the drivers {', '.join(drivers)}" if drivers else "it has no driver"
-    raise ModelError(
-        f"over: missing; {told}",
-        hint='name a driver or a position quantity, as over = "crank.angle"',
-    )
-
-
-def _repeated(z: Floats, values: Floats) -> Floats:
-    return np.tile(z, (len(values), 1))
+    return LimitsResult(run_analysis(model, start, entry, progress, after=after))

@@ -14,6 +14,7 @@ from kempe.arrays import Floats, fixed
 from kempe.compiled import CompiledModel
 from kempe.display_units import display
 from kempe.measures import parameter_unit
+from kempe.record import Record
 from kempe.result import Result
 from kempe.state import State
 from kempe.table import Column, column
@@ -65,16 +66,13 @@ class EquilibriumResult(Result):
 
     kind: ClassVar[str] = "equilibrium"
 
-    def __init__(
-        self,
-        start: State,
-        models: Sequence[CompiledModel],
-        entry: Mapping[str, Any],
-        found: Mapping[str, Any],
-    ) -> None:
+    def __init__(self, record: Record) -> None:
+        start, entry, found = record.initial, record.entry, record.findings
         points = found["points"]
         self.start = start
         self.over: str | None = entry.get("over")
+        model, values = record.model, found.get("values", [None])
+        models = [model.variant(([(self.over, x)], [], [])) if self.over else model for x in values]
         self.hold: tuple[str, ...] = tuple(entry.get("hold", ()))
         self.states = tuple(
             _state(model, start.t, point) for model, point in zip(models, points, strict=True)

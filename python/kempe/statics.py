@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -10,14 +9,12 @@ from typing import Any
 import numpy as np
 
 from kempe import _core
-from kempe.analyses import Progress, refuse_foreign, released
 from kempe.arrays import Floats, fixed
 from kempe.compiled import CompiledModel
 from kempe.errors import ModelError
 from kempe.model import Model, compiled_model
-from kempe.option import core_options
 from kempe.options import Equilibrium
-from kempe.request_cache import encode
+from kempe.record import Progress, check, released, run_analysis
 from kempe.rest import EquilibriumResult
 from kempe.state import State
 from kempe.values import Number, texts
@@ -70,19 +67,14 @@ def equilibrium(
 
 
 def rest(
-    model: CompiledModel, start: State, entry: Mapping[str, Any], progress: Progress | None
+    model: CompiledModel,
+    start: State,
+    entry: Mapping[str, Any],
+    progress: Progress | None = None,
+    after: str | None = None,
 ) -> EquilibriumResult:
     """The equilibrium with the options of an entry of a case; see ``equilibrium``."""
-    model = _checked(model, start)
-    if progress is not None and not callable(progress):
-        raise ModelError(f"progress: {progress!r} is not a function")
-    text = encode(core_options(entry))
-    at = start.t, start.q, start.v, start.z
-    found = json.loads(_core.equilibrium(model.core, *at, text, progress))
-    over = entry.get("over")
-    values = found.get("values", [None])
-    models = [model.variant(([(over, x)], [], [])) if over else model for x in values]
-    return EquilibriumResult(start, models, entry, found)
+    return EquilibriumResult(run_analysis(model, start, entry, progress, after=after))
 
 
 @dataclass(frozen=True)
@@ -128,7 +120,9 @@ def stiffness_at(
         ModelError: there is no such point, or the state is not at rest.
         SingularityError: the point moves without any stiffness.
     """
-    compiled = _checked(compiled_model(model), state)
+    compiled = compiled_model(model)
+    check(compiled, state, "state")
+    compiled = compiled.variant(([], released(compiled, state), []))
     held = texts(hold, "hold")
     at = state.t, state.q, state.v, state.z
     c = np.array(_core.compliance(compiled.core, *at, point, held)).reshape(2, 2)
@@ -138,11 +132,3 @@ def stiffness_at(
         stiffnesses = np.where(rigid, np.inf, 1.0 / np.where(rigid, 1.0, values))
     order = np.argsort(stiffnesses)
     return PointStiffness(fixed(c), fixed(stiffnesses[order]), fixed(vectors.T[order]))
-
-
-def _checked(model: CompiledModel, start: State) -> CompiledModel:
-    """The model without the drivers that were released before the start."""
-    if not isinstance(start, State):
-        raise ModelError(f"start: {start!r} is not a State", hint="kp.assemble(model) returns one")
-    refuse_foreign(model, start)
-    return model.variant(([], released(model, start), []))

@@ -6,7 +6,7 @@ Every check takes the path of the field, such as ``joints.A.axes``, and includes
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from numbers import Integral, Real
 from typing import Any, NoReturn, TypeAlias
 
@@ -17,6 +17,8 @@ from kempe.functions import Function, FunctionLaw, Sampled
 Number: TypeAlias = "float | str"
 #: Two numbers or formulas, such as a point or a vector.
 Pair: TypeAlias = "Sequence[float | str]"
+#: Pairs, such as ranges.
+Pairs: TypeAlias = "Sequence[Pair]"
 #: A number, a formula, or a Python function ``f(t, state)``.
 Law: TypeAlias = "float | str | Function | Sampled"
 #: Two of them.
@@ -106,6 +108,13 @@ def pair(value: object, path: str) -> tuple[float | str, float | str]:
     """Two numbers or formulas from any sequence of two."""
     first, second = _two(value, path, "two numbers or formulas")
     return number(first, f"{path}[0]"), number(second, f"{path}[1]")
+
+
+def pairs(value: object, path: str) -> tuple[tuple[float | str, float | str], ...]:
+    """Pairs of numbers or formulas, such as ranges."""
+    if isinstance(value, str) or not isinstance(value, Iterable):
+        refuse(path, f"{value!r}; must be pairs of numbers")
+    return tuple(pair(one, f"{path}[{k}]") for k, one in enumerate(value))
 
 
 def triple(value: object, path: str) -> tuple[float | str, ...]:
@@ -320,6 +329,7 @@ CHECKS: Mapping[str, Callable[[object, str], Any]] = {
     "number": number,
     "law": law,
     "pair": pair,
+    "ranges": pairs,
     "triple": triple,
     "law_pair": law_pair,
     "laws": listed_numbers,

@@ -139,7 +139,7 @@ def test_the_text_that_is_mutated_is_the_flagship(tmp_path: Path) -> None:
     assert len(ALL) > 80
 
 
-@pytest.mark.filterwarnings("ignore::kempe.analyses.AssemblyWarning")
+@pytest.mark.filterwarnings("ignore::kempe.AssemblyWarning")
 def test_every_mutant_runs_or_is_refused(tmp_path: Path) -> None:
     refused, placed, unplaced = 0, 0, []
     for path in ALL:

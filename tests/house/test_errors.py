@@ -29,7 +29,9 @@ T, Q, V, Z, _ = _core.assemble(MODEL, '{"crank.angle": "70*deg"}', "{}", 0.0, No
 TIMES, ROW, STATES, LAM = np.array([T]), Q[None, :], Z[None, :], np.zeros((1, 8))
 WORKS, FOURS, POSES = np.zeros((1, 3)), np.zeros((0, 4)), np.zeros((1, 3, 3))
 OPTIONS = '{"type": "dynamics", "t_end": 0.01}'
-RUN = _core.dynamics(MODEL, T, Q, V, Z, OPTIONS, None)
+AT = (T, Q, V, Z)
+RUN = _core.run_analysis(MODEL, OPTIONS, AT, [], None).run
+assert RUN is not None
 
 CALLS: dict[str, Callable[[], object]] = {
     "version": _core.version,
@@ -41,7 +43,6 @@ CALLS: dict[str, Callable[[], object]] = {
     "Case": lambda: _core.Case("kempe = 1", "toml", None),
     "Case.tree": CASE.tree,
     "Case.write": lambda: CASE.write("json"),
-    "Case.over": lambda: CASE.over(MODEL, "crank.angle", T, Q, V, Z),
     "Case.model": lambda: CASE.model("{}"),
     "Case.place": lambda: CASE.place("joints.A"),
     "Case.supply": lambda: CASE.supply("lift", ROW[0], ROW[0]),
@@ -52,18 +53,11 @@ CALLS: dict[str, Callable[[], object]] = {
     "Model.symbols": MODEL.symbols,
     "Model.table": lambda: MODEL.table("lift", 0, ROW[0]),
     "Model.allowing_redundancy": MODEL.allowing_redundancy,
+    "run_analysis": lambda: _core.run_analysis(MODEL, OPTIONS, AT, [], None),
+    "driven_by": lambda: _core.driven_by(MODEL, "crank.angle", AT, []),
     "assemble": lambda: _core.assemble(MODEL, "{}", "{}", 0.0, Q, V, Z),
-    "dynamics": lambda: _core.dynamics(MODEL, T, Q, V, Z, OPTIONS, None),
-    "kinematics": lambda: _core.kinematics(MODEL, T, Q, V, Z, TIMES, None),
-    "linearize": lambda: _core.linearize(MODEL, T, Q, V, Z, [], []),
-    "modes_options": lambda: _core.modes_options(MODEL, '{"type": "modes"}'),
-    "kinematics_options": lambda: _core.kinematics_options(MODEL, '{"type": "kinematics"}', False),
     "line_at": lambda: _core.line_at(MODEL, "C", "rocker"),
     "transmitting": lambda: _core.transmitting(MODEL),
-    "limits": lambda: _core.limits(MODEL, T, Q, V, Z, None),
-    "mobility": lambda: _core.mobility(MODEL, T, Q, V, Z),
-    "configurations": lambda: _core.configurations(MODEL, '{"crank.angle": 1}', 9, T),
-    "equilibrium": lambda: _core.equilibrium(MODEL, T, Q, V, Z, '{"type": "equilibrium"}', None),
     "compliance": lambda: _core.compliance(MODEL, T, Q, V, Z, "rocker.C", ["crank.angle"]),
     "Run.responses": RUN.responses,
     "Run.energies": RUN.energies,

@@ -161,8 +161,8 @@ def test_positions_with_a_freedom_are_left_out(
     [(0, "1: C left"), (1, "1 position is left out, because a freedom remains in it")],
 )
 def test_the_line_about_positions_left_out(left_out: int, line: str) -> None:
-    states = kp.configurations(kp.load(ROOT / "examples/four_bar.toml").model, {"crank.angle": 1})
-    some = kp.ConfigurationsResult(states, complete=False, final=states[0], left_out=left_out)
+    some = kp.configurations(kp.load(ROOT / "examples/four_bar.toml").model, {"crank.angle": 1})
+    some.left_out = left_out
     assert some.report()[1] == line
 
 

@@ -2,15 +2,13 @@
 
 use crate::attended::attended;
 use crate::convert::{number, state, tree, Row};
-use crate::errors::{raise_plain, Failure, Kind, Problem};
+use crate::errors::{raise_plain, Failure, Kind};
 use crate::guard::guard;
 use crate::model::PyModel;
-use kempe::analyses::assemble::{
-    self as core, Choice, Fault, Report, Request, Target, ValueSource,
-};
+use kempe::analyses::assemble::{self as core, Request, Target};
+use kempe::analyses::record::Outcome;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
-use serde_json::{json, Value};
 
 /// A row of numbers for Python.
 type Array<'py> = Bound<'py, PyArray1<f64>>;
@@ -64,68 +62,9 @@ pub fn assemble<'py>(
         };
         let core_model = std::sync::Arc::clone(model.active.prepared.model());
         let outcome = attended(py, move |stop| core::assemble_until(&core_model, &request, stop))?;
-        let (state, report) = outcome.map_err(|failure| raise(py, &failure))?;
+        let (state, report) =
+            outcome.map_err(|failure| Failure::from(Outcome::from(*failure)).raise(py))?;
         let [q, v, z] = [state.q, state.v, state.z].map(|row| row.into_pyarray(py));
-        Ok((state.t, q, v, z, describe(&report).to_string()))
+        Ok((state.t, q, v, z, report.as_json().to_string()))
     })
-}
-
-/// Converts the failure of an assembly to an exception.
-pub fn raise(py: Python<'_>, failure: &core::Failure) -> PyErr {
-    let kind = match failure.fault {
-        Fault::Redundant => Kind::Redundancy,
-        Fault::Open | Fault::Rates | Fault::Stopped => Kind::Assembly,
-    };
-    let contradicts = |place: &Vec<String>| Problem {
-        message: "contradicts the others".to_string(),
-        path: place.join("."),
-        position: None,
-    };
-    let error = Failure::new(kind, failure.message.clone())
-        .hint(failure.hint.clone())
-        .problems(failure.places.iter().map(contradicts).collect());
-    let named = if failure.name.is_empty() { error } else { error.name(failure.name.clone()) };
-    named.raise(py)
-}
-
-/// The report of an assembly as JSON.
-pub fn describe(report: &Report) -> Value {
-    let iterations = report
-        .iterations
-        .iter()
-        .map(|r| json!({ "residual": r.residual_norm, "step": r.step_norm, "damping": r.damping }));
-    let modes = report.modes.iter().map(|m| {
-        let side = match (m.slides, m.left) {
-            (false, true) => "left",
-            (false, false) => "right",
-            (true, true) => "ahead",
-            (true, false) => "behind",
-        };
-        json!({ "bodies": m.bodies, "joint": m.joint, "anchors": m.anchors, "side": side, "folded": m.folded })
-    });
-    json!({
-        "iterations": iterations.collect::<Vec<_>>(),
-        "degrees_of_freedom": report.degrees_of_freedom,
-        "modes": modes.collect::<Vec<_>>(),
-        "warnings": report.warnings,
-        "unset": {
-            "count": report.unset.count,
-            "coordinates": report.unset.coordinates.iter().map(choice).collect::<Vec<_>>(),
-            "rates": report.unset.rates.iter().map(choice).collect::<Vec<_>>(),
-        },
-    })
-}
-
-/// A coordinate or rate that was not set, as JSON.
-fn choice(of: &Choice) -> Value {
-    let (source, guess) = match of.source {
-        ValueSource::Guess => ("guess", None),
-        ValueSource::NearGuess(guess) => ("near guess", Some(guess)),
-        ValueSource::Guesses => ("guesses", None),
-        ValueSource::Drawing => ("drawing", None),
-        ValueSource::Nothing => ("nothing", None),
-        ValueSource::Rest => ("rest", None),
-        ValueSource::LeastEnergy => ("least energy", None),
-    };
-    json!({ "name": of.name, "value": of.value, "unit": of.unit, "source": source, "guess": guess })
 }

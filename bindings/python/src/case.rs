@@ -1,17 +1,15 @@
 //! Cases for Python: reading and writing text, and compiling the model.
 
 use crate::attended::attended;
-use crate::convert::{refuse, state, tree, Row};
-use crate::errors::{raise, raise_plain, Failure, Kind};
+use crate::convert::{refuse, tree, Row};
+use crate::errors::{raise, Failure, Kind};
 use crate::functions;
 use crate::guard::guard;
 use crate::model::PyModel;
-use kempe::analyses::kinematics::{self, Over};
-use kempe::analyses::measures;
+use kempe::analyses::{measures, start_of};
 use kempe::case::{self, Case, Diagnostic, Document, Format, MOST_REPORTED};
-use kempe::model::{self, Value};
+use kempe::model::{self, Entry};
 use pyo3::prelude::*;
-use serde_json::json;
 use std::sync::Arc;
 
 /// The text of a case with valid structure.
@@ -101,34 +99,12 @@ impl PyCase {
             let built = attended(py, move |_| {
                 let model = model::build(&case.definition, &overrides)?;
                 match measures::check(&model, &case.definition.measures) {
-                    found if found.is_empty() => Ok(PyModel::new(model)),
+                    found if found.is_empty() => Ok((model, case)),
                     found => Err(found),
                 }
             })?;
-            built.map_err(|found| self.raise(py, Kind::Model, &found))
-        })
-    }
-
-    /// The case in which t is the value of a driver or position quantity, as JSON; the quantity, its unit, and its
-    /// value at a state.
-    #[allow(clippy::too_many_arguments)] // the state is four arguments
-    fn over(
-        &self,
-        py: Python<'_>,
-        model: &PyModel,
-        over: &str,
-        t: f64,
-        q: Row<'_>,
-        v: Row<'_>,
-        z: Row<'_>,
-    ) -> PyResult<(String, String, String, f64)> {
-        guard("Case.over", || {
-            let start = state(py, &model.model, t, [&q, &v, &z])?;
-            let found = kinematics::over(&self.case.definition, &model.model, &start, over);
-            let Over { definition, quantity, unit, value } =
-                found.map_err(|problem| raise_plain(py, Kind::Model, &[problem]))?;
-            let case = Case { definition, ..(*self.case).clone() };
-            Ok((case::write(&case, Format::Json), quantity, unit, value))
+            let (model, case) = built.map_err(|found| self.raise(py, Kind::Model, &found))?;
+            Ok(PyModel::new(Arc::new(model), Arc::new(case.definition.clone())))
         })
     }
 
@@ -153,18 +129,16 @@ impl PyCase {
         })
     }
 
-    /// Names, types and starts of the analyses, as JSON.
-    fn analyses(&self) -> PyResult<String> {
+    /// The analyses as JSON, in order, and for each the index of the analysis at whose end it starts.
+    fn analyses(&self) -> PyResult<(String, Vec<Option<usize>>)> {
         guard("Case.analyses", || {
-            let text = |value: Option<&Value>| match value {
-                Some(Value::Text(text)) => json!(text),
-                _ => json!(null),
+            let all = &self.case.analyses;
+            let one = |(place, entry): (usize, &Entry)| {
+                (Entry { fields: self.case.fields(place), ..entry.clone() }, start_of(all, place))
             };
-            let all = self.case.analyses.iter().map(|entry| {
-                let (kind, from) = (text(entry.get("type")), text(entry.get("from")));
-                json!({ "name": entry.name, "type": kind, "from": from })
-            });
-            Ok(all.collect::<serde_json::Value>().to_string())
+            let (analyses, after) = all.iter().enumerate().map(one).unzip();
+            let case = Case { analyses, ..Case::default() };
+            Ok((case::write(&case, Format::Json), after))
         })
     }
 }

@@ -1,15 +1,11 @@
-//! Forward dynamics for Python: without the interpreter's lock, interruptible, with progress.
+//! A motion for Python.
 
-use crate::convert::{frozen, state, table, Row};
-use crate::errors::{raise_plain, Failure, Kind};
-use crate::guard::{guard, raised};
+use crate::convert::{frozen, table};
+use crate::errors::{Failure, Kind};
+use crate::guard::guard;
 use crate::model::{written, PyModel, Written};
-use crate::options;
-use crate::respond::{because, energies, responses, Table};
-use crate::watch::Watch;
+use crate::respond::{energies, reported, responses, Table};
 use kempe::analyses::dynamics as core;
-use kempe::analyses::State;
-use kempe::model::Model;
 use numpy::ndarray::{Array3, Dimension};
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyArray3, PyArrayMethods, PyReadonlyArray};
 use pyo3::prelude::*;
@@ -32,6 +28,8 @@ pub struct PyRun {
     parts: Vec<(usize, Py<PyModel>)>,
     events: Vec<core::EventStates>,
     passing: bool,
+    /// Accelerations and multipliers, if they are known.
+    known: Option<core::Accelerations>,
     /// Tolerance of the projection of the states.
     #[pyo3(get)]
     projection: Option<f64>,
@@ -65,9 +63,13 @@ impl PyRun {
         guard("Run.responses", || {
             let (mut a, mut lam) = (Vec::new(), Vec::new());
             self.by_phase(py, rows, |model, _, states| {
-                let found = responses(py, &model.active, states, self.passing)?;
-                a.extend_from_slice(&found[0]);
-                lam.extend_from_slice(&found[1]);
+                let [own_a, own_lam, _] = match (&self.known, rows) {
+                    // of inverse dynamics, which has one phase
+                    (Some(known), None) => reported(known.clone(), &model.active, states.t.len()),
+                    _ => responses(py, &model.active, states, self.passing)?,
+                };
+                a.extend(own_a);
+                lam.extend(own_lam);
                 Ok(())
             })?;
             let layout = &self.parts[0].1.get().model.layout;
@@ -179,6 +181,7 @@ impl PyRun {
         py: Python<'_>,
         model: &Bound<'_, PyModel>,
         run: core::Run,
+        known: Option<core::Accelerations>,
         message: &str,
     ) -> PyResult<Self> {
         let parts = phases(py, model, &run)?;
@@ -199,6 +202,7 @@ impl PyRun {
             parts,
             events: run.events,
             passing: run.passing,
+            known,
             projection: run.projection.map(|projection| projection.tolerance),
             dense_t,
             dense_y,
@@ -270,92 +274,4 @@ fn dense_arrays(
         Some(frozen(table(py, dense.y, (steps, n_y))?).unbind()),
         Some(frozen(c.into_pyarray(py)).unbind()),
     ))
-}
-
-/// Simulates the motion from a state. `actions` are names of events and the function that is called at these events.
-#[pyfunction]
-#[pyo3(signature = (model, t, q, v, z, options, progress, t_end=None, actions=None))]
-#[allow(clippy::too_many_arguments)] // the arguments of Python
-pub fn dynamics(
-    py: Python<'_>,
-    model: &Bound<'_, PyModel>,
-    t: f64,
-    q: Row<'_>,
-    v: Row<'_>,
-    z: Row<'_>,
-    options: &str,
-    progress: Option<Py<PyAny>>,
-    t_end: Option<f64>,
-    actions: Option<(Vec<String>, Py<PyAny>)>,
-) -> PyResult<PyRun> {
-    guard("dynamics", || {
-        let core = model.get();
-        let start = state(py, &core.model, t, [&q, &v, &z])?;
-        let mut options = options::read(py, core, options, t_end)?;
-        if let Some(problem) = options.backward(t, &["t_end"]) {
-            return Err(raise_plain(py, Kind::Model, &[problem]));
-        }
-        let (names, call) = actions.unwrap_or_else(|| (Vec::new(), py.None()));
-        for event in &mut options.events {
-            event.acts = names.contains(&event.name);
-        }
-        let mut watch = Watch::new(progress.as_ref());
-        let mut stopped = None;
-        let mut act = |name: &str, state: &State, setting: &core::Setting| {
-            let changed =
-                Python::attach(|py| called(py, &call, &core.model, name, (state, setting)));
-            changed.map_err(|error| stopped = Some(error)).ok()
-        };
-        let outcome = py
-            .detach(|| core.prepared.dynamics_with(&start, &options, |t| watch.look(t), &mut act));
-        match (outcome, watch.raised.or(stopped).or_else(raised::take)) {
-            (Ok(run), None) => {
-                let message = ended(&run);
-                PyRun::new(py, model, run, &message)
-            }
-            (Ok(run), Some(error)) => {
-                let run = PyRun::new(py, model, run, "interrupted")?;
-                error.value(py).setattr("run", run)?;
-                Err(error)
-            }
-            (Err(failure), Some(error)) => {
-                let run = Py::new(py, PyRun::new(py, model, failure.run, "interrupted")?)?;
-                error.value(py).setattr("run", run)?;
-                Err(error)
-            }
-            (Err(failure), None) => Err(raise(py, model, *failure)?),
-        }
-    })
-}
-
-/// The reason that a run ended.
-fn ended(run: &core::Run) -> String {
-    match (&run.stopped_by, run.trajectory.t.last()) {
-        (Some(name), Some(t)) => format!("the event {name} stopped the run at t = {t:.6} s"),
-        _ => "t_end was reached".to_string(),
-    }
-}
-
-/// Calls the function of an event.
-fn called(
-    py: Python<'_>,
-    call: &Py<PyAny>,
-    model: &Model,
-    name: &str,
-    (state, setting): (&State, &core::Setting),
-) -> PyResult<core::Change> {
-    let [q, v, z] = [&state.q, &state.v, &state.z].map(|x| x.clone().into_pyarray(py));
-    let answer = call.call1(py, (name, written(setting), state.t, q, v, z))?;
-    type Answer<'py> = (Vec<(String, f64)>, Option<(Row<'py>, Row<'py>, Row<'py>)>);
-    let (parameters, given): Answer<'_> = answer.extract(py)?;
-    let given = given.map(|(q, v, z)| self::state(py, model, state.t, [&q, &v, &z]));
-    Ok(core::Change { parameters, state: given.transpose()? })
-}
-
-fn raise(py: Python<'_>, model: &Bound<'_, PyModel>, failure: core::Failure) -> PyResult<PyErr> {
-    let message = failure.reason.to_string();
-    let run = Py::new(py, PyRun::new(py, model, failure.run, &message)?)?;
-    let error = because(py, failure.reason);
-    error.value(py).setattr("run", run)?;
-    Ok(error)
 }

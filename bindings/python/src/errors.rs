@@ -1,6 +1,7 @@
 //! Errors for Python. A [`Failure`] collects the data and is raised as a class of `kempe.errors`, which is imported
 //! only if an error is raised.
 
+use kempe::analyses::record::Outcome;
 use kempe::case::Diagnostic;
 use kempe::model::{self, MOST_REPORTED};
 use pyo3::exceptions::PyValueError;
@@ -8,48 +9,7 @@ use pyo3::prelude::*;
 use pyo3::types::{PyDict, PyTuple};
 
 /// The exceptions; each is a class of `kempe.errors`.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// The model, or its file, contains a fault.
-    Model,
-    /// The mechanism cannot be assembled.
-    Assembly,
-    /// Some constraints repeat others at every position.
-    Redundancy,
-    /// The mechanism is in a position at which the task has no unique solution.
-    Singularity,
-    /// The integrator could not continue.
-    Integration,
-    /// A file cannot be read or written.
-    File,
-    /// A fault of kempe itself.
-    Internal,
-}
-
-impl Kind {
-    const ALL: [Self; 7] = [
-        Self::Model,
-        Self::Assembly,
-        Self::Redundancy,
-        Self::Singularity,
-        Self::Integration,
-        Self::File,
-        Self::Internal,
-    ];
-
-    /// Name of the class in `kempe.errors`.
-    pub const fn class(self) -> &'static str {
-        match self {
-            Self::Model => "ModelError",
-            Self::Assembly => "AssemblyError",
-            Self::Redundancy => "RedundancyError",
-            Self::Singularity => "SingularityError",
-            Self::Integration => "IntegrationError",
-            Self::File => "FileError",
-            Self::Internal => "InternalError",
-        }
-    }
-}
+pub use kempe::analyses::record::ErrorClass as Kind;
 
 /// One fault of a model or a file.
 #[derive(Clone, Debug, Default)]
@@ -126,7 +86,7 @@ impl Failure {
         if self.kind == Kind::Integration {
             keywords.set_item("solution", self.solution)?;
         }
-        module.getattr(self.kind.class())?.call((self.message,), Some(&keywords))
+        module.getattr(self.kind.name())?.call((self.message,), Some(&keywords))
     }
 }
 
@@ -178,14 +138,20 @@ pub fn raise(py: Python<'_>, kind: Kind, found: &[Diagnostic], origin: Option<&s
 
 /// All faults without positions in a text, as one exception.
 pub fn raise_plain(py: Python<'_>, kind: Kind, found: &[model::Problem]) -> PyErr {
-    let problem = |p: &model::Problem| Problem {
-        message: p.to_string(),
-        path: p.path.join("."),
-        position: None,
-    };
-    let problems: Vec<Problem> = found.iter().take(MOST_REPORTED).map(problem).collect();
-    let message = model::Problems(found.to_vec()).to_string();
-    Failure::new(kind, message).problems(problems).raise(py)
+    Failure::from(Outcome { class: kind, ..found.to_vec().into() }).raise(py)
+}
+
+impl From<Outcome> for Failure {
+    fn from(outcome: Outcome) -> Self {
+        let Outcome { class: kind, message, name, t, hint, problems } = outcome;
+        let problem = |p: &model::Problem| Problem {
+            message: p.to_string(),
+            path: p.path.join("."),
+            position: None,
+        };
+        let problems = problems.iter().take(MOST_REPORTED).map(problem).collect();
+        Self { kind, message, name, t, hint, problems, solution: None }
+    }
 }
 
 /// A failure of the class `kind` with all attributes set, for tests in Python.
@@ -193,7 +159,7 @@ pub fn raise_plain(py: Python<'_>, kind: Kind, found: &[model::Problem]) -> PyEr
 /// # Errors
 /// `ValueError` if there is no such class.
 pub fn sample(kind: &str, message: &str) -> PyResult<Failure> {
-    let known = Kind::ALL.into_iter().find(|known| known.class() == kind);
+    let known = Kind::ALL.into_iter().find(|known| known.name() == kind);
     let kind = known.ok_or_else(|| PyValueError::new_err(format!("no error class '{kind}'")))?;
     let problem = Problem {
         message: "not a number".into(),

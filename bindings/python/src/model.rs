@@ -4,7 +4,7 @@ use crate::active::Active;
 use crate::convert::{refuse, Row};
 use crate::errors::{raise_plain, Kind};
 use crate::guard::guard;
-use crate::recent_options::RecentOptions;
+use crate::run_analysis::RecentAnalysis;
 use kempe::analyses::dynamics::{Prepared, Setting};
 use kempe::elements::{
     BodyId, Curve, CurveOn, Measured, Mode, OwnState, ResultQuantity, SceneSymbol, SymbolEnd,
@@ -12,7 +12,7 @@ use kempe::elements::{
 use kempe::equations::reactions::touched;
 use kempe::expression::Table;
 use kempe::math::Local;
-use kempe::model::{Body, Columns, Drawn, ForceMode, Functions, Model};
+use kempe::model::{Body, Columns, Definition, Drawn, ForceMode, Functions, Model};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use serde_json::{json, Map, Value};
@@ -30,8 +30,10 @@ pub struct PyModel {
     pub active: Active,
     /// The differences from the model of the case.
     setting: Setting,
-    /// The options of this model that were read last.
-    pub options: RecentOptions,
+    /// Its definition, in which analyses drive other quantities.
+    pub definition: Arc<Definition>,
+    /// The analysis of this model that was read last.
+    pub recent: RecentAnalysis,
 }
 
 /// Python's allocator aligns objects only to 16 bytes.
@@ -39,12 +41,11 @@ const _: () = assert!(align_of::<PyModel>() <= 16);
 
 impl PyModel {
     /// Wraps a model of the core.
-    pub fn new(model: Model) -> Self {
-        let model = Arc::new(model);
+    pub fn new(model: Arc<Model>, definition: Arc<Definition>) -> Self {
         let prepared = Arc::new(Prepared::new(Arc::clone(&model)));
         let active = Active::whole(&prepared);
-        let (setting, options) = (Setting::default(), RecentOptions::default());
-        Self { model, prepared, active, setting, options }
+        let (setting, recent) = (Setting::default(), RecentAnalysis::default());
+        Self { model, prepared, active, setting, definition, recent }
     }
 
     /// The differences from the model of the case.
@@ -59,7 +60,7 @@ impl PyModel {
             .open(&self.model)
             .map_err(|problems| raise_plain(py, Kind::Model, &problems))?;
         let marked = (!setting.modes.is_empty()).then(|| open.marked(&setting.modes));
-        let mut varied = Self::new(open);
+        let mut varied = Self::new(Arc::new(open), Arc::clone(&self.definition));
         varied.active = Active::of_phase(&varied.prepared, setting);
         varied.model = marked.map_or(varied.model, Arc::new);
         varied.setting = setting.clone();
@@ -126,7 +127,10 @@ impl PyModel {
 
     /// The model with redundant constraints accepted.
     fn allowing_redundancy(&self) -> PyResult<Self> {
-        guard("Model.allowing_redundancy", || Ok(Self::new(self.model.allowing_redundancy())))
+        guard("Model.allowing_redundancy", || {
+            let open = Arc::new(self.model.allowing_redundancy());
+            Ok(Self::new(open, Arc::clone(&self.definition)))
+        })
     }
 }
 

@@ -4,8 +4,8 @@ use crate::attended::attended;
 use crate::convert::{refuse, table, tree, Rows};
 use crate::guard::{caught, guard, Caught};
 use crate::model::PyModel;
-use crate::options;
 use crate::respond::Table;
+use crate::run_analysis::fields;
 use kempe::analyses::sweep::{Outcome, Statistic, Sweep, VariantRow};
 use kempe::math::Lanes;
 use numpy::{IntoPyArray, PyArray1};
@@ -68,7 +68,7 @@ pub fn sweep<'py>(
             model: Arc::clone(&model.model),
             set: tree(py, start)?,
             guess: tree(py, guess)?,
-            analysis: options::fields(py, analysis)?,
+            analysis: fields(py, analysis)?,
             measures,
             wanted,
         };

@@ -8,11 +8,8 @@
 use super::curves::Ranges;
 use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Point, Reason};
 use super::options::{name, options};
-use super::record::{
-    Analysis, ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished,
-};
+use super::record::{Analysis, Observer, Outcome, Record, StartState, Subject, Unfinished};
 use super::State;
-use crate::elements::Group;
 use crate::integrate::Flow;
 use crate::model::{size, Model};
 use serde_json::json;
@@ -57,7 +54,7 @@ impl Analysis for Options {
     ) -> Result<Record, Box<Unfinished>> {
         let over = match &self.over {
             Some(over) => over.clone(),
-            None => only_driver(subject.model(), start)?,
+            None => subject.only_driver(start)?,
         };
         let driven = subject.driven_by(start, &over, false)?;
         let at = State { t: driven.variable.start, ..start.state.clone() };
@@ -70,30 +67,14 @@ impl Analysis for Options {
             "reasons": found.reasons, "turns": found.turns,
         });
         let (values, positions): (Vec<f64>, Vec<Vec<f64>>) = found.path.into_iter().unzip();
-        let record = Record::new(findings, start.clone()).with("values", 1, values).with(
+        let (count, n_q) = (values.len(), driven.model.layout.n_q);
+        let record = Record::new(findings, start.clone()).with("values", [count, 1], values).with(
             "positions",
-            driven.model.layout.n_q,
+            [count, n_q],
             positions.concat(),
         );
         Ok(Record { driven: Some(driven), ..record })
     }
-}
-
-/// The only driver of a model that acts.
-fn only_driver(model: &Model, start: &StartState) -> Result<String, Outcome> {
-    let drivers = model.constraints.iter().filter(|item| item.group == Group::Drivers);
-    let drivers = drivers.filter(|item| !start.released.contains(&item.name));
-    let names: Vec<&str> = drivers.map(|item| &item.name[..]).collect();
-    match names[..] {
-        [only] => Ok(only.to_string()),
-        [] => Err(no_quantity("it has no driver")),
-        _ => Err(no_quantity(&format!("the model has the drivers {}", names.join(", ")))),
-    }
-}
-
-fn no_quantity(reason: &str) -> Outcome {
-    Outcome::new(ErrorClass::Model, format!("over: missing; {reason}"))
-        .hint("name a driver or a position quantity, as over = \"crank.angle\"")
 }
 
 /// The limits of a driven value.

@@ -25,6 +25,7 @@ fn shape(shape: Shape) -> Value {
         Shape::Word(words) => json!({ "words": words }),
         Shape::Options(family) => json!({ "options": family }),
         Shape::LawPair => json!("law_pair"),
+        Shape::Ranges => json!("ranges"),
         Shape::NameList => json!("name_list"),
         plain => json!(format!("{plain:?}").to_lowercase()),
     }

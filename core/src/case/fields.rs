@@ -5,7 +5,8 @@ use super::report::{among, ProblemList};
 use super::tree::{Data, Node, Table};
 use super::values::{
     corners, count, curves, names, number, numbers, outline, pair, plain_numbers, points,
-    quantities, terms, tolerance, triple, two_columns, two_names, units, word, wrong, TERMS,
+    quantities, ranges, terms, tolerance, triple, two_columns, two_names, units, word, wrong,
+    TERMS,
 };
 use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
@@ -99,6 +100,7 @@ pub(super) fn shape(report: &mut ProblemList, node: &Node, shape: Shape) {
         (_, Data::Refused(_)) => {}
         (Shape::Number | Shape::Law, _) => number(report, node),
         (Shape::Pair | Shape::LawPair, _) => pair(report, node),
+        (Shape::Ranges, _) => ranges(report, node),
         (Shape::Triple, _) => triple(report, node),
         (Shape::Laws, _) => numbers(report, node),
         (Shape::Terms, _) => terms(report, node, TERMS),

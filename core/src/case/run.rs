@@ -4,7 +4,7 @@ use super::Case;
 use crate::analyses::assemble::assemble_until;
 use crate::analyses::record::{Observer, Outcome, Record, StartState, Subject, Unfinished};
 use crate::analyses::{declarations, kind_of, run_after, start_of, AnyAnalysis};
-use crate::model::{Model, Problem, Value};
+use crate::model::{Model, Value};
 
 /// The option that holds coordinates. An analysis without it holds those of the start.
 const HELD: &str = "set";
@@ -20,21 +20,17 @@ impl Case {
         Ok(StartState::new(state))
     }
 
-    /// The options of an analysis.
-    ///
-    /// # Errors
-    /// Every faulty value, with its path in the file.
-    pub fn analysis(&self, model: &Model, place: usize) -> Result<AnyAnalysis, Vec<Problem>> {
+    /// The fields of an analysis. One that can hold coordinates holds those of the start if it names none.
+    pub fn fields(&self, place: usize) -> Vec<(String, Value)> {
         let entry = &self.analyses[place];
-        let path = ["analyses".to_string(), entry.name.clone()];
         let kind = kind_of(&entry.fields);
         let declared = declarations().iter().find(|declared| declared.table.name == kind);
         let holds = declared.is_some_and(|d| d.table.fields.iter().any(|f| f.name == HELD));
         let mut fields = entry.fields.clone();
-        if holds && entry.get(HELD).is_none() {
+        if holds && entry.get(HELD).is_none() && !self.start.set.is_empty() {
             fields.push((HELD.to_string(), Value::Table(self.start.set.clone())));
         }
-        AnyAnalysis::read(model, &fields, &path)
+        fields
     }
 
     /// Runs an analysis after the analyses at whose ends it starts.
@@ -47,7 +43,8 @@ impl Case {
         subject: &Subject<'_>,
         mut observer: Observer<'_>,
     ) -> Result<Record, Box<Unfinished>> {
-        let analysis = self.analysis(subject.model(), place)?;
+        let path = ["analyses".to_string(), self.analyses[place].name.clone()];
+        let analysis = AnyAnalysis::read(subject.model(), &self.fields(place), &path)?;
         match start_of(&self.analyses, place) {
             None => {
                 let start = self.assembled(subject.model(), observer.stop)?;

@@ -270,6 +270,7 @@ fn property(f: &Field) -> Value {
         Shape::Word(words) => json!({ "enum": words }),
         Shape::Number | Shape::Law => reference("number"),
         Shape::Pair | Shape::LawPair => reference("pair"),
+        Shape::Ranges => json!({ "type": "array", "items": { "$ref": "#/$defs/pair" } }),
         Shape::Triple => reference("triple"),
         Shape::Laws => reference("laws"),
         Shape::Terms => reference("terms"),

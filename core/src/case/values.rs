@@ -35,6 +35,16 @@ pub(super) fn pair(report: &mut ProblemList, node: &Node) {
     }
 }
 
+/// A list of pairs.
+pub(super) fn ranges(report: &mut ProblemList, node: &Node) {
+    let Data::List(items) = &node.data else {
+        return wrong(report, node, "a list of ranges [[first, last], [first, last]]");
+    };
+    for (k, item) in items.iter().enumerate() {
+        report.within(&k.to_string(), |report| pair(report, item));
+    }
+}
+
 /// Three numbers or formulas.
 pub(super) fn triple(report: &mut ProblemList, node: &Node) {
     match &node.data {

@@ -27,6 +27,8 @@ pub enum Shape {
     Law,
     /// Two numbers.
     Pair,
+    /// Any number of pairs: the first and the last value of ranges.
+    Ranges,
     /// Three numbers, each with its own unit. The unit of the field lists them, separated by commas.
     Triple,
     /// Two laws.

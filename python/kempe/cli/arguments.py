@@ -229,7 +229,7 @@ def assembled(case: Case) -> State:
     """The assembled mechanism; its warnings are printed with the report."""
     import warnings
 
-    from kempe.analyses import AssemblyWarning
+    from kempe.record import AssemblyWarning
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AssemblyWarning)

@@ -64,8 +64,8 @@ def computed(case: Case, analysis: str | None = None) -> Study:
     """The study of an analysis; a terminal shows the variant that is computed."""
     import warnings
 
-    from kempe.analyses import AssemblyWarning
     from kempe.events import EventWarning
+    from kempe.record import AssemblyWarning
     from kempe.studies import study as compute
 
     silent = not remarks().is_terminal

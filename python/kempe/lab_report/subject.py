@@ -9,13 +9,14 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe.analyses import AccuracyWarning, AssemblyWarning
+from kempe.analyses import AccuracyWarning
 from kempe.assembly_report import Iteration
 from kempe.case import Case, parsed
 from kempe.compiled import CompiledModel
 from kempe.errors import KempeError, ModelError
 from kempe.events import EventWarning
 from kempe.iterations import iterations
+from kempe.record import AssemblyWarning
 from kempe.result import Result
 from kempe.solution import Solution
 from kempe.state import State

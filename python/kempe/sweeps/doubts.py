@@ -6,8 +6,8 @@ import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from math import radians
 
-from kempe.analyses import AssemblyWarning
 from kempe.names import few
+from kempe.record import AssemblyWarning
 from kempe.sweeps.plan import Plan
 from kempe.sweeps.variables import Variable
 

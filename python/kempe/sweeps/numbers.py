@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe.driven import driven_by
+from kempe.catalogue import declared
 from kempe.errors import ModelError
 from kempe.measures import measure_info, values_of
 from kempe.names import unknown
-from kempe.reach import only_driver
+from kempe.record import driven_by
 from kempe.state import State
 from kempe.values import refuse
 from kempe.variable import Variable
@@ -24,20 +24,7 @@ if TYPE_CHECKING:
 _COUNTED = ("redundant", "singular", "locked", "loose", "undetermined")
 #: The numbers of each type of analysis with their SI units; "over" is the unit of the quantity.
 NUMBERS: Mapping[str, Mapping[str, str]] = {
-    "equilibrium": {
-        **dict.fromkeys(("stable", "eigenvalues", "residual", "steps", "relaxed", "complete"), ""),
-        **dict.fromkeys(("values", "folds", "branches"), ""),
-    },
-    "modes": {
-        **{"frequency": "Hz", "damping": "", "omega": "rad/s", "eigenvalues": "1/s"},
-        **dict.fromkeys(("stable", "is_equilibrium", "values", "rates", "acceleration"), ""),
-    },
-    "limits": {
-        **dict.fromkeys(("lower", "upper", "span", "start"), "over"),
-        **dict.fromkeys(("turns", "turns_fully"), ""),
-    },
-    "configurations": {"count": "", "complete": ""},
-    "mobility": dict.fromkeys(("degrees_of_freedom", "gruebler", "rank", "driven", *_COUNTED), ""),
+    kind: dict(analysis.get("numbers", ())) for kind, analysis in declared("analyses").items()
 }
 #: The numbers in place of None; any other one is NaN.
 _ABSENT = {"lower": -np.inf, "upper": np.inf, "span": np.inf}
@@ -76,18 +63,17 @@ def unit_of(model: CompiledModel, entry: Mapping[str, Any], text: str) -> str:
 
 def over_of(model: CompiledModel, entry: Mapping[str, Any]) -> Variable:
     """The quantity over which an analysis follows a motion, with its unit."""
-    return driven_model(model, str(entry.get("over") or only_driver(model)))[1]
+    return driven_model(model, entry.get("over"))[1]
 
 
-def driven_model(model: CompiledModel, over: str) -> tuple[CompiledModel, Variable]:
-    """The model in which a quantity is driven, and this quantity.
+def driven_model(model: CompiledModel, over: str | None) -> tuple[CompiledModel, Variable]:
+    """The model in which a quantity is driven, and this quantity; by default the only driver.
 
     Raises:
         ModelError: there is no such quantity, or several drivers determine the motion already.
     """
     rest = (np.zeros(model.n_q), np.zeros(model.n_q))  # names and units need no position
-    driven, _, variable = driven_by(model, over, State(model, 0.0, *rest, z=np.zeros(model.n_z)))
-    return driven, variable
+    return driven_by(model, over, State(model, 0.0, *rest, z=np.zeros(model.n_z)))[:2]
 
 
 def number(found: Any, text: str) -> float:

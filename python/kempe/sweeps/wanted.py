@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from kempe.catalogue import declared
 from kempe.errors import ModelError
 from kempe.measures import STATISTICS, Measure, MeasureInfo, measure_info
 from kempe.names import unknown
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
 #: Every statistic of a measure, by the last part of a text such as ``pin.max``.
 ALL = (*STATISTICS, "t_max", "t_min")
 #: Analyses whose results are motions.
-MOTIONS = ("dynamics", "kinematics", "inverse_dynamics")
+MOTIONS = tuple(kind for kind, of in declared("analyses").items() if "motion" in of)
 
 
 @dataclass(frozen=True)

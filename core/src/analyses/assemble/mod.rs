@@ -21,6 +21,7 @@ mod holding;
 mod legs;
 mod named;
 mod open_placement;
+mod outcome;
 mod placement;
 mod placements;
 mod placer;

@@ -11,6 +11,7 @@
 //! | `walk` | all closures of dyads, rods and meshed wheels |
 //! | `search` | starts of Newton's method, and circuits |
 //! | `turns` | whole turns that couplings distinguish |
+//! | `record` | the analysis and its record |
 //! | `options` | options of the analysis |
 
 mod found;

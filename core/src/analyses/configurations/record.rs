@@ -28,11 +28,12 @@ impl Analysis for Options {
         let findings = json!({
             "complete": found.complete, "left_out": found.left_out, "reports": reports,
         });
+        let count = found.states.len();
         let (n_q, n_z) = (model.layout.n_q, model.layout.n_z);
         Ok(Record::new(findings, start.clone())
-            .with("q", n_q, rows(|state| &state.q))
-            .with("v", n_q, rows(|state| &state.v))
-            .with("z", n_z, rows(|state| &state.z)))
+            .with("q", [count, n_q], rows(|state| &state.q))
+            .with("v", [count, n_q], rows(|state| &state.v))
+            .with("z", [count, n_z], rows(|state| &state.z)))
     }
 }
 

@@ -7,12 +7,14 @@
 //! | `remedies` | equations that may be freed in the joints of a redundancy |
 //! | `bodies` | bodies that cannot move, and bodies that no joint holds |
 //! | `four_bars` | closed loops of four pins, with Grashof's rule |
+//! | `record` | the diagnosis as an analysis |
 //! | `as_json` | a diagnosis as JSON |
 
 mod as_json;
 mod bodies;
 mod four_bars;
 mod passing;
+mod record;
 mod remedies;
 
 pub use as_json::json as as_json;
@@ -24,7 +26,6 @@ use super::dependence;
 use super::freedoms::NEARLY;
 use super::mobility::{mobility, Mobility};
 use super::options::{name, options};
-use super::record::{Analysis, Observer, Record, StartState, Subject, Unfinished};
 use super::{dynamics, Dependent, State};
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
@@ -39,30 +40,6 @@ options! {
         /// State that is examined: "start", or the name of an earlier analysis to use its final
         /// state. If absent, the final state of the previous analysis.
         from: Option<name> = None,
-    }
-}
-
-impl Analysis for Options {
-    const NUMBERS: &'static [(&'static str, &'static str)] = &[
-        ("degrees_of_freedom", ""),
-        ("gruebler", ""),
-        ("rank", ""),
-        ("driven", ""),
-        ("redundant", ""),
-        ("singular", ""),
-        ("locked", ""),
-        ("loose", ""),
-        ("undetermined", ""),
-    ];
-
-    fn run(
-        &self,
-        subject: &Subject<'_>,
-        start: &StartState,
-        _: Observer<'_>,
-    ) -> Result<Record, Box<Unfinished>> {
-        let found = diagnose(&subject.released(start), &start.state);
-        Ok(Record::new(as_json(&found), start.clone()))
     }
 }
 

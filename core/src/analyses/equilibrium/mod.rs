@@ -20,6 +20,7 @@
 //! | `result` | an equilibrium position with its stability and efforts |
 //! | `parameter`, `spot`, `stride`, `turning`, `points`, `path` | paths over a parameter: derivatives, tangents, steps, folds |
 //! | `compliance` | the compliance at a point |
+//! | `record` | the analysis and its record |
 //! | `options`, `failure` | options, and reasons for a failed search |
 
 mod compliance;

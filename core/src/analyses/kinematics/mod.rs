@@ -41,7 +41,7 @@ pub(in crate::analyses) use dead_point::{driven, in_line, written};
 pub use failure::{Failure, Reason};
 pub use motion::Motion;
 pub use options::{InverseOptions, Options};
-pub use over::{over, Over};
+pub use over::{driving, over, DrivenQuantity, Over};
 pub use solution::Point;
 pub use works::{recorded, MotionRecorder, Recorded};
 

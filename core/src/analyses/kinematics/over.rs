@@ -35,20 +35,68 @@ pub fn over(
     start: &State,
     over: &str,
 ) -> Result<Over, Problem> {
-    let mut definition = definition.clone();
-    let known = definition.drivers.iter().find(|entry| entry.name == over);
-    let quantity = known.and_then(|entry| text(entry, "coordinate")).unwrap_or(over).to_string();
-    let found = readings::find(model, &quantity)
-        .map_err(|problem| Problem { path: vec!["over".to_string()], ..problem })?;
-    let value = readings::of_state(model, start, &[&quantity])[0];
-    let own = definition.drivers.iter().find(|entry| text(entry, "coordinate") == Some(&quantity));
-    let driver = own.map(|entry| entry.name.clone());
-    hold_others(&mut definition, driver.as_deref(), start.t);
-    if driver.is_none() && model.layout.n_rows >= model.layout.n_q {
-        replace_the_driver(&mut definition, over)?;
+    let followed = DrivenQuantity::named(definition, model, over)?;
+    let value = readings::of_state(model, start, &[&followed.quantity])[0];
+    let law = Value::Text("t".to_string());
+    let definition = driving(definition, model, start.t, &[(&followed, law)])?;
+    Ok(Over { definition, quantity: followed.quantity, unit: followed.unit, value })
+}
+
+/// A position quantity whose value a law gives.
+pub struct DrivenQuantity {
+    /// The quantity.
+    pub quantity: String,
+    /// Its SI unit.
+    pub unit: String,
+    /// The name that was given: the quantity or its driver.
+    given: String,
+    /// Its driver, if it has one.
+    driver: Option<String>,
+}
+
+impl DrivenQuantity {
+    /// The quantity of a driver, or a position quantity by its name.
+    ///
+    /// # Errors
+    /// The model has no such driver or quantity.
+    pub fn named(definition: &Definition, model: &Model, name: &str) -> Result<Self, Problem> {
+        let drivers = &definition.drivers;
+        let known = drivers.iter().find(|entry| entry.name == name);
+        let quantity = known.and_then(|entry| text(entry, "coordinate")).unwrap_or(name);
+        let found = readings::find(model, quantity)
+            .map_err(|problem| Problem { path: vec!["over".to_string()], ..problem })?;
+        let own = drivers.iter().find(|entry| text(entry, "coordinate") == Some(quantity));
+        Ok(Self {
+            quantity: quantity.to_string(),
+            unit: found.unit,
+            given: name.to_string(),
+            driver: own.map(|entry| entry.name.clone()),
+        })
     }
-    drive(&mut definition, driver.as_deref(), &quantity);
-    Ok(Over { definition, quantity, unit: found.unit, value })
+}
+
+/// The mechanism in which laws give the values of quantities. Elsewhere, t keeps a value.
+///
+/// # Errors
+/// Other drivers already determine the motion.
+pub fn driving(
+    definition: &Definition,
+    model: &Model,
+    t: f64,
+    laws: &[(&DrivenQuantity, Value)],
+) -> Result<Definition, Problem> {
+    let mut definition = definition.clone();
+    let own: Vec<&str> = laws.iter().filter_map(|(of, _)| of.driver.as_deref()).collect();
+    hold_others(&mut definition, &own, t);
+    let free = model.layout.n_q.saturating_sub(model.layout.n_rows);
+    let more = (laws.len() - own.len()).saturating_sub(free);
+    if more > 0 {
+        replace_drivers(&mut definition, &own, more, laws)?;
+    }
+    for (of, law) in laws {
+        drive(&mut definition, of, law.clone());
+    }
+    Ok(definition)
 }
 
 fn text<'a>(entry: &'a Entry, key: &str) -> Option<&'a str> {
@@ -58,38 +106,49 @@ fn text<'a>(entry: &'a Entry, key: &str) -> Option<&'a str> {
     }
 }
 
-/// Removes the only driver of a mechanism without remaining degrees of freedom, and the measures of this driver.
-fn replace_the_driver(definition: &mut Definition, over: &str) -> Result<(), Problem> {
-    if definition.drivers.len() > 1 {
-        let names: Vec<&str> = definition.drivers.iter().map(|one| one.name.as_str()).collect();
+/// Removes the other drivers of a mechanism without remaining degrees of freedom, at most `most` of them, and the
+/// measures of these drivers.
+fn replace_drivers(
+    definition: &mut Definition,
+    own: &[&str],
+    most: usize,
+    laws: &[(&DrivenQuantity, Value)],
+) -> Result<(), Problem> {
+    let others = |entry: &&Entry| !own.contains(&&*entry.name);
+    let names: Vec<String> =
+        definition.drivers.iter().filter(others).map(|one| one.name.clone()).collect();
+    if names.len() > most {
+        let given: Vec<&str> = laws.iter().map(|(of, _)| &*of.given).collect();
         let message = format!("the drivers {} determine the motion already", names.join(", "));
-        return Err(Problem::at(&["over"], message)
-            .hint(format!("name one of them, or remove the one that {over} replaces")));
+        let hint =
+            format!("name one of them, or remove the one that {} replaces", given.join(" and "));
+        return Err(Problem::at(&["over"], message).hint(hint));
     }
-    for gone in std::mem::take(&mut definition.drivers) {
-        let stays = |value: &Value| !matches!(value, Value::Text(text) if reads(text, &gone.name));
+    definition.drivers.retain(|one| !names.contains(&one.name));
+    for gone in names {
+        let stays = |value: &Value| !matches!(value, Value::Text(text) if reads(text, &gone));
         definition.measures.retain(|(_, value)| stays(value));
     }
     Ok(())
 }
 
-/// Makes t the value of a quantity: in its driver, in the joint that has the quantity as a field, or in a new driver.
-fn drive(definition: &mut Definition, driver: Option<&str>, quantity: &str) {
-    let law = || Value::Text("t".to_string());
+/// Gives a quantity a law: in its driver, in the joint that has the quantity as a field, or in a new driver.
+fn drive(definition: &mut Definition, of: &DrivenQuantity, law: Value) {
+    let DrivenQuantity { quantity, driver, .. } = of;
     let (element, field) = quantity.rsplit_once('.').unwrap_or_default();
     let joint = definition.joints.iter_mut().find(|entry| entry.name == element);
     let field = joint.and_then(|entry| entry.fields.iter_mut().find(|(key, _)| key == field));
     if let (None, Some((_, value))) = (driver, field) {
-        *value = law();
+        *value = law;
         return;
     }
     let fields = |kind: String| {
-        let coordinate = Value::Text(quantity.to_string());
-        [("type", Value::Text(kind)), ("coordinate", coordinate), ("value", law())]
+        let coordinate = Value::Text(quantity.clone());
+        [("type", Value::Text(kind)), ("coordinate", coordinate), ("value", law)]
             .map(|(key, value)| (key.to_string(), value))
             .to_vec()
     };
-    let own = definition.drivers.iter_mut().find(|entry| Some(entry.name.as_str()) == driver);
+    let own = definition.drivers.iter_mut().find(|entry| Some(&entry.name) == driver.as_ref());
     match own {
         Some(entry) => entry.fields = fields(text(entry, "type").unwrap_or_default().to_string()),
         None => {
@@ -120,9 +179,9 @@ fn free_name(definition: &Definition) -> String {
     names.find(|name| !taken.contains(&name)).expect("there are more names than entries")
 }
 
-/// Replaces t by the start time in the laws of all joints, and of all drivers except `driver`.
-fn hold_others(definition: &mut Definition, driver: Option<&str>, t: f64) {
-    let others = |entry: &&mut Entry| Some(entry.name.as_str()) != driver;
+/// Replaces t by a time in the laws of all joints, and of all drivers except some.
+fn hold_others(definition: &mut Definition, drivers: &[&str], t: f64) {
+    let others = |entry: &&mut Entry| !drivers.contains(&&*entry.name);
     for entry in definition.joints.iter_mut().chain(definition.drivers.iter_mut().filter(others)) {
         let laws = entry.fields.iter_mut().filter(|(key, _)| LAWS.contains(&key.as_str()));
         laws.for_each(|(_, value)| hold(value, t));

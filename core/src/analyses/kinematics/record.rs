@@ -8,10 +8,11 @@ use super::over::{over, Over};
 use super::works::MotionRecorder;
 use crate::analyses::dynamics::{system_clock, Prepared, Run, Setting, Statistics};
 use crate::analyses::record::{
-    Analysis, Driven, ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished,
-    Variable,
+    missing, Analysis, Driven, ErrorClass, Observer, Outcome, Record, StartState, Subject,
+    Unfinished, Variable,
 };
 use crate::analyses::State;
+use crate::elements::Group;
 use crate::integrate::Flow;
 use crate::model::{Model, Problem};
 use crate::stabilize::Projection;
@@ -35,7 +36,7 @@ impl Analysis for Options {
         start: &StartState,
         observer: Observer<'_>,
     ) -> Result<Record, Box<Unfinished>> {
-        Path { options: self, subject, start, rests: false }.follow(observer)
+        PlannedMotion { options: self, subject, start, rests: false }.follow(observer)
     }
 }
 
@@ -55,7 +56,7 @@ impl Analysis for InverseOptions {
         no_states(subject.model())?;
         let options = &Options::from(self.clone());
         let stop = observer.stop;
-        let path = Path { options, subject, start, rests: self.r#static };
+        let path = PlannedMotion { options, subject, start, rests: self.r#static };
         let record = path.follow(observer)?;
         with_responses(record, subject, start, stop)
     }
@@ -86,14 +87,14 @@ fn with_responses(
     match prepared.accelerations(run.trajectory.states(), run.passing, look) {
         Ok(found) => Ok(Record { responses: Some(found), ..record }),
         Err(failure) => {
-            let outcome = Outcome::from(failure.reason);
+            let outcome = missing(failure.reason);
             Err(Box::new(Unfinished { outcome, record: Some(record) }))
         }
     }
 }
 
 /// A motion that is to be followed.
-struct Path<'a> {
+struct PlannedMotion<'a> {
     options: &'a Options,
     subject: &'a Subject<'a>,
     start: &'a StartState,
@@ -101,7 +102,7 @@ struct Path<'a> {
     rests: bool,
 }
 
-impl Path<'_> {
+impl PlannedMotion<'_> {
     fn follow(&self, observer: Observer<'_>) -> Result<Record, Box<Unfinished>> {
         let Observer { look, .. } = observer;
         let Self { options, subject, start, .. } = *self;
@@ -219,7 +220,7 @@ impl Subject<'_> {
     ///
     /// # Errors
     /// There is no such driver or quantity, or several drivers determine the motion already.
-    pub(in crate::analyses) fn driven_by(
+    pub fn driven_by(
         &self,
         start: &StartState,
         quantity: &str,
@@ -232,6 +233,25 @@ impl Subject<'_> {
         let model = self.rebuilt(&definition)?;
         let variable = Variable { name: quantity, unit, start: value, rests };
         Ok(Driven { model, definition, variable })
+    }
+}
+
+impl Subject<'_> {
+    /// The only driver that acts.
+    ///
+    /// # Errors
+    /// There is none, or there are several.
+    pub fn only_driver(&self, start: &StartState) -> Result<String, Outcome> {
+        let model = self.released(start);
+        let drivers = model.constraints.iter().filter(|item| item.group == Group::Drivers);
+        let names: Vec<&str> = drivers.map(|item| &item.name[..]).collect();
+        let reason = match names[..] {
+            [only] => return Ok(only.to_string()),
+            [] => "it has no driver".to_string(),
+            _ => format!("the model has the drivers {}", names.join(", ")),
+        };
+        Err(Outcome::new(ErrorClass::Model, format!("over: missing; {reason}"))
+            .hint("name a driver or a position quantity, as over = \"crank.angle\""))
     }
 }
 

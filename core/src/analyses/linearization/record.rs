@@ -37,18 +37,18 @@ impl Analysis for Options {
             "coordinates": names.collect::<Vec<_>>(), "columns": found.coordinates,
             "states": found.states, "inputs": self.inputs, "outputs": self.outputs, "n": self.n,
         });
-        let (values, acceleration) = (found.values.len(), found.acceleration.len());
+        let [inputs, outputs] = [&self.inputs, &self.outputs].map(Vec::len);
         Ok(Record::new(findings, start.clone())
-            .with("basis", n_q, found.basis.concat())
-            .with("mass", f, found.mass)
-            .with("damping", f, found.damping)
-            .with("stiffness", f, found.stiffness)
-            .with("A", n, found.a)
-            .with("B", self.inputs.len(), found.b)
-            .with("C", n, found.c)
-            .with("D", self.inputs.len(), found.d)
-            .with("acceleration", acceleration, found.acceleration)
-            .with("values", values, found.values))
+            .with("basis", [f, n_q], found.basis.concat())
+            .with("mass", [f, f], found.mass)
+            .with("damping", [f, f], found.damping)
+            .with("stiffness", [f, f], found.stiffness)
+            .with("A", [n, n], found.a)
+            .with("B", [n, inputs], found.b)
+            .with("C", [outputs, n], found.c)
+            .with("D", [outputs, inputs], found.d)
+            .with("acceleration", [1, n_q], found.acceleration)
+            .with("values", [1, outputs], found.values))
     }
 }
 

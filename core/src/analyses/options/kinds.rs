@@ -232,6 +232,24 @@ kind! {
     }
 }
 
+kind! {
+    /// The first and the last value of ranges, of any unit.
+    intervals: Vec<[f64; 2]>, Ranges, |reader, key| {
+        let given = match reader.get(key)? {
+            Written::List(given) => given,
+            _ => return reader.refuse(key, "must be ranges, [[first, last], [first, last]]"),
+        };
+        let one = |range: &Written| match range {
+            Written::List(ends) if ends.len() == 2 => {
+                let [first, last] = [&ends[0], &ends[1]].map(|end| reader.value(key, end));
+                Some([first?, last?])
+            }
+            _ => reader.refuse(key, "must be ranges, [[first, last], [first, last]]"),
+        };
+        given.iter().map(one).collect()
+    }
+}
+
 /// Declares the words for the values of an enum.
 macro_rules! words {
     ($Value:ident { $($word:literal => $value:expr),+ $(,)? }) => {

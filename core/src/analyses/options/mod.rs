@@ -14,8 +14,8 @@ mod reader;
 pub(super) use declare::{family, options};
 pub use declare::{Declaration, Declared, Family, Member};
 pub(super) use kinds::{
-    count, flag, hht_alpha, interval, kind, name, not_negative, number, positive, spectral_radius,
-    words,
+    count, flag, hht_alpha, interval, intervals, kind, name, not_negative, number, positive,
+    spectral_radius, words,
 };
 pub use kinds::{Bounded, OptionKind, Words};
 pub use reader::Reader;

@@ -1,10 +1,9 @@
 //! The trait of analyses.
 
-use super::outcome::Unfinished;
-use super::result::Record;
-use crate::analyses::dynamics::{Act, Prepared, Run};
+use super::result::{Record, Unfinished};
+use super::start_state::StartState;
+use crate::analyses::dynamics::{Act, Prepared};
 use crate::analyses::options::Declared;
-use crate::analyses::State;
 use crate::integrate::Flow;
 use crate::model::{build, Definition, Model, Problem, Value};
 use std::sync::Arc;
@@ -79,43 +78,6 @@ impl<'a> Subject<'a> {
     }
 }
 
-/// The state in which an analysis starts.
-#[derive(Clone, Debug, PartialEq)]
-pub struct StartState {
-    /// The state.
-    pub state: State,
-    /// The drivers that were released before. They do not act.
-    pub released: Vec<String>,
-}
-
-impl StartState {
-    /// A start at which all drivers act.
-    pub const fn new(state: State) -> Self {
-        Self { state, released: Vec::new() }
-    }
-
-    /// The same drivers in another state.
-    pub fn at(&self, state: State) -> Self {
-        Self { state, released: self.released.clone() }
-    }
-
-    /// The end of a motion that begins here.
-    pub fn after(&self, run: &Run) -> Self {
-        let track = &run.trajectory;
-        let Some(last) = track.t.len().checked_sub(1) else { return self.clone() };
-        let row = |table: &[f64], width: usize| table[width * last..].to_vec();
-        let State { q, z, .. } = &self.state;
-        let state = State {
-            t: track.t[last],
-            q: row(&track.q, q.len()),
-            v: row(&track.v, q.len()),
-            z: row(&track.z, z.len()),
-        };
-        let released = run.settings.last().map(|setting| setting.released.clone());
-        Self { state, released: released.unwrap_or_else(|| self.released.clone()) }
-    }
-}
-
 /// Who watches an analysis.
 pub struct Observer<'a> {
     /// Called with the time or value that was reached, or with the number of steps. It may stop the analysis.
@@ -123,11 +85,11 @@ pub struct Observer<'a> {
     /// Whether the analysis is to stop. It is asked where `look` is not called.
     pub stop: &'a dyn Fn() -> bool,
     /// Acts at events of forward dynamics.
-    pub acting: Option<Acting<'a>>,
+    pub acting: Option<EventActions<'a>>,
 }
 
 /// Acts at events of forward dynamics.
-pub struct Acting<'a> {
+pub struct EventActions<'a> {
     /// The names of the events.
     pub events: &'a [String],
     /// Called at each of them.
@@ -142,7 +104,8 @@ impl<'a> Observer<'a> {
 
     /// The same observer for a part of the analysis.
     pub fn again(&mut self) -> Observer<'_> {
-        let acting = self.acting.as_mut().map(|Acting { events, act }| Acting { events, act });
+        let acting =
+            self.acting.as_mut().map(|EventActions { events, act }| EventActions { events, act });
         Observer { look: self.look, stop: self.stop, acting }
     }
 }

@@ -5,6 +5,7 @@
 //!
 //! | file | concept |
 //! |---|---|
+//! | `start_state` | the state in which an analysis starts |
 //! | `analysis` | the trait of analyses, their subject, and who watches them |
 //! | `result` | the record, and the quantity that replaces the time |
 //! | `outcome` | the reason for which an analysis fails, with advice |
@@ -14,7 +15,10 @@ mod analysis;
 mod motion;
 mod outcome;
 mod result;
+mod start_state;
 
-pub use analysis::{Acting, Analysis, Observer, StartState, Subject};
-pub use outcome::{ErrorClass, Outcome, Unfinished};
-pub use result::{Driven, Numbers, Record, Variable};
+pub use analysis::{Analysis, EventActions, Observer, Subject};
+pub use motion::missing;
+pub use outcome::{ErrorClass, Outcome};
+pub use result::{Driven, NumberTable, Record, Unfinished, Variable};
+pub use start_state::StartState;

@@ -1,9 +1,9 @@
 //! Forward dynamics as an analysis.
 
-use super::analysis::{Acting, Analysis, Observer, StartState, Subject};
-use super::outcome::{ErrorClass, Outcome, Unfinished};
-use super::result::Record;
-use crate::analyses::assemble;
+use super::analysis::{Analysis, EventActions, Observer, Subject};
+use super::outcome::{ErrorClass, Outcome};
+use super::result::{Record, Unfinished};
+use super::start_state::StartState;
 use crate::analyses::dynamics::{Options, Reason, Run};
 use crate::model::{Model, Problem};
 
@@ -43,7 +43,9 @@ impl Analysis for Options {
         let options = options.as_ref().unwrap_or(self);
         let prepared = subject.prepared;
         let outcome = match acting {
-            Some(Acting { act, .. }) => prepared.dynamics_with(&start.state, options, look, act),
+            Some(EventActions { act, .. }) => {
+                prepared.dynamics_with(&start.state, options, look, act)
+            }
             None => prepared.dynamics(&start.state, options, look),
         };
         match outcome {
@@ -64,7 +66,7 @@ impl Analysis for Options {
 fn with_start(
     options: &Options,
     start: &StartState,
-    acting: Option<&Acting<'_>>,
+    acting: Option<&EventActions<'_>>,
 ) -> Option<Options> {
     if start.released.is_empty() && acting.is_none() {
         return None;
@@ -110,18 +112,12 @@ impl From<Reason> for Outcome {
     }
 }
 
-impl From<assemble::Failure> for Outcome {
-    fn from(failure: assemble::Failure) -> Self {
-        let class = match failure.fault {
-            assemble::Fault::Redundant => ErrorClass::Redundancy,
-            assemble::Fault::Open | assemble::Fault::Rates | assemble::Fault::Stopped => {
-                ErrorClass::Assembly
-            }
-        };
-        let contradicts =
-            |path: Vec<String>| Problem { path, ..Problem::new("contradicts the others") };
-        let problems = failure.places.into_iter().map(contradicts).collect();
-        let outcome = Self::new(class, failure.message).name(failure.name).hint(failure.hint);
-        Self { problems, ..outcome }
-    }
+/// The reason that a result cannot be computed at a state.
+pub fn missing(reason: Reason) -> Outcome {
+    let hint = match reason {
+        Reason::Redundant { hint, .. } | Reason::Start { hint, .. } => hint,
+        Reason::Integration { .. } => "check forces and laws at this state",
+        _ => "positions and velocities are there; look at times beside it, or change the mechanism",
+    };
+    Outcome::from(reason).hint(hint)
 }

@@ -1,6 +1,5 @@
 //! The reason for which an analysis failed, with advice for users of every interface.
 
-use super::result::Record;
 use crate::model::{Problem, Problems};
 
 /// The class of an error. Its name is that of the exception of the Python package.
@@ -96,20 +95,5 @@ impl From<Vec<Problem>> for Outcome {
     fn from(problems: Vec<Problem>) -> Self {
         let message = Problems(problems.clone()).to_string();
         Self { problems, ..Self::new(ErrorClass::Model, message) }
-    }
-}
-
-/// An analysis that failed.
-#[derive(Debug)]
-pub struct Unfinished {
-    /// The reason.
-    pub outcome: Outcome,
-    /// The record up to the failure, if there is one.
-    pub record: Option<Record>,
-}
-
-impl<T: Into<Outcome>> From<T> for Box<Unfinished> {
-    fn from(outcome: T) -> Self {
-        Self::new(Unfinished { outcome: outcome.into(), record: None })
     }
 }

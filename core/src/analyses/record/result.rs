@@ -1,6 +1,7 @@
 //! The record of an analysis.
 
-use super::analysis::StartState;
+use super::outcome::Outcome;
+use super::start_state::StartState;
 use crate::analyses::dynamics::{Accelerations, Run};
 use crate::model::{Definition, Model};
 use serde_json::Value;
@@ -16,7 +17,7 @@ pub struct Record {
     /// The mechanism in which a quantity replaces the time, if one does.
     pub driven: Option<Driven>,
     /// Other numbers, by name.
-    pub numbers: Vec<Numbers>,
+    pub numbers: Vec<NumberTable>,
     /// The other findings, by name.
     pub findings: Value,
     /// The reason for which the analysis ended.
@@ -49,20 +50,20 @@ impl Record {
         Self { motion: Some(motion), message, ..Self::new(Value::Null, end) }
     }
 
-    /// Adds rows of numbers.
-    pub fn with(mut self, name: &'static str, width: usize, values: Vec<f64>) -> Self {
-        self.numbers.push(Numbers { name, width, values });
+    /// Adds rows of numbers; `shape` is their number and their length.
+    pub fn with(mut self, name: &'static str, shape: [usize; 2], values: Vec<f64>) -> Self {
+        self.numbers.push(NumberTable { name, shape, values });
         self
     }
 }
 
 /// Rows of numbers.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Numbers {
+pub struct NumberTable {
     /// Their name.
     pub name: &'static str,
-    /// The length of a row.
-    pub width: usize,
+    /// The number of rows, and the length of a row.
+    pub shape: [usize; 2],
     /// The numbers, row by row.
     pub values: Vec<f64>,
 }
@@ -89,4 +90,19 @@ pub struct Variable {
     pub start: f64,
     /// Whether the mechanism is at rest at each value. Otherwise the value grows at unit rate.
     pub rests: bool,
+}
+
+/// An analysis that failed.
+#[derive(Debug)]
+pub struct Unfinished {
+    /// The reason.
+    pub outcome: Outcome,
+    /// The record up to the failure, if there is one.
+    pub record: Option<Record>,
+}
+
+impl<T: Into<Outcome>> From<T> for Box<Unfinished> {
+    fn from(outcome: T) -> Self {
+        Self::new(Unfinished { outcome: outcome.into(), record: None })
+    }
 }
