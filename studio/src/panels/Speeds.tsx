@@ -6,10 +6,10 @@ import { written } from "../edit/values";
 import { report } from "../store/session";
 import { mechanism, pose, tree } from "../store/state";
 import { texts } from "../texts";
-import { TextField } from "./Case";
 import { putTyped } from "./Field";
 import { Facts, Section } from "./parts";
 import { shown } from "./Readings";
+import { TextField } from "./TextField";
 
 /** All drivers, or one of them. */
 export function Speeds({ of }: { of?: string }) {

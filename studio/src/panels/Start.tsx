@@ -5,9 +5,9 @@ import { written } from "../edit/values";
 import { report } from "../store/session";
 import { mechanism, tree } from "../store/state";
 import { texts } from "../texts";
-import { TextField } from "./Case";
 import { put, putTyped } from "./Field";
 import { Button, Section } from "./parts";
+import { TextField } from "./TextField";
 
 /** Coordinates are suggested up to this number. */
 const MOST = 60;
