@@ -12,6 +12,7 @@ export const playerTexts = {
   plotOf: (name: string) => `Plot over time: ${name}`,
   on: (body: string) => `on ${body}`,
   remarked: (remark: string) => `(${remark})`,
+  forces: (condition: string) => `forces ${condition}`,
   of: (end: string) => `of ${end}`,
   play: "Play",
   pause: "Pause",

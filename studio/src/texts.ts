@@ -231,7 +231,9 @@ export const texts = {
     quantityOver: "Quantity on the axis",
     ends: ["from", "to"],
     noRange: "The range is not complete. Write its first and its last value.",
-    atUnitRate: (name: string, unit: string) => `Rates, powers and inertia forces are those at 1 ${unit}/s of ${name}.`,
+    condition: (unit: string) => `with inertia and damping at 1 ${unit}/s`,
+    overNote: (name: string, condition: string) =>
+      `Rates are derivatives by ${name}. Forces, torques and powers are those ${condition}.`,
     notUnique: (names: readonly string[]) =>
       `* Not unique: of the possible reactions of redundant joints, the smallest are shown (minimum norm): ${names.join(", ")}.`,
     done: (count: number, name: string, end: string) => `${count} states up to ${name} = ${end}`,

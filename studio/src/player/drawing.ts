@@ -1,4 +1,4 @@
-// The drawing: what is shown of the scene at one instant, and the part of the plane that is seen.
+// The drawing of the scene at one instant, and the visible part of the plane.
 import { ARROW_KINDS, type Arrow, paintArrows } from "../draw/arrows";
 import { paintGravity, paintGrid, paintLengthScale, paintNotes } from "../draw/measure";
 import { paintItems } from "../draw/paint";
@@ -49,7 +49,7 @@ export class Drawing {
     this.view.resize(width, height);
   }
 
-  /** Where the joints are on the canvas at one instant, CSS pixels: their points on body j. */
+  /** The positions of the joints on the canvas at one instant, CSS pixels: their points on body j. */
   pins(now: Instant): { name: string; at: Point }[] {
     return this.scene.joints.map(({ name, bodies: [, j], points: [, at] }) => {
       return { name, at: this.view.toScreen(placed(now.poses[j]!, at)) };
