@@ -259,6 +259,9 @@ def dynamics(
 def kinematics_options(model: Model, text: str, inverse: bool) -> str:
     """The options of ``kinematics`` or ``inverse_dynamics``, checked, as JSON."""
 
+def rate_unit(unit: str, by: str) -> str:
+    """The SI unit of a rate in a motion over a quantity with the unit ``by``: m/s becomes m/rad."""
+
 def kinematics(
     model: Model,
     t: float,

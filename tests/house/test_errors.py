@@ -58,6 +58,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "linearize": lambda: _core.linearize(MODEL, T, Q, V, Z, [], []),
     "modes_options": lambda: _core.modes_options(MODEL, '{"type": "modes"}'),
     "kinematics_options": lambda: _core.kinematics_options(MODEL, '{"type": "kinematics"}', False),
+    "rate_unit": lambda: _core.rate_unit("m/s", "rad"),
     "line_at": lambda: _core.line_at(MODEL, "C", "rocker"),
     "transmitting": lambda: _core.transmitting(MODEL),
     "limits": lambda: _core.limits(MODEL, T, Q, V, Z, None),

@@ -45,6 +45,12 @@ pub fn kinematics_options(
     })
 }
 
+/// The SI unit of a rate in a motion over a quantity.
+#[pyfunction]
+pub fn rate_unit(unit: &str, by: &str) -> PyResult<String> {
+    guard("rate_unit", || Ok(kempe::analyses::record::rate_unit(unit, by)))
+}
+
 /// The motion that the drivers determine, at the given times.
 #[pyfunction]
 #[pyo3(signature = (model, t, q, v, z, times, progress, resting=false))]

@@ -121,6 +121,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(dynamics::dynamics, module)?)?;
     module.add_function(wrap_pyfunction!(kinematics::kinematics, module)?)?;
     module.add_function(wrap_pyfunction!(kinematics::kinematics_options, module)?)?;
+    module.add_function(wrap_pyfunction!(kinematics::rate_unit, module)?)?;
     module.add_function(wrap_pyfunction!(equilibrium::equilibrium, module)?)?;
     module.add_function(wrap_pyfunction!(equilibrium::compliance, module)?)?;
     module.add_function(wrap_pyfunction!(linearization::linearize, module)?)?;

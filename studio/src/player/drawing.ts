@@ -64,7 +64,7 @@ export class Drawing {
     if (shown.paths) paintTraces(context, view, this.traces, colours);
     const names = paintItems(context, view, scene.display, now.poses, shown, colours);
     const chosen = ARROW_KINDS.filter((kind) => shown[kind]);
-    names.push(...paintNotes(context, vectors.acting.notes(chosen), colours));
+    names.push(...paintNotes(context, vectors.notes(chosen), colours));
     const kinds = chosen.map((kind) => ({
       kind,
       unit: vectors.unit(kind),

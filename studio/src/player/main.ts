@@ -143,7 +143,7 @@ function connectBodies(): void {
     repaint();
   });
   const forces: readonly string[] = ACTING.force;
-  byId("forces").hidden = !scene.ends.some(({ group }) => forces.includes(group));
+  byId("forces").hidden = !scene.undetermined && !scene.ends.some(({ group }) => forces.includes(group));
 }
 
 function connectKeys(): void {

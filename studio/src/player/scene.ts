@@ -38,6 +38,8 @@ export interface Scene {
   frames: Frames;
   interpolation: "cubic" | "none";
   accuracy: number | null;
+  /** The reason why a state does not determine accelerations and reactions; otherwise empty. */
+  undetermined: string;
   events: { name: string; t: number }[];
   playback: { rate: number };
   reaction_scale: { force: number; length: number };

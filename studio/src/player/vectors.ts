@@ -36,7 +36,7 @@ function lengths({ bounds, reaction_scale: { force, length }, largest }: Scene):
 
 /** The vectors that can be drawn at an instant. */
 export class SceneVectors {
-  readonly acting: Acting;
+  private readonly acting: Acting;
   private readonly lengths: Record<ArrowKind, number>;
 
   constructor(private readonly scene: Scene) {
@@ -46,6 +46,12 @@ export class SceneVectors {
 
   unit(kind: ArrowKind): string {
     return this.scene.units[UNITS[kind]];
+  }
+
+  /** Lines beside the arrows of some kinds: the reason why they are missing, or remarks on them. */
+  notes(kinds: readonly ArrowKind[]): string[] {
+    const missing = kinds.some((kind) => kind !== "velocities") ? this.scene.undetermined : "";
+    return missing ? [missing] : this.acting.notes(kinds);
   }
 
   /** The drawn length of one unit, m. */

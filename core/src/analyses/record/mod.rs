@@ -17,4 +17,4 @@ mod result;
 
 pub use analysis::{Acting, Analysis, Observer, StartState, Subject};
 pub use outcome::{ErrorClass, Outcome, Unfinished};
-pub use result::{Driven, Numbers, Record, Variable};
+pub use result::{rate_unit, Driven, Numbers, Record, Variable};
