@@ -122,13 +122,14 @@ def test_a_range_that_the_mechanism_cannot_pass_keeps_its_part(one: Studio, tmp_
 
 
 def labels(one: Studio) -> None:
-    """Notes what is drawn as text beside the sheet, on the plots, from now on."""
+    """Notes what is drawn as text from now on: `drawn` on the plots, `sheet` on the sheet."""
     one.call(
         """() => {
           window.drawn = [];
+          window.sheet = [];
           const write = CanvasRenderingContext2D.prototype.fillText;
           CanvasRenderingContext2D.prototype.fillText = function (text, ...where) {
-            if (this.canvas.id !== "sheet") window.drawn.push(text);
+            (this.canvas.id === "sheet" ? window.sheet : window.drawn).push(text);
             return write.call(this, text, ...where);
           };
         }"""
@@ -157,6 +158,18 @@ def test_axis_and_playback_show_the_quantity(one: Studio, tmp_path: Path) -> Non
     assert "1.571 rad" in clock.inner_text()
     one.page.get_by_text("° and rpm").click()
     one.settle()
+
+
+def test_arrows_over_the_quantity_have_its_units_and_a_note(one: Studio, tmp_path: Path) -> None:
+    turn = kp.InverseDynamics(over="crank.angle", range=(0, "2*pi"), name="turn")
+    opened(one, tmp_path, crank_rocker, turn)
+    labels(one)
+    note = "forces with inertia and damping at 1 rad/s"
+    one.page.get_by_label("Velocities").check()
+    one.wait("window.sheet.some(text => /m\\/° coupler/.test(text))")
+    assert note not in one.call("() => window.sheet")
+    one.page.get_by_label("Reactions").check()
+    one.wait(f"window.sheet.includes('{note}')")
 
 
 def test_the_transmission_angle_of_the_crank_rocker(one: Studio, tmp_path: Path) -> None:

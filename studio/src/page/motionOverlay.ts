@@ -5,7 +5,7 @@ import type { ArrowKind, Vectors } from "../draw/arrows";
 import { displayed } from "../draw/display";
 import { ACTING } from "../draw/ends";
 import { Trace } from "../draw/traces";
-import { type Course, course, quantities, starred, time, valuesOf } from "../modes/read";
+import { type Course, condition, course, quantities, starred, time, valuesOf } from "../modes/read";
 import { points } from "../modes/seen";
 import { placeIn } from "../plane/instants";
 import { distinctPaths, type Path } from "../plane/paths";
@@ -165,4 +165,10 @@ export const vectors = computed<Shown[]>(() => {
     });
     return { kind, unit, largest: factor * largest, vectors: found };
   });
+});
+
+/** The line beside the arrows of forces: over a quantity, it says what they contain. */
+export const notes = computed(() => {
+  const acting = vectors.value.some(({ kind }) => KINDS[kind].groups.length > 0);
+  return acting && condition.value ? [texts.read.forces(condition.value)] : [];
 });

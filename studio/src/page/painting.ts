@@ -4,7 +4,7 @@ import { entry } from "../catalogue/tree";
 import { paintArrows, type Vectors } from "../draw/arrows";
 import { LENGTHS } from "../draw/display";
 import { paintGhost } from "../draw/ghost";
-import { paintGravity, paintGrid, paintLengthScale } from "../draw/measure";
+import { paintGravity, paintGrid, paintLengthScale, paintNotes } from "../draw/measure";
 import {
   paintHandles,
   paintLine,
@@ -23,7 +23,7 @@ import { type Point, placed } from "../plane/points";
 import { backdrop } from "../store/backdrop";
 import { preview, view, viewed } from "../store/sheet";
 import { catalogue, items, mechanism, mode, poses, scene, selection, shown, tree, units } from "../store/state";
-import { type Shown, traces, vectors } from "./motionOverlay";
+import { notes, type Shown, traces, vectors } from "./motionOverlay";
 
 /** Read all signals that the drawing depends on, so that an effect follows them. */
 export function follow(): void {
@@ -59,6 +59,7 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
     const names = paintItems(context, view, items.value, poses.value, shown.value, colours);
     if (!items.value.length) paintLinks(context, view, found.bodies, poses.value, colours);
     if (editing) paintHandles(context, view, loosePoints(), colours);
+    names.push(...paintNotes(context, notes.value, colours));
     paintArrows(context, view, vectors.value.map(sized), names, colours);
     paintGravity(context, view, found.gravity, colours);
   }

@@ -392,6 +392,7 @@ function nameOf(title2, what) {
 }
 
 // src/playerTexts.ts
+var forces = (condition) => `forces ${condition}`;
 var playerTexts = {
   linkage: "Linkage",
   theLinkage: "the linkage",
@@ -399,7 +400,7 @@ var playerTexts = {
   plotOf: (name) => `Plot over time: ${name}`,
   on: (body) => `on ${body}`,
   remarked: (remark) => `(${remark})`,
-  forces: (condition) => `forces ${condition}`,
+  forces,
   of: (end) => `of ${end}`,
   play: "Play",
   pause: "Pause",
@@ -2450,8 +2451,8 @@ function connectBodies() {
     drawing.onBody = choice.value === "" ? null : Number(choice.value);
     repaint();
   });
-  const forces = ACTING.force;
-  byId("forces").hidden = !scene.undetermined && !scene.ends.some(({ group }) => forces.includes(group));
+  const forces2 = ACTING.force;
+  byId("forces").hidden = !scene.undetermined && !scene.ends.some(({ group }) => forces2.includes(group));
 }
 function connectKeys() {
   listen({
