@@ -248,8 +248,7 @@ def dynamics(
         q, v, z: (n_q,), (n_q,), (n_z,).
         options: JSON, an entry of ``analyses`` as in a file.
         progress: function that is called repeatedly with the time reached, s.
-        t_end: end time, s; replaces the one in the options. The options are parsed once for each
-            model and text.
+        t_end: end time, s, instead of that in the options; these are parsed once for each text.
 
     Raises:
         IntegrationError: the integrator cannot continue; ``run`` holds the run up to that time,
@@ -277,8 +276,7 @@ def kinematics(
     With ``resting``, rates are zero, and works are those of a mechanism at rest at each value.
 
     Raises:
-        SingularityError: a limit; ``run`` holds the motion until then, as for
-            ``KeyboardInterrupt``.
+        SingularityError: a limit; ``run`` holds the motion before, as for ``KeyboardInterrupt``.
         AssemblyError: the state does not meet the constraints.
         ModelError: the drivers leave a freedom.
     """

@@ -389,19 +389,3 @@ def test_a_motion_over_a_quantity_shows_its_name_and_unit(opened: Any) -> None:
     assert watched.page.inner_text("#variable") == "crank.angle ="
     assert watched.page.inner_text("#now") == "80.000°"
     assert watched.page.inner_text("#end") == "of 90°"
-    plot = watched.page.locator(".plot").first
-    plot.locator(".quantity").select_option(label="Angular velocity")
-    watched.settle()
-    assert watched.state()["plots"][0]["label"] == "ω / (rad/rad)"
-    condition = "with inertia and damping at 1 rad/s"
-    assert condition not in {one["text"] for one in watched.texts(".plot canvas")}
-    plot.locator(".quantity").select_option(label="Reaction force")
-    watched.settle()
-    assert condition in {one["text"] for one in watched.texts(".plot canvas")}
-    watched.page.check("#show-velocities")
-    watched.settle()
-    assert any("m/rad" in one["text"] for one in watched.state()["arrows"])
-    assert f"forces {condition}" not in {one["text"] for one in watched.texts("#drawing")}
-    watched.page.check("#show-reactions")
-    watched.settle()
-    assert f"forces {condition}" in {one["text"] for one in watched.texts("#drawing")}

@@ -94,13 +94,7 @@ def scene(
         "length": _chosen_length() or static["length"],
         "traces": paths,
         "variable": _variable(solution_or_state.variable),
-        "frames": {
-            "t": plain(motion.t),
-            "poses": plain(poses, _DIGITS_OF_POSES),
-            "rates": plain(_of_bodies(motion, RATES)),
-            "accelerations": plain(_of_bodies(motion, ACCELERATIONS)),
-            "reactions": plain(_reactions(motion) * (np.nan if undetermined else 1.0)),
-        },
+        "frames": _frames(motion, poses, solved=not undetermined),
         "interpolation": sampling.interpolation(solution_or_state, motion, size),
         "accuracy": _short(sampling.accuracy(solution_or_state, motion)),
         "undetermined": undetermined,
@@ -113,6 +107,18 @@ def scene(
             motion, sampling.energy(solution_or_state, motion), solved=not undetermined
         ),
         "minimum_norm": [name for name in model.constraints if name in motion.not_unique],
+    }
+
+
+def _frames(motion: Motion, poses: Floats, *, solved: bool) -> dict[str, Any]:
+    """Poses, rates, accelerations and forces of joints; without solved equations, no forces."""
+    reactions = _reactions(motion)
+    return {
+        "t": plain(motion.t),
+        "poses": plain(poses, _DIGITS_OF_POSES),
+        "rates": plain(_of_bodies(motion, RATES)),
+        "accelerations": plain(_of_bodies(motion, ACCELERATIONS)),
+        "reactions": plain(reactions if solved else np.full_like(reactions, np.nan)),
     }
 
 
