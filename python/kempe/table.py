@@ -78,11 +78,17 @@ def columns(solution: Solution, extent: Extent | None = None) -> list[Column]:
         if name == first.name:
             continue
         quantity = quantities.named(solution, name)
-        values = column(name, quantity.unit, quantity.read())
-        unique = remarks.is_unique(solution, name)
-        condition = remarks.condition(solution, name, quantity.unit)
-        table.append(replace(values, unique=unique, condition=condition))
+        table.append(remarked(solution, name, quantity.unit, quantity.read()))
     return table
+
+
+def remarked(solution: Solution, name: str, unit: str, values: Floats) -> Column:
+    """A column of a quantity of a solution, with the remarks on it."""
+    return replace(
+        column(name, unit, values),
+        unique=remarks.is_unique(solution, name),
+        condition=remarks.condition(solution, name, unit),
+    )
 
 
 def column(name: str, unit: str, values: Floats) -> Column:

@@ -9,6 +9,7 @@ from pathlib import Path
 import kempe as kp
 import numpy as np
 import pytest
+from kempe import design
 from kempe.report import summary
 from kempe.variable import TIME, Variable
 from python.test_kinematics import slider_crank, started
@@ -88,6 +89,14 @@ def test_tables_and_figures_say_what_forces_over_the_quantity_contain(
         assert plain in header
     title = kp.plot.pin_load(sol, "A")
     assert told in [text.get_text() for text in title.texts]
+    design.write_pin_loads(sol, tmp_path / "pins.csv")
+    with (tmp_path / "pins.csv").open(encoding="utf-8") as file:
+        assert f"A.body_fx_on_rod [N, {told}]" in next(csv.reader(file))
+    case = design.load_cases(sol, "rod", "A")[0]
+    case.to_csv(tmp_path / "case.csv")
+    assert f"# loads {told}\n" in (tmp_path / "case.csv").read_text("utf-8")
+    below = [text.get_text() for text in kp.plot.free_body(sol, "rod", 1.0).texts]
+    assert any(told in text for text in below)
     frame = sol.to_dataframe()
     assert frame.attrs["conditions"]["A.fx_on_rod"] == told
     over_time = kp.inverse_dynamics(m, started(m), t_end=0.1)
