@@ -232,7 +232,6 @@ export const texts = {
     ends: ["from", "to"],
     noRange: "The range is not complete. Write its first and its last value.",
     forces,
-    condition: (unit: string) => `with inertia and damping at 1 ${unit}/s`,
     overNote: (name: string, condition: string) =>
       `Rates are derivatives by ${name}. Forces, torques and powers are those ${condition}.`,
     notUnique: (names: readonly string[]) =>

@@ -99,7 +99,7 @@ export interface Ran {
   events: { name: string; t: number }[];
   error: Problem | null;
   /** The quantity that replaces the time; null in a run over time. */
-  over: Quantity | null;
+  over: (Quantity & { condition: string }) | null;
   /** The joints and drivers whose reactions are not unique. */
   not_unique: string[];
 }

@@ -50,10 +50,10 @@ effect(() => {
 });
 
 /** The quantity in place of the time, with its SI unit; otherwise the time. */
-export const variable = computed(() => course.value?.ran.over ?? TIME);
+export const variable = computed<Quantity>(() => course.value?.ran.over ?? TIME);
 
 /** What forces over this quantity contain; empty over time. */
-export const condition = computed(() => (variable.value === TIME ? "" : texts.read.condition(variable.value.unit)));
+export const condition = computed(() => course.value?.ran.over?.condition ?? "");
 
 /** The end of a run without an analysis, s. A run over a quantity is also played in this time. */
 const T_END = 5;
