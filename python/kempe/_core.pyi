@@ -261,6 +261,9 @@ def run_analysis(
         KempeError: the analysis failed; ``record`` of the error contains the motion so far.
     """
 
+def rate_unit(unit: str, by: str) -> str:
+    """The SI unit of a rate in a motion over a quantity with the unit ``by``: m/s becomes m/rad."""
+
 def driven_by(model: Model, over: str | None, at: _At, released: list[str]) -> Driven:
     """The mechanism in which t is the value of a driver or position quantity.
 

@@ -36,7 +36,7 @@ def write_events(solution: Solution, path: Path | str) -> bool:
     model, first = solution.compiled, solution.variable
     units = model.column_units()
     names = [first.name, *model.column_names(), *model.rate_names(), *model.state_names()]
-    of = [first.unit, *units, *(f"{unit}/s" for unit in units), *model.state_units()]
+    of = [first.unit, *units, *(first.rate(f"{unit}/s") for unit in units), *model.state_units()]
     rows = np.array([[t, *state.q, *state.v, *state.z] for t, _, state in found])
     table = [column(*each) for each in zip(names, of, rows.T, strict=True)]
     lines = [["event", *(files.csv_cell(each.label) for each in table)]]

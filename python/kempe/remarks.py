@@ -70,6 +70,14 @@ def is_unique(motion: Motion, *names: str) -> bool:
     return not open_ones or open_ones.isdisjoint(read_by(motion.compiled, names))
 
 
+def condition(motion: Motion, name: str, unit: str) -> str:
+    """What a force, power or measure of reactions over a driven quantity contains; or empty."""
+    measure = motion.compiled.measures.get(name)
+    if measure is not None and measure.solves:
+        return motion.variable.condition
+    return motion.variable.condition_of(unit)
+
+
 def unbounded_at(
     motion: Motion, joint: str, parts: Sequence[str] = ("force", "torque")
 ) -> tuple[float, ...]:

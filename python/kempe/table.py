@@ -33,17 +33,20 @@ class Column:
         values: (n_t,), in this unit.
         unique: False for a reaction, or a measure that reads it, if redundant constraints leave it
             open; its values then have minimum norm.
+        condition: what a force, torque or power over a driven quantity contains; or empty.
     """
 
     name: str
     unit: str
     values: Floats
     unique: bool = True
+    condition: str = ""
 
     @property
     def label(self) -> str:
-        """Name and unit, such as ``C.fx_on_rocker [N]``; with a remark if it is not unique."""
-        beside = ", ".join(filter(None, (self.unit, "" if self.unique else remarks.MINIMUM_NORM)))
+        """Name and unit, such as ``C.fx_on_rocker [N]``, with the condition and other remarks."""
+        not_unique = "" if self.unique else remarks.MINIMUM_NORM
+        beside = ", ".join(filter(None, (self.unit, self.condition, not_unique)))
         return f"{self.name} [{beside}]" if beside else self.name
 
 
@@ -75,9 +78,17 @@ def columns(solution: Solution, extent: Extent | None = None) -> list[Column]:
         if name == first.name:
             continue
         quantity = quantities.named(solution, name)
-        values = column(name, quantity.unit, quantity.read())
-        table.append(replace(values, unique=remarks.is_unique(solution, name)))
+        table.append(remarked(solution, name, quantity.unit, quantity.read()))
     return table
+
+
+def remarked(solution: Solution, name: str, unit: str, values: Floats) -> Column:
+    """A column of a quantity of a solution, with the remarks on it."""
+    return replace(
+        column(name, unit, values),
+        unique=remarks.is_unique(solution, name),
+        condition=remarks.condition(solution, name, unit),
+    )
 
 
 def column(name: str, unit: str, values: Floats) -> Column:
@@ -141,6 +152,7 @@ def dataframe(solution: Solution, extent: Extent | None = None) -> pandas.DataFr
     frame = pandas.DataFrame({column.name: column.values for column in table})
     frame.attrs["units"] = {column.name: column.unit for column in table}
     frame.attrs["minimum_norm"] = [column.name for column in table if not column.unique]
+    frame.attrs["conditions"] = {one.name: one.condition for one in table if one.condition}
     return frame
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 
-#: Per second, in a unit; "N*s/m" does not contain it.
-_RATE = re.compile(r"/s(?![A-Za-z])")
+from kempe import _core
+
+#: The units of forces and torques.
+_FORCES = ("N", "N*m", "N·m")
 
 
 @dataclass(frozen=True)
@@ -36,7 +37,7 @@ class Variable:
 
     def rate(self, unit: str) -> str:
         """The SI unit of a rate: m/s over time, m/rad over an angle, and so on; W becomes J/rad."""
-        return unit if self.is_time else _RATE.sub(f"/{self.unit}", "J/s" if unit == "W" else unit)
+        return unit if self.is_time else _core.rate_unit(unit, self.unit)
 
     @property
     def condition(self) -> str:
@@ -44,6 +45,10 @@ class Variable:
         if self.static:
             return "at rest, without inertia and damping"
         return "" if self.is_time else f"with inertia and damping at 1 {self.unit}/s"
+
+    def condition_of(self, unit: str) -> str:
+        """``condition`` for values of an SI unit of forces, torques or powers; otherwise empty."""
+        return self.condition if unit in (*_FORCES, self.rate("W")) else ""
 
 
 #: The variable of all motions that are not over a driven quantity.

@@ -21,12 +21,12 @@ import "./style/phone.css";
 
 const FIRST = "four_bar";
 
-/** The text that `kempe studio FILE` put into the page, or null. */
+/** The text that `kempe studio FILE` has written into the page, or null. */
 function ownText(): string | null {
   return JSON.parse(document.getElementById("case")?.textContent ?? "null") as string | null;
 }
 
-/** The text to begin with: that of the link, that of the page, or the first example. */
+/** The first text: from the link, from the page, or from the first example. */
 async function begin(): Promise<void> {
   let given: string | null = null;
   let damaged = false;

@@ -3,6 +3,8 @@
 /** The choice of the body whose arrows are shown, in the player and in the studio. */
 export const ARROWS_ON = "Arrows on";
 export const ON_ALL = "all bodies";
+/** The line beside arrows of forces over a quantity, in the player and in the studio. */
+export const forces = (condition: string) => `forces ${condition}`;
 
 /** Of the script of the player. */
 export const playerTexts = {
@@ -12,6 +14,7 @@ export const playerTexts = {
   plotOf: (name: string) => `Plot over time: ${name}`,
   on: (body: string) => `on ${body}`,
   remarked: (remark: string) => `(${remark})`,
+  forces,
   of: (end: string) => `of ${end}`,
   play: "Play",
   pause: "Pause",

@@ -1,6 +1,6 @@
 // All English texts of the studio and its worker, and with playerTexts.ts those of the player. Names of types, their
 // fields and their descriptions come from the catalogue. Each bundle contains only the parts that it imports.
-import { ARROWS_ON, ON_ALL } from "./playerTexts";
+import { ARROWS_ON, forces, ON_ALL } from "./playerTexts";
 
 export * from "./playerTexts";
 
@@ -231,7 +231,9 @@ export const texts = {
     quantityOver: "Quantity on the axis",
     ends: ["from", "to"],
     noRange: "The range is not complete. Write its first and its last value.",
-    atUnitRate: (name: string, unit: string) => `Rates, powers and inertia forces are those at 1 ${unit}/s of ${name}.`,
+    forces,
+    overNote: (name: string, condition: string) =>
+      `Rates are derivatives by ${name}. Forces, torques and powers are those ${condition}.`,
     notUnique: (names: readonly string[]) =>
       `* Not unique: of the possible reactions of redundant joints, the smallest are shown (minimum norm): ${names.join(", ")}.`,
     done: (count: number, name: string, end: string) => `${count} states up to ${name} = ${end}`,

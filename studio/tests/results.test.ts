@@ -27,3 +27,13 @@ test("a table has all digits, and no cell is a formula", () => {
     "",
   ]);
 });
+
+test("headers of forces over a quantity say what they contain", () => {
+  const condition = "with inertia and damping at 1 rad/s";
+  const first = { name: "crank.angle", unit: "rad", condition };
+  const rows = [0, 1, 2, 3].map((k) => new Float64Array([k]));
+  const units = ["m/rad", "N*m", "N·m", "J/rad"];
+  const [head] = csv(new Float64Array([0.5]), ["v", "effort", "torque", "power"], units, rows, first).split("\n");
+  const marked = ["effort [N*m", "torque [N·m", "power [J/rad"].map((one) => `"${one}, ${condition}]"`);
+  expect(head).toBe(["crank.angle [rad]", "v [m/rad]", ...marked].join(","));
+});

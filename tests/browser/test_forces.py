@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from browser.test_values import example, read
 from draw.forces import on_body
-from draw.mechanisms import four_bar
+from draw.mechanisms import four_bar, resting
 
 KINDS = ("reactions", "force")
 #: The view is made wider, so that all arrows are whole; they keep their length on the screen.
@@ -163,6 +163,18 @@ def test_reactions_that_are_not_unique_are_marked(opened: Any) -> None:
         assert texts[f"{name} (minimum norm)"].endswith(" on rocker *")
     assert texts["B"].endswith(" on coupler")
     assert "* minimum norm" in {one["text"] for one in watched.texts("#drawing")}
+
+
+def test_a_state_on_a_rigid_stop_says_why_it_has_no_reactions(opened: Any) -> None:
+    watched = opened(resting(0.3), 1280, 800)
+    reason = kp.scene(resting(0.3))["undetermined"]
+    watched.page.check("#show-velocities")
+    watched.settle()
+    assert reason not in {one["text"] for one in watched.texts("#drawing")}
+    watched.page.check("#show-force")
+    watched.settle()
+    assert {one["element"] for one in watched.state()["arrows"]} == {"spring"}
+    assert reason in {one["text"] for one in watched.texts("#drawing")}
 
 
 def test_reactions_without_bound_are_marked(opened: Any) -> None:

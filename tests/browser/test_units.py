@@ -2,8 +2,10 @@
 
 from typing import Any
 
+import kempe as kp
 import pytest
 from browser.test_player import module
+from house.places import ROOT
 from kempe.draw.units import scale
 
 UNITS = ("m", "rad", "m/s", "m/s²", "N", "N·m", "J", "A", "rad/s")
@@ -65,3 +67,26 @@ def test_decimals_follow_from_the_peak(numbers: Any, value: float, peak: float, 
 )
 def test_significant_digits(numbers: Any, value: float, text: str) -> None:
     assert numbers.evaluate("value => significant(value)", value) == text
+
+
+def test_rates_and_forces_over_a_quantity_have_their_units_and_a_note(opened: Any) -> None:
+    case = kp.load(ROOT / "examples" / "four_bar.toml")
+    ends = ["70 deg", "90 deg"]
+    turned = kp.kinematics(case.model, case.start(), over="crank.angle", range=ends, n=21)
+    watched = opened(turned, 1280, 720)
+    plot = watched.page.locator(".plot").first
+    plot.locator(".quantity").select_option(label="Angular velocity")
+    watched.settle()
+    assert watched.state()["plots"][0]["label"] == "ω / (rad/rad)"
+    condition = "with inertia and damping at 1 rad/s"
+    assert condition not in {one["text"] for one in watched.texts(".plot canvas")}
+    plot.locator(".quantity").select_option(label="Reaction force")
+    watched.settle()
+    assert condition in {one["text"] for one in watched.texts(".plot canvas")}
+    watched.page.check("#show-velocities")
+    watched.settle()
+    assert any("m/rad" in one["text"] for one in watched.state()["arrows"])
+    assert f"forces {condition}" not in {one["text"] for one in watched.texts("#drawing")}
+    watched.page.check("#show-reactions")
+    watched.settle()
+    assert f"forces {condition}" in {one["text"] for one in watched.texts("#drawing")}

@@ -87,3 +87,14 @@ def point_pendulum() -> kp.Solution:
     m.distance("rod", "ground.O", "bob.P", length=1)
     start = kp.assemble(m, set={"bob.y": 0, "bob.angle": 0}, guess={"bob.x": -1})
     return kp.dynamics(m, start, t_end=1.0, output_step=0.05)
+
+
+def resting(restitution: float) -> kp.State:
+    """A ball on a rigid floor, beside a spring that is stretched by 0.1 m."""
+    m = kp.Model("ball", gravity=(0.0, -9.81))
+    m.ground.points(O=(0, 0.5))
+    m.point_mass("ball", mass=2.0)
+    m.point_mass("other", mass=1.0)
+    m.spring_damper("spring", "ground.O", "other.P", stiffness=50.0, free_length=0.9)
+    m.stop("floor", "ball.y", lower=0.0, restitution=restitution)
+    return kp.assemble(m, set={"ball.x": 0, "ball.y": 0, "other.x": 1.0, "other.y": 0.5})

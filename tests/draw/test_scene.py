@@ -8,7 +8,7 @@ import jsonschema
 import kempe as kp
 import numpy as np
 import pytest
-from draw.mechanisms import moving, pendulum, point_pendulum, slider_crank, sprung
+from draw.mechanisms import moving, pendulum, point_pendulum, resting, slider_crank, sprung
 from house.places import ROOT
 from kempe.draw.frame import Frame
 from kempe.draw.geometry import placed, smooth
@@ -254,15 +254,38 @@ def over_a_crank() -> kp.Solution:
 
 
 def test_frames_over_a_quantity_have_its_name_and_unit(four_bar: kp.Solution) -> None:
-    of_time = kp.scene(four_bar)["variable"]
-    assert of_time == {"name": "t", "unit": "s", "shown": "s", "divisor": 1.0}
+    of_time = kp.scene(four_bar)
+    seconds = {"name": "t", "unit": "s", "shown": "s", "divisor": 1.0, "condition": ""}
+    assert of_time["variable"] == seconds
+    assert of_time["units"]["angular_acceleration"] == "rad/s²"
     turned = over_a_crank()
     told = kp.scene(turned)
     jsonschema.validate(told, SCHEMA)
     of = told["variable"]
     assert (of["name"], of["unit"], of["shown"]) == ("crank.angle", "rad", "°")
+    assert of["condition"] == "with inertia and damping at 1 rad/s"
+    units = told["units"]
+    assert [units["velocity"], units["angular_acceleration"]] == ["m/rad", "rad/rad²"]
     assert told["frames"]["t"][-1] / of["divisor"] == pytest.approx(90.0)
     picture = Frame(told)
     picture.put(len(told["frames"]["t"]) - 1)
     texts = [text.get_text() for text in picture.axes.texts]
     assert "crank.angle = 90.000°" in [text.replace("\\", "") for text in texts]
+
+
+def test_a_state_on_a_rigid_stop_has_the_known_forces_and_a_reason_for_the_others() -> None:
+    state = resting(0.3)
+    told = kp.scene(state)
+    jsonschema.validate(told, SCHEMA)
+    with pytest.raises(kp.KempeError) as error:
+        _ = state.lam
+    assert told["undetermined"] == error.value.args[0]
+    assert "only a run decides" in told["undetermined"]
+    assert {end["element"] for end in told["ends"]} == {"spring"}
+    assert {one["of"] for one in told["channels"]} == {"spring"}
+    assert told["frames"]["accelerations"] == [[[None, None, 0.0]] * 2]
+    begun = kp.dynamics(state.compiled, state, t_end=0.01).initial
+    after = kp.scene(begun)
+    assert after["undetermined"] == ""
+    assert {end["element"] for end in after["ends"]} == {"spring", "floor"}
+    jsonschema.validate(after, SCHEMA)

@@ -56,6 +56,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "run_analysis": lambda: _core.run_analysis(MODEL, OPTIONS, AT, [], None),
     "driven_by": lambda: _core.driven_by(MODEL, "crank.angle", AT, []),
     "assemble": lambda: _core.assemble(MODEL, "{}", "{}", 0.0, Q, V, Z),
+    "rate_unit": lambda: _core.rate_unit("m/s", "rad"),
     "line_at": lambda: _core.line_at(MODEL, "C", "rocker"),
     "transmitting": lambda: _core.transmitting(MODEL),
     "compliance": lambda: _core.compliance(MODEL, T, Q, V, Z, "rocker.C", ["crank.angle"]),

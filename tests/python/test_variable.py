@@ -1,6 +1,7 @@
 """A motion over a driven quantity names this quantity and its unit wherever the time would be."""
 
 import copy
+import csv
 import json
 import pickle
 from pathlib import Path
@@ -8,6 +9,7 @@ from pathlib import Path
 import kempe as kp
 import numpy as np
 import pytest
+from kempe import design
 from kempe.report import summary
 from kempe.variable import TIME, Variable
 from python.test_kinematics import slider_crank, started
@@ -56,7 +58,8 @@ def test_the_first_column_of_a_table_is_the_driven_quantity(
     sweep: kp.Solution, tmp_path: Path
 ) -> None:
     sweep.to_csv(tmp_path / "sweep.csv")
-    header = (tmp_path / "sweep.csv").read_text("utf-8").partition("\n")[0].split(",")
+    with (tmp_path / "sweep.csv").open(encoding="utf-8") as file:
+        header = next(csv.reader(file))
     assert header[0] == "crank.angle [rad]"
     assert len(set(header)) == len(header)
     assert not any(name.startswith("t [") for name in header)
@@ -65,6 +68,40 @@ def test_the_first_column_of_a_table_is_the_driven_quantity(
     with kp.units("deg"):
         sweep.to_csv(tmp_path / "sweep.csv")
     assert (tmp_path / "sweep.csv").read_text("utf-8").startswith("crank.angle [deg],")
+
+
+@pytest.mark.parametrize("static", [False, True])
+def test_tables_and_figures_say_what_forces_over_the_quantity_contain(
+    tmp_path: Path, static: bool
+) -> None:
+    m = slider_crank()
+    m.measures(push="sqrt(A.force)")
+    sol = kp.inverse_dynamics(m, started(m), over="motor", range=(0.5, 1.5), n=5, static=static)
+    words = "at rest, without" if static else "with inertia and damping at 1 rad/s"
+    told = sol.variable.condition
+    assert told.startswith(words)
+    sol.to_csv(tmp_path / "turn.csv")
+    with (tmp_path / "turn.csv").open(encoding="utf-8") as file:
+        header = next(csv.reader(file))
+    for marked in ("A.fx_on_rod [N", "motor.lambda_angle [N*m", "push [SI"):
+        assert f"{marked}, {told}]" in header
+    for plain in ("crank.angle [rad]", "rod.omega [rad/rad]", "piston.ax [m/rad^2]"):
+        assert plain in header
+    title = kp.plot.pin_load(sol, "A")
+    assert told in [text.get_text() for text in title.texts]
+    design.write_pin_loads(sol, tmp_path / "pins.csv")
+    with (tmp_path / "pins.csv").open(encoding="utf-8") as file:
+        assert f"A.body_fx_on_rod [N, {told}]" in next(csv.reader(file))
+    case = design.load_cases(sol, "rod", "A")[0]
+    case.to_csv(tmp_path / "case.csv")
+    assert f"# loads {told}\n" in (tmp_path / "case.csv").read_text("utf-8")
+    below = [text.get_text() for text in kp.plot.free_body(sol, "rod", 1.0).texts]
+    assert any(told in text for text in below)
+    frame = sol.to_dataframe()
+    assert frame.attrs["conditions"]["A.fx_on_rod"] == told
+    over_time = kp.inverse_dynamics(m, started(m), t_end=0.1)
+    over_time.to_csv(tmp_path / "time.csv")
+    assert "inertia" not in (tmp_path / "time.csv").read_text("utf-8")
 
 
 def test_all_figures_over_the_quantity_have_its_name_and_unit(sweep: kp.Solution) -> None:

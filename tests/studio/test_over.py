@@ -66,8 +66,10 @@ def test_an_analysis_over_the_crank_angle_has_the_numbers_of_python(
         "piston.x": ("piston.vx", "piston.ax"),
     }
     names = ("crank.angle", output, *rates[output])
-    t, rows, _ = read(one, *names)
+    t, rows, units = read(one, *names)
     assert len(t) == 361
+    assert units == [kp.quantities.named(solution, name).unit for name in names]
+    assert units[2:] == {"rocker.angle": ["rad/rad", "rad/rad^2"]}.get(output, ["m/rad", "m/rad^2"])
     np.testing.assert_allclose(t[TEN], np.radians(TEN), rtol=0, atol=1e-12)
     for name, row in zip(names, rows, strict=True):
         np.testing.assert_allclose(row[TEN], solution[name][TEN], rtol=0, atol=1e-9, err_msg=name)
@@ -120,13 +122,14 @@ def test_a_range_that_the_mechanism_cannot_pass_keeps_its_part(one: Studio, tmp_
 
 
 def labels(one: Studio) -> None:
-    """Notes what is drawn as text beside the sheet, on the plots, from now on."""
+    """Notes what is drawn as text from now on: `drawn` on the plots, `sheet` on the sheet."""
     one.call(
         """() => {
           window.drawn = [];
+          window.sheet = [];
           const write = CanvasRenderingContext2D.prototype.fillText;
           CanvasRenderingContext2D.prototype.fillText = function (text, ...where) {
-            if (this.canvas.id !== "sheet") window.drawn.push(text);
+            (this.canvas.id === "sheet" ? window.sheet : window.drawn).push(text);
             return write.call(this, text, ...where);
           };
         }"""
@@ -139,6 +142,11 @@ def test_axis_and_playback_show_the_quantity(one: Studio, tmp_path: Path) -> Non
     labels(one)
     one.page.get_by_label("Add plot").select_option("rocker.omega")
     one.wait("window.drawn.includes('crank.angle / °') && window.drawn.includes('360')")
+    one.wait("window.drawn.includes('rocker.omega / (°/°)')")
+    condition = "with inertia and damping at 1 rad/s"
+    assert condition not in one.call("() => window.drawn")
+    one.page.get_by_label("Add plot").select_option("motor.effort")
+    one.wait(f"window.drawn.includes('{condition}')")
     clock = one.page.locator(".clock")
     assert re.sub(r"\s+", " ", clock.inner_text()) == "crank.angle 0.0°"
     one.page.locator("#scrub").fill(str(np.pi / 2))
@@ -146,9 +154,22 @@ def test_axis_and_playback_show_the_quantity(one: Studio, tmp_path: Path) -> Non
     assert "90.0°" in clock.inner_text()
     one.page.get_by_text("° and rpm").click()
     one.wait("window.drawn.includes('crank.angle / rad')")
+    one.wait("window.drawn.includes('rocker.omega / (rad/rad)')")
     assert "1.571 rad" in clock.inner_text()
     one.page.get_by_text("° and rpm").click()
     one.settle()
+
+
+def test_arrows_over_the_quantity_have_its_units_and_a_note(one: Studio, tmp_path: Path) -> None:
+    turn = kp.InverseDynamics(over="crank.angle", range=(0, "2*pi"), name="turn")
+    opened(one, tmp_path, crank_rocker, turn)
+    labels(one)
+    note = "forces with inertia and damping at 1 rad/s"
+    one.page.get_by_label("Velocities").check()
+    one.wait("window.sheet.some(text => /m\\/° coupler/.test(text))")
+    assert note not in one.call("() => window.sheet")
+    one.page.get_by_label("Reactions").check()
+    one.wait(f"window.sheet.includes('{note}')")
 
 
 def test_the_transmission_angle_of_the_crank_rocker(one: Studio, tmp_path: Path) -> None:
@@ -183,14 +204,17 @@ def test_the_transmission_angle_of_the_slider_crank_is_at_its_slide(
 def test_csv_has_the_quantity_in_its_first_column(one: Studio, tmp_path: Path) -> None:
     turn = kp.Kinematics(over="crank.angle", range=(0, "2*pi"), n=37, name="turn")
     solution = opened(one, tmp_path, crank_rocker, turn).run()["turn"]
-    one.page.get_by_label("Add plot").select_option("transmission angle at B")
-    one.settle()
+    assert "at 1 rad/s" in one.page.locator("#condition").inner_text()
+    for name in ("transmission angle at B", "rocker.omega", "motor.effort"):
+        one.page.get_by_label("Add plot").select_option(name)
+        one.settle()
     hint = "Save the plotted curves as CSV, in SI units and rad"
     path = given(one, hint, tmp_path / "curves.csv")
     with path.open(encoding="utf-8") as file:
         head = next(csv.reader(file))
     names = ["crank.angle", "coupler.angle", "rocker.angle", "transmission angle at B"]
-    assert head == [f"{name} [rad]" for name in names]
+    effort = f"motor.effort [N*m, {solution.variable.condition}]"
+    assert head == [*(f"{name} [rad]" for name in names), "rocker.omega [rad/rad]", effort]
     table = np.loadtxt(path, delimiter=",", skiprows=1)
     np.testing.assert_allclose(table[:, 0], solution.t, rtol=0, atol=1e-12)
     np.testing.assert_allclose(table[:, 2], solution["rocker.angle"], rtol=0, atol=1e-9)

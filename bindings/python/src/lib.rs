@@ -116,6 +116,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(is_reserved, module)?)?;
     module.add_function(wrap_pyfunction!(assemble::assemble, module)?)?;
     module.add_function(wrap_pyfunction!(compliance::compliance, module)?)?;
+    module.add_function(wrap_pyfunction!(run_analysis::rate_unit, module)?)?;
     module.add_function(wrap_pyfunction!(transmission::line_at, module)?)?;
     module.add_function(wrap_pyfunction!(transmission::transmitting, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::evaluate, module)?)?;

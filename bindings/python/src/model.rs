@@ -190,8 +190,8 @@ fn symbols(model: &Model) -> Value {
             "mark": symbol.mark.name(),
             "i": end(&symbol.i),
             "j": end(&symbol.j),
-            "radii": symbol.mark.radii(),
-            "module": symbol.mark.module(),
+            "radii": symbol.radii,
+            "module": symbol.module,
         })
     };
     let all = model.symbols();

@@ -94,6 +94,12 @@ pub fn driven_by(
     })
 }
 
+/// The SI unit of a rate in a motion over a quantity.
+#[pyfunction]
+pub fn rate_unit(unit: &str, by: &str) -> PyResult<String> {
+    guard("rate_unit", || Ok(kempe::analyses::record::rate_unit(unit, by)))
+}
+
 /// Runs an analysis from a state.
 #[pyfunction]
 #[pyo3(signature = (model, options, at, released, progress, after=false, t_end=None, actions=None))]

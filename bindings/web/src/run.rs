@@ -6,7 +6,7 @@ use crate::loaded::Loaded;
 use crate::named;
 use kempe::analyses::dynamics::{Prepared, Run};
 use kempe::analyses::readings::Readable;
-use kempe::analyses::record::{Observer, Record, StartState, Subject, Unfinished};
+use kempe::analyses::record::{Observer, Record, StartState, Subject, Unfinished, Variable};
 use kempe::analyses::{not_unique, AnyAnalysis};
 use kempe::equations::kinematics::Motions;
 use kempe::model::Value as Written;
@@ -125,8 +125,8 @@ impl Ran {
                 "steps": statistics.steps, "rejected": statistics.rejected,
                 "evaluations": statistics.evaluations,
             },
-            "over": self.record.driven.as_ref().map(
-                |one| json!({ "name": one.variable.name, "unit": one.variable.unit })),
+            "over": self.over().map(
+                |of| json!({ "name": of.name, "unit": of.unit, "condition": of.condition() })),
             "error": self.error.as_ref().map(|message| json!({ "message": message })),
             "not_unique": self.not_unique(),
             "remarks": self.record.remarks,
@@ -165,7 +165,18 @@ impl Ran {
 
     /// The quantities and expressions that can be read from the run.
     pub fn quantities(&self, loaded: &Loaded) -> Vec<Readable> {
-        named::all(loaded, &self.model)
+        let all = named::all(loaded, &self.model).into_iter();
+        all.map(|one| Readable { unit: self.unit(&one.unit), ..one }).collect()
+    }
+
+    /// The quantity that replaces the time, if one does.
+    fn over(&self) -> Option<&Variable> {
+        self.record.driven.as_ref().map(|driven| &driven.variable)
+    }
+
+    /// The unit in this run of a quantity whose unit over time is `unit`.
+    fn unit(&self, unit: &str) -> String {
+        self.over().map_or_else(|| unit.to_string(), |over| over.rate(unit))
     }
 
     /// The units of quantities and expressions, and their values, one row for each.
@@ -176,6 +187,7 @@ impl Ran {
     ) -> Result<(Vec<String>, Vec<f64>), Fault> {
         let found: Result<Vec<_>, _> =
             names.iter().map(|name| named::find(loaded, &self.model, name)).collect();
-        Ok(named::values(&self.model, self.run(), &found?))
+        let (units, numbers) = named::values(&self.model, self.run(), &found?);
+        Ok((units.iter().map(|unit| self.unit(unit)).collect(), numbers))
     }
 }

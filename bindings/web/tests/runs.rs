@@ -117,8 +117,18 @@ fn kinematics_over_the_crank_angle_is_that_of_the_closed_form() {
         let mut page = slider_crank_over(over, "[0, \"360*deg\"]", driver);
         let ran = page.ask(json!({ "do": "run", "analysis": "cycle" }));
         assert_eq!((number(&ran["count"]), &ran["status"]), (91.0, &json!("reached")), "{ran}");
-        assert_eq!(ran["over"], json!({ "name": "crank.angle", "unit": "rad" }));
-        let found = values(&mut page, &["crank.angle", "slider.x", "slider.vx", "slider.ax"]);
+        let condition = "with inertia and damping at 1 rad/s";
+        let over = json!({ "name": "crank.angle", "unit": "rad", "condition": condition });
+        assert_eq!(ran["over"], over);
+        let names = ["crank.angle", "slider.x", "slider.vx", "slider.ax"];
+        let units = &page.ask(json!({ "do": "values", "names": names }))["units"];
+        assert_eq!(units, &json!(["rad", "m", "m/rad", "m/rad^2"]));
+        let all = page.ask(json!({ "do": "quantities", "of_run": true }));
+        assert!(all
+            .as_array()
+            .expect("a list")
+            .contains(&json!({ "name": "crank.omega", "unit": "rad/rad" })));
+        let found = values(&mut page, &names);
         page.ask(json!({ "do": "frames" }));
         let frames = page.0.numbers().to_vec();
         for k in 0..91 {

@@ -5,7 +5,8 @@
 use super::items::{layer, printed, Frame, Item, Row};
 use super::pins::pin_at;
 use super::shapes::{circle, spread};
-use crate::scene::{Mark, Symbol};
+use crate::scene::Symbol;
+use kempe::elements::Mark;
 
 /// Width of the lines of a force element.
 pub const FORCE: f64 = 1.2;

@@ -8,7 +8,7 @@ use super::taken::{clipped_length, Taken};
 use super::text::{size_of, Role};
 use crate::numbers::general;
 use crate::plane::{ahead, dot, left_of, minus, placed, size, At};
-use crate::scene::Mark;
+use kempe::elements::Mark;
 use std::f64::consts::PI;
 
 /// Distances of a dimension line from its object that are tried in order, points.

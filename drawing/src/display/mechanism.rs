@@ -6,7 +6,9 @@ use super::list::List;
 use super::pins::{dot, support};
 use super::places::Places;
 use super::{bodies, symbols};
-use crate::scene::{Body, Mark, Symbol};
+use crate::scene::mark::{is_around, is_pinned, is_wheel, unmarked};
+use crate::scene::{Body, Symbol};
+use kempe::elements::Mark;
 
 /// Adds the mechanism.
 pub fn draw(made: &mut List<'_>) {
@@ -24,7 +26,7 @@ pub fn draw(made: &mut List<'_>) {
                 _ => true,
             };
             if is_drawn {
-                let around = symbol.mark.is_around();
+                let around = is_around(symbol.mark);
                 let place = if around { places.index(made.last_end(symbol)) } else { 0 };
                 let around = Around { rings: &mut rings, place };
                 made.items.extend(symbols::draw(symbol, around, aside(symbol, own)));
@@ -59,7 +61,7 @@ fn add_links(made: &mut List<'_>) {
 fn by_element(symbols: &[Symbol]) -> Vec<&[Symbol]> {
     let mut found: Vec<&[Symbol]> = symbols.chunk_by(|a, b| a.element == b.element).collect();
     let largest = |own: &[Symbol]| {
-        let wheels = own.iter().filter(|symbol| symbol.mark.is_wheel());
+        let wheels = own.iter().filter(|symbol| is_wheel(symbol.mark));
         wheels.map(|symbol| symbol.radii()[1]).fold(0.0, f64::max)
     };
     found.sort_by(|a, b| largest(b).total_cmp(&largest(a)));
@@ -70,7 +72,7 @@ fn by_element(symbols: &[Symbol]) -> Vec<&[Symbol]> {
 fn add_supports(made: &mut List<'_>) {
     let mut supported = Places::new(made.near);
     let scene = made.scene;
-    for symbol in scene.symbols.iter().filter(|symbol| symbol.mark.is_pinned()) {
+    for symbol in scene.symbols.iter().filter(|symbol| is_pinned(symbol.mark)) {
         for (body, at) in symbol.ends() {
             if body == 0 && supported.is_new(made.path(body, at)) {
                 made.items.extend(support(&symbol.element, at));
@@ -84,7 +86,7 @@ fn add_points(made: &mut List<'_>) {
     let mut marked = Places::new(made.near);
     let scene = made.scene;
     for symbol in &scene.symbols {
-        for path in made.ends(symbol).into_iter().skip(symbol.mark.unmarked()) {
+        for path in made.ends(symbol).into_iter().skip(unmarked(symbol.mark)) {
             marked.is_new(path);
         }
     }

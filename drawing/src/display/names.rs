@@ -5,7 +5,9 @@ use super::list::List;
 use super::places::Places;
 use super::text::{one_line, Role};
 use crate::plane::At;
-use crate::scene::{Mark, Symbol};
+use crate::scene::mark::{is_along, is_drive};
+use crate::scene::Symbol;
+use kempe::elements::Mark;
 use std::collections::HashSet;
 
 /// Largest number of names on a drawing.
@@ -61,7 +63,7 @@ pub fn add_joints(made: &mut List<'_>) {
     let mut found = Groups { places: Places::new(made.near), groups: Vec::new() };
     for joint in &scene.joints {
         let mut own = scene.symbols.iter().filter(|symbol| symbol.element == joint.name);
-        match own.rfind(|symbol| symbol.mark.is_along()) {
+        match own.rfind(|symbol| is_along(symbol.mark)) {
             Some(rod) => made.name(Role::Joint, &joint.name, line_of(rod)),
             None => {
                 let end = (joint.bodies[1], joint.points[1]);
@@ -94,9 +96,9 @@ pub fn add_elements(made: &mut List<'_>) {
         if seen.len() > MOST || !seen.insert(&symbol.element) {
             continue;
         }
-        let role = if symbol.mark.is_drive() { Role::Driver } else { Role::Element };
+        let role = if is_drive(symbol.mark) { Role::Driver } else { Role::Element };
         let frame = match symbol.mark {
-            mark if mark.is_along() => line_of(symbol),
+            mark if is_along(mark) => line_of(symbol),
             Mark::ShiftStop => Frame::upright(symbol.bodies[0], symbol.at_i()),
             _ => Frame::upright(symbol.bodies[1], symbol.at_j()),
         };

@@ -6,6 +6,7 @@ use super::list::{List, Name, Numbers};
 use super::shapes::circle;
 use super::text::{one_line, Role};
 use crate::plane::{ahead, minus, size, At};
+use crate::scene::mark::is_around;
 use crate::scene::Body;
 
 /// Radius of the circle around a number, and of symbols around a pin, points of print.
@@ -26,7 +27,7 @@ pub fn add(made: &mut List<'_>, numbers: Numbers) {
     }
     let mut pins: Vec<Pin> = Vec::new();
     for symbol in &scene.symbols {
-        let wide = if symbol.mark.is_around() { RINGED } else { RADIUS };
+        let wide = if is_around(symbol.mark) { RINGED } else { RADIUS };
         pins.extend(symbol.ends().map(|(body, at)| (printed_path(made, body, at), wide)));
     }
     for body in bodies {

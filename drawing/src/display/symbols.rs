@@ -4,7 +4,8 @@ use super::around::{self, Around};
 use super::items::Item;
 use super::pins::pin_at;
 use super::{along, at, wheels};
-use crate::scene::{Mark, Symbol};
+use crate::scene::Symbol;
+use kempe::elements::Mark;
 
 /// The items of a symbol.
 ///

@@ -1,6 +1,7 @@
 //! The area of a drawing.
 
 use super::data::{Body, Joint, Symbol};
+use super::mark::{is_guide, is_wheel};
 use super::paths::Paths;
 use super::teeth::outer_radius;
 use crate::plane::{ahead, direction, At, Extent};
@@ -49,10 +50,10 @@ pub fn bounds(
         }
     }
     for symbol in symbols {
-        if symbol.mark.is_wheel() {
+        if is_wheel(symbol.mark) {
             include(symbol.bodies[1], symbol.at_j(), outer_radius(symbol));
         }
-        if symbol.mark.is_guide() {
+        if is_guide(symbol.mark) {
             let axis = direction(symbol.axes[0]);
             for along in symbol.reach() {
                 include(symbol.bodies[0], ahead(symbol.at_i(), along, axis), 0.0);

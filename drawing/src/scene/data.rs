@@ -1,8 +1,9 @@
 //! The scene as data.
 
 use super::length::Length;
-use super::mark::Mark;
+use super::mark::named;
 use crate::plane::At;
+use kempe::elements::Mark;
 use serde::{Deserialize, Serialize};
 
 /// The drawing of a model. Lengths are in m, angles in rad.
@@ -101,6 +102,7 @@ pub struct Symbol {
     /// The name of its element.
     pub element: String,
     /// The mark that is drawn.
+    #[serde(with = "named")]
     pub mark: Mark,
     /// Bodies i and j.
     pub bodies: [usize; 2],

@@ -3,12 +3,12 @@
 use super::bodies::pair;
 use super::data::Symbol;
 use super::effort::Effort;
-use super::mark::Mark;
+use super::mark::is_guide;
 use super::paths::{range, Paths};
 use super::teeth::add_teeth;
 use crate::numbers::rounded;
 use crate::plane::{direction, dot, left_of, minus, placed, size, At, Pose};
-use kempe::elements::SceneSymbol;
+use kempe::elements::{Mark, SceneSymbol};
 use kempe::model::Model;
 use std::f64::consts::PI;
 
@@ -46,12 +46,12 @@ fn symbol(
     let at_j = of.j.point.as_ref().map_or_else(|| pivot(model, all, bodies), pair);
     let mut found = Symbol {
         element: element.to_string(),
-        mark: of.mark.into(),
+        mark: of.mark,
         bodies,
         points: [of.i.point.as_ref().map(pair), Some(at_j)],
         axes: [of.i.axis, of.j.axis],
-        radii: of.mark.radii(),
-        module: of.mark.module(),
+        radii: of.radii,
+        module: of.module,
         teeth: None,
         reach: None,
         turning: None,
@@ -59,7 +59,7 @@ fn symbol(
     };
     match found.mark {
         _ if found.points[0].is_none() => found.turning = Some(turning(paths, bodies)),
-        mark if mark.is_guide() => found.reach = Some(range(along(paths, &found).map(|at| at[0]))),
+        mark if is_guide(mark) => found.reach = Some(range(along(paths, &found).map(|at| at[0]))),
         Mark::OpenStrands | Mark::CrossedStrands | Mark::Cylinder | Mark::DriveCylinder => {
             found.reach = Some(range(apart(paths, &found).map(size)));
         }

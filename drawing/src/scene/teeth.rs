@@ -4,9 +4,10 @@
 //! teeth are nearly integers.
 
 use super::data::{Symbol, Teeth};
-use super::mark::Mark;
+use super::mark::is_toothed_wheel;
 use super::paths::Paths;
 use crate::plane::{ahead, direction, dot, left_of, minus, placed, size, At, Pose};
+use kempe::elements::Mark;
 use std::f64::consts::PI;
 
 /// Deviation below which a number of teeth counts as an integer.
@@ -57,7 +58,7 @@ pub fn add_teeth(symbols: &mut [Symbol], paths: Paths<'_>) {
 }
 
 fn is_toothed(mark: Mark) -> bool {
-    mark.is_toothed_wheel() || mark == Mark::ToothedLine
+    is_toothed_wheel(mark) || mark == Mark::ToothedLine
 }
 
 /// The pairs of toothed symbols, for each element with two.
@@ -76,7 +77,7 @@ fn pairs(symbols: &[Symbol]) -> Vec<Pair> {
 }
 
 fn key(symbol: &Symbol) -> Key {
-    let k = usize::from(symbol.mark.is_toothed_wheel());
+    let k = usize::from(is_toothed_wheel(symbol.mark));
     let at = symbol.points[k].unwrap_or_default().map(|x| (x * 1e12).round() as i64);
     let radius = symbol.radii()[1].abs() * k as f64;
     (symbol.mark, symbol.bodies[k], at, radius.to_bits())
@@ -150,12 +151,12 @@ impl Mesh<'_> {
         let contact = self.contact();
         let (mut place, sign) = self.of_pitches(first, contact);
         let (other, other_sign) = self.of_pitches(second, contact);
-        let unit = if first.mark.is_toothed_wheel() { first.radii()[1] } else { 1.0 };
+        let unit = if is_toothed_wheel(first.mark) { first.radii()[1] } else { 1.0 };
         place -= phase * unit / pitch;
         // a gap of the first symbol is at this distance along the common tangent, in pitches
         let gap = (0.5 - place) * sign;
         let shift = other + other_sign * gap; // whole where a tooth of the second one is in the gap
-        if second.mark.is_toothed_wheel() {
+        if is_toothed_wheel(second.mark) {
             return shift * pitch / second.radii()[1];
         }
         shift * pitch
@@ -164,10 +165,10 @@ impl Mesh<'_> {
     /// The pitch point and the direction of the common tangent.
     fn contact(&self) -> (At, At) {
         let [first, second] = self.symbols;
-        let swap = !first.mark.is_toothed_wheel();
+        let swap = !is_toothed_wheel(first.mark);
         let (wheel, other) = if swap { (second, first) } else { (first, second) };
         let (centre, radius) = (self.end(wheel, 1), wheel.radii()[1]);
-        if !other.mark.is_toothed_wheel() {
+        if !is_toothed_wheel(other.mark) {
             let along = direction(self.pose(other.bodies[0])[2] + other.axes[0]);
             let side = -1.0_f64.copysign(other.radii()[1]);
             return (ahead(centre, side * radius, left_of(along)), along);
@@ -182,7 +183,7 @@ impl Mesh<'_> {
     /// The position of the pitch point on a symbol, in pitches, and its sense along the tangent.
     fn of_pitches(&self, symbol: &Symbol, (point, along): (At, At)) -> (f64, f64) {
         let pitch = PI * self.module;
-        if symbol.mark.is_toothed_wheel() {
+        if is_toothed_wheel(symbol.mark) {
             let arm = minus(point, self.end(symbol, 1));
             let turn = arm[1].atan2(arm[0]) - self.pose(symbol.bodies[1])[2];
             let sense = 1.0_f64.copysign(arm[0] * along[1] - arm[1] * along[0]);

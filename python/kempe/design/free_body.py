@@ -67,8 +67,8 @@ class FreeBody:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """Sentences on the loads that are not unique, and on those without bound."""
-        told = []
+        """What loads over a driven quantity contain, and which are not unique or have no bound."""
+        told = [f"loads {self.variable.condition}"] if self.variable.condition else []
         if self.not_unique:
             told.append(f"not unique, {MINIMUM_NORM}: {', '.join(self.not_unique)}")
         if self.unbounded_at:

@@ -7,7 +7,7 @@ cases are the instants at which the magnitude or a component of the force is ext
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from types import MappingProxyType
@@ -22,9 +22,9 @@ from kempe.errors import ModelError
 from kempe.extrema import Extreme
 from kempe.motion import Motion
 from kempe.names import one_of
-from kempe.remarks import is_unique, remark, unbounded_at
+from kempe.remarks import remark, unbounded_at
 from kempe.solution import Solution
-from kempe.table import Column, column, write_columns
+from kempe.table import Column, column, remarked, write_columns
 from kempe.variable import Variable
 from kempe.views.frames import checked_body
 
@@ -142,8 +142,7 @@ def pin_table(solution: Solution) -> list[Column]:
     """The forces of all joints in the frames of their bodies at the outputs, as columns.
 
     The first column is the time or the driven quantity; the others have names of quantities, such
-    as ``A.body_fx_on_rod``, and display units. Columns of forces that are not unique have the
-    remark "minimum norm".
+    as ``A.body_fx_on_rod``, and display units. Columns have the remarks of the table of a solution.
     """
     model, of = solution.compiled, solution.variable
     found = [column(of.name, of.unit, solution.t)]
@@ -154,11 +153,11 @@ def pin_table(solution: Solution) -> list[Column]:
                 force = view.force(on=body, frame="body")
                 moment = np.asarray(view.torque(on=body))
                 found += [
-                    column(f"{joint}.body_fx_on_{body}", "N", force[:, 0]),
-                    column(f"{joint}.body_fy_on_{body}", "N", force[:, 1]),
-                    column(f"{joint}.torque_on_{body}", "N*m", moment),
+                    remarked(solution, f"{joint}.body_fx_on_{body}", "N", force[:, 0]),
+                    remarked(solution, f"{joint}.body_fy_on_{body}", "N", force[:, 1]),
+                    remarked(solution, f"{joint}.torque_on_{body}", "N*m", moment),
                 ]
-    return [replace(each, unique=is_unique(solution, each.name)) for each in found]
+    return found
 
 
 def write_pin_loads(solution: Solution, path: Path | str) -> None:

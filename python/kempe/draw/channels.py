@@ -46,10 +46,17 @@ class _Channel:
         return f"{self.of}.{self.quantity}" if self.of else self.quantity
 
 
-def channels(motion: Motion, energy: Energy | None = None) -> list[dict[str, Any]]:
+def channels(
+    motion: Motion, energy: Energy | None = None, *, solved: bool = True
+) -> list[dict[str, Any]]:
     """States, forces, reactions, energies and the residual at the frames.
 
     Coordinates, rates, accelerations and the forces of joints are in the frames themselves.
+
+    Args:
+        motion: the motion at the frames.
+        energy: its energies.
+        solved: whether the multipliers are known; forces that depend on them are left out if not.
 
     Returns:
         ``{"name", "group", "of", "quantity", "unit", "values"}`` for each. Quantities that an
@@ -61,10 +68,10 @@ def channels(motion: Motion, energy: Energy | None = None) -> list[dict[str, Any
             "group": one.group,
             "of": one.of,
             "quantity": one.quantity,
-            "unit": one.unit,
+            "unit": motion.variable.rate(one.unit),
             "values": plain(one.values),
         }
-        for one in _all(motion, energy)
+        for one in _all(motion, energy, solved=solved)
     ]
 
 
@@ -74,14 +81,16 @@ def numbers_per_frame(model: CompiledModel) -> int:
     return 9 * len(model.bodies) + 3 * others + len(_ENERGIES) + 2
 
 
-def _all(motion: Motion, energy: Energy | None) -> Iterator[_Channel]:
+def _all(motion: Motion, energy: Energy | None, *, solved: bool) -> Iterator[_Channel]:
     yield from _coordinates(motion)
     for name, info in motion.compiled.forces.items():
+        if info.reads_multipliers and not solved:
+            continue
         element = motion.force(name)
         yield from _acting(
             "forces", name, element.force(on=info.j), element.torque(on=info.j), whole=True
         )
-    for name, joint in motion.compiled.constraints.items():
+    for name, joint in motion.compiled.constraints.items() if solved else ():
         view, driver = motion.constraint(name), joint.group == "drivers"
         yield from _acting(
             "reactions", name, view.force(on=joint.j), view.torque(on=joint.j), whole=driver

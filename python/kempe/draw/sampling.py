@@ -57,11 +57,10 @@ def sampled(
         known = vars(drawn).get("_dynamics")
         if known is not None:
             vars(motion)["_dynamics"] = tuple(values[None] for values in known)
-        try:
-            _ = motion.lam
-        except KempeError:  # the state alone does not determine them: it is drawn without arrows
-            shapes = (1, len(drawn.q)), (1, drawn.compiled.n_multipliers), (1, 1)
-            vars(motion)["_dynamics"] = tuple(np.zeros(shape) for shape in shapes)
+        if undetermined(drawn):
+            # The core takes finite multipliers only; nothing that depends on these is in the scene.
+            lam = np.zeros((1, drawn.compiled.n_multipliers))
+            vars(motion)["_dynamics"] = np.full((1, len(drawn.q)), np.nan), lam, np.zeros((1, 1))
         return motion
     begin, end = whole = float(drawn.t[0]), float(drawn.t[-1])
     if span is not None:
@@ -80,6 +79,16 @@ def sampled(
     except KempeError:  # a solution may end in a position in which reactions have no answer
         return _at_outputs(drawn, count, (begin, end))
     return motion
+
+
+def undetermined(drawn: Solution | State) -> str:
+    """The reason why a state alone does not determine accelerations and reactions; or empty."""
+    if isinstance(drawn, State):
+        try:
+            _ = drawn.lam
+        except KempeError as error:
+            return str(error.args[0])
+    return ""
 
 
 def _count(duration: float, numbers_per_frame: int) -> int:

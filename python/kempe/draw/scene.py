@@ -30,7 +30,17 @@ Scene: TypeAlias = dict[str, Any]
 
 #: Version of the format.
 FORMAT = 2
-UNITS = {"time": "s", "length": "m", "angle": "rad", "force": "N", "torque": "N·m"}
+UNITS = {
+    "time": "s",
+    "length": "m",
+    "angle": "rad",
+    "velocity": "m/s",
+    "angular_velocity": "rad/s",
+    "acceleration": "m/s²",
+    "angular_acceleration": "rad/s²",
+    "force": "N",
+    "torque": "N·m",
+}
 #: Points are computed from poses; after many turns, angles need more digits than other numbers.
 _DIGITS_OF_POSES = 12
 #: Length of the arrow of the largest reaction, as a fraction of the size of the drawing.
@@ -69,6 +79,7 @@ def scene(
     """
     instance(solution_or_state, (Solution, State), "a solution or a state")
     model = solution_or_state.compiled
+    undetermined = sampling.undetermined(solution_or_state)
     motion = sampling.sampled(solution_or_state, frames, channels.numbers_per_frame(model), span)
     poses = _of_bodies(motion, COORDINATES)
     static = static_scene(model, poses, arrows.efforts(motion))
@@ -78,27 +89,36 @@ def scene(
     peaks = arrows.peaks(solution_or_state, motion, arrows.tracked(static["bodies"], paths))
     return {
         "scene": FORMAT,
-        "units": dict(UNITS),
+        "units": {name: solution_or_state.variable.rate(unit) for name, unit in UNITS.items()},
         **static,
         "length": _chosen_length() or static["length"],
         "traces": paths,
         "variable": _variable(solution_or_state.variable),
-        "frames": {
-            "t": plain(motion.t),
-            "poses": plain(poses, _DIGITS_OF_POSES),
-            "rates": plain(_of_bodies(motion, RATES)),
-            "accelerations": plain(_of_bodies(motion, ACCELERATIONS)),
-            "reactions": plain(_reactions(motion)),
-        },
+        "frames": _frames(motion, poses, solved=not undetermined),
         "interpolation": sampling.interpolation(solution_or_state, motion, size),
         "accuracy": _short(sampling.accuracy(solution_or_state, motion)),
+        "undetermined": undetermined,
         "events": _events(solution_or_state, motion),
         "playback": {"rate": playback_rate(float(motion.t[-1] - motion.t[0]))},
         "reaction_scale": _reaction_scale(peaks["reaction"], size),
         "largest": {kind: peak for kind, peak in peaks.items() if kind != "reaction"},
         "ends": ends(solution_or_state, motion),
-        "channels": channels.channels(motion, sampling.energy(solution_or_state, motion)),
+        "channels": channels.channels(
+            motion, sampling.energy(solution_or_state, motion), solved=not undetermined
+        ),
         "minimum_norm": [name for name in model.constraints if name in motion.not_unique],
+    }
+
+
+def _frames(motion: Motion, poses: Floats, *, solved: bool) -> dict[str, Any]:
+    """Poses, rates, accelerations and forces of joints; without solved equations, no forces."""
+    reactions = _reactions(motion)
+    return {
+        "t": plain(motion.t),
+        "poses": plain(poses, _DIGITS_OF_POSES),
+        "rates": plain(_of_bodies(motion, RATES)),
+        "accelerations": plain(_of_bodies(motion, ACCELERATIONS)),
+        "reactions": plain(reactions if solved else np.full_like(reactions, np.nan)),
     }
 
 
@@ -119,7 +139,13 @@ def _events(drawn: Solution | State, motion: Motion) -> list[dict[str, Any]]:
 def _variable(of: Variable) -> dict[str, Any]:
     """The quantity in ``t`` of the frames, and its unit in drawings."""
     shown = display(of.unit, "deg") if of.unit == "rad" else display(of.unit)
-    return {"name": of.name, "unit": of.unit, "shown": shown.symbol, "divisor": shown.divisor}
+    return {
+        "name": of.name,
+        "unit": of.unit,
+        "shown": shown.symbol,
+        "divisor": shown.divisor,
+        "condition": of.condition,
+    }
 
 
 def _short(share: float | None) -> float | None:

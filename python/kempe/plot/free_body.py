@@ -26,13 +26,14 @@ from kempe.draw.items import (
     print_points,
     upright,
 )
+from kempe.draw.palette import verbatim
 from kempe.draw.scene import Scene, scene
 from kempe.draw.units import scale
 from kempe.plot import style
 from kempe.plot.configuration import instant
 from kempe.plot.picture import drawn, paint
-from kempe.plot.remarked import NO_BOUND, NOT_UNIQUE, note
-from kempe.remarks import MINIMUM_NORM
+from kempe.plot.remarked import NO_BOUND, NOT_UNIQUE
+from kempe.remarks import MINIMUM_NORM, when
 from kempe.solution import Solution
 from kempe.state import State
 
@@ -104,10 +105,12 @@ def _signed(found: FreeBody, name: str) -> str:
 
 
 def _note(found: FreeBody) -> str:
-    """What the signs of loads mean."""
+    """What loads over a driven quantity contain, and the meaning of their signs."""
+    of = found.variable
     times = sorted({t for each in found.unbounded_at.values() for t in each})
-    told = [f"{NOT_UNIQUE} {MINIMUM_NORM}"] if found.not_unique else []
-    told += [f"{NO_BOUND} {note(times, found.variable)}"] if times else []
+    told = [verbatim(of.condition)] if of.condition else []
+    told += [f"{NOT_UNIQUE} {MINIMUM_NORM}"] if found.not_unique else []
+    told += [f"{NO_BOUND} without bound {verbatim(when(times, of))}"] if times else []
     return ", ".join(told)
 
 

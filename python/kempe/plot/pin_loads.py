@@ -17,7 +17,6 @@ from kempe.plot.remarked import note, titled
 from kempe.plot.ticks import set_ticks
 from kempe.remarks import remark
 from kempe.solution import Solution
-from kempe.variable import TIME
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -60,11 +59,7 @@ def pin_load(
         axes.set_ylabel(unit.axis("$F_{y′}$"))
         title = f"{style.short(joint)} on {style.short(found.on)}, axes of the body"
         title += remark(unique=found.unique)
-        titled(
-            axes,
-            title,
-            note(found.unbounded_at, TIME if not found.unbounded_at else found.variable),
-        )
+        titled(axes, title, note(found.unbounded_at, found.variable))
         style.lay_out(axes.figure.canvas.figure)
         axes.apply_aspect()
         axes.axhline(0.0, color="#888888", linewidth=0.7, zorder=0.5)

@@ -36,7 +36,7 @@ def note(times: Sequence[float], variable: Variable) -> str:
 
 def titled(axes: Axes, title: str, below: str = "") -> None:
     """Write a title to the left, and a small line below it, if there is one."""
-    axes.set_title(f"{title}\n" if below else title, loc="left")
+    axes.set_title(title, loc="left", pad=_GAP + 1.6 * SIZE if below else None)
     if below:
         axes.annotate(
             below,

@@ -57,12 +57,12 @@ export function defaultText(field: Field): string {
   return typeof value === "string" ? value : JSON.stringify(value);
 }
 
-/** Whether a joint makes two points coincide and leaves their bodies free to turn: a pin. */
+/** Whether a joint is a pin: two points coincide, and their bodies turn freely. */
 export function isPin(type: Type): boolean {
   return type.joins_points === true;
 }
 
-/** A name of the file as people write it: "torsion_spring" is "Torsion spring". */
+/** A name of the file in words: "torsion_spring" is "Torsion spring". */
 export function spoken(name: string): string {
   const words = name.replaceAll("_", " ");
   return words.charAt(0).toUpperCase() + words.slice(1);

@@ -1,17 +1,17 @@
-// Tools of the palette: what has to be clicked to make an entry follows from the fields of its type.
+// Tools of the palette. The clicks that make an entry follow from the fields of its type.
 import { type Catalogue, type Field, GROUPS, type Group, spoken, type Type } from "./catalogue";
 
 export type Reference = "point" | "body" | "coordinate" | "joint" | "curve";
 const REFERENCES: readonly string[] = ["point", "body", "coordinate", "joint", "curve"];
 
-/** How a body is placed: through two points, through any number, at one point, or as points of the fixed body. */
+/** The clicks that place a body: two points, any number of points, one point, or points of the fixed body. */
 export type Placing = "two" | "many" | "one" | "fixed";
 
 export interface Tool {
   group: Group;
   type: Type;
   label: string;
-  /** What clicks choose, in their order: references, and the coordinates of which a table or a formula consists. */
+  /** The fields that clicks fill, in order: references, and the coordinates of a table or formula. */
   references: Field[];
   placing: Placing | null;
 }
@@ -26,10 +26,10 @@ function toolOf(group: Group, type: Type): Tool {
   return { group, type, label: spoken(type.name), references, placing };
 }
 
-/** How many coordinates begin a value of a shape. */
+/** The number of coordinates in the initial value of a shape. */
 const COORDINATES: Record<string, number> = { terms: 2, laws: 1 };
 
-/** What is clicked for a field. */
+/** The references that clicks must give for a field. */
 function chosenBy(field: Field): Field[] {
   if (isReference(field)) return [field];
   const count = COORDINATES[String(field.shape)] ?? 0;

@@ -1,4 +1,4 @@
-// Reading the tree of a case.
+// Reads the tree of a case.
 import type { Tree, Value } from "../core/protocol";
 import { GROUPS, type Group } from "./catalogue";
 
@@ -22,7 +22,7 @@ export function groupOf(tree: Tree | null, name: string): Group | undefined {
   return GROUPS.find((group) => entry(tree, group, name));
 }
 
-/** Whether a value mentions a name: as a word of a text, however deep. */
+/** Whether a text anywhere in a value contains a name as a word. */
 export function mentions(value: Value | undefined, name: string): boolean {
   if (typeof value === "string") return words(value).includes(name);
   if (Array.isArray(value)) return value.some((one) => mentions(one, name));

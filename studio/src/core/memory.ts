@@ -18,7 +18,7 @@ export class Core {
     this.exports = instance.exports as unknown as Exports;
   }
 
-  /** Send a request; returns the reply and the numbers that it left, copied out of the memory. */
+  /** Send a request. Returns the reply and a copy of its numbers. */
   call(request: string): { reply: string; numbers: Float64Array } {
     const bytes = new TextEncoder().encode(request);
     const core = this.exports;
@@ -30,13 +30,13 @@ export class Core {
     return { reply, numbers };
   }
 
-  /** How much memory the core has taken, bytes. */
+  /** The memory of the core, bytes. */
   get size(): number {
     return this.exports.memory.buffer.byteLength;
   }
 }
 
-/** Start a core. All that it imports is a clock, in ms. */
+/** Start a core. It imports only a clock, in ms. */
 export async function instantiate(bytes: BufferSource): Promise<Core> {
   const module = await WebAssembly.compile(bytes);
   const imports: Record<string, Record<string, () => number>> = {};

@@ -98,13 +98,13 @@ export interface Ran {
   statistics: Record<string, Value>;
   events: { name: string; t: number }[];
   error: Problem | null;
-  /** What takes the place of the time in kinematics over a quantity. */
-  over: Quantity | null;
+  /** The quantity that replaces the time; null in a run over time. */
+  over: (Quantity & { condition: string }) | null;
   /** The joints and drivers whose reactions are not unique. */
   not_unique: string[];
 }
 
-/** What prevents an analysis; `path` leads to the element. */
+/** The obstacle of an analysis; its `path` leads to the element. */
 export interface Readiness {
   analysis: string;
   problem: Problem | null;
@@ -121,7 +121,7 @@ export interface Mobility {
   rank: number;
   redundant: Value[];
   singular: Value[];
-  /** Which links turn fully; null at a change point, where this depends on the branch. */
+  /** The links that turn fully; null at a change point, where this depends on the branch. */
   four_bars: { pins: string[]; kind: string; turning: string[] | null }[];
 }
 
@@ -132,7 +132,7 @@ export interface Scene {
   gravity: Point;
 }
 
-/** What each request carries and gives. */
+/** The fields and the reply of each request. */
 export interface Requests {
   catalogue: { send: object; reply: unknown };
   load: { send: { text: string }; reply: Loaded };
@@ -171,7 +171,7 @@ export interface Requests {
 
 export type Do = keyof Requests;
 
-/** A reply with the numbers that it left in memory. */
+/** A reply with its numbers. */
 export interface Answer<T> {
   ok: T;
   numbers: Float64Array;

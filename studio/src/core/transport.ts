@@ -1,7 +1,7 @@
-// Requests as promises, one at a time. A request of a channel replaces one of the same channel that still waits.
+// Sends requests one at a time, as promises. A request replaces a waiting request of the same channel.
 import type { Answer, Do, Problem, Requests } from "./protocol";
 
-/** What the transport needs of a worker. */
+/** The part of a worker that the transport uses. */
 export interface Line {
   postMessage(message: unknown): void;
   terminate(): void;
@@ -16,14 +16,14 @@ export class CoreError extends Error {
   }
 }
 
-/** The worker was started anew: it trapped or took too long. */
+/** The worker was restarted, because it trapped or took too long. */
 export class Restarted extends Error {
   constructor(override readonly cause: "trap" | "timeout") {
     super(cause);
   }
 }
 
-/** Runs may take so many times as long as other requests. */
+/** The time limit of runs, as a multiple of the limit of other requests. */
 const LONGER: Partial<Record<Do, number>> = { run: 6, configurations: 3 };
 
 /** The request was replaced by a newer one before it was sent. */
@@ -48,7 +48,7 @@ export class Transport {
   private count = 0;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
-  /** `begin` makes a worker and sends it the core; `restarted` is called when a new one had to be made. */
+  /** `begin` makes a worker and sends it the core; `restarted` is called after a restart. */
   constructor(
     private readonly begin: () => Line,
     private readonly restarted: (reason: "trap" | "timeout") => void,
@@ -90,7 +90,7 @@ export class Transport {
     });
   }
 
-  /** How many requests wait or run. */
+  /** The number of requests that wait or run. */
   get busy(): number {
     return this.queue.length + (this.running ? 1 : 0);
   }
@@ -128,7 +128,7 @@ export class Transport {
     this.running = null;
     this.queue = [];
     if (!this.ready && !lost) {
-      // The core does not even start: a new worker would fail in the same way.
+      // The core did not start, and would not start in a new worker either.
       for (const one of waiting) one.reject(new Restarted(reason));
       this.restarted(reason);
       return;

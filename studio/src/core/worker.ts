@@ -1,4 +1,4 @@
-// The worker: it holds the core and answers one request after the other.
+// The worker holds the core and answers one request after the other.
 import { XzReadableStream } from "xz-decompress";
 import { coreTexts } from "../texts";
 import { type Core, instantiate } from "./memory";

@@ -1,4 +1,4 @@
-// The arrows of a drawing: they stay in view and name their owner and magnitude.
+// The arrows of a drawing. They stay in view, and their texts name owner and magnitude.
 import { distance, type Point } from "../plane/points";
 import type { View } from "../plane/view";
 import { paintArrow, paintBreak } from "./arrow";
@@ -12,14 +12,14 @@ export type ArrowKind = (typeof ARROW_KINDS)[number];
 
 export interface Vector {
   element: string;
-  /** What the text names beside the magnitude. */
+  /** The name in the text, before the magnitude. */
   owner: string;
-  /** Where it begins in the plane, m. */
+  /** Its start in the plane, m. */
   at: Point;
   value: Point;
 }
 
-/** The vectors of one kind at one instant, and how long one unit of them is, px. */
+/** The vectors of one kind at one instant, and the length of one unit of them, px. */
 export interface Vectors {
   kind: ArrowKind;
   unit: string;
@@ -36,7 +36,7 @@ export interface Arrow {
   /** Whether all of it is in view. */
   whole: boolean;
   text: string;
-  /** Where the text is. */
+  /** The position of the text. */
   box?: Box;
 }
 
@@ -46,7 +46,7 @@ const TEXT = 12;
 const MOST_COVERED = 12;
 /** The size of the boxes along an arrow, px. */
 const SHAFT = 6;
-/** Directions from an arrow in which its text may be, from that of the arrow. */
+/** Directions from an arrow to its text, relative to the direction of the arrow. */
 const TURNS = [0, 0.8, -0.8, 1.57, -1.57, 2.4, -2.4, 3.14];
 
 /** Paint the arrows of all kinds with their scales; `taken` are the boxes of the names. */
@@ -93,7 +93,7 @@ function clipped([x0, y0]: Point, [x1, y1]: Point, { width, height }: View): { t
   return { to: [x0 + part * (x1 - x0), y0 + part * (y1 - y0)], whole: part === 1 };
 }
 
-/** Write the texts of all arrows where they cover the least of the boxes taken; adds the box of each. */
+/** Write the text of each arrow where it covers least of the taken boxes, and add its own box to them. */
 function paintTexts(
   context: CanvasRenderingContext2D,
   arrows: Arrow[],
@@ -104,7 +104,7 @@ function paintTexts(
   context.font = font(TEXT);
   context.textAlign = "left";
   context.textBaseline = "middle";
-  // Texts keep off the arrows too, where there are few.
+  // If there are few arrows, texts avoid the arrows too.
   const shafts = arrows.length > MOST_COVERED ? [] : arrows.flatMap(shaftOf);
   for (const arrow of arrows) {
     const { box, covered } = freePlace(context.measureText(arrow.text).width, arrow, view, taken, shafts);
@@ -124,7 +124,7 @@ function shaftOf({ from, to }: Arrow): Box[] {
   });
 }
 
-/** The box near an arrow that covers the least of those taken, and then of the arrows. */
+/** The box near an arrow that covers least of the taken boxes; among equal ones, least of the arrows. */
 function freePlace(
   width: number,
   { from, to }: Arrow,
@@ -165,7 +165,7 @@ function common(a: Box, b: Box): number {
   return wide > 0 && high > 0 ? wide * high : 0;
 }
 
-/** How long a round value is drawn; returns the place to the left of it, px. */
+/** Paint the scale of a kind: a round value and its length. Returns the place to the left of it, px. */
 function paintScale(
   context: CanvasRenderingContext2D,
   view: View,

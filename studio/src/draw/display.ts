@@ -12,10 +12,17 @@ export interface Units {
   length: keyof typeof LENGTHS;
 }
 
-/** By what to multiply values of an SI unit, and the unit that they have then. */
+/** A length, an angle or an energy, or its derivative of an order by the time, a length or an angle. */
+const UNIT = /^(m|rad|J)(?:\/(m|rad|s)(?:\^(\d)|(²))?)?$/;
+
+/** The factor that converts values from an SI unit to the unit of the display, and this unit. */
 export function displayed(unit: string, { degrees, length }: Units): { factor: number; unit: string } {
-  if (/^m(?=$|\/s)/.test(unit)) return { factor: LENGTHS[length], unit: unit.replace("m", length) };
-  if (!degrees || !/^rad(?!\w)/.test(unit)) return { factor: 1, unit };
-  if (unit === "rad/s") return { factor: RPM, unit: "rpm" };
-  return { factor: DEGREES, unit: unit.replace("rad", "°") };
+  const [, of, by, power, squared] = UNIT.exec(unit) ?? [];
+  if (!of) return { factor: 1, unit };
+  if (degrees && unit === "rad/s") return { factor: RPM, unit: "rpm" };
+  const factor = (base = "") => (base === "m" ? LENGTHS[length] : base === "rad" && degrees ? DEGREES : 1);
+  const name = (base: string) => (base === "m" ? length : base === "rad" && degrees ? "°" : base);
+  const order = squared ? 2 : Number(power ?? 1);
+  const written = by ? `${name(of)}/${name(by)}${unit.slice(of.length + 1 + by.length)}` : name(of);
+  return { factor: factor(of) / factor(by) ** order, unit: written };
 }

@@ -1,15 +1,15 @@
-// The ends of elements: each acts on body j, and with the opposite force on body i. Player and studio share this.
+// The ends of elements. An element acts on body j, and with the opposite force on body i. Player and studio share this.
 import type { Point } from "../plane/points";
 
-/** Groups of elements whose forces are arrows of a kind. */
+/** The groups of elements with force arrows of each kind. */
 export const ACTING = { reactions: ["joints"], force: ["forces", "drivers"] } as const;
 
-/** One end of an element: the body on which it acts, where, and the sign of the force there. */
+/** One end of an element: the body on which it acts, the point, and the sign of the force. */
 export interface End {
   element: string;
   /** The number of the body. */
   body: number;
-  /** Where in the plane. */
+  /** The point in the plane, m. */
   at: Point;
   sign: 1 | -1;
 }

@@ -1,4 +1,4 @@
-// Marks of places to click, with their order.
+// Numbered marks at the places to click.
 import type { Point } from "../plane/points";
 import type { View } from "../plane/view";
 import { circle, through } from "./line";

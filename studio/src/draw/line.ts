@@ -1,7 +1,7 @@
 // Paths that keep their text, so that the same painting makes pixels and SVG.
 import type { Point } from "../plane/points";
 
-/** A path of the canvas with its text in the notation of SVG, which is written when it is read. */
+/** A path of the canvas, with its text in the notation of SVG; the text is made on demand. */
 export class Line extends Path2D {
   private readonly written: () => string;
 
@@ -24,7 +24,7 @@ export function through(points: readonly Point[], closed: boolean): Line {
   return line;
 }
 
-/** Lines through points, with a gap at each place that is missing. */
+/** Lines through points, with a gap at each missing point. */
 export function broken(points: readonly (Point | null)[]): Line {
   const starts = (k: number) => !points[k - 1];
   const line = new Line(() => points.map((at, k) => (at ? `${starts(k) ? "M" : "L"}${at[0]} ${at[1]}` : "")).join(""));

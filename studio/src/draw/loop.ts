@@ -1,17 +1,17 @@
-// A motion on the screen: one call for each frame until it is stopped or has ended.
+// Runs a motion on the screen: one call for each frame until the motion ends or is stopped.
 
-/** Whether a motion goes on, kept where its page sees it. */
+/** True while a motion runs. The page supplies the flag, so that it can follow it. */
 export interface Flag {
   value: boolean;
 }
 
-/** Frames of one kind of motion. A newer start ends an older one, so that two never go on beside each other. */
+/** The frames of one kind of motion. A new start ends the previous motion, so that never two run at a time. */
 export class Loop {
   private starts = 0;
 
   constructor(private readonly on: Flag) {}
 
-  /** Call `each` with the ms since the frame before, until it returns false or the motion is stopped. */
+  /** Call `each` with the ms since the previous frame, until it returns false or the motion is stopped. */
   async play(each: (ms: number) => boolean | Promise<boolean>, begin?: () => Promise<void>): Promise<void> {
     if (this.on.value) return;
     this.on.value = true;

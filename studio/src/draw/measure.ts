@@ -12,7 +12,7 @@ export function gridStep(view: View): number {
   return roundBelow(110 / view.scale);
 }
 
-/** A faint grid with round steps, and a fainter one of a fifth or a tenth while drawing. */
+/** A faint grid with round steps; while drawing, also a fainter one with a fifth or a tenth of the step. */
 export function paintGrid(context: CanvasRenderingContext2D, view: View, colours: Colours, fine: boolean): void {
   const step = gridStep(view);
   if (fine) {
@@ -23,7 +23,7 @@ export function paintGrid(context: CanvasRenderingContext2D, view: View, colours
   paintLines(context, view, step, fine ? colours.named.edge : colours.named.grid, fine ? 0.5 : 1);
 }
 
-/** The step to which points are placed: a tenth of that of the grid. */
+/** Points snap to multiples of this step, a tenth of the step of the grid. */
 export function snapStep(view: View): number {
   return gridStep(view) / 10;
 }
@@ -48,7 +48,7 @@ function paintLines(context: CanvasRenderingContext2D, view: View, step: number,
   context.restore();
 }
 
-/** How long a step of the grid is. */
+/** The scale: a line as long as a step of the grid, with its length as text. */
 export function paintLengthScale(
   context: CanvasRenderingContext2D,
   view: View,
@@ -80,7 +80,7 @@ export function paintNotes(context: CanvasRenderingContext2D, notes: readonly st
   });
 }
 
-/** Which way things fall. */
+/** The arrow of gravity. */
 export function paintGravity(context: CanvasRenderingContext2D, view: View, gravity: Point, colours: Colours): void {
   const size = Math.hypot(...gravity);
   if (!(size > 0)) return;

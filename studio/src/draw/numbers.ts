@@ -1,4 +1,4 @@
-// Numbers for people: units with prefixes, as many digits as can be distinguished.
+// Numbers as texts: units with prefixes, and significant digits only.
 
 const PREFIXES: Record<number, string> = { 9: "G", 6: "M", 3: "k", 0: "", [-3]: "m", [-6]: "µ", [-9]: "n" };
 /** The powers that a prefix expresses; the rules are those of kempe/draw/units.py. */
@@ -18,7 +18,7 @@ export function readable(unit: string): string {
   return unit.replaceAll("*", "·").replaceAll("^2", "²").replaceAll("^3", "³");
 }
 
-/** By what to divide values up to `peak`, and the unit that they have then. */
+/** The divisor for values up to `peak`, and the unit after the division. */
 export function scaled(peak: number, unit: string): { factor: number; unit: string } {
   const power = powerOf(peak);
   const isPlain = /^(°|rpm|mm($|\/))/.test(unit);
@@ -32,7 +32,7 @@ function powerOf(peak: number): number {
   return 3 * Math.floor(Math.log10(peak >= 2 ? peak / 2 : peak) / 3);
 }
 
-/** Such as 10⁻³. */
+/** A power of ten, such as 10⁻³. */
 export function powerOfTen(power: number): string {
   const digits = [...String(Math.abs(power))].map((digit) => SUPERSCRIPTS[Number(digit)]);
   return `10${power < 0 ? "⁻" : ""}${digits.join("")}`;
@@ -76,7 +76,7 @@ export function significant(value: number, digits = 4): string {
   return `${minus(mantissa ?? "")}·${powerOfTen(Number(power))}`;
 }
 
-/** A value with five digits for the largest of its channel: all values of a channel have the same decimals. */
+/** A value of a channel whose largest value is `peak`. All values of the channel have the same number of decimals. */
 export function fixed(value: number, peak: number): string {
   if (!Number.isFinite(value)) return "–";
   if (value === 0 || !(peak > 0)) return "0";
@@ -89,12 +89,12 @@ export function axisLabel(symbol: string, unit: string): string {
   return `${symbol} / ${/[/ ]/.test(unit) ? `(${unit})` : unit}`;
 }
 
-/** With a proper minus sign. */
+/** The text with a minus sign in place of the hyphen. */
 export function minus(text: string): string {
   return text.replace("-", "−");
 }
 
-/** A name that fits into a drawing; whole characters are kept, not halves of a pair. */
+/** A name cut to at most `most` characters. A surrogate pair is one character. */
 export function shortened(name: string, most = 24): string {
   const characters = [...name];
   return characters.length > most ? `${characters.slice(0, most - 1).join("")}…` : name;

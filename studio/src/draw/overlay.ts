@@ -1,4 +1,4 @@
-// What lies over the mechanism: handles of points, the selection, lines that are being drawn, pulls.
+// Marks above the mechanism: handles of points, the selection, the line in progress, pulls of the mouse.
 import type { Body } from "../core/protocol";
 import { hull, type Placement, type Point, placed } from "../plane/points";
 import type { View } from "../plane/view";
@@ -8,7 +8,7 @@ import { type Colours, font, rimmed } from "./surface";
 
 const HANDLE = 4;
 
-/** A thin skeleton of all bodies, for a mechanism whose display list is not there yet. */
+/** A thin skeleton of all bodies. It is drawn until the display list arrives. */
 export function paintLinks(
   context: CanvasRenderingContext2D,
   view: View,
@@ -74,7 +74,7 @@ export function paintRing(
   context.stroke(circle(view.toScreen(at), radius));
 }
 
-/** The line that is being drawn, with its length and direction. */
+/** The line in progress, with its length and direction. */
 export function paintLine(
   context: CanvasRenderingContext2D,
   view: View,
@@ -101,7 +101,7 @@ export function paintLine(
   rimmed(context, label, [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2 - beside], colours.named.text, colours.named.panel);
 }
 
-/** The place that a click chooses; its form gives the reason. */
+/** The place that a click would choose. The form of the mark gives the reason for this place. */
 export function paintMark(
   context: CanvasRenderingContext2D,
   view: View,

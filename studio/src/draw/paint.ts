@@ -1,4 +1,4 @@
-// Paints the display list: lines, fills and texts, whatever they are of.
+// Paints the lines, areas and texts of the display list.
 import type { Placement, Point } from "../plane/points";
 import type { View } from "../plane/view";
 import type { Item } from "./items";
@@ -17,7 +17,7 @@ export interface Shown {
 /** Left, top, right and bottom, px. */
 export type Box = [number, number, number, number];
 
-/** Everything in the display list that is shown; returns the boxes of the texts. */
+/** Paint the shown items of the display list; returns the boxes of the texts. */
 export function paintItems(
   context: CanvasRenderingContext2D,
   view: View,
@@ -44,7 +44,7 @@ export function paintItems(
   return boxes;
 }
 
-/** The frame in which a context paints: items that follow each other in the frame of one body share it. */
+/** The frame in which a context paints. Consecutive items of one body share it. */
 class Frames {
   private frame: BodyFrame | null = null;
 
@@ -54,7 +54,7 @@ class Frames {
     private readonly view: View,
   ) {}
 
-  /** Paint in this frame from now on; false if it has no place. */
+  /** Enter the frame of an item; false if its body has no pose. */
   enter(frame: BodyFrame): boolean {
     if (this.frame && isSame(this.frame, frame)) return true;
     this.leave();
@@ -67,7 +67,7 @@ class Frames {
     return true;
   }
 
-  /** Paint on the canvas again. */
+  /** Return to the frame of the canvas. */
   leave(): void {
     if (this.frame) this.context.restore();
     this.frame = null;
@@ -84,7 +84,7 @@ function isSame(a: BodyFrame, b: BodyFrame): boolean {
   );
 }
 
-/** Names and numbers can be switched off; the circle of a number goes with it. */
+/** Whether an item is shown. Names and numbers can be switched off, numbers with their circles. */
 function isShown(item: Item, shown: Shown): boolean {
   if (item.numbered) return shown.numbers;
   if (item.kind !== "text") return true;
@@ -111,7 +111,7 @@ function shapeOf(item: Item, points: Point[]): Shape {
 
 type Drawn = Item & { kind: "line" | "fill" };
 
-/** What stays of an item from one picture to the next: its shape at a scale, and its colour. */
+/** The parts of an item that are kept between two pictures: its shape at a scale, and its colour. */
 interface Kept {
   scale: number;
   shape: Shape;
@@ -121,11 +121,11 @@ interface Kept {
 
 const kept = new WeakMap<Item, Kept>();
 
-/** An item in the frame of its body: its shape is made once for a scale. */
+/** Paint an item in the frame of its body. Its shape is made once for each scale. */
 function paintRigid(context: CanvasRenderingContext2D, item: Drawn, scale: number, colours: Colours): void {
   let found = kept.get(item);
   if (found?.scale !== scale || found.colours !== colours) {
-    // upwards in the plane is downwards on the canvas
+    // the y axis of the canvas points down
     const points = rigidPoints(item.points, scale, UNIT).map(([x, y]): Point => [x, -y]);
     found = { scale, shape: shapeOf(item, points), colours, colour: tinted(colours, item) };
     kept.set(item, found);
@@ -171,12 +171,12 @@ function paintText(
   return [cx - wide, cy - high, cx + wide, cy + high];
 }
 
-/** The same direction of a line of text, read from the left or from below. */
+/** The angle of a line of text, turned by 180° if necessary, so that it reads from the left or from below. */
 function readableAngle(angle: number): number {
   return angle - Math.PI * Math.ceil(angle / Math.PI - 0.5 - 1e-8);
 }
 
-/** A place for a text, moved sideways so that all of it is seen if its anchor is. */
+/** A place for a text. If its anchor is in view, it is moved sideways so that all of it is in view. */
 function inside(context: CanvasRenderingContext2D, text: string, [x, y]: Point, { width }: View): Point {
   if (x < 0 || x > width) return [x, y];
   const half = context.measureText(text).width / 2 + 6;

@@ -1,4 +1,4 @@
-// Where the items of the display list are at one instant: the rules of kempe/draw/placing.py.
+// The places of the items of the display list at one instant, by the rules of kempe/draw/placing.py.
 import { type Placement, type Point, placed } from "../plane/points";
 import type { View } from "../plane/view";
 import type { Frame, Item } from "./items";
@@ -12,12 +12,12 @@ type Rows = Item["points"];
 export type BodyFrame = Extract<Frame, { type: "body" }>;
 type Local = { origin: Point; angle: number; local: Point[] };
 
-/** The local places of rows that move with a body, px: they change with the scale alone. */
+/** The local places of rows that move with a body, px. They depend on the scale only. */
 export function rigidPoints(rows: Rows, scale: number, unit: number): Point[] {
   return rows.map(([x, y, px, py]): Point => [x * scale + px * unit, y * scale + py * unit]);
 }
 
-/** Where the frame of a body is on the canvas, px, and its angle, counter-clockwise. */
+/** The origin of the frame of a body on the canvas, px, and its angle, counter-clockwise. */
 export function rigidFrame(
   frame: BodyFrame,
   poses: readonly Placement[],
@@ -27,7 +27,7 @@ export function rigidFrame(
   return { origin, angle: poses[frame.turns_with]![2] + frame.turn };
 }
 
-/** Origin, angle and local places (px) of rows in the frame of an item; `unit` is px for each point of print. */
+/** Origin, angle and local places (px) of rows in the frame of an item; a point of print has `unit` px. */
 function inFrameOf(frame: Frame, rows: Rows, poses: readonly Placement[], view: View, unit: number): Local {
   const at = (body: number, point: Point) => view.toScreen(placed(poses[body]!, point));
   if (frame.type === "body") return { ...rigidFrame(frame, poses, view), local: rigidPoints(rows, view.scale, unit) };
@@ -72,7 +72,7 @@ export function isPlaceable({ frame }: Item, poses: readonly Placement[]): boole
 /** Strokes of ground on one side of a line, as a path. */
 export function hatching(points: Point[], side: number, unit: number): string {
   let strokes = "";
-  let left = 0.75 * SPACING * unit; // to the next stroke
+  let left = 0.75 * SPACING * unit; // the distance to the next stroke
   for (let k = 1; k < points.length; k += 1) {
     const [[x0, y0], [x1, y1]] = [points[k - 1]!, points[k]!];
     const length = Math.hypot(x1 - x0, y1 - y0) || 1;

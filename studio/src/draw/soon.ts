@@ -1,4 +1,4 @@
-// Painting before the screen is next drawn, once, however many things changed.
+// Paints once before the next frame of the screen, after any number of changes.
 
 export function soon(paint: () => void): () => void {
   let waiting = false;

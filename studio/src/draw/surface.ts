@@ -29,7 +29,7 @@ export interface Colours {
 }
 
 const BODY_COLOURS = 7;
-/** Lengths of strokes and gaps of the curves after the colours are used up, px. */
+/** Strokes and gaps, px, of curves beyond the number of colours. */
 const DASHES = [[], [7, 4], [2, 4], [9, 3, 2, 3]];
 
 /** Fit a canvas to its place. */
@@ -54,7 +54,7 @@ export function cleared(canvas: HTMLCanvasElement): CanvasRenderingContext2D {
   return context;
 }
 
-/** The colours of the page as they are now, light or dark. */
+/** The present colours of the page, light or dark. */
 export function palette(): Colours {
   const style = getComputedStyle(document.documentElement);
   const read = (name: string) => style.getPropertyValue(`--${name}`).trim();
@@ -63,7 +63,7 @@ export function palette(): Colours {
   return { named, body: (number) => (number ? bodies[(number - 1) % BODY_COLOURS]! : named.ground) };
 }
 
-/** The colours of a picture on white paper, whatever the page has. */
+/** The colours of a picture on white paper, also if the page is dark. */
 export function paperPalette(): Colours {
   document.documentElement.classList.add("paper");
   const found = palette();
@@ -93,12 +93,12 @@ export function rimmed(
   context.fillText(text, x, y);
 }
 
-/** The colour of the curve of a number. */
+/** The colour of the curve with this number. */
 export function colourOf(number: number, colours: Colours): string {
   return colours.body((number % BODY_COLOURS) + 1);
 }
 
-/** Its dashes. */
+/** The dashes of the curve with this number. */
 export function dashOf(number: number): number[] {
   return DASHES[Math.floor(number / BODY_COLOURS) % DASHES.length]!;
 }

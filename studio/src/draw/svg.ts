@@ -38,7 +38,7 @@ export class SvgContext {
   /** `measure` gives the widths of texts. */
   constructor(private readonly measure: CanvasRenderingContext2D) {}
 
-  /** This as the context that painters take. */
+  /** This object with the type that the painters need. */
   get context(): CanvasRenderingContext2D {
     return this as unknown as CanvasRenderingContext2D;
   }
@@ -66,7 +66,7 @@ export class SvgContext {
     this.box = "";
   }
 
-  /** A rectangle, to which `clip` keeps what follows. */
+  /** Set the rectangle of the next `clip`. */
   rect(x: number, y: number, width: number, height: number): void {
     this.box = `x="${tidy(x)}" y="${tidy(y)}" width="${tidy(width)}" height="${tidy(height)}"`;
   }
@@ -102,7 +102,7 @@ export class SvgContext {
     this.text(text, x, y, `fill="${colour(this.fillStyle)}"`);
   }
 
-  /** The whole picture of a size, px. */
+  /** The SVG of the picture, with its size in px. */
   written(width: number, height: number, background: string): string {
     const size = `width="${width}" height="${height}" viewBox="0 0 ${width} ${height}"`;
     return `<svg xmlns="http://www.w3.org/2000/svg" ${size} stroke-linecap="round" stroke-linejoin="round">
@@ -145,7 +145,7 @@ function escaped(text: string): string {
   return text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;").replaceAll('"', "&quot;");
 }
 
-/** A mixture of two colours as one: other programs do not read color-mix. */
+/** The colour of a color-mix, which other programs do not read. */
 function colour(css: string): string {
   const mixed = /^color-mix\(in srgb, (#\w{6}) ([\d.]+)%, (#\w{6})\)$/.exec(css);
   if (!mixed) return escaped(css);

@@ -1,4 +1,4 @@
-// Round steps: ticks of axes, and how to write them.
+// Ticks of axes at round values, and their texts.
 import { minus, powerOfTen } from "./numbers";
 
 export interface Ticks {
@@ -6,7 +6,7 @@ export interface Ticks {
   write(value: number): string;
 }
 
-/** The largest of 1, 2, 5, 10, 20 … that is not above a positive value. */
+/** The largest of …, 1, 2, 5, 10, 20, … that does not exceed a positive value. */
 export function roundBelow(value: number): number {
   const power = 10 ** Math.floor(Math.log10(value) + 1e-12);
   return ([5, 2, 1].find((step) => step * power <= value * (1 + 1e-12)) ?? 1) * power;
@@ -28,7 +28,7 @@ export function ticks(low: number, high: number, count: number): Ticks {
 /** Steps of angles in degrees that people know. */
 const DEGREES = [2, 5, 10, 15, 30, 45, 90, 180, 360];
 
-/** Ticks of angles in degrees: steps such as 15°, 45° and 90° where those of numbers would be 20°, 50° and 100°. */
+/** Ticks of angles in degrees. Their steps are 15°, 45° and 90° in place of 20°, 50° and 100°. */
 export function angleTicks(low: number, high: number, count: number): Ticks {
   const step = DEGREES.find((one) => (high - low) / one <= 1.5 * count);
   if (!step || high - low < 2 * count) return ticks(low, high, count);
@@ -47,7 +47,7 @@ function multiples(low: number, high: number, step: number): number[] {
   return Array.from({ length: last - first + 1 }, (_, k) => (first + k) * step);
 }
 
-/** How many decimals distinguish one frame from the next, at least milliseconds. */
+/** The number of decimals that distinguish consecutive frames; at least three. */
 export function timeDecimals(times: readonly number[]): number {
   const spacing = (times[times.length - 1]! - times[0]!) / Math.max(1, times.length - 1);
   return spacing > 0 ? Math.min(15, Math.max(3, -Math.floor(Math.log10(spacing)))) : 3;

@@ -1,10 +1,10 @@
-// Paths of points.
+// The drawn paths of points.
 import type { Point } from "../plane/points";
 import type { View } from "../plane/view";
 import { Line, through } from "./line";
 import type { Colours } from "./surface";
 
-/** The path of a point of a body. It is made once, in metres, so that a frame only moves it to its place. */
+/** The path of a point of a body, made once, in metres. Each frame only transforms it to the canvas. */
 export class Trace {
   private readonly path: Path2D;
 
@@ -15,7 +15,7 @@ export class Trace {
     this.path = through(points, false);
   }
 
-  /** The part that a view shows. */
+  /** Draw the path in a view. */
   seen(view: View): Line {
     const line = new Line(
       () =>

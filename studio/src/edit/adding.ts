@@ -7,7 +7,7 @@ import type { PointHit } from "../plane/hits";
 import { distance, inFrame, type Placement, type Point, placed, rounded } from "../plane/points";
 import { isPlain } from "./moving";
 
-/** A place that was clicked, with the points that are there. */
+/** A clicked place, with the points at this place. */
 export interface Place {
   at: Point;
   hits: PointHit[];
@@ -18,7 +18,7 @@ export interface Added {
   name: string;
 }
 
-/** What a change of the drawing needs of the case. */
+/** The parts of the case that a change of the drawing needs. */
 export interface Case {
   tree: Tree | null;
   bodies: readonly Body[];
@@ -27,7 +27,7 @@ export interface Case {
 
 export const GROUND = "ground";
 
-/** A body with points at these places; it is pinned to what is there already. */
+/** Add a body with points at these places, pinned to the bodies that have points there. */
 export function addBody({ type, placing }: Tool, places: Place[], catalogue: Catalogue, { tree, bodies }: Case): Added {
   if (placing === "fixed") return addGroundPoint(places[0]!.at, { tree, bodies });
   const name = freeName(tree, type.name.replaceAll("_", ""));
@@ -59,7 +59,7 @@ function placedBody(placing: Placing | null, names: string[], places: Place[]): 
   return placing === "two" ? { through: table } : { through: table, center: middleIn(places.map(({ at }) => at)) };
 }
 
-/** The middle of some places in the frame that they give a body: between the first two, with its x axis along them. */
+/** The middle of some places in the frame of their body, whose x axis points from the first to the second place. */
 function middleIn(at: Point[]): Point {
   const [a, b] = at as [Point, Point];
   const [x, y] = inFrame(frameOf(a, b), middleOf(at));
@@ -131,7 +131,7 @@ function addGroundPoint(at: Point, { tree, bodies }: Pick<Case, "tree" | "bodies
   return { changes: [pointChange(tree, GROUND, name!, at)], name: GROUND };
 }
 
-/** The change that adds a point of the plane to a body: to its places as it was drawn, otherwise in its frame. */
+/** The change that adds a point of the plane to a body: to its `through`, otherwise to its `points`. */
 export function pointChange(tree: Tree | null, body: string, point: string, at: Point, pose?: Placement): Change {
   const found = entry(tree, "bodies", body);
   const value = pose ? tidied(inFrame(pose, at)) : at;

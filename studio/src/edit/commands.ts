@@ -37,7 +37,7 @@ export async function rename(group: string, name: string, next: string): Promise
   return done;
 }
 
-/** Remove the selection with what refers to it. */
+/** Remove the selection and everything that refers to it. */
 export async function remove(): Promise<void> {
   const chosen = selection.value;
   if (!chosen) return;
@@ -59,7 +59,7 @@ export async function paste(name: string, body: Tree): Promise<void> {
   if (await change([{ path: ["bodies", fresh], value: shifted }])) selection.value = { group: "bodies", name: fresh };
 }
 
-/** Mirror a body at the vertical line through the middle of its points; what is pinned to it stays. */
+/** Mirror a body at the vertical line through the middle of its points. Bodies that are pinned to it stay. */
 export async function mirror(name: string): Promise<void> {
   const found = entry(tree.value, "bodies", name);
   const own = allPoints(mechanism.value?.bodies ?? [], poses.value).filter(({ body }) => body.name === name);
@@ -70,14 +70,14 @@ export async function mirror(name: string): Promise<void> {
     announce("problem", texts.edit.noMirror(name));
     return;
   }
-  // The x axis of the frame goes from the first to the second place, so that local places change sides.
+  // The x axis of the frame points from the first to the second place; local places therefore change sides.
   const placed = mapped(found, ["through", "at"], ([x, y]) => [tidy(sum - x), y]);
   const after = mapped(placed, ["points", "center"], ([x, y]) => [x, y && -y]);
   const changes = Object.keys(after).filter((key) => JSON.stringify(after[key]) !== JSON.stringify(found[key]));
   await change(changes.map((key): Change => ({ path: ["bodies", name, key], value: after[key]! })));
 }
 
-/** Parts of a body that have no mirror image made of points. */
+/** Parts of a body that are no points; a body with one of them cannot be mirrored. */
 const ONE_SIDED = ["shapes", "outline", "curves"];
 
 /** A body with some of its places changed; formulas stay. */

@@ -1,4 +1,4 @@
-// A curve to begin with on a body, on which points and rollers move.
+// The initial form of a curve on a body, for points and rollers that move along it.
 import { entry, isTable } from "../catalogue/tree";
 import type { Body, Change, Tree } from "../core/protocol";
 import type { Point } from "../plane/points";
@@ -19,7 +19,7 @@ export function curveFor(tree: Tree | null, { name: body, ground, points, center
   return { change: { path: ["bodies", body, "curves", `curve${k}`], value }, name: `curve${k}` };
 }
 
-/** From right to left, so that the side of others is above. */
+/** From right to left, so that other bodies are above the line. */
 function lineUnder(places: readonly Point[], step: number): Point[] {
   const x = places.map((at) => at[0]);
   const y = places.length ? Math.min(...places.map((at) => at[1])) : 0;

@@ -1,4 +1,4 @@
-// Laws of drivers that begin where a quantity is and go on evenly, with a parameter for the speed.
+// Linear laws of drivers: the present value of a quantity plus a speed times t. The speed is a parameter.
 import { entries, freeName, mentions } from "../catalogue/tree";
 import type { Change, Parameter, Tree, Value } from "../core/protocol";
 import { isRate, type Prescribed, prescribed, rateOf } from "./start";
@@ -8,9 +8,9 @@ export interface Motion {
   name: string;
   /** m or rad. */
   unit: string;
-  /** Where it is. */
+  /** Its value at the start. */
   value: number;
-  /** Its rate. */
+  /** Its rate at the start. */
   rate: number;
   /** Whether the mechanism has no other freedom. */
   alone: boolean;
@@ -20,7 +20,10 @@ export interface Motion {
 const WITH_UNIT = /^([-+]?[\d.]+(?:e[-+]?\d+)?)\s*([A-Za-z].*)$/i;
 const RPM = "10 rpm";
 
-/** The law, and what else it needs: its parameter; rates that the start prescribes would contradict another speed. */
+/**
+ * The law, and the changes that it needs. They add its parameter, and remove prescribed rates of the start, which would
+ * contradict another speed.
+ */
 export function evenLaw(
   motion: Motion,
   { length, degrees }: { length: number; degrees: boolean },
@@ -41,7 +44,7 @@ export function evenLaw(
   };
 }
 
-/** What the start prescribes as a part of a formula, in which units are factors; undefined if it cannot be one. */
+/** A prescribed value of the start as a part of a formula, with a unit as a factor; undefined if that is impossible. */
 function beginOf(found: Prescribed | undefined): string | undefined {
   if (!found || typeof found.value === "object") return undefined;
   const text = String(found.value).trim();

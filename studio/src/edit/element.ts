@@ -1,4 +1,4 @@
-// The change of the text that adds an element, with values to begin with.
+// The change of the text that adds an element with initial values.
 import type { Field } from "../catalogue/catalogue";
 import type { Tool } from "../catalogue/tools";
 import { freeName } from "../catalogue/tree";
@@ -6,7 +6,7 @@ import type { Change, Tree, Value } from "../core/protocol";
 import type { Added } from "./adding";
 import { evenLaw, type Motion } from "./driving";
 
-/** What starting values follow from: a length of the drawing, and the coordinates that were clicked. */
+/** The source of initial values: a length of the drawing, and the clicked coordinates. */
 interface Scale {
   length: number;
   /** Whether the display has degrees and rpm. */
@@ -43,7 +43,7 @@ function isOfCoordinate({ shape, unit }: Field): boolean {
   return shape === "law" && unit.includes("|") && unit.includes("rad");
 }
 
-/** Factors of coordinates: the first less the others. */
+/** Factors of coordinates: 1 for the first, -1 for the others. */
 function factor(k: number): number {
   return k ? -1 : 1;
 }
@@ -52,7 +52,7 @@ function sum(now: readonly Motion[]): number {
   return Number(now.reduce((all, { value }, k) => all + factor(k) * value, 0).toPrecision(12));
 }
 
-/** A value to begin with for a required field. */
+/** An initial value for a required field. */
 function startingValue({ shape, unit }: Field, { length, now }: Scale): Value {
   const one = unit === "m" ? Number(length.toPrecision(4)) : 1;
   if (shape === "pair" || shape === "law_pair") return [one, one];

@@ -1,4 +1,4 @@
-// What stays as it is while the drawing is changed: places of points, lengths and angles of bodies.
+// Points, lengths and angles that are held while the drawing is changed.
 
 import { type Curve, nearestOnAll } from "../plane/curves";
 import type { PointHit } from "../plane/hits";
@@ -14,10 +14,10 @@ export const ofPoint = (body: string, point: string) => `point ${body}.${point}`
 export const ofLengths = (body: string) => `lengths ${body}`;
 export const ofAngle = (body: string) => `angle ${body}`;
 
-/** A shift that is smaller relative to the wanted one is a rounding error. */
+/** A shift below this share of the wanted shift is a rounding error. */
 const ROUNDING = 1e-9;
 
-/** The shift nearest to a wanted one that keeps what is held. */
+/** The shift that keeps everything held and is nearest to the wanted shift. */
 export function heldShift(
   wanted: Point,
   places: readonly Place[],

@@ -1,4 +1,4 @@
-// A new length for a body that is placed by two points: one of them moves, with all that is pinned there.
+// A new length for a body that is placed by two points. One point moves, with all points that are pinned there.
 
 import { nearestOnAll } from "../plane/curves";
 import type { PointHit } from "../plane/hits";
@@ -6,7 +6,7 @@ import { distance, type Point } from "../plane/points";
 
 const SAME = 1e-9;
 
-/** Where an end of a body moves, and the hits that move along. */
+/** The new position of an end of a body, and the points that move with it. */
 export interface Moving {
   hits: PointHit[];
   to: Point;
@@ -32,7 +32,7 @@ export function lengthened(name: string, length: number, all: readonly PointHit[
     all.filter((hit) => hit.body.name === body.name && !hits.includes(hit)),
   );
   const kept = others.map((other) => ({ center: other.at, radius: distance(other.at, end.at) }));
-  // Nearest to where the end is, so that the mechanism stays on its branch.
+  // The position nearest to the end keeps the mechanism on its branch.
   const to = nearestOnAll(end.at, [circle, ...kept]);
   return to && others.length ? { hits, to, kept: true } : { hits, to: straight, kept: !others.length };
 }

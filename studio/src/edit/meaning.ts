@@ -1,4 +1,4 @@
-// What a typed text means, as the core reads it.
+// The meaning of a typed text: the core reads it.
 import type { Loaded, Problem, Value } from "../core/protocol";
 import { LENGTHS } from "../draw/display";
 import { send } from "../store/session";
@@ -8,7 +8,7 @@ import { typed, written } from "./values";
 
 export type Meaning<T> = { value: T } | { problem: Problem };
 
-/** Let the core read another text, and then that of the case again. Nothing can be sent between the two. */
+/** Let the core read another text, and then the text of the case again. No other request comes between the two. */
 async function readApart(given: string): Promise<Loaded> {
   const found = send("load", { text: given });
   const back = send("load", { text: text.value });
@@ -44,7 +44,7 @@ export async function notationMeant(given: string): Promise<Meaning<Value>> {
   return { problem: problems[0] ?? { message: texts.edit.noNotation } };
 }
 
-/** The value of a meaning; a problem is shown, and gives undefined. */
+/** The value of a meaning. A problem is shown; the value is then undefined. */
 export function meantValue<T>(found: Meaning<T>): T | undefined {
   if ("value" in found) return found.value;
   const { message, hint } = found.problem;

@@ -1,4 +1,4 @@
-// Changes of the text that move a place of the drawing: everything that is pinned there moves.
+// Changes of the text that move a place of the drawing, with all points that are pinned there.
 
 import { entry, isTable } from "../catalogue/tree";
 import type { Change, Tree, Value } from "../core/protocol";
@@ -64,7 +64,7 @@ function local(pose: Placement, to: Point): Point {
   return [rounded(x, step), rounded(y, step)];
 }
 
-/** The changes that place a body by the present positions of its ends, in place of a length. */
+/** The changes that give a body the present positions of its ends instead of a length. */
 export function drawnThrough(tree: Tree | null, hits: readonly PointHit[], name: string): Change[] {
   const found = entry(tree, "bodies", name);
   const base = ["bodies", name];

@@ -1,6 +1,6 @@
 // Paths of SVG in other coordinates.
 
-/** How many numbers each command takes. */
+/** The number of arguments of each command. */
 const COUNTS: Record<string, number> = { m: 2, l: 2, h: 1, v: 1, c: 6, s: 4, q: 4, t: 2, a: 7, z: 0 };
 const TOKEN = /([a-z])|([-+]?(?:\d+\.?\d*|\.\d+)(?:e[-+]?\d+)?)/gi;
 const DIGITS = 6;
@@ -14,7 +14,7 @@ export function mappedPath(d: string, scale: number, [dx, dy]: [number, number])
     if (count === undefined || (count ? numbers.length % count : numbers.length)) return null;
     const first = !parts.length;
     if (first && kind !== "m") return null;
-    // the first place is absolute; the steps behind it are lines
+    // the first point is absolute; the pairs after it are lines
     const split = first && letter === "m" && numbers.length > 2 ? 2 : numbers.length;
     const put = (name: string, own: number[], at: [number, number]) =>
       parts.push(name, ...own.map((value, k) => mapped(kind, k % (count || 1), value, scale, at)));
@@ -27,7 +27,7 @@ export function mappedPath(d: string, scale: number, [dx, dy]: [number, number])
 function mapped(kind: string, k: number, value: number, scale: number, [x, y]: [number, number]): string {
   if (kind === "a" && k < 5) {
     if (k < 2) return tidy(scale * value);
-    return tidy(k === 2 ? -value : k === 3 ? value : 1 - value); // the sense of turning is the other one
+    return tidy(k === 2 ? -value : k === 3 ? value : 1 - value); // a reflection reverses the sense of turning
   }
   const across = kind === "h" || (kind !== "v" && (kind === "a" ? k === 5 : k % 2 === 0));
   return tidy(across ? scale * value + x : y - scale * value);
@@ -37,7 +37,7 @@ function tidy(value: number): string {
   return String(Number(value.toPrecision(DIGITS)) + 0);
 }
 
-/** Letters with the numbers behind them. The flags of arcs have to be separated from other numbers. */
+/** Letters with the numbers after them. The flags of arcs must be separated from other numbers. */
 function commands(d: string): [string, number[]][] {
   const found: [string, number[]][] = [];
   for (const [, letter, number] of d.matchAll(TOKEN)) {

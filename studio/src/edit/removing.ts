@@ -1,9 +1,9 @@
-// Changes of the text that remove and rename entries, with all that refers to them.
+// Changes of the text that remove and rename entries, and everything that refers to them.
 import { GROUPS, type Group } from "../catalogue/catalogue";
 import { entries, isTable, mentions } from "../catalogue/tree";
 import type { Change, Path, Tree, Value } from "../core/protocol";
 
-/** Remove an entry and the elements that cannot be without it. */
+/** Remove an entry and the elements that need it. */
 export function removed(tree: Tree | null, group: Group, name: string): Change[] {
   const gone = new Map<string, Group>([[name, group]]);
   for (let before = -1; before !== gone.size; ) {
@@ -35,7 +35,7 @@ function orphans(tree: Tree | null, names: string[]): Change[] {
   });
 }
 
-/** Remove a point of a body and what refers to it. */
+/** Remove a point of a body and everything that refers to it. */
 export function removedPoint(tree: Tree | null, body: string, point: string): Change[] {
   const reference = `${body}.${point}`;
   const gone = GROUPS.slice(1).flatMap((group) =>

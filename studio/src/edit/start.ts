@@ -1,9 +1,9 @@
-// What the start prescribes: values of quantities by name, in one table or in nested ones.
+// The prescribed values of the start, by the names of their quantities. Tables may be nested.
 import { isTable } from "../catalogue/tree";
 import type { Path, Tree, Value } from "../core/protocol";
 
 export interface Prescribed {
-  /** Such as "crank.angle". */
+  /** The quantity, such as "crank.angle". */
   name: string;
   value: Value;
   path: Path;

@@ -9,7 +9,7 @@ const OPACITY = 0.5;
 /** The share of the sheet that a new picture takes. */
 const SHARE = 0.8;
 
-/** Let the user choose a picture; it is put into the middle of the sheet. */
+/** Let the user choose a picture, and show it in the middle of the sheet. */
 export function openBackdrop(): void {
   choose("image/*", async (file) => {
     const image = new Image();

@@ -1,7 +1,7 @@
 // Choosing files.
 import { report } from "../store/session";
 
-/** Let the user choose a file of some types, and take it. */
+/** Let the user choose a file of some types, and pass it to `take`. */
 export function choose(accept: string, take: (file: File) => Promise<void>): void {
   const input = document.createElement("input");
   input.type = "file";

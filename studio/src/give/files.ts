@@ -27,7 +27,7 @@ export function openFile(): void {
   choose(".toml,text/plain", take);
 }
 
-/** Take up a file that was chosen or dropped. */
+/** Open a file that the user has chosen or dropped. */
 export async function take(file: File): Promise<void> {
   if (file.size > MOST_OF_TEXT) {
     announce("problem", texts.core.tooLarge);

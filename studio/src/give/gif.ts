@@ -1,4 +1,4 @@
-// The motion of a run as a GIF: one frame for each step of the event loop, so that the page goes on meanwhile.
+// Saves the motion of a run as a GIF. Each frame is a step of the event loop, so that the page stays responsive.
 import { signal } from "@preact/signals";
 import { applyPalette, GIFEncoder, quantize } from "gifenc";
 import { type Colours, paperPalette } from "../draw/surface";
@@ -11,20 +11,20 @@ import { download, nameOf } from "./download";
 
 /** The shortest time of a frame, s; players show shorter ones too slowly. */
 const SHORTEST = 0.04;
-/** A longer motion has longer frames. */
+/** The largest number of frames. A longer motion has longer frames. */
 const MOST_FRAMES = 250;
 /** The larger side of the picture, px. */
 const MOST_PIXELS = 640;
 const COLOURS = 256;
 
-/** The share that is done; null when no GIF is being made. */
+/** The finished share; null if no GIF is in progress. */
 export const making = signal<number | null>(null);
 
 export function cancelGif(): void {
   making.value = null;
 }
 
-/** Times of a run whose frames play at a speed: all have the same duration, in hundredths of a second. */
+/** The times of the frames for a speed, and the duration of each frame, in hundredths of a second. */
 export function framesOf([begin, end]: readonly [number, number], speed: number): { times: number[]; delay: number } {
   const seconds = (end - begin) / speed;
   const delay = Math.max(SHORTEST * 100, Math.ceil((100 * seconds) / MOST_FRAMES));
@@ -32,7 +32,7 @@ export function framesOf([begin, end]: readonly [number, number], speed: number)
   return { times: Array.from({ length: count }, (_, k) => begin + (k * (end - begin)) / count), delay };
 }
 
-/** Save the motion as a GIF that repeats, with the speed and the part of the plane that are shown. */
+/** Save the motion as a repeating GIF, with the speed and the view of the page. */
 export async function saveGif(): Promise<void> {
   const found = course.value;
   if (!found || making.value !== null) return;
@@ -71,7 +71,7 @@ async function encoded(goesOn: () => boolean): Promise<Uint8Array<ArrayBuffer> |
   return new Uint8Array(gif.bytes());
 }
 
-/** Paints the sheet as it was framed at the beginning, on white paper. */
+/** Paints the sheet on white paper, with the view at the start. */
 class Picture {
   private readonly framed = { center: view.center, scale: view.scale, width: view.width, height: view.height };
   private readonly ratio = Math.min(1, MOST_PIXELS / Math.max(view.width, view.height));
@@ -94,7 +94,7 @@ class Picture {
     return this.context.getImageData(0, 0, this.width, this.height).data;
   }
 
-  /** Four small pictures of moments beside each other, from which the colours of all frames are chosen. */
+  /** Four small pictures at different times, side by side. The colours of all frames are chosen from them. */
   overview(times: readonly number[]): Uint8ClampedArray {
     this.clear();
     for (const k of [0, 1, 2, 3]) {

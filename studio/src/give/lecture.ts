@@ -2,7 +2,7 @@
 
 import { download, nameOf } from "./download";
 
-/** The page as it was before anything was drawn in it. */
+/** The page before the script has changed it. */
 const ORIGINAL = document.documentElement.cloneNode(true) as HTMLElement;
 
 /** The text of a page that opens with a case. Its policy holds, because scripts and styles are unchanged. */
@@ -10,7 +10,7 @@ export function pageWith(text: string): string {
   const page = ORIGINAL.cloneNode(true) as HTMLElement;
   // "<" could end the script element
   page.querySelector("#case")!.textContent = JSON.stringify(text).replaceAll("<", "\\u003c");
-  // a parser moves blanks behind the body into it, so that they would become more with each copy
+  // a parser moves blanks after the body into it; without this, each copy would have more of them
   const html = page.outerHTML.replace(/\s*<\/body><\/html>$/, "\n</body></html>");
   return `<!doctype html>\n${html}\n`;
 }

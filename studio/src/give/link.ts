@@ -5,11 +5,11 @@ import { texts } from "../texts";
 
 /** The longest link, characters. */
 export const MOST_OF_LINK = 64 * 1024;
-/** Compressed bytes that are read at once; each can become some thousand times longer. */
+/** The number of compressed bytes that are inflated at a time. Each can become a thousand bytes. */
 const PIECE = 512;
 const MARK = "#m=";
 
-/** The link of a text, on the page as it was opened. */
+/** The link to this page with a text. */
 export function linkOf(text: string, page = location.href): string {
   return page.split("#")[0] + MARK + encode(deflateSync(strToU8(text), { level: 9 }));
 }
@@ -21,7 +21,7 @@ export function textOf(hash: string): string | null {
   return strFromU8(inflated(decode(hash.slice(MARK.length))));
 }
 
-/** Inflate piece by piece, and stop at the limit before a bomb fills the memory. */
+/** Inflate in pieces, and stop at the limit, so that a malicious link cannot fill the memory. */
 function inflated(bytes: Uint8Array): Uint8Array {
   const parts: Uint8Array[] = [];
   let size = 0;

@@ -8,7 +8,7 @@ export interface NumbersOf {
 
 const ALIGNMENT = 64;
 
-/** What a file contains that is read here: numbers of double precision, and texts. */
+/** The content of a file: arrays of double precision, and texts. */
 export interface Contents {
   arrays: Record<string, NumbersOf>;
   texts: Record<string, string[]>;
@@ -22,7 +22,7 @@ export function npy({ shape, values }: NumbersOf): Uint8Array {
   return bytes;
 }
 
-/** A list of texts as NPY, in UTF-32: all take the room of the longest. */
+/** A list of texts as NPY, in UTF-32. Each text takes the room of the longest one. */
 function npyOfTexts(texts: readonly string[]): Uint8Array {
   const letters = texts.map((text) => [...text].map((letter) => letter.codePointAt(0)!));
   const most = Math.max(1, ...letters.map(({ length }) => length));
@@ -34,7 +34,7 @@ function npyOfTexts(texts: readonly string[]): Uint8Array {
   return bytes;
 }
 
-/** Room for an array, with its head written. */
+/** The bytes of an array with its head; its values are zero. */
 function withHead(type: string, shape: readonly number[], size: number): { bytes: Uint8Array; begin: number } {
   const sizes = shape.length === 1 ? `${shape[0]},` : shape.join(", ");
   const head = `{'descr': '${type}', 'fortran_order': False, 'shape': (${sizes}), }`;
@@ -59,7 +59,7 @@ export function npz(arrays: Record<string, NumbersOf>, texts: Contents["texts"] 
   return zipSync(Object.fromEntries(files));
 }
 
-/** Arrays are not read beyond this size, bytes. */
+/** Larger arrays are not read, bytes. */
 const MOST = 256 * 2 ** 20;
 
 /** The arrays of double precision and the texts in an NPZ, by name; others are left out. */
@@ -77,7 +77,7 @@ export function readNpz(bytes: Uint8Array): Contents {
   return found;
 }
 
-/** Type, shape and data of an array that lies row by row, little endian; otherwise the type is empty. */
+/** Type, shape and data of an array in C order, little endian. The type is empty for other arrays. */
 function opened(bytes: Uint8Array): { type: string; shape: number[]; data: ArrayBuffer } {
   const data = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const long = data.getUint8(6) > 1;
@@ -88,7 +88,7 @@ function opened(bytes: Uint8Array): { type: string; shape: number[]; data: Array
   return { type, shape, data: bytes.slice(begin).buffer };
 }
 
-/** The texts of an array, each of at most so many letters; zeros fill the rest. */
+/** The texts of an array. Each has a fixed number of letters, filled with zeros. */
 function textsOf(letters: Uint32Array, most: number): string[] {
   return Array.from({ length: letters.length / most }, (_, row) => {
     const own = [...letters.subarray(row * most, (row + 1) * most)].filter((letter) => letter > 0 && letter < 0x110000);

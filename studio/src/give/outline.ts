@@ -33,7 +33,7 @@ function outlineOf(text: string, middle: [number, number]): string | null {
   return mapped.includes(null) ? null : mapped.join(" ");
 }
 
-/** The metres of one unit of a drawing: from its width, otherwise a millimetre. */
+/** The length of one unit of a drawing, m. It follows from the width of the drawing, otherwise it is 1 mm. */
 function metresOf(root: Element): number {
   const [, number, unit] = /^([\d.]+)(mm|cm|in|pt|px)$/.exec(root.getAttribute("width") ?? "") ?? [];
   const wide = Number(root.getAttribute("viewBox")?.split(/[ ,]+/)[2]);

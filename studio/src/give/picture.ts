@@ -15,7 +15,7 @@ export interface Size {
 
 type Paint = (context: CanvasRenderingContext2D, colours: Colours) => void;
 
-/** What the head of a picture contains: the title, the time, and the time as text. */
+/** The head of a picture: the title, the time, and the time as text. */
 export interface Head {
   title: string;
   t: number;

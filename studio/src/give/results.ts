@@ -1,5 +1,5 @@
 // Results as files.
-import { course, valuesOf, variable } from "../modes/read";
+import { condition, course, valuesOf, variable } from "../modes/read";
 import { plots, stored } from "../store/plots";
 import { report } from "../store/session";
 import { announce, mechanism, title } from "../store/state";
@@ -18,7 +18,7 @@ export async function saveCsv(): Promise<void> {
   const run = course.value;
   if (!run) return;
   try {
-    const first = variable.value;
+    const first = { ...variable.value, condition: condition.value };
     const names = plotted().filter((name) => name !== first.name);
     const { units, rows } = await valuesOf(names);
     download(nameOf(title.value, ".csv"), csv(run.t, names, units, rows, first), "text/csv;charset=utf-8");
@@ -27,7 +27,7 @@ export async function saveCsv(): Promise<void> {
   }
 }
 
-/** Times or the values in their place, which `variable` names, the poses of the bodies by name, and the plotted quantities. */
+/** Save times, poses of the bodies by name, and plotted quantities; `variable` names the variable of the run. */
 export async function saveNpz(): Promise<void> {
   const run = course.value;
   if (!run) return;
@@ -54,7 +54,7 @@ export async function saveNpz(): Promise<void> {
   }
 }
 
-/** Let the user choose a stored run, whose curves are drawn in the same plots. */
+/** Let the user choose a stored run. Its curves are drawn in the same plots. */
 export function openStored(): void {
   choose(".npz", async (file) => {
     const bytes = new Uint8Array(await file.arrayBuffer());

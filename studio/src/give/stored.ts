@@ -1,12 +1,12 @@
-// A stored run, to be compared with the present one: solution.npz of kempe run, or the NPZ of this page.
+// A stored run for a comparison with the present run: solution.npz of kempe run, or the NPZ of this page.
 import type { Quantity } from "../core/protocol";
 import type { Contents, NumbersOf } from "./npz";
 
-/** Curves by the names of their quantities, over the time or over what took its place. */
+/** Curves by the names of their quantities, over the time or the quantity that replaces it. */
 export interface Stored {
   file: string;
   variable: Quantity;
-  /** It grows: a run to lower values is read backwards. */
+  /** The values of the variable, in growing order. A run to lower values is reversed. */
   t: Float64Array;
   rows: Map<string, Float64Array>;
 }
@@ -39,7 +39,7 @@ export function storedRun(file: string, { arrays, texts }: Contents, coordinates
   return { file, variable, t: forwards(t.values), rows: new Map(turned) };
 }
 
-/** What `t` contains: `about` of kempe or `variable` of this page names it. */
+/** The quantity in `t`. Its name is in `about` of files of kempe, and in `variable` of files of this page. */
 function variableOf({ about, variable }: Contents["texts"]): Quantity {
   const [name, unit] = variable ?? aboutVariable(about?.[0] ?? "");
   return name && unit ? { name, unit } : TIME;
@@ -73,7 +73,7 @@ function columnOf({ shape, values }: NumbersOf, column: number): Float64Array {
 }
 
 /**
- * Where the values of a quantity lie on an axis; null where they have no place there.
+ * The values of a stored quantity over the axis of the plots; null if they have no place there.
  *
  * A run over another variable has a place if it contains the variable of the axis as a quantity that grows. Its rates,
  * forces and powers belong to another motion, so that only positions are compared then.

@@ -1,15 +1,23 @@
 // Curves as CSV.
 import type { Quantity } from "../core/protocol";
+import { conditionOf } from "../draw/condition";
 
-/** One line for each time or value in its place, in SI units and rad, with all digits. */
+/**
+ * One line for each value of the first column, in SI units and rad, with all digits.
+ *
+ * A header has the name and the unit; in a motion over a quantity, that of a force also has the condition of the first
+ * column.
+ */
 export function csv(
   t: Float64Array,
   names: string[],
   units: string[],
   rows: Float64Array[],
-  first: Quantity = { name: "t", unit: "s" },
+  first: Quantity & { condition: string } = { name: "t", unit: "s", condition: "" },
 ): string {
-  const head = [`${first.name} [${first.unit}]`, ...names.map((name, k) => `${name} [${units[k]}]`)].map(cell);
+  const beside = (unit: string) => [unit, conditionOf(unit, first.condition)].filter(Boolean).join(", ");
+  const columns = names.map((name, k) => `${name} [${beside(units[k]!)}]`);
+  const head = [`${first.name} [${first.unit}]`, ...columns].map(cell);
   const number = (value: number) => (Number.isFinite(value) ? String(value) : "nan");
   const lines = Array.from(t, (one, k) => [one, ...rows.map((row) => row[k]!)].map(number).join(","));
   return [head.join(","), ...lines, ""].join("\n");

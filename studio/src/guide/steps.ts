@@ -1,4 +1,4 @@
-// The steps of the first build: what is done in each, when it is done, and where on the sheet.
+// The steps of the first build: their actions, the conditions that end them, and their marks on the sheet.
 import { isPin } from "../catalogue/catalogue";
 import type { Tool } from "../catalogue/tools";
 import { entries } from "../catalogue/tree";
@@ -8,7 +8,7 @@ import { distance, type Point } from "../plane/points";
 import { view, viewed } from "../store/sheet";
 import { catalogue, home, live, type Mode, mechanism, mode, pose, tree } from "../store/state";
 
-/** Places to click, in their order, and the line between them. */
+/** The places to click, in order, and the line between them. */
 export interface Ghost {
   at: Point[];
   line: Point[];
@@ -17,22 +17,22 @@ export interface Ghost {
 export interface Step {
   name: "ground" | "crank" | "coupler" | "rocker" | "driver" | "move" | "live" | "read";
   mode: Mode;
-  /** Whether a tool of the palette is that of the step. */
+  /** Whether the step uses this tool of the palette. */
   tool?: (one: Tool) => boolean;
   done(): boolean;
   ghost(): Ghost;
 }
 
 const NOTHING: Ghost = { at: [], line: [] };
-/** The line between the suggested fixed points: its length as shares of width and height of the sheet, its place below the middle. */
+/** The line between the suggested fixed points: its length and distance below the middle, as shares of the sheet. */
 const LENGTH = [0.45, 0.45] as const;
 const BELOW = 0.14;
 /** Ends of crank and coupler, as shares of the line between the fixed points: a crank-rocker. */
 const CRANK_END: Point = [0.15, 0.25];
 const COUPLER_END: Point = [0.85, 0.8];
-/** A body has been moved when it has turned by so much, rad, or a point has moved by as many m. */
+/** The mechanism has been moved if a coordinate has changed by this, rad or m. */
 const MOVED = 0.1;
-/** The motion has been seen after so many seconds of it. */
+/** The step with the motion ends after these seconds. */
 const SEEN = 1;
 
 const fixes = ({ placing }: Tool) => placing === "fixed";
@@ -60,20 +60,20 @@ function drivers(): number {
   return mechanism.value?.drivers.length ?? 0;
 }
 
-/** Whether there are so many moving bodies and so many pins. */
+/** Whether there are at least these numbers of moving bodies and pins. */
 function has(bodies: number, pins: number): boolean {
   const names = new Set(catalogue.value.joints.filter(isPin).map(({ name }) => name));
   const found = Object.values(entries(tree.value, "joints")).filter(({ type }) => names.has(String(type)));
   return (mechanism.value?.bodies.length ?? 1) > bodies && found.length >= pins;
 }
 
-/** Whether the mechanism was moved away from the pose of the text. */
+/** Whether the pose differs from that of the text. */
 function hasMoved(): boolean {
   const [now, before] = [pose.value?.poses, home.value?.poses];
   return mode.value === "move" && !!now?.some((one, k) => one.some((x, n) => Math.abs(x - before![k]![n]!) > MOVED));
 }
 
-/** The pins of the linkage as they are, and where they are missing, as they are suggested. */
+/** The pins of the linkage, and suggested positions for missing ones. */
 function pins(): Point[] {
   const found = fixed();
   const [crank, coupler] = (mechanism.value?.bodies ?? []).filter((body) => !body.ground);
@@ -124,7 +124,7 @@ function ghostOfCrank(): Ghost {
   return a && b ? { at: [[(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]], line: [] } : NOTHING;
 }
 
-/** From the end of the crank a little way around. */
+/** Points on an arc that starts at the end of the crank. */
 function ghostOfDrag(): Ghost {
   const [a, b] = pins();
   if (!a || !b) return NOTHING;

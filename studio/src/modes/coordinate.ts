@@ -1,4 +1,4 @@
-// The coordinate that a click on a body or element means.
+// The coordinate that a click on a body or element selects.
 import type { Quantity, Triple } from "../core/protocol";
 import { CoreError } from "../core/transport";
 import type { Motion } from "../edit/driving";
@@ -7,8 +7,8 @@ import { goHome, send } from "../store/session";
 import { mechanism, mobility, pose, unassembled } from "../store/state";
 
 /**
- * The position quantity of a body or element: the first that can move, angles before lengths. Without one that can move,
- * the first of all if `fixed` is allowed, otherwise null.
+ * The first position quantity of a body or element that can move, angles before lengths. If none can move, the first of
+ * all with `fixed`, otherwise null.
  */
 export async function coordinateOf(owner: string | null, fixed: boolean): Promise<Motion | null> {
   if (!owner) return null;
@@ -20,7 +20,7 @@ export async function coordinateOf(owner: string | null, fixed: boolean): Promis
   return taken ? motionOf(taken) : null;
 }
 
-/** Another position quantity of a body or element, of the kind of those that were chosen before if it has one. */
+/** Another position quantity of a body or element, if possible with the unit of those before. */
 export async function alikeOf(owner: string | null, before: readonly Motion[]): Promise<Motion | null> {
   if (!owner) return null;
   const own = await positionsOf(owner);
@@ -51,7 +51,7 @@ async function firstFree(owner: string, all: Quantity[]): Promise<Quantity | und
       if (!rate) return one;
       const rates = await ratesAt(owner, rate, guess);
       if (!rates) continue;
-      // Along a guide that is steep, y moves more than x.
+      // Along a steep guide, y moves more than x.
       const steep = one.name.endsWith(".x") && Math.abs(rates[1]) > Math.abs(rates[0]);
       return (steep && all.find(({ name }) => name === `${owner}.y`)) || one;
     }

@@ -1,4 +1,4 @@
-// Drawing by keys: arrows move a place on the sheet, and a key clicks there.
+// Drawing by keys: arrow keys move a place on the sheet, and another key clicks there.
 import { snapStep } from "../draw/measure";
 import type { Point } from "../plane/points";
 import { view } from "../store/sheet";
@@ -19,7 +19,7 @@ export function moveCursor(start: Point, dx: number, dy: number): void {
   handler().hover?.(spot());
 }
 
-/** Click at the place. The next click begins at a start of its own. */
+/** Click at the place. The next move of the keys begins at `start` again. */
 export function clickCursor(start: Point): void {
   at ??= start;
   handler().click?.(spot());

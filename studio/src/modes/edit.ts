@@ -1,4 +1,4 @@
-// Editing: a click selects, a drag changes the geometry of the text.
+// Edit mode: a click selects, and a drag changes the geometry in the text.
 import { entries } from "../catalogue/tree";
 import type { Change } from "../core/protocol";
 import { snapStep } from "../draw/measure";
@@ -14,7 +14,7 @@ import { texts } from "../texts";
 import type { Handler, Spot } from "./handler";
 import { bodyUnder, elementUnder, points, pointsUnder } from "./seen";
 
-/** A drag: places of the drawing that move together, each with what is pinned there. */
+/** A drag: the places of the drawing that move together, each with the points that are pinned there. */
 interface Drag {
   draft: Draft;
   began: Point;
@@ -63,7 +63,7 @@ export const edit: Handler = {
   },
 };
 
-/** Gather hits at one place, with all other points that are there. */
+/** The places of points, each with all points at this place. */
 function placesOf(own: PointHit[], all: PointHit[]): { at: Point; hits: PointHit[] }[] {
   const places: { at: Point; hits: PointHit[] }[] = [];
   for (const { at } of own) {
@@ -105,7 +105,7 @@ function round(value: number): number {
   return Number(value.toPrecision(12));
 }
 
-/** Why a point did not follow the mouse, and what helps. */
+/** Explain why a point did not follow the mouse, and offer a remedy. */
 function explain({ body, point }: Fixed): void {
   const changes = drawnThrough(tree.value, points(), body);
   const run = () => void change(changes);
@@ -116,7 +116,7 @@ function explain({ body, point }: Fixed): void {
   );
 }
 
-/** Select what is under the pointer: a joint at a point, the point, a symbol, a body. */
+/** Select the joint at a point, the point, the symbol or the body under the pointer. */
 function select(spot: Spot): void {
   const hits = pointsUnder(spot);
   if (hits.length) {

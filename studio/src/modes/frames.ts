@@ -1,4 +1,4 @@
-// A motion on the screen whose page follows whether it goes on.
+// A motion on the screen with a signal that is true while it plays.
 import { type ReadonlySignal, signal } from "@preact/signals";
 import { Loop } from "../draw/loop";
 

@@ -1,4 +1,4 @@
-// Taking hold of a body: the body and its point under the pointer.
+// The grip of the pointer or of the keys on a body: the body and a point of it.
 import type { Body } from "../core/protocol";
 import { distance, inFrame, type Point } from "../plane/points";
 import { mechanism, poses, selection } from "../store/state";
@@ -7,7 +7,7 @@ import { bodyUnder, points, pointsUnder } from "./seen";
 
 export interface Grip {
   body: Body;
-  /** In the frame of the body. */
+  /** The point in the frame of the body. */
   point: Point;
 }
 
@@ -19,7 +19,10 @@ export function gripAt(spot: Spot): Grip | null {
   return body && pose ? { body, point: inFrame(pose, spot.at) } : null;
 }
 
-/** Where keys take hold, and that place: the last point of the selected body, or of the first one, that ground does not hold. */
+/**
+ * The grip of the keys and its position: the last point of the selected body that is not on ground;
+ * without a selection, the first such point of the mechanism.
+ */
 export function gripOfKeys(): { grip: Grip; at: Point } | null {
   const all = points();
   const fixed = all.filter(({ body }) => body.ground);

@@ -1,17 +1,17 @@
-// What a mode does with the pointer.
+// The actions of a mode for the pointer.
 import type { Point } from "../plane/points";
 
 export interface Spot {
-  /** In the canvas, px, and in the plane, m. */
+  /** The position in the canvas, px, and in the plane, m. */
   px: Point;
   at: Point;
   touch: boolean;
-  /** With a key that switches snapping off. */
+  /** Whether a key switches snapping off. */
   free: boolean;
 }
 
 export interface Handler {
-  /** A press; true if the handler takes the drag, otherwise the sheet is moved. */
+  /** A press. If the result is true, the handler gets the drag; otherwise the drag moves the sheet. */
   down?(spot: Spot): boolean;
   drag?(spot: Spot): void;
   up?(spot: Spot): void;

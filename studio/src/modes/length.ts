@@ -1,4 +1,4 @@
-// The length that is typed for the line that is being drawn.
+// The typed length of the line in progress.
 import { effect } from "@preact/signals";
 import { lengthMeant, meantValue } from "../edit/meaning";
 import { typed } from "../edit/values";
@@ -6,10 +6,10 @@ import { report } from "../store/session";
 import { typedLength } from "../store/sheet";
 import { units } from "../store/state";
 
-/** A formula is read for the line under the pointer after this time without another key, ms. */
+/** A typed formula is read when no other key follows within this time, ms. */
 const PAUSE = 200;
 
-/** The text that was read last with its unit, and its length in m; without a length it has a fault. */
+/** The last text that was read, with its unit, and its length in m. A faulty text has no length. */
 let meant: { text: string; unit: string; length: number | undefined } = { text: "", unit: "", length: undefined };
 
 /** The typed length in m, if it has been read. */

@@ -1,4 +1,4 @@
-// Living: the mechanism moves under its forces and drivers, in real time.
+// Live mode: the mechanism moves under its forces and drivers, in real time.
 import { signal } from "@preact/signals";
 import { snapStep } from "../draw/measure";
 import { type Point, placed } from "../plane/points";
@@ -15,18 +15,18 @@ export const playing = frames.playing;
 export const speed = signal(1);
 /** Parameters whose values are not those of the text. */
 export const changed = signal<Record<string, number>>({});
-/** Simulated seconds that were left out because the computer is too slow. */
+/** The longest step of a frame, s. Time beyond it is left out, because the computer is too slow. */
 const LONGEST_FRAME = 0.1;
 const MOST_MS = 12;
 const SINGLE_STEP = 1 / 60;
-/** The pull of the mouse moves the lightest reasonable mass within this time, s. */
+/** The time of the pull, s: its stiffness is the mass of the mechanism divided by the square of this time. */
 const PULL_TIME = 0.15;
 
 /** Steps of the grid by which a key moves the end of the pull. */
 const PULL = 2;
 
 let grip: Grip | null = null;
-/** Where keys pull to. */
+/** The end of the pull of the keys, in the plane. */
 let goal: Point | null = null;
 let begun = false;
 
@@ -53,7 +53,7 @@ export function letGo(): void {
   preview.value = null;
 }
 
-/** Pull at the selected body, or the first one, until it is let go; each step takes the end of the pull farther. */
+/** Pull at the selected body, or the first one, until `letGo`. Each call moves the end of the pull by a step. */
 export async function pullBy(dx: number, dy: number): Promise<void> {
   if (!goal) {
     const held = gripOfKeys();
@@ -89,7 +89,7 @@ function showPull(to: Point): void {
   if (place) preview.value = { line: [], pull: [placed(place, grip.point), to] };
 }
 
-/** Begin at the pose that is shown. */
+/** Start the simulation at the shown pose. */
 async function begin(): Promise<void> {
   if (begun) return;
   begun = true;
@@ -101,7 +101,7 @@ async function begin(): Promise<void> {
   }
 }
 
-/** Drivers prescribe the pose: a mechanism that was dragged away from its start goes back there. */
+/** Return a dragged mechanism to its start if it has drivers, because they prescribe the pose. */
 async function goToDrivers(): Promise<void> {
   const [now, before] = [pose.value?.q, home.value?.q];
   if (begun || !mechanism.value?.drivers.length || !now || !before) return;
@@ -120,7 +120,7 @@ export async function play(): Promise<void> {
   await frames.play(each, begin).catch(report);
 }
 
-/** Go on by some simulated seconds; false if the motion ended. */
+/** Advance by simulated seconds; false if the motion has ended. */
 async function advance(by: number): Promise<boolean> {
   const { ok } = await send("advance", { by, most_ms: MOST_MS });
   state.value = ok;
@@ -152,7 +152,7 @@ export async function step(): Promise<void> {
   }
 }
 
-/** Forget the motion: the next one begins where the mechanism then is. */
+/** End the motion. The next one starts at the pose of the mechanism at that time. */
 export function stop(): void {
   pause();
   letGo();
@@ -160,7 +160,7 @@ export function stop(): void {
   state.value = null;
 }
 
-/** Change parameters while the motion goes on. */
+/** Change parameters during the motion. */
 export async function setParameters(values: Record<string, number>): Promise<void> {
   try {
     const { ok } = await send("parameters", { values }, "parameters");

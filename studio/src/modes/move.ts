@@ -1,4 +1,4 @@
-// Moving: every length is kept, and the mechanism follows the pointer on its branch.
+// Move mode: all lengths stay, and the mechanism follows the pointer on its branch.
 import { signal } from "@preact/signals";
 import type { Pose } from "../core/protocol";
 import { snapStep } from "../draw/measure";
@@ -16,7 +16,7 @@ export const locked = signal<string[]>([]);
 /** All configurations with the free coordinates of the present pose. */
 export const configurations = signal<{ complete: boolean; poses: Pose[] } | null>(null);
 
-/** Steps to which points are placed in one push by a key. */
+/** The number of snap steps of one push by a key. */
 const PUSH = 2;
 
 let grip: Grip | null = null;
@@ -50,7 +50,7 @@ function letGo(): void {
   configurations.value = null;
 }
 
-/** Send the newest place of the pointer, one request at a time and one for each frame. */
+/** Send the newest position of the pointer: one request at a time, at most one for each frame. */
 async function follow({ body, point }: Grip): Promise<void> {
   working = true;
   try {
@@ -80,7 +80,7 @@ export async function push(dx: number, dy: number): Promise<void> {
   await follow(held.grip);
 }
 
-/** A line from the body to the pointer where it cannot follow. */
+/** Draw a line from the body to the pointer if the body cannot follow. */
 function showPull(name: string, point: Point, to: Point): void {
   const at = poses.value[mechanism.value!.bodies.findIndex((body) => body.name === name)];
   const from = at && placed(at, point);
@@ -97,7 +97,7 @@ export async function findConfigurations(): Promise<void> {
   }
 }
 
-/** Go on from another pose. */
+/** Continue from another pose. */
 export async function choose(other: Pose): Promise<void> {
   living.stop();
   try {

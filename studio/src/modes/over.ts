@@ -1,29 +1,29 @@
-// What takes the place of the time: the quantity and the range of kinematics that the user requests.
+// Kinematics over a quantity, which replaces the time: the quantity and the range that the user chooses.
 import { computed, effect, signal } from "@preact/signals";
 import { entries } from "../catalogue/tree";
 import type { Quantity } from "../core/protocol";
 import { displayed, LENGTHS } from "../draw/display";
 import { mechanism, mobility, openings, tree, units } from "../store/state";
 
-/** One more choice among the analyses of the case; names have no space. */
+/** An additional choice beside the analyses of the case. It has spaces, and names of analyses have none. */
 export const OVER = "over a quantity";
-/** The time, where nothing takes its place. */
+/** The variable of runs over time. */
 export const TIME: Quantity = { name: "t", unit: "s" };
 
 /** The quantities of the mechanism that a run may follow. */
 export const positions = signal<Quantity[]>([]);
 const chosen = signal("");
-/** First and last value as the user writes them; null for a whole turn. */
+/** First and last value, as typed; null for a whole turn. */
 const written = signal<[string, string] | null>(null);
 
-/** The quantities that drivers have as their coordinate. */
+/** The coordinates of drivers. */
 const driven = computed(() =>
   Object.values(entries(tree.value, "drivers")).flatMap(({ coordinate }) =>
     typeof coordinate === "string" ? [coordinate] : [],
   ),
 );
 
-/** Keep the position quantities of bodies and elements: those of drivers and of links that turn fully come first. */
+/** Offer the position quantities of bodies and elements, first those of drivers and of links that turn fully. */
 export function offer(all: Quantity[]): void {
   const turning = (mobility.value?.four_bars ?? []).flatMap((one) =>
     (one.turning ?? []).map((body) => `${body}.angle`),
@@ -48,7 +48,7 @@ export function follow(name: string): void {
 /** The unit in which the range is written. */
 export const unit = computed(() => displayed(over.value?.unit ?? "", units.value).unit);
 
-/** The range as it is shown; a quantity that is no angle has none at first. */
+/** The shown range. For a length, it is empty until the user types it. */
 export const range = computed<[string, string]>(() => {
   if (written.value) return written.value;
   if (over.value?.unit !== "rad") return ["", ""];
@@ -60,7 +60,7 @@ export function writeRange(side: 0 | 1, text: string): void {
   written.value = side === 0 ? [text, last] : [first, text];
 }
 
-/** The range as the core reads it; null if an end is missing. */
+/** The range in the notation of the core; null if an end is missing. */
 export function rangeOfCore(): [string, string] | null {
   const inUnit = (text: string) =>
     unit.value === "°" ? `(${text})*deg` : unit.value === "mm" ? `(${text})/${LENGTHS.mm}` : text;

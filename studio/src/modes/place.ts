@@ -41,10 +41,10 @@ let chosen: Record<string, Value> = {};
 let changes: Change[] = [];
 let now: Motion[] = [];
 
-/** What the clicks before still do. */
+/** The work of earlier clicks; it resolves when all of it is done. */
 let working: Promise<void> = Promise.resolve();
 
-/** Do something for a tool after all that was begun before, unless another tool was chosen meanwhile. */
+/** Run `what` after the work of earlier clicks, unless another tool is active by then. */
 function queue(active: Tool, what: () => Promise<void>): Promise<void> {
   working = working.then(() => (tool.value === active ? what() : undefined)).catch(report);
   return working;
@@ -116,7 +116,7 @@ async function clickPlace(active: Tool, spot: Spot): Promise<void> {
   else announce("info", texts.place.next(active.label, active.placing === "many"));
 }
 
-/** Make the body of the places chosen so far. */
+/** Make the body from the places that are chosen. */
 export async function finish(): Promise<void> {
   const active = tool.value;
   if (active) await queue(active, () => make(active));
@@ -139,7 +139,7 @@ async function clickReference(active: Tool, spot: Spot): Promise<void> {
   await goOn(active);
 }
 
-/** Say what is wanted. Where a curve is wanted, one can be added. */
+/** Show which reference is needed. If it is a curve, offer to add one. */
 function refuse(active: Tool, field: Field, spot: Spot): void {
   const found = under(spot, new Set());
   const held = active.group === "drivers" && field.shape === "coordinate" ? ownerUnder(found) : null;
@@ -155,7 +155,7 @@ function refuse(active: Tool, field: Field, spot: Spot): void {
   announce("info", wanted, field.shape === "curve" && takesCurves(body) ? { action } : {});
 }
 
-/** Ask for the next reference, or make the element. */
+/** Show which reference is next, or make the element. */
 async function goOn(active: Tool): Promise<void> {
   const next = active.references.find(({ name }) => !(name in chosen));
   if (next) announce("info", texts.place.choose(active.label, next.name, String(next.shape)));
@@ -179,7 +179,7 @@ async function apply(active: Tool, { changes: all, name }: Added): Promise<void>
   else announce("done", texts.place.added(active.label, name));
 }
 
-/** What the pointer refers to, as a text of the file. */
+/** The reference under the pointer, in the notation of the file. */
 async function referenceOf(active: Tool, shape: string, spot: Spot): Promise<string | null> {
   const taken = new Set(Object.values(chosen).map((one) => String(one).split(".")[0]!));
   const found = under(spot, taken);
@@ -193,7 +193,7 @@ async function referenceOf(active: Tool, shape: string, spot: Spot): Promise<str
   return motion?.name ?? null;
 }
 
-/** An existing point, or a new one of the body there. */
+/** The point under the pointer, or a new point of the body there. */
 function pointUnder(spot: Spot, { fresh, body }: Under): string {
   const { at } = snapHere(spot);
   places.push({ at: fresh?.at ?? at, hits: [] });
@@ -203,7 +203,7 @@ function pointUnder(spot: Spot, { fresh, body }: Under): string {
   return found.reference;
 }
 
-/** Begin anew with the active tool, or with another one. */
+/** Forget all clicks, and start with the active tool or another one. */
 export function restart(next: Tool | null = tool.value): void {
   [places, chosen, changes, now] = [[], {}, [], []];
   typedLength.value = "";
@@ -220,7 +220,7 @@ export function restart(next: Tool | null = tool.value): void {
   if (!next.placing && !first) void complete(next);
 }
 
-/** Whether a line is being drawn, whose length may be typed. */
+/** Whether a line is in progress; its length may then be typed. */
 export function drawing(): boolean {
   return places.length > 0 && tool.value?.placing !== null;
 }

@@ -1,4 +1,4 @@
-// What all plots of the page share: their axis, the part of it that is shown, and the place that is looked at.
+// The common state of all plots of the page: their horizontal axis, its visible part, and the time under the pointer.
 import { computed, effect, signal } from "@preact/signals";
 import { displayed } from "../draw/display";
 import { onAxis, type Stored } from "../give/stored";
@@ -8,22 +8,22 @@ import { straight } from "../plot/straight";
 import { TimeSpan } from "../plot/timespan";
 import { plots, stored } from "../store/plots";
 import { units } from "../store/state";
-import { course, quantities, span, variable } from "./read";
+import { condition, course, quantities, span, variable } from "./read";
 
-/** The plots as they are drawn, by their keys. */
+/** The drawn plots by their keys. */
 export const drawn = new Map<number, Plot>();
 /** The time under the pointer, or null. */
 export const looked = signal<number | null>(null);
-/** Counts changes of the part that is shown. */
+/** Counts changes of the visible part. */
 export const stretched = signal(0);
 
 export const across = computed<Across>(() => {
   const { name, unit } = variable.value;
   const { factor, unit: shown } = displayed(unit, units.value);
-  return { name, shown, divisor: 1 / factor };
+  return { name, shown, divisor: 1 / factor, condition: condition.value };
 });
 
-/** A stored run has a place on the axis if one of the plotted quantities has. */
+/** The plotted curves of the stored run that have a place on the axis. */
 const besides = computed(() => {
   const other = stored.value;
   if (!other) return [];
@@ -35,7 +35,7 @@ function unitOf(name: string): string {
   return quantities.value.find((one) => one.name === name)?.unit ?? "";
 }
 
-/** Both ends of the present run and of the stored one that is drawn beside it. */
+/** The ends of the interval that contains the present run and the drawn curves of the stored run. */
 const ends = computed(() => {
   let [begin, end] = span.value;
   for (const { t } of besides.value) [begin, end] = [Math.min(begin, t[0]!), Math.max(end, t.at(-1)!)];
@@ -65,7 +65,7 @@ function storedCurve(other: Stored | null, of: Pick<Curve, "name" | "unit" | "nu
   return found ? [straight({ ...of, stored: true, t: found.t, values: found.row })] : [];
 }
 
-/** Whether the stored run is one over another variable than the present one. */
+/** Whether the stored run is over another variable than the present run. */
 export const hasOtherAxis = computed(() => {
   const other = stored.value?.variable.name;
   return other !== undefined && other !== variable.value.name;

@@ -1,10 +1,10 @@
-// Pointer and wheel: a mode takes them, or they move and zoom the sheet.
+// Passes pointer and wheel to the mode, or moves and zooms the sheet.
 import { placeOn, spreadOf, turned } from "../plane/gestures";
 import { distance, type Point } from "../plane/points";
 import type { View } from "../plane/view";
 import type { Handler, Spot } from "./handler";
 
-/** A press that moves less than this is a click, px. */
+/** A press with less motion than this is a click, px. */
 const STILL = 5;
 
 export function listenToPointer(

@@ -1,4 +1,4 @@
-// Reading: a run of an analysis, its poses over time, its quantities.
+// Read mode: a run of an analysis, its poses over time, its quantities.
 import { batch, computed, effect, signal } from "@preact/signals";
 import type { Pose, Quantity, Ran, Requests } from "../core/protocol";
 import { placeIn } from "../plane/instants";
@@ -11,7 +11,7 @@ import type { Handler } from "./handler";
 import { OVER, offer, over, rangeOfCore, TIME } from "./over";
 import { written } from "./shown";
 
-/** A run with its frames: t and the poses of all moving bodies, row by row. A run to lower values is kept backwards. */
+/** A run with its frames: t and the poses of all moving bodies, row by row. A run to lower values is reversed. */
 export interface Course {
   ran: Ran;
   backwards: boolean;
@@ -22,22 +22,22 @@ export interface Course {
 
 export const course = signal<Course | null>(null);
 export const quantities = signal<Quantity[]>([]);
-/** The joints and drivers whose reactions are not unique: the smallest ones are shown. */
+/** The joints and drivers whose reactions are not unique. The shown reactions are the smallest ones. */
 export const notUnique = computed(() => course.value?.ran.not_unique ?? []);
 export const time = signal(0);
 const frames = new Frames();
 export const playing = frames.playing;
 export const rate = signal(1);
 export const running = signal(false);
-/** The analysis of the case that is chosen; empty for dynamics from the pose that is shown. */
+/** The chosen analysis of the case; empty for dynamics from the shown pose. */
 export const chosen = signal<string | null>(null);
-/** The analyses of the case that end at a time, and so give a motion. */
+/** The analyses of the case with an end time. Their result is a motion. */
 export const analyses = computed(() => {
   const motions = catalogue.value.analyses.filter(({ fields }) => fields.some(({ name }) => name === "t_end"));
   return (mechanism.value?.analyses ?? []).filter(({ type }) => motions.some(({ name }) => name === type));
 });
 
-/** The analysis that runs: the chosen one if the case still has it, otherwise the first. */
+/** The analysis of the next run: the chosen one if the case contains it, otherwise the first. */
 export const analysis = computed(() => {
   if (chosen.value === "" || chosen.value === OVER || analyses.value.some(({ name }) => name === chosen.value))
     return chosen.value!;
@@ -49,11 +49,15 @@ effect(() => {
   chosen.value = null;
 });
 
-/** The quantity in the place of the time, and the unit of its values; otherwise the time. */
-export const variable = computed(() => course.value?.ran.over ?? TIME);
+/** The quantity in place of the time, with its SI unit; otherwise the time. */
+export const variable = computed<Quantity>(() => course.value?.ran.over ?? TIME);
 
-/** The end of a run without an analysis, s, which is also the time in which a range is played; and its number of outputs. */
+/** What forces over this quantity contain; empty over time. */
+export const condition = computed(() => course.value?.ran.over?.condition ?? "");
+
+/** The end of a run without an analysis, s. A run over a quantity is also played in this time. */
 const T_END = 5;
+/** The number of outputs of a run without an analysis. */
 const OUTPUTS = 500;
 
 export const span = computed<[number, number]>(() => {
@@ -102,7 +106,7 @@ export async function run(t_end?: number): Promise<Ran | null> {
   }
 }
 
-/** The run that the panel describes. */
+/** The request of the run that is chosen in the panel. */
 async function requested(): Promise<Requests["run"]["send"]> {
   if (analysis.value !== OVER) return analysis.value ? { analysis: analysis.value } : untilTime();
   offer((await send("quantities", {})).ok);
@@ -111,7 +115,7 @@ async function requested(): Promise<Requests["run"]["send"]> {
   return { over: over.value.name, range };
 }
 
-/** The times and frames with growing times. */
+/** Times and frames in the order of growing times. */
 function inOrder(numbers: Float64Array, width: number): Pick<Course, "t" | "rows" | "backwards"> {
   const n = Math.floor(numbers.length / width);
   const backwards = n > 1 && numbers[0]! > numbers[(n - 1) * width]!;
@@ -123,14 +127,14 @@ function inOrder(numbers: Float64Array, width: number): Pick<Course, "t" | "rows
   return { t: Float64Array.from({ length: n }, (_, k) => rows[k * width]!), rows, backwards };
 }
 
-/** A run from the pose that the core has, until a time or for some seconds. */
+/** The request of a run from the pose of the core until `t_end`, or for T_END. */
 async function untilTime(t_end?: number): Promise<{ t_end: number; output_step: number }> {
   const { t } = (await send("pose", {})).ok;
   const end = t_end ?? t + T_END;
   return { t_end: end, output_step: (end - t) / OUTPUTS };
 }
 
-/** The poses at one time: between frames as their mean, weighted by the distance in time. */
+/** The poses at one time, by linear interpolation between frames. */
 export function posesAt({ t, rows, width }: Course, at: number): Pose["poses"] {
   const { low, high, share } = placeIn(t, at);
   return Array.from({ length: (width - 1) / 3 }, (_, body) => {
@@ -172,7 +176,7 @@ export function toggle(): void {
   else void play();
 }
 
-/** Values of quantities at all outputs, one row for each name; `Superseded` if the run is replaced meanwhile. */
+/** Values of quantities at all outputs, one row for each name. Raises `Superseded` if another run replaces this one. */
 export async function valuesOf(names: string[]): Promise<{ units: string[]; rows: Float64Array[] }> {
   const run = course.value;
   const { ok, numbers } = await send("values", { names }).catch((error: unknown) => {

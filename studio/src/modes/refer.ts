@@ -1,4 +1,4 @@
-// What a click refers to, as a text of the file.
+// The references of a click, in the notation of the file.
 import { entry, isTable } from "../catalogue/tree";
 import type { Body } from "../core/protocol";
 import type { PointHit } from "../plane/hits";
@@ -6,7 +6,7 @@ import { tree } from "../store/state";
 import type { Spot } from "./handler";
 import { bodyUnder, elementUnder, pointsUnder } from "./seen";
 
-/** What is under the pointer; bodies that were chosen before are passed over if there is another one. */
+/** Points and body under the pointer. Bodies that are not yet chosen come first. */
 export interface Under {
   spot: Spot;
   hits: PointHit[];
@@ -29,7 +29,7 @@ export function jointUnder({ spot, hits }: Under): string | null {
   return joints.find(([, value]) => isTable(value) && names.includes(String(value.i)))?.[0] ?? null;
 }
 
-/** A body with a curve: the one that the click chose, otherwise another one with a point there. */
+/** A curve of the clicked body; if it has none, a curve of another body with a point there. */
 export function curveUnder({ hits, body }: Under): string | null {
   for (const name of [body?.name, ...hits.map((hit) => hit.body.name)]) {
     const curves = name === undefined ? undefined : entry(tree.value, "bodies", name)?.curves;
@@ -39,7 +39,7 @@ export function curveUnder({ hits, body }: Under): string | null {
   return null;
 }
 
-/** The body or element whose coordinates a click means. */
+/** The body or element whose coordinates a click selects. */
 export function ownerUnder({ spot, body }: Under): string | null {
   return (body && !body.ground ? body.name : elementUnder(spot)?.name) ?? null;
 }

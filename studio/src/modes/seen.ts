@@ -1,4 +1,4 @@
-// What is under the pointer now.
+// Points, bodies and elements under the pointer in the present pose.
 
 import type { Group } from "../catalogue/catalogue";
 import type { Body } from "../core/protocol";

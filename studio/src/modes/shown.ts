@@ -1,4 +1,4 @@
-// Values of what takes the place of the time, as texts in display units.
+// Values of the time, or of the quantity that replaces it, as texts in display units.
 import { displayed } from "../draw/display";
 import { minus } from "../draw/numbers";
 import { units } from "../store/state";
@@ -9,7 +9,7 @@ export function written(value: number, base: string): string {
   return joined(String(Number((value * factor).toPrecision(6))), unit);
 }
 
-/** The same with a fixed number of decimals, so that it does not jump while it runs. */
+/** The same with a fixed number of decimals, so that the text keeps its width during a motion. */
 export function clock(value: number, base: string): string {
   const { factor, unit } = displayed(base, units.value);
   return joined((value * factor).toFixed(unit === "°" ? 1 : 3), unit);

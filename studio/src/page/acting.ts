@@ -1,4 +1,4 @@
-// Where forces act: an element acts on a point of body j, and with the opposite force on a point of body i.
+// The points where forces act. An element acts on a point of body j, and with the opposite force on a point of body i.
 import { type Group, typeOf } from "../catalogue/catalogue";
 import { entry } from "../catalogue/tree";
 import type { Triple } from "../core/protocol";
@@ -20,12 +20,12 @@ export function endsOf(groups: readonly Group[], on: number | null): End[] {
   });
 }
 
-/** What the scene draws of each element of a group. */
+/** The joint or the first symbol of each element of a group. */
 function drawnOf(group: Group): Map<string, Drawn> {
   const { joints, symbols } = (scene.value ?? {}) as { joints?: Named[]; symbols?: Named[] };
   if (group === "joints") return new Map(joints?.map((one) => [one.name ?? "", one]));
   const names = new Set((group === "bodies" ? [] : (mechanism.value?.[group] ?? [])).map(({ name }) => name));
-  // The first symbol of an element, such as the coil of a spring with a damper.
+  // An element may have several symbols, such as a coil and a dashpot; the first is used.
   return new Map(
     [...(symbols ?? [])]
       .reverse()
@@ -40,7 +40,7 @@ type Named = Drawn & { name?: string; element?: string };
 function ends(group: Group, element: string, { bodies, points }: Drawn): End[] {
   const written = entry(tree.value, group, element) ?? {};
   const fields = typeOf(catalogue.value, group, element, written)?.fields ?? [];
-  // What moves along a curve of body j acts where the point of body i is.
+  // An element that moves along a curve of body j acts at the point of body i.
   const along = fields.some(({ name, shape }) => name === "j" && shape === "curve");
   const end = (body: number, from: number, point: Point | null, sign: End["sign"]): End[] => {
     const pose = poses.value[from];

@@ -2,13 +2,13 @@
 import source from "virtual:worker";
 import type { Line } from "../core/transport";
 
-/** The core, compressed as it lies in the page. */
+/** The compressed core, read from the page. */
 export function packedCore(): Uint8Array {
   const text = document.getElementById("core")!.textContent ?? "";
   return Uint8Array.from(atob(text.trim()), (letter) => letter.charCodeAt(0));
 }
 
-/** A worker that has got the core. */
+/** Start a worker and send it the core. */
 export function worker(packed: Uint8Array): Line {
   const address = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
   const made = new Worker(address);

@@ -20,7 +20,7 @@ export interface Interface {
   settled(): Promise<void>;
 }
 
-/** Resolves when what has changed is laid out and drawn: a new size of the sheet is known after one frame. */
+/** Resolves when all changes are drawn. The layout takes one frame, and the sheet has its new size in the next one. */
 async function drawn(): Promise<void> {
   for (let frame = 0; frame < 2; frame += 1) await new Promise(requestAnimationFrame);
 }

@@ -1,4 +1,4 @@
-// What keys do. A control that has the focus keeps the keys that it needs itself.
+// The keyboard. A control that has the focus keeps the keys that it needs.
 
 import { entry } from "../catalogue/tree";
 import type { Tree } from "../core/protocol";
@@ -101,7 +101,7 @@ function drawsByKeys(): boolean {
   return mode.value === "edit" && (tool.value !== null || awaitsClick());
 }
 
-/** Where drawing by keys begins: at the next mark of the first build, otherwise in the middle of the sheet. */
+/** The start of drawing by keys: the next mark of the first build, otherwise the middle of the sheet. */
 function suggested(): Point {
   const marks = ghost.value?.at ?? [];
   return marks[drawing() ? 1 : 0] ?? marks[0] ?? view.toPlane(view.middle());

@@ -1,11 +1,11 @@
-// What a run adds to the drawing: traces of points, arrows of forces and velocities.
+// Traces of points, and arrows of forces, velocities and accelerations, which a run adds to the drawing.
 import { computed, effect, signal } from "@preact/signals";
 import type { Group } from "../catalogue/catalogue";
 import type { ArrowKind, Vectors } from "../draw/arrows";
 import { displayed } from "../draw/display";
 import { ACTING } from "../draw/ends";
 import { Trace } from "../draw/traces";
-import { type Course, course, quantities, starred, time, valuesOf } from "../modes/read";
+import { type Course, condition, course, quantities, starred, time, valuesOf } from "../modes/read";
 import { points } from "../modes/seen";
 import { placeIn } from "../plane/instants";
 import { distinctPaths, type Path } from "../plane/paths";
@@ -15,7 +15,7 @@ import { mechanism, mode, units } from "../store/state";
 import { texts } from "../texts";
 import { endsOf } from "./acting";
 
-/** Kinds of arrows: the endings of the names of their two components, and the groups whose elements have them. */
+/** Each kind of arrow: the last parts of the names of its two components, and the groups of its elements. */
 export const KINDS = {
   reactions: { ends: ["fx", "fy"], groups: ACTING.reactions },
   force: { ends: ["fx", "fy"], groups: ACTING.force },
@@ -32,7 +32,7 @@ export const arrows = signal<Record<Kind, boolean>>({
 /** The name of the body whose arrows are shown; empty for those of all bodies. */
 export const onBody = signal("");
 
-/** The number of that body; null for all, also if the case has no longer a body of this name. */
+/** The number of that body; null for all bodies, and if the case has no body of this name any more. */
 const only = computed(() => {
   const found = mechanism.value?.bodies.findIndex(({ name }) => name === onBody.value) ?? -1;
   return found < 0 ? null : found;
@@ -58,10 +58,13 @@ const all = computed(() => {
   );
 });
 
-/** Those that are drawn. */
+/** The paths that are drawn. */
 const paths = computed(() => distinctPaths(all.value));
 
-/** Those whose points have arrows: of points that are pinned together, each on its own body if one is chosen. */
+/**
+ * The paths whose points have arrows. Of points that are pinned together, one has an arrow. If a body is
+ * chosen, its own points have arrows.
+ */
 const tracked = computed(() =>
   only.value === null ? paths.value : distinctPaths(all.value.filter(({ body }) => body === only.value)),
 );
@@ -127,7 +130,7 @@ async function fetchKind(kind: Kind, all: string[]): Promise<Fetched | null> {
 
 type Place = Pick<Vectors["vectors"][number], "element" | "owner" | "at"> & { sign: 1 | -1 };
 
-/** Where the things with arrows of a kind are: elements at their points, otherwise points. */
+/** The places of the arrows of a kind: the ends of elements for forces, otherwise the points of bodies. */
 function where({ groups }: (typeof KINDS)[Kind]): Place[] {
   const bodies = mechanism.value?.bodies ?? [];
   if (groups.length)
@@ -162,4 +165,10 @@ export const vectors = computed<Shown[]>(() => {
     });
     return { kind, unit, largest: factor * largest, vectors: found };
   });
+});
+
+/** The line beside the arrows of forces: over a quantity, it says what they contain. */
+export const notes = computed(() => {
+  const acting = vectors.value.some(({ kind }) => KINDS[kind].groups.length > 0);
+  return acting && condition.value ? [texts.read.forces(condition.value)] : [];
 });

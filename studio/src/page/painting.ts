@@ -1,10 +1,10 @@
-// The whole drawing, from what the page shows now.
+// Paints the whole drawing from the state of the page.
 import { isPin } from "../catalogue/catalogue";
 import { entry } from "../catalogue/tree";
 import { paintArrows, type Vectors } from "../draw/arrows";
 import { LENGTHS } from "../draw/display";
 import { paintGhost } from "../draw/ghost";
-import { paintGravity, paintGrid, paintLengthScale } from "../draw/measure";
+import { paintGravity, paintGrid, paintLengthScale, paintNotes } from "../draw/measure";
 import {
   paintHandles,
   paintLine,
@@ -23,9 +23,9 @@ import { type Point, placed } from "../plane/points";
 import { backdrop } from "../store/backdrop";
 import { preview, view, viewed } from "../store/sheet";
 import { catalogue, items, mechanism, mode, poses, scene, selection, shown, tree, units } from "../store/state";
-import { type Shown, traces, vectors } from "./motionOverlay";
+import { notes, type Shown, traces, vectors } from "./motionOverlay";
 
-/** Everything that the drawing depends on. */
+/** Read all signals that the drawing depends on, so that an effect follows them. */
 export function follow(): void {
   for (const one of [
     backdrop,
@@ -59,6 +59,7 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
     const names = paintItems(context, view, items.value, poses.value, shown.value, colours);
     if (!items.value.length) paintLinks(context, view, found.bodies, poses.value, colours);
     if (editing) paintHandles(context, view, loosePoints(), colours);
+    names.push(...paintNotes(context, notes.value, colours));
     paintArrows(context, view, vectors.value.map(sized), names, colours);
     paintGravity(context, view, found.gravity, colours);
   }
@@ -68,7 +69,7 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
   paintPreview(context, colours);
 }
 
-/** The unit of the scale: the one that is chosen, or with m the one that suits the size of the mechanism. */
+/** The unit of the scale: mm if it is chosen; with m, the unit that suits the size of the mechanism. */
 function lengthScale(): { unit: string; metres: number } {
   const { length } = units.value;
   const metre = { unit: length, metres: 1 / LENGTHS[length] };
@@ -126,7 +127,7 @@ function paintSelection(context: CanvasRenderingContext2D, colours: Colours): vo
     paintRing(context, view, at, colours, 15);
 }
 
-/** Where the points are to which an element refers. */
+/** The positions of the points to which an element refers. */
 function placesOf(references: unknown[]): Point[] {
   const found = points().filter(({ body, point }) => references.includes(`${body.name}.${point}`));
   return found.map(({ at }) => at);

@@ -1,4 +1,4 @@
-// What concerns the whole case: title, gravity, parameters, analyses, and its contents.
+// The properties of the whole case: title, gravity, parameters, analyses, and its contents.
 import { useState } from "preact/hooks";
 import { GROUPS } from "../catalogue/catalogue";
 import { entries } from "../catalogue/tree";
@@ -9,12 +9,13 @@ import { report } from "../store/session";
 import { announce, catalogue, mechanism, tree } from "../store/state";
 import { texts } from "../texts";
 import { Backdrop } from "./Backdrop";
+import { Contents } from "./Contents";
 import { Field, put, putTyped } from "./Field";
 import { Mobility } from "./Mobility";
-import { Contents } from "./Properties";
 import { Button, Section } from "./parts";
 import { Ready } from "./Ready";
 import { Start } from "./Start";
+import { TextField } from "./TextField";
 
 export function Case() {
   const words = texts.properties;
@@ -40,42 +41,6 @@ export function Case() {
       <Mobility />
       <Ready />
       <Backdrop />
-    </div>
-  );
-}
-
-interface TextFieldProps {
-  label: string;
-  value: string;
-  keep(text: string): void;
-  unit?: string;
-  placeholder?: string;
-  hint?: string;
-  onRemove?: () => void;
-}
-
-export function TextField({ label, value, keep, unit, placeholder, hint, onRemove }: TextFieldProps) {
-  const id = `case-${label}`;
-  return (
-    <div class="field">
-      <label for={id}>
-        <bdi>{label}</bdi>
-      </label>
-      <input
-        id={id}
-        type="text"
-        autocomplete="off"
-        spellcheck={false}
-        value={value}
-        placeholder={placeholder ?? ""}
-        title={hint}
-        onChange={(event) => event.currentTarget.value !== value && keep(event.currentTarget.value)}
-      />
-      {onRemove ? (
-        <Button label={`${texts.properties.remove} ${label}`} icon="close" kind="small" onClick={onRemove} />
-      ) : (
-        <span class="unit">{unit ?? ""}</span>
-      )}
     </div>
   );
 }

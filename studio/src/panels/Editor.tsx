@@ -13,7 +13,7 @@ import { type } from "../store/document";
 import { problems, text, unassembled } from "../store/state";
 import { texts } from "../texts";
 
-/** Typing is read after this time, ms. */
+/** The text is read when nothing was typed for this time, ms. */
 const PAUSE = 180;
 
 const LOOK = EditorView.theme({
@@ -55,7 +55,7 @@ export function Editor() {
   return <div class="editor" ref={host} />;
 }
 
-/** The editor is in a shadow root, where its styles are sheets of the script: the policy allows no other ones. */
+/** The editor is in a shadow root. Its styles are sheets made by the script, as the policy of the page requires. */
 function connect(host: HTMLElement): () => void {
   const root = host.shadowRoot ?? host.attachShadow({ mode: "open" });
   const parent = document.createElement("div");
@@ -107,7 +107,7 @@ function connect(host: HTMLElement): () => void {
   };
 }
 
-/** Show another text; only the part that differs is replaced, so that the cursor stays. */
+/** Show another text. Only the differing part is replaced, so that the cursor keeps its place. */
 function takeUp(view: EditorView, given: string): void {
   const before = view.state.doc.toString();
   if (before === given) return;

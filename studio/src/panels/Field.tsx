@@ -11,15 +11,15 @@ import { report } from "../store/session";
 import { mechanism, problems, tree } from "../store/state";
 import { texts } from "../texts";
 
-/** A longer table has the whole width of the panel. */
+/** A table with more characters has the whole width of the panel. */
 const LINE = 18;
 
-/** Put a value at a place of the case, or remove what is there. */
+/** Write a value at a path of the case, or remove the value there. */
 export function put(path: Path, value: Value | undefined): void {
   void change([value === undefined ? { path, remove: true } : { path, value }]);
 }
 
-/** Put a typed text at a place of the case. Tables and lists may be in the notation of the file. */
+/** Write a typed text at a path of the case. Tables and lists may be in the notation of the file. */
 export async function putTyped(path: Path, text: string, list = false): Promise<void> {
   if (!isNotation(text, list)) return put(path, list ? typedList(text) : typed(text));
   const value = meantValue(await notationMeant(text));
@@ -153,7 +153,7 @@ function Choice({ id, field, path, value, choices }: ControlProps & { choices: s
   );
 }
 
-/** What a field may refer to, or its words; null for free values. */
+/** The permitted references or words of a field; null for free values. */
 function choicesOf({ shape }: FieldOf): string[] | null {
   if (typeof shape === "object") return "words" in shape ? shape.words : null;
   const bodies = mechanism.value?.bodies ?? [];

@@ -9,7 +9,7 @@ import { mode, tool } from "../store/state";
 import { texts } from "../texts";
 import { Button } from "./parts";
 
-/** Room between the card, the marks and the edge of the sheet, px. */
+/** Distances of the card from the marks and from the edge of the sheet, px. */
 const ROOM = 28;
 const EDGE = 8;
 
@@ -54,13 +54,13 @@ function textOf(name: keyof typeof texts.guide.steps): string {
   return phase.value === "tool" ? words.tool(label, name) : words.steps[name];
 }
 
-/** What the card leaves free: its marks and the mechanism. */
+/** The points that the card must not cover: the marks and the mechanism. */
 function kept(): Point[] {
   const { at: places, line } = ghost.value ?? { at: [], line: [] };
   return [...places, ...line, ...points().map((one) => one.at)];
 }
 
-/** Where the card is, px: below what it leaves free, otherwise above, otherwise where more room is. */
+/** The place of the card, px: below these points, otherwise above, otherwise where more room is left. */
 function placeOf({ width, height }: { width: number; height: number }): [number, number] {
   viewed.value;
   const places = kept().map((one) => view.toScreen(one));

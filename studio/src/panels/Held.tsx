@@ -1,4 +1,4 @@
-// What a drag of the drawing does not change: points, lengths and the angle of a body.
+// Switches that hold points, lengths and the angle of a body during a drag.
 import { ofAngle, ofLengths, ofPoint } from "../edit/holding";
 import { held, mechanism } from "../store/state";
 import { texts } from "../texts";

@@ -1,4 +1,4 @@
-// The curves of a plot by name, with their values at the time that is shown, and their peaks.
+// The legend of a plot: the names of the curves, their values at the shown time, and their peaks.
 import { displayed } from "../draw/display";
 import { withUnit } from "../draw/numbers";
 import { dashOf } from "../draw/surface";
@@ -65,9 +65,9 @@ function Entry({ of, plot, curve, beside }: EntryProps) {
   );
 }
 
-/** The value at the time under the pointer, or that is shown. */
+/** The value at the time under the pointer; without a pointer, at the shown time. */
 function Now({ plot, curve }: { plot: Plot; curve: Curve }) {
-  stretched.value; // the plot may have other curves or units
+  stretched.value; // follow changes of the curves and units of the plot
   const text = plot.curves.includes(curve) ? plot.write(curve, looked.value ?? time.value) : "";
   return <output class="now">{text}</output>;
 }

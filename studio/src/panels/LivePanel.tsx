@@ -1,4 +1,4 @@
-// Living: play, speed, energy, parameters.
+// The panel of live mode: play, speed, energy, parameters.
 import { significant } from "../draw/numbers";
 import { speedsOf } from "../edit/driving";
 import * as living from "../modes/live";
@@ -91,7 +91,7 @@ function Parameters() {
   );
 }
 
-/** A slider from a fifth to the double of the value of the text, or around zero. */
+/** A slider from a fifth to twice the value in the text; for zero, a range around it. */
 function Slider({ name, value, unit }: { name: string; value: number; unit: string }) {
   const now = living.changed.value[name] ?? value;
   const [low, high] = value === 0 ? [-1, 1] : [Math.min(0.2 * value, 2 * value), Math.max(0.2 * value, 2 * value)];

@@ -1,4 +1,4 @@
-// The measures of the case, and those that are typed: their values over the run as numbers.
+// Numbers of the measures of the case and of typed measures over the run.
 import { useEffect, useState } from "preact/hooks";
 import { entries } from "../catalogue/tree";
 import { type Course, course, valuesOf } from "../modes/read";

@@ -8,14 +8,14 @@ import { catalogue, loads, mechanism, mobility, mode, text, unassembled } from "
 import { texts } from "../texts";
 import { Button, Facts, Section } from "./parts";
 
-/** The time without changes after which modes are counted, ms. */
+/** Modes are counted after this time without changes, ms. */
 const PAUSE = 300;
-/** Modes are counted for so many bodies at most, and up to so many modes. */
+/** The largest number of bodies for which modes are counted, and the largest number of modes. */
 const MOST_BODIES = 12;
 const MOST_MODES = 24;
-/** So many four-bar loops are listed. */
+/** The largest number of listed four-bar loops. */
 const MOST_LOOPS = 8;
-/** A text whose modes could not be counted: they are not counted again when the core has started anew. */
+/** The text whose modes could not be counted. They are not counted again after a restart of the core. */
 let uncounted: string | null = null;
 
 export function Mobility() {
@@ -44,7 +44,7 @@ export function Mobility() {
   );
 }
 
-/** The number of assembly modes where it is found at once, and the way to them. */
+/** The number of assembly modes, if it can be found quickly, and a link to them. */
 function Modes() {
   const [count, setCount] = useState<string | null>(null);
   const version = loads.value;

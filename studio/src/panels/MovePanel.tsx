@@ -1,4 +1,4 @@
-// Moving: assembly modes, held coordinates, playing the drivers, mobility.
+// The panel of move mode: assembly modes, held coordinates, playing the drivers, mobility.
 
 import * as living from "../modes/live";
 import { choose, configurations, findConfigurations, locked } from "../modes/move";

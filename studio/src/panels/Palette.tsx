@@ -29,11 +29,11 @@ export function Palette() {
   );
 }
 
-/** Begin with a tool, or with none. */
+/** Activate a tool, or none. */
 export function choose(one: Tool | null): void {
   restart(one);
   if (panel.value === "insert" && one) panel.value = "properties";
-  document.getElementById("sheet")?.focus({ preventScroll: true }); // keys draw
+  document.getElementById("sheet")?.focus({ preventScroll: true }); // so that keys draw
 }
 
 function ToolButton({ one }: { one: Tool }) {

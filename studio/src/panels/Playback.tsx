@@ -1,4 +1,4 @@
-// The slider of time under the drawing.
+// The slider of time below the drawing.
 import { TIME } from "../modes/over";
 import { course, playing, rate, show, span, time, toggle, variable } from "../modes/read";
 import { clock } from "../modes/shown";

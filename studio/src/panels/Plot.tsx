@@ -1,4 +1,4 @@
-// One plot over time or a quantity, with its curves, their values and peaks, and the instant that is shown.
+// One plot over time or a quantity, with its curves, their values and peaks, and the shown instant.
 import { effect } from "@preact/signals";
 import { useEffect, useRef, useState } from "preact/hooks";
 import { soon } from "../draw/soon";
@@ -66,7 +66,7 @@ function useCurves(names: readonly string[]): Curve[] {
   return curves;
 }
 
-/** Gestures, and painting whenever something that the plot shows changes. Returns a function that ends both. */
+/** Connect gestures, and paint after each change of the plot. Returns a function that ends both. */
 function connect(plot: Plot): () => void {
   let colours = palette();
   const paint = soon(() => {

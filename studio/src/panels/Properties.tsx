@@ -1,6 +1,6 @@
 // The properties of the selection; without one, those of the case and its contents.
 import { type Group, spoken, typeOf } from "../catalogue/catalogue";
-import { entries, entry, isTable } from "../catalogue/tree";
+import { entry, isTable } from "../catalogue/tree";
 import type { Tree } from "../core/protocol";
 import { addCurve, addPoint, copy, mirror, remove, rename, setLength, takesCurves } from "../edit/commands";
 import { openOutline } from "../give/outline";
@@ -11,7 +11,7 @@ import { Case } from "./Case";
 import { Field } from "./Field";
 import { Held } from "./Held";
 import { PointRows } from "./PointRows";
-import { Button, Section } from "./parts";
+import { Button } from "./parts";
 import { lengthOf, Readings } from "./Readings";
 import { Speeds } from "./Speeds";
 
@@ -127,26 +127,4 @@ function firstSentence(doc: string): string {
   const end = plain.search(/[.;](\s|$)/);
   const sentence = (end > 0 ? plain.slice(0, end) : plain).replace(/ \((?:Haug|Eich)[^)]*\)/, "");
   return `${sentence}.`;
-}
-
-/** All entries of a group, to choose from without a mouse. */
-export function Contents({ group }: { group: Group }) {
-  const names = Object.keys(entries(tree.value, group));
-  if (!names.length) return null;
-  return (
-    <Section title={texts.groups[group]}>
-      <ul class="contents">
-        {names.map((name) => (
-          <li key={name}>
-            <button type="button" onClick={() => (selection.value = { group, name })}>
-              <bdi>{name}</bdi>
-              <span>
-                {typeOf(catalogue.value, group, name, entry(tree.value, group, name))?.name.replaceAll("_", " ")}
-              </span>
-            </button>
-          </li>
-        ))}
-      </ul>
-    </Section>
-  );
 }

@@ -1,10 +1,21 @@
-// Reading: run an analysis, plots, arrows, files.
+// The panel of read mode: runs, plots, arrows, files.
 import { useState } from "preact/hooks";
 import { savePlots } from "../give/plots";
 import { openStored, saveCsv, saveNpz } from "../give/results";
-import { OVER, TIME } from "../modes/over";
+import { OVER } from "../modes/over";
 import { hasOtherAxis } from "../modes/plotting";
-import { analyses, analysis, chosen, course, notUnique, quantities, run, running, variable } from "../modes/read";
+import {
+  analyses,
+  analysis,
+  chosen,
+  condition,
+  course,
+  notUnique,
+  quantities,
+  run,
+  running,
+  variable,
+} from "../modes/read";
 import { arrows, KINDS, type Kind, onBody } from "../page/motionOverlay";
 import { plots, stored } from "../store/plots";
 import { mechanism } from "../store/state";
@@ -58,9 +69,11 @@ export function ReadPanel() {
                 {words.notUnique(notUnique.value)}
               </p>
             ) : null}
-            {variable.value === TIME ? null : (
-              <p class="doc">{words.atUnitRate(variable.value.name, variable.value.unit)}</p>
-            )}
+            {condition.value ? (
+              <p class="doc" id="condition">
+                {words.overNote(variable.value.name, condition.value)}
+              </p>
+            ) : null}
             {plots.value.map((one) => (
               <PlotCard key={one.key} plot={one} />
             ))}
@@ -75,7 +88,7 @@ export function ReadPanel() {
   );
 }
 
-/** The body on which the arrows that are shown act. */
+/** The choice of the body whose arrows are shown. */
 function OnBody() {
   const names = (mechanism.value?.bodies ?? []).map(({ name }) => name);
   const chosen = names.includes(onBody.value) ? onBody.value : "";
@@ -94,7 +107,7 @@ function OnBody() {
   );
 }
 
-/** The stored run that is compared, and which of its curves have no place in the plots. */
+/** The name of the compared run, and a note if it is over another variable. */
 function Compared() {
   const found = stored.value;
   if (!found) return null;
@@ -192,7 +205,7 @@ function Add() {
   );
 }
 
-/** The body or element of a quantity, the first part of its name; measures and transmission angles have none. */
+/** The first part of the name of a quantity: its body or element. Measures and transmission angles have none. */
 function ownerOf(name: string): string {
   return name.includes(".") ? name.split(".")[0]! : texts.read.others;
 }

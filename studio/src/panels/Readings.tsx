@@ -1,4 +1,4 @@
-// Quantities of the selection at the pose that is shown.
+// Quantities of the selection at the shown pose.
 import { useEffect, useState } from "preact/hooks";
 import type { Group } from "../catalogue/catalogue";
 import { displayed, LENGTHS } from "../draw/display";
@@ -9,7 +9,7 @@ import { mechanism, pose, poses, units } from "../store/state";
 import { texts } from "../texts";
 import { Facts, Section } from "./parts";
 
-/** The time between two readings while things move, ms. */
+/** The time between two readings during a motion, ms. */
 const PAUSE = 120;
 const MOST = 14;
 

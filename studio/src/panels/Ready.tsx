@@ -1,4 +1,4 @@
-// What prevents each analysis of the mechanism as it is drawn; a click leads to the element.
+// The obstacles of each analysis of the drawn mechanism. A click leads to the element.
 import { useEffect, useState } from "preact/hooks";
 import { GROUPS } from "../catalogue/catalogue";
 import type { Tool } from "../catalogue/tools";
@@ -40,7 +40,7 @@ export function Ready() {
   );
 }
 
-/** The list with the limits of a motion: they need a single freedom, that of a driver or one without a driver. */
+/** The list with the limits of a motion. Limits need a mechanism with a single freedom, with or without a driver. */
 function withLimits(found: Readiness[]): Readiness[] {
   const kinematics = found.find(({ analysis }) => analysis === "kinematics");
   const freedom = mobility.value?.degrees_of_freedom;
@@ -67,12 +67,12 @@ function Obstacle({ message, hint, path }: NonNullable<Readiness["problem"]>) {
   );
 }
 
-/** The tool for what a path names as missing: `drivers` without a name. */
+/** The tool for a missing element, whose path is only its group, such as `drivers`. */
 function toolOf(path: string): Tool | undefined {
   return tools.value.find(({ group }) => group === path);
 }
 
-/** Select the element of a path such as `joints.C`, or a tool for what is missing; other places are shown in the text. */
+/** Select the element of a path such as `joints.C`, or the tool for a missing element; otherwise show the text. */
 function lead(path: string): void {
   const [group, name] = path.split(".");
   const known = GROUPS.find((one) => one === group);

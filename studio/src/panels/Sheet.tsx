@@ -78,7 +78,7 @@ export function Sheet() {
   );
 }
 
-/** The motion of a run as a GIF; while it is made, its progress, and a click cancels. */
+/** The button that saves the motion as a GIF. While the GIF is made, it shows the progress, and a click cancels. */
 function Gif() {
   if (mode.value !== "read" || !course.value) return null;
   const { gifHint, gifCancel, gifProgress } = texts.sheet;
@@ -94,7 +94,7 @@ function Gif() {
   );
 }
 
-/** What belongs to the tool in use: a typed length, the end of the tool. */
+/** The controls of the active tool: the typed length, and the button that ends the tool. */
 function ToolBox() {
   const active = tool.value;
   preview.value;
@@ -124,7 +124,7 @@ function ToolBox() {
   );
 }
 
-/** Paint whenever something that is shown changes, once for each frame of the screen. */
+/** Paint after each change of the drawing, at most once for each frame of the screen. */
 function connect(canvas: HTMLCanvasElement): () => void {
   let colours = palette();
   const paint = soon(() => {

@@ -1,4 +1,4 @@
-// The panel at the side: what belongs to the mode, the text, and on phones the palette.
+// The panel at the side: the panel of the mode, the text, and on phones the palette.
 import { phase } from "../guide/guide";
 import { dismiss, hint } from "../store/hints";
 import { mode, panel, problems } from "../store/state";
@@ -44,7 +44,7 @@ export function Side() {
   );
 }
 
-/** One sentence about what is used for the first time. */
+/** One sentence about a mode or a tool at its first use. */
 function FirstTime() {
   const one = hint.value;
   if (!one) return null;
@@ -60,7 +60,7 @@ interface TabProps {
   id: string;
   label: string;
   chosen: boolean;
-  /** Marked as the next step of the first build. */
+  /** Whether it is marked as the next step of the first build. */
   next?: boolean;
   onClick(): void;
 }

@@ -1,4 +1,4 @@
-// The speeds of drivers: parameters of their laws, written in any unit, and shown in the unit of the display.
+// The speeds of drivers, which are parameters of their laws. They may be typed in any unit.
 import { entries } from "../catalogue/tree";
 import { speedsOf } from "../edit/driving";
 import { rateOf } from "../edit/start";
@@ -6,12 +6,12 @@ import { written } from "../edit/values";
 import { report } from "../store/session";
 import { mechanism, pose, tree } from "../store/state";
 import { texts } from "../texts";
-import { TextField } from "./Case";
 import { putTyped } from "./Field";
 import { Facts, Section } from "./parts";
 import { shown } from "./Readings";
+import { TextField } from "./TextField";
 
-/** All drivers, or one of them. */
+/** The speeds of all drivers, or of one. */
 export function Speeds({ of }: { of?: string }) {
   const all = speedsOf(tree.value, mechanism.value?.parameters ?? []).filter(({ driver }) => !of || driver === of);
   const own = all.filter(({ parameter }, k) => all.findIndex((one) => one.parameter === parameter) === k);

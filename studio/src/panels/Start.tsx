@@ -1,15 +1,15 @@
-// What the start prescribes: coordinates and rates with their values, and a row for another one.
+// The prescribed coordinates and rates of the start, and a row that adds another one.
 import { useState } from "preact/hooks";
 import { prescribed } from "../edit/start";
 import { written } from "../edit/values";
 import { report } from "../store/session";
 import { mechanism, tree } from "../store/state";
 import { texts } from "../texts";
-import { TextField } from "./Case";
 import { put, putTyped } from "./Field";
 import { Button, Section } from "./parts";
+import { TextField } from "./TextField";
 
-/** Coordinates are suggested up to this number. */
+/** With more coordinates, none are suggested. */
 const MOST = 60;
 
 export function Start() {

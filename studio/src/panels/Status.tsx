@@ -1,4 +1,4 @@
-// The line at the bottom: the last message, and what the mechanism is.
+// The line at the bottom: the last message, and a summary of the mechanism.
 import { mechanism, message, mobility, panel, problems, ready, unassembled } from "../store/state";
 import { texts } from "../texts";
 import { Button } from "./parts";
@@ -35,7 +35,7 @@ function Message() {
   );
 }
 
-/** Without a message: the first problem of the text. */
+/** The first problem of the text, shown if there is no message. */
 function Standing() {
   const problem = problems.value[0] ?? unassembled.value;
   if (!problem) return null;

@@ -66,7 +66,7 @@ export function Toolbar() {
   );
 }
 
-/** After a click with the mouse, keys belong to the drawing: space plays and pauses. */
+/** After a click with the mouse, return the keys to the drawing: space plays and pauses. */
 function choose(one: Mode, { detail }: MouseEvent): void {
   enter(one);
   if (detail > 0) document.getElementById("sheet")?.focus();

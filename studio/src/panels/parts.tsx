@@ -36,7 +36,7 @@ interface ButtonProps {
   kind?: string;
   children?: ComponentChildren;
   id?: string;
-  /** The label is read aloud in place of the word: another button has the same. */
+  /** Read the label aloud in place of the word, because another button has the same word. */
   spoken?: boolean;
 }
 

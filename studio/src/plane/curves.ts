@@ -1,13 +1,13 @@
-// Circles, and lines through the origin: the nearest point that is on all of them.
+// Finds the nearest common point of circles and of lines through the origin.
 import { distance, type Point } from "./points";
 
 /** A circle, or the line through the origin along a vector. */
 export type Curve = { center: Point; radius: number } | { along: Point };
 
-/** Relative to the size of the curves. */
+/** The tolerance, relative to the size of the curves. */
 const TOLERANCE = 1e-9;
 
-/** The point of all curves that is nearest to a wanted one; null if they have none in common. */
+/** The common point of all curves that is nearest to a wanted point; null if there is none. */
 export function nearestOnAll(wanted: Point, curves: readonly Curve[]): Point | null {
   const [first, ...others] = curves;
   if (!first) return wanted;
@@ -42,7 +42,7 @@ function nearest([x, y]: Point, curve: Curve): Point {
   return [center[0] + share * (x - center[0]), center[1] + share * (y - center[1])];
 }
 
-/** Where two different curves meet; curves that miss each other by less than a tolerance touch. */
+/** The common points of two different curves. Curves touch if the gap between them is below the tolerance. */
 function meets(a: Curve, b: Curve, tolerance: number): Point[] {
   if ("along" in a) return "along" in b ? [[0, 0]] : onLine(b, a.along, tolerance);
   if ("along" in b) return onLine(a, b.along, tolerance);

@@ -7,7 +7,7 @@ export interface Spread {
   width: number;
 }
 
-/** Where a pointer is, px from the corner of an element. */
+/** The position of a pointer, px from the corner of an element. */
 export function placeOn(element: Element, event: MouseEvent): Point {
   const { left, top } = element.getBoundingClientRect();
   return [event.clientX - left, event.clientY - top];
@@ -20,7 +20,7 @@ export function spreadOf(fingers: Map<number, Point>): Spread {
   return { middle, width: a && b ? distance(a, b) : 0 };
 }
 
-/** How much a turn of the wheel magnifies. */
+/** The magnification of a turn of the wheel. */
 export function turned({ deltaY, deltaMode }: WheelEvent): number {
   const pixels = deltaY * (deltaMode === 1 ? 16 : 1);
   return Math.exp(-Math.max(-200, Math.min(200, pixels)) / 400);

@@ -1,4 +1,4 @@
-// What is under a place of the drawing: points, bodies, symbols.
+// Finds the points, bodies and symbols under a place of the drawing.
 import type { Body } from "../core/protocol";
 import type { Item } from "../draw/items";
 import { isPlaceable, placeItem, UNIT } from "../draw/place";
@@ -8,14 +8,14 @@ import type { View } from "./view";
 export interface PointHit {
   body: Body;
   point: string;
-  /** Where it is in the plane. */
+  /** Its position in the plane. */
   at: Point;
 }
 
 const REACH = 11;
 const REACH_OF_TOUCH = 22;
 
-/** How near to a thing a pointer has to be, px. */
+/** The largest distance of the pointer from a hit, px. */
 export function reachOf(touch: boolean): number {
   return touch ? REACH_OF_TOUCH : REACH;
 }
@@ -29,7 +29,7 @@ export function allPoints(bodies: readonly Body[], poses: readonly Placement[]):
   });
 }
 
-/** The points within reach, the nearest place first; those at one place keep the order of the bodies. */
+/** The points within reach, the nearest first. Points at one place are in the order of their bodies. */
 export function pointsAt(px: Point, points: readonly PointHit[], view: View, reach: number): PointHit[] {
   const far = (hit: PointHit) => distance(view.toScreen(hit.at), px);
   const found = points.filter((hit) => far(hit) < reach);
@@ -64,7 +64,7 @@ function farFromLinks(px: Point, body: Body, pose: Placement, view: View): numbe
   return Math.min(...corners.map((a, k) => distanceFromSegment(px, a, corners[(k + 1) % corners.length]!)));
 }
 
-/** How far the painted items of an element or body are from a place, px; 5 within a filled area. */
+/** The distance of the painted items of an element or body from a place, px; 5 within a filled area. */
 function farFromItems(
   px: Point,
   name: string,

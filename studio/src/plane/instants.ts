@@ -1,4 +1,4 @@
-// The place of a time among the times of a run.
+// The position of a time among the outputs of a run.
 
 export interface Between {
   low: number;
@@ -6,7 +6,7 @@ export interface Between {
   share: number;
 }
 
-/** The output that lies before t, and the share of the way to the next one, from 0 to 1. */
+/** The outputs before and after t, and the share of the interval before t, from 0 to 1. */
 export function placeIn(times: ArrayLike<number>, t: number): Between {
   let [low, high] = [0, times.length - 1];
   while (high - low > 1) {

@@ -1,4 +1,4 @@
-// Paths of points over a run, and which of them are worth a line: the rule of kempe/draw/scene.py.
+// Paths of points over a run, and the choice of those that are drawn, by the rule of kempe/draw/scene.py.
 import { distance, type Point } from "./points";
 
 export interface Path {
@@ -8,12 +8,12 @@ export interface Path {
   line: Point[];
 }
 
-/** Places that differ by less than this share of what the motion covers are one place. */
+/** Places are equal if their distance is below this share of the size of the motion. */
 const SAME_PLACE = 1e-3;
-/** A few frames show whether two points coincide. */
+/** The number of frames that are compared to find coincident points. */
 const FRAMES = 16;
 
-/** The paths of points that move, without those that go with one before them. */
+/** The paths of moving points. Of coincident paths, only the first is kept. */
 export function distinctPaths(all: readonly Path[]): Path[] {
   const near = SAME_PLACE * sizeOf(all.flatMap(({ line }) => line));
   const kept: Path[] = [];
@@ -30,7 +30,7 @@ function together(a: Point[], b: Point[], near: number): boolean {
   return some.every((k) => distance(a[k]!, b[k]!) < near);
 }
 
-/** The larger side of what points cover. */
+/** The larger side of the rectangle around points. */
 function sizeOf(points: readonly Point[]): number {
   let [x0, y0, x1, y1] = [
     Number.POSITIVE_INFINITY,

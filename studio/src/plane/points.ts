@@ -4,7 +4,7 @@ export type Point = [number, number];
 /** x, y and angle of a body. */
 export type Placement = readonly [number, number, number];
 
-/** Where a point of a body with this pose is. */
+/** The global position of a point of a body with this pose. */
 export function placed([x, y, angle]: Placement, [a, b]: Point): Point {
   const [cos, sin] = [Math.cos(angle), Math.sin(angle)];
   return [x + cos * a - sin * b, y + sin * a + cos * b];
@@ -30,11 +30,11 @@ export function distanceFromSegment(p: Point, a: Point, b: Point): number {
   return distance(p, [a[0] + s * dx, a[1] + s * dy]);
 }
 
-/** A length without the noise of rounding, at most `digits` significant digits of a scale. */
+/** A length rounded to `digits` significant digits of a scale, which removes rounding errors. */
 export function rounded(value: number, step: number): number {
   if (!(step > 0)) return value;
   const decimals = Math.max(0, Math.min(12, 1 - Math.floor(Math.log10(step))));
-  return Number(value.toFixed(decimals)) + 0; // without a negative zero
+  return Number(value.toFixed(decimals)) + 0; // + 0 removes the sign of zero
 }
 
 /** The convex hull of points, counter-clockwise (Andrew's monotone chain). */

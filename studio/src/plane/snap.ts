@@ -1,9 +1,9 @@
-// Where a point is placed: at an existing point, on the grid, or on a line at a round angle.
+// Snaps a new point to an existing point, to the grid, or to a line at a round angle.
 import { distance, type Point, rounded } from "./points";
 
-/** Angles to which lines turn, rad. */
+/** Lines snap to multiples of this angle, rad. */
 const TURN = Math.PI / 12;
-/** Reach of a pull to an existing point and to a round angle, px. */
+/** The largest distance from an existing point, and from a line at a round angle, at which a point snaps to it, px. */
 const REACH = 12;
 const REACH_OF_ANGLE = 7;
 
@@ -14,11 +14,11 @@ export interface Snapping {
   step: number;
   /** Pixels per metre. */
   scale: number;
-  /** The other end of the line that is drawn. */
+  /** The other end of the line in progress. */
   from?: Point | undefined;
-  /** A length that was typed in, m. */
+  /** A typed length, m. */
   length?: number | undefined;
-  /** Without the grid and the angles; existing points still attract. */
+  /** Whether the point snaps to existing points only. */
   free?: boolean;
 }
 
@@ -41,7 +41,7 @@ export function snapped(p: Point, { points, step, scale, from, length, free }: S
   return { at: grid, kind: "grid" };
 }
 
-/** A place without the rounding errors of the pose from which it was computed. */
+/** A place, rounded to remove the errors of the pose from which it was computed. */
 function clean([x, y]: Point, step: number): Point {
   return [rounded(x, step * 1e-6), rounded(y, step * 1e-6)];
 }

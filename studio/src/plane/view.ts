@@ -1,4 +1,4 @@
-// Which part of the plane a canvas shows: the only place where metres become pixels.
+// The part of the plane that a canvas shows. Only this module converts metres to pixels.
 import type { Spread } from "./gestures";
 import type { Point } from "./points";
 
@@ -13,7 +13,7 @@ export function extent([x0, y0, x1, y1]: Bounds): number {
   return Math.max(x1 - x0, y1 - y0) || 1;
 }
 
-/** The part of the plane that is seen: px = middle + scale (x - cx), upside down for y. */
+/** The visible part of the plane: px = middle + scale (x - cx), and the same with the opposite sign for y. */
 export class View {
   bounds: Bounds;
   width = 1;
@@ -45,7 +45,7 @@ export class View {
     return Number.isFinite(scale) && scale > 0 ? scale : 100;
   }
 
-  /** The canvas has another size, in CSS pixels. */
+  /** Set the size of the canvas, in CSS pixels. */
   resize(width: number, height: number): void {
     const before = this.fitted();
     this.width = width;
@@ -54,7 +54,7 @@ export class View {
     else this.fit();
   }
 
-  /** Where the middle of the motion is when all of it is shown, px. */
+  /** The middle of the canvas without the room at the lower edge, px. */
   middle(): Point {
     return [this.width / 2, (this.height - FOOT) / 2];
   }
@@ -79,19 +79,19 @@ export class View {
     this.moved = true;
   }
 
-  /** Move and zoom with fingers: the middle of them, and the distance between two. */
+  /** Move and zoom from one state of the fingers to the next: their middle, and the distance between two. */
   follow(before: Spread, after: Spread): void {
     this.pan(after.middle[0] - before.middle[0], after.middle[1] - before.middle[1]);
     if (before.width > 0 && after.width > 0) this.zoom(after.width / before.width, after.middle);
   }
 
-  /** The same as a matrix for paths in metres. */
+  /** The transformation to pixels as a matrix, for paths in metres. */
   matrix(): DOMMatrix {
     const [e, f] = this.toScreen([0, 0]);
     return new DOMMatrix([this.scale, 0, 0, -this.scale, e, f]);
   }
 
-  /** Move the drawing by so many pixels. */
+  /** Move the drawing by pixels. */
   pan(dx: number, dy: number): void {
     this.center = [this.center[0] - dx / this.scale, this.center[1] + dy / this.scale];
     this.moved = true;

@@ -8,7 +8,7 @@ import type { Instant } from "./motion";
 import type { Scene } from "./scene";
 
 type End = Scene["ends"][number];
-/** Signs of remarks, such as that a reaction is not unique or has no bound. */
+/** Signs of remarks, for example on a reaction that is not unique or has no bound. */
 const SIGNS = ["*", "†", "‡", "§"];
 /** The force of an element on its body j. */
 type Force = (now: Instant) => Point;
@@ -36,11 +36,14 @@ export class Acting {
     });
   }
 
-  /** What the signs beside arrows of some kinds mean, a line for each sign. */
+  /** Lines below arrows of some kinds: what forces over a quantity contain, and the meaning of each sign. */
   notes(kinds: readonly string[]): string[] {
     const groups: string[] = Object.entries(ACTING).flatMap(([kind, own]) => (kinds.includes(kind) ? [...own] : []));
-    const shown = new Set(this.scene.ends.filter(({ group }) => groups.includes(group)).map(({ remark }) => remark));
-    return [...this.signs].filter(([remark]) => shown.has(remark)).map(([remark, sign]) => `${sign} ${remark}`);
+    const ends = this.scene.ends.filter(({ group }) => groups.includes(group));
+    const shown = new Set(ends.map(({ remark }) => remark));
+    const signs = [...this.signs].filter(([remark]) => shown.has(remark)).map(([remark, sign]) => `${sign} ${remark}`);
+    const { condition } = this.scene.variable;
+    return ends.length && condition ? [texts.forces(condition), ...signs] : signs;
   }
 
   private vector({ element, body, frame, point, sign, remark }: End, [x, y]: Point, now: Instant): Vector {

@@ -21,7 +21,7 @@ interface Entry {
   value: HTMLElement;
 }
 
-/** A plot on the page: what it shows is chosen here, and the legend gives the values. */
+/** A plot on the page, with the choice of its quantity and a legend with the values. */
 export class Card {
   readonly element: HTMLElement;
   readonly quantity: HTMLSelectElement;
@@ -91,9 +91,9 @@ export class Card {
     this.legend.replaceChildren(...this.entries.map(({ entry }) => entry));
   }
 
-  /** Draw with the cursor at t, or at the time that is looked at. */
+  /** Draw with the cursor at t, and with a line at `looked`, the time under the pointer. */
   paint(t: number, looked: number | null, colours: Colours): void {
-    // The legend first: the length of its texts decides how high the plot is.
+    // The legend comes first, because its height determines the height of the plot.
     for (const { curve, line, value } of this.entries) {
       line.setAttribute("stroke", colourOf(curve.number, colours));
       value.textContent = this.plot.write(curve, looked ?? t);

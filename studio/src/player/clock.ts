@@ -1,4 +1,4 @@
-// The present time, and how it goes on while the motion is played.
+// The present time, which advances while the motion plays.
 import { Loop } from "../draw/loop";
 import type { Motion } from "./motion";
 
@@ -28,13 +28,13 @@ export class Clock {
     this.changed();
   }
 
-  /** Go on by so many frames, and stop there. */
+  /** Move by a number of frames, and stop. */
   step(frames: number): void {
     this.pause();
     const times = this.motion.t;
     const { low, share } = this.motion.place(this.t);
     const here = share >= 1 ? low + 1 : low;
-    const between = share > 0 && share < 1 && frames < 0 ? 1 : 0; // back to the frame just passed
+    const between = share > 0 && share < 1 && frames < 0 ? 1 : 0; // back to the last frame
     this.seek(times[Math.min(times.length - 1, Math.max(0, here + frames + between))]!);
   }
 
@@ -55,7 +55,7 @@ export class Clock {
     else this.play();
   }
 
-  /** Go on by one frame; false at the end. */
+  /** Advance by one frame of the screen; false at the end. */
   private tick(ms: number): boolean {
     this.t = this.after(Math.min(ms, 500) / 1000); // a hidden page gets no frames
     this.changed();

@@ -7,7 +7,7 @@ import type { Motion } from "./motion";
 import type { Scene } from "./scene";
 
 const SPEEDS = [0.1, 0.2, 0.5, 1, 2, 5, 10];
-/** Controls without a use where nothing moves. */
+/** Controls that a single instant does not need. */
 const MOVING = ["play", "first", "last", "back", "forward", "loop", "scrub", "speed"];
 
 /** Buttons, slider and speed of a clock. */

@@ -2,7 +2,7 @@
 import type { Curve } from "../plot/curve";
 import type { Motion } from "./motion";
 
-/** Whose quantity it is, its key and unit, its number among those of the same kind, and its value at each frame. */
+/** The source of a curve: its owner, key and unit, its number among curves of the same kind, and its values. */
 export interface Source {
   subject: string;
   key: string;

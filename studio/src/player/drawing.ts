@@ -1,4 +1,4 @@
-// The drawing: what is shown of the scene at one instant, and the part of the plane that is seen.
+// The drawing of the scene at one instant, and the visible part of the plane.
 import { ARROW_KINDS, type Arrow, paintArrows } from "../draw/arrows";
 import { paintGravity, paintGrid, paintLengthScale, paintNotes } from "../draw/measure";
 import { paintItems } from "../draw/paint";
@@ -49,7 +49,7 @@ export class Drawing {
     this.view.resize(width, height);
   }
 
-  /** Where the joints are on the canvas at one instant, CSS pixels: their points on body j. */
+  /** The positions of the joints on the canvas at one instant, CSS pixels: their points on body j. */
   pins(now: Instant): { name: string; at: Point }[] {
     return this.scene.joints.map(({ name, bodies: [, j], points: [, at] }) => {
       return { name, at: this.view.toScreen(placed(now.poses[j]!, at)) };
@@ -64,7 +64,7 @@ export class Drawing {
     if (shown.paths) paintTraces(context, view, this.traces, colours);
     const names = paintItems(context, view, scene.display, now.poses, shown, colours);
     const chosen = ARROW_KINDS.filter((kind) => shown[kind]);
-    names.push(...paintNotes(context, vectors.acting.notes(chosen), colours));
+    names.push(...paintNotes(context, vectors.notes(chosen), colours));
     const kinds = chosen.map((kind) => ({
       kind,
       unit: vectors.unit(kind),

@@ -1,6 +1,6 @@
 // The elements of the page, python/kempe/draw/assets/player.html.
 
-/** The element of an id that the page has. */
+/** The element with an id, which the page must contain. */
 export function byId<Kind extends HTMLElement = HTMLElement>(id: string): Kind {
   return document.getElementById(id) as Kind;
 }

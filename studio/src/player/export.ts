@@ -11,11 +11,10 @@ import type { Motion } from "./motion";
 /** Curves at all frames as CSV. A curve of several plots is listed once. */
 export function table(motion: Motion, curves: readonly SceneCurve[]): string {
   const distinct = [...new Map(curves.map((curve) => [curve.name, curve])).values()];
-  const { name, unit } = motion.variable;
   const units = distinct.map((curve) => plainUnit(curve.unit));
   const names = distinct.map((curve) => curve.name);
   const rows = distinct.map(({ values }) => Float64Array.from(values));
-  return csv(Float64Array.from(motion.t), names, units, rows, { name, unit });
+  return csv(Float64Array.from(motion.t), names, units, rows, motion.variable);
 }
 
 /** Units as in the tables of kempe: letters of ASCII. */

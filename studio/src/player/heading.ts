@@ -1,4 +1,4 @@
-// Texts of the page that the motion decides.
+// Texts of the page that depend on the motion.
 
 import { playerTexts as texts } from "../texts";
 import { byId } from "./elements";
@@ -15,7 +15,7 @@ export function showTitle({ title }: Scene, motion: Motion, decimals: number): v
   byId("drawing").setAttribute("aria-label", texts.drawingOf(title || texts.theLinkage));
 }
 
-/** How many instants there are, and the error between them. */
+/** Show the number of instants and the error between them. */
 export function showSampling({ accuracy }: Scene, motion: Motion): void {
   const between = accuracy === null ? "" : texts.within(Number((100 * accuracy).toPrecision(2)));
   byId("sampling").textContent = texts.instants(motion.t.length) + (motion.smooth ? between : texts.notBetween);

@@ -1,4 +1,4 @@
-// What keys do. A control that has the focus keeps the keys that it needs itself.
+// The keyboard. A control that has the focus keeps the keys that it needs.
 
 const OWN_KEYS: Record<string, string[]> = {
   SELECT: ["ArrowUp", "ArrowDown", "ArrowLeft", "ArrowRight", "Home", "End", " ", "letters"],
@@ -18,7 +18,7 @@ export function listen(actions: Record<string, (count: number) => void>): void {
   });
 }
 
-/** The slider of time gives its keys away: they step by frames, which it cannot. */
+/** Whether a control needs a key. The slider of time passes its keys on, because it cannot step by frames. */
 function keepsKey(control: HTMLElement, key: string): boolean {
   if (control.id === "scrub") return false;
   const own = OWN_KEYS[control instanceof HTMLInputElement ? control.type : control.tagName] ?? [];

@@ -133,7 +133,7 @@ function connectToggles(): void {
   }
 }
 
-/** The choice of the body whose arrows are shown; names are text, whatever they contain. */
+/** Fill the choice of the body whose arrows are shown. Names are inserted as text, so that markup has no effect. */
 function connectBodies(): void {
   const choice = byId<HTMLSelectElement>("on-body");
   const listed = scene.bodies.map(({ name, number }) => new Option(shortened(name, 24), String(number)));
@@ -143,7 +143,7 @@ function connectBodies(): void {
     repaint();
   });
   const forces: readonly string[] = ACTING.force;
-  byId("forces").hidden = !scene.ends.some(({ group }) => forces.includes(group));
+  byId("forces").hidden = !scene.undetermined && !scene.ends.some(({ group }) => forces.includes(group));
 }
 
 function connectKeys(): void {
@@ -165,7 +165,7 @@ function connectKeys(): void {
   });
 }
 
-/** What the page shows now, for programs: pins are where joints are drawn, px from the window's corner. */
+/** The present state of the page, for programs. Pins are the drawn joints, px from the corner of the window. */
 function state() {
   const { left, top } = byId("drawing").getBoundingClientRect();
   const pins = drawing.pins(motion.at(clock.t)).map(({ name, at: [x, y] }) => ({ name, x: left + x, y: top + y }));

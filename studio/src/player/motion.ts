@@ -1,4 +1,4 @@
-// The motion of the scene: where everything is at any time, and how it moves. It needs no screen.
+// The motion of the scene: positions, rates and forces at any time. It needs no screen.
 import { placeIn } from "../plane/instants";
 import { type Placement, type Point, placed } from "../plane/points";
 import type { Scene } from "./scene";
@@ -21,7 +21,7 @@ export interface Instant {
   accelerations: Placement[];
   /** The force of each joint on its body j. */
   forces: Point[];
-  /** Between which frames it is. */
+  /** The frames before and after it. */
   place: Pick<Place, "low" | "high" | "share">;
 }
 

@@ -14,7 +14,7 @@ const MOST = 6;
 interface Calls {
   seek(t: number): void;
   changed(): void;
-  /** Called with whether there is room for another plot. */
+  /** Called with true while another plot may be added. */
   counted(more: boolean): void;
 }
 

@@ -1,4 +1,4 @@
-// The quantities that can be plotted: those that follow from the frames, and the channels of the scene.
+// The quantities for plots: those that follow from the frames, and the channels of the scene.
 import { type Point, placed } from "../plane/points";
 import { playerTexts as texts } from "../texts";
 import { SceneCurve, type Source } from "./curve";
@@ -13,7 +13,7 @@ export interface Quantity {
   name: string;
   symbol: string;
   curves: SceneCurve[];
-  /** Names of choices of several curves; all of them together by default. */
+  /** Named sets of several curves; by default, one set of all curves. */
   sets?: [string, SceneCurve[]][];
 }
 
@@ -23,21 +23,21 @@ const NOISE = 5e-9;
 
 /** Quantities of bodies that turn, each before its derivative. */
 const TURNING = [
-  { key: "angle", symbol: "φ", unit: "rad", rows: "poses" },
-  { key: "omega", symbol: "ω", unit: "rad/s", rows: "rates" },
-  { key: "alpha", symbol: "α", unit: "rad/s²", rows: "accelerations" },
+  { key: "angle", symbol: "φ", unit: "angle", rows: "poses" },
+  { key: "omega", symbol: "ω", unit: "angular_velocity", rows: "rates" },
+  { key: "alpha", symbol: "α", unit: "angular_acceleration", rows: "accelerations" },
 ] as const;
 
 /** Quantities of points: order of the derivative, component (none for the magnitude), key of the rate. */
 const MOVING = [
-  { key: "x", symbol: "x", unit: "m", order: 0, component: 0, rate: "vx" },
-  { key: "y", symbol: "y", unit: "m", order: 0, component: 1, rate: "vy" },
-  { key: "vx", symbol: "vx", unit: "m/s", order: 1, component: 0, rate: "ax" },
-  { key: "vy", symbol: "vy", unit: "m/s", order: 1, component: 1, rate: "ay" },
-  { key: "speed", symbol: "|v|", unit: "m/s", order: 1, component: null, rate: null },
-  { key: "ax", symbol: "ax", unit: "m/s²", order: 2, component: 0, rate: null },
-  { key: "ay", symbol: "ay", unit: "m/s²", order: 2, component: 1, rate: null },
-  { key: "acceleration", symbol: "|a|", unit: "m/s²", order: 2, component: null, rate: null },
+  { key: "x", symbol: "x", unit: "length", order: 0, component: 0, rate: "vx" },
+  { key: "y", symbol: "y", unit: "length", order: 0, component: 1, rate: "vy" },
+  { key: "vx", symbol: "vx", unit: "velocity", order: 1, component: 0, rate: "ax" },
+  { key: "vy", symbol: "vy", unit: "velocity", order: 1, component: 1, rate: "ay" },
+  { key: "speed", symbol: "|v|", unit: "velocity", order: 1, component: null, rate: null },
+  { key: "ax", symbol: "ax", unit: "acceleration", order: 2, component: 0, rate: null },
+  { key: "ay", symbol: "ay", unit: "acceleration", order: 2, component: 1, rate: null },
+  { key: "acceleration", symbol: "|a|", unit: "acceleration", order: 2, component: null, rate: null },
 ] as const;
 
 const DERIVATIVES = [(now: Instant, body: number, at: Point) => placed(now.poses[body]!, at), velocity, acceleration];
@@ -69,7 +69,8 @@ function ofBodies(scene: Scene, motion: Motion): Quantity[] {
   const made = [...TURNING].reverse().map(({ key, symbol, unit, rows }): Quantity => {
     const curves = turning.map(({ name, number }, k) => {
       const sample = (frame: number) => scene.frames[rows][frame]![number - 1]![2];
-      return new SceneCurve(motion, { subject: name, key, unit, number: number - 1, sample, rate: rates[k] });
+      const source = { subject: name, key, unit: scene.units[unit], number: number - 1, sample, rate: rates[k] };
+      return new SceneCurve(motion, source);
     });
     rates = curves;
     return { key, group: texts.groups.bodies, name: texts.turning[key], symbol, curves };
@@ -106,7 +107,7 @@ function ofPoints(scene: Scene, motion: Motion): Quantity[] {
       const curve = new SceneCurve(motion, {
         subject: name,
         key,
-        unit,
+        unit: scene.units[unit],
         number,
         sample,
         rate: made.get(`${name}.${rate}`),
@@ -132,7 +133,7 @@ function ofElements(scene: Scene, motion: Motion, group: "reactions" | "forces")
     force_y: ([, y]) => y,
   };
   return Object.entries(ACTING).map(([key, symbol]) => {
-    const unit = key === "torque" ? "N·m" : "N";
+    const unit = key === "torque" ? scene.units.torque : scene.units.force;
     const part = ofJoint[key];
     const joints = group === "reactions" && part ? scene.joints : [];
     const sources = joints.map((joint, k): Source => {

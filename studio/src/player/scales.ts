@@ -1,4 +1,4 @@
-// How large the quantities of a mechanism are; far below that, numbers are rounding errors.
+// The size of the quantities of a mechanism. Numbers far below it are rounding errors.
 import { extent } from "../plane/view";
 import type { Scene } from "./scene";
 
@@ -11,16 +11,17 @@ export function naturalScales(scene: Scene): Record<string, number> {
   const acceleration = largestMotion(accelerations, size);
   const kept = scene.channels.filter(({ group }) => group !== "accuracy");
   const channels = (unit: string) => largest(kept.filter((one) => one.unit === unit).map(({ values }) => values));
-  const force = Math.max(largest(reactions.flat()), channels("N"), channels("N·m") / size);
+  const force = Math.max(largest(reactions.flat()), channels(scene.units.force), channels(scene.units.torque) / size);
+  const { units } = scene;
   return {
-    m: length,
-    rad: poses.length ? 1 : 0,
-    "m/s": velocity,
-    "rad/s": velocity / size,
-    "m/s²": acceleration,
-    "rad/s²": acceleration / size,
-    N: force,
-    N·m: force * size,
+    [units.length]: length,
+    [units.angle]: poses.length ? 1 : 0,
+    [units.velocity]: velocity,
+    [units.angular_velocity]: velocity / size,
+    [units.acceleration]: acceleration,
+    [units.angular_acceleration]: acceleration / size,
+    [units.force]: force,
+    [units.torque]: force * size,
     J: channels("J"),
   };
 }

@@ -21,8 +21,12 @@ export interface Channel {
   values: number[];
 }
 
+type Rate = "velocity" | "angular_velocity" | "acceleration" | "angular_acceleration";
+
 export interface Scene {
   title: string;
+  /** SI units; in a motion over a quantity, rates are derivatives by it. */
+  units: Record<"length" | "angle" | "force" | "torque" | Rate, string>;
   gravity: Point;
   bounds: Bounds;
   length: { unit: string; metres: number };
@@ -30,15 +34,17 @@ export interface Scene {
   bodies: { name: string; number: number; kind: string; points: { name: string; at: Point }[]; center: Point }[];
   joints: { name: string; bodies: [number, number]; points: [Point, Point] }[];
   traces: { name: string; body: number; point: Point }[];
-  variable: { name: string; unit: string; shown: string; divisor: number };
+  variable: { name: string; unit: string; shown: string; divisor: number; condition: string };
   frames: Frames;
   interpolation: "cubic" | "none";
   accuracy: number | null;
+  /** The reason why a state does not determine accelerations and reactions; otherwise empty. */
+  undetermined: string;
   events: { name: string; t: number }[];
   playback: { rate: number };
   reaction_scale: { force: number; length: number };
   largest: { force: number; velocity: number; acceleration: number };
-  /** Where forces of elements act: a point in the frame of a body, and the sign of the force on body j. */
+  /** The ends of elements: a point in the frame of a body, and the sign of the force relative to that on body j. */
   ends: {
     element: string;
     group: "joints" | "drivers" | "forces";
@@ -52,7 +58,7 @@ export interface Scene {
   display: Item[];
 }
 
-/** The scene in a text of JSON. A number that was not finite is null there and NaN here. */
+/** Read a scene from JSON. Numbers that are not finite are null in JSON, and NaN in the result. */
 export function parsed(text: string): Scene {
   const scene = JSON.parse(text) as Scene;
   const { poses, rates, accelerations, reactions } = scene.frames;

@@ -9,7 +9,13 @@ import type { Scene } from "./scene";
 
 /** Share of the drawing that the largest force, velocity and acceleration take. */
 const LONGEST = 0.22;
-const UNITS: Record<ArrowKind, string> = { reactions: "N", force: "N", velocities: "m/s", accelerations: "m/s²" };
+/** The unit of each kind of arrows, by its key in the scene. */
+const UNITS = {
+  reactions: "force",
+  force: "force",
+  velocities: "velocity",
+  accelerations: "acceleration",
+} as const satisfies Record<ArrowKind, keyof Scene["units"]>;
 
 interface Tracked {
   name: string;
@@ -17,7 +23,7 @@ interface Tracked {
   at: Point;
 }
 
-/** How long one unit of each kind is drawn, m. */
+/** The drawn length of one unit of each kind, m. */
 function lengths({ bounds, reaction_scale: { force, length }, largest }: Scene): Record<ArrowKind, number> {
   const share = (value: number) => (value > 0 ? (LONGEST * extent(bounds)) / value : 0);
   return {
@@ -30,7 +36,7 @@ function lengths({ bounds, reaction_scale: { force, length }, largest }: Scene):
 
 /** The vectors that can be drawn at an instant. */
 export class SceneVectors {
-  readonly acting: Acting;
+  private readonly acting: Acting;
   private readonly lengths: Record<ArrowKind, number>;
 
   constructor(private readonly scene: Scene) {
@@ -39,10 +45,16 @@ export class SceneVectors {
   }
 
   unit(kind: ArrowKind): string {
-    return UNITS[kind];
+    return this.scene.units[UNITS[kind]];
   }
 
-  /** How long one unit is drawn, m. */
+  /** Lines beside the arrows of some kinds: the reason why they are missing, or remarks on them. */
+  notes(kinds: readonly ArrowKind[]): string[] {
+    const missing = kinds.some((kind) => kind !== "velocities") ? this.scene.undetermined : "";
+    return missing ? [missing] : this.acting.notes(kinds);
+  }
+
+  /** The drawn length of one unit, m. */
   length(kind: ArrowKind): number {
     return this.lengths[kind];
   }

@@ -1,4 +1,4 @@
-// The axes of a plot: which values they hold, where a value is, and how ticks are written.
+// The axes of a plot: their ranges, the places of values, and the ticks.
 import { Line } from "../draw/line";
 import { axisLabel } from "../draw/numbers";
 import { type Colours, font } from "../draw/surface";
@@ -18,14 +18,14 @@ export interface Size {
   height: number;
 }
 
-/** What the axis upwards holds: a range of values or exponents, and their unit. */
+/** The vertical axis: a range of values or exponents, and their unit. */
 export interface Held {
   range: Point;
   log: boolean;
   unit: string;
 }
 
-/** Ticks for values of a unit. */
+/** The rule of ticks for values of a unit. */
 function inUnit(unit: string): typeof ticks {
   return unit === "°" ? angleTicks : ticks;
 }
@@ -54,7 +54,7 @@ export class Axes {
     this.along = inUnit(shown)(span.from / divisor, span.to / divisor, most);
   }
 
-  /** Where a time and a value (of the logarithm on a logarithmic axis) are, px. */
+  /** The place of a time and a value (or its logarithm, on a logarithmic axis), px. */
   place(t: number, value: number): Point {
     const { from, to } = this.span;
     const { width, height } = this.size;
@@ -70,7 +70,7 @@ export class Axes {
     return this.span.from + Math.min(1, Math.max(0, share)) * (this.span.to - this.span.from);
   }
 
-  /** Keep what is painted next between the axes. */
+  /** Clip later painting to the area between the axes. */
   clip(context: CanvasRenderingContext2D): void {
     const { width, height } = this.size;
     context.beginPath();
@@ -78,7 +78,8 @@ export class Axes {
     context.clip();
   }
 
-  paint(context: CanvasRenderingContext2D, label: string, colours: Colours): void {
+  /** Paint axes and ticks, with the label at the upper left and the note at the upper right. */
+  paint(context: CanvasRenderingContext2D, label: string, note: string, colours: Colours): void {
     const { width, height } = this.size;
     context.lineWidth = 1;
     context.font = font(TICK_TEXT);
@@ -92,6 +93,10 @@ export class Axes {
     context.textAlign = "left";
     context.textBaseline = "top";
     context.fillText(label, 10, 7);
+    const room = width - RIGHT - 24 - context.measureText(label).width;
+    context.fillStyle = colours.named.soft;
+    context.textAlign = "right";
+    if (note) context.fillText(note, width - RIGHT, 7, Math.max(1, room));
   }
 
   private paintUp(context: CanvasRenderingContext2D, colours: Colours): void {
@@ -105,7 +110,7 @@ export class Axes {
     }
   }
 
-  /** Ticks along the axis; the last one is moved to the left where it would be cut. */
+  /** Ticks of the horizontal axis. The last one is moved to the left if the edge would cut it. */
   private paintAcross(context: CanvasRenderingContext2D, colours: Colours): void {
     const { width, height } = this.size;
     const base = height - BOTTOM;
@@ -122,7 +127,7 @@ export class Axes {
     }
   }
 
-  /** A line up at t. */
+  /** A vertical line at t. */
   line(context: CanvasRenderingContext2D, t: number): void {
     const [x] = this.place(t, this.held.range[0]);
     context.stroke(new Line(`M${x} ${TOP - 6}V${this.size.height - BOTTOM}`));

@@ -1,33 +1,35 @@
-// What a plot shows: curves of one unit, each over its own outputs.
+// The curves of a plot. They have one unit, and each has its own outputs.
 
 export interface Curve {
   readonly name: string;
   /** The SI unit. */
   readonly unit: string;
-  /** Decides the colour, and the dashes of a curve of the run. */
+  /** The number that determines colour and dashes. */
   readonly number: number;
-  /** Whether it belongs to a stored run: such a curve is thin and dashed. */
+  /** Whether it belongs to a stored run; it is then thin and dashed. */
   readonly stored: boolean;
-  /** The time of each output, or the values that take its place; they grow. */
+  /** The time of each output, or the value of the quantity that replaces it, in growing order. */
   readonly t: ArrayLike<number>;
   /** Values at the outputs. */
   readonly values: ArrayLike<number>;
-  /** Whether values between two outputs lie on a curve, not on the straight line between both. */
+  /** Whether values between outputs lie on a smooth curve instead of a straight line. */
   readonly smooth: boolean;
   /** The value at t. */
   at(t: number): number;
-  /** A value as it is shown: without rounding errors. */
+  /** The shown value: zero for rounding errors. */
   shown(value: number): number;
 }
 
-/** What lies on the horizontal axis, and by what its values are divided there. */
+/** The quantity on the horizontal axis, with its unit there and the divisor of its SI values. */
 export interface Across {
   readonly name: string;
   readonly shown: string;
   readonly divisor: number;
+  /** What forces over this quantity contain, in words; empty over time. */
+  readonly condition: string;
 }
 
-/** The values at the outputs, as they are shown. */
+/** The shown values at the outputs. */
 export function shownValues(curve: Curve): number[] {
   return Array.from(curve.values, (value) => curve.shown(value));
 }

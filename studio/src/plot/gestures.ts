@@ -1,13 +1,13 @@
-// Pointer, wheel and keys in a plot: going to a time, looking at one, stretching the axis.
+// Pointer, wheel and keys in a plot: they choose a time, read values at a time, and stretch the axis.
 import { placeOn, spreadOf, turned } from "../plane/gestures";
 import type { Point } from "../plane/points";
 
-/** What gestures in a plot do; places are px from its left edge. */
+/** The actions of gestures in a plot. Places are px from its left edge. */
 export interface Seeking {
   timeAt(px: number): number;
   seek(t: number): void;
   look(at: Point | null): void;
-  /** Show `factor` times as much around a place. */
+  /** Multiply the visible part by `factor` around a place. */
   stretch(factor: number, px: number): void;
   showAll(): void;
 }
@@ -15,8 +15,8 @@ export interface Seeking {
 const STEP = 1.25;
 
 /**
- * Click or drag in a plot to go to a time, move to look at one, ctrl and wheel, two fingers, or + and −, to stretch it,
- * double click or 0 to show all of it. Returns a function that ends this.
+ * Connect the gestures of a plot: a click or drag goes to a time, and the pointer reads values. Ctrl and wheel, two
+ * fingers, + and − stretch the axis; a double click or 0 shows all of it. Returns a function that disconnects them.
  */
 export function seekable(canvas: HTMLCanvasElement, seeking: Seeking): () => void {
   const { timeAt, seek, look, stretch, showAll } = seeking;

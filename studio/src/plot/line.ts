@@ -1,4 +1,4 @@
-// The line of a curve on the screen: finer than its outputs where these are far apart, coarser where they lie close.
+// The line of a curve on the screen. It has points between distant outputs, and leaves out outputs that lie close.
 import { broken, type Line } from "../draw/line";
 import { placeIn } from "../plane/instants";
 import type { Point } from "../plane/points";
@@ -7,13 +7,13 @@ import type { Curve } from "./curve";
 /** The longest piece between two outputs of a smooth curve, px. */
 const PIECE = 4;
 const MOST_PIECES = 16;
-/** With more outputs than this on a pixel, only the first, the least, the largest and the last are drawn. */
+/** If a pixel has more outputs than this, only the first, the least, the largest and the last are drawn. */
 const MOST_ON_A_PIXEL = 4;
 
-/** Where a value lies, px; null where it has no place. */
+/** The place of a value, px; null if it has none. */
 export type Place = (t: number, value: number) => Point | null;
 
-/** A curve between two times on an axis of a width, with gaps where it has no value. */
+/** The line of a curve between two times on an axis of a width, with gaps at missing values. */
 export function lineOf(curve: Curve, [from, to]: Point, width: number, place: Place): Line {
   const { t } = curve;
   const [first, last] = [placeIn(t, from).low, placeIn(t, to).high];
@@ -37,7 +37,7 @@ function filled(curve: Curve, first: number, last: number, width: number, place:
   return points;
 }
 
-/** Of all outputs on one column of pixels the first, the highest, the lowest and the last, in their order. */
+/** The first, the highest, the lowest and the last output of each column of pixels, in their order. */
 function thinned(curve: Curve, first: number, last: number, place: Place): (Point | null)[] {
   const points: (Point | null)[] = [];
   let column: Point[] = [];

@@ -1,4 +1,5 @@
-// A plot with a cursor at the present, and the value under the pointer. Curves of one unit share its axes.
+// A plot of curves of one unit, with a cursor at the present time and the value under the pointer.
+import { conditionOf } from "../draw/condition";
 import { displayed, type Units } from "../draw/display";
 import { circle } from "../draw/line";
 import { axisLabel, besideUnit, fixed, readable, scaled, significant } from "../draw/numbers";
@@ -18,7 +19,7 @@ export class Plot {
   curves: readonly Curve[] = [];
   log = false;
   units: Units = { degrees: false, length: "m" };
-  /** Where the pointer is, px; null if it is elsewhere. */
+  /** The position of the pointer, px; null outside the plot. */
   pointer: Point | null = null;
   width = 0;
   height = 0;
@@ -49,7 +50,12 @@ export class Plot {
     this.scale();
   }
 
-  /** What lies on the horizontal axis, and the part of it that is shown. */
+  /** What the values contain in a motion over a quantity; empty for positions and rates, and over time. */
+  get note(): string {
+    return conditionOf(this.curves[0]?.unit ?? "", this.across.condition);
+  }
+
+  /** Set the quantity on the horizontal axis and the part of it that is shown. */
   over(span: TimeSpan, across: Across): void {
     this.span = span;
     this.across = across;
@@ -108,7 +114,7 @@ export class Plot {
     return this.axes ? this.axes.timeAt(px) : this.span.from;
   }
 
-  /** Draw with the cursor at t and, if a time is looked at, a line there. */
+  /** Draw with the cursor at t, and with a line at `looked`, the time under the pointer. */
   paint(t: number, looked: number | null, colours: Colours): void {
     const context = cleared(this.canvas);
     if (!this.curves.length || !this.width) return;
@@ -119,7 +125,7 @@ export class Plot {
     this.reading = looked !== null && this.pointer ? this.paintReading(context, looked, this.pointer, colours) : "";
   }
 
-  /** Axes and curves, painted anew only when they change. */
+  /** Axes and curves as a picture, which is painted again only after a change. */
   private picture(colours: Colours): HTMLCanvasElement {
     const { width, height, canvas, span, version } = this;
     const key = JSON.stringify([width, height, canvas.width, span.from, span.to, version, colours.named.text]);
@@ -140,7 +146,7 @@ export class Plot {
   private paintStill(context: CanvasRenderingContext2D, colours: Colours): void {
     const held = { range: this.range, log: this.onLog, unit: this.unit };
     this.axes = new Axes(context, this, this.span, this.across, held);
-    this.axes.paint(context, this.label, colours);
+    this.axes.paint(context, this.label, this.note, colours);
     context.save();
     this.axes.clip(context);
     for (const curve of this.curves) this.paintCurve(context, curve, colours);
@@ -154,7 +160,7 @@ export class Plot {
     this.paintDots(context, t, colours);
   }
 
-  /** The place of a value on the canvas; null where a logarithm has none. */
+  /** The place of a value on the canvas; null for a value without a logarithm on a logarithmic axis. */
   private readonly place: Place = (t, value) => {
     if (!Number.isFinite(value) || (this.onLog && value === 0)) return null;
     return this.axes!.place(t, this.onLog ? Math.log10(Math.abs(value)) : value);
@@ -175,7 +181,7 @@ export class Plot {
     this.axes!.line(context, t);
   }
 
-  /** Those curves of which t is a part. */
+  /** The curves whose time range contains t. */
   private at(t: number): Curve[] {
     return this.curves.filter(({ t: own }) => own[0]! <= t && t <= own[own.length - 1]!);
   }

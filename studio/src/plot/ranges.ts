@@ -1,4 +1,4 @@
-// Which values the axis of a plot holds.
+// The range of the vertical axis of a plot.
 import type { Point } from "../plane/points";
 
 /** The least and the largest value, with some room. */

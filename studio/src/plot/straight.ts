@@ -13,7 +13,7 @@ export function straight(given: Given): Curve {
   const at = (time: number) => {
     const { low, high, share } = placeIn(t, time);
     const [a, b] = [values[low]!, values[high]!];
-    if (share === 0 || share === 1) return shown(share ? b : a); // a value beside a gap is one
+    if (share === 0 || share === 1) return shown(share ? b : a); // an output beside a gap has a value
     return shown(a + share * (b - a));
   };
   return { ...given, smooth: false, at, shown };
@@ -26,7 +26,7 @@ export function peakOf({ values }: Pick<Curve, "values">): number {
   return peak;
 }
 
-/** What the axis upwards is called: the name of the only curve, or the ending that all names share. */
+/** The name of the vertical axis: that of a single curve, or the common last part of all names. */
 export function symbolOf(names: readonly string[]): string {
   const [first, ...others] = names.map((name) => (/^[\w.]+$/.test(name) ? name.split(".").at(-1)! : name));
   if (names.length === 1) return names[0]!;

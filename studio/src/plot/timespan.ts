@@ -1,4 +1,4 @@
-// The part of the time, or of what takes its place, that plots show.
+// The visible part of the horizontal axis of plots.
 
 export interface Ends {
   readonly begin: number;
@@ -20,7 +20,7 @@ export class TimeSpan {
     this.to = this.ends.end;
   }
 
-  /** Show `factor` times as much time around t. */
+  /** Multiply the visible time by `factor` around t. */
   stretch(factor: number, t: number): void {
     const { begin, end } = this.ends;
     const [from, to] = [t + (this.from - t) * factor, t + (this.to - t) * factor];

@@ -12,10 +12,10 @@ export interface Backdrop {
 }
 
 export const backdrop = signal<Backdrop | null>(null);
-/** The points that were clicked to scale it; null while nobody scales it. */
+/** The clicked points while the picture is scaled; otherwise null. */
 export const scaling = signal<Point[] | null>(null);
 
-/** Scale the picture about the first of two points, so that they have a distance. */
+/** Scale the picture about the first of two points, so that their distance has a given value. */
 export function scaleTo(length: number): void {
   const found = backdrop.value;
   const [a, b] = scaling.value ?? [];

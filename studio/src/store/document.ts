@@ -1,4 +1,4 @@
-// The text of the case with its history: every change, by hand or by mouse, is a change of the text.
+// The text of the case and its history. Each change, by keyboard or mouse, changes the text.
 import { signal } from "@preact/signals";
 import type { Change } from "../core/protocol";
 import { texts } from "../texts";
@@ -17,7 +17,7 @@ export const future = signal<string[]>([]);
 export const fileName = signal("mechanism.toml");
 let typedAt = 0;
 
-/** Begin with another text. Returns why the core could not read it at all, else null. */
+/** Open another text. Returns the reason if the core could not read it, otherwise null. */
 export async function open(given: string, name = "mechanism.toml"): Promise<string | null> {
   if (isTooLarge(given)) return texts.core.tooLarge;
   openings.value += 1;
@@ -45,7 +45,7 @@ function isTooLarge(given: string): boolean {
   return found;
 }
 
-/** Take up a text; `record` makes it a step of the history, after the text `before`. */
+/** Replace the text. With `record`, this is a step of the history, after the text `before`. */
 export async function take(given: string, record = true, before = text.value): Promise<void> {
   if (isTooLarge(given)) return;
   if (record && given !== before) remember(before);
@@ -57,7 +57,7 @@ export async function take(given: string, record = true, before = text.value): P
   }
 }
 
-/** A text typed by hand: quick changes are one step. */
+/** Replace the text while the user types. Quick changes are one step of the history. */
 export async function type(given: string): Promise<void> {
   const now = Date.now();
   const record = now - typedAt > PAUSE;
@@ -83,13 +83,13 @@ export async function change(changes: Change[]): Promise<boolean> {
   }
 }
 
-/** A change that goes on, such as a drag: only its end is a step of the history. */
+/** A continuous change, such as a drag. Only its end is a step of the history. */
 export class Draft {
   private readonly before = text.value;
   private latest: Change[] | null = null;
   private working: Promise<void> | null = null;
 
-  /** Show these changes; while some are under way, only the newest of the others is kept. */
+  /** Show these changes. Of changes that arrive while the core is busy, only the newest are applied. */
   show(changes: Change[]): void {
     this.latest = changes;
     this.working ??= this.work();
@@ -108,13 +108,13 @@ export class Draft {
     this.working = null;
   }
 
-  /** Keep what is shown. */
+  /** End with the shown text. */
   async keep(): Promise<void> {
     await this.working;
     if (text.value !== this.before) remember(this.before);
   }
 
-  /** Go back to the text before. */
+  /** End with the text before the change. */
   async drop(): Promise<void> {
     this.latest = null;
     await this.working;

@@ -1,4 +1,4 @@
-// Hints for what is used for the first time: the modes, and the kinds of tools.
+// Hints at the first use of a mode or a kind of tool.
 import { computed, effect, signal } from "@preact/signals";
 import type { texts } from "../texts";
 import { mode, tool } from "./state";
@@ -7,12 +7,12 @@ export type Hint = keyof typeof texts.hints.all;
 
 /** The name in the storage of the browser. */
 const KEY = "kempe.hints";
-/** Hints that were shown; a page without storage remembers them until it is closed. */
+/** The hints that were shown. A page without storage keeps them until it is closed. */
 const seen = signal<ReadonlySet<string>>(new Set(remembered()));
-/** Set while something else explains the next step. */
+/** True while the first build explains the next step. */
 export const quiet = signal(false);
 
-/** What is used now. */
+/** The mode or kind of tool in use. */
 const used = computed<Hint>(() => {
   if (mode.value !== "edit") return mode.value;
   return tool.value ? (tool.value.placing ?? "reference") : "edit";
@@ -39,7 +39,7 @@ function remembered(): string[] {
   }
 }
 
-/** A hint has been seen when something else is used. */
+/** A hint counts as shown when the user changes the mode or the tool. */
 let last: Hint | null = null;
 effect(() => {
   const now = hint.value;

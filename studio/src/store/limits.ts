@@ -1,4 +1,4 @@
-// Sizes up to which the page stays quick.
+// Limits of size that keep the page quick.
 
 /** The longest text of a case, characters. */
 export const MOST_OF_TEXT = 2 * 1024 * 1024;

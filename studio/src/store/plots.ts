@@ -1,4 +1,4 @@
-// Which quantities are plotted.
+// The plotted quantities.
 import { effect, signal } from "@preact/signals";
 import type { Stored } from "../give/stored";
 import { course, quantities, variable } from "../modes/read";
@@ -16,8 +16,8 @@ export const plots = signal<PlotOf[]>([]);
 let opening = 0;
 
 /**
- * Another case has plots of its own and is compared with nothing, from when the core has read it: until then runs may be
- * those of the case before.
+ * Remove the plots and the stored run when another case is opened. This waits until the core has read the case, because
+ * earlier runs belong to the previous case.
  */
 effect(() => {
   loads.value;
@@ -28,7 +28,7 @@ effect(() => {
   opening = openings.peek();
 });
 
-/** The first run of a case shows the angles of the bodies; later ones keep those quantities that still exist. */
+/** The first run of a case plots the angles of the bodies. Later runs keep the plotted quantities that still exist. */
 effect(() => {
   if (!course.value || !quantities.value.length) return;
   const all = new Set(quantities.value.map(({ name }) => name));

@@ -1,4 +1,4 @@
-// The session with the core: the text goes there, and what it means comes back.
+// The session with the core. It sends the text, and stores the mechanism that comes back.
 import { batch } from "@preact/signals";
 import { readCatalogue } from "../catalogue/catalogue";
 import type { Answer, Change, Do, Loaded, Requests } from "../core/protocol";
@@ -21,16 +21,16 @@ import {
   unassembled,
 } from "./state";
 
-/** So many looks without a request mean that all is answered. */
+/** After this number of checks without an open request, everything is answered. */
 const QUIET = 5;
 let transport: Transport | null = null;
-/** The text that the core was given last and answered without a trap. */
+/** The last text that the core read without a trap. */
 let accepted = "";
 let size: [number, number] = [800, 600];
 /** The newest fetch of the static part of the drawing. */
 let fetching: Promise<void> = Promise.resolve();
 
-/** Begin with a worker for the core. */
+/** Connect to a worker with the core. */
 export function connect(begin: () => Line, limit?: number): void {
   transport = new Transport(begin, restarted, limit);
   void send("catalogue", {}).then(({ ok }) => {
@@ -54,7 +54,7 @@ export function send<D extends Do>(
   return transport.send(what, fields, channel ?? null);
 }
 
-/** Resolves when the core has answered everything that followed from what was sent. */
+/** Resolves when the core has answered all requests, also those that followed from other answers. */
 export async function settled(): Promise<void> {
   for (let quiet = 0; quiet < QUIET; quiet += 1) {
     await new Promise((done) => setTimeout(done, 10));
@@ -78,7 +78,7 @@ export function report(error: unknown): void {
   } else announce("problem", reason(error));
 }
 
-/** Give the core a text and show what it means. */
+/** Let the core read a text, and show the result. */
 export async function load(given: string): Promise<Loaded> {
   const { ok } = await send("load", { text: given }, "load");
   accepted = given;
@@ -101,12 +101,12 @@ function show(found: Loaded): void {
   });
 }
 
-/** Fetch the static part of the drawing again: the model or the size of the canvas is another one. */
+/** Fetch the static part of the drawing again, after a change of the model or of the size of the canvas. */
 export async function redraw(): Promise<void> {
   fetching = fetchDrawing();
   let waited: Promise<void>;
   do {
-    // A fetch that begins meanwhile replaces requests of this one.
+    // A newer fetch replaces requests of this one.
     waited = fetching;
     await waited;
   } while (waited !== fetching);
@@ -135,12 +135,12 @@ export async function goHome(): Promise<void> {
   if (accepted) await load(accepted).catch(report);
 }
 
-/** Show the pose that the core has, after poses of a run were shown. */
+/** Show the pose of the core, after poses of a run were shown. */
 export async function showPresent(): Promise<void> {
   await send("pose", {}).then(({ ok }) => (pose.value = ok), report);
 }
 
-/** The drawing has another size. */
+/** Take up a new size of the drawing. */
 export function resized(width: number, height: number): void {
   size = [Math.round(width), Math.round(height)];
   void redraw().catch(report);

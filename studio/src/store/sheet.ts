@@ -1,4 +1,4 @@
-// The sheet: which part of the plane is seen, and what is drawn over the mechanism.
+// The sheet: the visible part of the plane, and the marks above the mechanism.
 import { effect, signal } from "@preact/signals";
 import type { Point } from "../plane/points";
 import { type Bounds, View } from "../plane/view";
@@ -8,12 +8,12 @@ export const view = new View([-1, -0.75, 1, 0.75]);
 /** Counts changes of the view, so that the drawing follows. */
 export const viewed = signal(0);
 
-/** A line that is being drawn, or a place under the pointer. */
+/** The line in progress, or the place under the pointer. */
 export interface Preview {
   /** Points of the plane, joined by lines. */
   line: Point[];
   closed?: boolean;
-  /** The marked place, and why it is there. */
+  /** The marked place, and the reason for it. */
   mark?: { at: Point; kind: string };
   label?: string;
   /** A pull from one point to another. */
@@ -21,10 +21,10 @@ export interface Preview {
 }
 
 export const preview = signal<Preview | null>(null);
-/** A length that was typed for the line that is being drawn, m. */
+/** The typed length of the line in progress, m. */
 export const typedLength = signal<string>("");
 
-/** By how much a key moves the sheet, px. */
+/** A key moves the sheet by this distance, px. */
 const STEP = 60;
 
 export function viewChanged(): void {
@@ -47,13 +47,13 @@ export function pan(dx: number, dy: number): void {
   viewChanged();
 }
 
-/** Room around the first pose, in which the mechanism will move: a share of its size. */
+/** Room for the motion around the first pose, as a share of its size. */
 const ROOM = 0.2;
-/** What an empty sheet shows, m. */
+/** The visible part of an empty sheet, m. */
 const EMPTY: Bounds = [-1, -0.75, 1, 0.75];
 let fitting = true;
 
-/** Fit the next scene into the view: another case is opened. Later scenes leave the view where it is. */
+/** Fit the next scene into the view, because another case is opened. Later scenes do not change the view. */
 export function fitNext(): void {
   fitting = true;
   view.bounds = EMPTY;
@@ -67,7 +67,7 @@ effect(() => {
   const before = view.bounds;
   if (room > 0) view.bounds = [x0 - room, y0 - room, x1 + room, y1 + room];
   if (fitting) view.fit();
-  // A new size of the canvas does not fit what has been drawn since.
+  // A new size of the canvas must not fit the view to other bounds.
   else if (before.some((one, k) => one !== view.bounds[k])) view.moved = true;
   fitting = false;
   viewed.value = viewed.peek() + 1;

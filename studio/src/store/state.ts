@@ -1,4 +1,4 @@
-// What the page shows: signals that panels and drawing follow.
+// The state of the page, as signals that panels and drawing follow.
 import { computed, signal } from "@preact/signals";
 import { type Catalogue, type Group, readCatalogue } from "../catalogue/catalogue";
 import { type Tool, toolsOf } from "../catalogue/tools";
@@ -17,13 +17,13 @@ export interface Message {
   action?: { label: string; run(): void };
 }
 
-/** What is selected: an entry of the case, or a point of a body. */
+/** The selection: an entry of the case, or a point of a body. */
 export type Selection = { group: Group; name: string; point?: string } | null;
 
 export const ready = signal(false);
-/** Counts the texts that the core has read; each makes its runs and motions void. */
+/** Counts the texts that the core has read. Each of them invalidates earlier runs and motions. */
 export const loads = signal(0);
-/** Counts the cases that were opened. */
+/** Counts the opened cases. */
 export const openings = signal(0);
 export const catalogue = signal<Catalogue>(readCatalogue({}));
 export const tools = computed<Tool[]>(() => toolsOf(catalogue.value));
@@ -32,17 +32,17 @@ export const text = signal("");
 export const title = computed(() => mechanism.value?.title ?? "");
 export const problems = signal<Problem[]>([]);
 export const unassembled = signal<Problem | null>(null);
-/** The case as it was last read without a fault of syntax. */
+/** The last case without a fault of syntax. */
 export const tree = signal<Tree | null>(null);
 export const mechanism = signal<Mechanism | null>(null);
 export const mobility = signal<Mobility | null>(null);
 export const scene = signal<Scene | null>(null);
 export const items = signal<Item[]>([]);
 
-/** The pose of the text, and the one that is shown. */
+/** The pose of the text, and the shown pose. */
 export const home = signal<Pose | null>(null);
 export const pose = signal<Pose | null>(null);
-/** Where all bodies are, ground first. */
+/** The poses of all bodies, ground first. */
 export const poses = computed<Placement[]>(() => [[0, 0, 0], ...(pose.value?.poses ?? [])]);
 
 export const mode = signal<Mode>("edit");
@@ -55,13 +55,13 @@ export const shown = signal({ names: true, numbers: true, grid: true, traces: tr
 /** Units of the display: of the drawing, of typed lengths, of plots and tables; files have SI units. */
 export const units = signal<Units>({ degrees: true, length: "m" });
 export const snapping = signal(true);
-/** What a drag of the drawing does not change; edit/holding.ts names it. */
+/** Points, lengths and angles that a drag does not change, by the names in edit/holding.ts. */
 export const held = signal<ReadonlySet<string>>(new Set());
 
 export const panel = signal<"properties" | "text" | "results" | "insert">("properties");
 export const dialog = signal<"gallery" | "share" | "help" | null>(null);
 
-/** Say something in the status line. */
+/** Show a message in the status line. */
 export function announce(kind: Message["kind"], words: string, more: Omit<Message, "kind" | "text"> = {}): void {
   message.value = { kind, text: words, ...more };
 }

@@ -20,5 +20,5 @@ mod start_state;
 pub use analysis::{Analysis, EventActions, Observer, Subject};
 pub use motion::missing;
 pub use outcome::{ErrorClass, Outcome};
-pub use result::{Driven, NumberTable, Record, Unfinished, Variable};
+pub use result::{rate_unit, Driven, NumberTable, Record, Unfinished, Variable};
 pub use start_state::StartState;

@@ -92,6 +92,34 @@ pub struct Variable {
     pub rests: bool,
 }
 
+impl Variable {
+    /// The SI unit of a quantity whose unit over time is `unit`: rates are derivatives by this variable.
+    pub fn rate(&self, unit: &str) -> String {
+        rate_unit(unit, &self.unit)
+    }
+
+    /// What forces and efforts over the variable contain, in words.
+    pub fn condition(&self) -> String {
+        match self.rests {
+            true => "at rest, without inertia and damping".to_string(),
+            false => format!("with inertia and damping at 1 {}/s", self.unit),
+        }
+    }
+}
+
+/// The SI unit of a rate in a motion over a quantity with the unit `by`: m/s becomes m/rad, and W becomes J/rad.
+pub fn rate_unit(unit: &str, by: &str) -> String {
+    let mut parts = if unit == "W" { "J/s" } else { unit }.split("/s");
+    let mut written = parts.next().unwrap_or_default().to_string();
+    for part in parts {
+        let is_second = !part.starts_with(|c: char| c.is_ascii_alphabetic());
+        written.push('/');
+        written.push_str(if is_second { by } else { "s" });
+        written.push_str(part);
+    }
+    written
+}
+
 /// An analysis that failed.
 #[derive(Debug)]
 pub struct Unfinished {

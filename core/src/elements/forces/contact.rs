@@ -268,8 +268,10 @@ impl Force for Contact {
 
     fn symbols(e: &Contact) -> Vec<SceneSymbol> {
         let (i, j) = (SymbolEnd::point(&e.i), SymbolEnd::body(e.curve.on.body));
-        let mark = if e.radius > 0.0 { Mark::Round(e.radius) } else { Mark::Contact };
-        vec![SceneSymbol { mark, i, j }]
+        vec![match e.radius > 0.0 {
+            true => SceneSymbol::new(Mark::Round, i, j).to_scale([e.radius, 0.0]),
+            false => SceneSymbol::new(Mark::Touch, i, j),
+        }]
     }
 
     fn fault(e: &Contact) -> Option<(&'static str, String)> {

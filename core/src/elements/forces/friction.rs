@@ -207,7 +207,7 @@ impl Force for Friction {
             axis: e.joint.ends[k].axis,
         };
         let mark = if e.joint.turns() { Mark::RubbingPin } else { Mark::RubbingSlide };
-        vec![SceneSymbol { mark, i: end(body_i, 0), j: end(body_j, 1) }]
+        vec![SceneSymbol::new(mark, end(body_i, 0), end(body_j, 1))]
     }
 
     fn fault(e: &Friction) -> Option<(&'static str, String)> {

@@ -71,6 +71,6 @@ impl Force for PointForce {
             Frame::J => e.j.body,
         };
         let i = SymbolEnd::body(axes).along(y.atan2(x));
-        vec![SceneSymbol { mark: Mark::ForceArrow, i, j: SymbolEnd::point(&e.j) }]
+        vec![SceneSymbol::new(Mark::ForceArrow, i, SymbolEnd::point(&e.j))]
     }
 }

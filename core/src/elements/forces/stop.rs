@@ -101,9 +101,9 @@ fn efforts<S: Real>(e: &Stop<S>, at: &Situation<'_, S>) -> [S; 2] {
 
 /// A stop at a limit; the axis points away from the range.
 fn symbol(of: &Followed, (k, limit): (usize, f64)) -> Option<SceneSymbol> {
-    let SceneSymbol { mark, i, j } = SceneSymbol::drive(of);
+    let SceneSymbol { mark, i, j, .. } = SceneSymbol::drive(of);
     if mark == Mark::DriveTurn {
-        return Some(SceneSymbol { mark: Mark::TurnStop, i: i.along(limit), j });
+        return Some(SceneSymbol::new(Mark::TurnStop, i.along(limit), j));
     }
     let axis = match of.label().0 {
         "x" | "displacement" => i.axis,
@@ -114,7 +114,7 @@ fn symbol(of: &Followed, (k, limit): (usize, f64)) -> Option<SceneSymbol> {
     let at = Local::new(from.x + limit * axis.cos(), from.y + limit * axis.sin());
     let outward = if SIGNS[k] > 0.0 { axis + PI } else { axis };
     let i = SymbolEnd { point: Some(at), ..i }.along(outward);
-    Some(SceneSymbol { mark: Mark::ShiftStop, i, j })
+    Some(SceneSymbol::new(Mark::ShiftStop, i, j))
 }
 
 impl Force for Stop {

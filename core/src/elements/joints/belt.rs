@@ -72,9 +72,9 @@ impl Joint for Belt {
     }
 
     fn symbols(e: &Belt) -> Vec<SceneSymbol> {
-        let mut all = SceneSymbol::wheels(e.radii.map(Mark::Circle), [&e.i, &e.j]);
-        let mark = Mark::Strands { radii: e.radii, crossed: e.crossed };
-        all.push(SceneSymbol::between_points(mark, &e.i, &e.j));
+        let mut all = SceneSymbol::wheels([Mark::Circle; 2], e.radii, [&e.i, &e.j]);
+        let mark = if e.crossed { Mark::CrossedStrands } else { Mark::OpenStrands };
+        all.push(SceneSymbol::between_points(mark, &e.i, &e.j).to_scale(e.radii));
         all
     }
 

@@ -65,7 +65,7 @@ impl Joint for FlatOnCurve {
 
     fn symbols(e: &FlatOnCurve) -> Vec<SceneSymbol> {
         let (i, j) = (SymbolEnd::point(&e.i).along(e.axis), SymbolEnd::body(e.curve.body));
-        vec![SceneSymbol { mark: Mark::Face, i, j }]
+        vec![SceneSymbol::new(Mark::Face, i, j)]
     }
 
     fn attachment<S: Real>(e: &FlatOnCurve<S>, body: usize) -> Attachment<S> {

@@ -104,12 +104,12 @@ impl Joint for Gear {
     fn symbols(e: &Gear) -> Vec<SceneSymbol> {
         let radii = radii_of(e);
         let larger = radii[0].max(radii[1]);
-        let wheel = |radius| Mark::Toothed {
-            radius,
-            module: e.module,
-            ring: e.internal && radius == larger,
+        let mark = |radius| match e.internal && radius == larger {
+            true => Mark::ToothedRing,
+            false => Mark::ToothedWheel,
         };
-        SceneSymbol::wheels(radii.map(wheel), [&e.i, &e.j])
+        let wheels = SceneSymbol::wheels(radii.map(mark), radii, [&e.i, &e.j]);
+        wheels.into_iter().map(|wheel| SceneSymbol { module: e.module, ..wheel }).collect()
     }
 
     fn results<S: Real>(_: &Gear<S>, _: &At<'_, S>, lam: &[S], out: &mut [S]) {

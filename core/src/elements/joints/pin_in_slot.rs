@@ -46,7 +46,7 @@ impl Joint for PinInSlot {
 
     fn symbols(e: &PinInSlot) -> Vec<SceneSymbol> {
         let i = SymbolEnd::point(&e.i).along(e.axis);
-        vec![SceneSymbol { mark: Mark::Slot, i, j: SymbolEnd::point(&e.j) }]
+        vec![SceneSymbol::new(Mark::Slot, i, SymbolEnd::point(&e.j))]
     }
 
     fn attachment<S: Real>(e: &PinInSlot<S>, body: usize) -> Attachment<S> {

@@ -39,7 +39,7 @@ impl Joint for PointOnCurve {
 
     fn symbols(e: &PointOnCurve) -> Vec<SceneSymbol> {
         let (i, j) = (SymbolEnd::point(&e.i), SymbolEnd::body(e.curve.body));
-        vec![SceneSymbol { mark: Mark::Contact, i, j }]
+        vec![SceneSymbol::new(Mark::Touch, i, j)]
     }
 
     fn attachment<S: Real>(e: &PointOnCurve<S>, body: usize) -> Attachment<S> {

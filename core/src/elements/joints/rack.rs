@@ -66,9 +66,9 @@ impl Joint for Rack {
 
     fn symbols(e: &Rack) -> Vec<SceneSymbol> {
         let (i, j) = (SymbolEnd::point(&e.i).along(e.axis), SymbolEnd::point(&e.j));
-        let line = SceneSymbol { mark: Mark::ToothedLine(e.radius), i: i.clone(), j: j.clone() };
-        let pinion = Mark::Toothed { radius: e.radius.abs(), module: None, ring: false };
-        vec![SceneSymbol { mark: pinion, i, j }, line]
+        let line = SceneSymbol::new(Mark::ToothedLine, i.clone(), j.clone());
+        let pinion = SceneSymbol::new(Mark::ToothedWheel, i, j);
+        vec![pinion.to_scale([0.0, e.radius.abs()]), line.to_scale([0.0, e.radius])]
     }
 
     fn results<S: Real>(_: &Rack<S>, _: &At<'_, S>, lam: &[S], out: &mut [S]) {

@@ -80,7 +80,7 @@ impl Joint for RollerOnCurve {
 
     fn symbols(e: &RollerOnCurve) -> Vec<SceneSymbol> {
         let (i, j) = (SymbolEnd::point(&e.i), SymbolEnd::body(e.curve.body));
-        vec![SceneSymbol { mark: Mark::Roller(e.radius), i, j }]
+        vec![SceneSymbol::new(Mark::Roller, i, j).to_scale([e.radius, 0.0])]
     }
 
     fn attachment<S: Real>(e: &RollerOnCurve<S>, body: usize) -> Attachment<S> {

@@ -56,8 +56,9 @@ impl Joint for Rolling {
 
     fn symbols(e: &Rolling) -> Vec<SceneSymbol> {
         let (i, j) = (SymbolEnd::point(&e.i).along(e.axis), SymbolEnd::point(&e.j));
-        let line = SceneSymbol { mark: Mark::Track(e.radius), i: i.clone(), j: j.clone() };
-        vec![SceneSymbol { mark: Mark::Circle(e.radius.abs()), i, j }, line]
+        let line = SceneSymbol::new(Mark::Track, i.clone(), j.clone());
+        let wheel = SceneSymbol::new(Mark::Circle, i, j);
+        vec![wheel.to_scale([0.0, e.radius.abs()]), line.to_scale([0.0, e.radius])]
     }
 
     fn results<S: Real>(_: &Rolling<S>, _: &At<'_, S>, lam: &[S], out: &mut [S]) {

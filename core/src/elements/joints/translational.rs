@@ -59,7 +59,7 @@ impl Joint for Translational {
 
     fn symbols(e: &Translational) -> Vec<SceneSymbol> {
         let [i, j] = [(&e.i, 0), (&e.j, 1)].map(|(on, k)| SymbolEnd::point(on).along(e.axes[k]));
-        vec![SceneSymbol { mark: Mark::Slide, i, j }]
+        vec![SceneSymbol::new(Mark::Slide, i, j)]
     }
 
     fn attachment<S: Real>(e: &Translational<S>, body: usize) -> Attachment<S> {

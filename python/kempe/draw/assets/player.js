@@ -392,6 +392,7 @@ function nameOf(title2, what) {
 }
 
 // src/playerTexts.ts
+var forces = (condition) => `forces ${condition}`;
 var playerTexts = {
   linkage: "Linkage",
   theLinkage: "the linkage",
@@ -399,6 +400,7 @@ var playerTexts = {
   plotOf: (name) => `Plot over time: ${name}`,
   on: (body) => `on ${body}`,
   remarked: (remark) => `(${remark})`,
+  forces,
   of: (end) => `of ${end}`,
   play: "Play",
   pause: "Pause",
@@ -441,7 +443,7 @@ var Loop = class {
   }
   on;
   starts = 0;
-  /** Call `each` with the ms since the frame before, until it returns false or the motion is stopped. */
+  /** Call `each` with the ms since the previous frame, until it returns false or the motion is stopped. */
   async play(each, begin) {
     if (this.on.value) return;
     this.on.value = true;
@@ -490,7 +492,7 @@ var Clock = class {
     this.t = Math.min(this.motion.end, Math.max(this.motion.begin, t));
     this.changed();
   }
-  /** Go on by so many frames, and stop there. */
+  /** Move by a number of frames, and stop. */
   step(frames) {
     this.pause();
     const times = this.motion.t;
@@ -513,7 +515,7 @@ var Clock = class {
     if (this.playing) this.pause();
     else this.play();
   }
-  /** Go on by one frame; false at the end. */
+  /** Advance by one frame of the screen; false at the end. */
   tick(ms) {
     this.t = this.after(Math.min(ms, 500) / 1e3);
     this.changed();
@@ -753,7 +755,7 @@ var Frames = class {
   poses;
   view;
   frame = null;
-  /** Paint in this frame from now on; false if it has no place. */
+  /** Enter the frame of an item; false if its body has no pose. */
   enter(frame) {
     if (this.frame && isSame(this.frame, frame)) return true;
     this.leave();
@@ -765,7 +767,7 @@ var Frames = class {
     this.frame = frame;
     return true;
   }
-  /** Paint on the canvas again. */
+  /** Return to the frame of the canvas. */
   leave() {
     if (this.frame) this.context.restore();
     this.frame = null;
@@ -846,7 +848,7 @@ var Trace = class {
   body;
   points;
   path;
-  /** The part that a view shows. */
+  /** Draw the path in a view. */
   seen(view) {
     const line = new Line(
       () => through(
@@ -902,7 +904,7 @@ var View = class {
     const scale = Math.min(wide, high);
     return Number.isFinite(scale) && scale > 0 ? scale : 100;
   }
-  /** The canvas has another size, in CSS pixels. */
+  /** Set the size of the canvas, in CSS pixels. */
   resize(width, height) {
     const before = this.fitted();
     this.width = width;
@@ -910,7 +912,7 @@ var View = class {
     if (this.moved) this.scale *= this.fitted() / before;
     else this.fit();
   }
-  /** Where the middle of the motion is when all of it is shown, px. */
+  /** The middle of the canvas without the room at the lower edge, px. */
   middle() {
     return [this.width / 2, (this.height - FOOT) / 2];
   }
@@ -931,17 +933,17 @@ var View = class {
     this.center = [this.center[0] + before[0] - after[0], this.center[1] + before[1] - after[1]];
     this.moved = true;
   }
-  /** Move and zoom with fingers: the middle of them, and the distance between two. */
+  /** Move and zoom from one state of the fingers to the next: their middle, and the distance between two. */
   follow(before, after) {
     this.pan(after.middle[0] - before.middle[0], after.middle[1] - before.middle[1]);
     if (before.width > 0 && after.width > 0) this.zoom(after.width / before.width, after.middle);
   }
-  /** The same as a matrix for paths in metres. */
+  /** The transformation to pixels as a matrix, for paths in metres. */
   matrix() {
     const [e, f] = this.toScreen([0, 0]);
     return new DOMMatrix([this.scale, 0, 0, -this.scale, e, f]);
   }
-  /** Move the drawing by so many pixels. */
+  /** Move the drawing by pixels. */
   pan(dx, dy) {
     this.center = [this.center[0] - dx / this.scale, this.center[1] + dy / this.scale];
     this.moved = true;
@@ -971,11 +973,14 @@ var Acting = class {
       return force ? [this.vector(end, force(now), now)] : [];
     });
   }
-  /** What the signs beside arrows of some kinds mean, a line for each sign. */
+  /** Lines below arrows of some kinds: what forces over a quantity contain, and the meaning of each sign. */
   notes(kinds) {
     const groups = Object.entries(ACTING).flatMap(([kind, own]) => kinds.includes(kind) ? [...own] : []);
-    const shown = new Set(this.scene.ends.filter(({ group }) => groups.includes(group)).map(({ remark }) => remark));
-    return [...this.signs].filter(([remark]) => shown.has(remark)).map(([remark, sign]) => `${sign} ${remark}`);
+    const ends = this.scene.ends.filter(({ group }) => groups.includes(group));
+    const shown = new Set(ends.map(({ remark }) => remark));
+    const signs = [...this.signs].filter(([remark]) => shown.has(remark)).map(([remark, sign]) => `${sign} ${remark}`);
+    const { condition } = this.scene.variable;
+    return ends.length && condition ? [playerTexts.forces(condition), ...signs] : signs;
   }
   vector({ element, body, frame, point, sign, remark }, [x, y], now) {
     const owner = playerTexts.on(shortened(this.scene.bodies[body].name, 16));
@@ -1132,7 +1137,12 @@ function linear(values, which, { low, high, share }) {
 
 // src/player/vectors.ts
 var LONGEST = 0.22;
-var UNITS = { reactions: "N", force: "N", velocities: "m/s", accelerations: "m/s²" };
+var UNITS = {
+  reactions: "force",
+  force: "force",
+  velocities: "velocity",
+  accelerations: "acceleration"
+};
 function lengths({ bounds, reaction_scale: { force, length }, largest: largest2 }) {
   const share = (value) => value > 0 ? LONGEST * extent(bounds) / value : 0;
   return {
@@ -1152,9 +1162,14 @@ var SceneVectors = class {
   acting;
   lengths;
   unit(kind) {
-    return UNITS[kind];
+    return this.scene.units[UNITS[kind]];
   }
-  /** How long one unit is drawn, m. */
+  /** Lines beside the arrows of some kinds: the reason why they are missing, or remarks on them. */
+  notes(kinds) {
+    const missing = kinds.some((kind) => kind !== "velocities") ? this.scene.undetermined : "";
+    return missing ? [missing] : this.acting.notes(kinds);
+  }
+  /** The drawn length of one unit, m. */
   length(kind) {
     return this.lengths[kind];
   }
@@ -1221,7 +1236,7 @@ var Drawing = class {
     const { width, height } = this.canvas.getBoundingClientRect();
     this.view.resize(width, height);
   }
-  /** Where the joints are on the canvas at one instant, CSS pixels: their points on body j. */
+  /** The positions of the joints on the canvas at one instant, CSS pixels: their points on body j. */
   pins(now) {
     return this.scene.joints.map(({ name, bodies: [, j], points: [, at] }) => {
       return { name, at: this.view.toScreen(placed(now.poses[j], at)) };
@@ -1235,7 +1250,7 @@ var Drawing = class {
     if (shown.paths) paintTraces(context, view, this.traces, colours2);
     const names = paintItems(context, view, scene2.display, now.poses, shown, colours2);
     const chosen = ARROW_KINDS.filter((kind) => shown[kind]);
-    names.push(...paintNotes(context, vectors.acting.notes(chosen), colours2));
+    names.push(...paintNotes(context, vectors.notes(chosen), colours2));
     const kinds = chosen.map((kind) => ({
       kind,
       unit: vectors.unit(kind),
@@ -1277,9 +1292,17 @@ function savePng(name, { width, height }, paint2) {
   canvas.toBlob((blob) => blob && download(name, blob, "image/png"), "image/png");
 }
 
+// src/draw/condition.ts
+var FORCES = /^(N|N[*·]m|J\/(m|rad))$/;
+function conditionOf(unit, condition) {
+  return FORCES.test(unit) ? condition : "";
+}
+
 // src/give/table.ts
-function csv(t, names, units, rows, first = { name: "t", unit: "s" }) {
-  const head2 = [`${first.name} [${first.unit}]`, ...names.map((name, k) => `${name} [${units[k]}]`)].map(cell);
+function csv(t, names, units, rows, first = { name: "t", unit: "s", condition: "" }) {
+  const beside = (unit) => [unit, conditionOf(unit, first.condition)].filter(Boolean).join(", ");
+  const columns = names.map((name, k) => `${name} [${beside(units[k])}]`);
+  const head2 = [`${first.name} [${first.unit}]`, ...columns].map(cell);
   const number = (value) => Number.isFinite(value) ? String(value) : "nan";
   const lines = Array.from(t, (one, k) => [one, ...rows.map((row) => row[k])].map(number).join(","));
   return [head2.join(","), ...lines, ""].join("\n");
@@ -1339,11 +1362,10 @@ function paintEntry(context, curve, text, [left, row], colours2) {
 // src/player/export.ts
 function table(motion2, curves) {
   const distinct = [...new Map(curves.map((curve) => [curve.name, curve])).values()];
-  const { name, unit } = motion2.variable;
   const units = distinct.map((curve) => plainUnit(curve.unit));
   const names = distinct.map((curve) => curve.name);
   const rows = distinct.map(({ values }) => Float64Array.from(values));
-  return csv(Float64Array.from(motion2.t), names, units, rows, { name, unit });
+  return csv(Float64Array.from(motion2.t), names, units, rows, motion2.variable);
 }
 function plainUnit(unit) {
   return unit.replace("·", "*").replace("²", "^2");
@@ -1514,7 +1536,7 @@ var TimeSpan = class {
     this.from = this.ends.begin;
     this.to = this.ends.end;
   }
-  /** Show `factor` times as much time around t. */
+  /** Multiply the visible time by `factor` around t. */
   stretch(factor, t) {
     const { begin, end } = this.ends;
     const [from, to] = [t + (this.from - t) * factor, t + (this.to - t) * factor];
@@ -1536,11 +1558,16 @@ var TimeSpan = class {
 var DEGREES2 = 180 / Math.PI;
 var RPM = 30 / Math.PI;
 var LENGTHS = { m: 1, mm: 1e3 };
+var UNIT2 = /^(m|rad|J)(?:\/(m|rad|s)(?:\^(\d)|(²))?)?$/;
 function displayed(unit, { degrees, length }) {
-  if (/^m(?=$|\/s)/.test(unit)) return { factor: LENGTHS[length], unit: unit.replace("m", length) };
-  if (!degrees || !/^rad(?!\w)/.test(unit)) return { factor: 1, unit };
-  if (unit === "rad/s") return { factor: RPM, unit: "rpm" };
-  return { factor: DEGREES2, unit: unit.replace("rad", "°") };
+  const [, of, by, power, squared] = UNIT2.exec(unit) ?? [];
+  if (!of) return { factor: 1, unit };
+  if (degrees && unit === "rad/s") return { factor: RPM, unit: "rpm" };
+  const factor = (base = "") => base === "m" ? LENGTHS[length] : base === "rad" && degrees ? DEGREES2 : 1;
+  const name = (base) => base === "m" ? length : base === "rad" && degrees ? "°" : base;
+  const order = squared ? 2 : Number(power ?? 1);
+  const written = by ? `${name(of)}/${name(by)}${unit.slice(of.length + 1 + by.length)}` : name(of);
+  return { factor: factor(of) / factor(by) ** order, unit: written };
 }
 
 // src/plot/axes.ts
@@ -1574,7 +1601,7 @@ var Axes = class {
   left;
   up;
   along;
-  /** Where a time and a value (of the logarithm on a logarithmic axis) are, px. */
+  /** The place of a time and a value (or its logarithm, on a logarithmic axis), px. */
   place(t, value) {
     const { from, to } = this.span;
     const { width, height } = this.size;
@@ -1588,14 +1615,15 @@ var Axes = class {
     const share = (px - this.left) / Math.max(1, this.size.width - this.left - RIGHT);
     return this.span.from + Math.min(1, Math.max(0, share)) * (this.span.to - this.span.from);
   }
-  /** Keep what is painted next between the axes. */
+  /** Clip later painting to the area between the axes. */
   clip(context) {
     const { width, height } = this.size;
     context.beginPath();
     context.rect(this.left - 2, TOP - 8, width - this.left - RIGHT + 4, height - TOP - BOTTOM + 12);
     context.clip();
   }
-  paint(context, label, colours2) {
+  /** Paint axes and ticks, with the label at the upper left and the note at the upper right. */
+  paint(context, label, note, colours2) {
     const { width, height } = this.size;
     context.lineWidth = 1;
     context.font = font(TICK_TEXT);
@@ -1609,6 +1637,10 @@ var Axes = class {
     context.textAlign = "left";
     context.textBaseline = "top";
     context.fillText(label, 10, 7);
+    const room = width - RIGHT - 24 - context.measureText(label).width;
+    context.fillStyle = colours2.named.soft;
+    context.textAlign = "right";
+    if (note) context.fillText(note, width - RIGHT, 7, Math.max(1, room));
   }
   paintUp(context, colours2) {
     context.strokeStyle = colours2.named.grid;
@@ -1620,7 +1652,7 @@ var Axes = class {
       context.fillText(this.up.write(value), this.left - 8, y);
     }
   }
-  /** Ticks along the axis; the last one is moved to the left where it would be cut. */
+  /** Ticks of the horizontal axis. The last one is moved to the left if the edge would cut it. */
   paintAcross(context, colours2) {
     const { width, height } = this.size;
     const base = height - BOTTOM;
@@ -1636,7 +1668,7 @@ var Axes = class {
       context.fillText(text, Math.min(x, width - half), base + 8);
     }
   }
-  /** A line up at t. */
+  /** A vertical line at t. */
   line(context, t) {
     const [x] = this.place(t, this.held.range[0]);
     context.stroke(new Line(`M${x} ${TOP - 6}V${this.size.height - BOTTOM}`));
@@ -1726,7 +1758,7 @@ var Plot = class {
   curves = [];
   log = false;
   units = { degrees: false, length: "m" };
-  /** Where the pointer is, px; null if it is elsewhere. */
+  /** The position of the pointer, px; null outside the plot. */
   pointer = null;
   width = 0;
   height = 0;
@@ -1747,7 +1779,11 @@ var Plot = class {
     this.symbol = symbol;
     this.scale();
   }
-  /** What lies on the horizontal axis, and the part of it that is shown. */
+  /** What the values contain in a motion over a quantity; empty for positions and rates, and over time. */
+  get note() {
+    return conditionOf(this.curves[0]?.unit ?? "", this.across.condition);
+  }
+  /** Set the quantity on the horizontal axis and the part of it that is shown. */
   over(span, across) {
     this.span = span;
     this.across = across;
@@ -1796,7 +1832,7 @@ var Plot = class {
   timeAt(px) {
     return this.axes ? this.axes.timeAt(px) : this.span.from;
   }
-  /** Draw with the cursor at t and, if a time is looked at, a line there. */
+  /** Draw with the cursor at t, and with a line at `looked`, the time under the pointer. */
   paint(t, looked, colours2) {
     const context = cleared(this.canvas);
     if (!this.curves.length || !this.width) return;
@@ -1806,7 +1842,7 @@ var Plot = class {
     this.paintDots(context, looked ?? t, colours2);
     this.reading = looked !== null && this.pointer ? this.paintReading(context, looked, this.pointer, colours2) : "";
   }
-  /** Axes and curves, painted anew only when they change. */
+  /** Axes and curves as a picture, which is painted again only after a change. */
   picture(colours2) {
     const { width, height, canvas, span, version } = this;
     const key = JSON.stringify([width, height, canvas.width, span.from, span.to, version, colours2.named.text]);
@@ -1826,7 +1862,7 @@ var Plot = class {
   paintStill(context, colours2) {
     const held = { range: this.range, log: this.onLog, unit: this.unit };
     this.axes = new Axes(context, this, this.span, this.across, held);
-    this.axes.paint(context, this.label, colours2);
+    this.axes.paint(context, this.label, this.note, colours2);
     context.save();
     this.axes.clip(context);
     for (const curve of this.curves) this.paintCurve(context, curve, colours2);
@@ -1838,7 +1874,7 @@ var Plot = class {
     this.paintLine(context, t, colours2.named.text);
     this.paintDots(context, t, colours2);
   }
-  /** The place of a value on the canvas; null where a logarithm has none. */
+  /** The place of a value on the canvas; null for a value without a logarithm on a logarithmic axis. */
   place = (t, value) => {
     if (!Number.isFinite(value) || this.onLog && value === 0) return null;
     return this.axes.place(t, this.onLog ? Math.log10(Math.abs(value)) : value);
@@ -1856,7 +1892,7 @@ var Plot = class {
     context.lineWidth = 1.2;
     this.axes.line(context, t);
   }
-  /** Those curves of which t is a part. */
+  /** The curves whose time range contains t. */
   at(t) {
     return this.curves.filter(({ t: own }) => own[0] <= t && t <= own[own.length - 1]);
   }
@@ -1953,16 +1989,17 @@ function naturalScales(scene2) {
   const acceleration2 = largestMotion(accelerations, size);
   const kept2 = scene2.channels.filter(({ group }) => group !== "accuracy");
   const channels = (unit) => largest(kept2.filter((one) => one.unit === unit).map(({ values }) => values));
-  const force = Math.max(largest(reactions.flat()), channels("N"), channels("N·m") / size);
+  const force = Math.max(largest(reactions.flat()), channels(scene2.units.force), channels(scene2.units.torque) / size);
+  const { units } = scene2;
   return {
-    m: length,
-    rad: poses.length ? 1 : 0,
-    "m/s": velocity2,
-    "rad/s": velocity2 / size,
-    "m/s²": acceleration2,
-    "rad/s²": acceleration2 / size,
-    N: force,
-    "N·m": force * size,
+    [units.length]: length,
+    [units.angle]: poses.length ? 1 : 0,
+    [units.velocity]: velocity2,
+    [units.angular_velocity]: velocity2 / size,
+    [units.acceleration]: acceleration2,
+    [units.angular_acceleration]: acceleration2 / size,
+    [units.force]: force,
+    [units.torque]: force * size,
     J: channels("J")
   };
 }
@@ -1979,19 +2016,19 @@ function largest(rows) {
 var ORIGIN = [0, 0];
 var NOISE = 5e-9;
 var TURNING = [
-  { key: "angle", symbol: "φ", unit: "rad", rows: "poses" },
-  { key: "omega", symbol: "ω", unit: "rad/s", rows: "rates" },
-  { key: "alpha", symbol: "α", unit: "rad/s²", rows: "accelerations" }
+  { key: "angle", symbol: "φ", unit: "angle", rows: "poses" },
+  { key: "omega", symbol: "ω", unit: "angular_velocity", rows: "rates" },
+  { key: "alpha", symbol: "α", unit: "angular_acceleration", rows: "accelerations" }
 ];
 var MOVING2 = [
-  { key: "x", symbol: "x", unit: "m", order: 0, component: 0, rate: "vx" },
-  { key: "y", symbol: "y", unit: "m", order: 0, component: 1, rate: "vy" },
-  { key: "vx", symbol: "vx", unit: "m/s", order: 1, component: 0, rate: "ax" },
-  { key: "vy", symbol: "vy", unit: "m/s", order: 1, component: 1, rate: "ay" },
-  { key: "speed", symbol: "|v|", unit: "m/s", order: 1, component: null, rate: null },
-  { key: "ax", symbol: "ax", unit: "m/s²", order: 2, component: 0, rate: null },
-  { key: "ay", symbol: "ay", unit: "m/s²", order: 2, component: 1, rate: null },
-  { key: "acceleration", symbol: "|a|", unit: "m/s²", order: 2, component: null, rate: null }
+  { key: "x", symbol: "x", unit: "length", order: 0, component: 0, rate: "vx" },
+  { key: "y", symbol: "y", unit: "length", order: 0, component: 1, rate: "vy" },
+  { key: "vx", symbol: "vx", unit: "velocity", order: 1, component: 0, rate: "ax" },
+  { key: "vy", symbol: "vy", unit: "velocity", order: 1, component: 1, rate: "ay" },
+  { key: "speed", symbol: "|v|", unit: "velocity", order: 1, component: null, rate: null },
+  { key: "ax", symbol: "ax", unit: "acceleration", order: 2, component: 0, rate: null },
+  { key: "ay", symbol: "ay", unit: "acceleration", order: 2, component: 1, rate: null },
+  { key: "acceleration", symbol: "|a|", unit: "acceleration", order: 2, component: null, rate: null }
 ];
 var DERIVATIVES = [(now, body, at) => placed(now.poses[body], at), velocity, acceleration];
 var ACTING2 = { force: "|F|", force_x: "Fx", force_y: "Fy", torque: "T" };
@@ -2017,7 +2054,8 @@ function ofBodies(scene2, motion2) {
   const made = [...TURNING].reverse().map(({ key, symbol, unit, rows }) => {
     const curves = turning.map(({ name, number }, k) => {
       const sample = (frame) => scene2.frames[rows][frame][number - 1][2];
-      return new SceneCurve(motion2, { subject: name, key, unit, number: number - 1, sample, rate: rates[k] });
+      const source = { subject: name, key, unit: scene2.units[unit], number: number - 1, sample, rate: rates[k] };
+      return new SceneCurve(motion2, source);
     });
     rates = curves;
     return { key, group: playerTexts.groups.bodies, name: playerTexts.turning[key], symbol, curves };
@@ -2044,7 +2082,7 @@ function ofPoints(scene2, motion2) {
       const curve = new SceneCurve(motion2, {
         subject: name,
         key,
-        unit,
+        unit: scene2.units[unit],
         number,
         sample,
         rate: made.get(`${name}.${rate}`)
@@ -2068,7 +2106,7 @@ function ofElements(scene2, motion2, group) {
     force_y: ([, y]) => y
   };
   return Object.entries(ACTING2).map(([key, symbol]) => {
-    const unit = key === "torque" ? "N·m" : "N";
+    const unit = key === "torque" ? scene2.units.torque : scene2.units.force;
     const part = ofJoint[key];
     const joints = group === "reactions" && part ? scene2.joints : [];
     const sources = joints.map((joint, k) => {
@@ -2166,7 +2204,7 @@ var Card = class {
     });
     this.legend.replaceChildren(...this.entries.map(({ entry }) => entry));
   }
-  /** Draw with the cursor at t, or at the time that is looked at. */
+  /** Draw with the cursor at t, and with a line at `looked`, the time under the pointer. */
   paint(t, looked, colours2) {
     for (const { curve, line, value } of this.entries) {
       line.setAttribute("stroke", colourOf(curve.number, colours2));
@@ -2413,8 +2451,8 @@ function connectBodies() {
     drawing.onBody = choice.value === "" ? null : Number(choice.value);
     repaint();
   });
-  const forces = ACTING.force;
-  byId("forces").hidden = !scene.ends.some(({ group }) => forces.includes(group));
+  const forces2 = ACTING.force;
+  byId("forces").hidden = !scene.undetermined && !scene.ends.some(({ group }) => forces2.includes(group));
 }
 function connectKeys() {
   listen({
