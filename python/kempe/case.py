@@ -11,42 +11,36 @@ from typing import Any
 
 from kempe import _core, files
 from kempe.analyses import Coordinates, assemble, simulate
-from kempe.closures import find_configurations
+from kempe.closures import ConfigurationsResult
 from kempe.compiled import CompiledModel
 from kempe.driven import follow
 from kempe.errors import FileError, KempeError, ModelError
-from kempe.freedom import find_mobility
-from kempe.linearization import linearized
+from kempe.freedom import MobilityResult
+from kempe.linearization import ModesResult
 from kempe.model import Model
 from kempe.names import entry as named
 from kempe.names import few, one_of
 from kempe.option import Analysis, Option
-from kempe.reach import find_limits
-from kempe.record import Progress
+from kempe.options import Dynamics
+from kempe.reach import LimitsResult
+from kempe.record import Progress, Record, run_analysis
+from kempe.rest import EquilibriumResult
 from kempe.result import Result
 from kempe.sequence import of_type, read_entries
 from kempe.solution import Solution
 from kempe.start import Start, read_start
 from kempe.state import State
-from kempe.statics import rest
 from kempe.values import Number, data, mapping, numbers, plain
 
 FORMATS = {".toml": "toml", ".json": "json"}
 
-#: The function that runs an analysis, by its ``type``.
-_Runner = Callable[
-    [CompiledModel, State, Mapping[str, Any], "Progress | None", "str | None"],
-    "Solution | Result",
-]
-_RUNNERS: dict[str, _Runner] = {
-    "dynamics": simulate,
-    "kinematics": follow,
-    "inverse_dynamics": follow,
-    "equilibrium": rest,
-    "modes": linearized,
-    "configurations": find_configurations,
-    "limits": find_limits,
-    "mobility": find_mobility,
+#: The class of each result that is not a motion, by the type of the analysis.
+_RESULTS: dict[str, Callable[[Record], Result]] = {
+    "equilibrium": EquilibriumResult,
+    "modes": ModesResult,
+    "limits": LimitsResult,
+    "mobility": MobilityResult,
+    "configurations": ConfigurationsResult,
 }
 
 
@@ -214,8 +208,8 @@ class Case:
         text, after = self._core().analyses()
         entries, ends = json.loads(text).get("analyses", {}), list[State]()
         for (name, entry), before in zip(entries.items(), after, strict=True):
-            run, at = _RUNNERS[entry["type"]], begin if before is None else ends[before]
-            solution = run(model, at, entry, progress, None if before is None else name)
+            at = begin if before is None else ends[before]
+            solution = _run(model, at, entry, progress, None if before is None else name)
             yield name, solution
             ends.append(solution.final)
 
@@ -311,6 +305,21 @@ class Case:
     def __repr__(self) -> str:
         names = few(self._entries) or "none"
         return f"<Case {self.model.title!r}; analyses: {names}>"
+
+
+def _run(
+    model: CompiledModel,
+    start: State,
+    entry: Mapping[str, Any],
+    progress: Progress | None,
+    after: str | None,
+) -> Solution | Result:
+    """Run an analysis of a case; ``after`` is its name if it starts at the end of another one."""
+    kind = entry["type"]
+    if kind in _RESULTS:
+        return _RESULTS[kind](run_analysis(model, start, entry, progress, after=after))
+    run = simulate if kind == Dynamics.kind else follow
+    return run(model, start, entry, progress, after)
 
 
 def load(path: Path | str, *, parameters: Mapping[str, Number] | None = None) -> Case:

@@ -11,7 +11,7 @@ from kempe.analyses import Coordinates
 from kempe.assembly_report import AssemblyReport
 from kempe.model import Model, compiled_model
 from kempe.options import Configurations
-from kempe.record import Progress, Record, run_analysis
+from kempe.record import Record, run_analysis
 from kempe.result import Result
 from kempe.state import State
 from kempe.table import Column, column
@@ -139,14 +139,3 @@ def configurations(
     entry = Configurations(set=set or None, limit=limit).tree()
     at = State(compiled, t, np.zeros(compiled.n_q), np.zeros(compiled.n_q))
     return ConfigurationsResult(run_analysis(compiled, at, entry), found=True)
-
-
-def find_configurations(
-    model: CompiledModel,
-    start: State,
-    entry: Mapping[str, Any],
-    progress: Progress | None = None,
-    after: str | None = None,
-) -> ConfigurationsResult:
-    """The configurations with the options of an entry of a case; see ``configurations``."""
-    return ConfigurationsResult(run_analysis(model, start, entry, progress, after=after))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from kempe.display_units import display
 from kempe.model import Model, compiled_model
 from kempe.names import few
-from kempe.record import Progress, Record, check, run_analysis
+from kempe.record import Record, check, run_analysis
 from kempe.result import Result
 from kempe.state import State
 
@@ -199,19 +199,9 @@ def mobility(model: Model | CompiledModel, state: State) -> MobilityResult:
             assembled.
         state: an assembled state.
     """
-    return find_mobility(compiled_model(model), state, {"type": MobilityResult.kind})
-
-
-def find_mobility(
-    model: CompiledModel,
-    state: State,
-    entry: Mapping[str, Any],
-    progress: Progress | None = None,
-    after: str | None = None,
-) -> MobilityResult:
-    """The mobility as an analysis of a case; see ``mobility``."""
-    check(model, state, "state")
-    return MobilityResult(run_analysis(model, state, entry, progress, after=after))
+    compiled = compiled_model(model)
+    check(compiled, state, "state")
+    return MobilityResult(run_analysis(compiled, state, {"type": MobilityResult.kind}))
 
 
 def _redundancy(found: Mapping[str, Any]) -> Redundancy:

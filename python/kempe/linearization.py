@@ -15,7 +15,7 @@ from kempe.errors import ModelError
 from kempe.mode_shape import ModeShape
 from kempe.model import Model, compiled_model
 from kempe.options import Modes
-from kempe.record import Progress, Record, check, run_analysis
+from kempe.record import Record, check, run_analysis
 from kempe.result import Result
 from kempe.state import State
 from kempe.table import Column
@@ -265,19 +265,9 @@ def modes(
         ModelError: an unknown input or output, or a parameter that changes the geometry.
     """
     entry = Modes(n, inputs, outputs).tree()
-    return linearized(compiled_model(model), state, entry, None)
-
-
-def linearized(
-    model: CompiledModel,
-    state: State,
-    entry: Mapping[str, Any],
-    progress: Progress | None = None,
-    after: str | None = None,
-) -> ModesResult:
-    """The modes with the options of an entry of a case; see ``modes``."""
-    check(model, state, "state")
-    return ModesResult(run_analysis(model, state, entry, progress, after=after))
+    compiled = compiled_model(model)
+    check(compiled, state, "state")
+    return ModesResult(run_analysis(compiled, state, entry))
 
 
 def _scaled(shapes: Complexes) -> Complexes:

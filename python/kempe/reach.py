@@ -152,15 +152,5 @@ def limits(
         AssemblyError: the start does not satisfy the constraints.
         ModelError: ``over`` is unknown or missing, or the drivers leave another freedom.
     """
-    return find_limits(compiled_model(model), start, Limits(over).tree(), progress)
-
-
-def find_limits(
-    model: CompiledModel,
-    start: State,
-    entry: Mapping[str, Any],
-    progress: Progress | None = None,
-    after: str | None = None,
-) -> LimitsResult:
-    """The limits with the options of an entry of a case; see ``limits``."""
-    return LimitsResult(run_analysis(model, start, entry, progress, after=after))
+    entry = Limits(over).tree()
+    return LimitsResult(run_analysis(compiled_model(model), start, entry, progress))

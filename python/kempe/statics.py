@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
@@ -19,7 +18,7 @@ from kempe.rest import EquilibriumResult
 from kempe.state import State
 from kempe.values import Number, texts
 
-__all__ = ["EquilibriumResult", "PointStiffness", "equilibrium", "rest", "stiffness_at"]
+__all__ = ["EquilibriumResult", "PointStiffness", "equilibrium", "stiffness_at"]
 
 #: Compliance in a direction, relative to the largest compliance, that counts as zero.
 _RIGID = 1e-12
@@ -63,18 +62,7 @@ def equilibrium(
         ModelError: an argument is invalid.
     """
     entry = Equilibrium(hold or None, over, range, nearest).tree()
-    return rest(compiled_model(model), start, entry, progress)
-
-
-def rest(
-    model: CompiledModel,
-    start: State,
-    entry: Mapping[str, Any],
-    progress: Progress | None = None,
-    after: str | None = None,
-) -> EquilibriumResult:
-    """The equilibrium with the options of an entry of a case; see ``equilibrium``."""
-    return EquilibriumResult(run_analysis(model, start, entry, progress, after=after))
+    return EquilibriumResult(run_analysis(compiled_model(model), start, entry, progress))
 
 
 @dataclass(frozen=True)
