@@ -50,7 +50,9 @@ def test_lines_of_an_event_are_in_all_panels_and_its_name_is_at_the_first_in_the
     for axes in (low, high):
         assert [float(line.get_xdata()[0]) for line in lines(axes)] == pytest.approx(times)
         assert {line.get_linestyle() for line in lines(axes)} == {"-"}
-        assert all(line.zorder < axes.lines[0].zorder for line in lines(axes))  # below the curve
+        for line in lines(axes):  # thinner than the curve and below it
+            assert line.get_linewidth() < axes.lines[0].get_linewidth()
+            assert line.zorder < axes.lines[0].zorder
     assert not empty.lines
     assert [len(axes.texts) for axes in figure.axes] == [0, 1, 0]
     name = high.texts[0]
@@ -58,8 +60,9 @@ def test_lines_of_an_event_are_in_all_panels_and_its_name_is_at_the_first_in_the
     at = high.transData.transform((times[0], 1.0))[0]
     points = 72.0 / figure.dpi
     assert name.get_text() == "half"
-    assert 0.0 < (box.x0 - at) * points < 4.0
-    assert 0.0 < (inside.y1 - box.y1) * points < 4.0
+    beside = (box.x0 - at) * points
+    assert 0.0 < beside < 4.0
+    assert (inside.y1 - box.y1) * points == pytest.approx(beside)  # as far from the upper edge
     assert box.height > 1.5 * box.width  # it is written upwards
     assert name.get_color() == lines(high)[0].get_color()
 
