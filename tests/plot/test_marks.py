@@ -42,7 +42,7 @@ def lines(axes: Axes) -> list[Line2D]:
     return axes.lines[1:] if axes.lines else []
 
 
-def test_lines_of_an_event_are_in_all_panels_and_its_name_is_at_the_first_in_the_upper_one() -> None:
+def test_an_event_has_lines_in_all_panels_and_its_name_at_the_first_in_the_upper_one() -> None:
     sol = rod("t", 1.0, events={"half": "sin(2*pi*t/0.5 - 0.5)"})
     times = [0.25 * (k + 0.5 / np.pi) for k in range(4)]
     figure = marked(sol, 0.0, 1.0, 0.3, 0.6)

@@ -267,7 +267,7 @@ def test_the_stiffness_at_a_point() -> None:
     told = r"hold: 'a\.angle'; must be a list of names; write \['a\.angle'\]$"
     with pytest.raises(kp.ModelError, match=told):
         kp.stiffness_at(m, rest.state, "a.A", hold="a.angle")
-    with pytest.raises(kp.ModelError, match="hold: 3; must be a list of names$"):
+    with pytest.raises(kp.ModelError, match=r"hold: 3; must be a list of names$"):
         kp.stiffness_at(m, rest.state, "a.A", hold=3)  # type: ignore[arg-type]
 
 
