@@ -25,7 +25,6 @@ from pathlib import Path
 from typing import Any, TypeAlias
 
 ROOT = Path(__file__).resolve().parents[1]
-FILES = ("core/src/elements/**", "core/src/equations/**")
 #: Quick modules run first, and those of this program, which find many changes, as if each took
 #: no more than this time in s.
 _EARLY, _EARLY_TIME = "conformance", 0.1
@@ -125,12 +124,16 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=_Verbatim)
     parser.add_argument("folder", type=Path, help="for the copies and the outcomes")
     parser.add_argument("--shards", type=int, nargs="+", default=[1], help="1 by default")
-    parser.add_argument("--of", type=int, default=80, help="one change in 80 by default")
+    parser.add_argument("--of", type=int, default=400, help="one change in 400 by default")
+    parser.add_argument(
+        "--files", nargs="+", default=["core/src/**"], help="patterns; the whole core by default"
+    )
     parser.add_argument("--jobs", type=int, default=2, help="mutants at a time, 2 by default")
     asked = parser.parse_args()
     os.environ |= {"PYO3_PYTHON": sys.executable, "RUST_BACKTRACE": "0"}
     place = Place(asked.folder.resolve())
-    mutants = [one for shard in asked.shards for one in _listed(place, shard, asked.of)]
+    files = [word for file in asked.files for word in ("-f", file)]
+    mutants = [one for shard in asked.shards for one in _listed(place, files, shard, asked.of)]
     _build(place, mutants)
     _run(place, mutants, "", asked.jobs, _rust_programs)
     _run(place, mutants, _PASSES_RUST, asked.jobs, _python_programs)
@@ -142,9 +145,8 @@ class _Verbatim(argparse.RawDescriptionHelpFormatter):
     """Keeps the lines of the description."""
 
 
-def _listed(place: Place, shard: int, of: int) -> list[Mutant]:
+def _listed(place: Place, files: list[str], shard: int, of: int) -> list[Mutant]:
     """The mutants of a shard. Numbers do not depend on the other shards of a call."""
-    files = [word for file in FILES for word in ("-f", file)]
     command = ["cargo", "mutants", "-p", "kempe", *files, "-e", "**/tests/**", "--list", "--json"]
     command += ["--shard", f"{shard}/{of}", "--sharding", "round-robin"]
     done = subprocess.run(command, cwd=place.plain, check=True, capture_output=True, text=True)

@@ -287,11 +287,6 @@ class Model(BodyMethods, ElementMethods, MeasureMethods, TreeMethods):
         return self.compile().all_bodies
 
     @property
-    def symbols(self) -> tuple[dict[str, Any], ...]:
-        """The symbols of a drawing of the model; see ``CompiledModel.symbols``."""
-        return self.compile().symbols
-
-    @property
     def redundancy(self) -> str:
         """Whether redundant constraints are accepted: "allow" or "refuse"."""
         return self.compile().redundancy

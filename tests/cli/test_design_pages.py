@@ -42,3 +42,15 @@ def test_a_motion_of_dynamics_keeps_its_figures() -> None:
     start = kp.assemble(m, guess={"piston.x": 0.4})
     names = [page.name for page in kp.plot.pages(kp.dynamics(m, start, t_end=0.1))]
     assert not {name for name in names if name.startswith(("path", "transmission", "effort"))}
+
+
+def test_polygons_and_centres_are_drawn_at_two_fifths_of_the_motion() -> None:
+    m = four_bar()
+    start = kp.assemble(m, guess={"coupler.angle": "50 deg", "rocker.angle": "-90 deg"})
+    sol = kp.inverse_dynamics(m, start, over="crank.angle", range=(0.5, 2.5), n=5)
+    pages = {page.name: page for page in kp.plot.pages(sol)}
+    for name in ("velocity_polygon", "acceleration_polygon", "instant_centres"):
+        title = pages[name].draw().axes[0].get_title(loc="left")
+        at = {t: getattr(kp.plot, name)(sol, t).get_title(loc="left") for t in (1.2, 1.3, 1.4)}
+        assert title == at[1.3]
+        assert len(set(at.values())) == 3

@@ -277,3 +277,17 @@ def test_files(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert app.run(["modes", "pendulum.toml", "--figures", "none"]) == 0
     kp.animate(again.shape(0), "swing.gif", size=(160, 120), fps=5)
     assert Path("swing.gif").stat().st_size > 500
+
+
+@pytest.mark.parametrize("n", [6, 7])
+def test_a_report_names_six_independent_coordinates(n: int) -> None:
+    m = kp.Model("rods", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    for k in range(n):
+        m.bar(f"r{k}", mass=1, length=1, ends=("O", "P"))
+        m.revolute(f"p{k}", "ground.O", f"r{k}.O")
+    found = kp.modes(m, kp.assemble(m, set={f"r{k}.angle": -np.pi / 2 for k in range(n)}))
+    heading = found.report()[0]
+    assert heading.startswith(f"{n} independent coordinates: ")
+    named = heading.partition(": ")[2]
+    assert named == ", ".join(found.coordinates[:6]) + (", …" if n > 6 else "")

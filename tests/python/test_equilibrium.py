@@ -264,6 +264,11 @@ def test_the_stiffness_at_a_point() -> None:
         kp.stiffness_at(m, kp.assemble(m, set={"a.angle": 0.4, "b.angle": 0.8}), "b.B")
     with pytest.raises(kp.ModelError, match="not a point"):
         kp.stiffness_at(m, rest.state, "b.Z")
+    told = r"hold: 'a\.angle'; must be a list of names; write \['a\.angle'\]$"
+    with pytest.raises(kp.ModelError, match=told):
+        kp.stiffness_at(m, rest.state, "a.A", hold="a.angle")
+    with pytest.raises(kp.ModelError, match=r"hold: 3; must be a list of names$"):
+        kp.stiffness_at(m, rest.state, "a.A", hold=3)  # type: ignore[arg-type]
 
 
 def test_a_follower_force_has_a_stiffness_without_symmetry() -> None:

@@ -148,6 +148,22 @@ def test_an_interruption_of_a_long_analysis_arrives_within_a_fifth_of_a_second(
     assert took < 0.2
 
 
+@pytest.mark.alone
+@pytest.mark.skipif(os.name != "posix", reason="signals as POSIX has them")
+@pytest.mark.parametrize("after", [0.3, 1.1, 2.3])
+def test_an_interruption_of_a_study_arrives_within_a_fifth_of_a_second(
+    after: float, tmp_path: Path
+) -> None:
+    text = (ROOT / "examples/four_bar.toml").read_text("utf-8")
+    file = tmp_path / "long.toml"
+    file.write_text(text.replace("t_end = 15", "t_end = 60"), "utf-8")
+    case = kp.load(file)
+    computed: list[str] = []
+    took, _ = interrupted(lambda: kp.study(case, progress=computed.append), after)
+    assert computed  # the signal came between the first variant and the last
+    assert took < 0.2
+
+
 WRITER = """
 import sys
 import kempe as kp

@@ -153,3 +153,11 @@ def test_an_element_keeps_its_fields() -> None:
         "j": "rod",
         "stiffness": "2*k",
     }
+
+
+def test_a_model_has_no_gravity_unless_it_is_given() -> None:
+    for options in ({}, {"gravity": (0.0, -9.81)}):
+        m = kp.Model("free", **options)
+        m.point_mass("p", mass=2)
+        weight = kp.assemble(m).matrices().Q
+        assert np.asarray(weight).tolist() == ([0.0, -19.62] if options else [0.0, 0.0])

@@ -185,3 +185,17 @@ def test_states_given_in_another_number_are_refused(model: kp.Model, start: kp.S
     wrong = kp.State(start.compiled, 0.0, start.q, start.v, z=np.ones(1))
     with pytest.raises(kp.ModelError, match="z: 1 numbers; must be 0"):
         kp.dynamics(model, wrong, t_end=0.1)
+
+
+def test_rounding_errors_are_zero_in_matrices_but_not_in_the_residual() -> None:
+    m = kp.Model("two")
+    m.ground.points(A=(0, 0), B=(0, 0))
+    for k, inertia in (("A", 1.0), ("B", 1e-14)):
+        m.body(k, mass=1, inertia=inertia, points={k: (0, 0)})
+        m.revolute(f"pin{k}", f"ground.{k}", f"{k}.{k}")
+    start = kp.assemble(m)
+    q = start.q.copy()
+    q[[0, 3]] = 1.0, 1e-15
+    state = kp.State(start.compiled, 0.0, q, start.v)
+    assert kp.show(m, state, "Phi").cells().ravel().tolist() == [1.0, 0.0, 1e-15, 0.0]
+    assert np.diag(kp.show(m, state, "M").cells()).tolist() == [1.0, 1.0, 1.0, 1.0, 1.0, 0.0]

@@ -6,6 +6,8 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe.cli.findings import show_findings
+from kempe.report import singular
+from kempe.report.singular import singular_positions
 from kempe.report.summary import summary
 from rich.console import Console
 from singular.equal_cranks import Cranks, cranks, run
@@ -33,6 +35,32 @@ def test_each_position_is_listed_with_its_time(seed: int, number: int) -> None:
     found = summary(sol)["singular"]
     assert [one["t"] for one in found] == pytest.approx(in_line(of, sol).tolist(), abs=1e-3)
     assert all({"A0", "B0"} <= set(one["joints"]) for one in found)
+
+
+@pytest.mark.parametrize("number", [2, 3])
+def test_positions_that_the_steps_did_not_meet_follow_from_the_multipliers(
+    number: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    of, sol = driven(2, number)
+    times = in_line(of, sol).tolist()
+    assert len(times) > 1
+    for known in ([], times[:1], times[1:]):
+        noted = [{"t": t, "names": [], "slope": None, "residual": 0.0} for t in known]
+        monkeypatch.setitem(vars(sol), "statistics", {**sol.statistics, "singular": noted})
+        found = singular_positions(sol)
+        assert [one["t"] for one in found] == pytest.approx(times, abs=1e-3)
+        assert [one["joints"] == [] for one in found] == [t in known for t in times]
+
+
+def test_a_time_at_which_the_mechanism_is_regular_is_left_out(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    of, sol = driven(2, 2)
+    times = in_line(of, sol).tolist()
+    candidates = [0.5 * times[0], *times, 0.5 * (times[0] + times[1])]
+    monkeypatch.setattr(singular, "singular_times", lambda _: candidates)
+    monkeypatch.setitem(vars(sol), "statistics", {**sol.statistics, "singular": []})
+    assert [one["t"] for one in singular_positions(sol)] == times
 
 
 @pytest.mark.parametrize("number", [2, 3])

@@ -92,6 +92,13 @@ def test_a_scatter_matrix_has_every_pair(cloud: kp.SweepResult) -> None:
     assert len(made.axes) == 16
     np.testing.assert_array_equal(made.axes[12].get_lines()[0].get_xdata(), cloud["L2"])
     np.testing.assert_array_equal(made.axes[12].get_lines()[0].get_ydata(), cloud["pin.max"])
+    for k, name in enumerate(("L2", "k", "c")):  # a histogram from the least to the largest value
+        bars = made.axes[5 * k].patches
+        ends = [bar.get_x() for bar in bars] + [bars[-1].get_x() + bars[-1].get_width()]
+        np.testing.assert_allclose(
+            ends, np.linspace(cloud[name].min(), cloud[name].max(), 8), rtol=1e-12
+        )
+        assert [bar.get_height() for bar in bars] == np.histogram(cloud[name], 7)[0].tolist()
     with pytest.raises(kp.ModelError, match="unknown column"):
         kp.plot.sweep_scatter(cloud, ["L3"])
 

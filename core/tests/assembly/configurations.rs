@@ -1,6 +1,6 @@
 //! All positions in which a mechanism closes, against algebra.
 
-use crate::mechanisms::{asked, column, model, Random};
+use crate::mechanisms::{asked, column, four_bar_of, model, slider_crank, Random};
 use kempe::analyses::assemble::Request;
 use kempe::analyses::configurations::{configurations, Configurations, Failure};
 use kempe::model::Model;
@@ -56,12 +56,7 @@ fn random_four_bars() {
     for case in 0..50 {
         let [g, a, b, c]: [f64; 4] = std::array::from_fn(|_| 2.5 + 1.5 * random.next());
         let angle = 3.0 * random.next();
-        let m = model(&format!(
-            "[bodies.ground]\npoints = {{ A = [0, 0], D = [{g}, 0] }}\n\
-             [bodies.crank]\ntype = 'bar'\nmass = 1\nlength = {a}\nends = ['A', 'B']\n\
-             [bodies.coupler]\ntype = 'bar'\nmass = 1\nlength = {b}\nends = ['B', 'C']\n\
-             [bodies.rocker]\ntype = 'bar'\nmass = 1\nlength = {c}\nends = ['D', 'C']\n{JOINTS}"
-        ));
+        let m = four_bar_of([g, a, b, c], "");
         let at = [a * angle.cos(), a * angle.sin()];
         let exact: Vec<_> = circles(at, b, [g, 0.0], c).iter().map(|p| p.to_vec()).collect();
         counts[exact.len()] += 1;
@@ -88,16 +83,8 @@ fn random_slider_cranks() {
         let [r, l, off] =
             [0.6 + 0.3 * random.next(), 1.0 + 0.3 * random.next(), 0.4 * random.next()];
         let (angle, axis) = (3.0 * random.next(), random.next());
-        let m = model(&format!(
-            "[bodies.ground]\npoints = {{ O = [0, 0], P = [0, {off}] }}\n\
-             [bodies.crank]\ntype = 'bar'\nmass = 1\nlength = {r}\nends = ['O', 'A']\n\
-             [bodies.rod]\ntype = 'bar'\nmass = 1\nlength = {l}\nends = ['A', 'B']\n\
-             [bodies.piston]\nmass = 2\ninertia = 1\npoints = {{ B = [0, 0] }}\n\
-             [joints]\nO = {{ type = 'revolute', i = 'ground.O', j = 'crank.O' }}\n\
-             A = {{ type = 'revolute', i = 'crank.A', j = 'rod.A' }}\n\
-             B = {{ type = 'revolute', i = 'rod.B', j = 'piston.B' }}\n\
-             S = {{ type = 'translational', i = 'ground.P', j = 'piston.B', axes = [{axis}, 0] }}\n"
-        ));
+        let piston = "mass = 2\ninertia = 1";
+        let m = model(&slider_crank([r, l, off, axis], ["1"; 2], piston));
         // the pin on the line through P, at the distance l from the end of the crank
         let u = [axis.cos(), axis.sin()];
         let d = [r * angle.cos(), r * angle.sin() - off];
@@ -281,11 +268,7 @@ fn random_platforms_on_three_bars() {
 
 #[test]
 fn freedoms_that_are_left_are_refused_and_a_limit_is_kept() {
-    let text = "[bodies.ground]\npoints = { A = [0, 0], D = [4, 0] }\n\
-         [bodies.crank]\ntype = 'bar'\nmass = 1\nlength = 1\nends = ['A', 'B']\n\
-         [bodies.coupler]\ntype = 'bar'\nmass = 1\nlength = 3.5\nends = ['B', 'C']\n\
-         [bodies.rocker]\ntype = 'bar'\nmass = 1\nlength = 2.5\nends = ['D', 'C']\n";
-    let m = model(&format!("{text}{JOINTS}"));
+    let m = four_bar_of([4.0, 1.0, 3.5, 2.5], "");
     assert!(matches!(all(&m, &[]), Err(Failure::Free { degrees_of_freedom: 1 })));
     let request = Request { set: asked(&m, "set", &[("crank.angle", "1")]), ..Request::default() };
     let found = configurations(&m, &request, 1, &|| false).expect("one");

@@ -1,22 +1,13 @@
 //! Freedoms, redundancies, kinds of singular positions, locked and loose bodies, four-bar loops.
 
-use crate::mechanisms::{model, request, SLIDER_CRANK};
+use crate::mechanisms::{linkage, model, request, SLIDER_CRANK};
 use kempe::analyses::diagnosis::{diagnose, Diagnosis, Grashof, SingularKind};
 use kempe::model::Model;
 
 /// Ground pins at a distance g, a crank a, a coupler b and a rocker c, and more text.
 fn four_bar([g, a, b, c]: [f64; 4], more: &str) -> Model {
-    model(&format!(
-        "redundancy = 'allow'\n\
-         [bodies.ground]\npoints = {{ A = [0, 0], D = [{g}, 0], E = [9, 9] }}\n\
-         [bodies.crank]\ntype = 'bar'\nmass = 1\nlength = {a}\nends = ['A', 'B']\n\
-         [bodies.coupler]\ntype = 'bar'\nmass = 1\nlength = {b}\nends = ['B', 'C']\n\
-         [bodies.rocker]\ntype = 'bar'\nmass = 1\nlength = {c}\nends = ['D', 'C']\n\
-         [joints.A]\ntype = 'revolute'\ni = 'ground.A'\nj = 'crank.A'\n\
-         [joints.B]\ntype = 'revolute'\ni = 'crank.B'\nj = 'coupler.B'\n\
-         [joints.C]\ntype = 'revolute'\ni = 'coupler.C'\nj = 'rocker.C'\n\
-         [joints.D]\ntype = 'revolute'\ni = 'ground.D'\nj = 'rocker.D'\n{more}"
-    ))
+    let text = linkage([g, a, b, c], [1; 3]).replace("D = [", "E = [9, 9], D = [");
+    model(&format!("redundancy = 'allow'\n{text}{more}"))
 }
 
 fn at(m: &Model, hints: &[(&str, &str)]) -> Diagnosis {

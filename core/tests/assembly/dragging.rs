@@ -1,50 +1,16 @@
 //! Dragging a point of a mechanism: it follows on its branch, and stops at dead points.
 
+use crate::mechanisms::{four_bar_of, model, pinned, start};
 use kempe::analyses::dragging::{drag, Dragged, Grip};
-use kempe::case::{self, Format};
 use kempe::math::Local;
-use kempe::{assemble, build, mobility, Model, State, Vec2};
+use kempe::{mobility, Model, State, Vec2};
 use std::f64::consts::PI;
 
 /// A four-bar linkage with bars of these lengths between pins on ground at (0, 0) and (ground, 0).
 fn four_bar([crank, coupler, rocker, ground]: [f64; 4], angle: f64) -> (Model, State) {
-    let text = format!(
-        r#"kempe = 1
-        [bodies.ground]
-        points = {{ A = [0, 0], D = [{ground}, 0] }}
-        [bodies.crank]
-        type = "bar"
-        mass = 1
-        length = {crank}
-        ends = ["A", "B"]
-        [bodies.coupler]
-        type = "bar"
-        mass = 1
-        length = {coupler}
-        ends = ["B", "C"]
-        [bodies.rocker]
-        type = "bar"
-        mass = 1
-        length = {rocker}
-        ends = ["D", "C"]
-        [joints]
-        A = {{ type = "revolute", i = "ground.A", j = "crank.A" }}
-        B = {{ type = "revolute", i = "crank.B", j = "coupler.B" }}
-        C = {{ type = "revolute", i = "coupler.C", j = "rocker.C" }}
-        D = {{ type = "revolute", i = "ground.D", j = "rocker.D" }}
-        [start]
-        set = {{ "crank.angle" = {angle} }}
-        guess = {{ "rocker.angle" = 1.5 }}
-        "#
-    );
-    start(&text)
-}
-
-fn start(text: &str) -> (Model, State) {
-    let (case, _) = case::read(text, Format::Toml).expect("a case");
-    let model = build(&case.definition, &[]).expect("a model");
-    let request = case.start.request(&model).expect("a start");
-    let (state, _) = assemble(&model, &request).expect("a mechanism that closes");
+    let model = four_bar_of([ground, crank, coupler, rocker], "");
+    let set = [("crank.angle", &*angle.to_string())];
+    let (state, _) = start(&model, &set, &[("rocker.angle", "1.5")]);
     (model, state)
 }
 
@@ -136,27 +102,12 @@ fn a_far_target_is_reached_in_one_call() {
 
 #[test]
 fn an_arm_with_two_freedoms_reaches_every_place_within_its_length() {
-    let (model, state) = start(
-        r#"kempe = 1
-        [bodies.ground]
-        points = { A = [0, 0] }
-        [bodies.upper]
-        type = "bar"
-        mass = 1
-        length = 1
-        ends = ["A", "B"]
-        [bodies.lower]
-        type = "bar"
-        mass = 1
-        length = 0.8
-        ends = ["B", "P"]
-        [joints]
-        A = { type = "revolute", i = "ground.A", j = "upper.A" }
-        B = { type = "revolute", i = "upper.B", j = "lower.B" }
-        [start]
-        set = { "upper.angle" = 0.2, "lower.angle" = 1.0 }
-        "#,
+    let model = model(
+        &(pinned("upper", "type = 'bar'\nmass = 1\nlength = 1\nends = ['O', 'B']")
+            + "[bodies.lower]\ntype = 'bar'\nmass = 1\nlength = 0.8\nends = ['B', 'P']\n\
+               [joints.B]\ntype = 'revolute'\ni = 'upper.B'\nj = 'lower.B'\n"),
     );
+    let (state, _) = start(&model, &[("upper.angle", "0.2"), ("lower.angle", "1.0")], &[]);
     let mut q = state.q;
     for k in 0..100 {
         let (angle, far) = (0.1 * f64::from(k), 1.0 + 0.6 * (0.37 * f64::from(k)).sin());

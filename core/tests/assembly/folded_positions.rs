@@ -1,6 +1,6 @@
 //! Configurations of mechanisms some positions of which have a freedom: they are left out, and the others are found.
 
-use crate::mechanisms::{asked, column, model};
+use crate::mechanisms::{asked, column, four_bar_of, model};
 use kempe::analyses::assemble::Request;
 use kempe::analyses::configurations::{configurations, Configurations, Failure};
 use kempe::mobility;
@@ -31,16 +31,7 @@ fn agree<const N: usize>(found: &[[f64; N]], exact: &[[f64; N]], most: f64) {
 /// Ground and crank are equal, and so are coupler and rocker. The crank brings B close to D.
 #[test]
 fn a_four_bar_beside_its_free_position() {
-    let m = model(
-        "[bodies.ground]\npoints = { A = [0, 0], D = [1, 0] }\n\
-         [bodies.crank]\ntype = 'bar'\nmass = 1\nlength = 1\nends = ['A', 'B']\n\
-         [bodies.coupler]\ntype = 'bar'\nmass = 1\nlength = 2\nends = ['B', 'C']\n\
-         [bodies.rocker]\ntype = 'bar'\nmass = 1\nlength = 2\nends = ['D', 'C']\n\
-         [joints]\nA = { type = 'revolute', i = 'ground.A', j = 'crank.A' }\n\
-         B = { type = 'revolute', i = 'crank.B', j = 'coupler.B' }\n\
-         C = { type = 'revolute', i = 'coupler.C', j = 'rocker.C' }\n\
-         D = { type = 'revolute', i = 'ground.D', j = 'rocker.D' }\n",
-    );
+    let m = four_bar_of([1, 1, 2, 2], "");
     for angle in [0.5_f64, 1e-6, 1e-9, -1e-10] {
         let found = found(&m, &[("crank.angle", &format!("{angle:e}"))], 100);
         let found = found.unwrap_or_else(|failure| panic!("{angle}: {failure:?}"));

@@ -1,6 +1,6 @@
 //! Driven mechanisms without integration, against closed forms.
 
-use crate::mechanisms::{column, four_bar_of, model, motor, start};
+use crate::mechanisms::{column, four_bar_of, model, motor, slider_crank, start};
 use kempe::analyses::kinematics::{kinematics, recorded, Failure, Limit, Motion, Reason};
 use kempe::integrate::Flow;
 use kempe::model::Model;
@@ -27,17 +27,8 @@ fn limit_of(outcome: Result<Motion, Box<Failure>>) -> (Limit, Motion) {
 #[test]
 fn a_slider_crank_over_a_turn() {
     let (r, l) = (0.1, 0.3);
-    let m = model(&format!(
-        "[bodies.ground]\npoints = {{ O = [0, 0] }}\n\
-         [bodies.crank]\ntype = 'bar'\nmass = 1\nlength = {r}\nends = ['O', 'A']\n\
-         [bodies.rod]\ntype = 'bar'\nmass = 1\nlength = {l}\nends = ['A', 'B']\n\
-         [bodies.piston]\nmass = 2\ninertia = 1\npoints = {{ B = [0, 0] }}\n\
-         [joints]\nO = {{ type = 'revolute', i = 'ground.O', j = 'crank.O' }}\n\
-         A = {{ type = 'revolute', i = 'crank.A', j = 'rod.A' }}\n\
-         B = {{ type = 'revolute', i = 'rod.B', j = 'piston.B' }}\n\
-         S = {{ type = 'translational', i = 'ground.O', j = 'piston.B', axes = [0, 0] }}\n\
-         [drivers.motor]\ntype = 'coordinate_driver'\ncoordinate = 'crank.angle'\nvalue = '0.4 + 3*t + t^2'\n"
-    ));
+    let text = slider_crank([r, l, 0.0, 0.0], ["1"; 2], "mass = 2\ninertia = 1");
+    let m = model(&(text + &motor("crank.angle", "0.4 + 3*t + t^2")));
     let times = even(50, 2.0);
     let hints = [("piston.x", "0.35")];
     let motion = through(&m, &hints, &times).expect("a motion");

@@ -1,6 +1,6 @@
 //! Limits of motion and full turns, against closed forms.
 
-use crate::mechanisms::{four_bar_of, model, motor, request, start, Random};
+use crate::mechanisms::{four_bar_of, model, motor, request, slider_crank, start, Random};
 use kempe::analyses::assemble::{assemble, Request};
 use kempe::analyses::limits::{limits, Limits};
 use kempe::integrate::Flow;
@@ -117,23 +117,16 @@ fn random_linkages_turn_fully_or_have_their_dead_points() {
 /// The piston of a slider-crank: crank and rod in line, at both ends.
 #[test]
 fn the_stroke_of_a_piston() {
-    let text = "[bodies.ground]\npoints = { O = [0, 0] }\n\
-         [bodies.crank]\ntype = 'bar'\nmass = 1\nlength = 0.1\nends = ['O', 'A']\n\
-         [bodies.rod]\ntype = 'bar'\nmass = 1\nlength = 0.3\nends = ['A', 'B']\n\
-         [bodies.piston]\nmass = 2\ninertia = 1\npoints = { B = [0, 0] }\n\
-         [joints]\nO = { type = 'revolute', i = 'ground.O', j = 'crank.O' }\n\
-         A = { type = 'revolute', i = 'crank.A', j = 'rod.A' }\n\
-         B = { type = 'revolute', i = 'rod.B', j = 'piston.B' }\n\
-         S = { type = 'translational', i = 'ground.O', j = 'piston.B', axes = [0, 0] }\n\
-         [drivers.motor]\ntype = 'coordinate_driver'\nvalue = 't'\n";
-    let m = model(&format!("{text}coordinate = 'piston.x'\n"));
+    let text = slider_crank([0.1, 0.3, 0.0, 0.0], ["1"; 2], "mass = 2\ninertia = 1");
+    let driven = |coordinate| model(&(text.clone() + &motor(coordinate, "t")));
+    let m = driven("piston.x");
     let limits = found(&m, 0.33, &[("crank.angle", "1")]);
     let ends = [limits.lower.expect("lower"), limits.upper.expect("upper")];
     assert!((ends[0].value - 0.2).abs() < 1e-9 && (ends[1].value - 0.4).abs() < 1e-9);
     assert!(ends.iter().all(|end| end.reason.contains("crank and rod in line")), "{ends:?}");
     assert_eq!(ends[1].reason, "piston.x cannot pass 0.4 m: dead point, crank and rod in line");
     assert!(limits.path.windows(2).all(|pair| pair[0].0 < pair[1].0));
-    let m = model(&format!("{text}coordinate = 'crank.angle'\n"));
+    let m = driven("crank.angle");
     let limits = found(&m, 1.0, &[("piston.x", "0.33")]);
     assert_eq!(limits.turns, Some(1));
 }
@@ -142,17 +135,8 @@ fn the_stroke_of_a_piston() {
 #[test]
 fn a_rod_at_right_angles_to_its_slide() {
     let (r, l, off): (f64, f64, f64) = (0.3, 0.2, 0.05);
-    let m = model(&format!(
-        "[bodies.ground]\npoints = {{ O = [0, 0], P = [0, {off}] }}\n\
-         [bodies.crank]\ntype = 'bar'\nmass = 1\nlength = {r}\nends = ['O', 'A']\n\
-         [bodies.rod]\ntype = 'bar'\nmass = 1\nlength = {l}\nends = ['A', 'B']\n\
-         [bodies.piston]\nmass = 2\ninertia = 1\npoints = {{ B = [0, 0] }}\n\
-         [joints]\nO = {{ type = 'revolute', i = 'ground.O', j = 'crank.O' }}\n\
-         A = {{ type = 'revolute', i = 'crank.A', j = 'rod.A' }}\n\
-         B = {{ type = 'revolute', i = 'rod.B', j = 'piston.B' }}\n\
-         S = {{ type = 'translational', i = 'ground.P', j = 'piston.B', axes = [0, 0] }}\n\
-         [drivers.motor]\ntype = 'coordinate_driver'\ncoordinate = 'crank.angle'\nvalue = 't'\n"
-    ));
+    let text = slider_crank([r, l, off, 0.0], ["1"; 2], "mass = 2\ninertia = 1");
+    let m = model(&(text + &motor("crank.angle", "t")));
     let limits = found(&m, 0.1, &[("piston.x", "0.5")]);
     let exact = [((off - l) / r).asin(), ((off + l) / r).asin()];
     for (end, exact) in

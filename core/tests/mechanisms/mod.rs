@@ -161,18 +161,56 @@ pub fn four_bar() -> (Model, State) {
     (m, state)
 }
 
-/// A four-bar linkage of bars of 1 kg, with the lengths of ground, crank, coupler and rocker and further tables.
-pub fn four_bar_of([ground, crank, coupler, rocker]: [impl Display; 4], more: &str) -> Model {
-    model(&format!(
+/// Gravity on Earth, for the text of a case.
+pub const GRAVITY: &str = "gravity = [0, -9.81]\n";
+
+/// A body whose point O a pin holds at the origin, with the fields of the body.
+pub fn pinned(body: &str, fields: &str) -> String {
+    format!(
+        "[bodies.ground]\npoints = {{ O = [0, 0] }}\n[bodies.{body}]\n{fields}\n\
+         [joints.pin]\ntype = 'revolute'\ni = 'ground.O'\nj = '{body}.O'\n"
+    )
+}
+
+/// A slider-crank mechanism: the lengths of crank and rod, the height of a point of the line and the angle of the line; the
+/// masses of crank and rod, and the fields of the piston.
+pub fn slider_crank(
+    [crank, rod, height, angle]: [f64; 4],
+    [first, second]: [&str; 2],
+    piston: &str,
+) -> String {
+    format!(
+        "[bodies.ground]\npoints = {{ O = [0, 0], S = [0, {height}] }}\n\
+         [bodies.crank]\ntype = 'bar'\nmass = {first}\nlength = {crank}\nends = ['O', 'A']\n\
+         [bodies.rod]\ntype = 'bar'\nmass = {second}\nlength = {rod}\nends = ['A', 'B']\n\
+         [bodies.piston]\n{piston}\npoints = {{ B = [0, 0] }}\n\
+         [joints]\nO = {{ type = 'revolute', i = 'ground.O', j = 'crank.O' }}\n\
+         A = {{ type = 'revolute', i = 'crank.A', j = 'rod.A' }}\n\
+         B = {{ type = 'revolute', i = 'rod.B', j = 'piston.B' }}\n\
+         S = {{ type = 'translational', i = 'ground.S', j = 'piston.B', axes = [{angle}, 0] }}\n"
+    )
+}
+
+/// A four-bar linkage of bars: the lengths of ground, crank, coupler and rocker, and the masses of the bars.
+pub fn linkage(
+    [ground, crank, coupler, rocker]: [impl Display; 4],
+    [first, second, third]: [impl Display; 3],
+) -> String {
+    format!(
         "[bodies.ground]\npoints = {{ A = [0, 0], D = [{ground}, 0] }}\n\
-         [bodies.crank]\ntype = 'bar'\nmass = 1\nlength = {crank}\nends = ['A', 'B']\n\
-         [bodies.coupler]\ntype = 'bar'\nmass = 1\nlength = {coupler}\nends = ['B', 'C']\n\
-         [bodies.rocker]\ntype = 'bar'\nmass = 1\nlength = {rocker}\nends = ['D', 'C']\n\
+         [bodies.crank]\ntype = 'bar'\nmass = {first}\nlength = {crank}\nends = ['A', 'B']\n\
+         [bodies.coupler]\ntype = 'bar'\nmass = {second}\nlength = {coupler}\nends = ['B', 'C']\n\
+         [bodies.rocker]\ntype = 'bar'\nmass = {third}\nlength = {rocker}\nends = ['D', 'C']\n\
          [joints]\nA = {{ type = 'revolute', i = 'ground.A', j = 'crank.A' }}\n\
          B = {{ type = 'revolute', i = 'crank.B', j = 'coupler.B' }}\n\
          C = {{ type = 'revolute', i = 'coupler.C', j = 'rocker.C' }}\n\
-         D = {{ type = 'revolute', i = 'ground.D', j = 'rocker.D' }}\n{more}\n"
-    ))
+         D = {{ type = 'revolute', i = 'ground.D', j = 'rocker.D' }}\n"
+    )
+}
+
+/// The same with bars of 1 kg, and further tables.
+pub fn four_bar_of(lengths: [impl Display; 4], more: &str) -> Model {
+    model(&format!("{}{more}\n", linkage(lengths, [1; 3])))
 }
 
 /// A driver of a coordinate by a law.

@@ -1,7 +1,9 @@
 //! A model prepared for many runs gives the same bits as a model at its first run.
 
 use crate::mechanisms::{four_bar, model, start, SLIDER_CRANK};
-use kempe::analyses::dynamics::{dynamics, Options, Prepared, Run, Scheme, Stabilization};
+use kempe::analyses::dynamics::{
+    dynamics, Auto, Options, Prepared, Run, Scheme, Stabilization, Statistics,
+};
 use kempe::analyses::State;
 use kempe::integrate::{Dop853, Flow, Radau, Rk45};
 use kempe::model::Model;
@@ -96,4 +98,23 @@ fn the_wall_time_is_that_of_the_given_clock() {
     let prepared = Prepared::new(&m).with_clock(clock);
     let run = prepared.dynamics(&start, &Options::new(0.01), |_| Flow::Continue).unwrap();
     assert_eq!(run.statistics.seconds, 2.5);
+}
+
+/// Each evaluation of the equations of motion takes one factorisation; a few more belong to the start and to outputs.
+#[test]
+fn evaluations_and_factorisations_agree() {
+    let (m, s) = four_bar();
+    for method in [
+        Scheme::Rk45(Rk45::new(1e-6, 1e-9)),
+        Scheme::Dop853(Dop853::new(1e-6, 1e-9)),
+        Scheme::Auto(Auto::default()),
+    ] {
+        let options = Options { method, dense_output: false, ..Options::new(0.3) };
+        let found = alone(&m, &s, &options).statistics;
+        let Statistics { steps, evaluations, factorisations, .. } = found;
+        assert!(
+            (evaluations..=evaluations + 2 * steps + 10).contains(&factorisations),
+            "{factorisations} factorisations in {evaluations} evaluations and {steps} steps"
+        );
+    }
 }

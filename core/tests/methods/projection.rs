@@ -1,7 +1,7 @@
 //! Projection on mechanisms of every kind, and its guarantees for one state.
 
 use crate::mechanisms::{
-    every, four_bar, largest, model, rate, residual, run, start, tolerances, worst, Random,
+    every, four_bar, largest, model, pinned, rate, residual, run, start, tolerances, worst, Random,
     SLIDER_CRANK,
 };
 use kempe::analyses::assemble::{assemble, Request};
@@ -255,7 +255,7 @@ fn constant_steps_are_projected_and_keep_their_order() {
 /// After 1e16 rad the spacing of numbers is 2 rad: no angle closes the joint, and rounding is no excuse.
 #[test]
 fn coordinates_without_digits_left_are_refused() {
-    let m = model(ROD);
+    let m = model(&pinned("rod", "mass = 1\ninertia = 0\npoints = { O = [1, 0] }"));
     let turned =
         |angle: f64| State { t: 0.0, q: vec![-1.0, 0.5, angle], v: vec![0.0; 3], z: vec![] };
     let (found, _) = project(&m, &turned(1e6)).unwrap();
@@ -274,16 +274,3 @@ fn rates_below_the_normal_numbers_are_rest() {
     let (found, _) = project(&m, &state).unwrap();
     assert!(largest(&found.v) < 1e-300);
 }
-
-const ROD: &str = r#"
-[bodies.ground]
-points = { O = [0, 0] }
-[bodies.rod]
-mass = 1
-inertia = 0
-points = { O = [1, 0] }
-[joints.pin]
-type = "revolute"
-i = "ground.O"
-j = "rod.O"
-"#;

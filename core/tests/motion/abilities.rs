@@ -3,7 +3,7 @@
 //! compared with scalar equations that are integrated here.
 
 use crate::mechanisms::methods::{ends, integrated, last};
-use crate::mechanisms::{close, column, model, request, run, start, worst};
+use crate::mechanisms::{close, column, model, pinned, request, run, start, worst, GRAVITY};
 use kempe::analyses::assemble::{assemble, Request};
 use kempe::analyses::dynamics::{dynamics, Auto, Options, Scheme};
 use kempe::analyses::State;
@@ -79,27 +79,9 @@ fn a_stiff_state_is_left_to_an_implicit_method() {
 
 /// A point mass of 1.5 kg, 0.4 m from its pin, with friction in the pin.
 fn rubbing(arm: f64) -> Model {
+    let bob = pinned("bob", "mass = 1.5\ninertia = 0.02\npoints = { O = [-0.4, 0] }");
     model(&format!(
-        r#"
-gravity = [0, -9.81]
-[bodies.bob]
-mass = 1.5
-inertia = 0.02
-points = {{ O = [-0.4, 0] }}
-[joints.pin]
-type = "revolute"
-i = "ground.O"
-j = "bob.O"
-[bodies.ground]
-points = {{ O = [0, 0] }}
-[forces.friction]
-type = "rubbing"
-joint = "pin"
-i = "ground"
-j = "bob"
-arm = {arm}
-speed = 0.4
-"#
+        "{GRAVITY}{bob}[forces.friction]\ntype = 'rubbing'\njoint = 'pin'\ni = 'ground'\nj = 'bob'\narm = {arm}\nspeed = 0.4\n"
     ))
 }
 

@@ -2,7 +2,7 @@
 //! is eliminated by hand.
 
 use crate::mechanisms::methods::{ends, integrated, last};
-use crate::mechanisms::{close, faults, model, start, worst};
+use crate::mechanisms::{close, faults, model, pinned, start, worst, GRAVITY};
 use kempe::analyses::dynamics::{dynamics, Options, Run, Scheme};
 use kempe::analyses::State;
 use kempe::equations::{Gains, Workspace};
@@ -13,25 +13,8 @@ const G: f64 = 9.81;
 
 /// A body of 1.5 kg, 0.4 m from its pin.
 fn pendulum(friction: &str) -> Model {
-    model(&format!(
-        r#"
-gravity = [0, -9.81]
-[bodies.ground]
-points = {{ O = [0, 0] }}
-[bodies.bob]
-mass = 1.5
-inertia = 0.02
-points = {{ O = [-0.4, 0] }}
-[joints.pin]
-type = "revolute"
-i = "ground.O"
-j = "bob.O"
-[forces.rub]
-type = "friction"
-joint = "pin"
-{friction}
-"#
-    ))
+    let bob = pinned("bob", "mass = 1.5\ninertia = 0.02\npoints = { O = [-0.4, 0] }");
+    model(&format!("{GRAVITY}{bob}[forces.rub]\ntype = 'friction'\njoint = 'pin'\n{friction}\n"))
 }
 
 /// The root of f(x) = x, where f contracts.

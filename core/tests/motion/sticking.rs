@@ -1,7 +1,7 @@
 //! Friction without a stated velocity: it sticks and slips, against closed forms.
 
 use crate::mechanisms::methods::last;
-use crate::mechanisms::{close, model, start};
+use crate::mechanisms::{close, linkage, model, motor, pinned, start, GRAVITY, PENDULUM};
 use kempe::analyses::dynamics::{dynamics, Auto, Options, Run, Scheme};
 use kempe::analyses::State;
 use kempe::integrate::{Dop853, Flow, Radau};
@@ -201,28 +201,9 @@ fn stick_slip_on_a_belt() {
 #[test]
 fn a_pendulum_under_constant_load_loses_torque_times_angle() {
     // a bar of 1 m and 1 kg; the torque of friction is 0.4 N·m
-    let m = model(
-        r#"
-gravity = [0, -9.81]
-[bodies.ground]
-points = { O = [0, 0] }
-[bodies.rod]
-type = "bar"
-mass = 1
-length = 1
-ends = ["O", "P"]
-[joints.pin]
-type = "revolute"
-i = "ground.O"
-j = "rod.O"
-[forces.rub]
-type = "friction"
-joint = "pin"
-kinetic = 0.5
-radius = 0.04
-load = 20
-"#,
-    );
+    let m = model(&format!(
+        "{PENDULUM}[forces.rub]\ntype = 'friction'\njoint = 'pin'\nkinetic = 0.5\nradius = 0.04\nload = 20\n"
+    ));
     let (state, _) = start(&m, &[("rod.angle", "0"), ("rod.omega", "0")], &[]);
     // turning points: the potential falls by 0.4 × angle
     let height = |angle: f64| 0.5 * G * angle.sin();
@@ -255,70 +236,24 @@ load = 20
 }
 
 /// A four-bar linkage with friction in three pins, driven by a torque that grows and falls.
-const FOUR_BAR: &str = r#"
-gravity = [0, -9.81]
-[bodies.ground]
-points = { A = [0, 0], D = [0.4, 0] }
-[bodies.crank]
-type = "bar"
-mass = 0.5
-length = 0.1
-ends = ["A", "B"]
-[bodies.coupler]
-type = "bar"
-mass = 1
-length = 0.4
-ends = ["B", "C"]
-[bodies.rocker]
-type = "bar"
-mass = 1
-length = 0.3
-ends = ["C", "D"]
-[joints.A]
-type = "revolute"
-i = "ground.A"
-j = "crank.A"
-[joints.B]
-type = "revolute"
-i = "crank.B"
-j = "coupler.B"
-[joints.C]
-type = "revolute"
-i = "coupler.C"
-j = "rocker.C"
-[joints.D]
-type = "revolute"
-i = "ground.D"
-j = "rocker.D"
-[forces.motor]
-type = "torque"
-j = "crank"
-torque = "0.6 + 0.6*sin(4*t)"
-[forces.a]
-type = "friction"
-joint = "A"
-kinetic = 0.3
-static = 0.4
-radius = 0.02
-[forces.b]
-type = "friction"
-joint = "B"
-kinetic = 0.3
-static = 0.4
-radius = 0.02
-[forces.d]
-type = "friction"
-joint = "D"
-kinetic = 0.3
-static = 0.4
-radius = 0.02
-"#;
+fn rubbing_linkage() -> Model {
+    let rubbing = ["A", "B", "D"].map(|pin| {
+        format!(
+            "[forces.at_{pin}]\ntype = 'friction'\njoint = '{pin}'\nkinetic = 0.3\nstatic = 0.4\nradius = 0.02\n"
+        )
+    });
+    model(&format!(
+        "{GRAVITY}{}[forces.motor]\ntype = 'torque'\nj = 'crank'\ntorque = '0.6 + 0.6*sin(4*t)'\n{}",
+        linkage([0.4, 0.1, 0.4, 0.3], [0.5, 1.0, 1.0]),
+        rubbing.concat()
+    ))
+}
 
 #[test]
 fn pins_of_a_linkage_rub_together() {
-    let m = model(FOUR_BAR);
+    let m = rubbing_linkage();
     let set = [("crank.angle", "70*deg"), ("crank.omega", "0")];
-    let (state, _) = start(&m, &set, &[("coupler.angle", "0.4"), ("rocker.angle", "-1.2")]);
+    let (state, _) = start(&m, &set, &[("coupler.angle", "0.4"), ("rocker.angle", "1.94")]);
     // tests/truth/test_friction_in_pins.py has the equation of one freedom that gives this angle; the rocker reverses 14 times
     each(&m, &state, 3.0, |name, run| {
         let accuracy = if name.starts_with("Auto") { 1e-4 } else { 1e-6 };
@@ -328,32 +263,13 @@ fn pins_of_a_linkage_rub_together() {
 }
 
 /// A pin that a driver turns to and fro under a load of its own.
-const DRIVEN: &str = r#"
-[bodies.ground]
-points = { O = [0, 0] }
-[bodies.arm]
-mass = 1
-inertia = 0.1
-points = { O = [0, 0] }
-[joints.pin]
-type = "revolute"
-i = "ground.O"
-j = "arm.O"
-[drivers.motor]
-type = "coordinate_driver"
-coordinate = "arm.angle"
-value = "0.5*sin(4*t)"
-[forces.rub]
-type = "friction"
-joint = "pin"
-kinetic = 0.25
-radius = 0.04
-load = 20
-"#;
-
 #[test]
 fn friction_of_a_driven_pin_turns_with_its_speed() {
-    let m = model(DRIVEN);
+    let m = model(
+        &(pinned("arm", "mass = 1\ninertia = 0.1\npoints = { O = [0, 0] }")
+            + &motor("arm.angle", "0.5*sin(4*t)")
+            + "[forces.rub]\ntype = 'friction'\njoint = 'pin'\nkinetic = 0.25\nradius = 0.04\nload = 20\n"),
+    );
     let (state, _) = start(&m, &[], &[]);
     // in 2π s the arm turns 8 times 1 rad, against 0.2 N·m
     each(&m, &state, 2.0 * std::f64::consts::PI, |name, run| {

@@ -1,24 +1,15 @@
 //! MSC ADAMS: a rod pendulum, free and with a rotational spring-damper.
 
-use crate::mechanisms::{close, model, run, start, tolerances, worst};
+use crate::mechanisms::{close, model, pinned, run, start, tolerances, worst};
 use crate::{number, numbers, reference};
 use kempe::elements::BodyId;
 use kempe::equations::kinematics;
 use kempe::equations::reactions::{reaction, Frame};
 
-const ROD: &str = r#"
-gravity = [0, -9.80665]
-[bodies.ground]
-points = { O = [0, 0] }
-[bodies.rod]
-mass = 1
-inertia = 0.1
-points = { O = [-2, 0] }
-[joints.pin]
-type = "revolute"
-i = "ground.O"
-j = "rod.O"
-"#;
+fn rod() -> String {
+    let fields = "mass = 1\ninertia = 0.1\npoints = { O = [-2, 0] }";
+    format!("gravity = [0, -9.80665]\n{}", pinned("rod", fields))
+}
 
 const SPRING: &str = r#"
 [forces.spring]
@@ -63,10 +54,10 @@ fn compare(case: &str, text: &str) {
 
 #[test]
 fn rod_pendulum() {
-    compare("rod_pendulum", ROD);
+    compare("rod_pendulum", &rod());
 }
 
 #[test]
 fn rod_pendulum_with_torsion_spring() {
-    compare("rod_pendulum_torsion_spring", &format!("{ROD}{SPRING}"));
+    compare("rod_pendulum_torsion_spring", &(rod() + SPRING));
 }

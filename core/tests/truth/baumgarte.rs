@@ -1,6 +1,8 @@
 //! Baumgarte's stabilization with gains from the step: order, residual and energy against fixed gains.
 
-use crate::mechanisms::{every, four_bar, largest, model, residual, run, start, tolerances, worst};
+use crate::mechanisms::{
+    self, every, four_bar, largest, model, motor, residual, run, start, tolerances, worst, GRAVITY,
+};
 use kempe::analyses::assemble::{assemble, Request};
 use kempe::analyses::dynamics::{Options, Run, Scheme, Stabilization, Stepper};
 use kempe::analyses::State;
@@ -13,55 +15,17 @@ const FIXED: Stabilization = Stabilization::Baumgarte(Gains { alpha: 10.0, beta:
 
 /// A crank driven along a law of time, a rod, and a slider on a spring: Φ_t and a slide are in it.
 fn slider_crank() -> (Model, State) {
-    let m = model(
-        r#"
-gravity = [0, -9.81]
-[bodies.ground]
-points = { O = [0, 0] }
-[bodies.crank]
-type = "bar"
-mass = 1
-length = 0.5
-ends = ["O", "P"]
-[bodies.rod]
-type = "bar"
-mass = 2
-length = 1.5
-ends = ["P", "S"]
-[bodies.slider]
-mass = 3
-inertia = 0.1
-points = { S = [0, 0.05] }
-[joints.O]
-type = "revolute"
-i = "ground.O"
-j = "crank.O"
-[joints.P]
-type = "revolute"
-i = "crank.P"
-j = "rod.P"
-[joints.S]
-type = "revolute"
-i = "rod.S"
-j = "slider.S"
-[joints.slide]
-type = "translational"
-i = "ground.O"
-j = "slider.S"
-[drivers.motor]
-type = "coordinate_driver"
-coordinate = "crank.angle"
-value = "1 + 3*t + 0.4*sin(5*t)"
-[forces.spring]
-type = "spring_damper"
-i = "ground.O"
-j = "slider.S"
-stiffness = 200
-damping = 5
-free_length = 1.5
-"#,
+    let text = mechanisms::slider_crank(
+        [0.5, 1.5, 0.0, 0.0],
+        ["1", "2"],
+        "mass = 3\ninertia = 0.1\ncenter = [0, -0.05]",
     );
-    let (state, _) = start(&m, &[], &[("slider.x", "1.7")]);
+    let m = model(&format!(
+        "{GRAVITY}{text}{}[forces.spring]\ntype = 'spring_damper'\ni = 'ground.O'\nj = 'piston.B'\n\
+         stiffness = 200\ndamping = 5\nfree_length = 1.5\n",
+        motor("crank.angle", "1 + 3*t + 0.4*sin(5*t)")
+    ));
+    let (state, _) = start(&m, &[], &[("piston.x", "1.7")]);
     (m, state)
 }
 

@@ -1,6 +1,6 @@
 //! Pendulums against elliptic integrals.
 
-use crate::mechanisms::{close, every, run, start, tolerances, with};
+use crate::mechanisms::{close, every, pinned, run, start, tolerances, with, GRAVITY};
 use crate::{number, reference};
 use kempe::analyses::dynamics::Run;
 use kempe::analyses::State;
@@ -26,20 +26,10 @@ j = "rod.O"
 
 /// A body with the motion of a point mass on a massless rod of 1 m (Huygens): with its mass centre
 /// at d = 1/2 m from the pin, (J + m d²) / (m d) = 1 m. Its frame is where the point mass would be.
-const POINT: &str = r#"
-gravity = [0, -9.81]
-[bodies.ground]
-points = { O = [0, 0] }
-[bodies.bob]
-mass = 1
-inertia = 0.25
-center = [0.5, 0]
-points = { O = [1, 0] }
-[joints.pin]
-type = "revolute"
-i = "ground.O"
-j = "bob.O"
-"#;
+fn bob() -> Model {
+    let fields = "mass = 1\ninertia = 0.25\ncenter = [0.5, 0]\npoints = { O = [1, 0] }";
+    with(&format!("{GRAVITY}{}", pinned("bob", fields)), &[])
+}
 
 fn released(m: &Model, degrees: f64) -> State {
     start(m, &[("rod.angle", &format!("({degrees} - 90)*deg"))], &[]).0
@@ -91,7 +81,7 @@ fn periods_of_the_uniform_rod() {
 #[test]
 fn the_point_pendulum_of_the_benchmark() {
     let truth = reference("pendulum");
-    let m = with(POINT, &[]);
+    let m = bob();
     let (mut state, _) = start(&m, &[("bob.angle", "0")], &[]);
     assert_eq!(state.q[0], -1.0);
     for t in ["0.5", "1", "2", "5", "9.99", "10"] {

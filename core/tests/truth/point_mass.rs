@@ -1,6 +1,6 @@
 //! Bodies without moment of inertia, and with hardly any: the point pendulum of LIM's benchmark A01.
 
-use crate::mechanisms::{close, every, model, run, start, tolerances};
+use crate::mechanisms::{close, every, model, pinned, run, start, tolerances, GRAVITY};
 use crate::{number, reference};
 use kempe::analyses::dynamics::{dynamics, Options, Run, Scheme};
 use kempe::equations::{Gains, Workspace};
@@ -9,21 +9,8 @@ use kempe::model::Model;
 
 /// A point mass at the tip of a massless rod, as one body.
 fn on_its_rod(inertia: &str) -> Model {
-    model(&format!(
-        r#"
-gravity = [0, -9.81]
-[bodies.ground]
-points = {{ O = [0, 0] }}
-[bodies.bob]
-mass = 1
-inertia = {inertia}
-points = {{ O = [1, 0] }}
-[joints.pin]
-type = "revolute"
-i = "ground.O"
-j = "bob.O"
-"#
-    ))
+    let fields = format!("mass = 1\ninertia = {inertia}\npoints = {{ O = [1, 0] }}");
+    model(&format!("{GRAVITY}{}", pinned("bob", &fields)))
 }
 
 /// The same with a rod that is no body.

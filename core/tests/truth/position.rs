@@ -1,50 +1,8 @@
 //! Positions, velocities and accelerations of a driven four-bar against closed forms.
 
-use crate::mechanisms::{close, model, run, start};
+use crate::mechanisms::{close, four_bar_of, motor, run, start};
 use crate::{number, reference};
 use kempe::analyses::dynamics::Options;
-
-const FOUR_BAR: &str = r#"
-[parameters]
-th0 = 0
-[bodies.ground]
-points = { A = [0, 0], D = [100, 0] }
-[bodies.crank]
-type = "bar"
-mass = 1
-length = 40
-ends = ["A", "B"]
-[bodies.coupler]
-type = "bar"
-mass = 1
-length = 120
-ends = ["B", "C"]
-[bodies.rocker]
-type = "bar"
-mass = 1
-length = 80
-ends = ["D", "C"]
-[joints.A]
-type = "revolute"
-i = "ground.A"
-j = "crank.A"
-[joints.B]
-type = "revolute"
-i = "crank.B"
-j = "coupler.B"
-[joints.C]
-type = "revolute"
-i = "coupler.C"
-j = "rocker.C"
-[joints.D]
-type = "revolute"
-i = "ground.D"
-j = "rocker.D"
-[drivers.motor]
-type = "coordinate_driver"
-coordinate = "crank.angle"
-value = "th0 + t"
-"#;
 
 #[test]
 fn both_closures_with_first_and_second_derivatives() {
@@ -53,7 +11,8 @@ fn both_closures_with_first_and_second_derivatives() {
     let mut checked = 0;
     for (name, values) in table.as_object().unwrap() {
         let Some((degrees, closure)) = name.split_once("deg ") else { continue };
-        let m = model(&FOUR_BAR.replace("th0 = 0", &format!("th0 = \"{degrees} deg\"")));
+        let law = motor("crank.angle", &format!("{degrees}*deg + t"));
+        let m = four_bar_of([100, 40, 120, 80], &law);
         let (phi2, phi3) = (number(&values["phi2_deg"]), number(&values["phi3_deg"]));
         // a rough guess that decides the closure and the whole turns
         let guess = [

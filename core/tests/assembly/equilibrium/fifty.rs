@@ -1,7 +1,7 @@
 //! Random four-bars with springs against an independent potential of one variable.
 
 use super::rest;
-use crate::mechanisms::{column, model, start, Random};
+use crate::mechanisms::{column, linkage, model, start, Random, GRAVITY};
 use std::f64::consts::{PI, TAU};
 
 /// A crank-rocker with masses and two springs.
@@ -26,16 +26,10 @@ impl FourBar {
     }
 
     fn text(&self) -> String {
-        let Self { lengths: [g, a, b, c], masses: [m1, m2, m3], springs: [k, free, s, l] } = self;
+        let [k, free, s, l] = self.springs;
+        let text = linkage(self.lengths, self.masses).replace("D = [", "S = [0.5, 1.6], D = [");
         format!(
-            "gravity = [0, -9.81]\n[bodies.ground]\npoints = {{ A = [0, 0], D = [{g}, 0], S = [0.5, 1.6] }}\n\
-             [bodies.crank]\ntype = 'bar'\nmass = {m1}\nlength = {a}\nends = ['A', 'B']\n\
-             [bodies.coupler]\ntype = 'bar'\nmass = {m2}\nlength = {b}\nends = ['B', 'C']\n\
-             [bodies.rocker]\ntype = 'bar'\nmass = {m3}\nlength = {c}\nends = ['D', 'C']\n\
-             [joints.A]\ntype = 'revolute'\ni = 'ground.A'\nj = 'crank.A'\n\
-             [joints.B]\ntype = 'revolute'\ni = 'crank.B'\nj = 'coupler.B'\n\
-             [joints.C]\ntype = 'revolute'\ni = 'coupler.C'\nj = 'rocker.C'\n\
-             [joints.D]\ntype = 'revolute'\ni = 'ground.D'\nj = 'rocker.D'\n\
+            "{GRAVITY}{text}\
              [forces.turn]\ntype = 'torsion_spring'\ni = 'ground'\nj = 'crank'\nstiffness = {k}\nfree_angle = {free}\n\
              [forces.pull]\ntype = 'spring_damper'\ni = 'ground.S'\nj = 'coupler.C'\nstiffness = {s}\nfree_length = {l}\n"
         )

@@ -1,6 +1,6 @@
 //! Stiff mechanisms, where explicit methods need a million steps, and the automatic choice.
 
-use crate::mechanisms::{asked, every, model, run, start, with, worst, FOUR_BAR};
+use crate::mechanisms::{asked, every, model, pinned, run, start, with, worst, FOUR_BAR};
 use kempe::analyses::assemble::{assemble, Request};
 use kempe::analyses::dynamics::{Auto, Options, Scheme, Stabilization};
 use kempe::analyses::State;
@@ -88,23 +88,8 @@ fn what_is_not_stiff_stays_explicit() {
 #[test]
 fn a_stiff_spring_that_vibrates_stays_explicit() {
     let m = model(
-        r#"
-[bodies.ground]
-points = { O = [0, 0] }
-[bodies.wheel]
-mass = 1
-inertia = 1
-points = { O = [0, 0] }
-[joints.pin]
-type = "revolute"
-i = "ground.O"
-j = "wheel.O"
-[forces.spring]
-type = "torsion_spring"
-i = "ground"
-j = "wheel"
-stiffness = 1e8
-"#,
+        &(pinned("wheel", "mass = 1\ninertia = 1\npoints = { O = [0, 0] }")
+            + "[forces.spring]\ntype = 'torsion_spring'\ni = 'ground'\nj = 'wheel'\nstiffness = 1e8\n"),
     );
     let (state, _) = start(&m, &[("wheel.angle", "0.1")], &[]);
     let (method, why, _) = chosen(&m, &state, 0.2);

@@ -128,3 +128,35 @@ fn functions_that_are_too_fast_are_named() {
     };
     Rk4::new(2.0).integrate(&mut system, -1.0, 1.0, &mut [-1.0], &mut observer).unwrap();
 }
+
+/// Ten distances, like those of contacts, that stay above zero.
+#[derive(Default)]
+struct Apart {
+    bounds: usize,
+    values: usize,
+}
+
+impl Watch for Apart {
+    fn values(&mut self, _: f64, y: &[f64], out: &mut [f64]) {
+        self.values += 1;
+        out.iter_mut().enumerate().for_each(|(k, out)| *out = y[0] + 2.0 + k as f64);
+    }
+    fn bounds(&mut self, index: usize, path: &StepPath<'_>, span: [f64; 2]) -> Option<Bounds> {
+        self.bounds += 1;
+        Some(path.component(0, span) + Bounds::constant(2.0 + index as f64))
+    }
+}
+
+/// The certainty that nothing happens costs one bound for each function in a step, and their values at its ends.
+#[test]
+fn functions_away_from_zero_cost_one_bound_in_each_step() {
+    let (mut watch, mut steps) = (Apart::default(), 0);
+    each_step(|step| {
+        let found =
+            crossings(&StepPath::new(step), 6, &[Direction::Any; 10], &mut watch, &|_| true);
+        assert_eq!(found, Ok(Vec::new()));
+        steps += 1;
+    });
+    assert!(steps > 100);
+    assert_eq!([watch.bounds, watch.values], [10 * steps, 2 * steps]);
+}

@@ -1,7 +1,7 @@
 //! The time of an evaluation with light bodies.
 
-use super::{chain, dyads, GRAVITY, MECHANISMS, SLACK};
-use crate::mechanisms::{model, start};
+use super::{chain, dyads, mechanisms, SLACK};
+use crate::mechanisms::{model, start, GRAVITY};
 use kempe::equations::{Gains, Workspace};
 use kempe::model::Model;
 
@@ -19,7 +19,7 @@ fn the_time_of_light_bodies() {
         "piston and rod",
         "six-bar",
     ];
-    for (name, (text, hints)) in names.into_iter().zip(MECHANISMS) {
+    for (name, (text, hints)) in names.into_iter().zip(mechanisms()) {
         let [heavy, light, massless] = ["1", "1e-9", "0"]
             .map(|mass| time(&model(&(GRAVITY.to_string() + &text.replace("LIGHT", mass))), hints));
         println!(
