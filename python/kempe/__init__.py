@@ -33,6 +33,7 @@ Compute:
     stiffness_at            the stiffness of the mechanism at a point
     modes                   frequencies, damping, mode shapes and state space about a state
     limits                  the range of a driver, or whether it makes a full turn
+    reachable               the region that a point reaches over two quantities
     mobility                freedoms, redundant joints, singular positions, four-bar loops
     configurations          all positions in which the mechanism closes
     study                   comparison of methods and stabilizations
@@ -127,6 +128,7 @@ if TYPE_CHECKING:
     from kempe.options import InverseDynamics as InverseDynamics
     from kempe.options import Kinematics as Kinematics
     from kempe.options import Limits as Limits
+    from kempe.options import Reachable as Reachable
     from kempe.options import Mobility as Mobility
     from kempe.options import Modes as Modes
     from kempe.options import NoStabilization as NoStabilization
@@ -135,6 +137,8 @@ if TYPE_CHECKING:
     from kempe.reach import LimitsResult as LimitsResult
     from kempe.reach import limits as limits
     from kempe.record import AssemblyWarning as AssemblyWarning
+    from kempe.region import ReachableResult as ReachableResult
+    from kempe.region import reachable as reachable
     from kempe.solution import Solution as Solution
     from kempe.start import Start as Start
     from kempe.state import State as State
@@ -182,6 +186,8 @@ _HOME = {
     "Labelled": "matrices",
     "Limits": "options",
     "LimitsResult": "reach",
+    "Reachable": "options",
+    "ReachableResult": "region",
     "Matrices": "matrices",
     "Mobility": "options",
     "MobilityResult": "freedom",
@@ -219,6 +225,7 @@ _HOME = {
     "inverse_dynamics": "driven",
     "kinematics": "driven",
     "limits": "reach",
+    "reachable": "region",
     "load": "case",
     "load_solution": "archive",
     "modes": "linearization",

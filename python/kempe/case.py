@@ -24,6 +24,7 @@ from kempe.option import Analysis, Option
 from kempe.options import Dynamics
 from kempe.reach import LimitsResult
 from kempe.record import Progress, Record, run_analysis
+from kempe.region import ReachableResult
 from kempe.rest import EquilibriumResult
 from kempe.result import Result
 from kempe.sequence import of_type, read_entries
@@ -41,6 +42,7 @@ _RESULTS: dict[str, Callable[[Record], Result]] = {
     "limits": LimitsResult,
     "mobility": MobilityResult,
     "configurations": ConfigurationsResult,
+    "reachable": ReachableResult,
 }
 
 

@@ -9,7 +9,7 @@ from typing import ClassVar, Literal
 
 from kempe.event import Events
 from kempe.option import Analysis, Option, Shape
-from kempe.values import Number, Pair, Terms, Tolerance, Words
+from kempe.values import Number, Pair, Pairs, Terms, Tolerance, Words
 
 
 @dataclass(frozen=True, repr=False)
@@ -616,5 +616,37 @@ class Configurations(Analysis):
     shapes: ClassVar[Mapping[str, Shape]] = {
         "set": "values",
         "limit": "count",
+        "after": "name",
+    }
+
+
+@dataclass(frozen=True, repr=False)
+class Reachable(Analysis):
+    """Analysis of type ``reachable``, an entry of ``[analyses]``.
+
+    The region that a point reaches while two drivers or position quantities vary within ranges.
+
+    Attributes:
+        of: Point of a body, such as `hand.P`.
+        over: Two drivers, or position quantities such as `arm.angle`.
+        ranges: First and last value of each of them, in SI units and rad.
+        n: Number of values of each quantity, including both ends.
+        after: State at which the analysis starts: "start", or the name of an earlier analysis
+            to use its final state. If absent, the final state of the previous analysis.
+        name: its name in the case.
+    """
+
+    of: str
+    over: Words
+    ranges: Pairs
+    n: int = 61
+    after: str | None = None
+    name: str = "reachable"
+    kind: ClassVar[str] = "reachable"
+    shapes: ClassVar[Mapping[str, Shape]] = {
+        "of": "name",
+        "over": "quantities",
+        "ranges": "ranges",
+        "n": "count",
         "after": "name",
     }

@@ -8,6 +8,7 @@ use super::kinematics;
 use super::limits;
 use super::linearization;
 use super::options::{Declaration, Declared, Family, Member};
+use super::reachable;
 use super::record::{Analysis, Observer, Record, StartState, Subject, Unfinished};
 use crate::model::{Model, Problem, Value};
 use std::sync::LazyLock;
@@ -22,6 +23,7 @@ macro_rules! analyses {
     ($($Name:ident($Options:ty)),+ $(,)?) => {
         /// An analysis of any type, with its options.
         #[derive(Clone, Debug, PartialEq)]
+        #[allow(clippy::large_enum_variant)] // one exists for each run
         pub enum AnyAnalysis {
             $(
                 #[doc = stringify!($Options)]
@@ -99,6 +101,7 @@ analyses! {
     Limits(limits::Options),
     Mobility(diagnosis::Options),
     Configurations(configurations::Options),
+    Reachable(reachable::Options),
 }
 
 static FAMILIES: LazyLock<Vec<Family>> =

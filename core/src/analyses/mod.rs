@@ -23,6 +23,7 @@ pub mod measures;
 mod mobility;
 pub mod options;
 mod quantities;
+mod reachable;
 pub mod readings;
 pub mod record;
 mod required;

@@ -16,7 +16,7 @@ pub fn start_of(analyses: &[Entry], place: usize) -> Option<usize> {
 }
 
 /// Runs an analysis from the end of another one. If joints have drifted there, it starts in the nearest state that
-/// meets the constraints, and a remark says so.
+/// meets the constraints, and a remark gives the opening.
 ///
 /// # Errors
 /// [`Unfinished`].

@@ -45,6 +45,7 @@ ANALYSES = {
     "equilibrium": "Find where a mechanism rests, and whether it is stable there.",
     "modes": "Compute frequencies, damping and shapes of small motions.",
     "limits": "Find how far a mechanism can move, and whether a crank turns fully.",
+    "reachable": "Find the region that a point reaches while two quantities vary.",
     "configurations": "List all positions in which a mechanism can be assembled.",
     "mobility": "Count freedoms, and find redundant joints and singular positions.",
 }

@@ -9,6 +9,7 @@ from typing import Any
 from kempe.plot.limits import pages as limit_pages
 from kempe.plot.mode_shapes import mode_pages
 from kempe.plot.page import Page
+from kempe.plot.region import pages as region_pages
 from kempe.plot.rest import rest_pages
 from kempe.plot.sheet import pages as sheets
 from kempe.result import Result
@@ -18,6 +19,7 @@ from kempe.result import Result
 _PAGES: dict[str, Callable[[Any, int], list[Page]]] = {
     "configurations": sheets,
     "limits": limit_pages,
+    "reachable": region_pages,
     "equilibrium": rest_pages,
     "modes": mode_pages,
 }
