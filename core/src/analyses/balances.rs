@@ -5,6 +5,7 @@
 //! `python/kempe/energy.py` and `python/kempe/newton_euler.py`.
 
 use crate::equations::newton_euler::{Balances, BodyBalance};
+use crate::math::Listed;
 
 /// Kinetic, potential and dissipated energy, work of drivers and of applied forces, J.
 pub(super) type Energies<S> = [S; 5];
@@ -110,7 +111,7 @@ impl ReactionBalance {
         let coordinates = self.efforts.iter().zip(&at.coordinates);
         let coordinates = coordinates
             .map(|([own, lever], at)| at.effort / or_one(own.max(RESOLVED_FORCE * force * lever)));
-        bodies.chain(coordinates).collect()
+        bodies.chain(coordinates).list()
     }
 
     /// The largest share at a state.

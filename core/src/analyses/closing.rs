@@ -7,6 +7,7 @@
 use crate::equations::augmented::Augmented;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
+use crate::math::Listed;
 use crate::model::{column_scales, row_scales, Model};
 use crate::solve::newton::{Damping, Equations, Newton, Options, Outcome, Record};
 
@@ -42,7 +43,7 @@ impl<'a> Closing<'a> {
     /// The equations of a model at time `t`.
     pub fn new(model: &'a Model, t: f64, stop: Halt<'a>) -> Self {
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
-        let weights = column_scales(model).iter().map(|scale| 1.0 / (scale * scale)).collect();
+        let weights = column_scales(model).iter().map(|scale| 1.0 / (scale * scale)).list();
         let matrix = Augmented::new(model);
         Self {
             model,

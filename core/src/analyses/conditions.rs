@@ -10,7 +10,7 @@ use crate::equations::newton_euler::balances;
 use crate::equations::Workspace;
 use crate::expression::{Expression, ExpressionError, Inferred, Sense, Symbol, Tape, Values};
 use crate::integrate::{Bounds, Direction, Step};
-use crate::math::Real;
+use crate::math::{Listed, Real};
 use crate::model::{quantity_of, Model, Offered, Problem};
 
 /// A condition on the quantities of a model. Its event is a change of sign of its function.
@@ -56,8 +56,8 @@ impl Condition {
             Signal::Measured { .. } => formula(model, name),
             _ => None,
         };
-        let formulas = found.iter().map(formula).collect();
-        let signals: Vec<Signal> = found.into_iter().map(|(_, signal)| signal).collect();
+        let formulas = found.iter().map(formula).list();
+        let signals: Vec<Signal> = found.into_iter().map(|(_, signal)| signal).list();
         let needs_solution = signals.iter().any(|signal| signal.needs_solution(model));
         Ok(Self { tape, signals, formulas, comparison, needs_solution })
     }
@@ -88,7 +88,7 @@ impl Condition {
     /// positive.
     pub fn value(&self, model: &Model, seen: &Seen<'_>) -> f64 {
         let of = |signal: &Signal| signal.value(model, seen);
-        let quantities: Vec<f64> = self.signals.iter().map(of).collect();
+        let quantities: Vec<f64> = self.signals.iter().map(of).list();
         let at = QuantityValues { model, t: seen.t, quantities: &quantities };
         self.comparison.map_or(1.0, |sense| sense.sign) * self.tape.evaluate(&at)
     }

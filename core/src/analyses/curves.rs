@@ -1,5 +1,6 @@
 //! The ends of open curves, which a contact must not leave.
 
+use crate::math::Listed;
 use crate::model::Model;
 
 /// A contact may leave its curve by this fraction of the range of u, because of rounding.
@@ -16,7 +17,7 @@ impl Ranges {
             let curve = &item.element.curve()?.curve;
             (!curve.periodic()).then(|| (k, slots.own.first, curve.range()))
         });
-        Self(range.collect())
+        Self(range.list())
     }
 
     /// The first constraint whose contact at the position `q` is beyond the end of its curve, with a description.

@@ -3,6 +3,7 @@
 use super::closing::Halt;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
+use crate::math::{Listed, Ordered};
 use crate::model::{column_scales, Model, MOST_REPORTED};
 use crate::solve::{groups_first, normalize_rows, rank, SparseRank, SparseRow};
 
@@ -59,8 +60,8 @@ fn scaled_rows(model: &Model, t: f64, q: &[f64]) -> (Vec<SparseRow>, Vec<f64>) {
     }
     let mut lengths = Vec::with_capacity(rows.len());
     for row in &mut rows {
-        row.sort_unstable_by_key(|(column, _)| *column);
-        let mut values: Vec<f64> = row.iter().map(|(_, x)| *x).collect();
+        row.order_by_key(|(column, _)| *column);
+        let mut values: Vec<f64> = row.iter().map(|(_, x)| *x).list();
         let columns = values.len();
         lengths.push(normalize_rows(&mut values, columns).first().copied().unwrap_or(0.0));
         row.iter_mut().zip(values).for_each(|((_, x), value)| *x = value);
@@ -76,7 +77,7 @@ fn dense(model: &Model, rows: &[SparseRow], tolerance: f64) -> Vec<Dependent> {
     }
     let found = rank(&full, n, tolerance);
     let pairs = found.dependent.iter().zip(&found.left_null);
-    pairs.map(|(row, y)| dependent(model, *row, y.iter().copied().enumerate())).collect()
+    pairs.map(|(row, y)| dependent(model, *row, y.iter().copied().enumerate())).list()
 }
 
 fn sparse(
@@ -88,29 +89,29 @@ fn sparse(
     let place = places(model);
     for row in &mut rows {
         row.iter_mut().for_each(|(column, _)| *column = place[*column]);
-        row.sort_unstable_by_key(|(column, _)| *column);
+        row.order_by_key(|(column, _)| *column);
     }
     let found = SparseRank::new(&rows, model.layout.n_q, tolerance, stop)?;
     let one = |(k, row): (usize, &usize)| {
         // more groups are never reported
         let others = if k < MOST_REPORTED { found.dependence(&rows, *row) } else { Vec::new() };
-        let mut parts: SparseRow = others.into_iter().chain([(*row, 1.0)]).collect();
-        parts.sort_unstable_by_key(|(row, _)| *row);
+        let mut parts: SparseRow = others.into_iter().chain([(*row, 1.0)]).list();
+        parts.order_by_key(|(row, _)| *row);
         dependent(model, *row, parts.into_iter())
     };
-    Some(found.dependent.iter().enumerate().map(one).collect())
+    Some(found.dependent.iter().enumerate().map(one).list())
 }
 
 /// Index of each column in an order with little fill-in.
 fn places(model: &Model) -> Vec<usize> {
     let layout = &model.layout;
-    let first: Vec<usize> = layout.owners.iter().map(|owner| owner.first).collect();
+    let first: Vec<usize> = layout.owners.iter().map(|owner| owner.first).list();
     let entries: Vec<(usize, usize)> = layout
         .constraints
         .iter()
         .flat_map(|slots| slots.blocks.windows(2))
         .map(|pair| (pair[0].columns.first, pair[1].columns.first))
-        .collect();
+        .list();
     let order = groups_first(layout.n_q, layout.n_q, &entries, Some(&first));
     let mut place = vec![0; layout.n_q];
     order.iter().enumerate().for_each(|(k, column)| place[*column] = k);
@@ -119,8 +120,8 @@ fn places(model: &Model) -> Vec<usize> {
 
 /// The equation with the rows that take part in its dependence.
 fn dependent(model: &Model, row: usize, parts: impl Iterator<Item = (usize, f64)>) -> Dependent {
-    let factors: Vec<(usize, f64)> = parts.filter(|(_, part)| part.abs() > PART).collect();
-    let mut group: Vec<usize> = factors.iter().map(|(row, _)| model.layout.owner(*row).0).collect();
+    let factors: Vec<(usize, f64)> = parts.filter(|(_, part)| part.abs() > PART).list();
+    let mut group: Vec<usize> = factors.iter().map(|(row, _)| model.layout.owner(*row).0).list();
     group.dedup();
     Dependent { row, group, factors }
 }

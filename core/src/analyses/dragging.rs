@@ -12,7 +12,7 @@ use super::closing::Closing;
 use super::kinematics::in_line;
 use crate::elements::BodyId;
 use crate::equations::kinematics::Motions;
-use crate::math::{Local, Vec2};
+use crate::math::{each, Listed, Local, Vec2};
 use crate::model::Model;
 
 /// Largest number of steps.
@@ -123,7 +123,7 @@ impl Hand<'_> {
         };
         let jacobian = [row([1.0, 0.0, lever.x]), row([0.0, 1.0, lever.y])];
         let motions = self.closing.motions_under(&q, &jacobian)?;
-        let g = [0, 1].map(|i| [0, 1].map(|j| dot(&jacobian[i], &motions[j])));
+        let g = each([0, 1], |i| each([0, 1], |j| dot(&jacobian[i], &motions[j])));
         let g = [g[0][0], 0.5 * (g[0][1] + g[1][0]), g[1][1]];
         Some(DragState { way: self.target - pose.point(self.grip.point), q, jacobian, motions, g })
     }
@@ -151,8 +151,7 @@ impl Hand<'_> {
         let whole = self.length(&step);
         let (mut part, mut blocked) = (1.0_f64.min(LONGEST / whole), false);
         for _ in 0..halvings {
-            let predicted: Vec<f64> =
-                place.q.iter().zip(&step).map(|(q, dq)| q + part * dq).collect();
+            let predicted: Vec<f64> = place.q.iter().zip(&step).map(|(q, dq)| q + part * dq).list();
             if let Some(next) = self.closed(&predicted, CORRECTION * part * whole) {
                 let course = match path.as_ref().zip(next.path(self)) {
                     Some((old, new)) => old.follows(&new, &self.closing),
@@ -174,7 +173,7 @@ impl Hand<'_> {
     fn closed(&mut self, predicted: &[f64], most: f64) -> Option<DragState> {
         let mut next = predicted.to_vec();
         let (_, closed) = self.closing.close(&mut next);
-        let change: Vec<f64> = next.iter().zip(predicted).map(|(a, b)| a - b).collect();
+        let change: Vec<f64> = next.iter().zip(predicted).map(|(a, b)| a - b).list();
         if !closed || self.length(&change) > most {
             return None;
         }
@@ -240,7 +239,7 @@ impl DragState {
 
     fn along(&self, force: Vec2) -> Vec<f64> {
         let pairs = self.motions[0].iter().zip(&self.motions[1]);
-        pairs.map(|(x, y)| force.x * x + force.y * y).collect()
+        pairs.map(|(x, y)| force.x * x + force.y * y).list()
     }
 
     /// The path of a mechanism with one degree of freedom.

@@ -5,6 +5,7 @@ use super::options::{kind, Reader};
 use crate::elements::Group;
 use crate::expression::suggest::did_you_mean;
 use crate::integrate::Direction;
+use crate::math::Listed;
 use crate::model::{Problem, Value as Written};
 
 /// The name of the event of the option `stop`.
@@ -57,8 +58,8 @@ kind! {
     events: Vec<EventOption>, Events, |reader, key| {
         let stops = reader.get(STOP).is_some();
         reader.table(key, |inner| {
-            let names: Vec<String> = inner.keys().map(str::to_string).collect();
-            let read: Vec<_> = names.iter().map(|name| event(inner, name, stops)).collect();
+            let names: Vec<String> = inner.keys().map(str::to_string).list();
+            let read: Vec<_> = names.iter().map(|name| event(inner, name, stops)).list();
             read.into_iter().collect()
         })
     }
@@ -69,7 +70,7 @@ kind! {
     drivers: Vec<String>, NameList, |reader, key| {
         reader.names(key, "drivers", |model, name, _| {
             let known = model.constraints.iter().filter(|c| c.group == Group::Drivers);
-            let known: Vec<&str> = known.map(|c| c.name.as_str()).collect();
+            let known: Vec<&str> = known.map(|c| c.name.as_str()).list();
             if known.contains(&name) {
                 return Ok(());
             }
@@ -84,7 +85,7 @@ kind! {
     values: Vec<(String, f64)>, Values, |reader, key| {
         let known = reader.model().blueprint.parameters.clone();
         reader.table(key, |inner| {
-            let names: Vec<String> = inner.keys().map(str::to_string).collect();
+            let names: Vec<String> = inner.keys().map(str::to_string).list();
             let mut found = Vec::new();
             for name in names {
                 if !known.contains(&name) {

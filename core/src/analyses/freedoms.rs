@@ -2,6 +2,7 @@
 
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
+use crate::math::Listed;
 use crate::model::{column_scales, ConstraintItem, Model};
 use crate::solve::{normalize_rows, rank};
 
@@ -26,7 +27,7 @@ pub(super) fn freedoms(
     constraints::jacobian(model, &Motions::at_rest(layout, q), t, &mut entries);
     let scales = column_scales(model);
     let counted = |row: usize| counts(&model.constraints[layout.owner(row).0]);
-    let rows: Vec<usize> = (0..layout.n_rows).filter(|row| counted(*row)).collect();
+    let rows: Vec<usize> = (0..layout.n_rows).filter(|row| counted(*row)).list();
     let m = rows.len();
     let mut full = vec![0.0; m * n];
     for (row, column, at) in layout.positions() {
@@ -42,7 +43,7 @@ pub(super) fn freedoms(
     let mut transposed = vec![0.0; m * n];
     (0..m).for_each(|i| (0..n).for_each(|j| transposed[j * m + i] = full[i * n + j]));
     let mut found = match m {
-        0 => (0..n).map(|k| (0..n).map(|j| f64::from(u8::from(j == k))).collect()).collect(),
+        0 => (0..n).map(|k| (0..n).map(|j| f64::from(u8::from(j == k))).list()).list(),
         _ => rank(&transposed, m, NEARLY).left_null,
     };
     found.iter_mut().for_each(|w: &mut Vec<f64>| {

@@ -10,6 +10,7 @@ use crate::equations::forces::Acting;
 use crate::equations::kinematics::Motions;
 use crate::equations::static_ratio;
 use crate::integrate::Flow;
+use crate::math::Listed;
 use crate::model::Model;
 
 /// The least and the largest multipliers at states, rows of n_rows, around `lam`. None if no friction is idle.
@@ -26,7 +27,7 @@ pub fn friction_range(
         let item = &model.forces[*k];
         item.mode == Mode::Idle && matches!(item.element.behaviour(), Some(Behaviour::Sticks))
     };
-    let idle: Vec<usize> = (0..model.forces.len()).filter(is_idle).collect();
+    let idle: Vec<usize> = (0..model.forces.len()).filter(is_idle).list();
     if idle.is_empty() || states.t.is_empty() {
         return Ok(None);
     }

@@ -10,7 +10,7 @@ use super::signal_rows::{each, each_over_lanes, Rows};
 use super::signal_units::unit_of;
 use super::signals::Signal;
 use crate::expression::{unit::Unit, Expression, ExpressionError, Inferred, Symbol, Tape};
-use crate::math::Lanes;
+use crate::math::{Lanes, Listed};
 use crate::model::{Model, Problem, Value};
 
 /// The unit of an expression whose dimension cannot be inferred.
@@ -41,7 +41,7 @@ impl Measure {
         let names = QuantityNames::of(model, &[]);
         let tape = expression.compile(&names)?;
         let found = names.found.borrow().clone();
-        let units: Vec<_> = found.iter().map(|(name, of)| unit_of(model, name, of)).collect();
+        let units: Vec<_> = found.iter().map(|(name, of)| unit_of(model, name, of)).list();
         let inferred = expression.infer(&names, &|symbol| match symbol {
             Symbol::Parameter(k) => model.blueprint.inferred[k],
             Symbol::Variable(k) => units.get(k).map_or(Inferred::Open, |unit| dimension(unit)),
@@ -124,14 +124,14 @@ fn written(inferred: Inferred, units: &[String]) -> String {
 
 /// All problems of the measures of a definition.
 pub fn check(model: &Model, measures: &[(String, Value)]) -> Vec<Problem> {
-    let names: Vec<&str> = measures.iter().map(|(name, _)| name.as_str()).collect();
+    let names: Vec<&str> = measures.iter().map(|(name, _)| name.as_str()).list();
     let wrong = measures.iter().filter_map(|(name, value)| {
         let Value::Text(text) = value else { return None };
         let problem = Measure::read(model, text).err()?;
         let problem = of_measures(problem, text, &names);
         Some(Problem { path: ["measures", name].map(str::to_string).to_vec(), ..problem })
     });
-    wrong.collect()
+    wrong.list()
 }
 
 /// Adds a hint to the problem if the measure uses another measure.

@@ -12,6 +12,7 @@ use crate::elements::{BodyId, Coordinate, CoordinateOf};
 use crate::equations::augmented::Augmented;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
+use crate::math::Listed;
 use crate::model::{column_scales, row_scales, Model};
 use crate::solve::RANK_TOLERANCE;
 use std::sync::Arc;
@@ -66,7 +67,7 @@ pub(super) fn mobility_until(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -
     let rank = m - here.len();
     let [redundant_equations, singular_equations] = judge(model, t, q, here, stop);
     let groups = |equations: &[Dependent]| {
-        let mut groups: Vec<Vec<usize>> = equations.iter().map(|e| e.group.clone()).collect();
+        let mut groups: Vec<Vec<usize>> = equations.iter().map(|e| e.group.clone()).list();
         groups.dedup();
         groups
     };
@@ -122,7 +123,7 @@ fn split(
     dependent: &[Dependent],
     stop: Halt<'_>,
 ) -> [Vec<Dependent>; 2] {
-    let rows: Vec<usize> = dependent.iter().map(|one| one.row).collect();
+    let rows: Vec<usize> = dependent.iter().map(|one| one.row).list();
     if rows.is_empty() {
         return [Vec::new(), Vec::new()];
     }
@@ -209,7 +210,7 @@ pub(super) fn moved(model: &Model, q: &[f64], size: f64, number: usize) -> Vec<f
     let first = 1.0 + 0.618 * number as f64;
     let part = |k: usize| ((12.9898 * (k as f64 + first)).sin() * 43758.5453).fract();
     let unit = column_scales(model);
-    q.iter().enumerate().map(|(k, q)| q + size * part(k) * unit[k]).collect()
+    q.iter().enumerate().map(|(k, q)| q + size * part(k) * unit[k]).list()
 }
 
 fn holding(model: &Model, body: BodyId, angle: f64) -> Model {

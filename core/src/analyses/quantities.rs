@@ -3,6 +3,7 @@
 use super::signal_names::{names, signal};
 use super::signals::Signal;
 use crate::expression::{Names, Symbol, Table, Values};
+use crate::math::Listed;
 use crate::model::Model;
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -54,7 +55,7 @@ impl Names for QuantityNames<'_> {
 
     fn known(&self) -> Vec<String> {
         let own = self.model.blueprint.parameters.iter().cloned().chain(["t".to_string()]);
-        own.chain(names(self.model, &self.missed.borrow())).collect()
+        own.chain(names(self.model, &self.missed.borrow())).list()
     }
 
     fn tables(&self) -> &[Arc<Table>] {

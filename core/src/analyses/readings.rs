@@ -11,6 +11,7 @@ use super::signal_units::unit_of;
 use super::signals::{Energy, Signal};
 use super::State;
 use crate::integrate::Flow;
+use crate::math::Listed;
 use crate::model::{did_you_mean, Model, Problem, WORKS};
 
 /// A quantity that can be evaluated at states.
@@ -27,7 +28,7 @@ pub struct Readable {
 pub fn readable(model: &Model) -> Vec<Readable> {
     let known = names(model, "").into_iter().filter_map(|name| Some((signal(model, &name)?, name)));
     let readable = known.filter(|(signal, _)| !needs_interpolants(signal));
-    readable.map(|(signal, name)| Readable { unit: unit_of(model, &name, &signal), name }).collect()
+    readable.map(|(signal, name)| Readable { unit: unit_of(model, &name, &signal), name }).list()
 }
 
 /// The quantity with this name.
@@ -46,7 +47,7 @@ pub fn find(model: &Model, name: &str) -> Result<Readable, Problem> {
         None => {
             let known = names(model, name);
             let problem = Problem::new(format!("there is no quantity '{name}'"));
-            let known: Vec<&str> = known.iter().map(String::as_str).collect();
+            let known: Vec<&str> = known.iter().map(String::as_str).list();
             let near = did_you_mean(name, &known, "quantities");
             Err(problem.maybe_hint(near))
         }
@@ -56,7 +57,7 @@ pub fn find(model: &Model, name: &str) -> Result<Readable, Problem> {
 /// The values of quantities at all reported states, one row per quantity. NaN where accelerations or reactions are
 /// not unique.
 pub fn of_run(model: &Model, run: &Run, names: &[&str]) -> Vec<Vec<f64>> {
-    let mut found: Vec<Vec<f64>> = names.iter().map(|_| Vec::new()).collect();
+    let mut found: Vec<Vec<f64>> = names.iter().map(|_| Vec::new()).list();
     let plain = Setting::default();
     for phase in 0..run.phases.len() {
         let setting = run.settings.get(phase).unwrap_or(&plain);
@@ -71,7 +72,7 @@ pub fn of_run(model: &Model, run: &Run, names: &[&str]) -> Vec<Vec<f64>> {
 
 /// The values of an expression of quantities at all reported states. NaN where one of its quantities is NaN.
 pub fn measure_of_run(model: &Model, run: &Run, measure: &Measure) -> Vec<f64> {
-    let names: Vec<&str> = measure.quantities.iter().map(String::as_str).collect();
+    let names: Vec<&str> = measure.quantities.iter().map(String::as_str).list();
     let (rows, t) = (of_run(model, run, &names), &run.trajectory.t);
     let plain = Setting::default();
     let mut found = Vec::with_capacity(t.len());
@@ -80,7 +81,7 @@ pub fn measure_of_run(model: &Model, run: &Run, measure: &Measure) -> Vec<f64> {
         let active = setting.open(model).unwrap_or_else(|_| model.clone());
         let first = run.phases[phase];
         for k in first..first + run.states_of(phase).t.len() {
-            let quantities: Vec<f64> = rows.iter().map(|row| row[k]).collect();
+            let quantities: Vec<f64> = rows.iter().map(|row| row[k]).list();
             found.push(measure.value(&active, t[k], &quantities));
         }
     }
@@ -92,7 +93,7 @@ pub fn of_state(model: &Model, state: &State, names: &[&str]) -> Vec<f64> {
     let State { t, q, v, z } = state;
     let states = States { t: &[*t], q, v, z };
     let rows = of_states(model, (states, &[0.0; WORKS]), names, true);
-    rows.into_iter().map(|row| row[0]).collect()
+    rows.into_iter().map(|row| row[0]).list()
 }
 
 fn of_states(
@@ -103,13 +104,13 @@ fn of_states(
 ) -> Vec<Vec<f64>> {
     // a released driver has zero effort
     let signals: Vec<Signal> =
-        names.iter().map(|name| signal(model, name).unwrap_or(Signal::Constant(0.0))).collect();
+        names.iter().map(|name| signal(model, name).unwrap_or(Signal::Constant(0.0))).list();
     let solves = signals.iter().any(|signal| signal.needs_solution(model));
     let solved = solves
         .then(|| Prepared::new(model).accelerations(states, passing, |_| Flow::Continue).ok())
         .flatten();
     let solved = solved.as_ref().map(|solved| [&solved.a[..], &solved.lam]);
-    let mut found: Vec<Vec<f64>> = names.iter().map(|_| Vec::new()).collect();
+    let mut found: Vec<Vec<f64>> = names.iter().map(|_| Vec::new()).list();
     each(model, Rows { states, works, solved }, &signals, |_, values| {
         found.iter_mut().zip(values).for_each(|(row, value)| row.push(*value));
     });

@@ -5,7 +5,7 @@ use crate::elements::{At, Required};
 use crate::equations::augmented::Augmented;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
-use crate::math::{Motion, Pose};
+use crate::math::{Listed, Motion, Pose};
 use crate::model::{column_scales, ConstraintItem, Model};
 
 /// Largest relative deviation from the required value.
@@ -59,7 +59,7 @@ pub(super) fn loose(model: &Model, t: f64, q: &[f64]) -> Option<Unmet> {
 }
 
 fn required(item: &ConstraintItem, motions: &[Motion], t: f64) -> Vec<Required<f64>> {
-    let bodies: Vec<Pose> = item.bodies.iter().map(|b| motions[b.0].pose).collect();
+    let bodies: Vec<Pose> = item.bodies.iter().map(|b| motions[b.0].pose).list();
     item.element.requires(&At { bodies: &bodies, own: &[], t })
 }
 
@@ -81,7 +81,7 @@ fn wrong(item: &ConstraintItem, required: &Required<f64>) -> Option<Unmet> {
 fn gradients(model: &Model, item: &ConstraintItem, motions: &[Motion], t: f64) -> Vec<Vec<f64>> {
     let count = required(item, motions, t).len();
     let mut all = vec![vec![0.0; model.layout.n_q]; count];
-    let bodies: Vec<Motion> = item.bodies.iter().map(|b| motions[b.0]).collect();
+    let bodies: Vec<Motion> = item.bodies.iter().map(|b| motions[b.0]).list();
     let at = crate::elements::Moving { bodies: &bodies, own: &[], own_rates: &[], t };
     let element = item.element.lift();
     for place in 0..participants(bodies.len(), 0) {
@@ -108,8 +108,8 @@ struct AdmissibleProjection {
 impl AdmissibleProjection {
     fn new(model: &Model, motions: &Motions, t: f64) -> Option<Self> {
         let rows = model.layout.n_rows;
-        let squares: Vec<f64> = column_scales(model).iter().map(|scale| scale * scale).collect();
-        let weights: Vec<f64> = squares.iter().map(|square| 1.0 / square).collect();
+        let squares: Vec<f64> = column_scales(model).iter().map(|scale| scale * scale).list();
+        let weights: Vec<f64> = squares.iter().map(|square| 1.0 / square).list();
         let mut matrix = Augmented::new(model);
         matrix.set_weights(&weights);
         constraints::jacobian(model, motions, t, matrix.jacobian_mut());

@@ -4,7 +4,7 @@ use super::dynamics::{Failure, Run};
 use crate::elements::Coordinate;
 use crate::equations::kinematics::Motions;
 use crate::equations::reactions::{reaction, Frame};
-use crate::math::Wrench;
+use crate::math::{each, Listed, Wrench};
 use crate::model::Model;
 use std::fmt;
 
@@ -48,7 +48,7 @@ impl Run {
         let table = if coordinate.is_rate() { &self.trajectory.v } else { &self.trajectory.q };
         let rows = table.chunks_exact(model.layout.n_q.max(1));
         let columns = model.layout.bodies[body.0];
-        Ok(rows.map(|row| columns.of(row)[coordinate.column()]).collect())
+        Ok(rows.map(|row| columns.of(row)[coordinate.column()]).list())
     }
 
     /// Force, and torque about the joint point, of a joint or driver on a body at the reported times.
@@ -74,7 +74,8 @@ impl Run {
         let mut motions = Motions::new(&model.layout);
         let at = |(state, &t): (usize, &f64)| {
             let coordinates = state * n..(state + 1) * n;
-            let [q, v] = [&self.trajectory.q, &self.trajectory.v].map(|x| &x[coordinates.clone()]);
+            let [q, v] =
+                each([&self.trajectory.q, &self.trajectory.v], |x| &x[coordinates.clone()]);
             motions.place(&model.layout, q, v);
             let own = &lam[state * model.layout.n_rows..][rows.clone()];
             reaction(model, k, body, frame, &motions, t, own).ok_or_else(apart)

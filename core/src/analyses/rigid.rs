@@ -6,6 +6,7 @@
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
+use crate::math::Listed;
 use crate::model::{size, Model};
 
 /// Largest depth beyond a stop or contact that counts as touching, relative to the size of the mechanism or in rad.
@@ -32,7 +33,7 @@ pub(super) struct RigidContacts(Vec<usize>);
 impl RigidContacts {
     pub fn of(model: &Model) -> Self {
         let open = |k: &usize| model.forces[*k].mode == Mode::Open && is_rigid(model, *k);
-        Self((0..model.forces.len()).filter(open).collect())
+        Self((0..model.forces.len()).filter(open).list())
     }
 
     /// The first one beyond which a position is, with its gap. It is beyond if the gap is below `-depth`, relative to
@@ -61,7 +62,7 @@ impl RigidContacts {
     /// Those that a position touches or is beyond.
     pub fn touched(&self, model: &Model, t: f64, q: &[f64]) -> Self {
         let closed = |k: &usize| Self(vec![*k]).deeper(model, t, q, -TOUCHING).is_some();
-        Self(self.0.iter().copied().filter(closed).collect())
+        Self(self.0.iter().copied().filter(closed).list())
     }
 
     /// The indices of the forces.

@@ -4,6 +4,7 @@ use super::analysis_table::AnyAnalysis;
 use super::assemble::{assemble_until, Request};
 use super::conditions::Condition;
 use super::record::{ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished};
+use crate::math::Listed;
 use crate::model::{Entry, Model, Problem, Value};
 
 /// The index of the analysis at whose end an analysis starts: the one that `from` names, or the one before it. None at
@@ -67,7 +68,7 @@ pub fn check(model: &Model, analyses: &[Entry]) -> Vec<Problem> {
 /// Problems with their paths in the file.
 fn within(path: &[String], problems: Vec<Problem>) -> Vec<Problem> {
     let one = |problem: Problem| Problem { path: [path, &problem.path].concat(), ..problem };
-    problems.into_iter().map(one).collect()
+    problems.into_iter().map(one).list()
 }
 
 /// The problems of release conditions of drivers.
@@ -77,5 +78,5 @@ fn releases(model: &Model) -> Vec<Problem> {
         let path = ["drivers", &driver.name, "release"].map(str::to_string).to_vec();
         Some(Problem { path, ..problem })
     });
-    wrong.collect()
+    wrong.list()
 }

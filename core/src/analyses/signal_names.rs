@@ -3,6 +3,7 @@
 use super::signals::{Energy, ForcePart, Signal};
 use crate::elements::{BodyId, Followed, Measured};
 use crate::equations::measured::{offered, ElementId};
+use crate::math::Listed;
 use crate::model::{Columns, Model};
 
 /// The quantities of one owner with their names.
@@ -26,7 +27,7 @@ pub(super) fn names(model: &Model, like: &str) -> Vec<String> {
         let family = family(model, &owner).unwrap_or_default();
         family.into_iter().map(move |(name, _)| format!("{owner}.{name}"))
     };
-    owners.into_iter().flat_map(of).collect()
+    owners.into_iter().flat_map(of).list()
 }
 
 fn owners(model: &Model) -> Vec<String> {
@@ -37,7 +38,7 @@ fn owners(model: &Model) -> Vec<String> {
     let constraints = model.constraints.iter().map(|item| item.name.clone());
     let forces = model.forces.iter().map(|item| item.name.clone());
     let of_run = ["energy", "drift"].map(str::to_string);
-    points.chain(constraints).chain(forces).chain(of_run).collect()
+    points.chain(constraints).chain(forces).chain(of_run).list()
 }
 
 fn family(model: &Model, owner: &str) -> Option<Family> {
@@ -84,7 +85,7 @@ fn of_body(model: &Model, body: BodyId) -> Family {
     };
     let count = if body.is_ground() { 3 } else { columns.count };
     let places = (0..3).flat_map(|order| (0..count).map(move |k| (order, k)));
-    places.map(|(order, k)| (COORDINATES[order][k].to_string(), signal(order, k))).collect()
+    places.map(|(order, k)| (COORDINATES[order][k].to_string(), signal(order, k))).list()
 }
 
 fn of_point(model: &Model, body: BodyId, point: &str) -> Option<Family> {
@@ -93,7 +94,7 @@ fn of_point(model: &Model, body: BodyId, point: &str) -> Option<Family> {
     let signal = |(order, axis): (usize, usize)| {
         (COORDINATES[order][axis].to_string(), Signal::Point { body, s, axis, order })
     };
-    Some(places.map(signal).collect())
+    Some(places.map(signal).list())
 }
 
 fn of_measured(all: &[Measured], id: ElementId) -> Family {
@@ -101,7 +102,7 @@ fn of_measured(all: &[Measured], id: ElementId) -> Family {
         let names = of.names.into_iter().enumerate().filter(|(_, name)| !name.is_empty());
         names.map(move |(order, name)| (name.to_string(), Signal::Measured { id, k, order }))
     });
-    named.collect()
+    named.list()
 }
 
 fn of_constraint(model: &Model, k: usize) -> Family {
@@ -139,7 +140,7 @@ fn of_constraint(model: &Model, k: usize) -> Family {
 fn own_names(own: Columns) -> Vec<String> {
     match own.count {
         1 => vec!["u".to_string()],
-        count => (1..=count).map(|k| format!("u{k}")).collect(),
+        count => (1..=count).map(|k| format!("u{k}")).list(),
     }
 }
 

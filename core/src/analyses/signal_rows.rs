@@ -3,7 +3,7 @@
 use super::dynamics::States;
 use super::signals::{Seen, Signal};
 use crate::equations::kinematics::Motions;
-use crate::math::{Lanes, Real};
+use crate::math::{Lanes, Listed, Real};
 use crate::model::Model;
 
 /// States in rows. The works up to the states have rows of three or are absent. Accelerations and multipliers have
@@ -82,7 +82,7 @@ pub(super) fn each_over_lanes(
         let solved = of_solved.each_ref().map(Vec::as_slice);
         let (at, state) = (Lanes::new([t[0], t[1], t[2], t[3]]), [q, v, z]);
         let seen = Seen { t: at, state, works, motions: &motions, solved, so_far: None };
-        let found: Vec<_> = signals.iter().map(|one| one.value(wide, &seen).to_array()).collect();
+        let found: Vec<_> = signals.iter().map(|one| one.value(wide, &seen).to_array()).list();
         for (lane, t) in t.iter().enumerate() {
             values.iter_mut().zip(&found).for_each(|(to, of)| *to = of[lane]);
             give(*t, &values);

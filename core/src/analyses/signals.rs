@@ -11,7 +11,7 @@ use crate::equations::reactions::{self, Frame};
 use crate::equations::{actions, constraints, energy};
 use crate::expression::Tape;
 use crate::integrate::Bounds;
-use crate::math::{Local, Real, Vec2, Wrench};
+use crate::math::{each, Local, Real, Vec2, Wrench};
 use crate::model::Model;
 
 /// A state at which signals are evaluated.
@@ -244,7 +244,7 @@ fn line<S: Real>(model: &Model<S>, id: ElementId, seen: &Seen<'_, S>) -> S {
     let (bodies, points, force) = match id {
         ElementId::Constraint(k) => {
             let item = &model.constraints[k];
-            let points = [0, 1].map(|end| item.element.attachment(end).s);
+            let points = each([0, 1], |end| item.element.attachment(end).s);
             // a tension on i points towards j
             let force = reaction(model, k, seen.solved[1], seen).force;
             (&item.bodies, points, Vec2::new(-force.x, -force.y))
@@ -275,7 +275,7 @@ fn energy_of<S: Real>(model: &Model<S>, of: Energy, seen: &Seen<'_, S>) -> S {
 
 /// The energies at a state, J.
 pub(super) fn energies<S: Real>(model: &Model<S>, seen: &Seen<'_, S>) -> Energies<S> {
-    let works = [0, 1, 2].map(|k| seen.works.get(k).copied().unwrap_or(S::zero()));
+    let works = each([0, 1, 2], |k| seen.works.get(k).copied().unwrap_or(S::zero()));
     let kinetic = energy::kinetic(model, seen.motions);
     let potential = energy::potential(model, seen.motions, seen.state[2], seen.t);
     [kinetic, potential, works[0], works[1], works[2]]

@@ -12,6 +12,7 @@ use super::balances::{Energies, EnergyBalance, ReactionBalance};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::newton_euler::Balances;
+use crate::math::Listed;
 use crate::model::Model;
 
 /// Nodes of the Gauss–Legendre rule on [0, 1], which is exact up to degree 9.
@@ -101,7 +102,7 @@ impl SoFar {
     /// The power that each element dissipates at a state, W.
     pub fn powers(&self, model: &Model, motions: &Motions, acting: Acting<'_, f64>) -> Vec<f64> {
         let of = |(k, _): &(usize, f64)| forces::dissipated(model, *k, motions, acting);
-        self.elements.iter().map(of).collect()
+        self.elements.iter().map(of).list()
     }
 
     /// Updates the balances with a state. The first state is the start of the run.

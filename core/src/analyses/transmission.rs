@@ -3,6 +3,7 @@
 //! guides the link, its line is the normal of the slide.
 
 use crate::elements::{BodyId, Fixes, Group};
+use crate::math::Listed;
 use crate::model::{ConstraintItem, Model};
 use std::f64::consts::FRAC_PI_2;
 
@@ -25,7 +26,7 @@ pub fn others_at(model: &Model, joint: usize, body: BodyId) -> Vec<usize> {
     let holds =
         |item: &ConstraintItem| item.bodies.contains(&body) && (is_pin(item) || is_slide(item));
     let all = model.constraints.iter().enumerate();
-    all.filter(|(k, item)| *k != joint && holds(item)).map(|(k, _)| k).collect()
+    all.filter(|(k, item)| *k != joint && holds(item)).map(|(k, _)| k).list()
 }
 
 /// The direction of the line of a link from a pin, in the frame of the link, rad. None unless the link has exactly
@@ -61,7 +62,7 @@ pub fn transmission_angle(model: &Model, joint: usize) -> Option<String> {
 /// The pins at which another link moves a link that ground guides and that has no driver.
 pub fn transmitting(model: &Model) -> Vec<usize> {
     let drivers = model.constraints.iter().filter(|item| item.group == Group::Drivers);
-    let driven: Vec<BodyId> = drivers.flat_map(|item| item.bodies.iter().copied()).collect();
+    let driven: Vec<BodyId> = drivers.flat_map(|item| item.bodies.iter().copied()).list();
     let is_output = |joint: usize, body: &BodyId| {
         let others = others_at(model, joint, *body);
         let guided = others.iter().any(|k| model.constraints[*k].bodies.contains(&BodyId::GROUND));
@@ -71,5 +72,5 @@ pub fn transmitting(model: &Model) -> Vec<usize> {
         let bodies = &model.constraints[*joint].bodies;
         transmission_angle(model, *joint).is_some() && bodies.iter().any(|b| is_output(*joint, b))
     };
-    (0..model.constraints.len()).filter(transmits).collect()
+    (0..model.constraints.len()).filter(transmits).list()
 }

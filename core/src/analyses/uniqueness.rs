@@ -5,6 +5,7 @@
 
 use super::dependence;
 use super::mobility::mobility;
+use crate::math::Listed;
 use crate::model::Model;
 use crate::solve::RANK_TOLERANCE;
 
@@ -15,7 +16,7 @@ pub fn not_unique(model: &Model, t: f64, q: &[f64]) -> Vec<usize> {
     if !found.is_empty() {
         found = mobility(model, t, q).redundant_equations;
     }
-    let mut all: Vec<usize> = found.into_iter().flat_map(|dependent| dependent.group).collect();
+    let mut all: Vec<usize> = found.into_iter().flat_map(|dependent| dependent.group).list();
     all.sort_unstable();
     all.dedup();
     all

@@ -5,6 +5,7 @@ use super::report::ProblemList;
 use super::tree::Table;
 use crate::elements::Table as Declaration;
 use crate::expression::suggest::closest;
+use crate::math::Listed;
 use crate::model::{body_tables, INSTEAD_OF_SHAPES};
 
 /// The declarations of bodies.
@@ -27,7 +28,7 @@ impl Bodies {
             return fields::check(report, table, ground, false);
         }
         let general = self.typed.iter().find(|d| d.name == "body");
-        let typed: Vec<&Declaration> = self.typed.iter().collect();
+        let typed: Vec<&Declaration> = self.typed.iter().list();
         let declared = fields::declared(report, table, &typed, "body", general);
         let Some(declared) = declared else { return };
         if declared.name == "body" && !has_shapes(table) {

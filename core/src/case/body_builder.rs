@@ -1,6 +1,7 @@
 //! Bodies of a model that is written in Rust.
 
 use crate::elements::{Number, Pair, Value};
+use crate::math::Listed;
 use crate::model::Entry;
 use std::marker::PhantomData;
 
@@ -64,7 +65,7 @@ macro_rules! extended {
                 form: impl IntoIterator<Item = (&'k str, Value)>,
             ) -> Self {
                 let fields = form.into_iter().map(|(key, value)| (key.to_string(), value));
-                self.place("curves", name, Value::Table(fields.collect()))
+                self.place("curves", name, Value::Table(fields.list()))
             }
         })+
     };
@@ -136,7 +137,7 @@ impl BodyBuilder<'_, General> {
     pub fn shape<'k>(self, kind: &str, fields: impl IntoIterator<Item = (&'k str, Value)>) -> Self {
         let fields = fields.into_iter().map(|(key, value)| (key.to_string(), value));
         let shape = std::iter::once(("type".to_string(), kind.into())).chain(fields);
-        let shape = Value::Table(shape.collect());
+        let shape = Value::Table(shape.list());
         match self.entry.fields.iter_mut().find(|(key, _)| key == "shapes") {
             Some((_, Value::List(shapes))) => shapes.push(shape),
             _ => self.entry.fields.push(("shapes".to_string(), Value::List(vec![shape]))),

@@ -4,6 +4,7 @@ use super::body_builder::{Bar, BodyBuilder, General, Ground, PointMass};
 use super::{read, write, Case, Format};
 use crate::analyses::measures;
 use crate::elements::{catalogue, Element, Group, Number, Pair, Value, Written};
+use crate::math::Listed;
 use crate::model::{build, Definition, Entry, Model, Problem, Problems};
 
 /// Writes a model in Rust.
@@ -98,7 +99,7 @@ impl ModelBuilder {
         let kind = E::table().name;
         let mut fields = vec![("type".to_string(), Value::from(kind))];
         let given = element.into_fields();
-        fields.extend(given.into_iter().map(|(field, value)| (field.to_string(), value)));
+        given.into_iter().map(|(field, value)| (field.to_string(), value)).append_to(&mut fields);
         let listed = catalogue().into_iter().find(|(_, table)| table.name == kind);
         let section = match listed.map_or(Group::Joints, |(group, _)| group) {
             Group::Joints => &mut self.definition.joints,
@@ -133,7 +134,7 @@ impl ModelBuilder {
         let case = Case { definition: self.definition.clone(), ..Case::default() };
         structure(&case)?;
         let value = |(name, value): &(&str, N)| (name.to_string(), value.clone().into().into());
-        let parameters: Vec<(String, Value)> = parameters.iter().map(value).collect();
+        let parameters: Vec<(String, Value)> = parameters.iter().map(value).list();
         let model = build(&case.definition, &parameters)?;
         match measures::check(&model, &case.definition.measures) {
             found if found.is_empty() => Ok(model),
@@ -170,8 +171,8 @@ fn given_twice(definition: &Definition) -> Vec<Problem> {
             }
         }
     };
-    report(&["parameters"], definition.parameters.iter().map(|(name, _)| name.as_str()).collect());
-    report(&["measures"], definition.measures.iter().map(|(name, _)| name.as_str()).collect());
+    report(&["parameters"], definition.parameters.iter().map(|(name, _)| name.as_str()).list());
+    report(&["measures"], definition.measures.iter().map(|(name, _)| name.as_str()).list());
     for (section, entries) in [
         ("tables", &definition.tables),
         ("bodies", &definition.bodies),
@@ -179,11 +180,11 @@ fn given_twice(definition: &Definition) -> Vec<Problem> {
         ("drivers", &definition.drivers),
         ("forces", &definition.forces),
     ] {
-        report(&[section], entries.iter().map(|entry| entry.name.as_str()).collect());
+        report(&[section], entries.iter().map(|entry| entry.name.as_str()).list());
         for entry in entries {
             for (field, value) in &entry.fields {
                 if let Value::Table(points) = value {
-                    let names = points.iter().map(|(name, _)| name.as_str()).collect();
+                    let names = points.iter().map(|(name, _)| name.as_str()).list();
                     report(&[section, &entry.name, field], names);
                 }
             }

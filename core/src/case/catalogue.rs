@@ -5,6 +5,7 @@ use crate::analyses::{declarations, option_families};
 use crate::elements::{catalogue as elements, Default, Field, Group, Shape, Table};
 use crate::expression::unit::{Unit, UNITS};
 use crate::expression::{Function, FUNCTIONS};
+use crate::math::Listed;
 use crate::model::{body_tables, shape_tables, table_fields};
 use serde_json::{json, Map, Value};
 
@@ -43,7 +44,7 @@ fn field(field: &Field) -> Value {
 }
 
 fn table(table: &Table) -> Value {
-    let fields: Vec<Value> = table.fields.iter().map(field).collect();
+    let fields: Vec<Value> = table.fields.iter().map(field).list();
     json!({ "name": table.name, "doc": table.doc, "fields": fields })
 }
 

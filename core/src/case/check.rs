@@ -9,6 +9,7 @@ use super::{fields, start, sweep, tables, Case, Format, FORMAT_VERSION};
 use crate::analyses;
 use crate::elements::{catalogue, Group, Table as Declaration};
 use crate::expression::suggest::{closest, did_you_mean};
+use crate::math::Listed;
 use crate::model::{table_fields, Entry, Problem, Value};
 
 /// Words for the key `redundancy`.
@@ -232,8 +233,8 @@ fn elements(
     namespace: &mut Namespace,
 ) -> Vec<Entry> {
     let known: Vec<Declaration> =
-        catalogue().into_iter().filter(|(g, _)| *g == group).map(|(_, table)| table).collect();
-    let known: Vec<&Declaration> = known.iter().collect();
+        catalogue().into_iter().filter(|(g, _)| *g == group).map(|(_, table)| table).list();
+    let known: Vec<&Declaration> = known.iter().list();
     entries(report, node, |report, name, table| {
         namespace.take(report, name, group.singular());
         if let Some(declared) = fields::declared(report, table, &known, group.singular(), None) {

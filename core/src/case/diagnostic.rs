@@ -1,5 +1,6 @@
 //! A fault for the author of a file: its place, description and remedy.
 
+use crate::math::Listed;
 use crate::model::more_problems;
 use std::fmt;
 use std::ops::Range;
@@ -32,7 +33,7 @@ impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         if !self.path.is_empty() {
             let part = |key: &String| if key.is_empty() { "\"\"".to_string() } else { shown(key) };
-            let path: Vec<String> = self.path.iter().map(part).collect();
+            let path: Vec<String> = self.path.iter().map(part).list();
             write!(f, "{}: ", path.join("."))?;
         }
         if self.line == 0 {

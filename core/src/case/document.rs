@@ -1,5 +1,6 @@
 //! The text of a case with the places of its values.
 
+use crate::math::{Listed, Ordered};
 use std::ops::Range;
 
 use super::diagnostic::Diagnostic;
@@ -33,9 +34,9 @@ impl Document {
             Format::Json => json::parse(text, &mut faults),
         };
         let (sound, dropped) = (faults.sound(), faults.1);
-        faults.0.sort_by_key(|fault| (fault.place.start, fault.place.end));
+        faults.0.order_by_key(|fault| (fault.place.start, fault.place.end));
         let mut found: Vec<Diagnostic> =
-            faults.0.into_iter().map(|fault| of_fault(text, fault)).collect();
+            faults.0.into_iter().map(|fault| of_fault(text, fault)).list();
         if !sound {
             found.dedup_by_key(|fault| fault.line);
             found.extend((dropped > 0).then(|| Diagnostic::more(dropped)));

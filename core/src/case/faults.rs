@@ -2,6 +2,7 @@
 
 use super::{sweep, Case};
 use crate::analyses::{self, assemble, measures};
+use crate::math::Listed;
 use crate::model::{Model, Problem, Value};
 
 impl Case {
@@ -21,8 +22,8 @@ impl Case {
                 Some(Value::Text(kind)) => Some((entry.name.clone(), kind.clone())),
                 _ => None,
             })
-            .collect();
+            .list();
         let measures = &self.definition.measures;
-        found.chain(sweep::faults(model, &self.sweep, measures, &kinds)).collect()
+        found.chain(sweep::faults(model, &self.sweep, measures, &kinds)).list()
     }
 }

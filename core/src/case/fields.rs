@@ -12,6 +12,7 @@ use crate::analyses::options::Declaration as Options;
 use crate::analyses::{declarations, option_families};
 use crate::elements::{catalogue, Field, Shape, Table as Declaration};
 use crate::expression::suggest::{closest, did_you_mean};
+use crate::math::Listed;
 use crate::model::{body_tables, shape_tables};
 
 /// The declaration with the `type` of the current table.
@@ -22,7 +23,7 @@ pub(super) fn declared<'d>(
     noun: &str,
     absent: Option<&'d Declaration>,
 ) -> Option<&'d Declaration> {
-    let names: Vec<&str> = known.iter().map(|d| d.name).collect();
+    let names: Vec<&str> = known.iter().map(|d| d.name).list();
     let Some(node) = table.get("type") else {
         let mut keys = table.entries.iter().map(|(key, _)| key.as_str());
         if let Some(key) = keys.find(|key| closest(key, ["type"]).is_some()) {
@@ -32,8 +33,8 @@ pub(super) fn declared<'d>(
         }
         if absent.is_none() {
             let problem = report.within("type", |report| report.here("missing"));
-            let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).collect();
-            let quoted: Vec<&str> = quoted.iter().map(String::as_str).collect();
+            let quoted: Vec<String> = names.iter().map(|name| format!("\"{name}\"")).list();
+            let quoted: Vec<&str> = quoted.iter().map(String::as_str).list();
             let key = report.example("write type =", "write \"type\":");
             report.add(problem.hint(among(&key, &quoted)));
         }
@@ -68,7 +69,7 @@ fn belongs(report: &ProblemList, name: &str) -> Option<String> {
 
 /// Checks that the fields of the current table are known, have the declared shape and are complete.
 pub(super) fn check(report: &mut ProblemList, table: &Table, declared: &Declaration, typed: bool) {
-    let mut known: Vec<&str> = declared.fields.iter().map(|f| f.name).collect();
+    let mut known: Vec<&str> = declared.fields.iter().map(|f| f.name).list();
     if typed {
         known.push("type");
     }
@@ -153,7 +154,7 @@ fn shapes(report: &mut ProblemList, node: &Node) {
         _ => return wrong(report, node, &format!("a list of shapes such as [{form}]")),
     };
     let known = shape_tables();
-    let known: Vec<&Declaration> = known.iter().collect();
+    let known: Vec<&Declaration> = known.iter().list();
     for (k, item) in items.iter().enumerate() {
         report.within(&k.to_string(), |report| {
             let Data::Table(table) = &item.data else {
@@ -183,7 +184,7 @@ fn chosen(report: &mut ProblemList, node: &Node, family: &str) {
 
 /// Checks the current table as one of the `known` sets of options.
 pub(super) fn options(report: &mut ProblemList, table: &Table, known: &[Options], noun: &str) {
-    let tables: Vec<&Declaration> = known.iter().map(|options| &options.table).collect();
+    let tables: Vec<&Declaration> = known.iter().map(|options| &options.table).list();
     let Some(declared) = declared(report, table, &tables, noun, None) else { return };
     check(report, table, declared, true);
     let own = known.iter().filter(|options| options.table.name == declared.name);

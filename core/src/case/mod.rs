@@ -14,7 +14,7 @@
 //! | `write_value`, `write_json`, `write_toml`, `write` | [`Case`] → text |
 //! | `faults` | faults of the start and the analyses that can be found only with the model |
 //! | `run` | the analyses of a case in their order |
-//! | `schema`, `catalogue` | the JSON Schema; the declarations of the possible contents of a case |
+//! | `schema`, `json_literal`, `catalogue` | the JSON Schema; the declarations of the possible contents of a case |
 
 mod bodies;
 mod body_builder;
@@ -29,6 +29,7 @@ mod fault;
 mod faults;
 mod fields;
 mod json;
+mod json_literal;
 mod names;
 mod report;
 mod run;
@@ -46,6 +47,7 @@ mod write_json;
 mod write_toml;
 mod write_value;
 
+use crate::math::{Listed, Ordered};
 pub use body_builder::{Bar, BodyBuilder, General, Ground, PointMass};
 pub use builder::ModelBuilder;
 pub use catalogue::catalogue;
@@ -68,11 +70,11 @@ use crate::model::Value;
 pub fn read(text: &str, format: Format) -> Result<(Case, Document), Vec<Diagnostic>> {
     let (document, mut found) = Document::parse(text, format)?;
     let (case, (problems, dropped)) = check::case(document.root(), format);
-    found.extend(problems.iter().map(|problem| document.diagnose(problem)));
+    problems.iter().map(|problem| document.diagnose(problem)).append_to(&mut found);
     if found.is_empty() {
         return Ok((case, document));
     }
-    found.sort_by_key(|fault| (fault.line, fault.column));
+    found.order_by_key(|fault| (fault.line, fault.column));
     Err(shortened(found, dropped))
 }
 
@@ -82,7 +84,7 @@ pub fn read(text: &str, format: Format) -> Result<(Case, Document), Vec<Diagnost
 pub fn parse_tree(text: &str, format: Format) -> Result<Value, Vec<Diagnostic>> {
     let (document, mut found) = Document::parse(text, format)?;
     let (refused, dropped) = check::refused(document.root(), format);
-    found.extend(refused.iter().map(|problem| document.diagnose(problem)));
+    refused.iter().map(|problem| document.diagnose(problem)).append_to(&mut found);
     if found.is_empty() {
         Ok(document.value())
     } else {

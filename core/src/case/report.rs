@@ -27,10 +27,14 @@ impl ProblemList {
     }
     /// Calls `look` with the value of `key` as the current value.
     pub(super) fn within<T>(&mut self, key: &str, look: impl FnOnce(&mut Self) -> T) -> T {
-        self.path.push(key.to_string());
+        self.enter(key);
         let result = look(self);
         self.path.pop();
         result
+    }
+    #[inline(never)] // one copy for all calls of `within`
+    fn enter(&mut self, key: &str) {
+        self.path.push(key.to_string());
     }
     /// A problem of the current value, not yet reported.
     pub(super) fn here(&self, message: impl Into<String>) -> Problem {

@@ -1,8 +1,9 @@
 //! The JSON Schema of a case, from the same declarations as the reader.
 
-use serde_json::{json, Map, Value};
+use serde_json::{Map, Value};
 
 use super::check::REDUNDANCY;
+use super::json_literal::json;
 use super::names::{HIDDEN, MOST_CHARACTERS, RESERVED};
 use super::sweep::{DESIGNS, SCALES};
 use super::FORMAT_VERSION;
@@ -13,7 +14,7 @@ use crate::elements::{
     UNITS_OF_EQUATIONS,
 };
 use crate::expression::FUNCTIONS;
-use crate::math::Interpolation;
+use crate::math::{Interpolation, Listed};
 use crate::model::{body_tables, shape_tables, table_fields, INSTEAD_OF_SHAPES};
 
 /// The JSON Schema (draft 2020-12) of a case, for editors: sections, types, fields, descriptions and
@@ -79,7 +80,7 @@ fn sections() -> Map<String, Value> {
     });
     for group in [Group::Joints, Group::Drivers, Group::Forces] {
         let tables: Vec<Table> =
-            catalogue().into_iter().filter(|(g, _)| *g == group).map(|(_, t)| t).collect();
+            catalogue().into_iter().filter(|(g, _)| *g == group).map(|(_, t)| t).list();
         sections[group.section()] = by_name(one_of(&tables, None), &RESERVED);
     }
     let measure = json!({ "type": "string", "description": "An expression of quantities." });
@@ -102,12 +103,12 @@ fn sweep() -> Value {
     let whole = |least: u32| json!({ "type": "integer", "minimum": least });
     let range =
         json!({ "from": number(), "to": number(), "n": whole(2), "scale": { "enum": SCALES } });
-    let forms = [
+    let [range, normal, uniform] = [
         closed(object(range), json!({ "required": ["from", "to"] })),
-        closed(object(json!({ "normal": two })), json!({ "required": ["normal"] })),
+        closed(object(json!({ "normal": two.clone() })), json!({ "required": ["normal"] })),
         closed(object(json!({ "uniform": two })), json!({ "required": ["uniform"] })),
     ];
-    let values = json!({ "anyOf": [list(1), forms[0], forms[1], forms[2]] });
+    let values = json!({ "anyOf": [list(1), range, normal, uniform] });
     let text = json!({ "type": "string" });
     let fields = json!({
         "variables": described(
@@ -115,7 +116,7 @@ fn sweep() -> Value {
             "Parameters, or coordinates and rates at the start, with lists, ranges or distributions."
         ),
         "measures": described(
-            json!({ "type": "array", "items": text, "minItems": 1 }),
+            json!({ "type": "array", "items": text.clone(), "minItems": 1 }),
             "Statistics such as pin.max."
         ),
         "design": { "enum": DESIGNS },
@@ -136,7 +137,7 @@ fn tables() -> Value {
         "then": { "properties": { "x": false, "y": false } },
         "else": { "required": ["x", "y"], "properties": { "columns": false } },
     });
-    let reserved = FUNCTIONS.iter().map(|f| f.name).chain(RESERVED).collect::<Vec<_>>().join("|");
+    let reserved = FUNCTIONS.iter().map(|f| f.name).chain(RESERVED).list().join("|");
     let pattern = format!("^(?!(?:{reserved})(?![\\s\\S]))[A-Za-z_][A-Za-z0-9_]*(?![\\s\\S])");
     json!({
         "type": "object",
@@ -194,7 +195,7 @@ fn one_of<'t>(tables: impl IntoIterator<Item = &'t Table>, absent: Option<&str>)
 /// An object with exactly these properties. The schema `besides` applies only if all keys are known. An unknown key,
 /// which may be misspelt, is then the only error.
 fn closed(properties: Map<String, Value>, besides: Value) -> Value {
-    let keys: Vec<&String> = properties.keys().collect();
+    let keys = properties.keys().map(String::as_str).list();
     let known = json!({ "propertyNames": { "enum": keys } });
     json!({
         "type": "object",
@@ -228,7 +229,7 @@ fn fields(table: &Table, typed: bool) -> Value {
     let kind = typed.then(|| ("type".to_string(), json!({})));
     let properties: Map<_, _> = kind.into_iter().chain(properties).collect();
     let required = table.fields.iter().filter(|f| f.default.is_none()).map(|f| f.name);
-    let mut complete = json!({ "required": required.collect::<Vec<_>>() });
+    let mut complete = json!({ "required": required.list() });
     if table.name == "bar" {
         complete["if"] = json!({ "not": { "required": ["through"] } });
         complete["then"] = json!({ "required": ["length"] });
@@ -324,7 +325,7 @@ fn curve() -> Value {
         "line": described(line, "Both ends [x, y] (m); u is the length from the first."),
     });
     let one = |form: &CurveForm| json!({ "required": form.keys });
-    let forms: Vec<Value> = CURVE_FORMS.iter().map(one).collect();
+    let forms: Vec<Value> = CURVE_FORMS.iter().map(one).list();
     closed(object(properties), json!({ "oneOf": forms }))
 }
 

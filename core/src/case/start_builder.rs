@@ -3,6 +3,7 @@
 use super::Start;
 use crate::analyses::assemble::{targets, Request};
 use crate::elements::Number;
+use crate::math::Listed;
 use crate::model::{Model, Problems};
 
 impl Start {
@@ -33,7 +34,7 @@ impl Start {
             (Ok(set), Ok(guess)) => Ok(Request { set, guess, ..Request::default() }),
             (set, guess) => {
                 let faults = [set.err(), guess.err()].into_iter().flatten().flatten();
-                Err(Problems(faults.collect()))
+                Err(Problems(faults.list()))
             }
         }
     }

@@ -5,6 +5,7 @@ use super::tree::{Data, Node, Table};
 use super::values::{word, wrong};
 use crate::analyses::{is_motion, sweep};
 use crate::expression::suggest::did_you_mean;
+use crate::math::Listed;
 use crate::model::{Model, Problem, Value};
 
 /// The keys of the section.
@@ -132,7 +133,7 @@ fn whole(report: &mut ProblemList, node: &Node, least: f64) {
 fn analysis(report: &mut ProblemList, node: &Node, root: &Table) {
     let Data::Text(name) = &node.data else { return wrong(report, node, "a name") };
     let known: Vec<&str> = match root.get("analyses").map(|node| &node.data) {
-        Some(Data::Table(table)) => table.entries.iter().map(|(known, _)| known.as_str()).collect(),
+        Some(Data::Table(table)) => table.entries.iter().map(|(known, _)| known.as_str()).list(),
         _ => Vec::new(),
     };
     if !known.contains(&name.as_str()) {
@@ -153,7 +154,7 @@ pub(super) fn faults(
 ) -> Vec<Problem> {
     let get = |key: &str| section.iter().find(|(known, _)| known == key).map(|(_, value)| value);
     let names: Vec<&str> = match get("variables") {
-        Some(Value::Table(entries)) => entries.iter().map(|(name, _)| name.as_str()).collect(),
+        Some(Value::Table(entries)) => entries.iter().map(|(name, _)| name.as_str()).list(),
         _ => Vec::new(),
     };
     let under = |key: &str, last: &str, problem: Problem| Problem {
@@ -163,7 +164,7 @@ pub(super) fn faults(
     let mut found: Vec<Problem> = names
         .iter()
         .filter_map(|name| Some(under("variables", name, sweep::variable_fault(model, name)?)))
-        .collect();
+        .list();
     let swept = match get("analysis") {
         Some(Value::Text(name)) => kinds.iter().find(|(known, _)| known == name),
         _ => kinds.last(),

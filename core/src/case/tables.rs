@@ -6,6 +6,7 @@ use super::tree;
 use super::Case;
 use crate::elements::Table as Declaration;
 use crate::expression::{is_identifier, is_reserved, FUNCTIONS};
+use crate::math::Listed;
 use crate::model::Value;
 
 /// Checks the current table as the table with this name in the case with this root.
@@ -67,8 +68,7 @@ impl Case {
     pub fn supply(&mut self, table: &str, x: &[f64], y: &[f64]) -> bool {
         let tables = &mut self.definition.tables;
         let Some(entry) = tables.iter_mut().find(|entry| entry.name == table) else { return false };
-        let list =
-            |numbers: &[f64]| Value::List(numbers.iter().map(|x| Value::Number(*x)).collect());
+        let list = |numbers: &[f64]| Value::List(numbers.iter().map(|x| Value::Number(*x)).list());
         entry.fields.retain(|(field, _)| field != "x" && field != "y");
         entry.fields.push(("x".to_string(), list(x)));
         entry.fields.push(("y".to_string(), list(y)));

@@ -4,6 +4,7 @@
 //! and faults behind an unclosed header, the place of the first of two equal keys, and any bound on the number of
 //! faults.
 
+use crate::math::Listed;
 use std::borrow::Cow;
 use std::ops::Range;
 
@@ -48,7 +49,7 @@ fn message(error: &ParseError) -> String {
     if text.starts_with("cannot recurse") {
         text = super::tree::too_deep();
     }
-    let expected: Vec<String> = error.expected().unwrap_or_default().iter().map(word).collect();
+    let expected: Vec<String> = error.expected().unwrap_or_default().iter().map(word).list();
     if !expected.is_empty() {
         text.push_str("; expected ");
         text.push_str(&expected.join(" or "));

@@ -1,5 +1,6 @@
 //! The values of a file with their places in bytes.
 
+use crate::math::Listed;
 use std::collections::HashMap;
 use std::ops::Range;
 
@@ -100,7 +101,7 @@ impl Node {
             Data::Number(x) => Value::Number(*x),
             Data::Text(text) => Value::Text(text.clone()),
             Data::Flag(flag) => Value::Flag(*flag),
-            Data::List(items) => Value::List(items.iter().map(Node::value).collect()),
+            Data::List(items) => Value::List(items.iter().map(Node::value).list()),
             Data::Table(table) => Value::Table(table.values()),
             Data::Refused(_) => Value::Text(String::new()),
         }
@@ -129,7 +130,7 @@ impl Node {
 impl Table {
     /// The entries without places.
     pub(super) fn values(&self) -> Vec<(String, Value)> {
-        self.entries.iter().map(|(key, node)| (key.clone(), node.value())).collect()
+        self.entries.iter().map(|(key, node)| (key.clone(), node.value())).list()
     }
 }
 

@@ -5,6 +5,7 @@ use super::report::{among, ProblemList};
 use super::tree::{Data, Node};
 use crate::elements::{CURVE_FORMS, TOLERANCES, UNITS_OF_EQUATIONS};
 use crate::expression::suggest::did_you_mean;
+use crate::math::Listed;
 
 /// Reports a value of the wrong shape.
 pub(super) fn wrong(report: &mut ProblemList, node: &Node, expected: &str) {
@@ -120,7 +121,7 @@ pub(super) fn curves(report: &mut ProblemList, node: &Node) {
         return wrong(report, node, &format!("a table of curves such as rim = {form}"));
     };
     let known: Vec<&str> =
-        CURVE_FORMS.iter().flat_map(|form| form.keys.iter().chain(form.more)).copied().collect();
+        CURVE_FORMS.iter().flat_map(|form| form.keys.iter().chain(form.more)).copied().list();
     for (name, curve) in &table.entries {
         report.within(name, |report| {
             names::key(report, name);
@@ -251,7 +252,7 @@ pub(super) fn two_columns(report: &mut ProblemList, node: &Node) {
         }),
         _ => return wrong(report, node, "a list of two columns [\"angle\", \"lift\"]"),
     };
-    match texts.collect::<Vec<_>>()[..] {
+    match texts.list()[..] {
         [Some(x), Some(y)] if x != y => {}
         _ => report.say("must be a list of two different names of columns [\"angle\", \"lift\"]"),
     }

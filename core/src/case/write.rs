@@ -1,6 +1,7 @@
 //! A [`Case`] as text.
 
 use super::{write_json, write_toml, Case, Format, FORMAT_VERSION};
+use crate::math::Listed;
 use crate::model::{Entry, Value};
 
 /// Writes a case so that [`read`](super::read) returns the same case: the same order, the same formulas, and numbers
@@ -23,7 +24,7 @@ fn tree(case: &Case) -> Vec<(String, Value)> {
     let table = |fields: &[(String, Value)]| Some(Value::Table(fields.to_vec()));
     let entries = |entries: &[Entry]| {
         let entry = |e: &Entry| (e.name.clone(), Value::Table(e.fields.clone()));
-        Some(Value::Table(entries.iter().map(entry).collect()))
+        Some(Value::Table(entries.iter().map(entry).list()))
     };
     let start = [("set", &case.start.set), ("guess", &case.start.guess)];
     let start = start.into_iter().filter(|(_, coordinates)| !coordinates.is_empty());
@@ -41,11 +42,11 @@ fn tree(case: &Case) -> Vec<(String, Value)> {
         ("drivers", entries(&model.drivers)),
         ("forces", entries(&model.forces)),
         ("measures", table(&model.measures)),
-        ("start", Some(Value::Table(start.collect()))),
+        ("start", Some(Value::Table(start.list()))),
         ("analyses", entries(&case.analyses)),
         ("sweep", table(&case.sweep)),
     ];
     let empty = |value: &Value| matches!(value, Value::Table(fields) if fields.is_empty());
     let sections = sections.into_iter().filter_map(|(key, value)| Some((key.to_string(), value?)));
-    sections.filter(|(_, value)| !empty(value)).collect()
+    sections.filter(|(_, value)| !empty(value)).list()
 }

@@ -1,5 +1,6 @@
 //! Values on one line. TOML and JSON differ only in the keys of tables.
 
+use crate::math::Listed;
 use crate::model::Value;
 
 /// A value on one line. `key` writes a key of a table with the character after it.
@@ -11,12 +12,12 @@ pub(super) fn one_line(value: &Value, key: fn(&str) -> String) -> String {
         Value::Flag(flag) => flag.to_string(),
         Value::Function(_) => quoted("a function"),
         Value::List(items) => {
-            format!("[{}]", join(items.iter().map(|item| one_line(item, key)).collect()))
+            format!("[{}]", join(items.iter().map(|item| one_line(item, key)).list()))
         }
         Value::Table(entries) if entries.is_empty() => "{}".to_string(),
         Value::Table(entries) => {
             let entry = |(name, value): &(String, Value)| key(name) + &one_line(value, key);
-            format!("{{ {} }}", join(entries.iter().map(entry).collect()))
+            format!("{{ {} }}", join(entries.iter().map(entry).list()))
         }
     }
 }

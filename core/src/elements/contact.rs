@@ -2,7 +2,7 @@
 
 use super::corner::{jump, Jump};
 use super::plane_curve::Curve;
-use crate::math::{Interpolation, Local};
+use crate::math::{each, Interpolation, Listed, Local};
 
 /// Number of values of u at which a search begins.
 const PLACES: usize = 720;
@@ -20,8 +20,8 @@ pub(super) fn places(curve: &Curve) -> impl Iterator<Item = f64> {
 /// The u at which `f` has its least value, to about the square root of the machine precision.
 pub(super) fn least(curve: &Curve, f: impl Fn(f64) -> f64) -> f64 {
     let finite = |x: f64| if x.is_nan() { f64::INFINITY } else { x };
-    let all: Vec<f64> = places(curve).collect();
-    let values: Vec<f64> = all.iter().map(|u| finite(f(*u))).collect();
+    let all: Vec<f64> = places(curve).list();
+    let values: Vec<f64> = all.iter().map(|u| finite(f(*u))).list();
     let best = (0..all.len()).min_by(|a, b| values[*a].total_cmp(&values[*b])).unwrap_or(0);
     let step = all[1] - all[0];
     let [low, high] = curve.range();
@@ -56,7 +56,7 @@ pub(super) fn curvature(terms: &[Local; 4]) -> f64 {
 /// "u = 0.3 at (0.1, 0.2) m".
 pub(super) fn place(curve: &Curve, u: f64) -> String {
     let p = curve.point(u);
-    let [u, x, y] = [u, p.x, p.y].map(|x| (1e6 * x).round() / 1e6 + 0.0);
+    let [u, x, y] = each([u, p.x, p.y], |x| (1e6 * x).round() / 1e6 + 0.0);
     format!("u = {u:.6} at ({x:.6}, {y:.6}) m")
 }
 
@@ -71,7 +71,7 @@ impl Curve {
         };
         let [a, b] = self.range();
         let last = count - usize::from(self.periodic()); // the last point of a closed curve is the first
-        (0..=last).map(|k| self.point(a + (b - a) * k as f64 / count as f64)).collect()
+        (0..=last).map(|k| self.point(a + (b - a) * k as f64 / count as f64)).list()
     }
 
     /// A key of the curve with an impossible value, and the reason.

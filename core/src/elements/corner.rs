@@ -4,7 +4,7 @@
 //! distance and extrapolated to the break, so that neither rounding errors nor curvature count as a jump.
 
 use super::plane_curve::Curve;
-use crate::math::Local;
+use crate::math::{each, Local};
 
 /// The distance from a break, relative to the length of the range of u.
 const OFF: f64 = 1e-8;
@@ -28,8 +28,8 @@ pub(super) fn jump(curve: &Curve, largest: [f64; 2]) -> Option<Jump> {
     let off = OFF * (high - low);
     let inside = |u: &f64| curve.periodic() || *u - off > low && *u + off < high;
     breaks.places().iter().copied().filter(inside).find_map(|u| {
-        let [before, after] = [off, -off].map(|by| extended(curve, u - by, by));
-        let by = [0, 1].map(|n| (after[n].x - before[n].x).hypot(after[n].y - before[n].y));
+        let [before, after] = each([off, -off], |by| extended(curve, u - by, by));
+        let by = each([0, 1], |n| (after[n].x - before[n].x).hypot(after[n].y - before[n].y));
         let order = (0..2).find(|n| by[*n] > LEAST[*n] * largest[*n])?;
         Some(Jump { u, order, by: by[order] })
     })
@@ -43,5 +43,5 @@ fn extended(curve: &Curve, u: f64, by: f64) -> [Local; 2] {
         [c0 + by * (c1 + 0.5 * by * c2), c1 + by * (c2 + 0.5 * by * c3)]
     };
     let [x, y] = [along(|c| c.x), along(|c| c.y)];
-    [0, 1].map(|n| Local::new(x[n], y[n]))
+    each([0, 1], |n| Local::new(x[n], y[n]))
 }

@@ -4,7 +4,7 @@
 //! derivatives that the scalar adds follow from the higher derivatives by u.
 
 use crate::expression::{switch_places, Knots, Symbol, Tape, Values};
-use crate::math::{compose, indexed, Lift, Local, Real, TaylorSeries};
+use crate::math::{compose, indexed, Lift, Listed, Local, Real, TaylorSeries};
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// x(u) and y(u).
@@ -37,10 +37,10 @@ struct FormulaPair {
 impl Formula<Tape> {
     /// A curve from formulas in the parameters of a model and in u, the only variable, which has no unit.
     pub fn new(x: Tape, y: Tape, range: [Tape; 2], periodic: bool) -> Self {
-        let mut parameters: Vec<usize> = x.parameters().chain(y.parameters()).collect();
+        let mut parameters: Vec<usize> = x.parameters().chain(y.parameters()).list();
         parameters.sort_unstable();
         parameters.dedup();
-        let values = parameters.iter().map(|k| Tape::of(Symbol::Parameter(*k))).collect();
+        let values = parameters.iter().map(|k| Tape::of(Symbol::Parameter(*k))).list();
         Self {
             written: Arc::new(FormulaPair { x, y, parameters, breaks: Mutex::default() }),
             values,
@@ -61,7 +61,7 @@ impl<S> Formula<S> {
     pub(super) fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Formula<T> {
         Formula {
             written: Arc::clone(&self.written),
-            values: self.values.iter().map(&mut *f).collect(),
+            values: self.values.iter().map(&mut *f).list(),
             range: [f(&self.range[0]), f(&self.range[1])],
             periodic: self.periodic,
             unit: self.unit,
@@ -123,7 +123,7 @@ impl<S: Real> Formula<S> {
     /// The derivatives of x and y of order 0 to N - 1.
     fn orders<const N: usize>(&self, u: S::Base) -> [[S::Base; N]; 2] {
         let lift = |x: &S| TaylorSeries::lift(x.base());
-        let values = self.values.iter().map(lift).collect();
+        let values = self.values.iter().map(lift).list();
         let parameters = &self.written.parameters;
         let names = FormulaNames { parameters, values, u: TaylorSeries::variable(u) };
         let derivatives =
@@ -147,7 +147,7 @@ impl<S: Real> Formula<S> {
             return None;
         }
         let numbers = self.range.iter().chain(&self.values).map(|x| x.in_lanes()[0]);
-        let numbers: Vec<f64> = numbers.collect();
+        let numbers: Vec<f64> = numbers.list();
         let mut known = written.breaks.lock().unwrap_or_else(PoisonError::into_inner);
         if known.as_ref().is_none_or(|(of, _)| *of != numbers) {
             *known = Some((numbers.clone(), self.search(&numbers)));

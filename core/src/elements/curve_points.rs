@@ -2,7 +2,7 @@
 //!
 //! The spline is solved over the [base](crate::math::OverBase) of the scalar, once for all scalars with this base.
 
-use crate::math::{indexed, Interpolation, Local, Real, Spline};
+use crate::math::{indexed, Interpolation, Listed, Local, Real, Spline};
 use std::any::Any;
 use std::sync::{Arc, OnceLock};
 
@@ -34,7 +34,7 @@ impl<S> CurvePoints<S> {
 
     /// The same over another scalar. `f` keeps the values, unless it changes the base of the scalar.
     pub(super) fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> CurvePoints<T> {
-        let points = self.points.iter().map(|s| Local { x: f(&s.x), y: f(&s.y) }).collect();
+        let points = self.points.iter().map(|s| Local { x: f(&s.x), y: f(&s.y) }).list();
         let before = self.solved.get().or(self.before.as_ref()).cloned();
         CurvePoints { before, ..CurvePoints::new(points, self.kind, self.periodic) }
     }
@@ -47,7 +47,7 @@ impl<S: Real> CurvePoints<S> {
         known.unwrap_or_else(|| {
             let solved = self.solved.get_or_init(|| {
                 let base = |s: &Local<S>| Local::new(s.x.base(), s.y.base());
-                let points = self.points.iter().map(base).collect();
+                let points = self.points.iter().map(base).list();
                 Arc::new(through::<S::Base>(points, self.kind, self.periodic))
             });
             solved.downcast_ref().expect("splines over the base")
@@ -73,7 +73,7 @@ impl<S: Real> CurvePoints<S> {
     pub(super) fn knots(&self) -> Vec<f64> {
         match self.numbers() {
             Some([x, _]) => x.knots().to_vec(),
-            None => self.splines()[0].knots().iter().map(|u| u.in_lanes()[0]).collect(),
+            None => self.splines()[0].knots().iter().map(|u| u.in_lanes()[0]).list(),
         }
     }
 

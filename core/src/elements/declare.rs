@@ -4,6 +4,7 @@
 use super::field::Field;
 use super::kinds::Source;
 use crate::expression::Tape;
+use crate::math::Listed;
 
 /// The declaration of an element as data.
 #[derive(Clone, Debug)]
@@ -34,7 +35,7 @@ pub trait Element {
 
 /// Doc lines of a declaration, joined.
 pub(super) fn join(lines: &[&str]) -> String {
-    lines.iter().map(|line| line.trim()).collect::<Vec<_>>().join("\n").trim().to_string()
+    lines.iter().map(|line| line.trim()).list().join("\n").trim().to_string()
 }
 
 /// The name of a field without the prefix `r#` of Rust keywords, as in `r#static`.
@@ -92,8 +93,9 @@ macro_rules! element {
             fn scalars<S>(e: &$Name<S>) -> Vec<usize> {
                 vec![$({
                     let mut count = 0;
-                    <$crate::elements::$kind as $crate::elements::Kind>::map::<S, ()>(
-                        &e.$field, &mut |_| count += 1);
+                    // any scalar counts; this one is mapped to elsewhere too, so that it needs no further code
+                    <$crate::elements::$kind as $crate::elements::Kind>::map::<S, $crate::math::Jet>(
+                        &e.$field, &mut |_| { count += 1; $crate::math::Real::zero() });
                     count
                 }),+]
             }

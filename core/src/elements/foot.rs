@@ -14,7 +14,7 @@ use super::kinds::{self, CurveOn, Kind, Side, Source};
 use super::nearest::{AlongCurve, CurveSearch};
 use super::plane_curve::Curve;
 use crate::expression::Tape;
-use crate::math::{each, Local, Real};
+use crate::math::{each, Listed, Local, Real};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 /// Largest number of searches that are kept for each element.
@@ -145,7 +145,7 @@ impl<S: Real> Rim<S> {
                 known.insert(0, Arc::clone(&found));
                 found
             };
-            (0..lanes).map(search).collect()
+            (0..lanes).map(search).list()
         })
     }
 
@@ -154,7 +154,9 @@ impl<S: Real> Rim<S> {
         let of = |x: &S| x.in_lanes()[lane];
         let mut all = Vec::new();
         match &self.on.curve {
-            Curve::Points(own) => all.extend(own.points.iter().flat_map(|s| [of(&s.x), of(&s.y)])),
+            Curve::Points(own) => {
+                own.points.iter().flat_map(|s| [of(&s.x), of(&s.y)]).append_to(&mut all)
+            }
             curve => drop(curve.map(&mut |x: &S| all.push(of(x)))),
         }
         all

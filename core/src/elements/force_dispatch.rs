@@ -117,8 +117,10 @@ macro_rules! forces {
 
         impl<S: Real> ForceElement<S> {
             /// The wrench of each part on each body, see [`Force::action`].
-            pub fn action(&self, at: &Situation<'_, S>, out: impl Wrenches<S>) {
-                match self { $($(#[$on])* Self::$Name(e) => <$Name>::action(e, at, out),)+ }
+            pub fn action(&self, at: &Situation<'_, S>, out: &mut dyn Wrenches<S>) {
+                // one type for all receivers, so that each force is compiled once for them
+                let put = |part: usize, body: usize, wrench: Wrench<S>| out.put(part, body, wrench);
+                match self { $($(#[$on])* Self::$Name(e) => <$Name>::action(e, at, put),)+ }
             }
             /// The values of [`measured`](Self::measured).
             pub fn measure(&self, at: &At<'_, S>, out: &mut [S]) {

@@ -5,7 +5,7 @@ use super::followed::{Acted, BodyId, Followed, JointId, QuantityOf};
 use super::plain_bearing::Bearing;
 use super::plane_curve::Curve;
 use crate::expression::Tape;
-use crate::math::{Local, Real};
+use crate::math::{Listed, Local, Real};
 
 /// A point fixed in a body.
 #[derive(Clone, Debug, PartialEq)]
@@ -175,12 +175,12 @@ kind!(
 );
 kind!(
     /// Any number of quantities that may depend on time and state.
-    laws, Laws, S => Vec<S>, |v, f| v.iter().map(f).collect()
+    laws, Laws, S => Vec<S>, |v, f| v.iter().map(f).list()
 );
 kind!(
     /// Position quantities with factors.
     terms, Terms, S => Vec<(Followed<S>, S)>, |v, f| {
-        v.iter().map(|(of, factor)| (coordinate::map(of, f), f(factor))).collect()
+        v.iter().map(|(of, factor)| (coordinate::map(of, f), f(factor))).list()
     }
 );
 kind!(

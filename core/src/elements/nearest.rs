@@ -7,7 +7,7 @@
 
 use super::contact::curvature;
 use super::plane_curve::Curve;
-use crate::math::Local;
+use crate::math::{Listed, Local};
 
 /// The smallest number of pieces, a power of two.
 const PIECES: usize = 512;
@@ -88,7 +88,7 @@ impl CurveSearch {
         let count = count.max(PIECES).next_power_of_two();
         let [a, b] = curve.range();
         let at = |share: f64| curve.point(a + (b - a) * share / count as f64);
-        let points: Vec<Local> = (0..=count).map(|k| at(k as f64)).collect();
+        let points: Vec<Local> = (0..=count).map(|k| at(k as f64)).list();
         let piece = |k: usize| {
             let (from, to) = (points[k], points[k + 1]);
             let center = between(from, to, 0.5);

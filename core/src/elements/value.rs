@@ -1,5 +1,6 @@
 //! A value as written in a file, and the arguments of typed methods that are converted to values.
 
+use crate::math::Listed;
 /// A value as written in a file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Value {
@@ -53,7 +54,7 @@ impl From<bool> for Value {
 }
 impl From<Numbers> for Value {
     fn from(numbers: Numbers) -> Self {
-        Self::List(numbers.0.into_iter().map(Self::from).collect())
+        Self::List(numbers.0.into_iter().map(Self::from).list())
     }
 }
 impl From<Number> for Value {
@@ -63,12 +64,12 @@ impl From<Number> for Value {
 }
 impl From<Terms> for Value {
     fn from(terms: Terms) -> Self {
-        Self::Table(terms.0.into_iter().map(|(name, factor)| (name, factor.0)).collect())
+        Self::Table(terms.0.into_iter().map(|(name, factor)| (name, factor.0)).list())
     }
 }
 impl From<Words> for Value {
     fn from(words: Words) -> Self {
-        Self::List(words.0.into_iter().map(Self::Text).collect())
+        Self::List(words.0.into_iter().map(Self::Text).list())
     }
 }
 impl From<Pair> for Value {
@@ -128,7 +129,7 @@ impl<N: Into<Number>, const COUNT: usize> From<[N; COUNT]> for Numbers {
 }
 impl<N: Into<Number>> From<Vec<N>> for Numbers {
     fn from(numbers: Vec<N>) -> Self {
-        Self(numbers.into_iter().map(Into::into).collect())
+        Self(numbers.into_iter().map(Into::into).list())
     }
 }
 

@@ -3,7 +3,7 @@
 use super::forces::{at_state, each_wrench, reported, Acting};
 use super::kinematics::Motions;
 use crate::elements::BodyId;
-use crate::math::{Real, Vec2, Wrench};
+use crate::math::{Listed, Real, Vec2, Wrench};
 use crate::model::Model;
 
 /// Calls `visit` with the part, body and value of every wrench of force `k`, in the global frame. The torque is about
@@ -46,5 +46,5 @@ fn arms<S: Real>(
 ) -> Vec<(BodyId, Vec2<S>)> {
     let at = reported(model, k, motions, acting);
     let arms = at_state(model, &model.forces[k], motions, acting).arms(&at);
-    arms.into_iter().flatten().enumerate().map(|(k, arm)| (at.bodies[k], arm)).collect()
+    arms.into_iter().flatten().enumerate().map(|(k, arm)| (at.bodies[k], arm)).list()
 }

@@ -6,7 +6,7 @@
 use super::light::{self, Internal, Light};
 use super::plan::Plan;
 use super::{mass, Compiled};
-use crate::math::{indexed, Motion, Real};
+use crate::math::{indexed, Listed, Motion, Real};
 use crate::model::Model;
 use crate::solve::{Breakdown, InverseMass, LightGroup, Saddle};
 use std::sync::Arc;
@@ -120,14 +120,14 @@ impl<S: Real> Augmented<S> {
             .enumerate()
             .filter(|(_, ratios)| **ratios != [1.0; 2])
             .map(|(group, ratios)| LightGroup { group, ratios: *ratios })
-            .collect();
+            .list();
         for grounded in compiled.grounded.iter().filter(|_| self.plan.condenses) {
             // the freedom of a pin is a rotation; that of other joints counts as a translation
             let own = groups.iter_mut().find(|light| light.group == grounded.body.0 - 1);
             own.into_iter().for_each(|light| light.ratios[1] = grounded.ratio(light.ratios));
         }
         let ratios = [light::FLOOR / light::COUNTED; 2];
-        groups.extend(internals.iter().map(|own| LightGroup { group: own.owner, ratios }));
+        internals.iter().map(|own| LightGroup { group: own.owner, ratios }).append_to(&mut groups);
         self.saddle.set_light(&self.plan.pattern, &groups);
         self.light = Some(Arc::clone(&compiled.light));
     }

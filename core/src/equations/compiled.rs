@@ -7,7 +7,7 @@ use super::grounded::{grounded, holds, Grounded};
 use super::inertia::Inertia;
 use super::light::Light;
 use crate::elements::{ForcePools, JointPools, Place};
-use crate::math::{Real, Vec2};
+use crate::math::{Listed, Real, Vec2};
 use crate::model::Model;
 use std::sync::Arc;
 
@@ -53,7 +53,7 @@ impl<S: Real> Compiled<S> {
         let light = Arc::new(Light::new(model));
         let grounded = grounded(model, &holds(model), &light.bodies);
         let formulas = model.blueprint.bodies.iter().skip(1).enumerate();
-        let off_center = formulas.filter(|(_, body)| !body.is_centred()).map(|(k, _)| k).collect();
+        let off_center = formulas.filter(|(_, body)| !body.is_centred()).map(|(k, _)| k).list();
         Self {
             light,
             off_center,

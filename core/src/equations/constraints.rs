@@ -12,7 +12,7 @@ use crate::elements::derive::{
 };
 use crate::elements::{At, BodyId, Constraint, Coordinate, Joint, Linearized, Moving};
 use crate::expression::Tape;
-use crate::math::{Jet, Motion, Pose, Real, Twist};
+use crate::math::{Jet, Listed, Motion, Pose, Real, Twist};
 use crate::model::{Block, ConstraintItem, Model, Slots};
 
 /// Φ(q, t), shape (m).
@@ -354,7 +354,7 @@ pub fn nu<S: Real>(model: &Model<S>, q: &[S], t: S) -> Vec<S> {
     let [mut phi, mut rate, mut gamma] = [(); 3].map(|()| vec![S::zero(); m]);
     let motions = Motions::at_rest(&model.layout, q);
     velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
-    rate.into_iter().map(|r| -r).collect()
+    rate.into_iter().map(|r| -r).list()
 }
 
 /// y += Φ_qᵀ λ, shape (n_q).

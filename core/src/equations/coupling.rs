@@ -5,7 +5,7 @@ use super::kinematics::Motions;
 use super::reaction_slopes::rows_of;
 use crate::elements::derive::{seeded, ByThree};
 use crate::elements::{BodyId, Mode};
-use crate::math::{Dual, Lift, Pose, Real, Twist, Vec2};
+use crate::math::{Dual, Lift, Listed, Ordered, Pose, Real, Twist, Vec2};
 use crate::model::{Block, Columns, Dependence, Model};
 use std::collections::BTreeMap;
 
@@ -64,9 +64,9 @@ impl Pairs {
 
     /// All pairs in the order of their indices.
     pub fn listed(self) -> Vec<(usize, usize)> {
-        let mut listed: Vec<_> = self.0.into_iter().collect();
-        listed.sort_by_key(|(_, index)| *index);
-        listed.into_iter().map(|(pair, _)| pair).collect()
+        let mut listed: Vec<_> = self.0.into_iter().list();
+        listed.order_by_key(|(_, index)| *index);
+        listed.into_iter().map(|(pair, _)| pair).list()
     }
 }
 
@@ -79,7 +79,7 @@ pub(super) fn by_force(model: &Model, pairs: &mut Pairs) -> Vec<Participants> {
             law.map(&mut |tape| depends.add(tape));
         }
         if depends.whole {
-            depends.bodies.extend((1..model.bodies.len()).map(BodyId));
+            (1..model.bodies.len()).map(BodyId).append_to(&mut depends.bodies);
             depends.states.extend(0..model.layout.n_z);
         }
         let seen = |k: usize| {
@@ -92,12 +92,12 @@ pub(super) fn by_force(model: &Model, pairs: &mut Pairs) -> Vec<Participants> {
             _ => None,
         };
         let seen = seen(k).chain(leader.into_iter().flat_map(seen));
-        let mut bodies: Vec<BodyId> = seen.chain(&depends.bodies).copied().collect();
+        let mut bodies: Vec<BodyId> = seen.chain(&depends.bodies).copied().list();
         bodies.retain(|body| !body.is_ground());
         bodies.sort_unstable();
         bodies.dedup();
         let mut states: Vec<usize> =
-            model.layout.states[k].clone().chain(depends.states.iter().copied()).collect();
+            model.layout.states[k].clone().chain(depends.states.iter().copied()).list();
         states.sort_unstable();
         states.dedup();
         let acted = || item.bodies.iter().filter(|body| !body.is_ground());
@@ -106,12 +106,12 @@ pub(super) fn by_force(model: &Model, pairs: &mut Pairs) -> Vec<Participants> {
             Participants { bodies, states, rows: rows_of(model, k), internals, pairs: vec![] };
         let with = |owner: usize, pairs: &mut Pairs| {
             let pair = |acted: &BodyId| (*acted, pairs.index(acted.0 - 1, owner));
-            acted().map(pair).collect()
+            acted().map(pair).list()
         };
-        let pairs = found.owners().map(|owner| with(owner, pairs)).collect();
+        let pairs = found.owners().map(|owner| with(owner, pairs)).list();
         Participants { pairs, ..found }
     };
-    (0..model.forces.len()).map(|k| one(k, pairs)).collect()
+    (0..model.forces.len()).map(|k| one(k, pairs)).list()
 }
 
 /// The owners of the internal coordinates on which a law depends, each once, with their columns.
@@ -126,7 +126,7 @@ fn internals(model: &Model, depends: &Dependence) -> Vec<(usize, Columns)> {
     let used = with_places.filter(|(_, _, places)| {
         depends.whole || depends.internals.iter().any(|place| places.contains(place))
     });
-    used.map(|(owner, columns, _)| (owner, columns)).collect()
+    used.map(|(owner, columns, _)| (owner, columns)).list()
 }
 
 /// The blocks that each constraint couples. For a constraint without laws they follow from two arbitrary poses: if
@@ -146,11 +146,11 @@ pub(super) fn by_constraint(lifted: &Model<D>, pairs: &mut Pairs) -> Vec<ByConst
             }
             let pair =
                 |(to, coupled): (&Block, bool)| coupled.then(|| pairs.index(to.owner, seed.owner));
-            found.push(blocks.iter().zip(coupled).map(pair).collect());
+            found.push(blocks.iter().zip(coupled).map(pair).list());
         }
         found
     };
-    (0..lifted.constraints.len()).map(constraint).collect()
+    (0..lifted.constraints.len()).map(constraint).list()
 }
 
 /// Marks the blocks of constraint `k` whose columns of Φ_q change with the coordinates of `seed`.

@@ -100,7 +100,7 @@ impl<S: Real> Sum<'_, S> {
             nature if follows => nature,
             nature => nature.under_law(),
         };
-        element.action(&at, Add { sum: self, at: &at, nature });
+        element.action(&at, &mut Add { sum: self, at: &at, nature });
         self.powers.add_own(element.own_powers(&at));
     }
 }
@@ -310,7 +310,7 @@ pub fn each_wrench<S: Real>(
     let item = &model.forces[k];
     let element = at_state(model, item, motions, acting);
     let at = reported(model, k, motions, acting);
-    element.action(&at, |part, body, w| visit(part, at.bodies[body], w));
+    element.action(&at, &mut |part, body, w| visit(part, at.bodies[body], w));
 }
 
 /// Computes ż of all elements into `out`, shape (n_z).
@@ -384,7 +384,7 @@ pub fn dissipated<S: Real>(
     let element = at_state(model, &model.forces[k], motions, acting);
     let at = reported(model, k, motions, acting);
     let mut powers = Powers::zero();
-    element.action(&at, |part: usize, body: usize, w: Wrench<S>| {
+    element.action(&at, &mut |part: usize, body: usize, w: Wrench<S>| {
         powers.add(element.parts()[part].nature, || w.power(at.body(body).twist));
     });
     powers.add_own(element.own_powers(&at));

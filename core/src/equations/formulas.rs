@@ -10,7 +10,7 @@ pub use generic::{of_element, of_type};
 pub use of_model::of_constraint;
 
 use crate::elements::{At, BodyId, Constraint};
-use crate::math::Pose;
+use crate::math::{Listed, Pose};
 use crate::symbolic::{Form, Record, Symbolic};
 use names::Coordinates;
 
@@ -45,7 +45,7 @@ fn residual(
     own: &[Symbolic],
     t: Symbolic,
 ) -> Vec<Symbolic> {
-    let bodies: Vec<Pose<Symbolic>> = element.bodies().into_iter().map(pose).collect();
+    let bodies: Vec<Pose<Symbolic>> = element.bodies().into_iter().map(pose).list();
     let mut phi = vec![t; element.equations().len()];
     element.residual(&At { bodies: &bodies, own, t }, &mut phi);
     phi
@@ -60,22 +60,22 @@ fn print(
     form: Form,
 ) -> Formulas {
     let bodies = columns.iter().flat_map(|body| body.position);
-    let unknowns: Vec<Symbolic> = bodies.chain(own.iter().copied()).collect();
+    let unknowns: Vec<Symbolic> = bodies.chain(own.iter().copied()).list();
     let system = record.differentiate(phi, &unknowns);
     let write = |x: &Symbolic| record.write(*x, form);
     let mut all = system.residual.clone();
     all.extend(system.jacobian.iter().flatten().chain(&system.gamma));
     let rows = system.residual.iter().zip(&system.jacobian).zip(&system.gamma);
     Formulas {
-        columns: unknowns.iter().map(write).collect(),
+        columns: unknowns.iter().map(write).list(),
         definitions: record.definitions(&all, form),
         rows: rows
             .map(|((residual, jacobian), gamma)| RowFormulas {
                 residual: write(residual),
-                jacobian: jacobian.iter().map(write).collect(),
+                jacobian: jacobian.iter().map(write).list(),
                 gamma: write(gamma),
             })
-            .collect(),
+            .list(),
         names: record.names(&all),
     }
 }

@@ -5,7 +5,7 @@ use super::constraints;
 use super::inertia::Inertia;
 use super::kinematics::Motions;
 use crate::elements::BodyId;
-use crate::math::{each, Motion, Real};
+use crate::math::{each, Listed, Motion, Real};
 use crate::model::{ConstraintItem, Model, Slots, Weighed};
 use crate::solve::{CondensedGroup, Saddle};
 
@@ -57,7 +57,7 @@ pub(super) fn grounded<S: Real>(
     let grounded = |(body, (hold, own)): (usize, (&Option<Hold>, &Weighed<S>))| {
         Some(Grounded::new((model, &motions), BodyId(body), hold.as_ref()?, own))
     };
-    held.filter_map(grounded).collect()
+    held.filter_map(grounded).list()
 }
 
 /// The body that a joint with two rows and constant fields connects to ground.

@@ -17,7 +17,7 @@
 //! Scientific, 2010).
 
 use super::motion::Workspace;
-use crate::math::Real;
+use crate::math::{Listed, Real};
 use crate::model::{row_scales, Model};
 
 /// Largest accepted component |y_k| in the dependence of an omitted row.
@@ -63,7 +63,7 @@ impl<S: Real> Workspace<S> {
             y[row] = S::one();
             y
         };
-        self.matrix.omitted().iter().map(of_row).collect()
+        self.matrix.omitted().iter().map(of_row).list()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Masses and moments of inertia of the moving bodies, with precomputed inverses.
 
-use crate::math::{Local, Real};
+use crate::math::{Listed, Local, Real};
 use crate::model::{Model, Weighed};
 
 /// Inertia of a moving body in W, with what is added to massless ones.
@@ -29,5 +29,5 @@ pub(super) fn inertias<S: Real>(model: &Model<S>, all: &[Weighed<S>]) -> Vec<Ine
             coupled: turns && !model.blueprint.bodies[k].is_centred(),
         }
     };
-    all.iter().enumerate().skip(1).map(inertia).collect()
+    all.iter().enumerate().skip(1).map(inertia).list()
 }

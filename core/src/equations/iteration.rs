@@ -15,7 +15,7 @@ use super::coupling::Participants;
 use super::light::{Internal, Light};
 use super::plan::row_blocks;
 use super::tangent::{Entry, Tangent};
-use crate::math::Field;
+use crate::math::{Field, Listed};
 use crate::model::{Model, StateLayout};
 use crate::solve::{BlockLu, LuPlan};
 use std::ops::Range;
@@ -59,32 +59,32 @@ pub struct Places {
 impl Places {
     /// The slots for a model and the pattern of its tangent.
     pub fn new(model: &Model, tangent: &Tangent) -> Self {
-        let groups: Vec<usize> = model.layout.owners.iter().map(|columns| columns.count).collect();
+        let groups: Vec<usize> = model.layout.owners.iter().map(|columns| columns.count).list();
         let (blocks, _) = row_blocks(&model.layout);
         let state_sizes = state_blocks(&model.layout);
         let n = groups.len() + state_sizes.len();
-        let row_sizes: Vec<usize> = blocks.iter().map(|block| block.size).collect();
+        let row_sizes: Vec<usize> = blocks.iter().map(|block| block.size).list();
         let states = numbered(groups.len(), &state_sizes);
         let rows = numbered(n, &row_sizes);
-        let sizes = groups.iter().copied().chain(state_sizes).chain(row_sizes).collect();
+        let sizes = groups.iter().copied().chain(state_sizes).chain(row_sizes).list();
         let touches = || {
             let blocks = blocks.iter().enumerate();
             blocks.flat_map(|(k, b)| b.touches.iter().map(move |touch| (n + k, b.size, *touch)))
         };
         let mut entries = tangent.pairs().to_vec();
-        entries.extend(touches().map(|(row, _, (group, _))| (row, group)));
+        touches().map(|(row, _, (group, _))| (row, group)).append_to(&mut entries);
         for participants in tangent.participants() {
             entries.extend(coupled(participants, &states, &rows));
         }
         let plan = LuPlan::new(sizes, n, &entries);
         let light = Light::new(model);
-        let pairs = tangent.pairs().iter().map(|&(row, column)| plan.slot(row, column)).collect();
+        let pairs = tangent.pairs().iter().map(|&(row, column)| plan.slot(row, column)).list();
         let slots = |(row, size, (group, first)): (usize, usize, (usize, usize))| {
             (first, size, plan.slot(row, group), plan.slot(group, row))
         };
-        let jacobian = touches().map(slots).collect();
+        let jacobian = touches().map(slots).list();
         let diagonal = blocks.iter().enumerate();
-        let diagonal = diagonal.map(|(k, b)| (plan.slot(n + k, n + k), b.size)).collect();
+        let diagonal = diagonal.map(|(k, b)| (plan.slot(n + k, n + k), b.size)).list();
         Self {
             plan,
             pairs,
@@ -111,15 +111,15 @@ impl Places {
 fn state_blocks(layout: &StateLayout) -> Vec<usize> {
     let of = |own: Range<usize>| own.clone().step_by(3).map(move |k| (k, (own.end - k).min(3)));
     let held = layout.held.iter().map(|place| (*place, 1));
-    let mut all: Vec<_> = layout.states.iter().cloned().flat_map(of).chain(held).collect();
+    let mut all: Vec<_> = layout.states.iter().cloned().flat_map(of).chain(held).list();
     all.sort_unstable();
-    all.into_iter().map(|(_, size)| size).collect()
+    all.into_iter().map(|(_, size)| size).list()
 }
 
 /// The block of each unknown and the index in this block, for blocks of the given sizes, numbered from `first`.
 fn numbered(first: usize, sizes: &[usize]) -> Vec<(usize, usize)> {
     let blocks = sizes.iter().enumerate();
-    blocks.flat_map(|(k, &size)| (0..size).map(move |place| (first + k, place))).collect()
+    blocks.flat_map(|(k, &size)| (0..size).map(move |place| (first + k, place))).list()
 }
 
 /// All pairs of blocks that a force with states or with a reaction couples.
@@ -129,9 +129,9 @@ fn coupled(
     rows: &[(usize, usize)],
 ) -> Vec<(usize, usize)> {
     let own = force.states.iter().map(|&at| states[at].0);
-    let others: Vec<usize> = own.chain(force.rows.iter().map(|row| rows[*row].0)).collect();
-    let all: Vec<usize> = force.owners().chain(others.iter().copied()).collect();
-    others.iter().flat_map(|&a| all.iter().map(move |&b| (a, b))).collect()
+    let others: Vec<usize> = own.chain(force.rows.iter().map(|row| rows[*row].0)).list();
+    let all: Vec<usize> = force.owners().chain(others.iter().copied()).list();
+    others.iter().flat_map(|&a| all.iter().map(move |&b| (a, b))).list()
 }
 
 /// Assembles the matrix.

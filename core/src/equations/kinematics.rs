@@ -1,6 +1,6 @@
 //! Poses and twists of all bodies, and internal coordinates of elements, from q and q̇.
 
-use crate::math::{Motion, Pose, Real, Rotation, Twist};
+use crate::math::{Listed, Motion, Pose, Real, Rotation, Twist};
 use crate::model::{Columns, Model, StateLayout};
 use std::ops::Deref;
 
@@ -114,9 +114,9 @@ impl<S: Real> Motions<S> {
 
     /// A copy over a scalar that contains this one, without derivatives.
     pub fn lift<T: crate::math::Lift<S>>(&self) -> Motions<T> {
-        let lift = |x: &[S]| x.iter().map(|x| T::lift(*x)).collect();
+        let lift = |x: &[S]| x.iter().map(|x| T::lift(*x)).list();
         Motions {
-            bodies: self.bodies.iter().map(Motion::lift).collect(),
+            bodies: self.bodies.iter().map(Motion::lift).list(),
             first_own: self.first_own,
             own: lift(&self.own),
             own_rates: lift(&self.own_rates),
@@ -159,7 +159,7 @@ pub fn coordinates(model: &Model, poses: &[Pose]) -> Vec<f64> {
     }
     for (item, slots) in model.constraints.iter().zip(&layout.constraints) {
         if slots.own.count > 0 {
-            let bodies: Vec<Pose> = item.bodies.iter().map(|body| poses[body.0]).collect();
+            let bodies: Vec<Pose> = item.bodies.iter().map(|body| poses[body.0]).list();
             q[slots.own.range()].copy_from_slice(&item.element.own_start(&bodies));
         }
     }

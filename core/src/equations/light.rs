@@ -15,7 +15,7 @@
 //! the heaviest connected body counts.
 
 use super::inertia::{self, Inertia};
-use crate::math::{each, Real};
+use crate::math::{each, Listed, Ordered, Real};
 use crate::model::{Body, ConstraintItem, Model, Slots, Weighed};
 
 /// Mass, relative to the bodies between which a body lies, below which the body is light.
@@ -65,7 +65,7 @@ impl<S: Real> Light<S> {
     /// The light bodies and coordinates of a model.
     pub(super) fn new(model: &Model<S>) -> Self {
         let all = Bodies::new(model);
-        let mut bodies: Vec<_> = model.bodies.iter().map(weighed).collect();
+        let mut bodies: Vec<_> = model.bodies.iter().map(weighed).list();
         let (mut added, mut ratios) = (Vec::new(), Vec::new());
         for (k, own) in bodies.iter_mut().enumerate().skip(1) {
             let found = all.light(k, model.bodies[k].turns);
@@ -111,9 +111,9 @@ fn internals<S: Real>(model: &Model<S>, all: &Bodies) -> Vec<Internal> {
             item.equations.iter().enumerate().map(|(k, equation)| {
                 (block.first / 3 + k, weights[usize::from(equation.unit != "m")])
             });
-        Some(Internal { owner: block.owner, size: slots.own.count, rows: rows.collect() })
+        Some(Internal { owner: block.owner, size: slots.own.count, rows: rows.list() })
     };
-    model.constraints.iter().zip(&model.layout.constraints).filter_map(of_element).collect()
+    model.constraints.iter().zip(&model.layout.constraints).filter_map(of_element).list()
 }
 
 /// The geometric mean of the least and the largest positive mass.
@@ -172,16 +172,16 @@ impl Bodies {
             let blocks = &model.layout.constraints[k].blocks;
             let moving = blocks.iter().filter_map(|block| block.body.map(|body| body.0));
             let ground = item.bodies.iter().filter(|body| body.is_ground()).map(|body| body.0);
-            let mut members: Vec<usize> = moving.chain(ground).collect();
+            let mut members: Vec<usize> = moving.chain(ground).list();
             members.sort_unstable();
             members.dedup();
             members.iter().for_each(|body| of_body[*body].push(k));
             joints.push((members, blocks.iter().all(|block| block.sign != 0.0)));
         }
-        let of = |f: &dyn Fn(&Body<S>) -> S| model.bodies.iter().map(|b| number(f(b))).collect();
+        let of = |f: &dyn Fn(&Body<S>) -> S| model.bodies.iter().map(|b| number(f(b))).list();
         let (mass, inertia): (Vec<f64>, Vec<f64>) = (of(&|b| b.mass), of(&|b| b.inertia));
-        let turning: Vec<f64> = (0..n).map(|k| inertia[k].max(mass[k] * reach[k])).collect();
-        let most = [&mass, &turning].map(|own| own.iter().copied().fold(0.0, f64::max));
+        let turning: Vec<f64> = (0..n).map(|k| inertia[k].max(mass[k] * reach[k])).list();
+        let most = each([&mass, &turning], |own| own.iter().copied().fold(0.0, f64::max));
         Self { mass, inertia, reach, turning, most, joints, of_body }
     }
 
@@ -300,7 +300,7 @@ impl Branch {
 
 /// The second largest weight. If it is infinite, the largest of all finite numbers.
 fn second(mut branches: Vec<(f64, f64)>) -> f64 {
-    branches.sort_by(|a, b| b.0.total_cmp(&a.0));
+    branches.order_by(|a, b| b.0.total_cmp(&a.0));
     match branches.get(1) {
         None => 0.0,
         Some((weight, _)) if weight.is_finite() => *weight,

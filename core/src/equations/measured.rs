@@ -4,7 +4,7 @@ use super::kinematics::Motions;
 use super::laws::Laws;
 use crate::elements::{At, BodyId, Coordinate, Measured};
 use crate::expression::Tape;
-use crate::math::{Jet, Lift, Local, Pose, Real, Twist, Vec2};
+use crate::math::{Jet, Lift, Listed, Local, Pose, Real, Twist, Vec2};
 use crate::model::Model;
 
 /// An element of a model.
@@ -38,19 +38,19 @@ pub fn measured<S: Real>(
     match id {
         ElementId::Constraint(k) => {
             let (item, slots) = (&model.constraints[k], &model.layout.constraints[k]);
-            let bodies: Vec<_> = item.bodies.iter().map(pose).collect();
+            let bodies: Vec<_> = item.bodies.iter().map(pose).list();
             let (own, rates) = motions.own(slots.own);
             let columns = slots.own.range();
             let own: Vec<_> = columns
                 .zip(own.iter().zip(rates))
                 .map(|(c, (u, rate))| Jet::new(*u, *rate, a[c]))
-                .collect();
+                .list();
             let at = At { bodies: &bodies, own: &own, t: Jet::zero() };
             item.element.map(&mut |s| Jet::lift(*s)).measure(&at, &mut values);
         }
         ElementId::Force(k) => {
             let item = &model.forces[k];
-            let bodies: Vec<_> = item.bodies.iter().map(pose).collect();
+            let bodies: Vec<_> = item.bodies.iter().map(pose).list();
             let at = At { bodies: &bodies, own: &[], t: Jet::zero() };
             let element = match &item.law {
                 Some(law) if item.element.follows() => {

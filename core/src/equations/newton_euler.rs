@@ -19,7 +19,7 @@ use super::kinematics::Motions;
 use super::measured;
 use super::reactions::{place, reaction, touched, Frame};
 use crate::elements::{BodyId, Group};
-use crate::math::{Vec2, Wrench};
+use crate::math::{Listed, Vec2, Wrench};
 use crate::model::{size, Model};
 
 /// The sums over the forces on one body at one state.
@@ -99,7 +99,7 @@ pub fn balances(model: &Model, motions: &Motions, a: &[f64], acting: Acting<'_, 
         let moment = if body.turns { (sum.moment - body.inertia * alpha).abs() } else { 0.0 };
         BodyBalance { force: fx.hypot(fy), moment, ..sum.of }
     };
-    let bodies = sums.into_iter().enumerate().skip(1).map(balance).collect();
+    let bodies = sums.into_iter().enumerate().skip(1).map(balance).list();
     Balances { bodies, coordinates: of_coordinates(model, motions, acting) }
 }
 

@@ -2,7 +2,7 @@
 
 use super::compiled::Compiled;
 use super::inertia::Inertia;
-use crate::math::Real;
+use crate::math::{each, Listed, Real};
 use crate::model::{Block, Columns, Model, Slots, StateLayout};
 use crate::solve::{Group, Pattern, RowBlock};
 
@@ -45,7 +45,7 @@ impl Plan {
     /// coupled.
     #[inline]
     pub(super) fn is_like(&self, other: &Self) -> bool {
-        let coupled = [self, other].map(|plan| plan.pattern.coupled());
+        let coupled = each([self, other], |plan| plan.pattern.coupled());
         self.condensed == other.condensed && coupled[0] == coupled[1]
     }
 
@@ -67,15 +67,15 @@ impl Plan {
         let (blocks, owners) = row_blocks(&model.layout);
         let first = |k: usize| owners.partition_point(|owner| *owner < k);
         let grounded = compiled.grounded.iter().filter(|_| condenses);
-        let condensed: Vec<usize> = grounded.map(|grounded| grounded.constraint).collect();
-        let condensed_blocks: Vec<usize> = condensed.iter().map(|k| first(*k)).collect();
+        let condensed: Vec<usize> = grounded.map(|grounded| grounded.constraint).list();
+        let condensed_blocks: Vec<usize> = condensed.iter().map(|k| first(*k)).list();
         let groups = groups(model, &compiled.light.inertias);
         let pattern = Pattern::new(&groups, &blocks, &condensed_blocks);
-        let pins = pattern.pin_rows().iter().map(|rows| owners[rows.block as usize]).collect();
+        let pins = pattern.pin_rows().iter().map(|rows| owners[rows.block as usize]).list();
         let owners = model.layout.owners.clone();
         let positions = model.layout.positions();
-        let positions = positions.map(|(row, column, at)| [row, column, at].map(|k| k as u32));
-        Self { pattern, condensed, pins, owners, condenses, positions: positions.collect() }
+        let positions = positions.map(|(row, column, at)| each([row, column, at], |k| k as u32));
+        Self { pattern, condensed, pins, owners, condenses, positions: positions.list() }
     }
 
     /// Number of unknowns of the solver: the coordinates, and the padding of a last group with fewer than three.
@@ -97,7 +97,7 @@ pub(super) fn groups<S: Real>(model: &Model<S>, inertias: &[Inertia<S>]) -> Vec<
     let bodies = inertias.iter().map(|inertia| inertia.coupled);
     let coupled = bodies.chain(std::iter::repeat(false));
     let owners = model.layout.owners.iter().zip(coupled);
-    owners.map(|(columns, coupled)| Group { size: columns.count, coupled }).collect()
+    owners.map(|(columns, coupled)| Group { size: columns.count, coupled }).list()
 }
 
 /// The constraints as blocks of at most three rows, and the constraint of each block.
@@ -110,8 +110,8 @@ pub(super) fn row_blocks(layout: &StateLayout) -> (Vec<RowBlock>, Vec<usize>) {
             owners.push(k);
             row_blocks.push(RowBlock {
                 size: (rows.len() - skipped).min(ROWS),
-                touches: blocks.iter().map(touch).collect(),
-                signs: signs.collect(),
+                touches: blocks.iter().map(touch).list(),
+                signs: signs.list(),
             });
         }
     }

@@ -8,7 +8,7 @@ use super::kinematics::Motions;
 use super::reactions;
 use crate::elements::derive::ByThree;
 use crate::elements::{BodyId, ForceElement, Mode, Situation};
-use crate::math::{each, Lift, Motion, Real, Vec2, Wrench};
+use crate::math::{each, Lift, Listed, Motion, Real, Vec2, Wrench};
 use crate::model::Model;
 
 /// The derivative is the first slope; the others are zero. A scalar of its own would only be more code.
@@ -32,7 +32,7 @@ pub fn by_multiplier<S: Real>(
         if rows_of(model, k).contains(&row) {
             let multiplier = seed.multiplier(k);
             seed.with(k, multiplier, |element, at| {
-                element.action(at, |_: usize, body: usize, w: Wrench<D<S>>| {
+                element.action(at, &mut |_: usize, body: usize, w: Wrench<D<S>>| {
                     let [x, y, torque] = each([w.force.x, w.force.y, w.torque], |x| x.slope[0]);
                     model.layout.bodies[item.bodies[body].0].add([x, y, torque], &mut column);
                 });
@@ -47,9 +47,9 @@ pub fn rows_of<S>(model: &Model<S>, k: usize) -> Vec<usize> {
     let item = &model.forces[k];
     let seen = |k: usize| model.forces[k].reaction.map(|joint| joint.0);
     let rows = |joint: usize| model.layout.constraints[joint].rows.clone();
-    let mut all: Vec<usize> = seen(k).into_iter().flat_map(rows).collect();
+    let mut all: Vec<usize> = seen(k).into_iter().flat_map(rows).list();
     if let Mode::Follows { leader, .. } = item.mode {
-        all.extend(seen(leader).into_iter().flat_map(rows));
+        seen(leader).into_iter().flat_map(rows).append_to(&mut all);
         all.extend(model.forces[leader].held_row);
     }
     all.sort_unstable();
@@ -81,9 +81,9 @@ impl<S: Real> Seed<'_, S> {
         let slope = forces::situation(model, k, motions, Acting { lam: Some(unit), ..acting });
         let element = forces::at_state(model, &model.forces[k], motions, acting);
         let element = element.map(&mut |x: &S| D::lift(*x));
-        let own: Vec<Motion<D<S>>> = at.bodies.iter().map(|b| motions[b.0].lift()).collect();
-        let bodies: Vec<BodyId> = (0..own.len()).map(BodyId).collect();
-        let z: Vec<D<S>> = at.z.iter().map(|z| D::lift(*z)).collect();
+        let own: Vec<Motion<D<S>>> = at.bodies.iter().map(|b| motions[b.0].lift()).list();
+        let bodies: Vec<BodyId> = (0..own.len()).map(BodyId).list();
+        let z: Vec<D<S>> = at.z.iter().map(|z| D::lift(*z)).list();
         let situation = Situation {
             motions: &own,
             bodies: &bodies,

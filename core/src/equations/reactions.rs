@@ -5,7 +5,7 @@ use super::constraints;
 use super::kinematics::Motions;
 use crate::elements::derive::{ByThree, OfRows};
 use crate::elements::{At, Attachment, BodyId};
-use crate::math::{each, Dual, Lift, Local, Pose, Real, Rotation, Vec2, Wrench};
+use crate::math::{each, Dual, Lift, Listed, Local, Pose, Real, Rotation, Vec2, Wrench};
 use crate::model::Model;
 
 /// The frame in which the components of a reaction are given.
@@ -133,11 +133,11 @@ pub fn add_load_slopes<S: Real>(
             true => ByThree::<S>::variable(lam[at], 0),
             false => Dual::lift(lam[at]),
         };
-        let lam: Vec<ByThree<S>> = rows.clone().map(seeded).collect();
+        let lam: Vec<ByThree<S>> = rows.clone().map(seeded).list();
         let item = &model.constraints[k];
         let element = item.element.map(&mut |x: &S| Dual::lift(*x));
         let pose = |body: &BodyId| motions[body.0].pose.lift();
-        let bodies: Vec<Pose<ByThree<S>>> = item.bodies.iter().map(pose).collect();
+        let bodies: Vec<Pose<ByThree<S>>> = item.bodies.iter().map(pose).list();
         let at = At { bodies: &bodies, own: &[], t: Dual::lift(t) };
         element.load(&at, &lam, &mut |place, w: Wrench<ByThree<S>>| {
             let slopes = each([w.force.x, w.force.y, w.torque], |x| x.slope[0]);

@@ -19,7 +19,7 @@
 
 use super::reaction_slopes::rows_of;
 use super::reactions;
-use crate::math::{Largest, Real};
+use crate::math::{Largest, Listed, Real};
 use crate::model::Model;
 
 /// Largest number of iterations for one factor of the forces.
@@ -45,8 +45,8 @@ pub fn depends<S: Real>(model: &Model<S>) -> bool {
 pub fn rows<S: Real>(model: &Model<S>) -> Vec<usize> {
     let of_loads =
         reactions::loaded(model).flat_map(|joint| model.layout.constraints[joint].rows.clone());
-    let mut rows: Vec<usize> = of_loads.collect();
-    rows.extend((0..model.forces.len()).flat_map(|k| rows_of(model, k)));
+    let mut rows: Vec<usize> = of_loads.list();
+    (0..model.forces.len()).flat_map(|k| rows_of(model, k)).append_to(&mut rows);
     rows.sort_unstable();
     rows.dedup();
     rows
@@ -111,7 +111,7 @@ struct Path<'a, S, R> {
 
 impl<S: Real, R: Response<S>> Path<'_, S, R> {
     fn of(&self, lam: &[S]) -> Vec<S> {
-        self.rows.iter().map(|row| lam[*row]).collect()
+        self.rows.iter().map(|row| lam[*row]).list()
     }
 
     /// Newton's method from `lam`. Returns whether it converged with positive determinants.
@@ -122,7 +122,7 @@ impl<S: Real, R: Response<S>> Path<'_, S, R> {
             let found = self.response.multipliers(lam)?;
             let own = self.of(&found).into_iter().zip(&free).zip(self.of(lam));
             let gap: Vec<S> =
-                own.map(|((new, free), old)| *free + factor * (new - *free) - old).collect();
+                own.map(|((new, free), old)| *free + factor * (new - *free) - old).list();
             let (size, left) = (largest(&self.of(&found)), largest(&gap));
             let noise = NOISE * self.response.largest_force().max(largest(&found));
             if size <= noise {
@@ -146,7 +146,7 @@ impl<S: Real, R: Response<S>> Path<'_, S, R> {
         for (k, row) in self.rows.iter().enumerate() {
             let slopes = self.response.slopes(lam, *row)?;
             let mut column: Vec<S> =
-                self.of(&slopes).into_iter().map(|slope| -(factor * slope)).collect();
+                self.of(&slopes).into_iter().map(|slope| -(factor * slope)).list();
             column[k] += S::one();
             columns.push(column);
         }
@@ -174,7 +174,7 @@ fn eliminate<S: Real>(mut columns: Vec<Vec<S>>, mut b: Vec<S>) -> Option<Vec<S>>
         }
     }
     let positive = determinant.in_lanes().iter().all(|sign| *sign > 0.0);
-    let x: Vec<S> = b.iter().enumerate().map(|(k, b)| *b / columns[k][k]).collect();
+    let x: Vec<S> = b.iter().enumerate().map(|(k, b)| *b / columns[k][k]).list();
     (positive && x.iter().all(|x| x.is_finite())).then_some(x)
 }
 

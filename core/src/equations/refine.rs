@@ -9,7 +9,7 @@ use super::augmented::Augmented;
 use super::kinematics::Motions;
 use super::mass::MassBlock;
 use super::{constraints, mass};
-use crate::math::{Largest, Real};
+use crate::math::{Largest, Listed, Real};
 use crate::model::Model;
 use crate::solve::Breakdown;
 use std::ops::Range;
@@ -199,12 +199,12 @@ fn terms<S: Real>(
     [f, _]: [&[S]; 2],
     [a, lam]: [&[S]; 2],
 ) -> Vec<S> {
-    let sizes = |x: &[S]| x.iter().map(|x| x.abs()).collect::<Vec<S>>();
+    let sizes = |x: &[S]| x.iter().map(|x| x.abs()).list();
     let mut terms = vec![S::zero(); f.len()];
     mass::add_blocks(model, masses, a, &mut terms);
     terms = sizes(&terms);
     constraints::add_transposed(model, &sizes(jacobian), &sizes(lam), &mut terms);
     terms.iter_mut().zip(f).for_each(|(out, f)| *out += f.abs());
     let least = terms.iter().copied().fold(S::zero(), S::max) * S::constant(LEAST_TERMS);
-    terms.into_iter().map(|term| term.max(least)).collect()
+    terms.into_iter().map(|term| term.max(least)).list()
 }

@@ -4,7 +4,7 @@ use super::constraints::{self};
 use super::kinematics::Motions;
 use super::Compiled;
 use crate::elements::{Joint, Linearized, Moving, Pooled, VisitJoints};
-use crate::math::{Largest, Real};
+use crate::math::{Largest, Listed, Real};
 use crate::model::{row_scales, Model};
 
 /// Φ and Φ̇ of one model, at the last evaluated state.
@@ -23,7 +23,7 @@ impl<S: Real> Residuals<S> {
     pub fn new(model: &Model<S>) -> Self {
         Self {
             rows: std::array::from_fn(|_| vec![S::zero(); model.layout.n_rows]),
-            per_scale: row_scales(model).into_iter().map(|scale| 1.0 / scale).collect(),
+            per_scale: row_scales(model).into_iter().map(|scale| 1.0 / scale).list(),
             omitted: (0, 0.0),
         }
     }

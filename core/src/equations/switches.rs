@@ -6,7 +6,7 @@ use super::laws::{self, Laws};
 use crate::elements::derive::moving;
 use crate::elements::{BodyId, Coordinate};
 use crate::expression::Tape;
-use crate::math::{Jet, Lift, Real, Twist};
+use crate::math::{Jet, Lift, Listed, Real, Twist};
 use crate::model::Model;
 
 /// σ of every switch, in the order of [`Model::switches`]. The held pieces of `motions` apply to the switches inside
@@ -62,7 +62,7 @@ pub fn functions_in_time(
     let of = |x: &[f64], rate: &[f64], second: &[f64]| -> Vec<Jet> {
         let second = second.iter().copied().chain(std::iter::repeat(0.0));
         let both = x.iter().zip(rate).zip(second);
-        both.map(|((x, rate), second)| Jet::new(*x, *rate, second)).collect()
+        both.map(|((x, rate), second)| Jet::new(*x, *rate, second)).list()
     };
     let (q, v, z) = (of(q, v, a), of(v, a, &[]), of(z, dz, &[]));
     let motions = Motions::at(&lifted.layout, &q, &v);

@@ -10,7 +10,7 @@ use super::table::Table;
 use super::tape::{FormulaValues, Instruction};
 use super::tree::{Node, NodeKind};
 use super::{ExpressionError, Names, Symbol, Tape, MAX_OPERANDS};
-use crate::math::Real;
+use crate::math::{Listed, Real};
 use std::ops::Range;
 use std::sync::Arc;
 
@@ -197,7 +197,7 @@ impl Compiler<'_> {
             return Ok(());
         }
         let is = if value.is_nan() { "is not a real number" } else { "is not finite" };
-        let words: Vec<_> = self.text[span.clone()].split_whitespace().collect();
+        let words: Vec<_> = self.text[span.clone()].split_whitespace().list();
         let part = words.join(" ");
         let message = match part.chars().count() {
             0..=60 => format!("{part} {is}"),
@@ -260,6 +260,6 @@ fn unknown_function<N: Names + ?Sized>(
 fn coordinates(body: &str, known: &[String]) -> Option<String> {
     let prefix = format!("{body}.");
     let owned: Vec<_> =
-        known.iter().filter(|other| other.starts_with(&prefix)).take(8).cloned().collect();
+        known.iter().filter(|other| other.starts_with(&prefix)).take(8).cloned().list();
     (!owned.is_empty()).then(|| format!("known are {}", owned.join(", ")))
 }

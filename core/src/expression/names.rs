@@ -4,6 +4,7 @@ use super::operation::FUNCTIONS;
 use super::symbol::Symbol;
 use super::table::Table;
 use super::Tape;
+use crate::math::Listed;
 use std::sync::Arc;
 
 /// The names that an expression at a place may use.
@@ -35,7 +36,7 @@ impl<T: AsRef<str>> Names for [T] {
         self.iter().position(|known| known.as_ref() == name).map(Symbol::Parameter)
     }
     fn known(&self) -> Vec<String> {
-        self.iter().map(|name| name.as_ref().to_string()).collect()
+        self.iter().map(|name| name.as_ref().to_string()).list()
     }
 }
 

@@ -4,7 +4,7 @@ use super::{
     is_identifier, is_reserved, Expression, ExpressionError, FormulaValues, Inferred, Names,
     Symbol, Table, Tape, FUNCTIONS,
 };
-use crate::math::Real;
+use crate::math::{Listed, Real};
 use std::collections::HashMap;
 use std::fmt;
 use std::sync::Arc;
@@ -96,9 +96,9 @@ impl Names for Index<'_> {
         self.0.get(name).copied().map(Symbol::Parameter)
     }
     fn known(&self) -> Vec<String> {
-        let mut known: Vec<_> = self.0.iter().map(|(name, k)| (*k, name.to_string())).collect();
+        let mut known: Vec<_> = self.0.iter().map(|(name, k)| (*k, name.to_string())).list();
         known.sort();
-        known.into_iter().map(|(_, name)| name).collect()
+        known.into_iter().map(|(_, name)| name).list()
     }
     fn tables(&self) -> &[Arc<Table>] {
         self.1
@@ -148,7 +148,7 @@ fn order(tapes: &[Tape]) -> Result<Vec<usize>, Vec<usize>> {
         Open,
         Done,
     }
-    let needs: Vec<Vec<usize>> = tapes.iter().map(|tape| tape.parameters().collect()).collect();
+    let needs: Vec<Vec<usize>> = tapes.iter().map(|tape| tape.parameters().list()).list();
     let mut marks = vec![Visit::New; tapes.len()];
     let mut order = Vec::with_capacity(tapes.len());
     for root in 0..tapes.len() {
@@ -170,7 +170,7 @@ fn order(tapes: &[Tape]) -> Result<Vec<usize>, Vec<usize>> {
                         Visit::New => path.push((next, 0)),
                         Visit::Open => {
                             let circle = path.iter().map(|(k, _)| *k);
-                            return Err(circle.skip_while(|k| *k != next).collect());
+                            return Err(circle.skip_while(|k| *k != next).list());
                         }
                     }
                 }
@@ -182,7 +182,7 @@ fn order(tapes: &[Tape]) -> Result<Vec<usize>, Vec<usize>> {
 
 fn circular<N: AsRef<str>>(definitions: &[(N, Expression)], circle: &[usize]) -> ParameterError {
     let names: Vec<&str> =
-        circle.iter().chain(&circle[..1]).map(|k| definitions[*k].0.as_ref()).collect();
+        circle.iter().chain(&circle[..1]).map(|k| definitions[*k].0.as_ref()).list();
     let message = match names.len() {
         2 => format!("the parameter refers to itself: {}", names.join(" → ")),
         _ => format!("parameters refer to each other in a circle: {}", names.join(" → ")),

@@ -5,6 +5,7 @@
 
 use super::operation::{Binary, Call, Unary};
 use super::tree::{Node, NodeKind};
+use crate::math::Listed;
 
 /// The precedence of the outermost operation of a text, according to the grammar.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -86,7 +87,7 @@ fn infix(operation: Binary) -> Option<(Binding, Binding, Binding)> {
 /// A sign before its operand, or an operator between its two operands.
 fn join(mark: &str, operands: Vec<Piece>, bindings: &[Binding]) -> String {
     let mut texts: Vec<_> =
-        operands.into_iter().zip(bindings).map(|(piece, least)| piece.at_least(*least)).collect();
+        operands.into_iter().zip(bindings).map(|(piece, least)| piece.at_least(*least)).list();
     if texts.len() == 1 {
         texts.insert(0, String::new());
     }
@@ -94,6 +95,6 @@ fn join(mark: &str, operands: Vec<Piece>, bindings: &[Binding]) -> String {
 }
 
 fn call(name: &str, operands: Vec<Piece>) -> Piece {
-    let arguments: Vec<_> = operands.into_iter().map(|piece| piece.text).collect();
+    let arguments: Vec<_> = operands.into_iter().map(|piece| piece.text).list();
     Piece::new(format!("{name}({})", arguments.join(",")), Binding::Primary)
 }

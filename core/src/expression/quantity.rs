@@ -5,6 +5,7 @@ use super::names::is_name_part;
 use super::tree::{Node, NodeKind};
 use super::unit::{atom, meant, Unit};
 use super::ExpressionError;
+use crate::math::Listed;
 use std::ops::Range;
 
 /// Reads `["-" | "+"] number unit`; `None` if the text is something else.
@@ -99,7 +100,7 @@ pub(super) fn multiplied(text: &str, span: Range<usize>) -> Option<String> {
 
 /// Units with spaces between them as a product: `kg m^2`.
 fn spaced(written: &str) -> Option<String> {
-    let product = written.split_whitespace().collect::<Vec<_>>().join("*");
+    let product = written.split_whitespace().list().join("*");
     Unit::parse(&product).is_ok().then_some(product)
 }
 

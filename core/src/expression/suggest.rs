@@ -12,27 +12,40 @@ pub fn closest<T: AsRef<str>>(
     word: &str,
     candidates: impl IntoIterator<Item = T>,
 ) -> Option<String> {
-    let lower_word = word.to_lowercase();
-    let length = lower_word.chars().count();
-    if length > LONGEST {
-        return None;
+    let mut search = ClosestWord::to(word)?;
+    candidates.into_iter().for_each(|candidate| search.look(candidate.as_ref()));
+    search.best.map(|(_, candidate)| candidate)
+}
+
+/// The search among candidates of any type.
+struct ClosestWord {
+    word: String,
+    length: usize,
+    /// The closest candidate and its distance.
+    best: Option<(usize, String)>,
+}
+
+impl ClosestWord {
+    /// None if the word is too long.
+    fn to(word: &str) -> Option<Self> {
+        let word = word.to_lowercase();
+        let length = word.chars().count();
+        (length <= LONGEST).then_some(Self { word, length, best: None })
     }
-    let mut best: Option<(usize, String)> = None;
-    for candidate in candidates {
-        let candidate = candidate.as_ref();
+
+    fn look(&mut self, candidate: &str) {
         let lower = candidate.to_lowercase();
         let other = lower.chars().count();
-        let limit = length.max(other) / 3;
+        let limit = self.length.max(other) / 3;
         // the distance is at least the difference in length; this test avoids the quadratic comparison
-        if length.abs_diff(other) > limit {
-            continue;
+        if self.length.abs_diff(other) > limit {
+            return;
         }
-        let distance = strsim::osa_distance(&lower_word, &lower);
-        if distance <= limit && best.as_ref().is_none_or(|(least, _)| distance < *least) {
-            best = Some((distance, candidate.to_string()));
+        let distance = strsim::osa_distance(&self.word, &lower);
+        if distance <= limit && self.best.as_ref().is_none_or(|(least, _)| distance < *least) {
+            self.best = Some((distance, candidate.to_string()));
         }
     }
-    best.map(|(_, candidate)| candidate)
 }
 
 /// The result of [`closest`] as a hint: "did you mean 'crank'?".

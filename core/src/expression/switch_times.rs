@@ -11,7 +11,7 @@
 
 use super::tape::Values;
 use super::{FormulaSwitch, Tape};
-use crate::math::{Dual, Interval, Lift, Real};
+use crate::math::{each, Dual, Interval, Lift, Listed, Real};
 
 /// Largest number of times.
 const MOST_TIMES: usize = 1_000_000;
@@ -51,7 +51,7 @@ pub fn switch_places(
     out: &mut Vec<f64>,
 ) -> Result<(), TooManySwitches> {
     let varies = |s: FormulaSwitch| FormulaSwitch { time: s.time || s.state, state: false, ..s };
-    let switches: Vec<FormulaSwitch> = tape.switches().into_iter().map(varies).collect();
+    let switches: Vec<FormulaSwitch> = tape.switches().into_iter().map(varies).list();
     search(tape, &switches, parameters, span, out)
 }
 
@@ -84,9 +84,9 @@ fn search(
     // a boundary that is only touched is not a switch
     let ends: Vec<f64> = [&span[..1], &times, &span[1..]].concat();
     let between = ends.windows(2).map(|w| natural(tape, switches, parameters, middle(w[0], w[1])));
-    let between: Vec<Vec<f64>> = between.collect();
+    let between: Vec<Vec<f64>> = between.list();
     let changes = between.windows(2).map(|w| w[0].iter().zip(&w[1]).any(|(a, b)| differ(*a, *b)));
-    out.extend(times.iter().zip(changes).filter(|(_, changes)| *changes).map(|(t, _)| *t));
+    times.iter().zip(changes).filter(|(_, changes)| *changes).map(|(t, _)| *t).append_to(out);
     Ok(())
 }
 
@@ -221,7 +221,7 @@ impl SwitchSearch<'_> {
 /// The first time at which g ≥ 0, given that g < 0 at the first end and g ≥ 0 at the second.
 fn root([mut a, mut b]: [f64; 2], g: impl Fn(f64) -> f64) -> f64 {
     // the secant is exact for a linear function
-    let [at_a, at_b] = [a, b].map(&g);
+    let [at_a, at_b] = each([a, b], &g);
     let guess = a - at_a * (b - a) / (at_b - at_a);
     let near = 4.0 * f64::EPSILON * guess.abs().max((b - a).abs());
     for t in [guess - near, guess, guess + near] {

@@ -3,7 +3,7 @@
 use super::knots::Knots;
 use super::points::{Checked, Outside, Points, TableError, SI};
 use super::unit::{Dimension, Unit};
-use crate::math::{Interpolation, Real, Spline};
+use crate::math::{Interpolation, Listed, Ordered, Real, Spline};
 use std::sync::Arc;
 
 /// Fraction of the range by which x may exceed the ends and still count as the end. An angle of 360° in rad is not
@@ -62,7 +62,7 @@ impl Table {
             ends,
             knots: None,
         };
-        let places: Vec<f64> = table.kinks().iter().map(|kink| kink.x).collect();
+        let places: Vec<f64> = table.kinks().iter().map(|kink| kink.x).list();
         if !places.is_empty() {
             table.knots = Some(Arc::new(Knots::new(places, table.period())));
         }
@@ -229,12 +229,12 @@ impl Table {
         let mut kinks = Vec::new();
         if let Some(order) = order {
             let seam = if self.spline.periodic() { &knots[..1] } else { &[] };
-            kinks.extend(seam.iter().chain(inner).map(|x| Kink { x: *x, order }));
+            seam.iter().chain(inner).map(|x| Kink { x: *x, order }).append_to(&mut kinks);
         }
         if !self.spline.periodic() {
-            kinks.extend(self.ends.iter().filter_map(|end| self.end_kink(*end)));
+            self.ends.iter().filter_map(|end| self.end_kink(*end)).append_to(&mut kinks);
         }
-        kinks.sort_by(|a, b| a.x.total_cmp(&b.x));
+        kinks.order_by(|a, b| a.x.total_cmp(&b.x));
         kinks
     }
 

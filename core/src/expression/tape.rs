@@ -142,7 +142,8 @@ impl Tape {
     /// uses the piece that is held for it. If the value with the held pieces is not finite, such as √x with the piece
     /// x > 0 just below zero, the expression is evaluated without held pieces.
     pub fn evaluate<S: Real>(&self, values: &impl Values<S>) -> S {
-        if self.switches == 0 && self.operands <= SHORT {
+        // without derivatives, short formulas are worth a program of their own for each type of values
+        if const { S::ORDER == 0 } && self.switches == 0 && self.operands <= SHORT {
             return self.run::<S, _, SHORT>(values, &mut |_| {});
         }
         let value = self.run_shared(values, &mut |_| {});

@@ -8,6 +8,7 @@
 
 use super::suggest::did_you_mean;
 use super::ExpressionError;
+use crate::math::Listed;
 use std::f64::consts::PI;
 use std::fmt;
 use std::ops::Range;
@@ -75,7 +76,7 @@ impl fmt::Display for Dimension {
                 1 => base.to_string(),
                 _ => format!("{base}^{exponent}"),
             })
-            .collect();
+            .list();
         f.write_str(if factors.is_empty() { "1" } else { "" })?;
         f.write_str(&factors.join("*"))
     }

@@ -10,7 +10,7 @@ use super::events::{Bracket, Direction};
 use super::path::StepPath;
 use super::step::Step;
 use super::watched::{sign_of, Part, TooFast, Watch, WatchedStep};
-use crate::math::Real;
+use crate::math::{Listed, Ordered, Real};
 
 /// Two sign changes count as one time if they differ by at most this number of floating-point spacings.
 const TOGETHER: f64 = 8.0;
@@ -100,10 +100,10 @@ pub fn crossings(
             }
         }
     }
-    changes.sort_by_key(|change| change.index);
+    changes.order_by_key(|change| change.index);
     let around = search.earliest(changes.iter().filter(|change| ends(change.index)));
     let mut all = match &around {
-        None => changes.iter().map(|change| search.close(change)).collect(),
+        None => changes.iter().map(|change| search.close(change)).list(),
         Some(around) => search.up_to(around, &changes),
     };
     let sign = (step.t - step.t_old).signum();
@@ -124,9 +124,9 @@ fn together(step: &Step<'_>) -> f64 {
 #[inline]
 fn sort(step: &Step<'_>, crossings: &mut [Crossing]) {
     let sign = (step.t - step.t_old).signum();
-    crossings.sort_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)));
+    crossings.order_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)));
     for group in crossings.chunk_by_mut(|a, b| (b.t - a.t).abs() <= together(step)) {
-        group.sort_by_key(|crossing| crossing.index);
+        group.order_by_key(|crossing| crossing.index);
     }
 }
 
@@ -315,7 +315,7 @@ impl WatchedStep<'_, '_, '_> {
         });
         let Some([_, first]) = self.earliest(changes.iter()) else { return Vec::new() };
         let together = changes.iter().filter(|change| self.has_changed(change, &first));
-        together.map(|change| change.at(first.0)).collect()
+        together.map(|change| change.at(first.0)).list()
     }
 
     /// The changes up to the earliest one that ends the step, and those shortly after it.

@@ -9,7 +9,7 @@ use super::right_hand_side::all_finite;
 use super::statistics::StepCounts;
 use super::step_control::StepControl;
 use super::step_size::{initial_step, probing_step};
-use crate::math::Complex;
+use crate::math::{Complex, Listed};
 
 /// A DAE with the counts of its evaluations.
 pub(super) struct CountedDae<'a, Y> {
@@ -116,7 +116,7 @@ impl<Y: Dae> CountedDae<'_, Y> {
         }
         self.accelerate(t + h, probe)?;
         let change = |new: &[f64], old: &[f64]| -> Vec<f64> {
-            new.iter().zip(old).map(|(new, old)| (new - old) / h0).collect()
+            new.iter().zip(old).map(|(new, old)| (new - old) / h0).list()
         };
         let [dv, da] = [(&probe.v, &start.v), (&probe.a, &start.a)].map(|(x, y)| change(x, y));
         let d2 = weights.norm(&dv, &da, &change(&probe.dz, &start.dz));

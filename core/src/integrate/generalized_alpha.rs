@@ -15,6 +15,7 @@ use super::interpolant::HERMITE;
 use super::step_control::StepControl;
 use super::step_size::{least_step, Control, StepSize};
 use super::stepper::{BoxedStepper, ImplicitMethod};
+use crate::math::Listed;
 
 /// Order of the error estimate.
 const ERROR_ORDER: i32 = 2;
@@ -148,7 +149,7 @@ impl AlphaStepper {
         }
         dae.accelerate(t + delta, end)?;
         let difference = |new: &[f64], old: &[f64]| -> Vec<f64> {
-            new.iter().zip(old).map(|(new, old)| (new - old) / delta).collect()
+            new.iter().zip(old).map(|(new, old)| (new - old) / delta).list()
         };
         let mut normal = difference(&end.a, &start.a);
         let mut of_z = difference(&end.dz, &start.dz);

@@ -11,7 +11,7 @@ use super::right_hand_side::all_finite;
 use super::runge_kutta::{RungeKutta, TrialStages};
 use super::stages::{combine, row, Block};
 use super::tolerances::LaneTolerances;
-use crate::math::{each, indexed, Lanes, Real};
+use crate::math::{each, indexed, Lanes, Listed, Real};
 use std::any::TypeId;
 use std::marker::PhantomData;
 
@@ -206,7 +206,7 @@ impl Registers {
     #[inline]
     fn put(&mut self, y: &[Block]) {
         self.y.clear();
-        self.y.extend(y.iter().map(|y| Lanes::new(*y)));
+        y.iter().map(|y| Lanes::new(*y)).append_to(&mut self.y);
     }
 
     /// dy = f(t, y). Returns whether the evaluation is ordinary.

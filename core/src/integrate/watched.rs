@@ -5,7 +5,7 @@
 
 use super::path::{Bounds, StepPath};
 use super::step::Step;
-use crate::math::{Interval, Real};
+use crate::math::{each, Interval, Real};
 use std::collections::HashMap;
 
 /// Bounds count as rounding errors if they are at most this number of times as wide as those at a single time.
@@ -167,7 +167,7 @@ impl<'a, 'b, 'w> WatchedStep<'a, 'b, 'w> {
             return Part::Ends;
         }
         if depth >= least {
-            let values = [from, between, to].map(|t| self.at(t)[index]);
+            let values = each([from, between, to], |t| self.at(t)[index]);
             if !may_turn(values) && values.iter().all(|value| value * values[0] > 0.0) {
                 return Part::Sign(values[0].signum());
             }

@@ -7,6 +7,7 @@
 use super::base::OverBase;
 use super::dual::Dual;
 use super::real::{Lift, Real};
+use crate::math::Listed;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
 /// A quantity with its first and second time derivative.
@@ -254,7 +255,7 @@ impl<S: Real> Real for Jet<S> {
         let at = |tau: f64| -> S {
             let (first, second) = (S::constant(tau), S::constant(0.5 * tau * tau));
             let moved = |x: &Self| x.value + first * x.rate + second * x.second;
-            S::of_values(f, &x.iter().map(moved).collect::<Vec<S>>())
+            S::of_values(f, &x.iter().map(moved).list())
         };
         let tau = 1e-4;
         let (value, before, after) = (at(0.0), at(-tau), at(tau));

@@ -3,6 +3,7 @@
 use super::array::each;
 use super::real::{Lift, Real};
 use super::sine;
+use crate::math::Listed;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 use wide::f64x4;
 
@@ -284,9 +285,7 @@ impl Real for Lanes {
         self.to_array()
     }
     fn of_values(f: &dyn Fn(&[f64]) -> f64, x: &[Self]) -> Self {
-        Self::new(std::array::from_fn(|lane| {
-            f(&x.iter().map(|x| x.to_array()[lane]).collect::<Vec<f64>>())
-        }))
+        Self::new(std::array::from_fn(|lane| f(&x.iter().map(|x| x.to_array()[lane]).list())))
     }
     #[inline(always)]
     fn largest_magnitude(self) -> f64 {

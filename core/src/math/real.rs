@@ -1,6 +1,7 @@
 //! The operations on scalars that the mechanics needs.
 
 use super::base::OverBase;
+use crate::math::Listed;
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
 
@@ -280,7 +281,7 @@ pub(super) fn difference<S: Real>(
     };
     let size = moved().fold(1.0, |size, (x, _)| x.largest_magnitude().max(size));
     let h = S::constant(f64::EPSILON.sqrt() * size / rate);
-    let beside: Vec<S> = x.iter().zip(direction).map(|(x, d)| *x + h * *d).collect();
+    let beside: Vec<S> = x.iter().zip(direction).map(|(x, d)| *x + h * *d).list();
     (S::of_values(f, &beside) - value) / h
 }
 

@@ -5,8 +5,10 @@
 //! minimum is a symmetric positive definite block tridiagonal system, cyclic for a periodic spline, which is solved
 //! without pivoting. The monotone spline is that of Fritsch and Butland (1984), C¹.
 
+use super::array::indexed;
 use super::real::Real;
 use super::spline_system::{solve, Stretch};
+use crate::math::Listed;
 
 /// The interpolation between the points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -68,9 +70,8 @@ impl<S: Real> Spline<S> {
     /// If there are fewer points than [`Interpolation::least`], or x and y differ in length.
     pub fn new(kind: Interpolation, periodic: bool, x: &[S], y: &[S]) -> Self {
         assert!(x.len() == y.len() && x.len() >= kind.least(periodic), "too few points");
-        let stretches: Vec<Stretch<S>> = (1..x.len())
-            .map(|k| Stretch { width: x[k] - x[k - 1], rise: y[k] - y[k - 1] })
-            .collect();
+        let stretches: Vec<Stretch<S>> =
+            (1..x.len()).map(|k| Stretch { width: x[k] - x[k - 1], rise: y[k] - y[k - 1] }).list();
         let pieces = match kind {
             Interpolation::Linear => linear(&stretches),
             Interpolation::Cubic => cubic(&stretches, &solve(&stretches, periodic, Stretch::cubic)),
@@ -83,7 +84,7 @@ impl<S: Real> Spline<S> {
             piece[0] = y[k];
             piece
         };
-        let pieces = pieces.into_iter().enumerate().map(start).collect();
+        let pieces = pieces.into_iter().enumerate().map(start).list();
         Self { knots: x.to_vec(), pieces, degree: kind.degree(), periodic }
     }
 
@@ -119,25 +120,29 @@ impl<S: Real> Spline<S> {
             true => self.wrapped(x, lift),
             false => x,
         };
-        let at = x.in_lanes();
-        let mut found = [0; 4];
-        for (lane, found) in found.iter_mut().enumerate() {
-            let inner = &self.knots[1..self.knots.len() - 1];
-            *found = inner.partition_point(|knot| knot.in_lanes()[lane] < at[lane]);
-        }
-        found.sort_unstable();
-        let [first, .., last] = found;
-        let mut result = self.piece(first, x, lift);
+        let found = self.pieces_at(x.in_lanes());
+        let [mut k, .., last] = found;
+        let mut result = self.piece(k, x, lift);
         // lanes on different pieces, or a range over all pieces between its ends
-        for k in (first + 1..=last).filter(|k| found.contains(k) || x.spread() > 0.0) {
-            // the later piece applies where x is beyond its first knot
-            let beyond = x - lift(self.knots[k]);
-            let piece: [T; N] = self.piece(k, x, lift);
-            for (result, piece) in result.iter_mut().zip(piece) {
-                *result = T::select(beyond, piece, *result);
+        while k < last {
+            k += 1;
+            if found.contains(&k) || x.spread() > 0.0 {
+                // the later piece applies where x is beyond its first knot
+                let beyond = x - lift(self.knots[k]);
+                let piece: [T; N] = self.piece(k, x, lift);
+                result = indexed(|n| T::select(beyond, piece[n], result[n]));
             }
         }
         result
+    }
+
+    /// The pieces of the numbers in the lanes, in increasing order.
+    fn pieces_at(&self, x: [f64; 4]) -> [usize; 4] {
+        let inner = &self.knots[1..self.knots.len() - 1];
+        let mut found =
+            indexed(|lane| inner.partition_point(|knot| knot.in_lanes()[lane] < x[lane]));
+        found.sort_unstable();
+        found
     }
 
     /// x shifted into the first period.
@@ -151,16 +156,21 @@ impl<S: Real> Spline<S> {
     fn piece<T: Real, const N: usize>(&self, k: usize, x: T, lift: impl Fn(S) -> T) -> [T; N] {
         let t = x - lift(self.knots[k]);
         let mut result = [T::zero(); N];
-        for coefficient in self.pieces[k][..=self.degree].iter().rev() {
-            for n in (1..N).rev() {
+        let mut power = self.degree + 1;
+        while power > 0 {
+            power -= 1;
+            let mut n = N - 1;
+            while n > 0 {
                 result[n] = result[n] * t + result[n - 1];
+                n -= 1;
             }
-            result[0] = result[0] * t + lift(*coefficient);
+            result[0] = result[0] * t + lift(self.pieces[k][power]);
         }
-        let mut factorial = 1.0;
-        for (n, derivative) in result.iter_mut().enumerate().skip(2) {
+        let (mut n, mut factorial) = (2, 1.0);
+        while n < N {
             factorial *= n as f64;
-            *derivative = *derivative * T::constant(factorial);
+            result[n] = result[n] * T::constant(factorial);
+            n += 1;
         }
         result
     }
@@ -168,7 +178,7 @@ impl<S: Real> Spline<S> {
 
 fn linear<S: Real>(stretches: &[Stretch<S>]) -> Vec<[S; 6]> {
     let zero = S::zero();
-    stretches.iter().map(|s| [zero, s.rise / s.width, zero, zero, zero, zero]).collect()
+    stretches.iter().map(|s| [zero, s.rise / s.width, zero, zero, zero, zero]).list()
 }
 
 /// The pieces of a cubic spline, from the slopes at the knots.
@@ -180,7 +190,7 @@ fn cubic<S: Real>(stretches: &[Stretch<S>], slopes: &[[S; 1]]) -> Vec<[S; 6]> {
         let second = (three * m - two * d0 - d1) / h;
         [zero, d0, second, (d0 + d1 - two * m) / (h * h), zero, zero]
     };
-    stretches.iter().enumerate().map(piece).collect()
+    stretches.iter().enumerate().map(piece).list()
 }
 
 /// The pieces of a quintic spline, from the first and second derivatives at the knots.
@@ -196,7 +206,7 @@ fn quintic<S: Real>(stretches: &[Stretch<S>], ends: &[[S; 2]]) -> Vec<[S; 6]> {
         let h3 = h2 * h;
         [S::zero(), d0, c(0.5) * s0, third / h3, fourth / (h2 * h2), fifth / (h2 * h3)]
     };
-    stretches.iter().enumerate().map(piece).collect()
+    stretches.iter().enumerate().map(piece).list()
 }
 
 /// Slopes without overshoot: a weighted harmonic mean of the slopes on both sides of the knot, or zero if they differ
@@ -227,7 +237,7 @@ fn monotone<S: Real>(stretches: &[Stretch<S>], periodic: bool) -> Vec<[S; 1]> {
         _ => [end(&stretches[0], &stretches[1]), end(&stretches[n - 1], &stretches[n - 2])],
     };
     slopes.push([ends[0]]);
-    slopes.extend(stretches.windows(2).map(|pair| [inner(&pair[0], &pair[1])]));
+    stretches.windows(2).map(|pair| [inner(&pair[0], &pair[1])]).append_to(&mut slopes);
     slopes.push([ends[1]]);
     slopes
 }

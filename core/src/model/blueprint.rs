@@ -12,6 +12,7 @@ use crate::elements::{
     holding, BodyId, Constraint, CoordinateOf, Fixes, Followed, ForceElement, Group, OwnState,
 };
 use crate::expression::{Expression, Inferred, Symbol, Table, Tape};
+use crate::math::Listed;
 use std::sync::Arc;
 
 /// A force over formulas: its name, first-order states and element.
@@ -134,13 +135,13 @@ impl Blueprint {
         let drivers = held.iter().map(|(name, coordinate, value)| {
             (name.clone(), Group::Drivers, holding(coordinate.clone(), value.clone()))
         });
-        let constraints = self.constraints.iter().cloned().chain(drivers).collect::<Vec<_>>();
+        let constraints = self.constraints.iter().cloned().chain(drivers).list();
         Self { constraints: constraints.into(), ..self.clone() }
     }
 
     /// The mechanism with only some of its constraints, and without forces.
     pub fn keeping(&self, kept: &[usize]) -> Self {
-        let constraints = kept.iter().map(|k| self.constraints[*k].clone()).collect::<Vec<_>>();
+        let constraints = kept.iter().map(|k| self.constraints[*k].clone()).list();
         Self { constraints: constraints.into(), forces: Arc::default(), ..self.clone() }
     }
 
@@ -171,7 +172,7 @@ fn has_velocity(
     let place: Vec<&str> = [group.section(), entry.name.as_str()]
         .into_iter()
         .chain(field.map(|(field, _)| field.as_str()))
-        .collect();
+        .list();
     let message = format!(
         "the law reads table '{name}', whose linear interpolation makes the velocity jump at its points"
     );

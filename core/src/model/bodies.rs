@@ -10,7 +10,7 @@ use super::problem::Problem;
 use super::scope::{Reach, Scope};
 use super::unit_check::ANY_UNIT;
 use crate::expression::{Expression, Tape};
-use crate::math::Local;
+use crate::math::{Listed, Local};
 
 /// Reads all bodies; index 0 is ground. A faulty body is kept with placeholder numbers, so that references to it
 /// cause no further reports.
@@ -24,7 +24,7 @@ pub fn read(
     let moving = definition.bodies.iter().filter(|b| b.name != "ground");
     std::iter::once(Reader { entry: written, scope, problems }.ground())
         .chain(moving.map(|entry| Reader { entry, scope, problems }.moving()))
-        .collect()
+        .list()
 }
 
 struct Reader<'a> {
@@ -169,7 +169,7 @@ impl Reader<'_> {
     fn ends(&mut self, through: &[WrittenPoint]) -> Vec<String> {
         match self.entry.get("ends") {
             Some(Value::List(items)) => {
-                let names: Vec<String> = items.iter().filter_map(text).collect();
+                let names: Vec<String> = items.iter().filter_map(text).list();
                 if names.len() != 2 || items.len() != 2 || names[0] == names[1] {
                     self.report("ends", "must name two different points, such as [\"A\", \"B\"]");
                     return unknown();
@@ -223,7 +223,7 @@ impl Reader<'_> {
             let (x, y) = (this.compose(&w.x), this.compose(&w.y));
             (w.name, Local { x, y })
         };
-        written.into_iter().map(|w| local(w, self)).collect()
+        written.into_iter().map(|w| local(w, self)).list()
     }
 
     /// A table of points as text. It is checked here, so that formulas composed of it cannot fail.
@@ -239,7 +239,7 @@ impl Reader<'_> {
             }
         };
         for (name, value) in items {
-            let path: Vec<String> = self.path(key).into_iter().chain([name.clone()]).collect();
+            let path: Vec<String> = self.path(key).into_iter().chain([name.clone()]).list();
             let (x, y) = match (self.scope.pair(value, &path, "m", self.problems), value) {
                 (Some(_), Value::List(xy)) => (term(&xy[0]), term(&xy[1])),
                 // a placeholder that differs from the other points

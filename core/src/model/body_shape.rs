@@ -6,7 +6,7 @@
 //! relative to the first corner, so that no digits cancel for a polygon far from the origin.
 
 use crate::expression::Tape;
-use crate::math::{Local, Real, Rotation};
+use crate::math::{Listed, Local, Real, Rotation};
 
 /// The form of a piece, in its own frame, m.
 #[derive(Clone, Debug)]
@@ -100,7 +100,7 @@ impl<S> Form<S> {
             Self::Ring { inner, outer } => Form::Ring { inner: f(inner), outer: f(outer) },
             Self::Polygon { points } => {
                 let points = points.iter().map(|p| Local { x: f(&p.x), y: f(&p.y) });
-                Form::Polygon { points: points.collect() }
+                Form::Polygon { points: points.list() }
             }
         }
     }
@@ -193,7 +193,7 @@ impl<S: Real> BodyShape<S> {
     /// Mass, centre and inertia of all pieces together.
     pub fn together(shapes: &[Self]) -> Weighed<S> {
         let zero = S::zero();
-        let pieces: Vec<Weighed<S>> = shapes.iter().map(Self::weighed).collect();
+        let pieces: Vec<Weighed<S>> = shapes.iter().map(Self::weighed).list();
         let (mut mass, mut moment) = (zero, Local::new(zero, zero));
         for piece in &pieces {
             mass += piece.mass;

@@ -7,6 +7,7 @@ use super::problem::Problem;
 use super::shape_checks;
 use crate::elements::Curve;
 use crate::expression::{FormulaValues as Values, Tape};
+use crate::math::Listed;
 
 /// Lengths above this limit, m, have powers that overflow in the solution for positions.
 const LONGEST: f64 = 1e60;
@@ -22,7 +23,7 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
         }
         if let Some((key, message)) = body.outline.as_ref().and_then(Outline::fault) {
             let path = ["bodies", &body.name, "outline"].into_iter();
-            let path: Vec<&str> = path.chain((!key.is_empty()).then_some(key)).collect();
+            let path: Vec<&str> = path.chain((!key.is_empty()).then_some(key)).list();
             problems.push(Problem::at(&path, message));
         }
         if !body.shapes.is_empty() {

@@ -5,7 +5,7 @@ use super::problem::Problem;
 use super::scope::{Reach, Scope};
 use crate::elements::{Curve, CurveFormula, CurvePoints, CURVE_FORMS};
 use crate::expression::Tape;
-use crate::math::{Interpolation, Local};
+use crate::math::{Interpolation, Listed, Local};
 
 /// Curves by name. A faulty curve is None, and its fault is reported.
 pub type Curves<S> = Vec<(String, Option<Curve<S>>)>;
@@ -24,7 +24,7 @@ pub(super) fn read(entry: &Entry, scope: &Scope, problems: &mut Vec<Problem>) ->
         let curve = Reader { fields, path, scope, problems: &mut *problems }.curve();
         (name.clone(), curve)
     };
-    written.iter().map(one).collect()
+    written.iter().map(one).list()
 }
 
 struct Reader<'a> {
@@ -56,7 +56,7 @@ impl<'a> Reader<'a> {
     /// The key of the form. Exactly one form must be given.
     fn form(&mut self) -> Option<&'static str> {
         let given = |form: &[&str]| form.iter().any(|key| self.get(key).is_some());
-        let forms: Vec<_> = CURVE_FORMS.iter().filter(|form| given(form.keys)).collect();
+        let forms: Vec<_> = CURVE_FORMS.iter().filter(|form| given(form.keys)).list();
         match forms[..] {
             [form] => {
                 let other = |key: &str| !form.keys.contains(&key) && !form.more.contains(&key);
@@ -72,7 +72,7 @@ impl<'a> Reader<'a> {
                 Some(form.keys[0])
             }
             [] => {
-                let words: Vec<&str> = CURVE_FORMS.iter().map(|form| form.words).collect();
+                let words: Vec<&str> = CURVE_FORMS.iter().map(|form| form.words).list();
                 self.report(None, format!("a curve needs one of: {}", words.join("; ")))
             }
             [first, second, ..] => {
@@ -120,7 +120,7 @@ impl<'a> Reader<'a> {
         let mut points = Vec::new();
         let mut complete = true;
         for (k, item) in items.iter().enumerate() {
-            let path: Vec<String> = self.at("points").into_iter().chain([k.to_string()]).collect();
+            let path: Vec<String> = self.at("points").into_iter().chain([k.to_string()]).list();
             match self.scope.pair(item, &path, "m", self.problems) {
                 Some([x, y]) => points.push(Local { x, y }),
                 None => complete = false,
@@ -154,7 +154,7 @@ impl<'a> Reader<'a> {
             return self.report(Some(key), format!("has {} points; must have two", items.len()));
         };
         let mut at = |k: usize, item: &Value| {
-            let path: Vec<String> = self.at(key).into_iter().chain([k.to_string()]).collect();
+            let path: Vec<String> = self.at(key).into_iter().chain([k.to_string()]).list();
             self.scope.pair(item, &path, "m", self.problems).map(|[x, y]| Local { x, y })
         };
         let (from, to) = (at(0, from), at(1, to));
@@ -183,7 +183,7 @@ impl<'a> Reader<'a> {
         let unit = if key == "range" { super::unit_check::ANY_UNIT } else { "m" };
         let mut tapes = Vec::new();
         for (k, item) in items.iter().enumerate() {
-            let path: Vec<String> = self.at(key).into_iter().chain([k.to_string()]).collect();
+            let path: Vec<String> = self.at(key).into_iter().chain([k.to_string()]).list();
             tapes.extend(self.scope.formula(item, &path, unit, Reach::Parameters, self.problems));
         }
         tapes.try_into().ok()
@@ -202,7 +202,7 @@ impl<'a> Reader<'a> {
     }
 
     fn at(&self, key: &str) -> Vec<String> {
-        self.path.iter().cloned().chain([key.to_string()]).collect()
+        self.path.iter().cloned().chain([key.to_string()]).list()
     }
 
     fn report<T>(&mut self, key: Option<&str>, message: String) -> Option<T> {

@@ -3,14 +3,14 @@
 use super::body_shape::{BodyShape, Form};
 use super::items::Body;
 use super::outline::{circle, Drawn, DrawnForm};
-use crate::math::Local;
+use crate::math::{each, Listed, Local};
 
 impl Body {
     /// The drawing that replaces the link: the outline of the body, otherwise its shapes, otherwise an empty drawing.
     pub fn drawn(&self) -> Vec<Drawn> {
         match &self.outline {
             Some(outline) => outline.drawn(),
-            None => self.shapes.iter().flat_map(shape).collect(),
+            None => self.shapes.iter().flat_map(shape).list(),
         }
     }
 }
@@ -26,7 +26,7 @@ fn shape(shape: &BodyShape) -> Vec<Drawn> {
         Form::Plate { width, height } => {
             let (x, y) = (width / 2.0, height / 2.0);
             let corner = |(x, y): (f64, f64)| Local::new(x, y);
-            vec![[(-x, -y), (x, -y), (x, y), (-x, y)].map(corner).to_vec()]
+            vec![each([(-x, -y), (x, -y), (x, y), (-x, y)], corner).to_vec()]
         }
         Form::Disc { radius } => vec![circle(*radius, false)],
         Form::Ring { inner, outer } if *inner > 0.0 => {
@@ -40,9 +40,9 @@ fn shape(shape: &BodyShape) -> Vec<Drawn> {
         if hole {
             edge.reverse();
         }
-        Drawn { points: edge.into_iter().map(|s| shape.place(s)).collect(), form }
+        Drawn { points: edge.into_iter().map(|s| shape.place(s)).list(), form }
     });
-    placed.collect()
+    placed.list()
 }
 
 fn counter_clockwise(points: &[Local]) -> Vec<Local> {

@@ -5,7 +5,7 @@ use super::curves::Curves;
 use super::outline::Outline;
 use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group, JointId, Mode, OwnState};
 use crate::expression::Tape;
-use crate::math::{Local, Real};
+use crate::math::{Listed, Local, Real};
 
 /// A rigid body.
 #[derive(Clone, Debug)]
@@ -39,9 +39,9 @@ impl<S> Body<S> {
     pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Body<T> {
         let mut local = |s: &Local<S>| Local { x: f(&s.x), y: f(&s.y) };
         let center = local(&self.center);
-        let points = self.points.iter().map(|(name, s)| (name.clone(), local(s))).collect();
+        let points = self.points.iter().map(|(name, s)| (name.clone(), local(s))).list();
         let curves = self.curves.iter();
-        let curves = curves.map(|(name, c)| (name.clone(), c.as_ref().map(|c| c.map(f)))).collect();
+        let curves = curves.map(|(name, c)| (name.clone(), c.as_ref().map(|c| c.map(f)))).list();
         Body {
             curves,
             name: self.name.clone(),
@@ -50,7 +50,7 @@ impl<S> Body<S> {
             inertia: f(&self.inertia),
             center,
             points,
-            shapes: self.shapes.iter().map(|shape| shape.map(f)).collect(),
+            shapes: self.shapes.iter().map(|shape| shape.map(f)).list(),
             outline: self.outline.as_ref().map(|outline| outline.map(f)),
             drawn: self.drawn.as_ref().map(|[x, y, angle]| [f(x), f(y), f(angle)]),
             turns: self.turns,

@@ -5,6 +5,7 @@
 //! entries, row by row, padded with zeros where the owner has fewer than three columns. Ground owns no columns.
 
 use crate::elements::BodyId;
+use crate::math::Listed;
 use std::ops::Range;
 
 /// Works that are integrated with the motion: dissipated energy, work of drivers, work of applied forces.
@@ -154,7 +155,7 @@ impl StateLayout {
             }
         }
         held.sort_unstable();
-        layout.held = held.into_iter().map(|(_, place)| place).collect();
+        layout.held = held.into_iter().map(|(_, place)| place).list();
         layout
     }
 

@@ -12,6 +12,7 @@ use crate::elements::{
     Measured,
 };
 use crate::expression::{suggest, Tape};
+use crate::math::Listed;
 
 /// A linked joint or driver.
 type Named = (String, Group, Constraint<Tape>);
@@ -104,7 +105,7 @@ impl<'a> Linker<'a> {
             return self.report(field, message, Some(format!("write '{body}'")));
         }
         let hint = self.suggests().then(|| {
-            let names: Vec<&str> = self.bodies.iter().map(|b| b.name.as_str()).collect();
+            let names: Vec<&str> = self.bodies.iter().map(|b| b.name.as_str()).list();
             did_you_mean(name, &names, "bodies")
         });
         self.report(field, format!("unknown body '{name}'"), hint.flatten())

@@ -9,7 +9,7 @@ use super::switch::{Switch, SwitchOwner};
 use super::variable::Dependence;
 use crate::elements::{BodyId, Group, Mode};
 use crate::expression::{Tape, Values};
-use crate::math::{Lift, Real, Vec2};
+use crate::math::{Lift, Listed, Real, Vec2};
 use std::sync::Arc;
 
 /// A planar mechanism, ready to be evaluated. Immutable.
@@ -73,7 +73,7 @@ impl<S: Real> Model<S> {
             }
             touched.push(Touched {
                 equations: equations.len(),
-                bodies: bodies.iter().chain(&depends.bodies).copied().collect(),
+                bodies: bodies.iter().chain(&depends.bodies).copied().list(),
                 own: formula.own(),
                 constant_columns: formula.constant_columns() && !depends.any(),
             });
@@ -94,12 +94,12 @@ impl<S: Real> Model<S> {
         }
         let mut forces = forces(blueprint, value, &mut switches);
         curve_switches(&mut constraints, &mut switches);
-        let bodies: Vec<_> = blueprint.bodies.iter().map(|b| b.map(value).weighed()).collect();
+        let bodies: Vec<_> = blueprint.bodies.iter().map(|b| b.map(value).weighed()).list();
         let unknowns = bodies[1..].iter().map(|body| if body.turns { 3 } else { 2 });
         let states = forces.iter().map(|item| {
             let sampled = blueprint.functions.iter().flat_map(Functions::sampled).enumerate();
             let own = sampled.filter(|(_, (_, law, _))| law.element == item.name);
-            (item.states.len(), own.map(|(at, _)| at).collect())
+            (item.states.len(), own.map(|(at, _)| at).list())
         });
         let layout = StateLayout::new(unknowns, &touched, states);
         modes::set(&mut forces, &constraints, &layout, &blueprint.modes);
@@ -125,7 +125,7 @@ impl<S: Real> Model<S> {
 
     /// Converts the model to a scalar that contains the present scalar.
     pub fn lift<T: Lift<S>>(&self) -> Model<T> {
-        let parameters: Vec<T> = self.parameters.iter().map(|p| T::lift(*p)).collect();
+        let parameters: Vec<T> = self.parameters.iter().map(|p| T::lift(*p)).list();
         Model::new(&self.blueprint, &parameters)
     }
 }
@@ -155,7 +155,7 @@ fn forces<S: Real>(
             .any()
             .then(|| Box::new(formula.map(&mut |tape| Switch::number(tape, owner, switches))));
         let (element, first_switch) = (formula.map(value), switches.len());
-        switches.extend((0..element.switch_count()).map(|_| Switch::of_element(owner)));
+        (0..element.switch_count()).map(|_| Switch::of_element(owner)).append_to(switches);
         ForceItem {
             name: name.clone(),
             bodies: formula.bodies(),
@@ -168,7 +168,7 @@ fn forces<S: Real>(
             held_row: None,
         }
     });
-    items.collect()
+    items.list()
 }
 
 impl<S> Model<S> {
@@ -182,7 +182,7 @@ impl<S> Model<S> {
     }
     /// The names of joints and drivers with these indices.
     pub fn names_of<'a>(&self, places: impl IntoIterator<Item = &'a usize>) -> Vec<&str> {
-        places.into_iter().map(|k| self.constraints[*k].name.as_str()).collect()
+        places.into_iter().map(|k| self.constraints[*k].name.as_str()).list()
     }
     /// The name of an equation, such as `C.x`, or the name of its joint if the joint has only one equation.
     pub fn equation_name(&self, row: usize) -> String {

@@ -1,6 +1,6 @@
 //! Outlines of bodies for drawings.
 
-use crate::math::Local;
+use crate::math::{Listed, Local};
 use std::sync::Arc;
 
 /// Number of corners of a drawn circle.
@@ -58,7 +58,7 @@ impl<S> Outline<S> {
     pub fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> Outline<T> {
         let mut local = |s: &Local<S>| Local { x: f(&s.x), y: f(&s.y) };
         match self {
-            Self::Polygon(points) => Outline::Polygon(points.iter().map(local).collect()),
+            Self::Polygon(points) => Outline::Polygon(points.iter().map(local).list()),
             Self::Circle { center, radius } => {
                 let center = local(center);
                 Outline::Circle { center, radius: f(radius) }
@@ -94,7 +94,7 @@ impl Outline {
         match self {
             Self::Polygon(points) => area(points.clone()),
             Self::Circle { center, radius } => {
-                area(circle(*radius, false).into_iter().map(|s| *center + s).collect())
+                area(circle(*radius, false).into_iter().map(|s| *center + s).list())
             }
             Self::Path(parts) => parts.to_vec(),
         }
@@ -108,5 +108,5 @@ pub(super) fn circle(radius: f64, clockwise: bool) -> Vec<Local> {
         let (sin, cos) = f64::sin_cos(turn * k as f64 / OF_CIRCLE as f64);
         Local::new(radius * cos, radius * sin)
     };
-    (0..OF_CIRCLE).map(at).collect()
+    (0..OF_CIRCLE).map(at).list()
 }

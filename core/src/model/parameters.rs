@@ -4,6 +4,7 @@ use super::definition::{Definition, Value};
 use super::problem::Problem;
 use crate::expression::parameters::Parameters;
 use crate::expression::{Expression, Inferred, Table};
+use crate::math::Listed;
 use std::sync::Arc;
 
 /// The parameters of a model.
@@ -25,7 +26,7 @@ pub fn values(
     tables: &[Arc<Table>],
     problems: &mut Vec<Problem>,
 ) -> Evaluated {
-    let names: Vec<&str> = definition.parameters.iter().map(|(name, _)| name.as_str()).collect();
+    let names: Vec<&str> = definition.parameters.iter().map(|(name, _)| name.as_str()).list();
     for (name, _) in overrides {
         if !names.contains(&name.as_str()) {
             let known = super::link::did_you_mean(name, &names, "parameters");
@@ -69,7 +70,7 @@ pub fn evaluate(
     problems: &mut Vec<Problem>,
 ) -> Evaluated {
     let written: Vec<(&str, Expression)> =
-        formulas.iter().map(|(name, e)| (name.as_str(), e.clone())).collect();
+        formulas.iter().map(|(name, e)| (name.as_str(), e.clone())).list();
     let compiled = match Parameters::compile(&written, tables) {
         Ok(compiled) => compiled,
         Err(fault) => {

@@ -1,6 +1,7 @@
 //! A fault of a definition, with its path and remedy.
 
 use crate::expression::ExpressionError;
+use crate::math::Listed;
 use std::fmt;
 use std::ops::Range;
 
@@ -27,7 +28,7 @@ impl Problem {
     }
     /// A fault of the value at `path`.
     pub fn at<P: AsRef<str>>(path: &[P], message: impl Into<String>) -> Self {
-        let path = path.iter().map(|p| p.as_ref().to_string()).collect();
+        let path = path.iter().map(|p| p.as_ref().to_string()).list();
         Self { path, ..Self::new(message) }
     }
     /// Adds a hint.

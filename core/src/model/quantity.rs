@@ -11,6 +11,7 @@ use super::quantity_owner::{place, FormulaModel, QuantityOwner};
 use super::scope::{Quantities, Scope};
 use crate::elements::{BodyId, Constraint, Followed, ForceElement, Group, Measured, PointOn};
 use crate::expression::Tape;
+use crate::math::Listed;
 use std::cell::Cell;
 
 /// Largest depth of nesting of elements whose quantities refer to each other.
@@ -28,7 +29,7 @@ pub struct Elements<'a> {
 impl<'a> Elements<'a> {
     /// The quantities of a definition with linked bodies.
     pub fn new(definition: &'a Definition, scope: &'a Scope, bodies: &'a [Body<Tape>]) -> Self {
-        let turns = scope.bodies.iter().map(|(_, turns)| *turns).collect();
+        let turns = scope.bodies.iter().map(|(_, turns)| *turns).list();
         let formulas = FormulaModel { parameters: scope.parameters.len(), turns };
         Self { definition, scope, bodies, formulas, depth: Cell::new(0) }
     }
@@ -105,7 +106,7 @@ impl Quantities for Elements<'_> {
 
     fn offered(&self, owner: &str) -> Option<Vec<&'static str>> {
         let names = self.owner(owner)?.measured().iter().map(|of| of.names[0]);
-        Some(names.collect())
+        Some(names.list())
     }
 
     fn names(&self, rates: bool) -> Vec<String> {
@@ -119,9 +120,9 @@ impl Quantities for Elements<'_> {
         let of = |owner: String| {
             let measured = self.owner(&owner).map_or(&[][..], |found| found.measured());
             let names = measured.iter().flat_map(|of| of.names.iter().take(orders));
-            names.map(|name| format!("{owner}.{name}")).collect::<Vec<_>>()
+            names.map(|name| format!("{owner}.{name}")).list()
         };
-        owners.flat_map(of).collect()
+        owners.flat_map(of).list()
     }
 }
 
@@ -140,7 +141,7 @@ pub enum Offered {
 pub fn quantity_of(blueprint: &Blueprint, owner: &str, word: &str) -> Option<Offered> {
     let formulas = FormulaModel {
         parameters: blueprint.parameters.len(),
-        turns: blueprint.bodies.iter().map(|body| body.turns).collect(),
+        turns: blueprint.bodies.iter().map(|body| body.turns).list(),
     };
     let name = format!("{owner}.{word}");
     let owner = linked(blueprint, owner)?;

@@ -6,7 +6,7 @@ use crate::elements::{
     PointOn, QuantityOf,
 };
 use crate::expression::{Symbol, Tape, Values};
-use crate::math::{Local, Pose, Real, Twist};
+use crate::math::{Listed, Local, Pose, Real, Twist};
 use crate::symbolic::{record, Name, Record, Symbolic};
 
 /// An owner of quantities.
@@ -174,9 +174,9 @@ impl FormulaModel {
                 x
             };
             let constant = |k| symbol(Symbolic::zero(), Symbol::Parameter(k));
-            let parameters: Vec<Symbolic> = (0..self.parameters).map(constant).collect();
+            let parameters: Vec<Symbolic> = (0..self.parameters).map(constant).list();
             let bodies = owner.bodies();
-            let poses = bodies.iter().map(|body| self.pose(*body, &mut symbol)).collect();
+            let poses = bodies.iter().map(|body| self.pose(*body, &mut symbol)).list();
             let own = OwnerSymbols { parameters, bodies, poses };
             let over = owner.map(&mut |tape| tape.evaluate(&own));
             f(&OwnerRecord { record, own, over, symbols })

@@ -8,6 +8,7 @@ use crate::elements::{
     Source, UNITS_OF_EQUATIONS,
 };
 use crate::expression::Tape;
+use crate::math::Listed;
 use std::sync::Arc;
 
 use super::link::{did_you_mean, Linker};
@@ -36,7 +37,7 @@ impl Source for Linker<'_> {
             return None; // its own fault is reported
         }
         let hint = self.suggests().then(|| {
-            let names: Vec<&str> = owner.points.iter().map(|(n, _)| n.as_str()).collect();
+            let names: Vec<&str> = owner.points.iter().map(|(n, _)| n.as_str()).list();
             did_you_mean(name, &names, &format!("points of {}", owner.name))
         });
         let message = format!("body '{}' has no point '{name}'", owner.name);
@@ -52,7 +53,7 @@ impl Source for Linker<'_> {
             return found.clone().map(|curve| CurveOn { body, curve });
         }
         let hint = self.suggests().then(|| {
-            let names: Vec<&str> = owner.curves.iter().map(|(n, _)| n.as_str()).collect();
+            let names: Vec<&str> = owner.curves.iter().map(|(n, _)| n.as_str()).list();
             match owner.point(name) {
                 Some(_) => Some(format!("'{name}' is a point of {}", owner.name)),
                 None => did_you_mean(name, &names, &format!("curves of {}", owner.name)),
@@ -86,7 +87,7 @@ impl Source for Linker<'_> {
             return Some(JointId(k));
         }
         let hint = self.suggests().then(|| {
-            let names: Vec<&str> = self.constraints.iter().map(|(own, ..)| own.as_str()).collect();
+            let names: Vec<&str> = self.constraints.iter().map(|(own, ..)| own.as_str()).list();
             did_you_mean(name, &names, "joints")
         });
         self.report(field, format!("unknown joint '{name}'"), hint.flatten())
@@ -136,9 +137,9 @@ impl Source for Linker<'_> {
             (None, Some(Default::Triple(x))) => return Some(x.map(Tape::from)),
             (None, _) => return self.missing(field),
         };
-        let units: Vec<&str> = field.unit.split(',').collect();
+        let units: Vec<&str> = field.unit.split(',').list();
         let mut read = |k: usize| {
-            let path: Vec<String> = self.path(field).into_iter().chain([k.to_string()]).collect();
+            let path: Vec<String> = self.path(field).into_iter().chain([k.to_string()]).list();
             self.read(&items[k], &path, units.get(k).unwrap_or(&ANY_UNIT), Reach::Parameters)
         };
         let (x, y, z) = (read(0), read(1), read(2));
@@ -160,11 +161,11 @@ impl Source for Linker<'_> {
         };
         let (path, reach) = (self.path(field), self.reach());
         let read = |(k, item): (usize, &Value)| {
-            let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).collect();
+            let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).list();
             self.read(item, &path, &field.unit, reach)
         };
         // every formula is read, so that all errors are reported at once
-        let all: Vec<Option<Tape>> = items.iter().enumerate().map(read).collect();
+        let all: Vec<Option<Tape>> = items.iter().enumerate().map(read).list();
         all.into_iter().collect()
     }
 
@@ -179,7 +180,7 @@ impl Source for Linker<'_> {
         };
         let mut all = Vec::new();
         for (name, factor) in items {
-            let path: Vec<String> = self.path(field).into_iter().chain([name.clone()]).collect();
+            let path: Vec<String> = self.path(field).into_iter().chain([name.clone()]).list();
             let of = self.position(field, name);
             let factor = self.read(factor, &path, ANY_UNIT, Reach::Parameters);
             all.push(of.zip(factor));

@@ -7,7 +7,7 @@ use super::read_shapes::corners;
 use super::scope::{Reach, Scope};
 use super::svg_path;
 use crate::expression::Tape;
-use crate::math::Local;
+use crate::math::{Listed, Local};
 
 /// The outline of a body as formulas. None if it is absent or faulty; faults are reported.
 pub(super) fn read(
@@ -45,7 +45,7 @@ fn circle(
     scope: &Scope,
     problems: &mut Vec<Problem>,
 ) -> Option<Outline<Tape>> {
-    let path: Vec<String> = path.iter().cloned().chain(["circle".to_string()]).collect();
+    let path: Vec<String> = path.iter().cloned().chain(["circle".to_string()]).list();
     let items = match value {
         Value::List(items) if items.len() == 3 => items,
         _ => {
@@ -54,7 +54,7 @@ fn circle(
         }
     };
     let mut number = |k: usize| {
-        let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).collect();
+        let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).list();
         scope.formula(&items[k], &path, "m", Reach::Parameters, problems)
     };
     let (x, y, radius) = (number(0), number(1), number(2));
@@ -71,7 +71,7 @@ fn drawn(text: &str, path: &[String], problems: &mut Vec<Problem>) -> Option<Out
             Some(Outline::Path(parts.collect()))
         }
         Err(fault) => {
-            let path: Vec<String> = path.iter().cloned().chain(["path".to_string()]).collect();
+            let path: Vec<String> = path.iter().cloned().chain(["path".to_string()]).list();
             let message = format!(
                 "{} (character {})",
                 fault.message,

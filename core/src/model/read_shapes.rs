@@ -6,7 +6,7 @@ use super::problem::Problem;
 use super::scope::{Reach, Scope};
 use super::shape_fields::section;
 use crate::expression::Tape;
-use crate::math::Local;
+use crate::math::{each, Listed, Local};
 
 /// The shapes of a body as formulas. Faulty shapes are omitted and reported.
 pub(super) fn read(
@@ -26,7 +26,7 @@ pub(super) fn read(
         }
     };
     let one = |(k, item): (usize, &Value)| {
-        let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).collect();
+        let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).list();
         let Value::Table(fields) = item else {
             let message = format!("shape {}: must be a table, not {}", k + 1, item.noun());
             problems.push(Problem::at(&path, message));
@@ -34,7 +34,7 @@ pub(super) fn read(
         };
         Reader { fields, path, number: k + 1, scope, problems }.shape()
     };
-    items.iter().enumerate().filter_map(one).collect()
+    items.iter().enumerate().filter_map(one).list()
 }
 
 struct Reader<'a> {
@@ -100,7 +100,7 @@ impl<'a> Reader<'a> {
     /// The mass, or the density with an extent.
     fn matter(&mut self, kind: &str) -> Option<Matter<Tape>> {
         let other = section(kind);
-        match [self.get("mass"), self.get("density"), self.get(other)].map(|v| v.is_some()) {
+        match each([self.get("mass"), self.get("density"), self.get(other)], |v| v.is_some()) {
             [true, true, _] => self.report("density", "given beside mass; remove mass or density"),
             [true, false, true] => {
                 let message =
@@ -138,7 +138,7 @@ impl<'a> Reader<'a> {
     }
 
     fn at(&self, key: &str) -> Vec<String> {
-        self.path.iter().cloned().chain((!key.is_empty()).then(|| key.to_string())).collect()
+        self.path.iter().cloned().chain((!key.is_empty()).then(|| key.to_string())).list()
     }
 
     /// Reports a fault with the number and the type of the shape.
@@ -164,9 +164,9 @@ pub(super) fn corners(
         .iter()
         .enumerate()
         .map(|(k, item)| {
-            let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).collect();
+            let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).list();
             scope.pair(item, &path, "m", problems)
         })
-        .collect();
+        .list();
     points.into_iter().map(|p| p.map(|[x, y]| Local { x, y })).collect()
 }

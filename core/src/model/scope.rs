@@ -12,6 +12,7 @@ use super::unit_check::check_unit;
 use super::variable::{Dependence, Variable};
 use crate::elements::{states_of, BodyId, Coordinate, Followed, Measured, OwnState};
 use crate::expression::{Expression, ExpressionError, Inferred, Names, Symbol, Table, Tape};
+use crate::math::Listed;
 use std::cell::RefCell;
 use std::sync::Arc;
 
@@ -154,7 +155,7 @@ impl Names for Visible<'_> {
         known.push("t".to_string());
         for (k, (body, _)) in self.scope.bodies.iter().enumerate().skip(1) {
             let coordinates = Coordinate::ALL.into_iter().filter(|c| self.sees(k, *c));
-            known.extend(coordinates.map(|c| format!("{body}.{}", c.name())));
+            coordinates.map(|c| format!("{body}.{}", c.name())).append_to(&mut known);
         }
         if self.reach == Reach::State {
             known.extend(self.scope.states.iter().cloned());
@@ -163,7 +164,7 @@ impl Names for Visible<'_> {
         if let Some(law) = self.law {
             let orders = 1 + usize::from(self.reach == Reach::State);
             let own = law.own.iter().flat_map(|of| of.names.iter().take(orders));
-            known.extend(own.map(|name| name.to_string()));
+            own.map(|name| name.to_string()).append_to(&mut known);
             known.extend(law.quantities.names(self.reach == Reach::State));
         }
         known
@@ -199,9 +200,9 @@ impl Scope {
         });
         let bodies = std::iter::once(("ground".to_string(), true))
             .chain(moving.map(|b| (b.name.clone(), turns(b))))
-            .collect();
-        let parameters = definition.parameters.iter().map(|(name, _)| name.clone()).collect();
-        let mut scope = Self::of(parameters, inferred, bodies, states.collect());
+            .list();
+        let parameters = definition.parameters.iter().map(|(name, _)| name.clone()).list();
+        let mut scope = Self::of(parameters, inferred, bodies, states.list());
         scope.functions.clone_from(&definition.functions);
         let constraints = definition.joints.iter().chain(&definition.drivers);
         scope.places.constraints = places(constraints.map(|entry| &entry.name));
@@ -370,7 +371,7 @@ impl Scope {
         match value {
             Value::List(items) if items.len() == 2 => {
                 let mut at = |k: usize| {
-                    let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).collect();
+                    let path: Vec<String> = path.iter().cloned().chain([k.to_string()]).list();
                     self.law(&items[k], &path, unit, place, problems)
                 };
                 let (x, y) = (at(0), at(1));

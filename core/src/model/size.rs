@@ -2,7 +2,7 @@
 
 use super::Model;
 use crate::elements::Fixes;
-use crate::math::Real;
+use crate::math::{Listed, Real};
 
 /// The size of a mechanism, m: the largest of the distances of points and curves from the origins of their frames,
 /// and of the distances between two points fixed by a joint. 1 m if there are no such distances.
@@ -38,12 +38,12 @@ pub fn usual_energy(model: &Model) -> f64 {
 /// Scale of each coordinate, shape (n_q): the size for lengths, 1 for angles.
 pub fn column_scales<S: Real>(model: &Model<S>) -> Vec<f64> {
     let size = size(model);
-    model.layout.lengths().into_iter().map(|length| if length { size } else { 1.0 }).collect()
+    model.layout.lengths().into_iter().map(|length| if length { size } else { 1.0 }).list()
 }
 
 /// Scale of each row of Φ, shape (n_rows): the size for lengths, 1 for angles.
 pub fn row_scales<S: Real>(model: &Model<S>) -> Vec<f64> {
     let size = size(model);
     let units = model.constraints.iter().flat_map(|c| c.equations.iter().map(|e| e.unit));
-    units.map(|unit| if unit == "m" { size } else { 1.0 }).collect()
+    units.map(|unit| if unit == "m" { size } else { 1.0 }).list()
 }

@@ -3,7 +3,7 @@
 //! The crate svgtypes parses the data, and kurbo provides the curves. Coordinates are in m in the frame of the body,
 //! with y upwards. Curves become polylines.
 
-use crate::math::Local;
+use crate::math::{Listed, Local};
 use kurbo::{Arc, CubicBez, ParamCurve, Point, QuadBez, SvgArc, Vec2};
 use std::f64::consts::TAU;
 use std::ops::Range;
@@ -37,7 +37,7 @@ pub(super) fn parse(text: &str) -> Result<Vec<Subpath>, PathFault> {
     for segment in PathParser::from(text) {
         pen.follow(segment.map_err(|error| fault(text, &error))?);
     }
-    let found: Vec<Subpath> = pen.parts.into_iter().filter(|part| part.points.len() > 1).collect();
+    let found: Vec<Subpath> = pen.parts.into_iter().filter(|part| part.points.len() > 1).list();
     match found.is_empty() {
         true => Err(PathFault { span: 0..text.len(), message: "draws nothing".to_string() }),
         false => Ok(found),

@@ -4,7 +4,7 @@ use super::definition::{Definition, Entry, Value};
 use super::problem::Problem;
 use crate::elements::{self, Default, Field, Shape};
 use crate::expression::{Outside, Points, Table};
-use crate::math::Interpolation;
+use crate::math::{Interpolation, Listed};
 use std::sync::Arc;
 
 /// The fields of a table, for the reader of files, the schema and the reference page.
@@ -105,7 +105,7 @@ fn table(entry: &Entry) -> Result<Table, Problem> {
     };
     Table::new(&entry.name, &points).map_err(|fault| {
         let entry_of = fault.entry.map(|k| k.to_string());
-        let path: Vec<&str> = std::iter::once(fault.field).chain(entry_of.as_deref()).collect();
+        let path: Vec<&str> = std::iter::once(fault.field).chain(entry_of.as_deref()).list();
         let message = match (file, fault.entry) {
             (Some(file), Some(k)) => format!("{} (point {} of {file})", fault.message, k + 1),
             (Some(file), None) => format!("{} ({file})", fault.message),
@@ -128,5 +128,5 @@ fn numbers(entry: &Entry, field: &str) -> Option<Vec<f64>> {
         Value::Number(x) => *x,
         _ => f64::NAN,
     };
-    Some(items.iter().map(number).collect())
+    Some(items.iter().map(number).list())
 }

@@ -13,7 +13,7 @@
 
 use super::mass_block::{dot, InverseMass, PIVOT_TOLERANCE};
 use super::structure::{index, RowBlock};
-use crate::math::{each, indexed, Real};
+use crate::math::{each, indexed, Listed, Real};
 
 /// A pair of rows that is eliminated with its group.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -222,8 +222,8 @@ pub(super) fn condensations(
         }
     };
     let all = Loads {
-        pins: loads.iter().flat_map(|loads| &loads.pins).copied().collect(),
-        others: loads.iter().flat_map(|loads| &loads.others).copied().collect(),
+        pins: loads.iter().flat_map(|loads| &loads.pins).copied().list(),
+        others: loads.iter().flat_map(|loads| &loads.others).copied().list(),
     };
-    (loads.iter().zip(condensed).map(record).collect(), all)
+    (loads.iter().zip(condensed).map(record).list(), all)
 }

@@ -7,6 +7,7 @@
 //! of elimination trees in sparse factorization*, SIAM J. Matrix Anal. Appl. 11 (1990) 134).
 
 use super::order::touched_first;
+use crate::math::Listed;
 use std::ops::Range;
 
 /// Pattern, elimination order and plan of a block matrix [S Gᵀ; G -μ].
@@ -47,7 +48,7 @@ impl LuPlan {
                 *next += size;
                 Some(start)
             })
-            .collect();
+            .list();
         let (columns, below) = structure(&position, entries);
         let mut plan = Self { sizes, starts, order, position, columns, below, targets: Vec::new() };
         plan.targets = plan.plan();

@@ -2,7 +2,7 @@
 
 use super::breakdown::Breakdown;
 use super::structure::Group;
-use crate::math::{indexed, Real};
+use crate::math::{indexed, Listed, Real};
 
 /// Smallest accepted ratio of a pivot to the diagonal entry before cancellation.
 pub const PIVOT_TOLERANCE: f64 = 1e-13;
@@ -95,7 +95,7 @@ pub(super) fn kinds(groups: &[Group], condensed: &[bool]) -> [Vec<u32>; 3] {
     let numbers = || (0..).zip(groups.iter().zip(condensed));
     let select = |which: &dyn Fn(&Group) -> bool| {
         let free = numbers().filter(|(_, (group, condensed))| !**condensed && which(group));
-        free.map(|(k, _)| k).collect::<Vec<u32>>()
+        free.map(|(k, _)| k).list()
     };
     [select(&|group| !group.coupled), select(&|group| group.coupled), select(&|_| true)]
 }

@@ -8,6 +8,7 @@
 //! Duff, *An approximate minimum degree ordering algorithm*, SIAM J. Matrix Anal. Appl. 17 (1996) 886).
 //! Supervariables are not detected, since the caller defines the blocks.
 
+use crate::math::Listed;
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
@@ -36,7 +37,7 @@ pub fn groups_first(
     let starts = match blocks {
         Some(starts) => starts,
         None => {
-            single = (0..n).collect();
+            single = (0..n).list();
             &single
         }
     };
@@ -63,7 +64,7 @@ pub fn groups_first(
 /// # Panics
 /// If an index is not in `0..n`.
 pub fn touched_first(n_first: usize, n: usize, entries: &[(usize, usize)]) -> Vec<usize> {
-    let starts: Vec<usize> = (0..n).collect();
+    let starts: Vec<usize> = (0..n).list();
     let mut graph = Graph::new(&starts, n_first, n, entries);
     graph.release(n_first);
     let mut order = Vec::with_capacity(n);
@@ -129,7 +130,7 @@ impl Graph {
                 let degree = neighbours[b].iter().map(|&v| weight[v]).sum();
                 (u8::from(starts[b] >= n_first), degree, b)
             })
-            .collect();
+            .list();
         let queue = key.iter().copied().map(Reverse).collect();
         Self {
             weight,

@@ -12,6 +12,7 @@ use super::records::{next, PinRows, Program, Row};
 use super::storage::{is_pin_only, Storage};
 use super::structure::{count_entries, group_starts, index, row_starts, Group, RowBlock};
 use super::symbolic;
+use crate::math::Listed;
 
 /// A row of three entries at a group.
 #[derive(Clone, Copy, Debug)]
@@ -72,12 +73,12 @@ impl Pattern {
         let pin_only = |(own, _): &(&usize, &Row)| is_pin_only(&touches[**own]);
         let record =
             |(own, row): (&usize, &Row)| PinRows::new(&touches[*own], remaining.numbers[*own], row);
-        let pin_rows = order.iter().zip(&program.rows).filter(pin_only).map(record).collect();
+        let pin_rows = order.iter().zip(&program.rows).filter(pin_only).map(record).list();
         let mut is_condensed = vec![false; groups.len()];
         condensed_blocks.iter().for_each(|block| is_condensed[block.group as usize] = true);
         let [diagonal, coupled, free] = kinds(groups, &is_condensed);
         Self {
-            starts: starts.into_iter().map(index).collect(),
+            starts: starts.into_iter().map(index).list(),
             diagonal,
             coupled,
             free,
@@ -180,9 +181,9 @@ impl Remaining {
         condensed.iter().for_each(|block| remains[*block] = false);
         let numbers = || (0..blocks.len()).filter(|k| remains[*k]);
         Self {
-            blocks: numbers().map(|k| blocks[k].clone()).collect(),
-            rows: numbers().map(|k| starts[k]).collect(),
-            numbers: numbers().map(index).collect(),
+            blocks: numbers().map(|k| blocks[k].clone()).list(),
+            rows: numbers().map(|k| starts[k]).list(),
+            numbers: numbers().map(index).list(),
         }
     }
 }
@@ -192,7 +193,7 @@ impl Remaining {
 fn units(blocks: &[RowBlock]) -> Vec<(u32, f64)> {
     let of = |block: &RowBlock| {
         let firsts = block.touches.iter().map(|(_, first)| index(first / 3));
-        firsts.zip(block.signs.clone()).collect::<Vec<_>>()
+        firsts.zip(block.signs.clone()).list()
     };
-    blocks.iter().flat_map(of).collect()
+    blocks.iter().flat_map(of).list()
 }

@@ -7,6 +7,7 @@
 //!
 //! Rows should have comparable length ([`normalize_rows`]). The cost is O(m n rank).
 
+use crate::math::Listed;
 /// Relative tolerance for rows of length 1 whose entries contain only rounding errors.
 pub const RANK_TOLERANCE: f64 = 1e-9;
 
@@ -57,7 +58,7 @@ pub fn normalize_rows(matrix: &mut [f64], columns: usize) -> Vec<f64> {
         }
         length
     })
-    .collect()
+    .list()
 }
 
 /// Rank of the row-major `matrix` with `columns` columns. A row is dependent if its remainder is at most `tolerance`
@@ -68,14 +69,13 @@ pub fn normalize_rows(matrix: &mut [f64], columns: usize) -> Vec<f64> {
 pub fn rank(matrix: &[f64], columns: usize, tolerance: f64) -> Rank {
     assert!(matrix.iter().all(|a| a.is_finite()), "a finite matrix");
     let m = count_rows(matrix, columns);
-    let mut rows: Vec<Vec<f64>> =
-        matrix.chunks_exact(columns.max(1)).map(<[f64]>::to_vec).collect();
+    let mut rows: Vec<Vec<f64>> = matrix.chunks_exact(columns.max(1)).map(<[f64]>::to_vec).list();
     let bound = tolerance * rows.iter().map(|row| length(row)).fold(0.0, f64::max);
-    let mut left: Vec<usize> = (0..m).collect();
+    let mut left: Vec<usize> = (0..m).list();
     let (mut independent, mut kept, mut dropped) = (vec![], vec![], 0.0);
     while !left.is_empty() {
         let k = independent.len();
-        let remainder: Vec<f64> = left.iter().map(|&i| length(&rows[i][k..])).collect();
+        let remainder: Vec<f64> = left.iter().map(|&i| length(&rows[i][k..])).list();
         let largest = remainder.iter().copied().fold(0.0, f64::max);
         if largest <= bound {
             dropped = largest;

@@ -10,7 +10,7 @@ use super::mass_block::dot;
 use super::pattern::{GroupRow, Pattern};
 use super::records::LightRow;
 use super::saddle::Saddle;
-use crate::math::Real;
+use crate::math::{Listed, Real};
 
 /// A light group: the ratios W/M̃ of its first two unknowns and of its third one.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -31,7 +31,7 @@ impl<S: Real> Saddle<S> {
             let excess = of_group[group as usize]?.map(|ratio: f64| 1.0 - ratio);
             Some(LightRow { entry, group, sum, excess })
         };
-        self.light = rows.filter_map(light).collect();
+        self.light = rows.filter_map(light).list();
     }
 
     /// Subtracts from the sums of the pivots what light groups exceed their reference masses by.

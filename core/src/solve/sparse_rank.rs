@@ -5,6 +5,7 @@
 //! remains before, it depends on the rows before it. A dependent row does not change R, so that R is the factor of
 //! the independent rows only. The cost is that of a sparse Cholesky factorisation of Aᵀ A.
 
+use crate::math::Listed;
 use std::collections::BTreeMap;
 
 /// Columns in ascending order, with their entries.
@@ -78,7 +79,7 @@ impl SparseRank {
                 y[k] += rows[k].iter().map(|(c, a)| a * x[*c]).sum::<f64>();
             }
         }
-        independent().filter(|k| y[*k] != 0.0).map(|k| (k, y[k])).collect()
+        independent().filter(|k| y[*k] != 0.0).map(|k| (k, y[k])).list()
     }
 
     /// The x with Rᵀ R x = b; zero in columns without a row of R.

@@ -6,6 +6,7 @@
 
 use super::records::{PinEnd, Touch};
 use super::structure::{index, RowBlock};
+use crate::math::Listed;
 
 /// The storage map.
 #[derive(Clone, Debug, Default)]
@@ -39,7 +40,7 @@ impl Storage {
             touches[k] = storage.push(&blocks[k], starts, &with_pins);
             if !is_pin_only(&touches[k]) {
                 let pins = touches[k].iter().filter(|touch| touch.sign != 0.0);
-                storage.mixed.extend(pins.map(PinEnd::new));
+                pins.map(PinEnd::new).append_to(&mut storage.mixed);
             }
         }
         (storage, touches)
@@ -54,7 +55,7 @@ impl Storage {
                 self.n_pins - 1
             } else {
                 let sources = (0..index(block.size)).map(|r| (entry + r, index(group)));
-                self.rows.extend(sources.map(|(entry, group)| Source { entry, group }));
+                sources.map(|(entry, group)| Source { entry, group }).append_to(&mut self.rows);
                 self.rows.len() - block.size
             };
             let (first, at) = (index(stored), index(starts[group]));
@@ -66,7 +67,7 @@ impl Storage {
                 sign: sign.map_or(0.0, |sign| *sign as f32),
             }
         };
-        block.touches.iter().enumerate().map(touch).collect()
+        block.touches.iter().enumerate().map(touch).list()
     }
 }
 

@@ -5,6 +5,7 @@ use super::order::groups_first;
 use super::records::{Below, Left, Pair, Program, Row, Start, Touch, Update};
 use super::storage::is_pin_only;
 use super::structure::{index, row_starts, RowBlock};
+use crate::math::{each, Listed};
 
 /// The program with all products, row by row, and the number of values in the blocks of L.
 pub(super) fn program(
@@ -70,7 +71,7 @@ impl Program {
 fn pairs<'a>(one: &'a [Touch], other: &'a [Touch]) -> impl Iterator<Item = Pair> + 'a {
     one.iter().filter_map(|own| {
         let partner = other.iter().find(|t| t.group == own.group)?;
-        let [sign, of_partner] = [own, partner].map(|touch| f64::from(touch.sign));
+        let [sign, of_partner] = each([own, partner], |touch| f64::from(touch.sign));
         let sign = if sign == 0.0 { of_partner } else { sign * of_partner };
         Some(Pair { first: [own.first, partner.first], sign })
     })
@@ -94,13 +95,13 @@ struct Factors {
 
 impl Factors {
     fn new(blocks: &[RowBlock], order: &[usize], rows_below: &[Vec<usize>]) -> (Self, usize) {
-        let mut left: Vec<Vec<Place>> = order.iter().map(|_| Vec::new()).collect();
+        let mut left: Vec<Vec<Place>> = order.iter().map(|_| Vec::new()).list();
         for (column, rows) in rows_below.iter().enumerate() {
             for (at, &r) in rows.iter().enumerate() {
                 left[r].push(Place { column, at, block: 0 });
             }
         }
-        let mut below: Vec<Vec<u32>> = rows_below.iter().map(|rows| vec![0; rows.len()]).collect();
+        let mut below: Vec<Vec<u32>> = rows_below.iter().map(|rows| vec![0; rows.len()]).list();
         let (mut diagonals, mut n) = (Vec::with_capacity(order.len()), 0);
         for (left, &own) in left.iter_mut().zip(order) {
             let size = blocks[own].size;
@@ -124,7 +125,7 @@ impl Factors {
         rows_below: &[Vec<usize>],
     ) -> Vec<Vec<Vec<Update>>> {
         let none = |rows: &Vec<usize>| vec![Vec::new(); rows.len()];
-        let mut updates: Vec<Vec<Vec<Update>>> = rows_below.iter().map(none).collect();
+        let mut updates: Vec<Vec<Vec<Update>>> = rows_below.iter().map(none).list();
         for (place, (rows, below)) in rows_below.iter().zip(&self.below).enumerate() {
             let (diagonal, size) = (self.diagonals[place], index(blocks[order[place]].size));
             for (a, &r) in rows.iter().enumerate() {
@@ -142,19 +143,17 @@ impl Factors {
 /// The order in which row blocks are eliminated, after all groups.
 pub(super) fn order(groups: usize, blocks: &[RowBlock]) -> Vec<usize> {
     let (n_first, starts) = (3 * groups, row_starts(blocks));
-    let first: Vec<usize> = (0..n_first)
-        .step_by(3)
-        .chain(blocks.iter().zip(&starts).map(|(_, s)| n_first + s))
-        .collect();
+    let first: Vec<usize> =
+        (0..n_first).step_by(3).chain(blocks.iter().zip(&starts).map(|(_, s)| n_first + s)).list();
     let entries: Vec<(usize, usize)> = blocks
         .iter()
         .zip(&starts)
         .flat_map(|(b, s)| b.touches.iter().map(move |&(group, _)| (n_first + s, 3 * group)))
-        .collect();
+        .list();
     let n = n_first + starts[blocks.len()];
     let order = groups_first(n_first, n, &entries, Some(&first));
     let starting = |i: &usize| i.checked_sub(n_first).and_then(|i| starts.binary_search(&i).ok());
-    order.iter().filter_map(starting).collect()
+    order.iter().filter_map(starting).list()
 }
 
 /// For each column, the block rows below its diagonal in ascending order: later row blocks that share a group with
@@ -171,9 +170,9 @@ pub(super) fn rows_below(groups: usize, blocks: &[RowBlock], order: &[usize]) ->
     }
     let later = |(place, &own): (usize, &usize)| -> Vec<usize> {
         let sharing = blocks[own].touches.iter().flat_map(|&(group, _)| &at[group]);
-        sharing.copied().filter(|&other| other > place).collect()
+        sharing.copied().filter(|&other| other > place).list()
     };
-    fill(order.iter().enumerate().map(later).collect())
+    fill(order.iter().enumerate().map(later).list())
 }
 
 /// Adds the fill. The parent of a column is its first row, and inherits its other rows.

@@ -3,6 +3,7 @@
 //! Cyclic Jacobi rotations (Golub and Van Loan, *Matrix Computations*, 4th ed., 8.5) compute small eigenvalues
 //! accurately even if others are large.
 
+use crate::math::{Listed, Ordered};
 /// Largest number of sweeps; five to ten are usual.
 const SWEEPS: usize = 60;
 
@@ -20,9 +21,9 @@ impl Eigen {
     pub fn of(matrix: &[f64], n: usize) -> Self {
         assert_eq!(matrix.len(), n * n, "a square matrix");
         let mut a: Vec<f64> =
-            (0..n * n).map(|k| 0.5 * (matrix[k] + matrix[(k % n) * n + k / n])).collect();
+            (0..n * n).map(|k| 0.5 * (matrix[k] + matrix[(k % n) * n + k / n])).list();
         let mut vectors: Vec<Vec<f64>> =
-            (0..n).map(|k| (0..n).map(|j| f64::from(u8::from(j == k))).collect()).collect();
+            (0..n).map(|k| (0..n).map(|j| f64::from(u8::from(j == k))).list()).list();
         for _ in 0..SWEEPS {
             let mut rotated = false;
             for p in 0..n {
@@ -34,11 +35,11 @@ impl Eigen {
                 break;
             }
         }
-        let mut order: Vec<usize> = (0..n).collect();
-        order.sort_by(|i, j| a[i * n + i].total_cmp(&a[j * n + j]));
+        let mut order: Vec<usize> = (0..n).list();
+        order.order_by(|i, j| a[i * n + i].total_cmp(&a[j * n + j]));
         Self {
-            values: order.iter().map(|k| a[k * n + k]).collect(),
-            vectors: order.iter().map(|k| vectors[*k].clone()).collect(),
+            values: order.iter().map(|k| a[k * n + k]).list(),
+            vectors: order.iter().map(|k| vectors[*k].clone()).list(),
         }
     }
 }

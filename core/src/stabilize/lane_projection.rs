@@ -6,7 +6,7 @@
 
 use super::projection::{Projection, CLOSED, MARGIN, MOST, SLOW};
 use crate::equations::{Residuals, Workspace};
-use crate::math::{indexed, Lanes, Real};
+use crate::math::{indexed, Lanes, Listed, Real};
 use crate::model::{column_scales, row_scales, Model};
 
 const WIDTH: usize = Lanes::WIDTH;
@@ -44,7 +44,7 @@ impl LaneProjector {
     pub fn new(models: [&Model; WIDTH], wide: &Model<Lanes>, options: Projection) -> Self {
         let side_by_side = |scales: [Vec<f64>; WIDTH]| -> Vec<Lanes> {
             let number = |k: usize| Lanes::new(indexed(|lane| 1.0 / scales[lane][k]));
-            (0..scales[0].len()).map(number).collect()
+            (0..scales[0].len()).map(number).list()
         };
         Self {
             tolerance: options.tolerance,

@@ -15,7 +15,7 @@
 
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, Residuals, Workspace};
-use crate::math::{Largest, Real};
+use crate::math::{Largest, Listed, Real};
 use crate::model::{column_scales, Model};
 use crate::solve::Breakdown;
 
@@ -103,7 +103,7 @@ impl<'a, S: Real> Projector<'a, S> {
         Self {
             model,
             tolerance: options.tolerance,
-            per_scale: column_scales(model).into_iter().map(|scale| 1.0 / scale).collect(),
+            per_scale: column_scales(model).into_iter().map(|scale| 1.0 / scale).list(),
             residuals: Residuals::new(model),
             gaps: [f64::NAN; 2],
             known: Known::Nothing,

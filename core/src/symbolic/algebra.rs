@@ -3,21 +3,22 @@
 use super::arena::{Arena, Id, Node, NAN, ONE, ZERO};
 use super::function::Function;
 use super::number::Bits;
+use crate::math::{Listed, Ordered};
 
 /// Terms of a sum with their factors, or bases of a product with their exponents.
 pub(super) type List = Vec<(Id, f64)>;
 
 fn read(list: &[(Id, Bits)]) -> List {
-    list.iter().map(|(id, x)| (*id, x.get())).collect()
+    list.iter().map(|(id, x)| (*id, x.get())).list()
 }
 
 fn write(list: List) -> Vec<(Id, Bits)> {
-    list.into_iter().map(|(id, x)| (id, Bits::of(x))).collect()
+    list.into_iter().map(|(id, x)| (id, Bits::of(x))).list()
 }
 
 /// Adds the numbers of equal entries and removes entries that cancel.
 fn merge(mut list: List) -> List {
-    list.sort_by_key(|(id, _)| *id);
+    list.order_by_key(|(id, _)| *id);
     let mut merged: Vec<(Id, f64, f64)> = Vec::with_capacity(list.len());
     for (id, x) in list {
         match merged.last_mut() {
@@ -29,7 +30,7 @@ fn merge(mut list: List) -> List {
         }
     }
     let kept = merged.into_iter().filter(|(_, x, largest)| x.abs() > 1e-15 * largest);
-    kept.map(|(id, x, _)| (id, x)).collect()
+    kept.map(|(id, x, _)| (id, x)).list()
 }
 
 impl Arena {
@@ -55,7 +56,7 @@ impl Arena {
             if id == NAN || c.is_nan() {
                 return NAN;
             }
-            flat.extend(self.terms(id).into_iter().map(|(id, k)| (id, k * c)));
+            self.terms(id).into_iter().map(|(id, k)| (id, k * c)).append_to(&mut flat);
         }
         let mut terms = merge(flat);
         while let Some(reduced) = self.reduce(&terms) {
@@ -108,7 +109,7 @@ impl Arena {
         let size = terms[0].1.abs();
         let common = terms.iter().all(|(_, c)| c.abs() == size);
         let size = if common { size } else { 1.0 };
-        let scaled = |k: f64| Node::Sum(write(terms.iter().map(|(id, c)| (*id, c / k)).collect()));
+        let scaled = |k: f64| Node::Sum(write(terms.iter().map(|(id, c)| (*id, c / k)).list()));
         let (plus, minus) = (self.add(scaled(size)), self.add(scaled(-size)));
         let negative = terms.iter().all(|(_, c)| *c < 0.0);
         if self.signs.contains(&minus) || negative && !self.signs.contains(&plus) {
@@ -165,7 +166,7 @@ impl Arena {
         if !whole && (c != 1.0 || !single) {
             return self.product(1.0, vec![(x, exponent)]);
         }
-        let raised = factors.into_iter().map(|(base, e)| (base, e * exponent)).collect();
+        let raised = factors.into_iter().map(|(base, e)| (base, e * exponent)).list();
         self.product(c.powf(exponent), raised)
     }
 

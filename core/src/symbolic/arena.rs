@@ -3,6 +3,7 @@
 use super::function::Function;
 use super::name::{Axis, Name};
 use super::number::Bits;
+use crate::math::Listed;
 use std::collections::{HashMap, HashSet};
 
 /// The index of a node.
@@ -153,7 +154,7 @@ impl Arena {
         match self.node(id) {
             Node::Number(_) | Node::Symbol(_) => Vec::new(),
             Node::Turned { angle, .. } => vec![*angle],
-            Node::Sum(terms) | Node::Product(terms) => terms.iter().map(|(id, _)| *id).collect(),
+            Node::Sum(terms) | Node::Product(terms) => terms.iter().map(|(id, _)| *id).list(),
             Node::Call(_, arguments) => arguments.clone(),
             Node::Select(parts) => parts.to_vec(),
             Node::Table { x, .. } => vec![*x],

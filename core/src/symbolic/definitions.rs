@@ -4,6 +4,7 @@ use super::arena::{Arena, Id, Node, Pair, Rate};
 use super::function::Function;
 use super::name::{Axis, NameKind};
 use super::style::Form;
+use crate::math::each;
 
 impl Arena {
     /// Appends the named parts of an expression to `order`, each after the parts in its definition.
@@ -41,8 +42,9 @@ impl Arena {
     pub fn meaning(&mut self, id: Id, form: Form) -> String {
         if let Node::Turned { pair, angle, axis } = *self.node(id) {
             let Pair { x, y, .. } = self.pairs[pair];
-            let [cos, sin] = [Function::Cos, Function::Sin]
-                .map(|function| self.add(Node::Call(function, vec![angle])));
+            let [cos, sin] = each([Function::Cos, Function::Sin], |function| {
+                self.add(Node::Call(function, vec![angle]))
+            });
             let (first, sign, second) = match axis {
                 Axis::X => ([x, cos], form.minus(), [y, sin]),
                 Axis::Y => ([x, sin], "+", [y, cos]),

@@ -3,6 +3,7 @@
 use super::arena::{Arena, Id, Node, Rate, Symbol, NAN, ONE, ZERO};
 use super::function::Function;
 use super::name::Axis;
+use crate::math::Listed;
 use std::collections::HashMap;
 
 /// The variable of differentiation.
@@ -42,7 +43,7 @@ impl Derivation {
                 arena.sum(vec![(product, sign)])
             }
             Node::Sum(terms) => {
-                let terms = terms.iter().map(|(id, c)| (self.of(arena, *id), c.get())).collect();
+                let terms = terms.iter().map(|(id, c)| (self.of(arena, *id), c.get())).list();
                 arena.sum(terms)
             }
             Node::Product(_) => self.product(arena, id),
@@ -103,7 +104,7 @@ impl Derivation {
 
     /// Chain rule.
     fn call(&mut self, arena: &mut Arena, function: Function, arguments: &[Id], id: Id) -> Id {
-        let slopes: Vec<Id> = arguments.iter().map(|x| self.of(arena, *x)).collect();
+        let slopes: Vec<Id> = arguments.iter().map(|x| self.of(arena, *x)).list();
         if slopes.iter().all(|slope| *slope == ZERO) {
             return ZERO;
         }

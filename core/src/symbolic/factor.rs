@@ -4,6 +4,7 @@ use super::algebra::List;
 use super::arena::{Arena, Id, Node, ONE};
 use super::name::NameKind;
 use super::style::Form;
+use crate::math::{each, Listed};
 
 /// Largest number of terms up to which products of sums are expanded.
 const MOST_TERMS: usize = 200;
@@ -12,7 +13,7 @@ impl Arena {
     /// The shorter of an expression and its form with collected terms.
     pub fn simplest(&mut self, id: Id) -> Id {
         let collected = self.collected(id);
-        let [now, then] = [id, collected].map(|id| self.write(id, Form::Expression).len());
+        let [now, then] = each([id, collected], |id| self.write(id, Form::Expression).len());
         if then < now {
             collected
         } else {
@@ -44,7 +45,7 @@ impl Arena {
         let mut all = List::new();
         for (term, c) in self.terms(sum) {
             let products = self.distributed(term);
-            all.extend(products.into_iter().map(|(id, k)| (id, c * k)));
+            products.into_iter().map(|(id, k)| (id, c * k)).append_to(&mut all);
         }
         all
     }
@@ -88,12 +89,12 @@ impl Arena {
             return sum;
         }
         let terms = self.terms(sum);
-        let products: Vec<List> = terms.iter().map(|(term, _)| self.factors(*term).1).collect();
+        let products: Vec<List> = terms.iter().map(|(term, _)| self.factors(*term).1).list();
         let Some(common) = self.most_common(&products) else { return sum };
         let (mut inside, mut others) = (List::new(), List::new());
         for ((term, c), factors) in terms.into_iter().zip(&products) {
             if factors.contains(&common) {
-                let rest = factors.iter().filter(|f| **f != common).copied().collect();
+                let rest = factors.iter().filter(|f| **f != common).copied().list();
                 inside.push((self.product(c, rest), 1.0));
             } else {
                 others.push((term, c));

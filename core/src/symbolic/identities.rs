@@ -4,6 +4,7 @@ use super::algebra::List;
 use super::arena::{Arena, Id, Node};
 use super::function::Function::{self, Cos, Sin};
 use super::name::Axis;
+use crate::math::Listed;
 
 impl Arena {
     /// The terms with two of them replaced by one term; `None` if no identity applies.
@@ -14,7 +15,7 @@ impl Arena {
                     self.join(terms[k], terms[l]).or_else(|| self.join(terms[l], terms[k]));
                 if let Some(joined) = joined {
                     let others = terms.iter().enumerate().filter(|(at, _)| *at != k && *at != l);
-                    let mut left: List = others.map(|(_, term)| *term).collect();
+                    let mut left: List = others.map(|(_, term)| *term).list();
                     left.extend(self.terms(joined));
                     return Some(left);
                 }
@@ -113,11 +114,11 @@ fn shared(a: &[(Id, f64)], b: &[(Id, f64)]) -> List {
         (e.signum() == other.signum())
             .then(|| (*id, if e.abs() < other.abs() { *e } else { other }))
     };
-    a.iter().filter_map(common).collect()
+    a.iter().filter_map(common).list()
 }
 
 /// A product without some of its factors.
 fn without(a: &[(Id, f64)], common: &[(Id, f64)]) -> List {
     let taken = |id| common.iter().find(|(other, _)| *other == id).map_or(0.0, |(_, e)| *e);
-    a.iter().map(|(id, e)| (*id, e - taken(*id))).filter(|(_, e)| *e != 0.0).collect()
+    a.iter().map(|(id, e)| (*id, e - taken(*id))).filter(|(_, e)| *e != 0.0).list()
 }

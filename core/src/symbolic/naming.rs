@@ -3,6 +3,7 @@
 use super::arena::{Arena, Id, Node, Rate, Symbol};
 use super::function::Function::{self, Cos, Sin};
 use super::name::{Axis, Name, NameKind};
+use crate::math::Listed;
 use std::collections::{HashMap, HashSet};
 
 /// Letters of named vectors: unit vectors and other vectors.
@@ -29,7 +30,7 @@ impl Arena {
             }
         }
         let mut rebuilt = HashMap::new();
-        roots.iter().map(|root| self.rebuilt(*root, &mut rebuilt)).collect()
+        roots.iter().map(|root| self.rebuilt(*root, &mut rebuilt)).list()
     }
 
     fn abbreviate(&mut self, id: Id, letter: String, axis: Axis, kind: NameKind) {
@@ -47,11 +48,11 @@ impl Arena {
         if let Some(known) = known.get(&id) {
             return *known;
         }
-        let parts: Vec<Id> = self.parts(id).into_iter().map(|p| self.rebuilt(p, known)).collect();
+        let parts: Vec<Id> = self.parts(id).into_iter().map(|p| self.rebuilt(p, known)).list();
         let made = match self.node(id).clone() {
             Node::Number(_) | Node::Symbol(_) | Node::Turned { .. } => id,
             Node::Sum(terms) => {
-                self.sum(parts.into_iter().zip(terms).map(|(p, (_, c))| (p, c.get())).collect())
+                self.sum(parts.into_iter().zip(terms).map(|(p, (_, c))| (p, c.get())).list())
             }
             Node::Product(factors) => {
                 let mut product = super::arena::ONE;

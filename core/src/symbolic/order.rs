@@ -3,6 +3,7 @@
 use super::algebra::List;
 use super::arena::{Arena, Id, Node};
 use super::name::{Axis, NameKind};
+use crate::math::{Listed, Ordered};
 
 impl Arena {
     /// The terms of a sum in written order. Terms of one body are adjacent, and bodies with a positive first term
@@ -18,7 +19,7 @@ impl Arena {
     /// Whether the first term of a sum is negative in its natural order.
     pub fn begins_negative(&self, sum: Id) -> bool {
         let mut terms = self.terms(sum);
-        terms.sort_by_cached_key(|(id, _)| (self.group(*id), self.term_key(*id, 1.0)));
+        terms.order_by_key(|(id, _)| (self.group(*id), self.term_key(*id, 1.0)));
         terms.first().is_some_and(|(_, c)| *c < 0.0)
     }
 
@@ -32,10 +33,10 @@ impl Arena {
             }
         }
         for (_, terms) in &mut groups {
-            terms.sort_by_cached_key(|(id, c)| self.term_key(*id, *c));
+            terms.order_by_key(|(id, c)| self.term_key(*id, *c));
         }
-        groups.sort_by_key(|(group, terms)| (terms[0].1 < 0.0, *group));
-        groups.into_iter().flat_map(|(_, terms)| terms).collect()
+        groups.order_by_key(|(group, terms)| (terms[0].1 < 0.0, *group));
+        groups.into_iter().flat_map(|(_, terms)| terms).list()
     }
 
     /// The group of a term: named parts first, then body by body, terms without a body last.
@@ -79,7 +80,7 @@ impl Arena {
 
     /// The factors in written order: scalars first, brackets last.
     pub fn ordered_factors(&self, mut factors: List) -> List {
-        factors.sort_by_key(|(base, _)| (self.rank(*base), self.owner(*base), *base));
+        factors.order_by_key(|(base, _)| (self.rank(*base), self.owner(*base), *base));
         factors
     }
 

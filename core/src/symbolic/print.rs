@@ -6,6 +6,7 @@ use super::function::Function;
 use super::name::{Axis, Name};
 use super::number::{digits, fraction};
 use super::style::Form;
+use crate::math::Listed;
 
 /// The precedence of the outermost operation of a text.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -51,7 +52,7 @@ impl Arena {
                 (form.power(&base, &exponent), Binding::Power)
             }
             Node::Call(function, parts) => {
-                let parts: Vec<String> = parts.iter().map(|p| self.write(*p, form)).collect();
+                let parts: Vec<String> = parts.iter().map(|p| self.write(*p, form)).list();
                 (form.call(function, &parts), Binding::Primary)
             }
             Node::Select(parts) => (self.select_text(parts, form), Binding::Primary),
@@ -65,7 +66,7 @@ impl Arena {
     fn select_text(&mut self, [condition, a, b]: [Id; 3], form: Form) -> String {
         let (more, less): (List, List) =
             self.terms(condition).into_iter().partition(|(_, c)| *c > 0.0);
-        let less = less.into_iter().map(|(id, c)| (id, -c)).collect();
+        let less = less.into_iter().map(|(id, c)| (id, -c)).list();
         let sides = [self.sum(more), self.sum(less)];
         let [left, right] = sides.map(|side| self.write(side, form));
         let [a, b] = [a, b].map(|value| self.write(value, form));
@@ -194,5 +195,5 @@ fn joined(mut texts: Vec<(String, Binding)>, form: Form) -> (String, Binding) {
         true => form.brackets(&text),
         false => text,
     });
-    (enclosed.collect::<Vec<_>>().join(form.times()), Binding::Product)
+    (enclosed.list().join(form.times()), Binding::Product)
 }

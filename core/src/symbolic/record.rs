@@ -5,6 +5,7 @@ use super::derivative::{By, Derivation};
 use super::name::Name;
 use super::style::Form;
 use crate::expression::{self, Tape};
+use crate::math::{Listed, Ordered};
 use std::cell::{Cell, RefCell};
 use std::collections::HashMap;
 use std::marker::PhantomData;
@@ -134,30 +135,30 @@ impl Record {
 
     /// Φ with its parts named, ∂Φ/∂q and γ.
     pub fn differentiate(&self, residual: &[Symbolic], unknowns: &[Symbolic]) -> Differentiated {
-        let roots: Vec<Id> = residual.iter().map(|x| self.own(*x)).collect();
-        let unknowns: Vec<Id> = unknowns.iter().map(|x| self.own(*x)).collect();
+        let roots: Vec<Id> = residual.iter().map(|x| self.own(*x)).list();
+        let unknowns: Vec<Id> = unknowns.iter().map(|x| self.own(*x)).list();
         let empty = (Vec::new(), Vec::new(), Vec::new());
         let (residual, jacobian, gamma) = self.with(empty, |arena| {
             let named = arena.name_parts(&roots);
             let mut by_time = Derivation::new(By::Time);
             let mut by: Vec<Derivation> =
-                unknowns.iter().map(|q| Derivation::new(By::Symbol(*q))).collect();
+                unknowns.iter().map(|q| Derivation::new(By::Symbol(*q))).list();
             let (mut rows, mut gamma) = (Vec::new(), Vec::new());
             for phi in &named {
-                let row = by.iter_mut().map(|by| by.of(arena, *phi)).collect::<Vec<_>>();
-                rows.push(row.into_iter().map(|entry| arena.simplest(entry)).collect::<Vec<_>>());
+                let row = by.iter_mut().map(|by| by.of(arena, *phi)).list();
+                rows.push(row.into_iter().map(|entry| arena.simplest(entry)).list());
                 let rate = by_time.of(arena, *phi);
                 let second = by_time.of(arena, rate);
                 let opposite = arena.sum(vec![(second, -1.0)]);
                 gamma.push(arena.simplest(opposite));
             }
-            let residual = named.into_iter().map(|phi| arena.simplest(phi)).collect::<Vec<_>>();
+            let residual = named.into_iter().map(|phi| arena.simplest(phi)).list();
             (residual, rows, gamma)
         });
-        let out = |ids: Vec<Id>| ids.into_iter().map(|id| self.of(id)).collect();
+        let out = |ids: Vec<Id>| ids.into_iter().map(|id| self.of(id)).list();
         Differentiated {
             residual: out(residual),
-            jacobian: jacobian.into_iter().map(out).collect(),
+            jacobian: jacobian.into_iter().map(out).list(),
             gamma: out(gamma),
         }
     }
@@ -193,18 +194,18 @@ impl Record {
 
     /// Names and definitions of the named parts of expressions, turned vectors first, rates last.
     pub fn definitions(&self, of: &[Symbolic], form: Form) -> Vec<(String, String)> {
-        let roots: Vec<Id> = of.iter().map(|x| self.own(*x)).collect();
+        let roots: Vec<Id> = of.iter().map(|x| self.own(*x)).list();
         self.with(Vec::new(), |arena| {
             let mut order = Vec::new();
             roots.iter().for_each(|root| arena.needed(*root, &mut order));
-            order.sort_by_cached_key(|id| arena.definition_key(*id));
-            order.into_iter().map(|id| (arena.write(id, form), arena.meaning(id, form))).collect()
+            order.order_by_key(|id| arena.definition_key(*id));
+            order.into_iter().map(|id| (arena.write(id, form), arena.meaning(id, form))).list()
         })
     }
 
     /// The names that occur in expressions and in the definitions of their named parts.
     pub fn names(&self, of: &[Symbolic]) -> Vec<String> {
-        let roots: Vec<Id> = of.iter().map(|x| self.own(*x)).collect();
+        let roots: Vec<Id> = of.iter().map(|x| self.own(*x)).list();
         self.with(Vec::new(), |arena| {
             let mut names = Vec::new();
             roots.iter().for_each(|root| arena.collect_names(*root, &mut names));

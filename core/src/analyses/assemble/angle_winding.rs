@@ -8,6 +8,7 @@ use super::targets::{nearest_turn, Targets};
 use crate::elements::{BodyId, Fixes, Group};
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
+use crate::math::{each, Listed};
 use crate::model::{ConstraintItem, Model};
 use std::f64::consts::{PI, TAU};
 
@@ -54,13 +55,13 @@ pub fn relax(model: &Model, targets: &Targets, q: &mut [f64]) -> Vec<String> {
 
 /// For each body, the first of the bodies whose angles relative to it are fixed by slides.
 fn turning_together(model: &Model) -> Vec<usize> {
-    let mut group: Vec<usize> = (0..model.bodies.len()).collect();
+    let mut group: Vec<usize> = (0..model.bodies.len()).list();
     let turns_together = |item: &&ConstraintItem| item.element.fixes().contains(&Fixes::Direction);
     for item in model.constraints.iter().filter(turns_together) {
-        let [a, b] = [0, 1].map(|end| root(&mut group, item.bodies[end].0));
+        let [a, b] = each([0, 1], |end| root(&mut group, item.bodies[end].0));
         group[a.max(b)] = a.min(b);
     }
-    (0..group.len()).map(|b| root(&mut group, b)).collect()
+    (0..group.len()).map(|b| root(&mut group, b)).list()
 }
 
 /// The first body of a group. Shortens the path to it (path halving).

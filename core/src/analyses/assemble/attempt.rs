@@ -6,7 +6,7 @@ use super::target::Target;
 use super::targets::Targets;
 use crate::analyses::closing::Closing;
 use crate::equations::kinematics;
-use crate::math::Pose;
+use crate::math::{Listed, Pose};
 use crate::model::Model;
 use crate::solve::newton::Record;
 
@@ -33,7 +33,7 @@ pub(super) fn internal(model: &Model, request: &Request) -> Vec<(usize, f64)> {
         Target::Internal { column, value } => Some((*column, *value)),
         _ => None,
     });
-    state.chain(guess).collect()
+    state.chain(guess).list()
 }
 
 /// Applies Newton's method from a position. The error is the position that it reached.
@@ -62,6 +62,6 @@ pub(super) fn given(model: &Model, asked: &Targets) -> Option<Vec<f64>> {
     let pose =
         |b: usize| asked.pose(b).filter(|_| near(b)).map(|[x, y, angle]| Pose::new(x, y, angle));
     let moving: Option<Vec<Pose>> = (1..asked.soft.len()).map(pose).collect();
-    let poses: Vec<Pose> = std::iter::once(Pose::identity()).chain(moving?).collect();
+    let poses: Vec<Pose> = std::iter::once(Pose::identity()).chain(moving?).list();
     Some(kinematics::coordinates(model, &poses))
 }

@@ -7,7 +7,7 @@
 use super::equation_placement::{zeros, Freedom, NOTHING};
 use super::placer::Placer;
 use crate::elements::At;
-use crate::math::{Pose, Vec2};
+use crate::math::{Listed, Ordered, Pose, Vec2};
 use std::f64::consts::PI;
 
 /// Largest distance that remains at a contact, as a fraction of the reach of the curve. Beyond the end of a curve, a
@@ -54,8 +54,8 @@ impl Placer<'_> {
             }
             Freedom::Slide(_) => -x,
         };
-        found.sort_by(|a, b| off(a).total_cmp(&off(b)));
-        found.into_iter().map(|x| freedom.pose(x)).collect()
+        found.order_by(|a, b| off(a).total_cmp(&off(b)));
+        found.into_iter().map(|x| freedom.pose(x)).list()
     }
 
     /// The signed distance of the bodies of a contact perpendicular to ∂Φ/∂u, and |Φ|, with body `b` at a pose.

@@ -10,6 +10,7 @@ use super::holding::SET;
 use super::request::Request;
 use super::target::trimmed;
 use super::velocities;
+use crate::math::Listed;
 
 use crate::analyses::closing::{Closing, Halt};
 use crate::analyses::dependence;
@@ -62,12 +63,12 @@ fn dependent(
     (met, last): (&[usize], usize),
     stop: Halt<'_>,
 ) -> Option<Vec<usize>> {
-    let kept: Vec<usize> = met.iter().copied().chain([last]).collect();
+    let kept: Vec<usize> = met.iter().copied().chain([last]).list();
     let reduced = keeping(model, &kept);
     let found = dependence::at(&reduced, t, q, RANK_TOLERANCE, stop);
     let of_last =
         found.into_iter().map(|one| one.group).find(|group| group.contains(&(kept.len() - 1)))?;
-    let mut others: Vec<usize> = of_last.into_iter().map(|k| kept[k]).collect();
+    let mut others: Vec<usize> = of_last.into_iter().map(|k| kept[k]).list();
     others.retain(|k| *k != last);
     others.sort_unstable();
     Some(others)
@@ -85,7 +86,7 @@ pub(super) fn of_positions(
     let [driven, rest] = parts(model).filter(|_| q.len() == model.layout.n_q)?;
     let rows = |k: &usize| model.layout.constraints[*k].rows.clone();
     let close = |q: &[f64], open: &[usize]| {
-        let rows: Vec<usize> = open.iter().flat_map(rows).collect();
+        let rows: Vec<usize> = open.iter().flat_map(rows).list();
         let mut q = q.to_vec();
         Closing::new(model, t, stop).without(&rows).close(&mut q).1.then_some(q)
     };
@@ -95,7 +96,7 @@ pub(super) fn of_positions(
             q = closed;
             continue;
         }
-        let met: Vec<usize> = rest.iter().chain(&driven[..k]).copied().collect();
+        let met: Vec<usize> = rest.iter().chain(&driven[..k]).copied().list();
         let met_there = dependent(model, t, &q, (&met, *last), stop)?;
         let near = close(&moved(model, &q, NEIGHBOUR, 0), &driven[k..]);
         near.map_or(Some(Vec::new()), |near| dependent(model, t, &near, (&met, *last), stop))?;
@@ -125,7 +126,7 @@ pub(super) fn of_joints(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Opt
     };
     let one = here.iter().find(contradicts)?;
     let name = |k: &usize| model.constraints[*k].name.as_str();
-    let names = listed(&one.group.iter().map(name).collect::<Vec<_>>());
+    let names = listed(&one.group.iter().map(name).list());
     // gaps add up to the missing length; if they are small, an angle does not agree
     let miss = |k: &usize, unit: &str| {
         let first = model.layout.constraints[*k].rows.start;
@@ -144,7 +145,7 @@ pub(super) fn of_joints(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Opt
         fault: Fault::Open,
         name: name(worst).to_string(),
         gap: if unit == "m" { miss(worst, unit) } else { 0.0 },
-        places: one.group.iter().map(|k| place(model, *k)).collect(),
+        places: one.group.iter().map(|k| place(model, *k)).list(),
         message: format!(
             "{names} contradict each other: they have one equation too many, and stay open by {by} {unit} in all, most at {}",
             name(worst)
@@ -202,9 +203,8 @@ pub(super) fn of_accelerations(
 ) -> Option<Failure> {
     let is_driven = |k: &&usize| model.constraints[**k].driven;
     let last = |one: &Dependent| one.group.iter().rev().find(is_driven).copied();
-    let left_out: Vec<usize> = redundant.iter().filter_map(last).collect();
-    let kept: Vec<usize> =
-        (0..extended.constraints.len()).filter(|k| !left_out.contains(k)).collect();
+    let left_out: Vec<usize> = redundant.iter().filter_map(last).list();
+    let kept: Vec<usize> = (0..extended.constraints.len()).filter(|k| !left_out.contains(k)).list();
     let mut v = vec![0.0; q.len()];
     velocities::project(&keeping(extended, &kept), request.t, q, &mut v);
     let m = model.layout.n_rows;
@@ -224,7 +224,7 @@ pub(super) fn of_accelerations(
         if f64::abs(sum) <= AGREE * size || !f64::is_finite(sum) {
             return None;
         }
-        let met = one.group.iter().copied().filter(|k| *k != missed).collect();
+        let met = one.group.iter().copied().filter(|k| *k != missed).list();
         let found = Contradiction { met, missed, by: f64::abs(sum / y), order: 2 };
         Some(failure(model, request, &found))
     })
@@ -250,12 +250,11 @@ fn place(model: &Model, k: usize) -> Vec<String> {
 
 fn failure(model: &Model, request: &Request, found: &Contradiction) -> Failure {
     let Contradiction { met, missed, by, order } = found;
-    let driven: Vec<usize> =
-        met.iter().filter(|k| model.constraints[**k].driven).copied().collect();
+    let driven: Vec<usize> = met.iter().filter(|k| model.constraints[**k].driven).copied().list();
     // without another driver, the joints determine the quantity
     let others = if driven.is_empty() { met } else { &driven };
-    let labels: Vec<String> = others.iter().map(|k| label(model, request, *k)).collect();
-    let others = listed(&labels.iter().map(String::as_str).collect::<Vec<_>>());
+    let labels: Vec<String> = others.iter().map(|k| label(model, request, *k)).list();
+    let others = listed(&labels.iter().map(String::as_str).list());
     let last = label(model, request, *missed);
     let hold = if labels.len() == 1 { "holds" } else { "hold" };
     let unit = model.constraints[*missed].equations[0].unit;
@@ -273,7 +272,7 @@ fn failure(model: &Model, request: &Request, found: &Contradiction) -> Failure {
         fault: if *order > 0 { Fault::Rates } else { Fault::Open },
         name: name.strip_prefix(SET).unwrap_or(name).to_string(),
         gap: if *order > 0 || unit != "m" { 0.0 } else { *by },
-        places: driven.iter().chain([missed]).map(|k| place(model, *k)).collect(),
+        places: driven.iter().chain([missed]).map(|k| place(model, *k)).list(),
         message,
         hint,
     }

@@ -6,7 +6,7 @@ use super::placement::{Dyad, DyadGap};
 use super::placer::{direction, Placer, ON_LINE};
 use super::slider_placement::{Rail, Slide};
 use super::targets::nearest_turn;
-use crate::math::{Local, Pose, Vec2};
+use crate::math::{each, Listed, Local, Pose, Vec2};
 
 impl Placer<'_> {
     /// Closes a dyad of body `b` and a neighbour, if both have a pin on placed bodies.
@@ -32,7 +32,7 @@ impl Placer<'_> {
 
     fn close_dyad(&mut self, bodies: [usize; 2], joint: Leg, carried: [(Leg, Vec2); 2]) {
         let at_joint = [joint.own, joint.at_other];
-        let arms = [0, 1].map(|k| at_joint[k] - carried[k].0.own);
+        let arms = each([0, 1], |k| at_joint[k] - carried[k].0.own);
         let [p1, p2] = carried.map(|(_, at)| at);
         // a body may turn about three pins at one position
         if arms.iter().any(|arm| arm.norm() == 0.0) {
@@ -48,8 +48,8 @@ impl Placer<'_> {
         };
         let angles: Vec<[f64; 2]> = closures
             .iter()
-            .map(|p| [0, 1].map(|k| self.dyad_angle(bodies[k], *p - carried[k].1, arms[k])))
-            .collect();
+            .map(|p| each([0, 1], |k| self.dyad_angle(bodies[k], *p - carried[k].1, arms[k])))
+            .list();
         let before = self.result.options.len();
         let chosen = match closures.len() {
             1 => 0,
@@ -111,7 +111,7 @@ impl Placer<'_> {
                 pose.r = at - pose.global(anchor.own);
                 [on_slide, pose]
             })
-            .collect();
+            .list();
         let bodies = [b, link];
         let before = self.result.options.len();
         let chosen = match closures.as_slice() {

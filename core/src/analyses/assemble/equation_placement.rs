@@ -6,7 +6,7 @@ use super::placer::Placer;
 use super::slider_placement::Rail;
 use crate::elements::{At, BodyId, Coordinate, Fixes};
 use crate::equations::Laws;
-use crate::math::{Local, Pose, Rotation, Twist, Vec2};
+use crate::math::{each, Listed, Local, Ordered, Pose, Rotation, Twist, Vec2};
 
 /// Number of angles at which an equation is evaluated to bracket its solutions.
 const SAMPLES: usize = 72;
@@ -111,7 +111,7 @@ impl Placer<'_> {
                     all &= complete;
                     meshes
                 }
-                found => found.into_iter().collect(),
+                found => found.into_iter().list(),
             },
             Freedom::Turn(..) => (0..m)
                 .map(|r| around(row(r), NOTHING * self.equations.size))
@@ -122,7 +122,7 @@ impl Placer<'_> {
                 let (from, far) = (place.dot(rail.direction), 4.0 * self.equations.size);
                 let starts = [from, from + far, from - far];
                 let last = row(m - 1);
-                starts.iter().filter_map(|x| newton(last, *x, self.equations.size)).collect()
+                starts.iter().filter_map(|x| newton(last, *x, self.equations.size)).list()
             }
         };
         let mut poses: Vec<Pose> = Vec::new();
@@ -141,7 +141,7 @@ impl Placer<'_> {
             }
         }
         if fixes.contains(&Fixes::Line) {
-            poses.sort_by_key(|pose| !self.is_ahead(k, b, pose));
+            poses.order_by_key(|pose| !self.is_ahead(k, b, pose));
         }
         (poses, all)
     }
@@ -154,7 +154,7 @@ impl Placer<'_> {
             body => self.poses[body],
         };
         let (Some(i), Some(j)) = (place(0), place(1)) else { return true };
-        let at = [0, 1].map(|end| item.element.attachment(end));
+        let at = each([0, 1], |end| item.element.attachment(end));
         let axis = Rotation::new(at[0].axis);
         let u = i.global(Local::new(axis.cos, axis.sin));
         u.dot(j.point(at[1].s) - i.point(at[0].s)) >= 0.0
@@ -204,7 +204,7 @@ impl Placer<'_> {
                 return None;
             }
             let line = self.poses[item.bodies[0].0]?;
-            let [at_line, own] = [0, 1].map(|end| item.element.attachment(end));
+            let [at_line, own] = each([0, 1], |end| item.element.attachment(end));
             let axis = Rotation::new(at_line.axis);
             let u = line.global(Local::new(axis.cos, axis.sin));
             let from = line.point(at_line.s) + u.perp().scale(distance);
@@ -217,10 +217,12 @@ impl Placer<'_> {
             let angle = self.targets.value(b, 2);
             let along = |targets: &[Option<f64>; 3]| {
                 let at = pose(0.0, angle.unwrap_or(0.0)).r;
-                let [x, y] =
-                    [(targets[0], u.x, at.x), (targets[1], u.y, at.y)].map(|(asked, along, at)| {
+                let [x, y] = each(
+                    [(targets[0], u.x, at.x), (targets[1], u.y, at.y)],
+                    |(asked, along, at)| {
                         Some((asked? - at) / along).filter(|_| along.abs() > ACROSS)
-                    });
+                    },
+                );
                 x.or(y)
             };
             let value = |s: f64, angle: f64| last(&pose(s, angle)).unwrap_or(f64::NAN);
@@ -270,7 +272,7 @@ pub(super) fn zeros(
     nothing: f64,
     halvings: i32,
 ) -> Vec<f64> {
-    let values: Vec<f64> = (0..=samples).map(|k| f(at(k))).collect();
+    let values: Vec<f64> = (0..=samples).map(|k| f(at(k))).list();
     let spread = values.iter().fold(0.0, |most: f64, v| most.max((v - values[0]).abs()));
     if spread.is_nan() || spread <= nothing {
         return Vec::new();
@@ -289,5 +291,5 @@ pub(super) fn zeros(
         let small = 0.5_f64.powi(halvings).max(1e-6);
         (f(low).abs() <= small * spread).then_some(low)
     });
-    halved.collect()
+    halved.list()
 }

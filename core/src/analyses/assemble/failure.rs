@@ -11,6 +11,7 @@ use crate::elements::{Attachment, BodyId, Fixes, Group};
 use crate::equations::kinematics::Motions;
 use crate::equations::{at, constraints};
 use crate::expression::TABLE_ENDS;
+use crate::math::{each, Listed};
 use crate::model::{listed, ConstraintItem, Model, MOST_REPORTED};
 use std::collections::VecDeque;
 use std::fmt;
@@ -187,10 +188,10 @@ fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
 
 /// The text "with crank.angle = 70° ", or an empty text.
 fn asked<'a>(model: &Model, set: impl Iterator<Item = &'a Target>) -> String {
-    let all: Vec<String> = set.map(|target| target.written(model)).collect();
+    let all: Vec<String> = set.map(|target| target.written(model)).list();
     match all.is_empty() {
         true => String::new(),
-        false => format!("with {} ", listed(&all.iter().map(String::as_str).collect::<Vec<_>>())),
+        false => format!("with {} ", listed(&all.iter().map(String::as_str).list())),
     }
 }
 
@@ -254,7 +255,7 @@ pub(super) fn loop_through(model: &Model, joint: usize) -> Option<String> {
 /// Bodies i and j of a constraint; ground twice for a constraint on time alone.
 fn ends(item: &ConstraintItem) -> [usize; 2] {
     let last = item.bodies.len().saturating_sub(1).min(1);
-    [0, last].map(|k| item.bodies.get(k).map_or(0, |body| body.0))
+    each([0, last], |k| item.bodies.get(k).map_or(0, |body| body.0))
 }
 
 /// Failure of rates that are set or driven and cannot be reached.
@@ -296,7 +297,7 @@ pub(super) fn stopped() -> Failure {
 pub(super) fn redundant(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -> Failure {
     let group = mobility.redundant.first().cloned().unwrap_or_default();
     let equations = &mobility.redundant_equations;
-    let mut all: Vec<usize> = equations.iter().flat_map(|one| one.group.clone()).collect();
+    let mut all: Vec<usize> = equations.iter().flat_map(|one| one.group.clone()).list();
     all.sort_unstable();
     all.dedup();
     let names = model.names_of(&all);
@@ -329,11 +330,11 @@ pub(super) fn freed(model: &Model, t: f64, q: &[f64], equations: &[Dependent]) -
     let first = &equations[..equations.len().min(MOST_REPORTED)];
     let of = |remedies: Vec<Remedy>| {
         let part = remedies.iter().any(|one| one.is_part);
-        let all: Vec<String> = remedies.iter().map(ToString::to_string).collect();
-        let all = listed(&all.iter().map(String::as_str).collect::<Vec<_>>());
+        let all: Vec<String> = remedies.iter().map(ToString::to_string).list();
+        let all = listed(&all.iter().map(String::as_str).list());
         format!("{} one of {all}", if part { "free" } else { "remove" })
     };
-    remedies(model, t, q, first).into_iter().map(of).collect::<Vec<_>>().join("; ")
+    remedies(model, t, q, first).into_iter().map(of).list().join("; ")
 }
 
 /// The text "joint D2 repeats joint D: both fix point rocker.D to ground".
@@ -345,7 +346,7 @@ fn twin(model: &Model, group: &[usize], mobility: &Mobility) -> Option<String> {
     if !model.layout.constraints[*second].rows.clone().all(superfluous) {
         return None;
     }
-    let [a, b] = [*first, *second].map(|k| &model.constraints[k]);
+    let [a, b] = each([*first, *second], |k| &model.constraints[k]);
     let (kind, other) = (a.group.singular(), b.group.singular());
     let mut message = format!("{other} {} repeats {kind} {}", b.name, a.name);
     if [a, b].iter().all(|item| item.element.fixes() == [Fixes::Points]) {

@@ -4,6 +4,7 @@ use super::request::Request;
 use super::target::{of_positions, Target};
 use crate::elements::Followed;
 use crate::expression::Tape;
+use crate::math::Listed;
 use crate::model::Model;
 use std::sync::Arc;
 
@@ -17,7 +18,7 @@ pub fn holding(model: &Model, request: &Request) -> Model {
 
 /// The model with a driver for each target. The targets are positions.
 pub(super) fn extended<'a>(model: &Model, targets: impl Iterator<Item = &'a Target>) -> Model {
-    let held: Vec<_> = targets.filter_map(|target| held(model, target, |_, x| x.into())).collect();
+    let held: Vec<_> = targets.filter_map(|target| held(model, target, |_, x| x.into())).list();
     Model::new(&Arc::new(model.blueprint.holding(&held)), &model.parameters)
 }
 

@@ -1,7 +1,7 @@
 //! The pins of a mechanism, described from each of their bodies.
 
 use crate::elements::Fixes;
-use crate::math::Local;
+use crate::math::{each, Local};
 use crate::model::Model;
 
 /// Two coincident points, described from one of their bodies.
@@ -25,9 +25,9 @@ pub(super) fn legs(model: &Model) -> Vec<Vec<Leg>> {
         if !fixes.contains(&Fixes::Points) {
             continue;
         }
-        let at = [0, 1].map(|body| item.element.attachment(body));
+        let at = each([0, 1], |body| item.element.attachment(body));
         let rigid = fixes.contains(&Fixes::Direction);
-        let ends = [0, 1].map(|end| item.bodies[end].0);
+        let ends = each([0, 1], |end| item.bodies[end].0);
         let places = ends.map(|body| legs[body].len());
         for (own, other) in [(0, 1), (1, 0)] {
             legs[ends[own]].push(Leg {

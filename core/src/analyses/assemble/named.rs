@@ -3,6 +3,7 @@
 use super::target::{CoordinateTarget, QuantityTarget, Target};
 use crate::elements::{BodyId, Coordinate, Followed, Measured};
 use crate::expression::Tape;
+use crate::math::Listed;
 use crate::model::{
     did_you_mean, quantity_of, Functions, Model, Offered, Problem, ANY_UNIT, MOST_REPORTED,
 };
@@ -124,7 +125,7 @@ fn of_element(model: &Model, owner: &str, word: &str) -> Option<Result<Named, (S
 /// The fault and the remedy for a quantity that is neither a position nor a rate.
 fn refused(owner: &str, word: &str, measured: &[Measured]) -> (String, String) {
     let known: Vec<&str> =
-        measured.iter().flat_map(|of| &of.names[..2]).copied().filter(|n| !n.is_empty()).collect();
+        measured.iter().flat_map(|of| &of.names[..2]).copied().filter(|n| !n.is_empty()).list();
     let message = if measured.iter().any(|of| of.names[2] == word) {
         format!("'{owner}.{word}' is an acceleration, which follows from the forces")
     } else if RESULTS.contains(&word) {
@@ -203,7 +204,7 @@ fn of_body(
             _ => format!("unknown body '{body}'"),
         };
         let hint = (problems.len() < MOST_REPORTED).then(|| {
-            let known: Vec<&str> = model.bodies[1..].iter().map(|b| b.name.as_str()).collect();
+            let known: Vec<&str> = model.bodies[1..].iter().map(|b| b.name.as_str()).list();
             did_you_mean(body, &known, "bodies")
         });
         problems.push(fault(message, hint.flatten()));

@@ -7,7 +7,7 @@ use super::legs::legs;
 use super::slider_placement::slides;
 use super::targets::Targets;
 use crate::equations::kinematics;
-use crate::math::Pose;
+use crate::math::{each, Listed, Pose};
 use crate::model::Model;
 
 /// Coordinates of all bodies, shape (n_q). Angles without a request are zero, as are positions of bodies without a
@@ -33,11 +33,11 @@ pub fn open_placement(model: &Model, targets: &Targets) -> Vec<f64> {
             Some((b, pose))
         });
         let (b, pose) = hung.unwrap_or_else(|| {
-            let [x, y, angle] = [0, 1, 2].map(|c| targets.value(first, c).unwrap_or(0.0));
+            let [x, y, angle] = each([0, 1, 2], |c| targets.value(first, c).unwrap_or(0.0));
             (first, Pose::new(x, y, angle))
         });
         poses[b] = Some(pose);
     }
-    let poses: Vec<Pose> = poses.into_iter().flatten().collect();
+    let poses: Vec<Pose> = poses.into_iter().flatten().list();
     kinematics::coordinates(model, &poses)
 }

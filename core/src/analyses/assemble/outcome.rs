@@ -2,6 +2,7 @@
 
 use super::failure::{Failure, Fault};
 use crate::analyses::record::{ErrorClass, Outcome};
+use crate::math::Listed;
 use crate::model::Problem;
 
 impl From<Failure> for Outcome {
@@ -12,7 +13,7 @@ impl From<Failure> for Outcome {
         };
         let contradicts =
             |path: Vec<String>| Problem { path, ..Problem::new("contradicts the others") };
-        let problems = failure.places.into_iter().map(contradicts).collect();
+        let problems = failure.places.into_iter().map(contradicts).list();
         let outcome = Self::new(class, failure.message).name(failure.name).hint(failure.hint);
         Self { problems, ..outcome }
     }

@@ -22,7 +22,7 @@ use super::slider_placement::{slides, Rail, Slide};
 use super::targets::Targets;
 use super::worklist::Worklist;
 use crate::equations::kinematics;
-use crate::math::{Pose, Vec2};
+use crate::math::{each, Listed, Pose, Vec2};
 use crate::model::Model;
 
 /// Angles, in this order, that are tried for a body without known coordinates.
@@ -71,7 +71,7 @@ pub fn place<'a>(model: &'a Model, targets: &'a Targets, choices: &'a [usize]) -
     };
     placer.put(0, Pose::identity());
     placer.place_all();
-    let poses: Vec<Pose> = placer.poses.iter().flatten().copied().collect();
+    let poses: Vec<Pose> = placer.poses.iter().flatten().copied().list();
     placer.result.q = kinematics::coordinates(model, &poses);
     placer.result
 }
@@ -188,7 +188,7 @@ impl Placer<'_> {
             return;
         }
         let hard = self.targets.hard[b];
-        let pins: Vec<(Leg, Vec2)> = self.carried(b).take(8).collect();
+        let pins: Vec<(Leg, Vec2)> = self.carried(b).take(8).list();
         let apart = |p: &&(Leg, Vec2)| (p.0.own - pins[0].0.own).norm() > 0.0;
         let rail = self.rail(b).map(|(_, rail)| rail);
         let decided = rail.and_then(|rail| (0..2).find_map(|c| rail.reaching(c, hard[c]?)));
@@ -248,7 +248,7 @@ impl Placer<'_> {
             Some((leg, target)) => self.hang(b, &leg, target, angle),
             None if self.close_rods_of(b, angle) => {}
             None => {
-                let [x, y] = [0, 1].map(|c| self.targets.value(b, c).unwrap_or(0.0));
+                let [x, y] = each([0, 1], |c| self.targets.value(b, c).unwrap_or(0.0));
                 self.put(b, Pose::new(x, y, angle));
             }
         }

@@ -11,6 +11,7 @@ use crate::elements::Followed;
 use crate::equations::at;
 use crate::equations::kinematics::Motions;
 use crate::expression::Tape;
+use crate::math::Listed;
 use crate::model::Model;
 use std::sync::Arc;
 
@@ -62,7 +63,7 @@ fn holding<'a>(
         Followed::Quantity(of) => of.value.evaluate(&at(&model.parameters, &motions, &[], t)),
     };
     let line = |of: &Followed<Tape>, rate: f64| Tape::line(position(of), rate, t);
-    let held: Vec<_> = targets.filter_map(|target| held(model, target, line)).collect();
+    let held: Vec<_> = targets.filter_map(|target| held(model, target, line)).list();
     Model::new(&Arc::new(model.blueprint.holding(&held)), &model.parameters)
 }
 

@@ -4,7 +4,7 @@ use super::placement::Dyad;
 use super::placer::ON_LINE;
 use super::unset::Unset;
 use crate::equations::kinematics::Motions;
-use crate::math::{Local, Motion, Rotation, Vec2};
+use crate::math::{each, Listed, Local, Motion, Rotation, Vec2};
 use crate::model::{listed, Doubt, Model, MOST_REPORTED};
 use crate::solve::newton::Record;
 
@@ -78,7 +78,7 @@ pub(super) fn modes(model: &Model, dyads: &[Dyad], q: &[f64]) -> Vec<DyadMode> {
             folded: pin.map(|pin| pin * side(joint) > 0.0),
         }
     };
-    dyads.iter().filter(|d| d.has_other).map(of).collect()
+    dyads.iter().filter(|d| d.has_other).map(of).list()
 }
 
 /// The side of a body on two rods, relative to the line between the far ends after both near ends are moved to one
@@ -92,8 +92,9 @@ fn on_rods(
     let ends = dyad.anchors.map(|k| {
         let item = &model.constraints[k];
         let own = usize::from(item.bodies[1].0 == dyad.bodies[0]);
-        [own, 1 - own]
-            .map(|end| motions[item.bodies[end].0].pose.point(item.element.attachment(end).s))
+        each([own, 1 - own], |end| {
+            motions[item.bodies[end].0].pose.point(item.element.attachment(end).s)
+        })
     });
     let [first, second] = ends.map(|[own, far]| own - far);
     DyadMode {
@@ -109,7 +110,7 @@ fn on_rods(
 /// A warning for each dyad without a deciding guess whose unfolded closure did not lead to an assembly.
 pub(super) fn folded(model: &Model, dyads: &[Dyad]) -> Vec<String> {
     let second = dyads.iter().filter(|dyad| dyad.second && dyad.opposite.is_some());
-    let joints: Vec<&str> = second.map(|d| model.constraints[d.joint].name.as_str()).collect();
+    let joints: Vec<&str> = second.map(|d| model.constraints[d.joint].name.as_str()).list();
     match joints.is_empty() {
         true => Vec::new(),
         false => vec![format!(
@@ -125,7 +126,7 @@ pub(super) fn singular(model: &Model, groups: &[Vec<usize>]) -> Vec<String> {
         let names = listed(&model.names_of(group));
         format!("this is a singular position: the constraints {names} depend on each other here")
     };
-    let mut warnings: Vec<String> = groups.iter().take(MOST_REPORTED).map(one).collect();
+    let mut warnings: Vec<String> = groups.iter().take(MOST_REPORTED).map(one).list();
     if groups.len() > MOST_REPORTED {
         let more = groups.len() - MOST_REPORTED;
         warnings.push(format!("{more} more groups of constraints depend on each other here"));
@@ -135,7 +136,7 @@ pub(super) fn singular(model: &Model, groups: &[Vec<usize>]) -> Vec<String> {
 
 /// A warning for angles that look like degrees.
 pub(super) fn degrees(model: &Model, given: &[Doubt]) -> Option<String> {
-    let mut all: Vec<&Doubt> = given.iter().collect();
+    let mut all: Vec<&Doubt> = given.iter().list();
     let known = |all: &[&Doubt], doubt: &Doubt| all.iter().any(|one| one.place == doubt.place);
     for doubt in &model.blueprint.doubts {
         if !known(&all, doubt) {
@@ -144,8 +145,8 @@ pub(super) fn degrees(model: &Model, given: &[Doubt]) -> Option<String> {
     }
     let first = all.first()?;
     let written: Vec<String> =
-        all.iter().map(|doubt| format!("{} = {}", doubt.place, doubt.value)).collect();
-    let written = listed(&written.iter().map(String::as_str).collect::<Vec<_>>());
+        all.iter().map(|doubt| format!("{} = {}", doubt.place, doubt.value)).list();
+    let written = listed(&written.iter().map(String::as_str).list());
     let (looks, others) = if all.len() == 1 { ("looks", "") } else { ("look", ", and so on") };
     Some(format!(
         "{written} {looks} like degrees, but a number without a unit is in rad; for degrees, write \"{} deg\"{others}",

@@ -2,6 +2,7 @@
 
 use super::report::Report;
 use super::unset::{Choice, ValueSource};
+use crate::math::Listed;
 use serde_json::{json, Value};
 
 impl Report {
@@ -23,14 +24,14 @@ impl Report {
             })
         });
         json!({
-            "iterations": iterations.collect::<Vec<_>>(),
+            "iterations": iterations.list(),
             "degrees_of_freedom": self.degrees_of_freedom,
-            "modes": modes.collect::<Vec<_>>(),
+            "modes": modes.list(),
             "warnings": self.warnings,
             "unset": {
                 "count": self.unset.count,
-                "coordinates": self.unset.coordinates.iter().map(choice).collect::<Vec<_>>(),
-                "rates": self.unset.rates.iter().map(choice).collect::<Vec<_>>(),
+                "coordinates": self.unset.coordinates.iter().map(choice).list(),
+                "rates": self.unset.rates.iter().map(choice).list(),
             },
         })
     }

@@ -4,6 +4,7 @@ use super::named::{named, NamedTargets};
 use super::target::Target;
 use crate::analyses::State;
 use crate::equations::at;
+use crate::math::Listed;
 use crate::model::{Doubt, Model, Problem, Reach, Scope, Value};
 
 /// The request for an assembly.
@@ -75,7 +76,7 @@ pub fn doubts(model: &Model, written: &[(String, Value)]) -> Vec<Doubt> {
     let doubted: Vec<Doubt> = written
         .iter()
         .filter_map(|(key, value)| Doubt::of(value, std::slice::from_ref(key), "rad"))
-        .collect();
+        .list();
     if doubted.is_empty() {
         return doubted;
     }
@@ -84,5 +85,5 @@ pub fn doubts(model: &Model, written: &[(String, Value)]) -> Vec<Doubt> {
         let found = named(&names, &doubt.place, &[], &mut Vec::new());
         found.is_some_and(|named| named.unit == "rad")
     };
-    doubted.into_iter().filter(angle).collect()
+    doubted.into_iter().filter(angle).list()
 }

@@ -8,7 +8,7 @@ use super::placement::Dyad;
 use super::placer::Placer;
 use super::targets::at_time;
 use crate::elements::Fixes;
-use crate::math::{Local, Pose, Vec2};
+use crate::math::{each, Listed, Local, Pose, Vec2};
 
 /// A rod from a placed body.
 struct Rod {
@@ -29,7 +29,7 @@ impl Placer<'_> {
         let [Fixes::Distance(length)] = element.fixes()[..] else { return None };
         let end = item.bodies.iter().position(|body| body.0 == b)?;
         let other = self.poses[item.bodies[1 - end].0]?;
-        let [own, at_other] = [end, 1 - end].map(|end| element.attachment(end).s);
+        let [own, at_other] = each([end, 1 - end], |end| element.attachment(end).s);
         let held = item.bodies[1 - end].0 != b && length.is_finite();
         held.then(|| Rod { constraint: k, own, from: other.point(at_other), length })
     }
@@ -45,7 +45,7 @@ impl Placer<'_> {
                 }
                 let places = meeting((*pin, arm.norm()), (rod.from, rod.length));
                 let angle = |place: &Vec2| self.dyad_angle(b, *place - *pin, arm);
-                let mut angles: Vec<f64> = places.iter().map(angle).collect();
+                let mut angles: Vec<f64> = places.iter().map(angle).list();
                 angles.sort_by(f64::total_cmp);
                 angles
             }
@@ -54,19 +54,19 @@ impl Placer<'_> {
                 _ => Vec::new(),
             },
         };
-        Some(at.into_iter().map(|x| freedom.pose(x)).collect())
+        Some(at.into_iter().map(|x| freedom.pose(x)).list())
     }
 
     /// Places body `b` with a known angle if two rods hold it; returns whether they do.
     pub fn close_rods_of(&mut self, b: usize, angle: f64) -> bool {
         let all = self.equations.of[b].iter();
-        let rods: Vec<Rod> = all.filter_map(|k| self.rod(*k, b)).take(2).collect();
+        let rods: Vec<Rod> = all.filter_map(|k| self.rod(*k, b)).take(2).list();
         let [first, second] = &rods[..] else { return false };
         let turned = Pose::new(0.0, 0.0, angle);
         let centre = |rod: &Rod| rod.from - turned.global(rod.own);
-        let circles = [first, second].map(|rod| (centre(rod), rod.length));
+        let circles = each([first, second], |rod| (centre(rod), rod.length));
         let posed = |place: &Vec2| Pose { r: *place, ..turned };
-        let poses: Vec<Pose> = meeting(circles[0], circles[1]).iter().map(posed).collect();
+        let poses: Vec<Pose> = meeting(circles[0], circles[1]).iter().map(posed).list();
         let dyad = Dyad {
             bodies: [b, b],
             joint: first.constraint,

@@ -3,7 +3,7 @@
 
 use super::targets::Targets;
 use crate::elements::Fixes;
-use crate::math::{Local, Pose, Rotation, Vec2};
+use crate::math::{each, Local, Pose, Rotation, Vec2};
 use crate::model::Model;
 
 /// A slide, described from one of its bodies.
@@ -42,7 +42,7 @@ pub(super) fn slides(model: &Model) -> Vec<Vec<Slide>> {
             continue;
         }
         let ends = [item.bodies[0].0, item.bodies[1].0];
-        let at = [0, 1].map(|body| item.element.attachment(body));
+        let at = each([0, 1], |body| item.element.attachment(body));
         for (own, other) in [(0, 1), (1, 0)] {
             slides[ends[own]].push(Slide {
                 constraint,

@@ -6,7 +6,7 @@ use super::equation_placement::Freedom;
 use super::placer::{direction, Placer};
 use super::targets::at_time;
 use crate::elements::{Attachment, Fixes};
-use crate::math::{Local, Pose, Rotation, Vec2};
+use crate::math::{each, Listed, Local, Ordered, Pose, Rotation, Vec2};
 
 /// Smallest sine between two lines that determines their intersection.
 const PARALLEL: f64 = 1e-9;
@@ -55,15 +55,12 @@ impl Slot {
             let beside = arm.dot(Local::new(-sin, cos)) + self.beside;
             let at =
                 |along: f64| Local::new(along * cos - beside * sin, along * sin + beside * cos);
-            return chord(other.norm(), beside)
-                .into_iter()
-                .map(|along| (other, at(along)))
-                .collect();
+            return chord(other.norm(), beside).into_iter().map(|along| (other, at(along))).list();
         }
         let line = axis(self.other.angle + self.at_other.axis);
         let beside = line.perp().dot(other) + self.beside;
         let to = |along: f64| line.scale(along) + line.perp().scale(beside);
-        chord(arm.norm(), beside).into_iter().map(|along| (to(along), arm)).collect()
+        chord(arm.norm(), beside).into_iter().map(|along| (to(along), arm)).list()
     }
 }
 
@@ -86,7 +83,7 @@ impl Placer<'_> {
         let end = item.bodies.iter().position(|body| body.0 == b)?;
         let other = item.bodies[1 - end].0;
         let other_pose = self.poses[other].filter(|_| other != b)?;
-        let [own, at_other] = [end, 1 - end].map(|end| element.attachment(end));
+        let [own, at_other] = each([end, 1 - end], |end| element.attachment(end));
         Some(Slot { line_is_own: end == 0, own, other: other_pose, at_other, beside })
     }
 
@@ -100,7 +97,7 @@ impl Placer<'_> {
                 let usable =
                     directions.into_iter().filter(|(to, arm)| to.norm() > 0.0 && arm.norm() > 0.0);
                 let mut angles: Vec<f64> =
-                    usable.map(|(to, arm)| self.dyad_angle(b, to, arm)).collect();
+                    usable.map(|(to, arm)| self.dyad_angle(b, to, arm)).list();
                 angles.sort_by(f64::total_cmp);
                 angles
             }
@@ -115,8 +112,8 @@ impl Placer<'_> {
                 }
             }
         };
-        let mut poses: Vec<Pose> = at.into_iter().map(|x| freedom.pose(x)).collect();
-        poses.sort_by_key(|pose| !self.is_ahead(k, b, pose));
+        let mut poses: Vec<Pose> = at.into_iter().map(|x| freedom.pose(x)).list();
+        poses.order_by_key(|pose| !self.is_ahead(k, b, pose));
         Some(poses)
     }
 
@@ -124,7 +121,7 @@ impl Placer<'_> {
     pub fn close_slots_of(&mut self, b: usize, angle: f64) -> bool {
         let all = self.equations.of[b].iter();
         let slots = all.filter_map(|k| self.slot(*k, b));
-        let lines: Vec<StraightLine> = slots.map(|slot| slot.line(angle)).collect();
+        let lines: Vec<StraightLine> = slots.map(|slot| slot.line(angle)).list();
         let Some((first, rest)) = lines.split_first() else { return false };
         let crosses = |other: &&StraightLine| first.normal.cross(other.normal).abs() > PARALLEL;
         let Some(second) = rest.iter().find(crosses) else { return false };
@@ -166,7 +163,7 @@ impl Placer<'_> {
                 let own = direction((line.x, line.y)) - direction((along, beside)) - slide.own_axis;
                 self.targets.nearest_turn(b, own)
             });
-            let poses: Vec<Pose> = angles.map(|x| Freedom::Turn(leg, pin).pose(x)).collect();
+            let poses: Vec<Pose> = angles.map(|x| Freedom::Turn(leg, pin).pose(x)).list();
             if line.norm() > 0.0 {
                 if let Some(pose) = self.chosen(b, &poses) {
                     return self.put(b, pose);

@@ -13,6 +13,7 @@ use crate::analyses::closing::Halt;
 use crate::analyses::freedoms::freedoms;
 use crate::analyses::mobility::mobility_until;
 use crate::elements::Coordinate;
+use crate::math::{Listed, Ordered};
 use crate::model::{column_scales, size, Model};
 use crate::solve::{rank, RANK_TOLERANCE};
 
@@ -94,14 +95,14 @@ pub(super) fn unset(
         false => mobility_until(extended, request.t, q, stop).singular_equations.len(),
     };
     let column = |of: &CoordinateTarget| (of.body.0, of.coordinate.column());
-    let guesses = met_first(model, of_bodies(&request.guess).cloned().collect(), q);
+    let guesses = met_first(model, of_bodies(&request.guess).cloned().list(), q);
     let mut coordinates = named(model, &moving, guesses.iter().map(column));
     coordinates.truncate(moving.len().saturating_sub(passing));
     let guessed = |target: &Target| match target {
         Target::Coordinate(target) => Some(target.clone()),
         _ => None,
     };
-    let guesses = met_first(model, of_rates(&request.guess).filter_map(guessed).collect(), v);
+    let guesses = met_first(model, of_rates(&request.guess).filter_map(guessed).list(), v);
     // otherwise the rates of the coordinates that were set or are named
     let known = coordinates.iter().map(|(_, body, coordinate)| (*body, coordinate.column()));
     let first = guesses.iter().chain(of_bodies(&request.set)).map(column).chain(known);
@@ -125,8 +126,8 @@ pub(super) fn unset(
     };
     Unset {
         count: [coordinates.len(), rates.len()],
-        coordinates: coordinates.into_iter().map(position).collect(),
-        rates: rates.into_iter().map(rate).collect(),
+        coordinates: coordinates.into_iter().map(position).list(),
+        rates: rates.into_iter().map(rate).list(),
     }
 }
 
@@ -136,7 +137,7 @@ fn met_first(
     mut guesses: Vec<CoordinateTarget>,
     values: &[f64],
 ) -> Vec<CoordinateTarget> {
-    guesses.sort_by_key(|of| {
+    guesses.order_by_key(|of| {
         let place = model.layout.bodies[of.body.0].first + of.coordinate.column();
         near(model, of.coordinate, of.value, values[place]) != ValueSource::Guess
     });
@@ -162,14 +163,14 @@ fn named(
     let guessed = first.filter_map(|(body, column)| of(body, column));
     let angles = bodies.clone().filter_map(|body| of(body, 2));
     let places = bodies.flat_map(|body| [of(body, 0), of(body, 1)]).flatten();
-    let candidates: Vec<Candidate> = guessed.chain(angles).chain(places).collect();
+    let candidates: Vec<Candidate> = guessed.chain(angles).chain(places).list();
     let scales = column_scales(model);
     let rows: Vec<f64> = candidates
         .iter()
         .flat_map(|(column, ..)| freedoms.iter().map(|w| w[*column] / scales[*column]))
-        .collect();
+        .list();
     let found = rank(&rows, count, RANK_TOLERANCE);
-    found.independent.into_iter().map(|k| candidates[k]).collect()
+    found.independent.into_iter().map(|k| candidates[k]).list()
 }
 
 /// The source of the value of a coordinate.

@@ -4,6 +4,7 @@
 use crate::equations::augmented::Augmented;
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, refine, Compiled};
+use crate::math::Listed;
 use crate::model::{size, Model};
 
 /// Largest velocity residual that is not corrected, relative to its summands.
@@ -44,7 +45,7 @@ pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
     }
     let turning = size(model).powi(2);
     let lengths = model.layout.lengths().into_iter();
-    let alike: Vec<f64> = lengths.map(|length| if length { 1.0 } else { turning }).collect();
+    let alike: Vec<f64> = lengths.map(|length| if length { 1.0 } else { turning }).list();
     matrix.set_weights(&alike);
     let metric = Metric { matrix: &mut matrix, compliance: 1.0 };
     correct(model, t, q, v, (metric, scale))
@@ -77,7 +78,7 @@ fn correct(
         }
         last = left;
         let mut x = vec![0.0; v.len()];
-        x.extend(rate.iter().map(|r| -r));
+        rate.iter().map(|r| -r).append_to(&mut x);
         nearest(model, &motions, matrix, &mut x);
         v.iter_mut().zip(&x).for_each(|(v, dv)| *v += dv);
     }

@@ -6,6 +6,7 @@
 
 use super::equation_placement::Freedom;
 use super::placer::Placer;
+use crate::math::Listed;
 use std::f64::consts::TAU;
 
 /// Largest number of angles.
@@ -27,7 +28,7 @@ impl Placer<'_> {
         };
         let all = (1..=MOST).find(returns);
         let nth = |n: usize| if n % 2 == 1 { n.div_ceil(2) as f64 } else { -((n / 2) as f64) };
-        ((0..all.unwrap_or(MOST)).map(|n| x + nth(n) * step).collect(), all.is_some())
+        ((0..all.unwrap_or(MOST)).map(|n| x + nth(n) * step).list(), all.is_some())
     }
 
     /// Whether body `b` turns about the point at which constraint `k` holds it, so that the equation is linear.

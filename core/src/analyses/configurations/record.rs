@@ -7,6 +7,7 @@ use crate::analyses::record::{
     Analysis, ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished,
 };
 use crate::analyses::State;
+use crate::math::Listed;
 use serde_json::json;
 
 impl Analysis for Options {
@@ -22,9 +23,9 @@ impl Analysis for Options {
         let request = Request { set: self.set.clone(), t, ..Request::default() };
         let found = configurations(&model, &request, self.limit, observer.stop)?;
         let rows = |part: fn(&State) -> &Vec<f64>| -> Vec<f64> {
-            found.states.iter().flat_map(|(state, _)| part(state).iter().copied()).collect()
+            found.states.iter().flat_map(|(state, _)| part(state).iter().copied()).list()
         };
-        let reports: Vec<_> = found.states.iter().map(|(_, report)| report.as_json()).collect();
+        let reports: Vec<_> = found.states.iter().map(|(_, report)| report.as_json()).list();
         let findings = json!({
             "complete": found.complete, "left_out": found.left_out, "reports": reports,
         });

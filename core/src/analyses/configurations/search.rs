@@ -8,6 +8,7 @@ use crate::elements::{holding, Followed, Group};
 use crate::equations::at;
 use crate::equations::kinematics::Motions;
 use crate::expression::Tape;
+use crate::math::Listed;
 use crate::model::Model;
 use std::f64::consts::{PI, TAU};
 use std::sync::Arc;
@@ -89,7 +90,7 @@ fn drivers(model: &Model) -> Vec<usize> {
         return Vec::new();
     }
     let items = model.constraints.iter().enumerate();
-    items.filter(|(_, item)| item.element.drives().is_some()).map(|(k, _)| k).collect()
+    items.filter(|(_, item)| item.element.drives().is_some()).map(|(k, _)| k).list()
 }
 
 /// The model in which the value of one driver grows with t and the other drivers keep their values; also whether this

@@ -7,6 +7,7 @@ use super::found::Positions;
 use crate::analyses::assemble::Targets;
 use crate::analyses::closing::{Closing, Halt};
 use crate::elements::Group;
+use crate::math::{each, Listed};
 use crate::model::{ConstraintItem, Model};
 use std::f64::consts::TAU;
 
@@ -23,7 +24,7 @@ fn counts(item: &ConstraintItem) -> bool {
 fn counted(model: &Model) -> Vec<usize> {
     let bodies = model.constraints.iter().filter(|item| counts(item)).flat_map(|item| &item.bodies);
     let columns = bodies.map(|body| model.layout.bodies[body.0]).filter(|body| body.count == 3);
-    let mut angles: Vec<usize> = columns.map(|body| body.first + 2).collect();
+    let mut angles: Vec<usize> = columns.map(|body| body.first + 2).list();
     angles.sort_unstable();
     angles.dedup();
     angles
@@ -33,7 +34,7 @@ fn counted(model: &Model) -> Vec<usize> {
 /// this determines all counted angles. Then no body can have turned once more.
 pub(super) fn follow(model: &Model, closing: &Closing<'_>, targets: &mut Targets) -> bool {
     let rows = model.constraints.iter().zip(&model.layout.constraints);
-    let counting: Vec<_> = rows.filter(|(item, _)| counts(item)).collect();
+    let counting: Vec<_> = rows.filter(|(item, _)| counts(item)).list();
     for _ in 0..counting.len() {
         for (item, slots) in &counting {
             let mut open = item
@@ -63,7 +64,7 @@ fn solved(model: &Model, closing: &Closing<'_>, targets: &Targets, row: usize) -
         closing.phi(&q)[row]
     };
     let [at, next, far, elsewhere] =
-        [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (0.0, 1.0)].map(|(a, p)| residual(a, p));
+        each([(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (0.0, 1.0)], |(a, p)| residual(a, p));
     let slope = next - at;
     let alike = |x: f64, y: f64| (x - y).abs() <= LINEAR * (at.abs() + slope.abs());
     (slope != 0.0 && alike(far - next, slope) && alike(at, elsewhere)).then(|| -at / slope)

@@ -1,6 +1,7 @@
 //! A diagnosis as JSON, for the bindings.
 
 use super::{Diagnosis, FourBar, Redundancy, Remedy};
+use crate::math::Listed;
 use serde_json::{json, Value};
 
 /// The diagnosis of a position: counts, and lists of redundancies, singular positions, bodies and four-bar loops.
@@ -15,18 +16,18 @@ pub fn json(found: &Diagnosis) -> Value {
         "driven": found.driven,
         "degrees_of_freedom": found.mobility.degrees_of_freedom,
         "rank": found.mobility.rank,
-        "redundant": found.redundant.iter().map(redundancy).collect::<Vec<_>>(),
-        "singular": singular.collect::<Vec<_>>(),
+        "redundant": found.redundant.iter().map(redundancy).list(),
+        "singular": singular.list(),
         "locked": found.locked,
         "loose": found.loose,
         "undetermined": found.undetermined,
-        "four_bars": found.four_bars.iter().map(four_bar).collect::<Vec<_>>(),
+        "four_bars": found.four_bars.iter().map(four_bar).list(),
     })
 }
 
 fn redundancy(one: &Redundancy) -> Value {
     let Redundancy { joints, equations, remedies, remove, consistent } = one;
-    let remedies: Vec<Value> = remedies.iter().map(remedy).collect();
+    let remedies: Vec<Value> = remedies.iter().map(remedy).list();
     json!({
         "joints": joints, "equations": equations, "remedies": remedies, "remove": remove,
         "consistent": consistent,
@@ -43,7 +44,6 @@ fn remedy(one: &Remedy) -> Value {
 
 fn four_bar(one: &FourBar) -> Value {
     let FourBar { bodies, pins, lengths, class } = one;
-    let turning =
-        class.turning().map(|places| places.map(|k| bodies[k].clone()).collect::<Vec<_>>());
+    let turning = class.turning().map(|places| places.map(|k| bodies[k].clone()).list());
     json!({ "bodies": bodies, "pins": pins, "lengths": lengths, "kind": class.to_string(), "turning": turning })
 }

@@ -3,6 +3,7 @@
 use super::passing::freedoms;
 use crate::analyses::mobility::neighbour;
 use crate::elements::Group;
+use crate::math::Listed;
 use crate::model::Model;
 use std::sync::Arc;
 
@@ -18,7 +19,7 @@ pub(super) fn locked(model: &Model, t: f64, q: &[f64]) -> Vec<String> {
     if let Some(there) = near.and_then(|near| resting(model, t, &near)) {
         locked.retain(|body| there.contains(body));
     }
-    locked.into_iter().map(|body| model.bodies[body].name.clone()).collect()
+    locked.into_iter().map(|body| model.bodies[body].name.clone()).list()
 }
 
 /// The bodies with zero velocity in every motion at a position.
@@ -28,13 +29,13 @@ fn resting(model: &Model, t: f64, q: &[f64]) -> Option<Vec<usize>> {
         let columns = model.layout.bodies[*body].range();
         freedoms.iter().all(|w| columns.clone().all(|k| w[k].abs() <= AT_REST))
     };
-    Some((1..model.bodies.len()).filter(rests).collect())
+    Some((1..model.bodies.len()).filter(rests).list())
 }
 
 /// The model without drivers and joints with a law of time.
 fn released(model: &Model) -> Model {
     let items = model.constraints.iter().enumerate();
-    let kept: Vec<usize> = items.filter(|(_, item)| !item.driven).map(|(k, _)| k).collect();
+    let kept: Vec<usize> = items.filter(|(_, item)| !item.driven).map(|(k, _)| k).list();
     Model::new(&Arc::new(model.blueprint.keeping(&kept)), &model.parameters)
 }
 
@@ -48,12 +49,12 @@ pub(super) fn loose(model: &Model) -> Vec<String> {
             .filter(|item| item.bodies.iter().any(|body| held[body.0]))
             .flat_map(|item| item.bodies.iter().map(|body| body.0))
             .filter(|body| !held[*body])
-            .collect();
+            .list();
         if reached.is_empty() {
             break;
         }
         reached.into_iter().for_each(|body| held[body] = true);
     }
     let loose = model.bodies.iter().zip(held).filter(|(_, held)| !held);
-    loose.map(|(body, _)| body.name.clone()).collect()
+    loose.map(|(body, _)| body.name.clone()).list()
 }

@@ -1,7 +1,7 @@
 //! Closed loops of four pins, and whether their links turn fully (Grashof 1883).
 
 use crate::elements::{Fixes, Group};
-use crate::math::Local;
+use crate::math::{Listed, Local};
 use crate::model::Model;
 use std::fmt;
 
@@ -145,8 +145,7 @@ fn hinges(model: &Model) -> Vec<Hinge> {
         let touches = |hinge: &Hinge| {
             own.iter().any(|(body, at, _)| hinge.iter().any(|(b, s, _)| b == body && s == at))
         };
-        let touched: Vec<usize> =
-            (0..hinges.len()).filter(|place| touches(&hinges[*place])).collect();
+        let touched: Vec<usize> = (0..hinges.len()).filter(|place| touches(&hinges[*place])).list();
         let place = touched.first().copied().unwrap_or(hinges.len());
         let mut merged: Hinge = Vec::new();
         for k in touched.into_iter().rev() {

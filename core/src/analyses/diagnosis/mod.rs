@@ -29,6 +29,7 @@ use super::options::{name, options};
 use super::{dynamics, Dependent, State};
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
+use crate::math::Listed;
 use crate::model::Model;
 
 /// Sums of rates below this fraction of their terms count as rounding errors.
@@ -93,7 +94,7 @@ pub fn diagnose(model: &Model, state: &State) -> Diagnosis {
     let rates = rates_of_drivers(model, *t, q);
     let described = |all: &[Dependent]| -> Vec<Redundancy> {
         let remedies = remedies(model, *t, q, all).into_iter();
-        all.iter().zip(remedies).map(|(one, free)| describe(model, one, free, &rates)).collect()
+        all.iter().zip(remedies).map(|(one, free)| describe(model, one, free, &rates)).list()
     };
     let kinds = passing::kinds(model, *t, q, &mobility);
     let drivers = model.constraints.iter().filter(|item| item.driven);
@@ -101,7 +102,7 @@ pub fn diagnose(model: &Model, state: &State) -> Diagnosis {
         gruebler: model.layout.n_q as i64 - model.layout.n_rows as i64,
         driven: drivers.map(|item| item.equations.len()).sum(),
         redundant: described(&mobility.redundant_equations),
-        singular: described(&mobility.singular_equations).into_iter().zip(kinds).collect(),
+        singular: described(&mobility.singular_equations).into_iter().zip(kinds).list(),
         locked: bodies::locked(model, *t, q),
         loose: bodies::loose(model),
         undetermined: dynamics::undetermined(model, *t, q),
@@ -128,11 +129,11 @@ fn rates_of_drivers(model: &Model, t: f64, q: &[f64]) -> Vec<f64> {
 }
 
 fn describe(model: &Model, one: &Dependent, remedies: Vec<Remedy>, rates: &[f64]) -> Redundancy {
-    let parts: Vec<f64> = one.factors.iter().map(|(row, y)| y * rates[*row]).collect();
+    let parts: Vec<f64> = one.factors.iter().map(|(row, y)| y * rates[*row]).list();
     let (sum, size) = parts.iter().fold((0.0, 0.0), |(sum, size), x| (sum + x, size + x.abs()));
     Redundancy {
-        joints: one.group.iter().map(|k| model.constraints[*k].name.clone()).collect(),
-        equations: one.factors.iter().map(|(row, _)| model.equation_name(*row)).collect(),
+        joints: one.group.iter().map(|k| model.constraints[*k].name.clone()).list(),
+        equations: one.factors.iter().map(|(row, _)| model.equation_name(*row)).list(),
         remedies,
         remove: model.equation_name(one.row),
         consistent: f64::abs(sum) <= ROUNDING * size,

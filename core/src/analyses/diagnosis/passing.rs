@@ -10,6 +10,7 @@ use crate::analyses::mobility::Mobility;
 use crate::analyses::Dependent;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
+use crate::math::Listed;
 use crate::model::Model;
 use std::fmt;
 
@@ -44,7 +45,7 @@ pub(super) fn kinds(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -> Ve
     if equations.is_empty() {
         return Vec::new();
     }
-    let of_joints: Vec<&Dependent> = equations.iter().filter(|one| !driven(one)).collect();
+    let of_joints: Vec<&Dependent> = equations.iter().filter(|one| !driven(one)).list();
     let kind = of_joints.first().map(|_| crossing(model, t, q, &of_joints));
     equations
         .iter()
@@ -55,7 +56,7 @@ pub(super) fn kinds(model: &Model, t: f64, q: &[f64], mobility: &Mobility) -> Ve
                 kind.unwrap_or(SingularKind::ChangePoint)
             }
         })
-        .collect()
+        .list()
 }
 
 /// The directions in which a mechanism can move without its drivers. None if the model is too large.
@@ -96,17 +97,17 @@ fn forms(
     let rest = gamma(&vec![0.0; q.len()]);
     // the part of -γ that is quadratic in the velocities
     let quadratic = |v: Vec<f64>| -> Vec<f64> {
-        let back: Vec<f64> = v.iter().map(|x| -x).collect();
+        let back: Vec<f64> = v.iter().map(|x| -x).list();
         let (one, other) = (gamma(&v), gamma(&back));
-        (0..m).map(|k| rest[k] - 0.5 * (one[k] + other[k])).collect()
+        (0..m).map(|k| rest[k] - 0.5 * (one[k] + other[k])).list()
     };
     let mut found = vec![vec![0.0; f * f]; equations.len()];
-    let alone: Vec<Vec<f64>> = freedoms.iter().map(|w| quadratic(w.clone())).collect();
+    let alone: Vec<Vec<f64>> = freedoms.iter().map(|w| quadratic(w.clone())).list();
     for a in 0..f {
         for b in 0..=a {
-            let sum = freedoms[a].iter().zip(&freedoms[b]).map(|(x, y)| x + y).collect();
+            let sum = freedoms[a].iter().zip(&freedoms[b]).map(|(x, y)| x + y).list();
             let both =
-                if a == b { alone[a].iter().map(|x| 4.0 * x).collect() } else { quadratic(sum) };
+                if a == b { alone[a].iter().map(|x| 4.0 * x).list() } else { quadratic(sum) };
             for (form, equation) in found.iter_mut().zip(equations) {
                 let terms = equation
                     .factors

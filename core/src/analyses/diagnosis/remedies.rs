@@ -9,6 +9,7 @@ use crate::analyses::dependence;
 use crate::analyses::mobility::neighbour;
 use crate::analyses::Dependent;
 use crate::elements::Fixes;
+use crate::math::Listed;
 use crate::model::Model;
 use crate::solve::RANK_TOLERANCE;
 use std::f64::consts::PI;
@@ -77,9 +78,9 @@ pub fn remedies(model: &Model, t: f64, q: &[f64], all: &[Dependent]) -> Vec<Vec<
         });
         let here = (q, one);
         let joint = |k: &usize| remedy(model, *k, here, moved, there.is_some());
-        one.group.iter().map(joint).collect()
+        one.group.iter().map(joint).list()
     };
-    all.iter().map(of).collect()
+    all.iter().map(of).list()
 }
 
 /// A position, and a dependence there.
@@ -108,7 +109,7 @@ fn remedy(model: &Model, k: usize, here: At<'_>, moved: Option<At<'_>>, moves: b
             None => JointDirection { body: None, axis: turned(angle) },
         }
     });
-    let equations = taking.map(|(row, _)| model.equation_name(*row)).collect();
+    let equations = taking.map(|(row, _)| model.equation_name(*row)).list();
     Remedy { joint: item.name.clone(), equations, is_part: rows.len() > 1, along }
 }
 
@@ -120,7 +121,7 @@ fn direction(model: &Model, k: usize, one: &Dependent) -> Option<f64> {
     }
     let rows = model.layout.constraints[k].rows.clone();
     let own: Vec<(usize, f64)> =
-        one.factors.iter().copied().filter(|(row, _)| rows.contains(row)).collect();
+        one.factors.iter().copied().filter(|(row, _)| rows.contains(row)).list();
     let part = |name: &str| {
         let at = item.equations.iter().position(|equation| equation.name == name)?;
         let factor = own.iter().find(|(row, _)| *row == rows.start + at);

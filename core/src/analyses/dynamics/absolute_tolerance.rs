@@ -5,6 +5,7 @@
 use crate::analyses::options::{not_negative, OptionKind, Reader};
 use crate::elements::{Default, Shape, TOLERANCES};
 use crate::integrate::Atol;
+use crate::math::Listed;
 use crate::model::{size, Model, Value};
 
 /// An absolute tolerance as written.
@@ -22,9 +23,9 @@ impl AbsoluteTolerance {
         match given {
             None => Atol::Scaled(usual),
             Some(Self::Uniform(atol)) => Atol::Scalar(atol),
-            Some(Self::ByKind(all)) => Atol::Each(
-                all.into_iter().map(|(own, scale)| own.unwrap_or(usual * scale)).collect(),
-            ),
+            Some(Self::ByKind(all)) => {
+                Atol::Each(all.into_iter().map(|(own, scale)| own.unwrap_or(usual * scale)).list())
+            }
         }
     }
 }
@@ -32,7 +33,7 @@ impl AbsoluteTolerance {
 /// The kind of each component of (q, v, z), as an index into [`TOLERANCES`].
 fn kinds(model: &Model) -> impl Iterator<Item = usize> {
     let of_q = model.layout.lengths().into_iter().map(|length| usize::from(!length));
-    let of_q: Vec<usize> = of_q.collect();
+    let of_q: Vec<usize> = of_q.list();
     let states = std::iter::repeat_n(2, model.layout.n_z);
     of_q.clone().into_iter().chain(of_q).chain(states)
 }
@@ -47,7 +48,7 @@ pub(super) fn for_model(model: &Model, atol: &Atol) -> Atol {
     match atol {
         Atol::Scaled(part) => {
             let scales = scales(model);
-            Atol::Each(kinds(model).map(|kind| part * scales[kind]).collect())
+            Atol::Each(kinds(model).map(|kind| part * scales[kind]).list())
         }
         given => given.clone(),
     }
@@ -86,6 +87,6 @@ impl OptionKind for absolute_tolerance {
             Some(all)
         })?;
         let scales = scales(model);
-        Some(AbsoluteTolerance::ByKind(kinds(model).map(|k| (own[k], scales[k])).collect()))
+        Some(AbsoluteTolerance::ByKind(kinds(model).map(|k| (own[k], scales[k])).list()))
     }
 }

@@ -18,7 +18,7 @@ use crate::analyses::rigid::RigidContacts;
 use crate::equations::augmented::NearSingular;
 use crate::equations::Workspace;
 use crate::integrate::{all_finite, Flow};
-use crate::math::{Lanes, Real};
+use crate::math::{each, Lanes, Real};
 use crate::model::Model;
 use crate::solve::Breakdown;
 
@@ -41,7 +41,7 @@ impl Run {
     /// The errors of [`Prepared::accelerations`](super::Prepared::accelerations).
     pub fn accelerations(&self, model: &Model) -> Result<Accelerations, Box<Failure>> {
         let (cache, states) = (ModelCache::default(), self.trajectory.states());
-        accelerations((model, &cache), states, self.passing, |_| Flow::Continue)
+        accelerations((model, &cache), states, self.passing, &mut |_| Flow::Continue)
     }
 }
 
@@ -50,11 +50,11 @@ pub(super) fn accelerations(
     (model, cache): (&Model, &ModelCache),
     states: States<'_>,
     passing: bool,
-    mut watch: impl FnMut(f64) -> Flow,
+    watch: &mut dyn FnMut(f64) -> Flow,
 ) -> Result<Accelerations, Box<Failure>> {
     let States { t, q, v, z } = states;
     let (n, n_z, count) = (model.layout.n_q, model.layout.n_z, t.len());
-    let lengths = [n, n, n_z].map(|width| width * count);
+    let lengths = each([n, n, n_z], |width| width * count);
     assert_eq!([q.len(), v.len(), z.len()], lengths, "a row for each time");
     let Some(&from) = t.first() else { return Ok(Accelerations::default()) };
     let start = [&q[..n], &v[..n], &z[..n_z]];

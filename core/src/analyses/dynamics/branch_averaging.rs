@@ -6,7 +6,7 @@
 //! the remaining error from the curvature is of fourth order.
 
 use crate::equations::Workspace;
-use crate::math::Real;
+use crate::math::{Listed, Real};
 use crate::solve::Breakdown;
 use crate::stabilize::Projector;
 
@@ -58,7 +58,7 @@ fn mean(
 ) -> Result<[Vec<f64>; 2], Breakdown> {
     let mut means = [vec![0.0; q.len()], vec![0.0; v.len()]];
     for (ahead, weight) in AROUND {
-        let mut places: Vec<f64> = q.iter().zip(v).map(|(q, v)| q + ahead * dt * v).collect();
+        let mut places: Vec<f64> = q.iter().zip(v).map(|(q, v)| q + ahead * dt * v).list();
         let mut rates = v.to_vec();
         projector.project(workspace, t + ahead * dt, (&mut places, &mut rates), false)?;
         for (mean, x) in means.iter_mut().zip([places, rates]) {

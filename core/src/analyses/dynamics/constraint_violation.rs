@@ -8,7 +8,7 @@ use super::options::Options;
 use super::stabilizations::Stabilization;
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, Gains};
-use crate::math::Real;
+use crate::math::{Listed, Real};
 use crate::model::{row_scales, Model};
 use crate::solve::Breakdown;
 
@@ -35,7 +35,7 @@ impl<S: Real> ViolationCheck<S> {
             Stabilization::Baumgarte(_) | Stabilization::BaumgarteFromStep => APART,
         };
         Some(Self {
-            most: row_scales(model).iter().map(|scale| most * scale).collect(),
+            most: row_scales(model).iter().map(|scale| most * scale).list(),
             residual: vec![S::zero(); model.layout.n_rows],
         })
     }

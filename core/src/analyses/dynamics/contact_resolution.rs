@@ -9,7 +9,7 @@
 use super::modes::StateAt;
 use super::motion_ode::MotionOde;
 use crate::elements::Behaviour;
-use crate::math::Jet;
+use crate::math::{Jet, Listed};
 use crate::model::{Model, SwitchOwner};
 use crate::solve::Breakdown;
 
@@ -61,7 +61,7 @@ pub(super) fn ends(
     (steps, sign): (StepChoice, f64),
 ) -> Result<Option<Vec<f64>>, Breakdown> {
     let Some(onset) = Onset::find(ode, at, changes, steps)? else { return Ok(None) };
-    Ok(Some(onset.ends(steps)?.into_iter().map(|after| at.0 + sign * after).collect()))
+    Ok(Some(onset.ends(steps)?.into_iter().map(|after| at.0 + sign * after).list()))
 }
 
 /// Ends of the last steps, last step first, before a compliant contact is released at the end of a step. The force
@@ -81,7 +81,7 @@ pub(super) fn before_release(
     };
     match steps {
         StepChoice::Chosen if changes.iter().any(is_released) => {
-            GRADED.iter().rev().map(|part| to - part * (to - from)).collect()
+            GRADED.iter().rev().map(|part| to - part * (to - from)).list()
         }
         _ => Vec::new(),
     }
@@ -141,7 +141,7 @@ impl Onset {
             StepChoice::Constant(step) if STEPS * step > lasts => {
                 Err(Breakdown::Unresolved { force, lasts, step })
             }
-            StepChoice::Chosen => Ok(GRADED.iter().map(|part| part * lasts).collect()),
+            StepChoice::Chosen => Ok(GRADED.iter().map(|part| part * lasts).list()),
             _ => Ok(Vec::new()),
         }
     }

@@ -21,6 +21,7 @@ use crate::analyses::event_options::STOP;
 use crate::analyses::State;
 use crate::elements::Mode;
 use crate::integrate::{Direction, Flow};
+use crate::math::Listed;
 use crate::model::{usual_energy, Model, Problem};
 
 /// The changes that a caller makes at an event.
@@ -102,7 +103,7 @@ fn planned(model: &Model, options: &Options) -> Vec<Planned> {
             effect: Effect::Mode { force, place },
         })
     });
-    listed.chain(stop).chain(releases).chain(modes).collect()
+    listed.chain(stop).chain(releases).chain(modes).list()
 }
 
 /// A model of a phase.
@@ -123,7 +124,7 @@ impl Own {
 
 /// The failure of parameters with impossible values.
 fn impossible(problems: &[Problem], t: f64) -> Box<Failure> {
-    let all: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    let all: Vec<String> = problems.iter().map(ToString::to_string).list();
     let message = format!("the parameters at t = {t:.6} s: {}", all.join("; "));
     Reason::Option { name: "parameters", message }.into()
 }
@@ -140,7 +141,7 @@ pub(super) fn run(
     let (began, mut setting) = (clock(), Setting::of(options));
     let events = planned(base.0, options);
     let named = |event: &Planned| EventStates { name: event.name.clone(), ..Default::default() };
-    let mut run = Run { events: events.iter().map(named).collect(), ..Run::default() };
+    let mut run = Run { events: events.iter().map(named).list(), ..Run::default() };
     let mut own = Own::of(base.0, &setting, start.t)?;
     options.check(own.as_ref().map_or(base.0, |own| &own.model), start)?;
     let mut at = Progress::begin(base.0, start, options, &mut run);
@@ -275,7 +276,7 @@ fn watched<'c>(
             listed: true,
         }
     });
-    watched.collect()
+    watched.list()
 }
 
 /// Whether any force holds in a phase.
@@ -295,7 +296,7 @@ fn settle(
         Effect::Mode { force, .. } => Some(force),
         _ => None,
     };
-    let fired: Vec<usize> = at.fired.iter().filter_map(of_force).collect();
+    let fired: Vec<usize> = at.fired.iter().filter_map(of_force).list();
     let (t, before) = (at.t, at.y.clone());
     let mut place = StateAt { t, y: &mut at.y };
     let settled = modes::settle(&open, &mut place, &setting.modes, &fired)?;

@@ -7,7 +7,7 @@ use super::trajectory::States;
 use crate::equations::energy;
 use crate::equations::kinematics::Motions;
 use crate::integrate::all_finite;
-use crate::math::{Lanes, Real};
+use crate::math::{each, Lanes, Listed, Real};
 use crate::model::{Model, WORKS};
 use crate::solve::Breakdown;
 
@@ -33,7 +33,7 @@ pub(super) fn energies(
 ) -> Result<Vec<f64>, Box<Failure>> {
     let States { t, q, v, z } = states;
     let n = model.layout.n_q;
-    let lengths = [n, n, model.layout.n_z, WORKS].map(|width| width * t.len());
+    let lengths = each([n, n, model.layout.n_z, WORKS], |width| width * t.len());
     assert_eq!([q.len(), v.len(), z.len(), works.len()], lengths, "a row for each time");
     let mut found = Vec::with_capacity(ENERGIES * t.len());
     let rows = mechanical((model, cache), states).into_iter().zip(works.chunks_exact(WORKS));
@@ -69,7 +69,7 @@ fn mechanical(
             let t = Lanes::new([t[0], t[1], t[2], t[3]]);
             let [kinetic, potential] = at(wide, t, [&places, &rates, &states], &mut motions);
             let both = kinetic.to_array().into_iter().zip(potential.to_array());
-            found.extend(both.map(|(kinetic, potential)| [kinetic, potential]));
+            both.map(|(kinetic, potential)| [kinetic, potential]).append_to(&mut found);
             done += Lanes::WIDTH;
         }
     }

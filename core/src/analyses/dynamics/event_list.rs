@@ -10,7 +10,7 @@ use crate::analyses::signals::Seen;
 use crate::analyses::so_far::SoFar;
 use crate::analyses::step_part::{self, StepPart};
 use crate::integrate::{crossings, Bounds, Crossing, Direction, Step, StepPath, TooFast, Watch};
-use crate::math::Real;
+use crate::math::{Listed, Ordered, Real};
 use crate::model::Model;
 use std::collections::HashMap;
 
@@ -251,7 +251,7 @@ impl<'a> EventList<'a> {
             }
         }
         let sign = (step.t - step.t_old).signum();
-        found.sort_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)).then(a.index.cmp(&b.index)));
+        found.order_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)).then(a.index.cmp(&b.index)));
         Ok(StepEvents::End(found))
     }
 
@@ -260,14 +260,14 @@ impl<'a> EventList<'a> {
         let Self { watched, evaluator, .. } = self;
         let mut changed = |by: [f64; 2]| {
             let parts = step.y_old.iter().enumerate();
-            let y: Vec<f64> = parts.map(|(k, y)| y * (1.0 + ROUNDING * by[k % 2])).collect();
+            let y: Vec<f64> = parts.map(|(k, y)| y * (1.0 + ROUNDING * by[k % 2])).list();
             let t = step.t_old * (1.0 + ROUNDING * by[0]);
             evaluator.see(model, (t, &y), step, |seen| {
                 let values = watched.iter().map(|event| match event.function {
                     EventFunction::Condition(condition) => condition.value(model, seen).abs(),
                     _ => f64::NAN,
                 });
-                values.collect::<Vec<f64>>()
+                values.list()
             })
         };
         let mut zero: Vec<f64> = changed([0.0, 0.0]);
@@ -289,8 +289,8 @@ impl<'a> EventList<'a> {
         step: &Step<'_>,
         ends_phase: bool,
     ) -> Result<Vec<Crossing>, TooFast> {
-        let directions: Vec<Direction> = self.watched.iter().map(|of| of.direction).collect();
-        let ends: Vec<bool> = self.watched.iter().map(|of| of.ends).collect();
+        let directions: Vec<Direction> = self.watched.iter().map(|of| of.direction).list();
+        let ends: Vec<bool> = self.watched.iter().map(|of| of.ends).list();
         let parts = step_part::parts(model, step);
         let mut seen = InStep { list: self, model, step, ends_phase, known: HashMap::new() };
         crossings(&StepPath::new(step), parts, &directions, &mut seen, &|index| ends[index])

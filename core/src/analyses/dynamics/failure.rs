@@ -8,6 +8,7 @@ use crate::analyses::mobility::dependent;
 use crate::elements::Equation;
 use crate::expression::TABLE_ENDS;
 use crate::integrate::Cause;
+use crate::math::Listed;
 use crate::model::{size, Model, Switch};
 use crate::solve::Breakdown;
 use std::fmt;
@@ -349,7 +350,7 @@ fn positions(model: &Model, q: &[f64]) -> String {
     let bodies = bodies.map(|(body, columns)| (body, columns.of(q)));
     let bodies: Vec<String> = bodies
         .map(|(b, q)| format!("{} x = {:.6} y = {:.6} angle = {:.6}", b.name, q[0], q[1], q[2]))
-        .collect();
+        .list();
     let more = if model.bodies.len() > MOST_BODIES + 1 { ", …" } else { "" };
     format!("at {}{more}", bodies.join(", "))
 }

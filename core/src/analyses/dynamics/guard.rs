@@ -23,6 +23,7 @@ use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::newton_euler::{self, Balances};
 use crate::integrate::Flow;
+use crate::math::Listed;
 use crate::model::{row_scales, Model, WORKS};
 
 /// Largest number of examined states of a phase.
@@ -133,11 +134,11 @@ impl Guard {
         let Some(phase) = run.phases.len().checked_sub(1).filter(|_| succeeded) else { return };
         let works = &run.trajectory.works[WORKS * run.phases[phase]..];
         let rows = ExaminedRows::some(model, run.states_of(phase), works);
-        let (states, watch) = (rows.states(), |_: f64| Flow::Continue);
+        let (states, mut watch) = (rows.states(), |_: f64| Flow::Continue);
         self.look_at_energies((model, cache), states, &rows.works);
         self.look_at_gaps(model, states, run);
         // reading accelerations that do not exist is an error
-        if let Ok(found) = accelerations((model, cache), states, run.passing, watch) {
+        if let Ok(found) = accelerations((model, cache), states, run.passing, &mut watch) {
             self.look_at_forces(model, states, &found);
         }
     }
@@ -161,7 +162,7 @@ impl Guard {
         let exact = run.passed.is_empty() && !model.allow_redundancy;
         let beside = if exact { 0.0 } else { BESIDE };
         let contacts: Vec<(usize, f64)> =
-            rigid_contacts(model).map(|k| (k, gap_unit(model, k))).collect();
+            rigid_contacts(model).map(|k| (k, gap_unit(model, k))).list();
         let mut motions = Motions::new(&model.layout);
         for (t, [q, v, z]) in each(model, states) {
             motions.place(&model.layout, q, v);

@@ -16,6 +16,7 @@
 use super::methods::Auto;
 use super::stiffness_detection::{Fastest, StiffnessDetector, LIMIT, TO_GO};
 use crate::integrate::Atol;
+use crate::math::each;
 use crate::model::{size, Model};
 
 /// Ratio |λ| / w from which a model counts as stiff: a factor of six between the step at the stability limit and the
@@ -104,7 +105,7 @@ fn pace(model: &Model, v: &[f64], a: &[f64]) -> f64 {
     let bodies = model.layout.bodies.iter().map(|columns| (columns.of(v), columns.of(a)));
     bodies.fold(0.0, |most: f64, (v, a): ([f64; 3], [f64; 3])| {
         let rates = [v[2].abs(), v[0].hypot(v[1]) / size];
-        let roots = [a[2].abs(), a[0].hypot(a[1]) / size].map(f64::sqrt);
+        let roots = each([a[2].abs(), a[0].hypot(a[1]) / size], f64::sqrt);
         rates.into_iter().chain(roots).fold(most, f64::max)
     })
 }

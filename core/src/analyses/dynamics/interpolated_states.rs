@@ -10,6 +10,7 @@ use super::report_projection::ReportProjection;
 use super::stabilizations::Stabilization;
 use super::trajectory::States;
 use crate::equations::augmented::NearSingular;
+use crate::math::each;
 use crate::model::Model;
 use crate::stabilize::Projection;
 
@@ -21,7 +22,7 @@ pub(super) fn project(
 ) -> Result<[Vec<f64>; 2], Box<Failure>> {
     let States { t, q, v, z } = states;
     let (n, n_z) = (model.layout.n_q, model.layout.n_z);
-    let lengths = [n, n, n_z].map(|width| width * t.len());
+    let lengths = each([n, n, n_z], |width| width * t.len());
     assert_eq!([q.len(), v.len(), z.len()], lengths, "a row for each time");
     let Some(&first) = t.first() else { return Ok([Vec::new(), Vec::new()]) };
     let mut workspace = workspace_at((model, cache), first, [&q[..n], &v[..n], &z[..n_z]]);

@@ -3,7 +3,7 @@
 use super::motion_ode::{rates, MotionOde};
 use crate::equations::{Gains, Workspace};
 use crate::integrate::{LaneOde, Mask};
-use crate::math::Lanes;
+use crate::math::{Lanes, Listed};
 use crate::model::Model;
 use crate::stabilize::LaneProjector;
 
@@ -33,7 +33,7 @@ impl LaneMotion {
         }
         let models = lanes.map(|one| one.model);
         let parameter = |k| Lanes::new(models.map(|model| model.parameters[k]));
-        let parameters: Vec<Lanes> = (0..first.model.parameters.len()).map(parameter).collect();
+        let parameters: Vec<Lanes> = (0..first.model.parameters.len()).map(parameter).list();
         let model = Box::new(Model::new(&first.model.blueprint, &parameters));
         let mut workspace = Workspace::like(&model, &first.workspace);
         if first.passing {

@@ -4,6 +4,7 @@ use crate::elements::{catalogue, Group};
 use crate::equations::held;
 use crate::equations::kinematics::Motions;
 use crate::expression::Tape;
+use crate::math::Listed;
 use crate::model::{Model, Variable};
 
 /// Largest distance from the failure at which a law is evaluated, relative to 1 s + |t|. The steps of an integrator
@@ -28,9 +29,9 @@ pub(super) fn undefined_law(
     let distances = (0..40).map(|k| reach * 0.5_f64.powi(39 - k));
     let beside = std::iter::once(0.0).chain(distances.flat_map(|d| [d, -d]));
     beside.into_iter().find_map(|d| {
-        let moved: Vec<f64> = q.iter().zip(v).map(|(q, v)| q + d * v).collect();
+        let moved: Vec<f64> = q.iter().zip(v).map(|(q, v)| q + d * v).list();
         // accelerations are unknown
-        let faster = |x: &[f64]| x.iter().map(|x| x * (1.0 + d / (1.0 + t.abs()))).collect();
+        let faster = |x: &[f64]| x.iter().map(|x| x * (1.0 + d / (1.0 + t.abs()))).list();
         let [v, z]: [Vec<f64>; 2] = [faster(v), faster(z)];
         undefined_at(model, t + d, [&moved, &v, &z])
     })
@@ -71,5 +72,5 @@ fn undefined_at(model: &Model, t: f64, [q, v, z]: [&[f64]; 3]) -> Option<LawFaul
 fn fields(group: Group, kind: &str, scalars: &[usize]) -> Vec<&'static str> {
     let declared = catalogue().into_iter().find(|(g, table)| *g == group && table.name == kind);
     let fields = declared.map(|(_, table)| table.fields).unwrap_or_default();
-    fields.iter().zip(scalars).flat_map(|(field, count)| vec![field.name; *count]).collect()
+    fields.iter().zip(scalars).flat_map(|(field, count)| vec![field.name; *count]).list()
 }

@@ -9,6 +9,7 @@ use super::failure::{Failure, Reason};
 use super::no_mass;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
+use crate::math::{Listed, Ordered};
 use crate::model::Model;
 use crate::solve::{SparseRank, SparseRow, RANK_TOLERANCE};
 
@@ -40,7 +41,7 @@ pub(super) fn near(model: &Model, t: f64, q: &[f64]) -> Option<Box<Failure>> {
     let bodies = model.bodies.iter().zip(&model.layout.bodies).skip(1);
     let turning = bodies.filter(|(body, _)| body.turns && body.mass > 0.0 && body.inertia == 0.0);
     let angles = turning.map(|(_, columns)| columns.first + 2);
-    let massless = angles.chain(columns(model)).collect();
+    let massless = angles.chain(columns(model)).list();
     let (name, message) = within(NEAR, massless, model, t, q).into_iter().next()?;
     Some(Reason::Singular { t, name, message }.into())
 }
@@ -64,12 +65,12 @@ fn within(
     }
     let normal = |column: &usize| {
         let mut entries = std::mem::take(&mut all[*column]);
-        entries.sort_unstable_by_key(|(row, _)| *row);
+        entries.order_by_key(|(row, _)| *row);
         let length = entries.iter().map(|(_, x)| x * x).sum::<f64>().sqrt();
         entries.iter_mut().for_each(|(_, x)| *x /= length);
         entries
     };
-    let rows: Vec<SparseRow> = massless.iter().map(normal).collect();
+    let rows: Vec<SparseRow> = massless.iter().map(normal).list();
     let found = SparseRank::new(&rows, model.layout.n_rows, tolerance, &|| false);
     let dependent = found.map(|found| found.dependent).unwrap_or_default();
     let mut messages: Vec<(String, String)> = Vec::new();
@@ -89,11 +90,11 @@ fn columns(model: &Model) -> Vec<usize> {
         let turning = body.turns && body.inertia == 0.0;
         columns.first..columns.first + if turning { 3 } else { 2 }
     });
-    let massless: Vec<usize> = massless.collect();
+    let massless: Vec<usize> = massless.list();
     let own = model.layout.constraints.iter().flat_map(|slots| slots.own.range());
     if massless.is_empty() {
         massless
     } else {
-        own.chain(massless).collect()
+        own.chain(massless).list()
     }
 }

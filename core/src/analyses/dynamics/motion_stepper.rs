@@ -19,6 +19,7 @@ use crate::integrate::{
     BoxedStepper, Cause, Direction, ExplicitMethod, SideBySide, Step, StepControl, StepCounts,
     Stepper, TooFast,
 };
+use crate::math::Listed;
 use crate::solve::Breakdown;
 use crate::stabilize::Projector;
 
@@ -221,12 +222,12 @@ impl<'a> MotionStepper<'a> {
         let Some(step) = self.kind.get().last_step() else { return };
         let (model, ahead) = (self.ode.model, at - step.t);
         let [q, v, ..] = model.layout.split(step.y);
-        let there: Vec<f64> = q.iter().zip(v).map(|(q, v)| q + ahead * v).collect();
+        let there: Vec<f64> = q.iter().zip(v).map(|(q, v)| q + ahead * v).list();
         // positions of a step that is taken again are found again
         let direction = step.t - step.t_old;
         self.passed.retain(|before| (before.t - step.t_old) * direction <= 0.0);
         let group = dependent(model, at, &there, row);
-        let names = group.into_iter().map(|k| model.constraints[k].name.clone()).collect();
+        let names = group.into_iter().map(|k| model.constraints[k].name.clone()).list();
         let residual = self.ode.projector.as_ref().map_or(0.0, Projector::gap);
         self.passed.push(Passed { t: at, names, slope, residual });
     }

@@ -1,6 +1,7 @@
 //! Messages about coordinates whose motion nothing resists: bodies without mass or inertia.
 
 use crate::elements::BodyId;
+use crate::math::Listed;
 use crate::model::{Model, Slots};
 
 /// The name of a body, or of a joint with internal coordinates, and a message that nothing resists the motion of this
@@ -59,5 +60,5 @@ fn without_inertia(model: &Model, t: f64, id: BodyId, joints: &str) -> String {
 /// The joints and drivers of a body.
 fn joined(model: &Model, body: BodyId) -> Vec<&str> {
     let joints = model.constraints.iter().filter(|item| item.bodies.contains(&body));
-    joints.map(|item| item.name.as_str()).collect()
+    joints.map(|item| item.name.as_str()).list()
 }

@@ -109,9 +109,9 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         &self,
         states: States<'_>,
         passing: bool,
-        watch: impl FnMut(f64) -> Flow,
+        mut watch: impl FnMut(f64) -> Flow,
     ) -> Result<Accelerations, Box<Failure>> {
-        accelerations((&self.model, &self.cache), states, passing, watch)
+        accelerations((&self.model, &self.cache), states, passing, &mut watch)
     }
 
     /// Projects states between the outputs of a run, such as states of its interpolant. The results are rows of q and

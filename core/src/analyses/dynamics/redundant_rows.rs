@@ -5,12 +5,13 @@ use super::model_cache::ModelCache;
 use crate::analyses::mobility;
 use crate::equations::augmented::NearSingular;
 use crate::equations::{Gains, Workspace};
+use crate::math::Listed;
 use crate::model::Model;
 
 /// The rows that repeat others at and near a position. Empty if redundant constraints are refused.
 pub(super) fn redundant_rows(model: &Model, t: f64, q: &[f64]) -> Vec<usize> {
     match model.allow_redundancy {
-        true => mobility(model, t, q).redundant_equations.iter().map(|one| one.row).collect(),
+        true => mobility(model, t, q).redundant_equations.iter().map(|one| one.row).list(),
         false => Vec::new(),
     }
 }

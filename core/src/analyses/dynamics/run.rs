@@ -17,6 +17,7 @@ use crate::analyses::State;
 use crate::equations::energy;
 use crate::equations::kinematics::Motions;
 use crate::integrate::{Cause, Flow, TooFast};
+use crate::math::Listed;
 use crate::model::Model;
 use crate::solve::Breakdown;
 
@@ -293,7 +294,7 @@ fn observe(
         Some(StepEvents::End(happened)) => {
             recorder.t_end = step.t;
             let ending = happened.iter().filter(|event| event.t == step.t);
-            fired.extend(ending.map(|event| event.index));
+            ending.map(|event| event.index).append_to(fired);
             happened
         }
         Some(StepEvents::Events(happened)) => happened,

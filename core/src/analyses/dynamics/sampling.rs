@@ -5,6 +5,7 @@
 //! sample.
 
 use super::failure::{Failure, Reason};
+use crate::math::Listed;
 use crate::model::{Functions, Model};
 
 /// Largest number of samples of a run.
@@ -26,9 +27,9 @@ impl Sample {
         let functions = model.blueprint.functions.as_ref()?;
         let [q, v, z, _] = model.layout.split(y);
         let x = [&[t], q, v, z].concat();
-        let mut values: Vec<f64> = model.layout.held.iter().map(|place| z[*place]).collect();
+        let mut values: Vec<f64> = model.layout.held.iter().map(|place| z[*place]).list();
         let due = functions.sampled().zip(&mut values).filter(|((.., times), _)| times.is_at(t));
-        let due: Vec<_> = due.map(|((law, ..), value)| *value = functions.value(law, &x)).collect();
+        let due: Vec<_> = due.map(|((law, ..), value)| *value = functions.value(law, &x)).list();
         (!due.is_empty()).then_some(Self { t, values })
     }
 

@@ -19,7 +19,7 @@ use super::setting::Setting;
 use super::stabilizations::Stabilization;
 use crate::analyses::State;
 use crate::integrate::{Flow, LaneSteps, Steppers, Taken};
-use crate::math::Lanes;
+use crate::math::{Lanes, Listed};
 use crate::model::{usual_energy, Model};
 
 const WIDTH: usize = Lanes::WIDTH;
@@ -155,7 +155,7 @@ pub fn side_by_side(
     watch: &dyn Fn() -> Flow,
 ) -> (Vec<RunOutcome>, Trials) {
     let mut trials = Trials::default();
-    let mut outcomes: Vec<Option<RunOutcome>> = variants.iter().map(|_| None).collect();
+    let mut outcomes: Vec<Option<RunOutcome>> = variants.iter().map(|_| None).list();
     let mut waiting = variants.iter().enumerate();
     let mut lanes: [Option<Underway<'_>>; WIDTH] = Default::default();
     let (mut steps, mut motion) = (LaneSteps::default(), None);
@@ -188,7 +188,7 @@ pub fn side_by_side(
             }
         }
     }
-    (outcomes.into_iter().flatten().collect(), trials)
+    (outcomes.into_iter().flatten().list(), trials)
 }
 
 /// Begins the next run that does not end at once.

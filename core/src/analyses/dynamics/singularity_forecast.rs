@@ -3,6 +3,7 @@
 //! If Φ_q loses rank at t_s, a pivot of Φ_q M⁻¹ Φ_qᵀ tends to zero as (t - t_s)². Its square root falls linearly to
 //! zero, and the pivot itself is a parabola with its vertex at t_s. Both give t_s well before a step reaches it.
 
+use crate::math::{each, Ordered};
 /// Largest pivot at the vertex of the parabola, as a fraction of the pivots beside it. A position with a larger pivot
 /// is regular.
 const DEEP: f64 = 0.05;
@@ -74,7 +75,7 @@ impl SingularityForecast {
         let mut samples = vec![start];
         samples.extend(stages);
         samples.push(end);
-        samples.sort_by(|a, b| ((a.0 - b.0) * step).total_cmp(&0.0));
+        samples.order_by(|a, b| ((a.0 - b.0) * step).total_cmp(&0.0));
         samples.dedup_by(|a, b| (a.0 - b.0).abs() < APART * step.abs());
         let reached = |t: &f64| (0.0..2.0).contains(&((t - start.0) / step));
         self.position = vanishing(&samples).filter(reached);
@@ -101,8 +102,7 @@ impl SingularityForecast {
 
 /// Slope of the square root of the pivot from the time at which it vanishes, averaged over both sides.
 fn slope(t: f64, start: Sample, end: Sample) -> f64 {
-    0.5 * [start, end]
-        .map(|(at, pivot)| pivot.sqrt() / (at - t).abs().max(f64::MIN_POSITIVE))
+    0.5 * each([start, end], |(at, pivot)| pivot.sqrt() / (at - t).abs().max(f64::MIN_POSITIVE))
         .iter()
         .sum::<f64>()
 }

@@ -12,6 +12,7 @@ use crate::equations::Gains;
 use crate::integrate::{
     Atol, BoxedStepper, Cause, Dop853, ExplicitMethod, Step, StepControl, StepCounts, Stepper,
 };
+use crate::math::Listed;
 use crate::solve::Breakdown;
 
 /// Largest relative tolerance of DOP853 at a singular position, whose neighbourhood amplifies errors.
@@ -303,7 +304,7 @@ fn strict(control: &StepControl) -> StepControl {
     let part = (RTOL / control.rtol).min(1.0);
     let atol = match &control.atol {
         Atol::Scalar(atol) => Atol::Scalar(part * atol),
-        Atol::Each(atol) => Atol::Each(atol.iter().map(|atol| part * atol).collect()),
+        Atol::Each(atol) => Atol::Each(atol.iter().map(|atol| part * atol).list()),
         Atol::Scaled(atol) => Atol::Scaled(part * atol),
     };
     let rtol = control.rtol.min(RTOL);

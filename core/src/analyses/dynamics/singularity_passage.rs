@@ -15,6 +15,7 @@ use crate::analyses::mobility;
 use crate::equations::augmented::NearSingular;
 use crate::equations::forces::Acting;
 use crate::equations::{constraints, forces, mass, Gains, Powers, Workspace};
+use crate::math::each;
 use crate::model::{size, Model};
 use crate::solve::Breakdown;
 
@@ -188,7 +189,7 @@ impl SingularityPassage {
         let (mut twice, mut pull, mut applied, mut mass_all) = (0.0, 0.0, 0.0, 0.0);
         let bodies = model.bodies.iter().zip(work.motions.iter()).zip(&model.layout.bodies).skip(1);
         for ((body, motion), columns) in bodies {
-            let [v, a, load] = [v, work.a(), &self.loads].map(|x| columns.of(x));
+            let [v, a, load] = each([v, work.a(), &self.loads], |x| columns.of(x));
             let block = mass::block(body, motion);
             let square = |x: [f64; 3]| -> f64 {
                 let m = block.times(x);
@@ -204,7 +205,7 @@ impl SingularityPassage {
             }
             mass_all += body.mass;
         }
-        let [pull, applied, root] = [pull, applied, mass_all].map(f64::sqrt);
+        let [pull, applied, root] = each([pull, applied, mass_all], f64::sqrt);
         // drivers that prescribe the whole motion also carry loads that do not move it
         let prescribed = model.layout.n_rows - work.matrix.omitted().len() >= model.layout.n_q;
         let moving = if prescribed { applied.min(pull) } else { applied };

@@ -2,6 +2,7 @@
 
 use super::failure::{Failure, Reason};
 use super::setting::Setting;
+use crate::math::Listed;
 use crate::model::Model;
 
 /// Counts changes of mode that occur at one time.
@@ -29,7 +30,7 @@ impl Stall {
             return Ok(());
         }
         let names: Vec<&str> =
-            setting.modes.iter().map(|of| model.forces[of.force].name.as_str()).collect();
+            setting.modes.iter().map(|of| model.forces[of.force].name.as_str()).list();
         let message = format!(
             "contacts or friction change their modes without end at t = {t:.6} s, among them {}",
             names.join(", ")

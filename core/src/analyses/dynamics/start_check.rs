@@ -17,6 +17,7 @@ use crate::elements::Group;
 use crate::equations::augmented::NearSingular;
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, Gains};
+use crate::math::Listed;
 use crate::model::{column_scales, row_scales, Model};
 
 /// Largest opening of a joint: lengths relative to the size of the mechanism, angles in rad.
@@ -110,7 +111,7 @@ impl StartCheck {
         constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
         let rows = row_scales(model);
         let level = |found, most: f64, per| {
-            let most = rows.iter().map(|scale| most * scale).collect();
+            let most = rows.iter().map(|scale| most * scale).list();
             ConstraintRows { rows: found, most, per }
         };
         let closed = rounding(model, q).clamp(self.closed, self.closed.max(self.rounded));

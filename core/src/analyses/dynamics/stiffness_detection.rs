@@ -17,6 +17,7 @@
 
 use crate::equations::{Gains, Workspace};
 use crate::integrate::Step;
+use crate::math::Listed;
 use crate::model::Model;
 
 /// Length of the stability region of DOP853 along the negative real axis.
@@ -77,7 +78,7 @@ impl<'a> StiffnessDetector<'a> {
     pub fn new(model: &'a Model, one: &Workspace, t0: f64) -> Self {
         let n = 2 * model.layout.n_q + model.layout.n_z;
         // an arbitrary vector has a component in every motion
-        let start = (0..n).map(|k| (1.0 + 0.7 * k as f64).sin()).collect();
+        let start = (0..n).map(|k| (1.0 + 0.7 * k as f64).sin()).list();
         Self {
             model,
             workspace: Workspace::like(model, one),
@@ -134,11 +135,11 @@ impl<'a> StiffnessDetector<'a> {
         let [q, v, z, _] = self.model.layout.split(y);
         let [a, dz] = self.respond(t, [q, v, z])?;
         let moved = |x: &[f64], rate: &[f64]| -> Vec<f64> {
-            x.iter().zip(rate).map(|(x, rate)| x + probe * rate).collect()
+            x.iter().zip(rate).map(|(x, rate)| x + probe * rate).list()
         };
         let (q, v, z) = (moved(q, v), moved(v, &a), moved(z, &dz));
         let [later, _] = self.respond(t + probe, [&q, &v, &z])?;
-        let jerk = later.iter().zip(&a).map(|(new, a)| (new - a) / probe).collect();
+        let jerk = later.iter().zip(&a).map(|(new, a)| (new - a) / probe).list();
         Some([a, jerk])
     }
 
@@ -167,7 +168,7 @@ impl<'a> StiffnessDetector<'a> {
                     return None;
                 }
                 let moved = |y: &[f64], x: &[f64]| -> Vec<f64> {
-                    y.iter().zip(x).map(|(y, x)| y + epsilon * x).collect()
+                    y.iter().zip(x).map(|(y, x)| y + epsilon * x).list()
                 };
                 let (q, v, z) = (moved(q, of_q), moved(v, of_v), moved(z, of_z));
                 let [near_a, near_dz] = self.respond(t, [&q, &v, &z])?;

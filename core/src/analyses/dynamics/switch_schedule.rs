@@ -6,6 +6,7 @@ use super::law_jump::{owner_name, LawJump, SMOOTH};
 use super::sampling;
 use crate::equations::kinematics::Motions;
 use crate::expression::{pieces_at, switch_times, Tape};
+use crate::math::Listed;
 use crate::model::{Model, SwitchOwner};
 
 /// Switches closer than this distance count as one switch, relative to the largest time of a run.
@@ -29,7 +30,7 @@ impl Schedule {
     pub fn new(model: &Model, (t0, t_end): (f64, f64)) -> Result<Self, Box<Failure>> {
         let samples = sampling::times(model, (t0, t_end))?;
         if model.switches.is_empty() {
-            let times = samples.iter().map(|t| (*t, Vec::new())).collect();
+            let times = samples.iter().map(|t| (*t, Vec::new())).list();
             return Ok(Self { times, samples, ..Self::default() });
         }
         let mut tapes: Vec<Tape> = Vec::new();
@@ -87,7 +88,7 @@ impl Schedule {
         for (k, t) in times.iter().enumerate() {
             let next = pieces_between(*t, end_of(k + 1));
             let changes = (0..now.len()).filter(|s| now[*s].to_bits() != next[*s].to_bits());
-            let changes: Vec<_> = changes.map(|s| (s, next[s])).collect();
+            let changes: Vec<_> = changes.map(|s| (s, next[s])).list();
             if !changes.is_empty() || schedule.samples_at(*t) {
                 schedule.times.push((*t, changes));
             }
@@ -133,7 +134,7 @@ pub(super) fn changed_constraints(model: &Model, changes: &[(usize, f64)]) -> Ve
         SwitchOwner::Constraint(k) => Some(k),
         SwitchOwner::Force(_) => None,
     });
-    let mut all: Vec<usize> = owners.collect();
+    let mut all: Vec<usize> = owners.list();
     all.dedup();
     all
 }

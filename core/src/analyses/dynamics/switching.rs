@@ -23,6 +23,7 @@ use crate::equations::forces::Acting;
 use crate::equations::kinematics::Motions;
 use crate::equations::{switches, Gains, Workspace};
 use crate::integrate::{Cause, Scan, Step, TooFast};
+use crate::math::Listed;
 use crate::model::{Model, SwitchOwner};
 use crate::solve::Breakdown;
 use forms::SwitchForm;
@@ -107,7 +108,7 @@ impl Switching {
         let model = ode.model;
         let n = model.switches.len();
         let on_state = |k: &usize| model.switches[*k].state && !model.switches[*k].smooth;
-        let on_state: Vec<usize> = (0..n).filter(on_state).collect();
+        let on_state: Vec<usize> = (0..n).filter(on_state).list();
         if schedule.times.is_empty() && on_state.is_empty() {
             return None;
         }
@@ -124,7 +125,7 @@ impl Switching {
             length: (t_end - t).abs(),
             sign: (t_end - t).signum(),
             history: vec![History { last: f64::NAN, quick: 0, calm }; n],
-            forms: on_state.iter().map(|k| SwitchForm::of(model, *k)).collect(),
+            forms: on_state.iter().map(|k| SwitchForm::of(model, *k)).list(),
             on_state,
             due: None,
             workspace: reactive.then(|| Box::new(ode.workspace.clone())),
@@ -332,10 +333,10 @@ impl Switching {
         };
         let tries = self.due.as_ref().map_or(0, |due| due.tries);
         let together = scanned.first.iter().map(|crossing| self.on_state[crossing.index]);
-        let together: Vec<usize> = together.collect();
+        let together: Vec<usize> = together.list();
         self.evaluate_at(model, step, first);
         let next = |k: usize| (k, model.switches[k].boundaries.next(self.sigma[k], self.pieces[k]));
-        let changes: Vec<_> = together.into_iter().map(next).collect();
+        let changes: Vec<_> = together.into_iter().map(next).list();
         if self.due.is_none() && first != step.t {
             let within = (step.t_old, first);
             self.graded = contact_resolution::before_release(model, &changes, within, self.steps);
@@ -361,7 +362,7 @@ impl Switching {
                     piece => (k, piece),
                 }
             };
-            let changes: Vec<_> = scanned.negative.iter().map(|k| of(*k)).collect();
+            let changes: Vec<_> = scanned.negative.iter().map(|k| of(*k)).list();
             self.due = Some(Due { t: step.t_old, changes, tries: 0 });
             return After::Change;
         }

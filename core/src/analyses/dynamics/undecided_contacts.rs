@@ -5,7 +5,7 @@ use super::trajectory::States;
 use crate::analyses::rigid::{unit, RigidContacts, TOUCHING};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
-use crate::math::{Jet, Lift};
+use crate::math::{each, Jet, Lift, Listed};
 use crate::model::Model;
 
 /// Rates and accelerations of a gap count as zero below this fraction of the largest ones of the state.
@@ -32,7 +32,7 @@ pub(super) fn check(
         if touched.forces().is_empty() {
             continue;
         }
-        let [q, v, a] = [q, v, a].map(|x| &x[row.clone()]);
+        let [q, v, a] = each([q, v, a], |x| &x[row.clone()]);
         look(model, &touched, t, [q, v, a, &z[k * n_z..(k + 1) * n_z]])?;
     }
     Ok(())
@@ -46,9 +46,9 @@ fn look(
 ) -> Result<(), Box<Failure>> {
     let lifted = model.lift::<Jet>();
     let place = q.iter().zip(v).zip(a).map(|((q, v), a)| Jet::new(*q, *v, *a));
-    let rates: Vec<Jet> = v.iter().zip(a).map(|(v, a)| Jet::new(*v, *a, 0.0)).collect();
-    let motions = Motions::at(&lifted.layout, &place.collect::<Vec<_>>(), &rates);
-    let z: Vec<Jet> = z.iter().map(|z| Jet::lift(*z)).collect();
+    let rates: Vec<Jet> = v.iter().zip(a).map(|(v, a)| Jet::new(*v, *a, 0.0)).list();
+    let motions = Motions::at(&lifted.layout, &place.list(), &rates);
+    let z: Vec<Jet> = z.iter().map(|z| Jet::lift(*z)).list();
     let acting = Acting { z: &z, lam: None, t: Jet::new(t, 1.0, 0.0) };
     let largest = |x: &[f64]| x.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let (fastest, strongest) = (STILL * largest(v), STILL * largest(a));

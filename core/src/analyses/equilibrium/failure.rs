@@ -2,6 +2,7 @@
 
 use crate::analyses::linearization::coordinate as named;
 use crate::analyses::mobility::mobility;
+use crate::math::Listed;
 use crate::model::{Model, Problem};
 use std::fmt;
 
@@ -140,7 +141,7 @@ impl fmt::Display for Reason {
                 "the point moves without any stiffness: nothing holds the mechanism along {coordinate}"
             ),
             Self::Option(problems) => {
-                let texts: Vec<String> = problems.iter().map(ToString::to_string).collect();
+                let texts: Vec<String> = problems.iter().map(ToString::to_string).list();
                 f.write_str(&texts.join("\n"))
             }
             Self::Stopped => f.write_str("the search was stopped"),

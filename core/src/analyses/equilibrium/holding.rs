@@ -8,23 +8,23 @@ use crate::elements::Followed;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
 use crate::expression::Tape;
+use crate::math::Listed;
 use crate::model::{Model, Problem};
 use std::sync::Arc;
 
 /// The model with holders that keep the position quantities `hold` at their values at `start`. The holders are its
 /// last constraints.
 pub(super) fn holding(model: &Model, start: &State, hold: &[String]) -> Result<Model, Reason> {
-    let found: Vec<_> = hold.iter().map(|name| position(model, name)).collect();
-    let faults: Vec<Problem> = found.iter().filter_map(|one| one.clone().err()).collect();
+    let found: Vec<_> = hold.iter().map(|name| position(model, name)).list();
+    let faults: Vec<Problem> = found.iter().filter_map(|one| one.clone().err()).list();
     if !faults.is_empty() {
-        return Err(Reason::Option(faults.into_iter().map(at_hold).collect()));
+        return Err(Reason::Option(faults.into_iter().map(at_hold).list()));
     }
-    let followed: Vec<Followed<Tape>> = found.into_iter().flatten().collect();
+    let followed: Vec<Followed<Tape>> = found.into_iter().flatten().list();
     let with = |values: &[f64]| {
         let all = hold.iter().zip(&followed).zip(values);
-        let held: Vec<_> = all
-            .map(|((name, of), x)| (format!("hold {name}"), of.clone(), Tape::from(*x)))
-            .collect();
+        let held: Vec<_> =
+            all.map(|((name, of), x)| (format!("hold {name}"), of.clone(), Tape::from(*x))).list();
         Model::new(&Arc::new(model.blueprint.holding(&held)), &model.parameters)
     };
     let open = with(&vec![0.0; hold.len()]);

@@ -5,7 +5,7 @@ use super::statics::{StaticState, Statics};
 use crate::analyses::linearization::{slopes_by_parameter, LeastNorm, StatePoint, Variation, D};
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
-use crate::math::Lift;
+use crate::math::{Lift, Listed};
 use crate::model::Model;
 
 /// The model at a value of a parameter. Parameters whose formulas depend on it are computed anew.
@@ -35,11 +35,10 @@ impl ByParameter {
         let singular = |_| Reason::singular(model, t, &place.q);
         let factors =
             LeastNorm::new(model, t, &place.q, model.allow_redundancy).map_err(singular)?;
-        let motion = factors.least(&opens.iter().map(|x| -x).collect::<Vec<f64>>());
+        let motion = factors.least(&opens.iter().map(|x| -x).list());
         let direct = by.along(StatePoint::default());
         let moved = plain.along(StatePoint { q: &motion, ..StatePoint::default() });
-        let sum =
-            |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a + b).collect() };
+        let sum = |a: &[f64], b: &[f64]| -> Vec<f64> { a.iter().zip(b).map(|(a, b)| a + b).list() };
         let (forces, rates) =
             (sum(&direct.forces, &moved.forces), sum(&direct.states, &moved.states));
         let by_states = statics.by_states(&plain, place.z.len());
@@ -50,8 +49,8 @@ impl ByParameter {
 
 /// ∂Φ/∂p.
 fn opening(model: &Model<D>, q: &[f64], t: f64) -> Vec<f64> {
-    let q: Vec<D> = q.iter().map(|q| D::lift(*q)).collect();
+    let q: Vec<D> = q.iter().map(|q| D::lift(*q)).list();
     let mut phi = vec![D::lift(0.0); model.layout.n_rows];
     constraints::residual(model, &Motions::at_rest(&model.layout, &q), D::lift(t), &mut phi);
-    phi.iter().map(|x| x.slope[0]).collect()
+    phi.iter().map(|x| x.slope[0]).list()
 }

@@ -11,6 +11,7 @@ use super::stride::advance;
 use super::turning;
 use crate::analyses::State;
 use crate::integrate::Flow;
+use crate::math::Listed;
 use crate::model::{column_scales, Model};
 
 /// First and longest step. The parameter is measured in units of its range, the coordinates by their root mean square
@@ -44,7 +45,7 @@ pub fn path(
     let first = parameter::at(&held, over, range[0])?;
     let begin = super::from(&first, start, options, &mut |_| watch(range[0]))?;
     let n = start.q.len() as f64;
-    let weights = column_scales(&first).iter().map(|s| 1.0 / (s * s * n)).collect();
+    let weights = column_scales(&first).iter().map(|s| 1.0 / (s * s * n)).list();
     let (holders, t, unit) = (options.hold.len(), start.t, (range[1] - range[0]).abs());
     let course = ParameterPath { model: &held, holders, t, over, unit, weights };
     let spot = course.spot(range[0], &begin.state.q, &begin.state.z)?;

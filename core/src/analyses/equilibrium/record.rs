@@ -8,6 +8,7 @@ use super::{equilibrium, path};
 use crate::analyses::record::{
     Analysis, ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished,
 };
+use crate::math::Listed;
 use serde_json::{json, Value};
 
 impl Analysis for Options {
@@ -55,7 +56,7 @@ fn points(found: &EquilibriumPath) -> Value {
         PathEnd::Stopped => ("stopped", String::new()),
     };
     json!({
-        "points": found.points.iter().map(point).collect::<Vec<_>>(), "values": found.values,
+        "points": found.points.iter().map(point).list(), "values": found.values,
         "folds": found.folds, "branches": found.branches, "end": end, "why": why
     })
 }

@@ -6,6 +6,7 @@
 use super::failure::Reason;
 use super::statics::{StaticState, Statics};
 use crate::integrate::Flow;
+use crate::math::Listed;
 
 /// Largest number of steps.
 const STEPS: usize = 4000;
@@ -47,7 +48,7 @@ pub(super) fn relax(
             continue;
         }
         last = kinetic;
-        let q: Vec<f64> = place.q.iter().zip(&v).map(|(q, v)| q + v).collect();
+        let q: Vec<f64> = place.q.iter().zip(&v).map(|(q, v)| q + v).list();
         match statics.place(&q, &place.z) {
             Ok(next) if statics.energy_change(&place, &next) <= 0.0 => place = next,
             // the step was too long: it is repeated from rest with twice the mass
@@ -69,5 +70,5 @@ fn mass(statics: &Statics<'_>, place: &StaticState) -> f64 {
 
 /// The forces multiplied by the scales of their coordinates, J.
 fn scaled(statics: &Statics<'_>, force: &[f64]) -> Vec<f64> {
-    force.iter().zip(&statics.columns).map(|(f, scale)| f * scale).collect()
+    force.iter().zip(&statics.columns).map(|(f, scale)| f * scale).list()
 }

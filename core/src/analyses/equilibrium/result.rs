@@ -6,6 +6,7 @@ use super::statics::{StaticState, Statics};
 use crate::analyses::linearization::coordinate;
 use crate::analyses::rigid::RigidContacts;
 use crate::analyses::State;
+use crate::math::{Listed, Ordered};
 use crate::model::{Model, Problem};
 use crate::solve::Eigen;
 
@@ -53,8 +54,8 @@ impl Equilibrium {
         let stiffness = statics.stiffness(place, &freedoms)?;
         let mut eigenvalues = Eigen::of(&stiffness, freedoms.coordinates.len()).values;
         let zeros = scaled.iter().filter(|x| x.abs() <= limit).count();
-        let mut order: Vec<usize> = (0..eigenvalues.len()).collect();
-        order.sort_by(|a, b| eigenvalues[*a].abs().total_cmp(&eigenvalues[*b].abs()));
+        let mut order: Vec<usize> = (0..eigenvalues.len()).list();
+        order.order_by(|a, b| eigenvalues[*a].abs().total_cmp(&eigenvalues[*b].abs()));
         order.iter().take(zeros).for_each(|k| eigenvalues[*k] = 0.0);
         eigenvalues.sort_by(f64::total_cmp);
         let own = model.layout.n_rows - holders;
@@ -63,9 +64,9 @@ impl Equilibrium {
         Ok(Self {
             state: State { t: statics.t, q: place.q.clone(), v: rest, z: place.z.clone() },
             lam: lam[..own].to_vec(),
-            holders: lam[own..].iter().map(|lam| -lam).collect(),
+            holders: lam[own..].iter().map(|lam| -lam).list(),
             efforts: efforts(model, &lam, own),
-            coordinates: freedoms.coordinates.iter().map(|k| coordinate(model, *k)).collect(),
+            coordinates: freedoms.coordinates.iter().map(|k| coordinate(model, *k)).list(),
             stable: scaled.iter().all(|x| *x > limit),
             stiffness,
             eigenvalues,
@@ -94,5 +95,5 @@ fn efforts(model: &Model, lam: &[f64], own: usize) -> Vec<(String, f64)> {
     let all = model.constraints.iter().zip(&model.layout.constraints);
     let drivers =
         all.filter(|(item, slots)| item.element.drives().is_some() && slots.rows.end <= own);
-    drivers.map(|(item, slots)| (item.name.clone(), -lam[slots.rows.start])).collect()
+    drivers.map(|(item, slots)| (item.name.clone(), -lam[slots.rows.start])).list()
 }

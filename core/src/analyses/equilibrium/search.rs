@@ -9,6 +9,7 @@ use super::failure::Reason;
 use super::relaxation;
 use super::statics::{LocalForces, StaticState, Statics};
 use crate::integrate::Flow;
+use crate::math::Listed;
 use crate::solve::{is_positive, solve_dense, Eigen};
 
 /// Residual force that counts as zero, relative to the largest single force.
@@ -86,14 +87,14 @@ impl<'s, 'a> RestSearch<'s, 'a> {
             return Err(Reason::Singular { name, message });
         }
         let own = self.statics.freedoms(&place)?.coordinates;
-        let moved: Vec<f64> = place.q.iter().zip(&first.q).map(|(b, a)| b - a).collect();
+        let moved: Vec<f64> = place.q.iter().zip(&first.q).map(|(b, a)| b - a).list();
         let left = (place.missing.as_slice(), place.scale);
         let way = (moved.as_slice(), self.far(&first, &place));
         Err(Reason::of_search(self.statics.model, way, left, &own))
     }
 
     fn far(&self, first: &StaticState, place: &StaticState) -> bool {
-        let way: Vec<f64> = place.q.iter().zip(&first.q).map(|(b, a)| b - a).collect();
+        let way: Vec<f64> = place.q.iter().zip(&first.q).map(|(b, a)| b - a).list();
         self.statics.largest(&way) > FAR
     }
 
@@ -145,7 +146,7 @@ impl<'s, 'a> RestSearch<'s, 'a> {
         let length = self.statics.largest(&local.basis.extend(&full));
         let mut part = (*radius / length).min(1.0);
         while part * length > SHORTEST {
-            let p: Vec<f64> = full.iter().map(|x| part * x).collect();
+            let p: Vec<f64> = full.iter().map(|x| part * x).list();
             if let Some(next) = self.tried(place, local, &p)? {
                 let bounded = part < 1.0;
                 *radius =
@@ -163,7 +164,7 @@ impl<'s, 'a> RestSearch<'s, 'a> {
         let f = p.len();
         let transposed = |k: usize| local.stiffness[(k % f) * f + k / f];
         let symmetric: Vec<f64> =
-            (0..f * f).map(|k| 0.5 * (local.stiffness[k] + transposed(k))).collect();
+            (0..f * f).map(|k| 0.5 * (local.stiffness[k] + transposed(k))).list();
         dot(&local.gradient, p) < 0.0 && is_positive(&symmetric, f)
     }
 
@@ -193,9 +194,9 @@ impl<'s, 'a> RestSearch<'s, 'a> {
 
     /// The closed position near q + dq. None if closing moves it too far.
     fn moved(&mut self, place: &StaticState, dq: &[f64]) -> Option<StaticState> {
-        let q: Vec<f64> = place.q.iter().zip(dq).map(|(q, dq)| q + dq).collect();
+        let q: Vec<f64> = place.q.iter().zip(dq).map(|(q, dq)| q + dq).list();
         let next = self.statics.place(&q, &place.z).ok()?;
-        let closing: Vec<f64> = next.q.iter().zip(&q).map(|(b, a)| b - a).collect();
+        let closing: Vec<f64> = next.q.iter().zip(&q).map(|(b, a)| b - a).list();
         let near = self.statics.largest(&closing) <= 0.5 * self.statics.largest(dq) + 1e-9;
         near.then_some(next)
     }
@@ -236,7 +237,7 @@ impl<'s, 'a> RestSearch<'s, 'a> {
         let dq = local.basis.extend(direction);
         let length = self.statics.largest(&dq);
         for way in [PUSH, -PUSH] {
-            let dq: Vec<f64> = dq.iter().map(|x| x * way / length).collect();
+            let dq: Vec<f64> = dq.iter().map(|x| x * way / length).list();
             if let Some(next) = self.moved(place, &dq) {
                 if self.statics.energy_change(place, &next) < 0.0 {
                     let there = self.statics.local(&next)?;
@@ -286,7 +287,7 @@ fn is_symmetric(stiffness: &[f64]) -> bool {
 
 /// -K⁻¹ g.
 fn solved(stiffness: &[f64], gradient: &[f64]) -> Option<Vec<f64>> {
-    let mut p: Vec<f64> = gradient.iter().map(|g| -g).collect();
+    let mut p: Vec<f64> = gradient.iter().map(|g| -g).list();
     let solved = solve_dense(&mut stiffness.to_vec(), &mut p);
     (solved && p.iter().all(|x| x.is_finite())).then_some(p)
 }

@@ -9,6 +9,7 @@ use super::parameter::{self, ByParameter};
 use super::result::Equilibrium;
 use super::search::zero;
 use super::statics::{LocalForces, StaticState, Statics};
+use crate::math::Listed;
 use crate::model::Model;
 use crate::solve::{solve_dense, Eigen};
 
@@ -139,7 +140,7 @@ impl ParameterPath<'_> {
         tangent: &PathDirection,
         ahead: f64,
     ) -> Option<PathDirection> {
-        let right: Vec<f64> = spot.local.gradient.iter().map(|g| -g).collect();
+        let right: Vec<f64> = spot.local.gradient.iter().map(|g| -g).list();
         self.solved(spot, tangent, &right, -ahead)
     }
 }

@@ -9,7 +9,7 @@ use crate::equations::energy;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::reactions;
-use crate::math::Vec2;
+use crate::math::{each, Listed, Vec2};
 use crate::model::{column_scales, row_scales, size, Model};
 use crate::solve::solve_dense;
 
@@ -68,7 +68,7 @@ const NEVER: &dyn Fn() -> bool = &|| false;
 impl<'a> Statics<'a> {
     pub fn new(model: &'a Model, t: f64) -> Self {
         let layout = &model.layout;
-        let states = (0..layout.n_z).filter(|at| !layout.held.contains(at)).collect();
+        let states = (0..layout.n_z).filter(|at| !layout.held.contains(at)).list();
         Self {
             closing: Closing::new(model, t, NEVER),
             balance: Balance::new(model),
@@ -97,7 +97,7 @@ impl<'a> Statics<'a> {
             .map_err(|_| Reason::singular(self.model, self.t, &q))?;
         let z = self.settled(&q, z)?;
         self.evaluate(&q, &z, &self.none.clone());
-        let applied: Vec<f64> = self.balance.forces.iter().map(|x| -x).collect();
+        let applied: Vec<f64> = self.balance.forces.iter().map(|x| -x).list();
         let mut lam = factors.multipliers(&applied);
         if self.model.forces.iter().any(|item| item.reaction.is_some()) {
             self.evaluate(&q, &z, &lam);
@@ -116,7 +116,7 @@ impl<'a> Statics<'a> {
     /// Q, including the forces that depend on the reactions λ.
     fn applied(&self, factors: &LeastNorm<'_>, lam: &[f64]) -> Vec<f64> {
         let internal = factors.transposed(lam);
-        internal.iter().zip(&self.balance.forces).map(|(all, missing)| all - missing).collect()
+        internal.iter().zip(&self.balance.forces).map(|(all, missing)| all - missing).list()
     }
 
     fn evaluate(&mut self, q: &[f64], z: &[f64], lam: &[f64]) {
@@ -133,7 +133,7 @@ impl<'a> Statics<'a> {
         for _ in 0..ITERATIONS {
             self.evaluate(q, &z, &self.none.clone());
             let mut step: Vec<f64> =
-                self.states.iter().map(|at| -self.balance.state_rates[*at]).collect();
+                self.states.iter().map(|at| -self.balance.state_rates[*at]).list();
             let at = StatePoint { q, v: &self.rest, z: &z, a: &self.rest, lam: &self.none };
             let variation = Variation::new(self.model, self.t, at, false);
             let mut matrix = self.by_states(&variation, z.len()).rates;
@@ -164,7 +164,7 @@ impl<'a> Statics<'a> {
         let factors = LeastNorm::new(self.model, self.t, &place.q, self.redundant)
             .map_err(|_| Reason::singular(self.model, self.t, &place.q))?;
         let more = factors.multipliers(&loads);
-        Ok(place.lam.iter().zip(more).map(|(lam, more)| lam + more).collect())
+        Ok(place.lam.iter().zip(more).map(|(lam, more)| lam + more).list())
     }
 
     /// The joint or driver whose equations are nearly dependent at a position, if there is one.
@@ -191,7 +191,7 @@ impl<'a> Statics<'a> {
 
     /// The reduced stiffness on a basis, shape (f, f). The states of elements change so that ż = 0.
     pub fn stiffness(&self, place: &StaticState, basis: &Freedoms) -> Result<Vec<f64>, Reason> {
-        let directions: Vec<&[f64]> = basis.basis.iter().map(Vec::as_slice).collect();
+        let directions: Vec<&[f64]> = basis.basis.iter().map(Vec::as_slice).list();
         let slopes = self.slopes(place, &directions)?;
         let f = basis.basis.len();
         let mut stiffness = vec![0.0; f * f];
@@ -232,7 +232,7 @@ impl<'a> Statics<'a> {
         mut forces: Vec<f64>,
         change: &[f64],
     ) -> Result<Vec<f64>, Reason> {
-        let mut dz: Vec<f64> = self.states.iter().map(|at| -change[*at]).collect();
+        let mut dz: Vec<f64> = self.states.iter().map(|at| -change[*at]).list();
         if !solve_dense(&mut rates.clone(), &mut dz) {
             return Err(Reason::state(self.model, self.states[0]));
         }
@@ -267,7 +267,7 @@ impl<'a> Statics<'a> {
         if !self.conservative {
             return work;
         }
-        let [before, after] = [from, to].map(|place| {
+        let [before, after] = each([from, to], |place| {
             let motions = Motions::at_rest(&self.model.layout, &place.q);
             energy::potential(self.model, &motions, &place.z, self.t)
         });

@@ -2,6 +2,7 @@
 
 use super::failure::Reason;
 use super::spot::{ParameterPath, PathDirection, PathStep, Spot};
+use crate::math::Listed;
 
 /// Least cosine between neighbouring tangents.
 const ALONG: f64 = 0.97;
@@ -19,13 +20,13 @@ pub(super) fn advance(
     ds: f64,
 ) -> Result<PathStep, Reason> {
     let PathStep { spot: Spot { place, value, .. }, tangent, .. } = from;
-    let ahead: Vec<f64> = place.q.iter().zip(&tangent.q).map(|(q, dq)| q + ds * dq).collect();
+    let ahead: Vec<f64> = place.q.iter().zip(&tangent.q).map(|(q, dq)| q + ds * dq).list();
     let goal = value + ds * tangent.p;
     let mut spot = course.spot(goal, &ahead, &place.z)?;
     let lost = || Reason::Lost { relative: f64::NAN, coordinate: course.over.to_string() };
     let mut last = f64::INFINITY;
     for iterations in 1..=ITERATIONS {
-        let q: Vec<f64> = spot.place.q.iter().zip(&ahead).map(|(q, goal)| q - goal).collect();
+        let q: Vec<f64> = spot.place.q.iter().zip(&ahead).map(|(q, goal)| q - goal).list();
         let beside = course.along(&PathDirection { q, p: spot.value - goal }, tangent);
         let step = course.correction(&spot, tangent, beside).ok_or_else(lost)?;
         let size = course.along(&step, &step).sqrt();
@@ -40,7 +41,7 @@ pub(super) fn advance(
         if size > 0.5 * last || size > ds {
             return Err(lost());
         }
-        let q: Vec<f64> = spot.place.q.iter().zip(&step.q).map(|(q, dq)| q + dq).collect();
+        let q: Vec<f64> = spot.place.q.iter().zip(&step.q).map(|(q, dq)| q + dq).list();
         spot = course.spot(spot.value + step.p, &q, &spot.place.z)?;
         last = size;
     }

@@ -4,6 +4,7 @@
 use super::path::{DrivenPath, PathPoint};
 use super::solution::Solver;
 use crate::elements::BodyId;
+use crate::math::Listed;
 use crate::model::{size, Model};
 use std::f64::consts::TAU;
 
@@ -109,9 +110,9 @@ fn at_level(
     let (mut from_s, mut to_s) = (0.0, ds);
     for _ in 0..8 {
         let share = ((level - low.t) / (high.t - low.t)).clamp(0.0, 1.0);
-        let guess: Vec<f64> = (0..n).map(|k| low.q[k] + share * (high.q[k] - low.q[k])).collect();
+        let guess: Vec<f64> = (0..n).map(|k| low.q[k] + share * (high.q[k] - low.q[k])).list();
         if let Some(point) = path.solver.point(level, guess.clone()) {
-            let moved: Vec<f64> = (0..n).map(|k| point.q[k] - guess[k]).collect();
+            let moved: Vec<f64> = (0..n).map(|k| point.q[k] - guess[k]).list();
             if path.solver.norm(&moved) <= 0.5 * ds {
                 return Some(point.q);
             }

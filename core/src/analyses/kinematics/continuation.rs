@@ -13,6 +13,7 @@ use super::solution::{Point, Solver};
 use crate::analyses::mobility::mobility;
 use crate::analyses::rigid::RigidContacts;
 use crate::analyses::State;
+use crate::math::Listed;
 use crate::model::Model;
 use std::sync::Arc;
 
@@ -117,7 +118,7 @@ impl<'a> Continuation<'a> {
             if (outside.t - t).abs() <= width || middle == *t || middle == outside.t {
                 return;
             }
-            let guess = q.iter().zip(&outside.q).map(|(a, b)| 0.5 * (a + b)).collect();
+            let guess = q.iter().zip(&outside.q).map(|(a, b)| 0.5 * (a + b)).list();
             let Some(between) = self.solver.point(middle, guess) else { return };
             match inside(middle, &between.q) {
                 true => self.point = between.into(),

@@ -5,7 +5,7 @@ use super::motion::Motion;
 use crate::analyses::mobility::Mobility;
 use crate::elements::{BodyId, Group};
 use crate::equations::kinematics::Motions;
-use crate::math::Vec2;
+use crate::math::{Listed, Vec2};
 use crate::model::Model;
 use std::fmt;
 
@@ -114,18 +114,18 @@ fn in_line(model: &Model, q: &[f64]) -> Option<[String; 2]> {
         .enumerate()
         .filter(|(_, item)| item.group == Group::Joints && item.bodies.len() == 2)
         .map(|(k, item)| (k, [item.bodies[0], item.bodies[1]]))
-        .collect();
+        .list();
     let place = |k: usize, body: BodyId, side: usize| -> Vec2 {
         motions[body.0].pose.point(model.constraints[k].element.attachment(side).s)
     };
     // the direction of a body with two joints, from the given joint to the other joint
     let direction = |body: BodyId, from: usize| -> Option<Vec2> {
-        let own: Vec<_> = joints.iter().filter(|(_, bodies)| bodies.contains(&body)).collect();
+        let own: Vec<_> = joints.iter().filter(|(_, bodies)| bodies.contains(&body)).list();
         if own.len() != 2 || body == BodyId::GROUND {
             return None;
         }
         let ends: Vec<Vec2> =
-            own.iter().map(|(k, bodies)| place(*k, body, usize::from(bodies[1] == body))).collect();
+            own.iter().map(|(k, bodies)| place(*k, body, usize::from(bodies[1] == body))).list();
         let d = ends[1] - ends[0];
         Some(if own[0].0 == from { d } else { -d })
     };

@@ -4,6 +4,7 @@ use super::dead_point::Limit;
 use super::failure::{self, Reason};
 use super::path::{DrivenPath, PathPoint};
 use super::solution::Point;
+use crate::math::Listed;
 use crate::model::Model;
 
 /// Length of the path, scaled, to which a limit is located; the error of t is about its square.
@@ -43,7 +44,7 @@ pub(super) fn locate(
     }
     let PathPoint { t, q, tangent } = best;
     let rates: Vec<f64> =
-        tangent.iter().zip(&path.solver.columns).map(|(x, scale)| x * scale).collect();
+        tangent.iter().zip(&path.solver.columns).map(|(x, scale)| x * scale).list();
     Reason::Limit(Box::new(Limit::new(path.solver.model, t, q, &rates)))
 }
 

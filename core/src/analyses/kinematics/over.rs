@@ -5,6 +5,7 @@
 
 use crate::analyses::{readings, State};
 use crate::elements::{self, Group};
+use crate::math::Listed;
 use crate::model::{Definition, Entry, Model, Problem, Value};
 
 /// Fields of joints and drivers that take laws of time.
@@ -86,7 +87,7 @@ pub fn driving(
     laws: &[(&DrivenQuantity, Value)],
 ) -> Result<Definition, Problem> {
     let mut definition = definition.clone();
-    let own: Vec<&str> = laws.iter().filter_map(|(of, _)| of.driver.as_deref()).collect();
+    let own: Vec<&str> = laws.iter().filter_map(|(of, _)| of.driver.as_deref()).list();
     hold_others(&mut definition, &own, t);
     let free = model.layout.n_q.saturating_sub(model.layout.n_rows);
     let more = (laws.len() - own.len()).saturating_sub(free);
@@ -116,9 +117,9 @@ fn replace_drivers(
 ) -> Result<(), Problem> {
     let others = |entry: &&Entry| !own.contains(&&*entry.name);
     let names: Vec<String> =
-        definition.drivers.iter().filter(others).map(|one| one.name.clone()).collect();
+        definition.drivers.iter().filter(others).map(|one| one.name.clone()).list();
     if names.len() > most {
-        let given: Vec<&str> = laws.iter().map(|(of, _)| &*of.given).collect();
+        let given: Vec<&str> = laws.iter().map(|(of, _)| &*of.given).list();
         let message = format!("the drivers {} determine the motion already", names.join(", "));
         let hint =
             format!("name one of them, or remove the one that {} replaces", given.join(" and "));
@@ -173,7 +174,7 @@ fn free_name(definition: &Definition) -> String {
     let Definition { bodies, joints, drivers, forces, measures, .. } = definition;
     let entries = [bodies, joints, drivers, forces].into_iter().flatten();
     let taken = entries.map(|entry| &entry.name).chain(measures.iter().map(|(name, _)| name));
-    let taken: Vec<&String> = taken.collect();
+    let taken: Vec<&String> = taken.list();
     let more = (1..=taken.len()).map(|k| format!("{NAME}_{k}"));
     let mut names = std::iter::once(NAME.to_string()).chain(more);
     names.find(|name| !taken.contains(&name)).expect("there are more names than entries")

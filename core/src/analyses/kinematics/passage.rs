@@ -4,6 +4,7 @@ use super::failure::Reason;
 use super::limit;
 use super::path::{DrivenPath, PathPoint};
 use super::solution::{Point, Solver};
+use crate::math::Listed;
 
 /// Longest step of the path, scaled.
 const LONGEST: f64 = 1e-2;
@@ -39,7 +40,7 @@ pub(super) fn around(solver: &mut Solver<'_>, from: &Point, goal: f64) -> Result
             // the path passes the goal: the position there is interpolated and closed
             let PathPoint { t, q, .. } = &place;
             let share = (goal - t) / (next.t - t);
-            let guess = q.iter().zip(&next.q).map(|(a, b)| a + share * (b - a)).collect();
+            let guess = q.iter().zip(&next.q).map(|(a, b)| a + share * (b - a)).list();
             return path
                 .solver
                 .point(goal, guess)

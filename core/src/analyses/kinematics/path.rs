@@ -5,6 +5,7 @@
 //! (Keller's pseudo-arclength continuation, in *Applications of Bifurcation Theory*, 1977).
 
 use super::solution::{Point, Solver};
+use crate::math::Listed;
 use crate::solve::solve_dense;
 
 /// Least cosine of the angle between the tangents at two neighbouring points.
@@ -34,7 +35,7 @@ impl DrivenPath<'_, '_> {
     pub fn begin(&mut self, from: &Point, sign: f64) -> Option<PathPoint> {
         let columns = &self.solver.columns;
         let mut tangent: Vec<f64> =
-            from.v.iter().zip(columns).map(|(v, scale)| sign * v * self.unit / scale).collect();
+            from.v.iter().zip(columns).map(|(v, scale)| sign * v * self.unit / scale).list();
         tangent.push(sign);
         normalize(&mut tangent);
         Some(PathPoint { t: from.t, q: from.q.clone(), tangent })
@@ -52,7 +53,7 @@ impl DrivenPath<'_, '_> {
             }
             *t += unit * step[n];
         };
-        let first: Vec<f64> = from.tangent.iter().map(|x| ds * x).collect();
+        let first: Vec<f64> = from.tangent.iter().map(|x| ds * x).list();
         shift(&mut q, &mut t, &first, self.unit);
         let mut last = f64::INFINITY;
         for _ in 0..ITERATIONS {
@@ -63,7 +64,7 @@ impl DrivenPath<'_, '_> {
             }
             let done = gap <= CLOSED;
             // the right side of the last row is 0: corrections are normal to the tangent
-            let mut right: Vec<f64> = phi.iter().map(|x| -x).collect();
+            let mut right: Vec<f64> = phi.iter().map(|x| -x).list();
             right.push(0.0);
             if done {
                 right.fill(0.0);

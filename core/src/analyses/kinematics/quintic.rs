@@ -1,6 +1,7 @@
 //! Polynomials between two points of a motion.
 
 use super::solution::Point;
+use crate::math::{each, Listed};
 
 /// Their degree.
 pub(super) const DEGREE: usize = 5;
@@ -20,8 +21,8 @@ impl<'p> Quintic<'p> {
     /// Coefficients of θ, …, θ⁵ for coordinate `k` minus its initial value.
     pub fn position(&self, k: usize) -> [f64; DEGREE] {
         let Self { from, to, h } = *self;
-        let [v0, v1] = [from.v[k], to.v[k]].map(|v| v * h);
-        let [a0, a1] = [from.a[k], to.a[k]].map(|a| a * h * h);
+        let [v0, v1] = each([from.v[k], to.v[k]], |v| v * h);
+        let [a0, a1] = each([from.a[k], to.a[k]], |a| a * h * h);
         // the remainders at the end after the terms up to the second degree
         let d = to.q[k] - from.q[k] - v0 - 0.5 * a0;
         let e = v1 - v0 - a0;
@@ -38,7 +39,7 @@ impl<'p> Quintic<'p> {
     /// Coefficients of the first derivative of component `k`.
     pub fn rate(&self, k: usize) -> [f64; DEGREE] {
         let [_, c2, c3, c4, c5] = self.position(k);
-        [2.0 * c2, 3.0 * c3, 4.0 * c4, 5.0 * c5, 0.0].map(|c| c / self.h)
+        each([2.0 * c2, 3.0 * c3, 4.0 * c4, 5.0 * c5, 0.0], |c| c / self.h)
     }
 
     /// Coefficients of the second derivative of component `k`.
@@ -53,9 +54,9 @@ impl<'p> Quintic<'p> {
         let n = self.from.q.len();
         Point {
             t: self.from.t + theta * self.h,
-            q: (0..n).map(|k| self.from.q[k] + value(self.position(k))).collect(),
-            v: (0..n).map(|k| self.from.v[k] + value(self.rate(k))).collect(),
-            a: (0..n).map(|k| self.from.a[k] + value(self.acceleration(k))).collect(),
+            q: (0..n).map(|k| self.from.q[k] + value(self.position(k))).list(),
+            v: (0..n).map(|k| self.from.v[k] + value(self.rate(k))).list(),
+            a: (0..n).map(|k| self.from.a[k] + value(self.acceleration(k))).list(),
         }
     }
 }

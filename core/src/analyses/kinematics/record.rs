@@ -14,6 +14,7 @@ use crate::analyses::record::{
 use crate::analyses::State;
 use crate::elements::Group;
 use crate::integrate::Flow;
+use crate::math::Listed;
 use crate::model::{Model, Problem};
 use crate::stabilize::Projection;
 use std::sync::Arc;
@@ -65,7 +66,7 @@ impl Analysis for InverseOptions {
 /// Refuses first-order states, which do not follow from a motion.
 fn no_states(model: &Model) -> Result<(), Outcome> {
     let of = model.forces.iter().filter(|item| !item.states.is_empty());
-    let names: Vec<&str> = of.map(|item| &item.name[..]).collect();
+    let names: Vec<&str> = of.map(|item| &item.name[..]).list();
     if names.is_empty() {
         return Ok(());
     }
@@ -127,7 +128,7 @@ impl PlannedMotion<'_> {
                     true => last,
                     false => first + step * k as f64,
                 };
-                let values: Vec<f64> = (0..options.n).map(value).collect();
+                let values: Vec<f64> = (0..options.n).map(value).list();
                 match self.through(model, &begin, &values, look) {
                     Ok(record) => Ok(Record { driven: Some(driven), ..record }),
                     Err(mut failed) => {
@@ -195,10 +196,10 @@ impl Options {
         let Some(step) = self.output_step else {
             let step = (end - begin) / (POINTS - 1) as f64;
             let inner = (0..POINTS - 1).map(|k| begin + step * k as f64);
-            return inner.chain([end]).collect();
+            return inner.chain([end]).list();
         };
         let count = ((end - begin) / step * (1.0 + ROUNDING)).min(MOST_OUTPUTS) as usize;
-        let mut times: Vec<f64> = (0..=count).map(|k| begin + step * k as f64).collect();
+        let mut times: Vec<f64> = (0..=count).map(|k| begin + step * k as f64).list();
         match times.last_mut() {
             Some(last) if (end - *last).abs() <= ROUNDING * end.abs().max(last.abs()) => {}
             _ => times.push(end),
@@ -244,7 +245,7 @@ impl Subject<'_> {
     pub fn only_driver(&self, start: &StartState) -> Result<String, Outcome> {
         let model = self.released(start);
         let drivers = model.constraints.iter().filter(|item| item.group == Group::Drivers);
-        let names: Vec<&str> = drivers.map(|item| &item.name[..]).collect();
+        let names: Vec<&str> = drivers.map(|item| &item.name[..]).list();
         let reason = match names[..] {
             [only] => return Ok(only.to_string()),
             [] => "it has no driver".to_string(),

@@ -3,6 +3,7 @@
 use crate::equations::augmented::Augmented;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
+use crate::math::Listed;
 use crate::model::{column_scales, row_scales, Model};
 use crate::solve::sign_of_determinant;
 
@@ -42,7 +43,7 @@ impl Point {
     /// q + h v + h²/2 a + h³/6 j. The jerk j is the difference quotient of the acceleration since an earlier point.
     pub(super) fn predicted(&self, h: f64, earlier: Option<&Point>) -> Vec<f64> {
         let all = self.q.iter().zip(&self.v).zip(&self.a);
-        let mut q: Vec<f64> = all.map(|((q, v), a)| q + h * (v + 0.5 * h * a)).collect();
+        let mut q: Vec<f64> = all.map(|((q, v), a)| q + h * (v + 0.5 * h * a)).list();
         if let Some(earlier) = earlier {
             let c = h * h * h / (6.0 * (self.t - earlier.t));
             let change = self.a.iter().zip(&earlier.a);
@@ -78,7 +79,7 @@ impl<'a> Solver<'a> {
     pub fn new(model: &'a Model) -> Self {
         let (n, m) = (model.layout.n_q, model.layout.n_rows);
         let (columns, rows) = (column_scales(model), row_scales(model));
-        let weights: Vec<f64> = columns.iter().map(|scale| 1.0 / (scale * scale)).collect();
+        let weights: Vec<f64> = columns.iter().map(|scale| 1.0 / (scale * scale)).list();
         let mut matrix = Augmented::new(model);
         matrix.set_weights(&weights);
         if model.allow_redundancy {
@@ -215,7 +216,7 @@ impl<'a> Solver<'a> {
     /// Φ at a position, scaled.
     pub fn phi(&mut self, t: f64, q: &[f64]) -> Vec<f64> {
         self.evaluate(t, q);
-        self.terms[0].iter().zip(&self.rows).map(|(phi, scale)| phi / scale).collect()
+        self.terms[0].iter().zip(&self.rows).map(|(phi, scale)| phi / scale).list()
     }
 
     /// Whether the last point is far from singular positions.
@@ -231,7 +232,7 @@ impl<'a> Solver<'a> {
         }
         let full = self.extended(point.t, &point.q, 1.0);
         let mut square: Vec<f64> =
-            full.chunks(n + 1).flat_map(|row| row[..n].iter().copied()).collect();
+            full.chunks(n + 1).flat_map(|row| row[..n].iter().copied()).list();
         sign_of_determinant(&mut square, n)
     }
 

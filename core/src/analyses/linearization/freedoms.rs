@@ -8,6 +8,7 @@
 use super::failure::Failure;
 use super::least_norm::LeastNorm;
 use crate::analyses::mobility::{mobility, Mobility};
+use crate::math::{Listed, Ordered};
 use crate::model::Model;
 
 /// Fraction of the largest remaining entry from which a coordinate is chosen.
@@ -69,7 +70,7 @@ impl Freedoms {
 
     /// Nᵀ f, shape (f) for f of shape (n_q).
     pub fn reduce(&self, f: &[f64]) -> Vec<f64> {
-        self.basis.iter().map(|column| column.iter().zip(f).map(|(n, f)| n * f).sum()).collect()
+        self.basis.iter().map(|column| column.iter().zip(f).map(|(n, f)| n * f).sum()).list()
     }
 
     /// N α, shape (n_q).
@@ -104,8 +105,8 @@ fn orthonormal(factors: &LeastNorm<'_>, count: usize) -> Vec<Vec<f64>> {
     let n = factors.scales.len();
     // fixed pseudo-random numbers
     let part = |k: usize| (12.9898 * (k as f64 + 1.618)).sin() * 43758.5453;
-    let probe = |j: usize| (0..n).map(|k| part(j * n + k).fract() - 0.5).collect();
-    let mut found: Vec<Vec<f64>> = (0..count).map(probe).collect();
+    let probe = |j: usize| (0..n).map(|k| part(j * n + k).fract() - 0.5).list();
+    let mut found: Vec<Vec<f64>> = (0..count).map(probe).list();
     // the second pass removes the rounding errors of the first
     for _ in 0..2 {
         for column in &mut found {
@@ -136,15 +137,15 @@ fn orthonormalize(columns: &mut [Vec<f64>]) {
 /// large enough relative to the largest entry, angles before lengths.
 fn independent(model: &Model, free: &[Vec<f64>]) -> Vec<usize> {
     let lengths = model.layout.lengths();
-    let mut order: Vec<usize> = (0..lengths.len()).collect();
-    order.sort_by_key(|row| lengths[*row]);
+    let mut order: Vec<usize> = (0..lengths.len()).list();
+    order.order_by_key(|row| lengths[*row]);
     let mut left = free.to_vec();
     let mut taken = Vec::with_capacity(left.len());
     while let Some(count) = left.len().checked_sub(1) {
         let sizes: Vec<f64> = order
             .iter()
             .map(|row| left.iter().fold(0.0, |most: f64, column| most.max(column[*row].abs())))
-            .collect();
+            .list();
         let largest = sizes.iter().copied().fold(0.0, f64::max);
         let at = sizes.iter().position(|size| *size >= ENOUGH * largest).unwrap_or(0);
         let row = order.remove(at);

@@ -13,6 +13,7 @@
 use crate::equations::augmented::Augmented;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
+use crate::math::Listed;
 use crate::model::{column_scales, Model};
 use crate::solve::Breakdown;
 
@@ -38,7 +39,7 @@ impl<'a> LeastNorm<'a> {
     /// [`Breakdown::Row`]: a row depends on the others.
     pub fn new(model: &'a Model, t: f64, q: &[f64], dependent: bool) -> Result<Self, Breakdown> {
         let scales = column_scales(model);
-        let weights: Vec<f64> = scales.iter().map(|scale| 1.0 / (scale * scale)).collect();
+        let weights: Vec<f64> = scales.iter().map(|scale| 1.0 / (scale * scale)).list();
         let mut matrix = Augmented::new(model);
         matrix.set_weights(&weights);
         let motions = Motions::at_rest(&model.layout, q);
@@ -110,6 +111,6 @@ impl<'a> LeastNorm<'a> {
         pairs.for_each(|((y, x), scale)| *y += x / (scale * scale));
         product.resize(right.len(), 0.0);
         constraints::times_all(self.model, self.matrix.jacobian(), x, &mut product[n..]);
-        right.iter().zip(&product).map(|(right, product)| right - product).collect()
+        right.iter().zip(&product).map(|(right, product)| right - product).list()
     }
 }

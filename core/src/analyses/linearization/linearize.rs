@@ -21,7 +21,7 @@ use crate::analyses::State;
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, reactive};
 use crate::integrate::Flow;
-use crate::math::{Lift, Real};
+use crate::math::{Lift, Listed, Real};
 use crate::model::{row_scales, Model, Problem};
 
 /// Largest residual of a position, relative to the size of the mechanism.
@@ -139,7 +139,7 @@ impl LinearEquations<'_> {
     fn all(self, inputs: &[Input]) -> Result<Linearization, Failure> {
         let Self { model, ref linear, at, .. } = self;
         let held = &model.layout.held;
-        let states: Vec<usize> = (0..at.z.len()).filter(|place| !held.contains(place)).collect();
+        let states: Vec<usize> = (0..at.z.len()).filter(|place| !held.contains(place)).list();
         let basis = &linear.freedoms.basis;
         let f = basis.len();
         let mut of_state: Vec<Column> = Vec::with_capacity(2 * f + states.len());
@@ -167,7 +167,7 @@ impl LinearEquations<'_> {
         let of_inputs = of_inputs.collect::<Result<Vec<_>, _>>()?;
         let reduced = |columns: &[Column]| {
             let entry = |row: usize| columns.iter().map(move |column| -column.force[row]);
-            (0..f).flat_map(entry).collect()
+            (0..f).flat_map(entry).list()
         };
         let (a, c) = self.matrices(&of_state, &states, true);
         let (b, d) = self.matrices(&of_inputs, &states, false);
@@ -180,7 +180,7 @@ impl LinearEquations<'_> {
             c,
             d,
             acceleration: at.a.to_vec(),
-            values: self.observe(&self.variation, StatePoint::default()).map(|y| y.value).collect(),
+            values: self.observe(&self.variation, StatePoint::default()).map(|y| y.value).list(),
             coordinates: linear.freedoms.coordinates.clone(),
             basis: basis.clone(),
             states,
@@ -198,14 +198,14 @@ impl LinearEquations<'_> {
         let mut rates = Vec::new();
         for row in 0..f {
             let unit = |column: usize| f64::from(u8::from(of_state && column == f + row));
-            rates.extend((0..columns.len()).map(unit));
+            (0..columns.len()).map(unit).append_to(&mut rates);
         }
         let places = (0..f).chain(states.iter().map(|place| f + place));
         for place in places {
-            rates.extend(columns.iter().map(|column| column.rates[place]));
+            columns.iter().map(|column| column.rates[place]).append_to(&mut rates);
         }
         let output = |row: usize| columns.iter().map(move |column| column.outputs[row]);
-        (rates, (0..self.outputs.len()).flat_map(output).collect())
+        (rates, (0..self.outputs.len()).flat_map(output).list())
     }
 
     /// The derivatives of accelerations, state rates and outputs along a direction.
@@ -224,12 +224,12 @@ impl LinearEquations<'_> {
         accelerations.iter_mut().for_each(|x| *x = -*x);
         let response = self.linear.response(&forces, &accelerations);
         let moved = StatePoint { q, v, z, a: &response.a, lam: &response.lam };
-        let outputs: Vec<f64> = self.observe(variation, moved).map(|y| y.slope[0]).collect();
+        let outputs: Vec<f64> = self.observe(variation, moved).map(|y| y.slope[0]).list();
         if let Some(k) = outputs.iter().position(|y| !y.is_finite()) {
             return Err(Failure::no_derivative(k));
         }
         let own = self.linear.freedoms.coordinates.iter().map(|column| response.a[*column]);
-        Ok(Column { rates: own.chain(states).collect(), outputs, force: response.force })
+        Ok(Column { rates: own.chain(states).list(), outputs, force: response.force })
     }
 
     /// The direction of an input.
@@ -254,7 +254,7 @@ impl LinearEquations<'_> {
                 |model, seen| of.value(model, seen).slope[0],
             )
         };
-        (0..n).map(by).collect()
+        (0..n).map(by).list()
     }
 
     /// The outputs with their derivatives along a direction.
@@ -264,7 +264,7 @@ impl LinearEquations<'_> {
         along: StatePoint<'s>,
     ) -> impl Iterator<Item = D> + 's {
         let values = self.see(variation, along, |model, seen| {
-            self.outputs.iter().map(|output| output.value(model, seen)).collect::<Vec<_>>()
+            self.outputs.iter().map(|output| output.value(model, seen)).list()
         });
         values.into_iter()
     }

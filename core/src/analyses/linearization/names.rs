@@ -3,6 +3,7 @@
 use crate::analyses::signal_names::{names, signal};
 use crate::analyses::signals::{Energy, Signal};
 use crate::expression::suggest::did_you_mean;
+use crate::math::Listed;
 use crate::model::{Model, Problem};
 
 /// An input.
@@ -65,7 +66,7 @@ pub(super) fn output(model: &Model, name: &str) -> Result<Signal, Problem> {
 }
 
 fn unknown(what: &str, name: &str, known: impl Iterator<Item = String>) -> Problem {
-    let known: Vec<String> = known.collect();
-    let known: Vec<&str> = known.iter().map(String::as_str).collect();
+    let known: Vec<String> = known.list();
+    let known: Vec<&str> = known.iter().map(String::as_str).list();
     Problem::new(format!("unknown {what} '{name}'")).maybe_hint(did_you_mean(name, &known))
 }

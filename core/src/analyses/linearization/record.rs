@@ -6,6 +6,7 @@ use super::options::Options;
 use crate::analyses::record::{
     Analysis, ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished,
 };
+use crate::math::Listed;
 use serde_json::json;
 
 impl Analysis for Options {
@@ -34,7 +35,7 @@ impl Analysis for Options {
         let n = 2 * f + found.states.len();
         let names = found.coordinates.iter().map(|column| coordinate(&model, *column));
         let findings = json!({
-            "coordinates": names.collect::<Vec<_>>(), "columns": found.coordinates,
+            "coordinates": names.list(), "columns": found.coordinates,
             "states": found.states, "inputs": self.inputs, "outputs": self.outputs, "n": self.n,
         });
         let [inputs, outputs] = [&self.inputs, &self.outputs].map(Vec::len);

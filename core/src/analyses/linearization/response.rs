@@ -15,6 +15,7 @@ use super::least_norm::LeastNorm;
 use super::variation::{StatePoint, Variation};
 use crate::equations::kinematics::Motions;
 use crate::equations::mass;
+use crate::math::Listed;
 use crate::model::Model;
 use crate::solve::solve_dense;
 
@@ -67,15 +68,15 @@ impl<'a> Linear<'a> {
             unit[*row] = 1.0;
             let own = factors.transposed(&unit);
             let all = variation.along(StatePoint { lam: &unit, ..StatePoint::default() }).forces;
-            (*row, own.iter().zip(all).map(|(own, all)| own - all).collect())
+            (*row, own.iter().zip(all).map(|(own, all)| own - all).list())
         };
-        let reactive: Vec<(usize, Vec<f64>)> = rows.iter().map(column).collect();
+        let reactive: Vec<(usize, Vec<f64>)> = rows.iter().map(column).list();
         let by_reaction = Vec::new();
         let mut linear =
             Self { model, motions, factors, freedoms, mass, eliminated, reactive, by_reaction };
         let none = vec![0.0; model.layout.n_rows];
         linear.by_reaction =
-            linear.reactive.iter().map(|(_, column)| linear.plain(column, &none)).collect();
+            linear.reactive.iter().map(|(_, column)| linear.plain(column, &none)).list();
         Ok(linear)
     }
 
@@ -91,7 +92,7 @@ impl<'a> Linear<'a> {
         let mut found = self.plain(f, g);
         let count = self.reactive.len();
         let mut matrix = vec![0.0; count * count];
-        let mut change: Vec<f64> = self.reactive.iter().map(|(row, _)| found.lam[*row]).collect();
+        let mut change: Vec<f64> = self.reactive.iter().map(|(row, _)| found.lam[*row]).list();
         for (i, (row, _)) in self.reactive.iter().enumerate() {
             for (j, response) in self.by_reaction.iter().enumerate() {
                 matrix[i * count + j] = f64::from(u8::from(i == j)) - response.lam[*row];

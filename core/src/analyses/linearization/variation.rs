@@ -11,7 +11,7 @@ use crate::elements::derive::ByThree;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, mass, reactions, Compiled, Powers};
-use crate::math::{Lift, Real};
+use crate::math::{Lift, Listed, Real};
 use crate::model::Model;
 
 /// A number with its derivative along the direction, the first slope. The others are zero: the scalar is that of the
@@ -48,11 +48,11 @@ pub(in crate::analyses) fn seeded(point: &[f64], along: &[f64]) -> Vec<D> {
         .iter()
         .zip(slopes)
         .map(|(value, slope)| D { value: *value, slope: [slope, 0.0, 0.0] })
-        .collect()
+        .list()
 }
 
 fn slopes(x: &[D]) -> Vec<f64> {
-    x.iter().map(|x| x.slope[0]).collect()
+    x.iter().map(|x| x.slope[0]).list()
 }
 
 /// The equations of motion at one state, over dual numbers.

@@ -2,6 +2,7 @@
 
 use super::reader::Reader;
 use crate::elements::Table;
+use crate::math::Listed;
 use crate::model::{Model, Problem, Value};
 
 /// A set of options as data.
@@ -71,7 +72,7 @@ pub trait Declared: Sized {
         match read.conflict(model) {
             None => Ok(read),
             Some((key, message)) => {
-                let path: Vec<&str> = path.iter().map(String::as_str).chain([key]).collect();
+                let path: Vec<&str> = path.iter().map(String::as_str).chain([key]).list();
                 Err(vec![Problem::at(&path, message)])
             }
         }

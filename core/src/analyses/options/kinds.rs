@@ -2,6 +2,7 @@
 
 use super::reader::Reader;
 use crate::elements::{Default, Shape};
+use crate::math::each;
 use crate::model::Value as Written;
 
 /// A kind of option.
@@ -225,7 +226,7 @@ kind! {
     /// Two numbers of any unit.
     interval: [f64; 2], Pair, |reader, key| match reader.get(key)? {
         Written::List(ends) if ends.len() == 2 => {
-            let [first, last] = [&ends[0], &ends[1]].map(|end| reader.value(key, end));
+            let [first, last] = each([&ends[0], &ends[1]], |end| reader.value(key, end));
             Some([first?, last?])
         }
         _ => reader.refuse(key, "must be two numbers, [first, last]"),

@@ -1,6 +1,7 @@
 //! Options from a file or from Python. The tables have already checked their structure; here the values are computed.
 
 use crate::equations::at;
+use crate::math::Listed;
 use crate::model::{Model, Problem, Reach, Scope, Value, ANY_UNIT};
 
 /// Reads the fields of one table of options and stores the reports of their faults.
@@ -142,6 +143,6 @@ impl<'a> Reader<'a> {
     }
 
     fn path_of(&self, key: &str) -> Vec<String> {
-        self.path.iter().cloned().chain([key.to_string()]).collect()
+        self.path.iter().cloned().chain([key.to_string()]).list()
     }
 }

@@ -5,6 +5,7 @@ use super::start_state::StartState;
 use crate::analyses::dynamics::{Act, Prepared};
 use crate::analyses::options::Declared;
 use crate::integrate::Flow;
+use crate::math::Listed;
 use crate::model::{build, Definition, Model, Problem, Value};
 use std::sync::Arc;
 
@@ -71,7 +72,7 @@ impl<'a> Subject<'a> {
     pub fn rebuilt(&self, definition: &Definition) -> Result<Arc<Model>, Vec<Problem>> {
         let model = self.model();
         let values = model.parameters.iter().map(|x| Value::Number(*x));
-        let values: Vec<_> = model.blueprint.parameters.iter().cloned().zip(values).collect();
+        let values: Vec<_> = model.blueprint.parameters.iter().cloned().zip(values).list();
         let built = build(definition, &values)?;
         let built = if model.allow_redundancy { built.allowing_redundancy() } else { built };
         Ok(Arc::new(built))

@@ -5,6 +5,7 @@ use super::outcome::{ErrorClass, Outcome};
 use super::result::{Record, Unfinished};
 use super::start_state::StartState;
 use crate::analyses::dynamics::{Options, Reason, Run};
+use crate::math::Listed;
 use crate::model::{Model, Problem};
 
 /// Advice where a motion ended and no reason has an own one.
@@ -17,7 +18,7 @@ impl Analysis for Options {
     fn ends(&self, model: &Model, begin: Option<f64>) -> Result<Option<f64>, Vec<Problem>> {
         let fault = self.fault(model, begin);
         let backward = begin.and_then(|begin| self.backward(begin, &["t_end"]));
-        let problems: Vec<Problem> = fault.into_iter().chain(backward).collect();
+        let problems: Vec<Problem> = fault.into_iter().chain(backward).list();
         if problems.is_empty() {
             Ok(Some(self.t_end))
         } else {
@@ -73,7 +74,7 @@ fn with_start(
     }
     let mut options = options.clone();
     let before = start.released.iter().filter(|name| !options.release.contains(name));
-    options.release = before.chain(&options.release).cloned().collect();
+    options.release = before.chain(&options.release).cloned().list();
     for event in &mut options.events {
         event.acts = acting.is_some_and(|acting| acting.events.contains(&event.name));
     }

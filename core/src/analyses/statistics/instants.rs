@@ -1,5 +1,6 @@
 //! Instants close enough for smooth curves on the interpolant of a run.
 
+use crate::math::{Listed, Ordered};
 /// Smallest and largest number of instants in a step of the integrator.
 const LEAST: usize = 4;
 const MOST: usize = 32;
@@ -27,12 +28,12 @@ pub fn instants(bounds: &[f64], outputs: &[f64], numbers: usize) -> Vec<f64> {
     let mut found = Vec::with_capacity(pieces * steps + 1);
     for ends in bounds.windows(2) {
         let share = |k: usize| k as f64 / pieces as f64;
-        found.extend((0..pieces).map(|k| ends[0] + share(k) * (ends[1] - ends[0])));
+        (0..pieces).map(|k| ends[0] + share(k) * (ends[1] - ends[0])).append_to(&mut found);
     }
     found.push(bounds[steps]);
     if found.len() > 2 * most {
         let every = found.len().div_ceil(most);
-        found = found.into_iter().step_by(every).collect();
+        found = found.into_iter().step_by(every).list();
     }
     with_jumps(found, outputs)
 }
@@ -40,15 +41,15 @@ pub fn instants(bounds: &[f64], outputs: &[f64], numbers: usize) -> Vec<f64> {
 /// Adds the times with two outputs and the floating-point numbers before them.
 fn with_jumps(mut instants: Vec<f64>, outputs: &[f64]) -> Vec<f64> {
     let jumps: Vec<f64> =
-        outputs.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[1]).collect();
+        outputs.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[1]).list();
     let (Some(first), Some(last)) = (outputs.first(), outputs.last()) else { return instants };
     if jumps.is_empty() {
         return instants;
     }
     let forward = if last >= first { 1.0 } else { -1.0 };
-    instants.extend(jumps.iter().map(|t| forward * below(forward * t)));
+    jumps.iter().map(|t| forward * below(forward * t)).append_to(&mut instants);
     instants.extend(jumps);
-    instants.sort_by(|a, b| (forward * a).total_cmp(&(forward * b)));
+    instants.order_by(|a, b| (forward * a).total_cmp(&(forward * b)));
     instants.dedup();
     instants
 }

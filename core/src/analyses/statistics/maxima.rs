@@ -5,6 +5,7 @@
 //! maximum that a search finds there depends on how close to the position the search comes.
 
 use super::{largest, place_of_largest, Read};
+use crate::math::{Listed, Ordered};
 
 /// Local maxima above this fraction of the largest are refined together, up to a number of maxima.
 const SHARE: f64 = 0.9;
@@ -54,7 +55,7 @@ impl Maxima {
             let Some(&best) = left.first().filter(|_| found.values.is_empty()) else { break };
             let least = sampled[best] - (1.0 - SHARE) * sampled[best].abs();
             let group: Vec<usize> =
-                left.iter().copied().filter(|k| sampled[*k] >= least).take(TOGETHER).collect();
+                left.iter().copied().filter(|k| sampled[*k] >= least).take(TOGETHER).list();
             found.examine(&group, (t, sampled), resolved, read);
             left.retain(|k| !group.contains(k));
         }
@@ -74,14 +75,14 @@ impl Maxima {
         read: Read<'_>,
     ) {
         let beside = |k: usize| [k.saturating_sub(1), (k + 1).min(t.len() - 1)];
-        let brackets: Vec<[f64; 2]> = group.iter().map(|k| beside(*k).map(|b| t[b])).collect();
+        let brackets: Vec<[f64; 2]> = group.iter().map(|k| beside(*k).map(|b| t[b])).list();
         let refined = refine(brackets, read);
         let steep = |(k, best): (&usize, &Best)| {
             let here = sampled[*k];
             let change = largest(beside(*k).map(|b| (sampled[b] - here).abs()));
             resolved && best.value - here > STEEP * change + ERROR * here.abs()
         };
-        let is_steep: Vec<bool> = group.iter().zip(&refined).map(steep).collect();
+        let is_steep: Vec<bool> = group.iter().zip(&refined).map(steep).list();
         for ((k, best), _) in group.iter().zip(&refined).zip(&is_steep).filter(|(_, steep)| **steep)
         {
             self.near.push(*k);
@@ -107,8 +108,8 @@ fn local_maxima(values: &[f64]) -> Vec<usize> {
     let at = |k: Option<usize>| k.and_then(|k| values.get(k)).copied().unwrap_or(f64::NEG_INFINITY);
     let is_maximum =
         |k: &usize| values[*k] >= at(k.checked_sub(1)) && values[*k] >= at(Some(k + 1));
-    let mut found: Vec<usize> = (0..values.len()).filter(is_maximum).collect();
-    found.sort_by(|a, b| values[*b].partial_cmp(&values[*a]).unwrap_or(std::cmp::Ordering::Equal));
+    let mut found: Vec<usize> = (0..values.len()).filter(is_maximum).list();
+    found.order_by(|a, b| values[*b].partial_cmp(&values[*a]).unwrap_or(std::cmp::Ordering::Equal));
     found
 }
 
@@ -117,20 +118,20 @@ fn local_maxima(values: &[f64]) -> Vec<usize> {
 /// Each bracket shrinks to the intervals next to its largest value.
 pub(super) fn refine(mut brackets: Vec<[f64; 2]>, read: Read<'_>) -> Vec<Best> {
     let start = |bracket: &[f64; 2]| Best { value: f64::NEG_INFINITY, t: bracket[0] };
-    let mut found: Vec<Best> = brackets.iter().map(start).collect();
+    let mut found: Vec<Best> = brackets.iter().map(start).list();
     for _ in 0..ROUNDS {
         let share = |k: usize| k as f64 / INTERVALS as f64;
         let inside = |[first, last]: &[f64; 2]| {
             let (first, width) = (*first, last - first);
             (0..=INTERVALS).map(move |k| first + share(k) * width)
         };
-        let times: Vec<f64> = brackets.iter().flat_map(inside).collect();
+        let times: Vec<f64> = brackets.iter().flat_map(inside).list();
         let Some(values) = read(&times) else {
             if let [best] = found.as_mut_slice() {
                 best.value = f64::INFINITY;
                 return found;
             }
-            return brackets.iter().flat_map(|one| refine(vec![*one], read)).collect();
+            return brackets.iter().flat_map(|one| refine(vec![*one], read)).list();
         };
         let rows = times.chunks_exact(INTERVALS + 1).zip(values.chunks_exact(INTERVALS + 1));
         for ((bracket, best), (times, values)) in brackets.iter_mut().zip(&mut found).zip(rows) {

@@ -1,5 +1,6 @@
 //! Means over time by the trapezoidal rule, and Euclidean norms of rows.
 
+use crate::math::Listed;
 /// The mean over time of values at times; the last value if all times are equal.
 ///
 /// # Panics
@@ -21,14 +22,14 @@ pub fn mean(t: &[f64], values: &[f64]) -> f64 {
 /// # Panics
 /// The conditions of [`mean`].
 pub fn root_mean_square(t: &[f64], values: &[f64]) -> f64 {
-    let squares: Vec<f64> = values.iter().map(|x| x * x).collect();
+    let squares: Vec<f64> = values.iter().map(|x| x * x).list();
     mean(t, &squares).sqrt()
 }
 
 /// The Euclidean norms of rows of the given width. Zero for rows of width zero.
 pub fn row_norms(rows: &[f64], width: usize, count: usize) -> Vec<f64> {
     let norm = |row: &[f64]| row.iter().map(|x| x * x).sum::<f64>().sqrt();
-    (0..count).map(|k| norm(&rows[k * width..(k + 1) * width])).collect()
+    (0..count).map(|k| norm(&rows[k * width..(k + 1) * width])).list()
 }
 
 #[cfg(test)]

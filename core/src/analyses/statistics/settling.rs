@@ -1,6 +1,7 @@
 //! The settling time of a quantity.
 
 use super::{largest, Read};
+use crate::math::Listed;
 
 /// Half width of the settling band, relative to the largest deviation from the final value.
 const BAND: f64 = 0.005;
@@ -76,7 +77,7 @@ fn entry(
 ) -> Option<f64> {
     for _ in 0..ROUNDS {
         let step = (inside - outside) / INTERVALS as f64;
-        let mut times: Vec<f64> = (0..INTERVALS).map(|k| outside + k as f64 * step).collect();
+        let mut times: Vec<f64> = (0..INTERVALS).map(|k| outside + k as f64 * step).list();
         times.push(inside);
         let values = read(&times)?;
         let beyond = |k: &usize| (values[*k] - last).abs() > width;

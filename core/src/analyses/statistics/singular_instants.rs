@@ -9,6 +9,7 @@
 
 use super::maxima::{refine, Best, NEAR};
 use super::Read;
+use crate::math::{each, Listed, Ordered};
 
 /// Regularity below which a local minimum is examined.
 const EXAMINED: f64 = 0.05;
@@ -51,8 +52,8 @@ impl SingularInstants {
             let apart = |k: &usize| (t[keep[*k]] - position.t).abs();
             (0..keep.len()).min_by(|a, b| apart(a).total_cmp(&apart(b))).unwrap_or(0)
         };
-        let near = positions.iter().map(nearest).collect();
-        let near_t = positions.iter().map(|position| position.t).collect();
+        let near = positions.iter().map(nearest).list();
+        let near_t = positions.iter().map(|position| position.t).list();
         Self { keep, near, near_t }
     }
 }
@@ -66,13 +67,13 @@ fn positions(t: &[f64], regularity: &[f64], read: Read<'_>) -> Vec<Position> {
     // a value that falls at the rate of one neighbour reaches zero before the other neighbour
     let may_vanish = |k: &usize| {
         let (own, first, last) = (regularity[*k], k.saturating_sub(1), (k + 1).min(t.len() - 1));
-        let [before, after] = [first, last].map(|other| (t[other] - t[*k]).abs());
+        let [before, after] = each([first, last], |other| (t[other] - t[*k]).abs());
         let falls = |other: usize, apart: f64| (regularity[other] - own) / apart;
         let most = (falls(first, before) * after).max(falls(last, after) * before);
         own <= SINGULAR || own <= SLACK * most
     };
-    let mut minima: Vec<usize> = (0..t.len()).filter(is_minimum).filter(may_vanish).collect();
-    minima.sort_by(|a, b| regularity[*a].total_cmp(&regularity[*b]));
+    let mut minima: Vec<usize> = (0..t.len()).filter(is_minimum).filter(may_vanish).list();
+    minima.order_by(|a, b| regularity[*a].total_cmp(&regularity[*b]));
     let mut found: Vec<Position> = Vec::new();
     let mut examined = 0;
     for k in minima {
@@ -82,7 +83,7 @@ fn positions(t: &[f64], regularity: &[f64], read: Read<'_>) -> Vec<Position> {
         }
         examined += 1;
         let bracket = [t[k.saturating_sub(1)], t[(k + 1).min(t.len() - 1)]];
-        let mut negative = |t: &[f64]| Some(read(t)?.into_iter().map(|s| -s).collect());
+        let mut negative = |t: &[f64]| Some(read(t)?.into_iter().map(|s| -s).list());
         let refined = refine(vec![bracket], &mut negative);
         let Some(Best { value, t: time }) = refined.first() else { continue };
         if -value <= SINGULAR {
@@ -91,7 +92,7 @@ fn positions(t: &[f64], regularity: &[f64], read: Read<'_>) -> Vec<Position> {
             found.push(Position { t: time, width: width(t, regularity, (k, time)) });
         }
     }
-    found.sort_by(|a, b| a.t.total_cmp(&b.t));
+    found.order_by(|a, b| a.t.total_cmp(&b.t));
     found
 }
 

@@ -4,6 +4,7 @@ use super::Statistic;
 use crate::analyses::assemble;
 use crate::analyses::measures::Measure;
 use crate::expression::suggest::did_you_mean;
+use crate::math::Listed;
 use crate::model::{Model, Problem, Value};
 
 /// A statistic that the front end computes from the values of a measure.
@@ -27,8 +28,7 @@ pub fn variable_fault(model: &Model, name: &str) -> Option<Problem> {
 /// The fault of a measure with its statistic, such as `pin.max` with the declared measure `pin`, or `C.force.max`.
 pub fn measure_fault(model: &Model, declared: &[(String, Value)], text: &str) -> Option<Problem> {
     let (name, statistic) = text.rsplit_once('.').unwrap_or(("", text));
-    let known: Vec<&str> =
-        Statistic::ALL.iter().map(|(known, _)| *known).chain([OF_FRONT]).collect();
+    let known: Vec<&str> = Statistic::ALL.iter().map(|(known, _)| *known).chain([OF_FRONT]).list();
     if !known.contains(&statistic) {
         let message = format!("a measure has no statistic '{statistic}'");
         let hint = did_you_mean(statistic, &known);

@@ -2,6 +2,7 @@
 
 use super::readings::{Missing, ReadRows, Readings};
 use crate::analyses::statistics::{changes, instants, row_norms, Maxima, SingularInstants};
+use crate::math::Listed;
 use std::cell::OnceCell;
 
 /// Number of instants that are read together, so that their states, accelerations and multipliers fit into the
@@ -66,11 +67,11 @@ impl Fine {
         let found = SingularInstants::find(&t, &regularity, &mut read);
         let select = |values: Vec<f64>| match values.is_empty() {
             true => values,
-            false => found.keep.iter().map(|k| values[*k]).collect(),
+            false => found.keep.iter().map(|k| values[*k]).list(),
         };
         let resolved = readings.resolved(&t);
         let (t, sizes) = (select(t), select(sizes));
-        let values = values.into_iter().map(select).collect();
+        let values = values.into_iter().map(select).list();
         let near = singular(readings, (&t, &sizes), &found, resolved);
         Ok(Some(Self { t, values, near, resolved }))
     }

@@ -20,6 +20,7 @@ use super::dynamics::{self, side_by_side, Options, Prepared, Reason, Run, Varian
 use super::measures::Measure;
 use super::State;
 use crate::integrate::Flow;
+use crate::math::Listed;
 use crate::model::{Model, Value};
 use fine::Between;
 use readings::{Missing, Readings};
@@ -82,10 +83,10 @@ impl Sweep {
     ///
     /// `stop` is called from time to time and stops the work if it returns true.
     pub fn variants(&self, rows: &[VariantRow], stop: &(dyn Fn() -> bool + Sync)) -> Vec<Outcome> {
-        let ready: Vec<_> = rows.iter().map(|row| self.ready(row, stop)).collect();
+        let ready: Vec<_> = rows.iter().map(|row| self.ready(row, stop)).list();
         let prepared = ready.iter().map(|ready| ready.as_ref().ok());
         let prepared: Vec<_> =
-            prepared.map(|ready| ready.map(|ready| Prepared::new(&ready.model))).collect();
+            prepared.map(|ready| ready.map(|ready| Prepared::new(&ready.model))).list();
         let together = self.together(&ready, &prepared, stop);
         let runs = ready.iter().zip(&prepared).zip(together);
         let outcomes = runs.map(|((ready, prepared), run)| match (ready, prepared) {
@@ -93,7 +94,7 @@ impl Sweep {
             (Err(outcome), _) => outcome.clone(),
             (Ok(_), None) => Outcome::Single,
         });
-        outcomes.collect()
+        outcomes.list()
     }
 
     /// A variant before its run.
@@ -119,7 +120,7 @@ impl Sweep {
         if options.backward(state.t, &["t_end"]).is_some() {
             return Err(Outcome::Single);
         }
-        let wanted: Vec<Statistic> = self.wanted.iter().map(|(_, statistic)| *statistic).collect();
+        let wanted: Vec<Statistic> = self.wanted.iter().map(|(_, statistic)| *statistic).list();
         let kept = kept::kept(&options, &wanted, options.t_start.unwrap_or(state.t));
         Ok(Ready { model, state, options, kept })
     }
@@ -131,7 +132,7 @@ impl Sweep {
         prepared: &'r [Option<Prepared<&'r Model>>],
         stop: &dyn Fn() -> bool,
     ) -> Vec<Option<dynamics::RunOutcome>> {
-        let mut runs: Vec<_> = ready.iter().map(|_| None).collect();
+        let mut runs: Vec<_> = ready.iter().map(|_| None).list();
         let all = ready.iter().zip(prepared).enumerate();
         let (places, variants): (Vec<_>, Vec<_>) = all
             .filter_map(|(place, (ready, prepared))| {

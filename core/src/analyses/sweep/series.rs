@@ -6,6 +6,7 @@ use super::Statistic;
 use crate::analyses::statistics::{
     changes, extreme, mean, root_mean_square, settling, Extreme, Maxima, Samples, Settling,
 };
+use crate::math::Listed;
 use std::cell::OnceCell;
 
 /// A measure over a run.
@@ -70,7 +71,7 @@ impl<'a> Series<'a> {
     }
 
     fn extreme(&self, sign: f64) -> Result<Extreme, Missing> {
-        let signed = |values: &[f64]| -> Vec<f64> { values.iter().map(|x| sign * x).collect() };
+        let signed = |values: &[f64]| -> Vec<f64> { values.iter().map(|x| sign * x).list() };
         let signed_outputs = signed(&self.outputs);
         let outputs = Samples { t: &self.readings.run.trajectory.t, values: &signed_outputs };
         let Some(Fine { t, values, near, resolved }) = self.between.fine()? else {

@@ -7,7 +7,7 @@
 use crate::elements::{
     element, BodyId, Force, Mark, Nature, Part, SceneSymbol, Situation, Wrenches,
 };
-use crate::math::{Real, Vec2, Wrench};
+use crate::math::{Listed, Real, Vec2, Wrench};
 
 element! {
     /// Generalized force: an effort on a position quantity. A positive effort increases the
@@ -44,6 +44,6 @@ impl Force for GeneralizedForce {
             _ => Mark::ForceArrow,
         };
         let acts = e.value != 0.0;
-        acts.then_some(SceneSymbol { mark, ..arrow }).into_iter().collect()
+        acts.then_some(SceneSymbol { mark, ..arrow }).into_iter().list()
     }
 }

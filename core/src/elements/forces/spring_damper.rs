@@ -17,7 +17,7 @@ use crate::elements::{
     element, measure, At, BodyId, Clearance, Force, Mark, Measured, Nature, Only, Part,
     SceneSymbol, Situation, Wrenches,
 };
-use crate::math::{Local, Real, Vec2};
+use crate::math::{Listed, Local, Real, Vec2};
 
 element! {
     /// Translational spring-damper between two points (Haug 6.2.10). With their distance l, the
@@ -134,7 +134,7 @@ impl Force for SpringDamper {
             .into_iter()
             .filter(|(acts, _)| *acts)
             .map(|(_, mark)| SceneSymbol::between_points(mark, &e.i, &e.j))
-            .collect()
+            .list()
     }
 
     fn action<S: Real>(e: &SpringDamper<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
@@ -172,7 +172,7 @@ impl Force for SpringDamper {
             Only::Compression => 1.0,
         });
         let line = |sign| Clearance::Length { i: &e.i, j: &e.j, length: e.free_length, sign };
-        sign.map(line).into_iter().collect()
+        sign.map(line).into_iter().list()
     }
 
     #[inline]

@@ -16,7 +16,7 @@ use crate::elements::{
     Measured, Nature, Part, ResultQuantity, SceneSymbol, Situation, SymbolEnd, Wrenches,
 };
 use crate::expression::Tape;
-use crate::math::{Local, Real, Vec2, Wrench};
+use crate::math::{Listed, Local, Real, Vec2, Wrench};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 element! {
@@ -206,7 +206,7 @@ impl Force for Stop {
     }
 
     fn clearances(e: &Stop) -> Vec<Clearance<'_>> {
-        limits(e).map(|(k, limit)| Clearance::Limit { limit, sign: SIGNS[k] }).collect()
+        limits(e).map(|(k, limit)| Clearance::Limit { limit, sign: SIGNS[k] }).list()
     }
 
     fn followed<S>(e: &Stop<S>) -> Option<&Followed<S>> {
@@ -223,7 +223,7 @@ impl Force for Stop {
     }
 
     fn symbols(e: &Stop) -> Vec<SceneSymbol> {
-        limits(e).filter_map(|limit| symbol(&e.coordinate.of, limit)).collect()
+        limits(e).filter_map(|limit| symbol(&e.coordinate.of, limit)).list()
     }
 
     fn fault(e: &Stop) -> Option<(&'static str, String)> {

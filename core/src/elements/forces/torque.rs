@@ -7,7 +7,7 @@ use crate::elements::{
     element, measure, At, BodyId, Force, Mark, Measured, Nature, Part, SceneSymbol, Situation,
     Wrenches,
 };
-use crate::math::{Real, Wrench};
+use crate::math::{Listed, Real, Wrench};
 
 element! {
     /// Applied torque on body j, positive counter-clockwise. The opposite torque acts on body i,
@@ -36,7 +36,7 @@ impl Force for Torque {
 
     fn symbols(e: &Torque) -> Vec<SceneSymbol> {
         let acts = e.torque != 0.0;
-        acts.then(|| SceneSymbol::between_bodies(Mark::TorqueArrow, e.i, e.j)).into_iter().collect()
+        acts.then(|| SceneSymbol::between_bodies(Mark::TorqueArrow, e.i, e.j)).into_iter().list()
     }
 
     fn action<S: Real>(e: &Torque<S>, _: &Situation<'_, S>, mut out: impl Wrenches<S>) {

@@ -7,7 +7,7 @@ use crate::elements::{
     element, measure, At, BodyId, Force, Mark, Measured, Nature, Part, SceneSymbol, Situation,
     Wrenches,
 };
-use crate::math::{Real, Wrench};
+use crate::math::{Listed, Real, Wrench};
 
 element! {
     /// Rotational spring-damper (Haug 6.2.18): the torque on body j is -(stiffness (θ -
@@ -52,7 +52,7 @@ impl Force for TorsionSpring {
             .into_iter()
             .filter(|(acts, _)| *acts)
             .map(|(_, mark)| SceneSymbol::between_bodies(mark, e.i, e.j))
-            .collect()
+            .list()
     }
 
     fn action<S: Real>(e: &TorsionSpring<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {

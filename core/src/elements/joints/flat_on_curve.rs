@@ -10,7 +10,7 @@ use crate::elements::{
     contact, derive, element, At, Attachment, BodyId, CurveOn, Equation, Fixes, Joint, Linearized,
     Mark, Moving, ResultQuantity, SceneSymbol, SymbolEnd,
 };
-use crate::math::{Local, Pose, Real, Rotation, Vec2};
+use crate::math::{Listed, Local, Pose, Real, Rotation, Vec2};
 
 element! {
     /// Flat face on a curve: a straight line of body i touches the curve C(u) of body j. The line
@@ -99,7 +99,7 @@ impl Joint for FlatOnCurve {
             Self::residual(e, &At { bodies, own: &[u], t: 0.0 }, &mut phi);
             phi
         };
-        let all: Vec<f64> = contact::places(curve).collect();
+        let all: Vec<f64> = contact::places(curve).list();
         let parallel = all.windows(2).filter_map(|pair| {
             let [a, b] = [both(pair[0])[1], both(pair[1])[1]];
             (a * b <= 0.0 && a != b).then(|| pair[0] + (pair[1] - pair[0]) * a / (a - b))

@@ -20,7 +20,7 @@ use crate::elements::{
     element, measure, At, Attachment, BodyId, Equation, Fixes, Joint, Mark, Required,
     ResultQuantity, SceneSymbol,
 };
-use crate::math::{Real, Wrench};
+use crate::math::{Listed, Real, Wrench};
 use std::f64::consts::FRAC_PI_2;
 
 element! {
@@ -109,7 +109,7 @@ impl Joint for Gear {
             false => Mark::ToothedWheel,
         };
         let wheels = SceneSymbol::wheels(radii.map(mark), radii, [&e.i, &e.j]);
-        wheels.into_iter().map(|wheel| SceneSymbol { module: e.module, ..wheel }).collect()
+        wheels.into_iter().map(|wheel| SceneSymbol { module: e.module, ..wheel }).list()
     }
 
     fn results<S: Real>(_: &Gear<S>, _: &At<'_, S>, lam: &[S], out: &mut [S]) {

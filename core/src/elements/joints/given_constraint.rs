@@ -4,7 +4,7 @@
 //! columns, about the origin of its frame. All positions at which the formulas have a value are allowed.
 
 use crate::elements::{element, At, Attachment, BodyId, Equation, Joint};
-use crate::math::{Local, Real};
+use crate::math::{Listed, Local, Real};
 
 element! {
     /// Constraint by formulas: Φ = residual, with one formula of positions and `t` for each
@@ -29,7 +29,7 @@ impl Joint for GivenConstraint {
     fn equations<S>(e: &GivenConstraint<S>) -> Vec<Equation> {
         let units = e.units.iter().chain(std::iter::repeat(&"m"));
         let names = NAMES.iter().take(e.residual.len());
-        names.zip(units).map(|(name, unit)| Equation { name, unit }).collect()
+        names.zip(units).map(|(name, unit)| Equation { name, unit }).list()
     }
 
     fn residual<S: Real>(e: &GivenConstraint<S>, _: &At<'_, S>, phi: &mut [S]) {

@@ -8,7 +8,7 @@ use crate::elements::{
     Followed, Group, JointId, PointOn, Source,
 };
 use crate::expression::Tape;
-use crate::math::{Local, Pose};
+use crate::math::{each, Listed, Local, Pose};
 use crate::symbolic::{record, upright, Form, Name, NameKind, Record, Symbolic};
 
 /// The equations of a type of joint or driver. None if the type does not exist. Bodies are named i, j, …, a point is
@@ -30,7 +30,7 @@ pub fn of_element<T>(element: &Constraint<T>, form: Form) -> Formulas {
             .enumerate()
             .filter(|(_, body)| !body.is_ground())
             .map(|(k, body)| (body, Coordinates::new(record, &BodyName::letter(k), k)))
-            .collect();
+            .list();
         let pose = |body: BodyId| match bodies.iter().find(|(id, _)| *id == body) {
             Some((_, coordinates)) => coordinates.pose(),
             None => Pose::identity(),
@@ -40,7 +40,7 @@ pub fn of_element<T>(element: &Constraint<T>, form: Form) -> Formulas {
             on.curve = curve(record, None, own[0]);
         }
         let phi = residual(&element, pose, &own, t);
-        let columns: Vec<&Coordinates> = bodies.iter().map(|(_, body)| body).collect();
+        let columns: Vec<&Coordinates> = bodies.iter().map(|(_, body)| body).list();
         print(record, &phi, (&columns, &own), form)
     })
 }
@@ -54,16 +54,16 @@ fn symbols<T>(record: &Record, element: &Constraint<T>) -> Vec<Symbolic> {
                 let s = point(record, &field, None, owner, [false; 2]);
                 all.extend([s.x, s.y]);
             }
-            Scalar::Pair(field) => all.extend([0, 1].map(|k| side(record, &field, k))),
+            Scalar::Pair(field) => all.extend(each([0, 1], |k| side(record, &field, k))),
             Scalar::Number(field) => all.push(record.symbol(Name::field(&field))),
             Scalar::Law(field) => all.push(function(record, &field)),
             Scalar::Numbers(field, count) => {
                 let name = |k| Name::field(&format!("{field}_{k}"));
-                all.extend((1..=count).map(|k| record.symbol(name(k))));
+                (1..=count).map(|k| record.symbol(name(k))).append_to(&mut all);
             }
-            Scalar::Curve(count) => all.extend((0..count).map(|_| record.time())),
+            Scalar::Curve(count) => (0..count).map(|_| record.time()).append_to(&mut all),
             Scalar::Laws(field, count) => {
-                all.extend((1..=count).map(|k| function(record, &format!("{field}_{k}"))));
+                (1..=count).map(|k| function(record, &format!("{field}_{k}"))).append_to(&mut all);
             }
         }
     }

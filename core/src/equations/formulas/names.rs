@@ -2,7 +2,7 @@
 
 use crate::elements::{Coordinate, Curve};
 use crate::expression::is_identifier;
-use crate::math::{Local, Pose, Real};
+use crate::math::{each, Listed, Local, Pose, Real};
 use crate::symbolic::{upright, Axis, Name, NameKind, Record, Symbolic};
 
 /// Letters for the bodies of an element, and the same letters as Unicode subscripts.
@@ -50,8 +50,8 @@ impl Coordinates {
             let name = coordinate(Coordinate::ALL[k], body, owner);
             record.changing(name, rate)
         };
-        let rates = [3, 4, 5].map(|k| symbol(k, Symbolic::zero()));
-        Self { position: [0, 1, 2].map(|k| symbol(k, rates[k])), rates }
+        let rates = each([3, 4, 5], |k| symbol(k, Symbolic::zero()));
+        Self { position: each([0, 1, 2], |k| symbol(k, rates[k])), rates }
     }
 
     /// The pose of the body.
@@ -104,7 +104,7 @@ pub(super) fn point(
         let c = ["x", "y"][axis as usize];
         let [text, unicode, latex] = match label {
             Some(label) => {
-                let quoted: Vec<String> = label.split('.').map(quoted).collect();
+                let quoted: Vec<String> = label.split('.').map(quoted).list();
                 let text = format!("{}.{c}", quoted.join("."));
                 [text.clone(), text, format!("{c}'_{{{}}}", upright(label))]
             }
@@ -129,7 +129,7 @@ pub(super) fn curve(record: &Record, label: Option<&str>, u: Symbolic) -> Curve<
         let c = ["x", "y"][axis as usize];
         let named = |order: usize| {
             let (us, primes) = ("u".repeat(order), "′".repeat(order));
-            let quoted: Vec<String> = label.unwrap_or("curve").split('.').map(quoted).collect();
+            let quoted: Vec<String> = label.unwrap_or("curve").split('.').map(quoted).list();
             let derivative = if order == 0 { String::new() } else { format!("_{us}") };
             let text = format!("{}.{c}{derivative}", quoted.join("."));
             let unicode = format!("C{primes}.{c}");
@@ -176,7 +176,7 @@ pub(super) fn internal(record: &Record, count: usize) -> Vec<Symbolic> {
         let rate = record.changing(rate_name, Symbolic::zero());
         record.changing(Name::new(&text, &text, &latex[0], NameKind::Coordinate), rate)
     };
-    (0..count).map(one).collect()
+    (0..count).map(one).list()
 }
 
 /// A part of a name, quoted in the language of expressions where necessary.

@@ -6,7 +6,7 @@ use super::{print, residual, Formulas};
 use crate::elements::{BodyId, Constraint, Coordinate};
 use crate::equations::laws::Laws;
 use crate::expression::Tape;
-use crate::math::{Pose, Real};
+use crate::math::{each, Listed, Pose, Real};
 use crate::model::{Dependence, Model};
 use crate::symbolic::{record, Form, Name, Record, Symbolic};
 
@@ -24,14 +24,14 @@ pub fn of_constraint(
         let element = &model.blueprint.constraints[k].2;
         let t = record.time();
         let names = model.blueprint.parameters.iter();
-        let parameters: Vec<Symbolic> = names.map(|p| record.symbol(Name::field(p))).collect();
+        let parameters: Vec<Symbolic> = names.map(|p| record.symbol(Name::field(p))).list();
         let bodies: Vec<(BodyId, Coordinates)> = touched(element)
             .into_iter()
             .map(|id| {
                 let name = BodyName::given(&model.bodies[id.0].name);
                 (id, Coordinates::new(record, &name, id.0))
             })
-            .collect();
+            .list();
         let find = |id: BodyId| bodies.iter().find(|(known, _)| *known == id);
         let coordinate = |body: BodyId, c: Coordinate| {
             find(body).map_or(Symbolic::zero(), |(_, coordinates)| coordinates.of(c))
@@ -58,7 +58,7 @@ pub fn of_constraint(
             on.curve = curve(record, written("curve").as_deref(), own[0]);
         }
         let phi = residual(&over, pose, &own, t);
-        let columns: Vec<&Coordinates> = bodies.iter().map(|(_, body)| body).collect();
+        let columns: Vec<&Coordinates> = bodies.iter().map(|(_, body)| body).list();
         print(record, &phi, (&columns, &own), form)
     })
 }
@@ -97,7 +97,7 @@ fn points(
             Scalar::Point(field) => {
                 let label = written(&field).unwrap_or_else(|| field.clone());
                 let body = label.rsplit_once('.').and_then(|(body, _)| model.body(body));
-                let zero = [0, 1].map(|k| values[all.len() + k] == 0.0);
+                let zero = each([0, 1], |k| values[all.len() + k] == 0.0);
                 let s = point(record, &field, Some(&label), body.map_or(0, |body| body.0), zero);
                 all.extend([Some(s.x), Some(s.y)]);
             }

@@ -1,6 +1,7 @@
 //! The fields of an element in the order in which its scalars are visited.
 
 use crate::elements::{catalogue, Constraint, Shape};
+use crate::math::Listed;
 
 /// A field that contains scalars; a point or a pair contains two.
 pub(super) enum Scalar {
@@ -34,5 +35,5 @@ pub(super) fn scalars<T>(element: &Constraint<T>) -> Vec<Scalar> {
             _ => None,
         }
     };
-    fields.zip(element.scalars()).filter_map(scalar).collect()
+    fields.zip(element.scalars()).filter_map(scalar).list()
 }

@@ -12,6 +12,7 @@ use crate::elements::{Behaviour, Mode};
 use crate::equations::constraints;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
+use crate::math::Listed;
 use crate::model::{size, ForceMode, Model};
 
 /// Speed at which friction in a joint that drivers hold begins to slide, relative to the speeds of the mechanism.
@@ -32,7 +33,7 @@ pub(super) fn independent(
         slack: 0.0,
         prescribed: false,
     };
-    let all: Vec<ForceMode> = candidates.iter().map(holds).collect();
+    let all: Vec<ForceMode> = candidates.iter().map(holds).list();
     let [q, ..] = place.state(model);
     let phase = model.in_modes(&all);
     let found = mobility(&phase, place.t, q);
@@ -40,7 +41,7 @@ pub(super) fn independent(
         let row = |own: &ForceMode| phase.forces[own.force].held_row.expect("it holds");
         let with_value =
             |own: &ForceMode| ForceMode { value: value_of(&phase, place, row(own)), ..*own };
-        return all.iter().map(with_value).collect();
+        return all.iter().map(with_value).list();
     }
     let mut held: Vec<ForceMode> = Vec::new();
     let mut others: Vec<ForceMode> = Vec::new();
@@ -180,5 +181,5 @@ pub fn held_by(model: &Model, place: &StateAt<'_>, force: usize) -> Option<Strin
 pub fn prescribed(model: &Model, place: &StateAt<'_>, forces: &[usize]) -> Vec<bool> {
     let sticks = |k: usize| matches!(model.forces[k].element.behaviour(), Some(Behaviour::Sticks));
     let held = |k: &usize| model.driven && sticks(*k) && held_by(model, place, *k).is_some();
-    forces.iter().map(held).collect()
+    forces.iter().map(held).list()
 }

@@ -11,7 +11,7 @@ use super::place::{drivers_rest, largest, mode_of, unit, with_modes, StateAt, ST
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
-use crate::math::Jet;
+use crate::math::{Jet, Listed, Ordered};
 use crate::model::{ForceMode, Model};
 
 /// Magnitude of a negative reserve that is accepted, as a fraction of the limit.
@@ -39,7 +39,7 @@ pub(super) fn decide(
 ) -> Result<Vec<ForceMode>, Box<Failure>> {
     let rest = at_rest(model, place, before, touching)?;
     impacts::halt(model, place, &rest)?;
-    let all: Vec<usize> = with_modes(model).collect();
+    let all: Vec<usize> = with_modes(model).list();
     let thresholds = place.thresholds(model, &all);
     // after an impact that stops the mechanism, only rounding errors of the speeds remain
     let speed = place.speed_scale(model, before).max(jumped.unwrap_or(0.0));
@@ -77,8 +77,8 @@ pub(super) fn decide(
         |k: &usize| !matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Sticks));
     // forces whose mode has just ended come last
     let ended = |k: &usize| fired.contains(k) && mode_of(before, *k).holds();
-    candidates.sort_by_key(|k| (ended(k), !contact(k), *k));
-    let ended: Vec<usize> = candidates.iter().copied().filter(ended).collect();
+    candidates.order_by_key(|k| (ended(k), !contact(k), *k));
+    let ended: Vec<usize> = candidates.iter().copied().filter(ended).list();
     let mut modes = hold(model, place, modes, (&candidates, &ended))?;
     give_slack(model, place, touching, &mut modes);
     mark_prescribed(&mut modes, &all, &prescribed);
@@ -129,14 +129,14 @@ fn at_rest(
         Mode::Slides(_) => *of,
         _ => ForceMode { mode: Mode::Free, ..*of },
     });
-    let free: Vec<ForceMode> = free.collect();
+    let free: Vec<ForceMode> = free.list();
     let mut rest: Vec<usize> = Vec::new();
     loop {
-        let others: Vec<usize> = touching.iter().copied().filter(|k| !rest.contains(k)).collect();
+        let others: Vec<usize> = touching.iter().copied().filter(|k| !rest.contains(k)).list();
         if others.is_empty() {
             return Ok(rest);
         }
-        let sides = rest.iter().copied().zip(place.sides(model, &rest)).collect::<Vec<_>>();
+        let sides = rest.iter().copied().zip(place.sides(model, &rest)).list();
         let modes =
             if rest.is_empty() { free.clone() } else { with_held(model, place, &free, &sides) };
         let workspace = match place.solved(&model.in_modes(&modes)) {
@@ -151,7 +151,7 @@ fn at_rest(
             let height = least.max(place.rounding(model, **k));
             gap.rate <= rest_speed || 0.5 * gap.rate * gap.rate <= -gap.second * height
         };
-        let more: Vec<usize> = others.iter().zip(gaps).filter(rests).map(|(k, _)| *k).collect();
+        let more: Vec<usize> = others.iter().zip(gaps).filter(rests).map(|(k, _)| *k).list();
         if more.is_empty() {
             return Ok(rest);
         }
@@ -167,7 +167,7 @@ fn hold(
     (candidates, ended): (&[usize], &[usize]),
 ) -> Result<Vec<ForceMode>, Box<Failure>> {
     let sides = place.sides(model, candidates);
-    let all: Vec<(usize, f64)> = candidates.iter().copied().zip(sides).collect();
+    let all: Vec<(usize, f64)> = candidates.iter().copied().zip(sides).list();
     let found = released(model, place, free.clone(), (&all, ended));
     let fits = |modes: &[ForceMode]| moves_apart(model, place, modes, candidates);
     if found.as_ref().is_ok_and(|modes| fits(modes)) || candidates.len() > MOST_TRIED {
@@ -257,7 +257,7 @@ fn with_leaders(held: &[ForceMode], ended: &[usize]) -> Vec<usize> {
         Mode::Follows { leader, .. } if ended.contains(&own.force) => Some(leader),
         _ => None,
     };
-    ended.iter().copied().chain(held.iter().filter_map(leader)).collect()
+    ended.iter().copied().chain(held.iter().filter_map(leader)).list()
 }
 
 /// The force with the largest excess over its limit, and the direction in which its friction then slides.

@@ -20,6 +20,7 @@ use super::place::{mode_of, with_modes, StateAt};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, energy};
+use crate::math::Listed;
 use crate::model::{ForceMode, Model};
 
 /// Largest number of rounds of impacts at one time.
@@ -39,12 +40,12 @@ pub(super) struct Hits {
 pub(super) fn touching(model: &Model, place: &StateAt<'_>, before: &[ForceMode]) -> Vec<usize> {
     let impacts =
         |k: &usize| matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Impacts { .. }));
-    let all: Vec<usize> = with_modes(model).filter(impacts).collect();
+    let all: Vec<usize> = with_modes(model).filter(impacts).list();
     let gaps = place.thresholds(model, &all);
     let touches = |(k, gap): &(usize, f64)| {
         mode_of(before, *k).holds() || StateAt::is_closed(*gap, model, *k)
     };
-    all.into_iter().zip(gaps).filter(touches).map(|(k, _)| k).collect()
+    all.into_iter().zip(gaps).filter(touches).map(|(k, _)| k).list()
 }
 
 /// Restitution and rest speed of a contact.
@@ -69,7 +70,7 @@ pub(super) fn resolve(
             .copied()
             .zip(rates)
             .filter(|(k, rate)| *rate < -restitution(model, *k).1)
-            .collect();
+            .list();
         if approach.is_empty() {
             return Ok(found);
         }
@@ -78,12 +79,12 @@ pub(super) fn resolve(
         }
         let own = |k: usize| restitution(model, k).0;
         hit(model, place, (&approach, &own), &mut found.impulses)?;
-        found.hits.extend(approach.iter().map(|(k, _)| *k));
+        approach.iter().map(|(k, _)| *k).append_to(&mut found.hits);
         found.hits.sort_unstable();
         found.hits.dedup();
     }
     let t = place.t;
-    let names: Vec<&str> = found.hits.iter().map(|k| model.forces[*k].name.as_str()).collect();
+    let names: Vec<&str> = found.hits.iter().map(|k| model.forces[*k].name.as_str()).list();
     let message = format!(
         "impacts at t = {t:.6} s do not end: after {ROUNDS} rounds some of {} still approach",
         names.join(", ")
@@ -100,7 +101,7 @@ pub(super) fn halt(
 ) -> Result<(), Box<Failure>> {
     let rates = place.gap_rates(model, contacts);
     let moving = contacts.iter().copied().zip(rates).filter(|(_, rate)| *rate != 0.0);
-    let moving: Vec<(usize, f64)> = moving.collect();
+    let moving: Vec<(usize, f64)> = moving.list();
     if moving.is_empty() {
         return Ok(());
     }
@@ -115,7 +116,7 @@ fn hit(
     impulses: &mut [f64],
 ) -> Result<(), Box<Failure>> {
     let t = place.t;
-    let contacts: Vec<usize> = approach.iter().map(|(k, _)| *k).collect();
+    let contacts: Vec<usize> = approach.iter().map(|(k, _)| *k).list();
     let sides = place.sides(model, &contacts);
     let held = |(k, side): (&usize, &f64)| ForceMode {
         force: *k,
@@ -124,7 +125,7 @@ fn hit(
         slack: 0.0,
         prescribed: false,
     };
-    let modes: Vec<ForceMode> = contacts.iter().zip(&sides).map(held).collect();
+    let modes: Vec<ForceMode> = contacts.iter().zip(&sides).map(held).list();
     let closed = model.in_modes(&modes).allowing_redundancy();
     let [q, v, z] = place.state(model).map(<[f64]>::to_vec);
     let mut workspace = workspace_at((&closed, &ModelCache::default()), t, [&q, &v, &z]);
@@ -143,7 +144,7 @@ fn hit(
         }
         let jump = workspace.jump(&closed, t, &q, &rates);
         let [dv, found] = jump.map_err(|breakdown| Failure::at_state(&closed, t, &q, breakdown))?;
-        let after: Vec<f64> = v.iter().zip(&dv).map(|(v, dv)| v + dv).collect();
+        let after: Vec<f64> = v.iter().zip(&dv).map(|(v, dv)| v + dv).list();
         let loss = before - kinetic(&after);
         let grows = loss < -1e-13 * before;
         outcome = Some((after, found, loss));

@@ -17,6 +17,7 @@ mod place;
 pub(super) use mode_events::{watched_mode, ModeFunction, GRAZE};
 pub(super) use place::{has_mode, is_contact, unit as gap_unit, StateAt};
 
+use crate::math::Listed;
 use place::{largest, with_modes};
 
 use super::failure::{Failure, Reason};
@@ -72,7 +73,7 @@ pub(super) fn settle(
 /// [`Failure`] with [`Reason::Start`].
 pub(super) fn check(model: &Model, place: &StateAt<'_>) -> Result<(), Box<Failure>> {
     let t = place.t;
-    let all: Vec<usize> = rigid_contacts(model).collect();
+    let all: Vec<usize> = rigid_contacts(model).list();
     for (k, gap) in all.iter().zip(place.thresholds(model, &all)) {
         let name = model.forces[*k].name.clone();
         if StateAt::is_closed(-gap, model, *k) {

@@ -9,7 +9,7 @@ use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, energy};
 use crate::equations::{Gains, Workspace};
-use crate::math::{Jet, Lift, Real};
+use crate::math::{Jet, Lift, Listed, Real};
 use crate::model::{row_scales, size, ForceMode, Model};
 
 /// Speeds of friction below this value count as zero, relative to the speeds of the mechanism; accelerations
@@ -61,7 +61,7 @@ impl StateAt<'_> {
         let [q, v, z] = self.state(model);
         let motions = Motions::at(&model.layout, q, v);
         let acting = Acting { z, lam: None, t: self.t };
-        forces.iter().map(|k| forces::threshold(model, *k, &motions, acting)).collect()
+        forces.iter().map(|k| forces::threshold(model, *k, &motions, acting)).list()
     }
 
     /// The sides at which contacts touch.
@@ -69,13 +69,13 @@ impl StateAt<'_> {
         let [q, v, z] = self.state(model);
         let motions = Motions::at(&model.layout, q, v);
         let acting = Acting { z, lam: None, t: self.t };
-        forces.iter().map(|k| forces::side(model, *k, &motions, acting)).collect()
+        forces.iter().map(|k| forces::side(model, *k, &motions, acting)).list()
     }
 
     /// The rates of the gaps of contacts.
     pub fn gap_rates(&self, model: &Model, contacts: &[usize]) -> Vec<f64> {
         let still = vec![0.0; model.layout.n_q];
-        self.gap_jets(model, contacts, &still).iter().map(|gap| gap.rate).collect()
+        self.gap_jets(model, contacts, &still).iter().map(|gap| gap.rate).list()
     }
 
     /// The rate of the gap of a contact of a lifted model.
@@ -95,13 +95,13 @@ impl StateAt<'_> {
     fn jets(&self, lifted: &Model<Jet>, contacts: &[usize], a: &[f64]) -> Vec<Jet> {
         let [q, v, z] = self.state(lifted);
         let moving = q.iter().zip(v).zip(a);
-        let q: Vec<Jet> = moving.map(|((q, v), a)| Jet::new(*q, *v, *a)).collect();
-        let of = |x: &[f64]| -> Vec<Jet> { x.iter().map(|x| Jet::lift(*x)).collect() };
-        let rates: Vec<Jet> = v.iter().zip(a).map(|(v, a)| Jet::new(*v, *a, 0.0)).collect();
+        let q: Vec<Jet> = moving.map(|((q, v), a)| Jet::new(*q, *v, *a)).list();
+        let of = |x: &[f64]| -> Vec<Jet> { x.iter().map(|x| Jet::lift(*x)).list() };
+        let rates: Vec<Jet> = v.iter().zip(a).map(|(v, a)| Jet::new(*v, *a, 0.0)).list();
         let motions = Motions::at(&lifted.layout, &q, &rates);
         let z = of(z);
         let acting = Acting { z: &z, lam: None, t: Jet::new(self.t, 1.0, 0.0) };
-        contacts.iter().map(|k| forces::threshold(lifted, *k, &motions, acting)).collect()
+        contacts.iter().map(|k| forces::threshold(lifted, *k, &motions, acting)).list()
     }
 
     /// A force that is large compared with rounding errors of the forces of a state: the largest of the kinetic
