@@ -5,14 +5,14 @@
 //! friction exceeds its limit, the force with the largest excess is released.
 
 use super::super::failure::Failure;
-use super::dependence::{independent, prescribed};
+use super::dependence::{holders_of_friction, independent};
 use super::impacts::{self, restitution};
 use super::place::{drivers_rest, largest, mode_of, unit, with_modes, StateAt, STILL};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::math::Jet;
-use crate::model::{ForceMode, Model};
+use crate::model::{DriverSet, ForceMode, Model};
 
 /// Magnitude of a negative reserve that is accepted, as a fraction of the limit.
 const ROUNDING: f64 = 1e-11;
@@ -44,16 +44,22 @@ pub(super) fn decide(
     // after an impact that stops the mechanism, only rounding errors of the speeds remain
     let speed = place.speed_scale(model, before).max(jumped.unwrap_or(0.0));
     let jumped = jumped.is_some();
-    let prescribed = prescribed(model, place, &all);
-    let rests = model.driven && drivers_rest(model, place.t, place.state(model)[0]);
+    let holders = holders_of_friction(model, place, &all);
+    let rests = |holders| drivers_rest(model, holders, place.t, place.state(model)[0]);
+    // the direction in which drivers begin to move friction
+    let onset = |k: usize| {
+        let solved = place.solved(model);
+        let rate = solved.map_or(0.0, |now| place.gap_jets(model, &[k], now.a())[0].rate);
+        1.0_f64.copysign(rate)
+    };
     let mut modes: Vec<ForceMode> = Vec::new();
     let mut candidates = Vec::new();
-    for ((k, threshold), prescribed) in all.iter().zip(&thresholds).zip(&prescribed) {
+    for ((k, threshold), holders) in all.iter().zip(&thresholds).zip(&holders) {
         let free = match model.forces[*k].element.behaviour() {
             Some(Behaviour::Sticks) => {
                 let old = mode_of(before, *k);
                 let still =
-                    threshold.abs() <= STILL * speed || *threshold == 0.0 || *prescribed && rests;
+                    threshold.abs() <= STILL * speed || *threshold == 0.0 || rests(*holders);
                 let was = !jumped && (fired.contains(k) || old.holds());
                 if was || still {
                     candidates.push(*k);
@@ -61,7 +67,8 @@ pub(super) fn decide(
                 match old {
                     Mode::Slides(sign) if !jumped && !fired.contains(k) => Mode::Slides(sign),
                     Mode::Slides(sign) if !jumped => Mode::Slides(-sign),
-                    _ => Mode::Slides(if *threshold < 0.0 { -1.0 } else { 1.0 }),
+                    _ if still && !holders.is_empty() => Mode::Slides(onset(*k)),
+                    _ => Mode::Slides(1.0_f64.copysign(*threshold)),
                 }
             }
             _ => {
@@ -71,7 +78,13 @@ pub(super) fn decide(
                 Mode::Free
             }
         };
-        modes.push(ForceMode { force: *k, mode: free, value: 0.0, slack: 0.0, prescribed: false });
+        modes.push(ForceMode {
+            force: *k,
+            mode: free,
+            value: 0.0,
+            slack: 0.0,
+            held_by: DriverSet::default(),
+        });
     }
     let contact =
         |k: &usize| !matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Sticks));
@@ -81,7 +94,10 @@ pub(super) fn decide(
     let ended: Vec<usize> = candidates.iter().copied().filter(ended).collect();
     let mut modes = hold(model, place, modes, (&candidates, &ended))?;
     give_slack(model, place, touching, &mut modes);
-    mark_prescribed(&mut modes, &all, &prescribed);
+    for own in &mut modes {
+        let at = all.iter().position(|k| *k == own.force);
+        own.held_by = at.map(|at| holders[at]).unwrap_or_default();
+    }
     for (own, threshold) in modes.iter_mut().zip(&thresholds) {
         if let (Mode::Slides(sign), true) = (own.mode, threshold.abs() <= STILL * speed) {
             // a rounding error of the speed may have the opposite direction, and at rest the speed consists of
@@ -90,14 +106,6 @@ pub(super) fn decide(
         }
     }
     Ok(modes)
-}
-
-/// Marks the friction whose coordinate drivers hold.
-fn mark_prescribed(modes: &mut [ForceMode], all: &[usize], prescribed: &[bool]) {
-    for own in modes {
-        let at = all.iter().position(|k| *k == own.force);
-        own.prescribed = at.is_some_and(|at| prescribed[at]);
-    }
 }
 
 /// Sets the slack of contacts that touch and of forces that hold, from the rounding errors of gaps and forces.
