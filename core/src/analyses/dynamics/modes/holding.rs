@@ -45,39 +45,25 @@ pub(super) fn decide(
     let speed = place.speed_scale(model, before).max(jumped.unwrap_or(0.0));
     let jumped = jumped.is_some();
     let holders = holders_of_friction(model, place, &all);
-    let rests = |holders| drivers_rest(model, holders, place.t, place.state(model)[0]);
-    // the direction in which drivers begin to move friction
-    let onset = |k: usize| {
-        let solved = place.solved(model);
-        let rate = solved.map_or(0.0, |now| place.gap_jets(model, &[k], now.a())[0].rate);
-        1.0_f64.copysign(rate)
-    };
-    let mut modes: Vec<ForceMode> = Vec::new();
-    let mut candidates = Vec::new();
+    let (mut modes, mut candidates) = (Vec::new(), Vec::new());
     for ((k, threshold), holders) in all.iter().zip(&thresholds).zip(&holders) {
-        let free = match model.forces[*k].element.behaviour() {
+        let (free, candidate) = match model.forces[*k].element.behaviour() {
             Some(Behaviour::Sticks) => {
-                let old = mode_of(before, *k);
-                let still =
-                    threshold.abs() <= STILL * speed || *threshold == 0.0 || rests(*holders);
-                let was = !jumped && (fired.contains(k) || old.holds());
-                if was || still {
-                    candidates.push(*k);
-                }
-                match old {
-                    Mode::Slides(sign) if !jumped && !fired.contains(k) => Mode::Slides(sign),
-                    Mode::Slides(sign) if !jumped => Mode::Slides(-sign),
-                    _ if still && !holders.is_empty() => Mode::Slides(onset(*k)),
-                    _ => Mode::Slides(1.0_f64.copysign(*threshold)),
-                }
+                let rests = drivers_rest(model, *holders, place.t, place.state(model)[0]);
+                let still = threshold.abs() <= STILL * speed || *threshold == 0.0 || rests;
+                let ended = fired.contains(k);
+                let old = if jumped { Mode::Open } else { mode_of(before, *k) };
+                let direction = match old {
+                    Mode::Slides(sign) if ended => -sign,
+                    Mode::Slides(sign) => sign,
+                    _ if still && !holders.is_empty() => onset(model, place, *k),
+                    _ => 1.0_f64.copysign(*threshold),
+                };
+                (Mode::Slides(direction), still || !jumped && ended || old.holds())
             }
-            _ => {
-                if rest.contains(k) {
-                    candidates.push(*k);
-                }
-                Mode::Free
-            }
+            _ => (Mode::Free, rest.contains(k)),
         };
+        candidates.extend(candidate.then_some(*k));
         modes.push(ForceMode {
             force: *k,
             mode: free,
@@ -106,6 +92,13 @@ pub(super) fn decide(
         }
     }
     Ok(modes)
+}
+
+/// The direction in which drivers begin to move friction.
+fn onset(model: &Model, place: &StateAt<'_>, force: usize) -> f64 {
+    let solved = place.solved(model);
+    let rate = solved.map_or(0.0, |now| place.gap_jets(model, &[force], now.a())[0].rate);
+    1.0_f64.copysign(rate)
 }
 
 /// Sets the slack of contacts that touch and of forces that hold, from the rounding errors of gaps and forces.
