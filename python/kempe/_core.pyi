@@ -289,10 +289,7 @@ def project(model: Model, tolerance: float, t: _F, q: _F, v: _F, z: _F) -> tuple
     """States of an interpolant, projected as reported states are: q and v, (n_t, n_q)."""
 
 def energies(model: Model, t: _F, q: _F, v: _F, z: _F, works: _F) -> _F:
-    """Energies at states, (n_t, 5), J, as in ``Run.energies``.
-
-    ``works`` is the end of each row of the interpolant, (n_t, n_works).
-    """
+    """``Run.energies`` at states with these ends of the rows of the interpolant, (n_t, n_works)."""
 
 def residual(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
     """Φ and Φ_q q̇ + Φ_t at states, (n_t, n_rows) each."""
@@ -305,6 +302,9 @@ def place(model: Model, joint: str, on: str, t: _F, q: _F) -> _F:
 
 def newton_euler(model: Model, t: _F, q: _F, v: _F, z: _F, a: _F, lam: _F) -> _F:
     """The balances of bodies and coordinates; see ``kempe.newton_euler``."""
+
+def friction_modes(model: Model, t: _F, q: _F, v: _F, z: _F) -> list[tuple[int, list[_Mode]]]:
+    """The modes of friction at rest, by stretches of states; see ``kempe.friction_at_rest``."""
 
 def friction_range(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool) -> tuple[_F, _F] | None:
     """The least and the largest multipliers, (n_t, m), while drivers hold friction at rest."""

@@ -85,7 +85,7 @@ def values_of(motion: Motion, info: MeasureInfo) -> Floats:
     """Values of an expression, as ``values``."""
     t = np.atleast_1d(motion.t)
     compiled = motion.compiled
-    if not info.is_of_run and motion._phases is None and compiled.is_plain:
+    if not info.is_of_run and motion._decided is None and compiled.is_plain:
         states = (np.atleast_2d(rows) for rows in (motion.q, motion.v, motion.z))
         solved = (np.atleast_2d(motion.a), np.atleast_2d(motion.lam)) if info.solves else ()
         return fixed(_core.measure_at(compiled.core, info.expression, t, *states, *solved))
@@ -129,13 +129,18 @@ class Measure:
         """SI unit of the values."""
         return self._solution.variable.rate(self.info.unit)
 
-    @cached_property
+    @property
     def unique(self) -> bool:
-        """Whether the reactions in it are unique; if not, they have minimum norm.
+        """Whether the reactions in it are unique; ``choice`` says which are given if not.
 
         See ``ConstraintView.unique``. A measure without reactions is unique.
         """
-        return remarks.is_unique(self._solution, *self.info.quantities)
+        return not self.choice
+
+    @cached_property
+    def choice(self) -> str:
+        """Which of the possible reactions are in it; empty if they are unique."""
+        return remarks.choice_of(self._solution, *self.info.quantities)
 
     @cached_property
     def unbounded_at(self) -> tuple[float, ...]:
@@ -244,5 +249,5 @@ class Measure:
     def __repr__(self) -> str:
         span = f"{self.min:.6g} to {self.max:.6g} {self.unit}"
         variable = self._solution.variable
-        told = remarks.remark(unique=self.unique, times=self.unbounded_at, variable=variable)
+        told = remarks.remark(self.choice, times=self.unbounded_at, variable=variable)
         return f"<Measure {self.name!r} = {self.info.expression!r}: {span}{told}>"

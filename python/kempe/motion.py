@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cached_property
+from types import MappingProxyType
 from typing import Any
 
 import numpy as np
 
-from kempe import _core, quantities
+from kempe import _core, friction_at_rest, quantities
 from kempe.arrays import Floats, finite, fixed, scalar
 from kempe.compiled import CompiledModel, ConstraintInfo
-from kempe.errors import ModelError
+from kempe.errors import KempeError, ModelError
 from kempe.model import Model, compiled_model
 from kempe.names import entry, unknown
 from kempe.newton_euler import NewtonEuler, newton_euler
 from kempe.phases import Phases
+from kempe.redundant import redundant
+from kempe.remarks import MIDDLE, MINIMUM_NORM, together
 from kempe.variable import TIME, Variable
 from kempe.views import BodyView, ConstraintView, ForceView
-
-#: Largest number of states at which the uniqueness of reactions is examined.
-_EXAMINED = 11
-#: Ranges of multipliers below this part of the largest one are rounding errors.
-_NOTHING = 1e-9
 
 
 class Motion:
@@ -115,6 +113,8 @@ class Motion:
         """Accelerations, multipliers and regularity from the core."""
         rows = *self._rows(), np.atleast_2d(self.z)
         passing = self._passing
+        if self._decided is None:
+            friction_at_rest.phases(self)  # raises the error again
 
         def evaluate(core: _core.Model, *of: Floats) -> tuple[Floats, ...]:
             t, q, v, z = of
@@ -181,10 +181,23 @@ class Motion:
             self._last_reaction = (joint, on, frame), values
         return values
 
-    @cached_property
+    @property
     def not_unique(self) -> frozenset[str]:
         """Joints and drivers without a unique reaction; see ``ConstraintView.unique``."""
-        return self._redundant | self._beside_friction_at_rest
+        return frozenset(self.choices)
+
+    @cached_property
+    def choices(self) -> Mapping[str, str]:
+        """Joints and drivers without a unique reaction, and which of the possible ones is given.
+
+        It is "minimum norm", "middle of friction at rest" or both; see ``ConstraintView.unique``.
+        """
+        shared, held = redundant(self), friction_at_rest.joints(self)
+        own = {MINIMUM_NORM: shared, MIDDLE: held}
+        names = (name for name in self.compiled.constraints if name in shared | held)
+        return MappingProxyType(
+            {name: together(one for one, of in own.items() if name in of) for name in names}
+        )
 
     @cached_property
     def multiplier_range(self) -> tuple[Floats, Floats] | None:
@@ -192,43 +205,18 @@ class Motion:
 
         They differ where drivers hold friction at rest. None if this never occurs.
         """
-        found: list[tuple[Floats, Floats] | None] = []
+        return friction_at_rest.multiplier_range(self)
 
-        def evaluate(core: _core.Model, *of: Floats) -> tuple[Floats, ...]:
-            t, q, v, z, lam = of
-            ends = _core.friction_range(core, t, q, v, z, self._passing)
-            found.append(ends)
-            return ends or (lam, lam)
+    @cached_property
+    def _decided(self) -> Phases | None:
+        """The phases of its rows, with the modes of friction that is at rest outside of a run.
 
-        if not self.compiled.core.setting[2] and self._phases is None:
+        None if all rows have the compiled model, or if the equations have no solution.
+        """
+        try:
+            return self._phases or friction_at_rest.phases(self)
+        except KempeError:  # accelerations raise it; positions do not depend on it
             return None
-        low, high = self._by_phase(
-            evaluate, *self._rows(), np.atleast_2d(self.z), np.atleast_2d(self.lam)
-        )
-        return (low, high) if any(ends is not None for ends in found) else None
-
-    @cached_property
-    def _beside_friction_at_rest(self) -> frozenset[str]:
-        """Joints and drivers whose multipliers have a range."""
-        if self._phases is None and not self.compiled.core.setting[2]:
-            return frozenset()
-        ends = self.multiplier_range
-        if ends is None:
-            return frozenset()
-        low, high = ends
-        wide = high - low > _NOTHING * np.abs(self.lam).max(initial=0.0)
-        all_ = self.compiled.constraints
-        return frozenset(name for name, info in all_.items() if wide[:, info.rows].any())
-
-    @cached_property
-    def _redundant(self) -> frozenset[str]:
-        """Joints and drivers that redundant constraints leave without a unique reaction."""
-        if self.compiled.redundancy != "allow" or not len(np.atleast_1d(self.t)):
-            return frozenset()
-        t, q, _ = self._rows()
-        some = np.unique(np.linspace(0, len(t) - 1, _EXAMINED).round().astype(int))
-        model = self.compiled.core
-        return frozenset(_core.not_unique(model, t[some], np.ascontiguousarray(q[some])))
 
     def place(self, joint: str, on: str) -> Floats:
         """The point at which the reaction of a joint on a body is given, (…, 2), global, m."""
@@ -292,9 +280,9 @@ class Motion:
         self, evaluate: Callable[..., tuple[Floats, ...]], *rows: Floats | None
     ) -> tuple[Floats, ...]:
         """Values of the core at rows, each with the parameters and drivers of its phase."""
-        if self._phases is None:
+        if self._decided is None:
             return evaluate(self.compiled.core, *rows)
-        return self._phases.evaluate(evaluate, *rows)
+        return self._decided.evaluate(evaluate, *rows)
 
     def _rows(self) -> tuple[Floats, Floats, Floats]:
         """t, q, v with a time axis, as required by the core."""

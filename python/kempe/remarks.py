@@ -1,14 +1,15 @@
 """Remarks beside values of reactions: that they are not unique, or that they have no bound.
 
 Redundant constraints do not determine the reactions of the joints that take part; the values are
-then the smallest ones that carry the loads. A run can also pass a singular position beside which a
-reaction has no bound. Tables, files and figures state both beside the values, and so they do for
-measures and other results that read such a joint or driver.
+then the smallest ones that carry the loads. Friction that drivers hold at rest may carry any part
+of the load up to its limit; the values are then the middle of their interval. A run can also pass a
+singular position beside which a reaction has no bound. Tables, files and figures state this beside
+the values, and so they do for measures and other results that read such a joint or driver.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
@@ -25,8 +26,14 @@ if TYPE_CHECKING:
     from kempe.measures import MeasureInfo
     from kempe.motion import Motion
 
-#: The remark at values that are not unique.
+#: The remarks at values that are not unique: which of the possible values is given.
 MINIMUM_NORM = "minimum norm"
+MIDDLE = "middle of friction at rest"
+#: What they mean, behind "not unique".
+_MEANING = {
+    MINIMUM_NORM: f"of the smallest multipliers ({MINIMUM_NORM})",
+    MIDDLE: "friction at rest may have any value in an interval, whose middle is given",
+}
 #: Times closer than this fraction of the motion belong to one position.
 _SAME_TIME = 1e-3
 #: Reactions below this fraction of the largest multipliers are zero; errors have poles too.
@@ -64,10 +71,24 @@ def _positions(info: ConstraintInfo) -> set[str]:
     return own | {name for of in info.measured for name in of.names if name}
 
 
-def is_unique(motion: Motion, *names: str) -> bool:
-    """Whether quantities or measures read unique reactions only."""
-    open_ones = motion.not_unique
-    return not open_ones or open_ones.isdisjoint(read_by(motion.compiled, names))
+def choice_of(motion: Motion, *names: str) -> str:
+    """Which of the possible values quantities or measures have; empty if they are unique."""
+    choices = motion.choices
+    read = read_by(motion.compiled, names) if choices else frozenset()
+    return together(choices[name] for name in read if name in choices)
+
+
+def together(choices: Iterable[str]) -> str:
+    """Choices in one text, each once."""
+    joined = " and ".join(choices)
+    return " and ".join(one for one in (MINIMUM_NORM, MIDDLE) if one in joined)
+
+
+def by_choice(choices: Mapping[str, str]) -> Iterator[tuple[str, str, list[str]]]:
+    """Each choice that occurs, what it means behind "not unique", and the names that have it."""
+    for choice, meaning in _MEANING.items():
+        if names := [name for name, own in choices.items() if choice in own]:
+            yield choice, meaning, names
 
 
 def condition(motion: Motion, name: str, unit: str) -> str:
@@ -140,34 +161,34 @@ def measure_unbounded_at(motion: Motion, info: MeasureInfo) -> tuple[float, ...]
     return tuple(poles(motion, read) if info.unit in _FORCES else unbounded(motion, read).tolist())
 
 
-def remark(*, unique: bool, times: Sequence[float] = (), variable: Variable = TIME) -> str:
+def remark(choice: str = "", *, times: Sequence[float] = (), variable: Variable = TIME) -> str:
     """The remarks behind a name or value, such as ``, minimum norm``; empty if there is none.
 
     Args:
-        unique: whether the values are unique.
+        choice: which of the possible values are given; empty if they are unique.
         times: the times beside which they have no bound.
         variable: the quantity in these times.
     """
-    told = "" if unique else f", {MINIMUM_NORM}"
+    told = f", {choice}" if choice else ""
     return told + (f", without bound {when(times, variable)}" if times else "")
 
 
-def remark_of_variants(*, unique: bool, unbounded: int, count: int) -> str:
+def remark_of_variants(choice: str = "", *, unbounded: int, count: int) -> str:
     """The remarks behind the name of a measure of many variants; empty if there is none.
 
     Args:
-        unique: whether the values are unique in all variants.
+        choice: which of the possible values are given; empty if all are unique.
         unbounded: the number of variants in which the measure has no bound.
         count: the number of variants that succeeded.
     """
-    told = remark(unique=unique)
+    told = remark(choice)
     return told + (f", without bound in {unbounded} of {count} variants" if unbounded else "")
 
 
 def joint_remark(motion: Motion, joint: str) -> str:
     """The remarks on the reaction of a joint or driver."""
-    unique = motion.constraint(joint).unique
-    return remark(unique=unique, times=unbounded_at(motion, joint), variable=motion.variable)
+    choice = motion.choices.get(joint, "")
+    return remark(choice, times=unbounded_at(motion, joint), variable=motion.variable)
 
 
 def starred(name: str, *, unique: bool) -> str:
@@ -175,9 +196,9 @@ def starred(name: str, *, unique: bool) -> str:
     return name if unique else f"* {name}"
 
 
-def not_unique(names: Sequence[str]) -> str:
-    """The line below a table that has stars."""
-    return f"* not unique, of the smallest multipliers ({MINIMUM_NORM}): {few(names)}"
+def not_unique(choices: Mapping[str, str]) -> list[str]:
+    """The lines below a table that has stars, for the choices of the names in it."""
+    return [f"* not unique, {meaning}: {few(names)}" for _, meaning, names in by_choice(choices)]
 
 
 def when(

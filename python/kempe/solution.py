@@ -285,6 +285,7 @@ class Solution(Motion):
             rates = np.zeros_like(v) if self.variable.static else v
             q, v = fixed(q), fixed(rates)
             motion.q, motion.v = q, v
+            motion.__dict__.pop("_decided", None)  # of the states before
         if at.ndim:
             return motion
         own = motion._phases

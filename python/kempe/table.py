@@ -31,22 +31,26 @@ class Column:
         name: such as ``rocker.angle``.
         unit: display unit, such as ``rad``.
         values: (n_t,), in this unit.
-        unique: False for a reaction, or a measure that reads it, if redundant constraints leave it
-            open; its values then have minimum norm.
+        choice: for a reaction, or a measure that reads it, which of the possible values is given;
+            empty if they are unique.
         condition: what a force, torque or power over a driven quantity contains; or empty.
     """
 
     name: str
     unit: str
     values: Floats
-    unique: bool = True
+    choice: str = ""
     condition: str = ""
+
+    @property
+    def unique(self) -> bool:
+        """Whether the values are unique."""
+        return not self.choice
 
     @property
     def label(self) -> str:
         """Name and unit, such as ``C.fx_on_rocker [N]``, with the condition and other remarks."""
-        not_unique = "" if self.unique else remarks.MINIMUM_NORM
-        beside = ", ".join(filter(None, (self.unit, self.condition, not_unique)))
+        beside = ", ".join(filter(None, (self.unit, self.condition, self.choice)))
         return f"{self.name} [{beside}]" if beside else self.name
 
 
@@ -86,7 +90,7 @@ def remarked(solution: Solution, name: str, unit: str, values: Floats) -> Column
     """A column of a quantity of a solution, with the remarks on it."""
     return replace(
         column(name, unit, values),
-        unique=remarks.is_unique(solution, name),
+        choice=remarks.choice_of(solution, name),
         condition=remarks.condition(solution, name, unit),
     )
 
@@ -151,7 +155,7 @@ def dataframe(solution: Solution, extent: Extent | None = None) -> pandas.DataFr
     table = columns(solution, extent)
     frame = pandas.DataFrame({column.name: column.values for column in table})
     frame.attrs["units"] = {column.name: column.unit for column in table}
-    frame.attrs["minimum_norm"] = [column.name for column in table if not column.unique]
+    frame.attrs["choices"] = {column.name: column.choice for column in table if column.choice}
     frame.attrs["conditions"] = {one.name: one.condition for one in table if one.condition}
     return frame
 

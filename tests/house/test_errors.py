@@ -94,6 +94,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "force_results": lambda: _core.force_results(
         MODEL, "spring", TIMES, ROW, ROW, STATES, np.zeros((1, 8))
     ),
+    "friction_modes": lambda: _core.friction_modes(MODEL, TIMES, ROW, ROW, np.zeros((1, 0))),
     "friction_range": lambda: _core.friction_range(
         MODEL, TIMES, ROW, ROW, np.zeros((1, 0)), passing=True
     ),

@@ -203,7 +203,7 @@ def test_forces_that_vanish_have_bounds() -> None:
 
 def test_the_words_of_remarks() -> None:
     time, over = kp.variable.TIME, kp.variable.Variable("crank.angle", "rad")
-    told = remarks.remark(unique=False, times=[0.5, 0.7], variable=time)
+    told = remarks.remark(remarks.MINIMUM_NORM, times=[0.5, 0.7], variable=time)
     assert told == ", minimum norm, without bound first at 0.5 s, last at 0.7 s"
     assert remarks.when([0.5, 0.5], time) == "at 0.5 s"
     assert remarks.when([-np.pi / 2, np.pi], over) == "first at −90°, last at 180°"

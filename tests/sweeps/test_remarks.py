@@ -45,7 +45,7 @@ def swept(case: kp.Case) -> kp.SweepResult:
 
 def test_columns_and_figures_are_marked(tmp_path: Path) -> None:
     found = swept(door())
-    assert found.minimum_norm == OPEN
+    assert found.choices == dict.fromkeys(OPEN, "minimum norm")
     found.to_csv(tmp_path / "sweep.csv")
     header = (tmp_path / "sweep.csv").read_text("utf-8").partition("\n")[0]
     expected = [f"{name} [minimum norm]" if name in OPEN else name for name in MEASURES]
@@ -57,7 +57,7 @@ def test_columns_and_figures_are_marked(tmp_path: Path) -> None:
 
 def test_without_redundancy_nothing_is_marked(tmp_path: Path) -> None:
     found = swept(door("refuse"))
-    assert found.minimum_norm == ()
+    assert found.choices == {}
     assert found.remarks == found.table.attrs["remarks"] == {}
     assert "minimum" not in repr(found)
     found.to_csv(tmp_path / "sweep.csv")

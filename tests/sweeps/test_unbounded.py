@@ -59,7 +59,7 @@ def test_the_rows_are_those_that_come_to_the_line() -> None:
     assert 0 < len(passing()) < len(RATES)
     assert found.unbounded == dict.fromkeys(PIN, passing())
     assert found.remarks == found.table.attrs["remarks"] == dict.fromkeys(PIN, remark())
-    assert found.minimum_norm == ()
+    assert found.choices == {}
     for k in range(len(RATES)):
         has_times = bool(found.run(k).summary["singular"])
         assert has_times == (k in passing())

@@ -128,6 +128,7 @@ fn _core(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(reactions::place, module)?)?;
     module.add_function(wrap_pyfunction!(reactions::newton_euler, module)?)?;
     module.add_function(wrap_pyfunction!(reactions::not_unique, module)?)?;
+    module.add_function(wrap_pyfunction!(reactions::friction_modes, module)?)?;
     module.add_function(wrap_pyfunction!(reactions::friction_range, module)?)?;
     module.add_function(wrap_pyfunction!(reactions::results, module)?)?;
     module.add_function(wrap_pyfunction!(evaluate::force, module)?)?;

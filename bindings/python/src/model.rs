@@ -12,7 +12,7 @@ use kempe::elements::{
 use kempe::equations::reactions::touched;
 use kempe::expression::Table;
 use kempe::math::Local;
-use kempe::model::{Body, Columns, Definition, Drawn, ForceMode, Functions, Model};
+use kempe::model::{Body, Columns, Definition, Drawn, DriverSet, ForceMode, Functions, Model};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use serde_json::{json, Map, Value};
@@ -142,7 +142,12 @@ pub type Written = (Vec<(String, f64)>, Vec<String>, Vec<WrittenMode>);
 
 /// A setting for Python.
 pub fn written(setting: &Setting) -> Written {
-    let modes = setting.modes.iter().map(|of| {
+    (setting.parameters.clone(), setting.released.clone(), written_modes(&setting.modes))
+}
+
+/// Modes of forces for Python.
+pub fn written_modes(modes: &[ForceMode]) -> Vec<WrittenMode> {
+    let modes = modes.iter().map(|of| {
         let (name, sign, leader) = match of.mode {
             Mode::Open => ("open", 0.0, 0),
             Mode::Free => ("free", 0.0, 0),
@@ -153,7 +158,7 @@ pub fn written(setting: &Setting) -> Written {
         };
         (of.force, name.to_string(), sign, leader, of.value)
     });
-    (setting.parameters.clone(), setting.released.clone(), modes.collect())
+    modes.collect()
 }
 
 /// Reads a mode from Python.
@@ -175,7 +180,7 @@ fn read_mode(
     if !has_modes(force) || matches!(mode, Mode::Follows { leader, .. } if !has_modes(&leader)) {
         return Err(refuse(py, "modes", format!("force {force} has no modes")));
     }
-    Ok(ForceMode { force: *force, mode, value: *value, slack: 0.0, prescribed: false })
+    Ok(ForceMode { force: *force, mode, value: *value, slack: 0.0, held_by: DriverSet::default() })
 }
 
 fn pair(s: &Local) -> Value {

@@ -3,9 +3,9 @@
 use crate::convert::{rows, table, Row, Rows};
 use crate::evaluate::{frame_named, one_of, unknown, Rates};
 use crate::guard::guard;
-use crate::model::PyModel;
+use crate::model::{written_modes, PyModel, WrittenMode};
 use crate::respond::{missing, Table};
-use kempe::analyses::dynamics::States;
+use kempe::analyses::dynamics::{friction_modes as friction_modes_of, States};
 use kempe::elements::{BodyId, Mode};
 use kempe::equations::actions::each_action;
 use kempe::equations::forces::{self, Acting};
@@ -13,7 +13,7 @@ use kempe::equations::newton_euler::balances;
 use kempe::equations::reactions;
 use kempe::integrate::Flow;
 use kempe::math::Wrench;
-use kempe::model::{ForceMode, Model};
+use kempe::model::{DriverSet, ForceMode, Model};
 use pyo3::prelude::*;
 use std::collections::BTreeSet;
 
@@ -89,7 +89,7 @@ pub fn impulse<'py>(
                 mode,
                 value: 0.0,
                 slack: 0.0,
-                prescribed: false,
+                held_by: DriverSet::default(),
             }]);
             let mut sum = Wrench::zero();
             each_action(&resting, k, motions, acting, |_, on, wrench| {
@@ -166,6 +166,39 @@ pub fn newton_euler<'py>(
         });
         let width = out.len().checked_div(count).unwrap_or(0);
         table(py, out, (count, width))
+    })
+}
+
+/// The modes of friction at states, as at the start of a run: the first row of each stretch of rows with the same
+/// modes, and these. Empty where all friction moves.
+#[pyfunction]
+pub fn friction_modes<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    t: Row<'py>,
+    q: Rows<'py>,
+    v: Rows<'py>,
+    z: Rows<'py>,
+) -> PyResult<Vec<(usize, Vec<WrittenMode>)>> {
+    guard("friction_modes", || {
+        let active = model.active.prepared.model();
+        let (layout, count) = (&active.layout, t.as_array().len());
+        let t = t.as_array().to_vec();
+        let [q, v] =
+            [rows(py, "q", &q, (count, layout.n_q))?, rows(py, "v", &v, (count, layout.n_q))?];
+        let z = rows(py, "z", &z, (count, layout.n_z))?;
+        let found = friction_modes_of(active, [&t, &q, &v, &z]);
+        let found = found.map_err(|failure| missing(py, failure.reason))?;
+        let mut stretches: Vec<(usize, Vec<ForceMode>)> = Vec::new();
+        let alike = |a: &[ForceMode], b: &[ForceMode]| {
+            a.iter().map(|of| (of.force, of.mode)).eq(b.iter().map(|of| (of.force, of.mode)))
+        };
+        for (row, modes) in found.into_iter().enumerate() {
+            if stretches.last().is_none_or(|(_, last)| !alike(last, &modes)) {
+                stretches.push((row, modes));
+            }
+        }
+        Ok(stretches.into_iter().map(|(row, modes)| (row, written_modes(&modes))).collect())
     })
 }
 

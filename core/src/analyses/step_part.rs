@@ -4,7 +4,9 @@
 //! error of at most κ |p - p_m|²/2 for a motion p of the point that is p_m in the middle of the part, where κ bounds
 //! the turning of the gradient (`elements::Apart`).
 
-use crate::elements::{Apart, Behaviour, BodyId, Clearance, Coordinate, Followed, ForceElement};
+use crate::elements::{
+    Apart, Behaviour, BodyId, Clearance, Coordinate, Followed, ForceElement, Way,
+};
 use crate::expression::{Tape, Values};
 use crate::integrate::{Bounds, Step, StepPath};
 use crate::math::{Interval, Local, Pose, Real, Vec2};
@@ -228,7 +230,7 @@ impl<'a> StepPart<'a> {
                     false => frame.rotation.inverse(p),
                 };
                 let middle = held.rotation.inverse(there.point(i.s) - held.r);
-                let apart = |within: f64| curve.apart(middle, side, [within, radius]);
+                let apart = |way: Way| curve.apart(middle, side, (way, radius));
                 Some(
                     self.moved([p.x, p.y], &apart, there.r.norm() + held.r.norm())
                         - constant(radius),
@@ -238,8 +240,8 @@ impl<'a> StepPart<'a> {
                 let ((of_i, at_i), (of_j, at_j)) = (at(0), at(1));
                 let d = of_j.point(local(j.s)) - of_i.point(local(i.s));
                 let middle = at_j.point(j.s) - at_i.point(i.s);
-                let apart =
-                    |within: f64| Apart::from_origin(Local::new(middle.x, middle.y), within);
+                let middle = Local::new(middle.x, middle.y);
+                let apart = |way: Way| Apart::from_origin(middle, way.within);
                 let found = self.moved([d.x, d.y], &apart, at_i.r.norm() + at_j.r.norm());
                 Some(constant(sign) * (found - constant(length)))
             }
@@ -247,12 +249,15 @@ impl<'a> StepPart<'a> {
     }
 
     /// A distance during the motion of a point. `apart` gives the distance in the middle of the part.
-    fn moved(&self, p: [Bounds; 2], apart: &dyn Fn(f64) -> Apart, far: f64) -> Bounds {
+    fn moved(&self, p: [Bounds; 2], apart: &dyn Fn(Way) -> Apart, far: f64) -> Bounds {
         let [x, y] = p.map(|p| p.slope[0]);
         let speed = x.largest_magnitude().hypot(y.largest_magnitude());
         let half = 0.5 * (self.span[1] - self.span[0]).abs();
         let within = speed * half;
-        let Apart { distance, away, bend, error } = apart(within);
+        let middle = |of: Interval| 0.5 * (of.low + of.high);
+        let error = half * (0.5 * x.spread()).hypot(0.5 * y.spread());
+        let by = Local::new(half * middle(x), half * middle(y));
+        let Apart { distance, away, bend, error, other } = apart(Way { by, error, within });
         let rounding = ROUNDING * (far + distance.abs() + p[0].value.largest_magnitude());
         let fixed = |by: f64| Interval::around(0.0, by);
         let mut value = Interval::around(distance, within + error);
@@ -261,8 +266,13 @@ impl<'a> StepPart<'a> {
             let times = |k: f64, of: Interval| Interval::new(k, k) * of;
             let along = times(away.x, x) + times(away.y, y);
             let moved = along * fixed(half) + fixed(0.5 * bend * within * within);
-            value = value.and(Interval::new(distance, distance) + moved);
-            slope = slope.and(along + fixed(bend * within * speed));
+            let own = Interval::new(distance, distance) + moved;
+            if other == f64::INFINITY {
+                value = value.and(own);
+                slope = slope.and(along + fixed(bend * within * speed));
+            } else if own.low > 0.0 && other > 0.0 {
+                value = value.and(Interval::new(own.low.min(other), own.high));
+            }
         }
         Bounds { value: value + fixed(rounding), slope: [slope] }
     }

@@ -13,6 +13,20 @@ pub struct Apart {
     pub bend: f64,
     /// The error of the distance.
     pub error: f64,
+    /// A distance that other parts of the curve have at least; infinite if they do not matter.
+    pub other: f64,
+}
+
+/// The way of a point around its place in the middle of a part of a step: p - by to p + by, with an error; and the
+/// largest distance from this place.
+#[derive(Clone, Copy, Debug)]
+pub struct Way {
+    /// From the middle to the end.
+    pub by: Local,
+    /// The largest distance from the straight way.
+    pub error: f64,
+    /// The largest distance from the middle.
+    pub within: f64,
 }
 
 impl Apart {
@@ -20,7 +34,13 @@ impl Apart {
     pub fn from_origin(p: Local, within: f64) -> Self {
         let distance = p.norm();
         let away = p.scale(1.0 / distance);
-        Self { distance, away, bend: from_corner(distance, within), error: 0.0 }
+        Self {
+            distance,
+            away,
+            bend: from_corner(distance, within),
+            error: 0.0,
+            other: f64::INFINITY,
+        }
     }
 }
 

@@ -8,7 +8,7 @@
 //! ends bound the body, so that the gap is continuous there. Behind other open curves, the normals bound the body
 //! only beyond the ends.
 
-use super::apart::{from_corner, Apart};
+use super::apart::{from_corner, Apart, Way};
 use super::field::{Field, Shape};
 use super::kinds::{self, CurveOn, Kind, Side, Source};
 use super::nearest::{AlongCurve, CurveSearch};
@@ -72,45 +72,69 @@ pub(super) struct Near<S> {
 }
 
 impl Rim {
-    /// The distance of p from the curve, positive on the given side, with the turning of its gradient within a radius
+    /// The distance of p from the curve, positive on the given side, with the turning of its gradient along a way
     /// around p. Farther from the curve than `far`, the distance is only approximate.
-    pub fn apart(&self, p: Local, side: Side, [within, far]: [f64; 2]) -> Apart {
-        if !self.is_closed_form() && self.on.curve.periodic() {
-            let (right, error) = self.searches()[0].rough(p);
-            if right.abs() > far + within + 2.0 * error {
-                let distance = if side == Side::Right { right } else { -right };
-                return Apart { distance, away: Local::zero(), bend: f64::INFINITY, error };
+    pub fn apart(&self, p: Local, side: Side, (way, far): (Way, f64)) -> Apart {
+        let within = way.within;
+        let of = |distance: f64, away: Local, bend: f64| Apart {
+            distance,
+            away,
+            bend,
+            error: 0.0,
+            other: f64::INFINITY,
+        };
+        match &self.on.curve {
+            Curve::Circle { center, .. } => {
+                let Near { distance, away, .. } = self.near(p, side);
+                of(distance, away, from_corner((p - *center).norm(), within))
             }
-        }
-        let Near { distance, away, .. } = self.near(p, side);
-        let bend = match &self.on.curve {
-            Curve::Circle { center, .. } => from_corner((p - *center).norm(), within),
             Curve::Line { from, to } => {
+                let Near { distance, away, .. } = self.near(p, side);
                 let (along, arm) = (*to - *from, p - *from);
                 let length = along.norm();
                 let (u, up) = (along.dot(arm) / length, along.cross(arm).abs() / length);
                 // the nearest point stays between the ends, or the ends are corners
                 let inside = u.min(length - u) - within;
                 let level = inside > 0.0 && up > within || inside > up + within;
-                match distance > 0.0 {
-                    true if level => 0.0,
-                    false if inside > up + within => 0.0,
-                    _ => from_corner(distance, within),
-                }
+                let flat = if distance > 0.0 { level } else { inside > up + within };
+                of(distance, away, if flat { 0.0 } else { from_corner(distance, within) })
             }
-            curve => {
-                let most = self.searches()[0].curved(p, distance.abs() + 2.0 * within);
-                let left = 1.0 - most * (distance.abs() + within);
-                let inner = if left > 0.0 { most / left } else { f64::INFINITY };
-                let ends = curve.range().map(|u| (p - curve.point(u)).norm());
-                let far = distance.abs() + 2.0 * within;
-                match curve.periodic() || ends[0].min(ends[1]) > far {
-                    true => inner,
-                    false => inner.max(from_corner(distance, within)),
-                }
+            curve => self.searched_apart(curve, p, side, (way, far)),
+        }
+    }
+
+    fn searched_apart(&self, curve: &Curve, p: Local, side: Side, (way, far): (Way, f64)) -> Apart {
+        let (search, within) = (&self.searches()[0], way.within);
+        let out = if side == Side::Right { 1.0 } else { -1.0 };
+        if curve.periodic() {
+            let (right, error) = search.rough(p);
+            if right.abs() > far + within + 2.0 * error {
+                let (distance, away) = (out * right, Local::zero());
+                return Apart { distance, away, bend: f64::INFINITY, error, other: f64::INFINITY };
+            }
+        }
+        let (u, distance, away) = match search.nearest(p) {
+            AlongCurve::Within(u) => {
+                let [c, first] = curve.tangent(u);
+                let away = (-first.perp()).scale(out / first.norm());
+                (u, away.dot(p - c), away)
+            }
+            AlongCurve::First(u) | AlongCurve::Last(u) => {
+                let Near { distance, away, .. } = self.near(p, side);
+                (u, distance, away)
             }
         };
-        Apart { distance, away, bend, error: 0.0 }
+        let reach = distance.abs() + 2.0 * within;
+        let near = search.branches((p, u), reach, (way.by, way.error));
+        let bend = near.turning(out, distance, within);
+        let ends = curve.range().map(|u| (p - curve.point(u)).norm());
+        let bend = match curve.periodic() || ends[0].min(ends[1]) > reach {
+            true => bend,
+            false => bend.max(from_corner(distance, within)),
+        };
+        let moved = away.dot(way.by).abs() + way.error + 0.5 * bend * within * within;
+        let other = if near.other > distance.abs() + moved { f64::INFINITY } else { near.other };
+        Apart { distance, away, bend, error: 0.0, other }
     }
 }
 

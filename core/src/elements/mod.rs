@@ -112,7 +112,7 @@ pub mod test_elements;
 
 use crate::expression::Tape;
 use crate::math::{Lift, Local, Pose, Real, Vec2, Wrench};
-pub use apart::Apart;
+pub use apart::{Apart, Way};
 pub use attachment::Attachment;
 pub use clearance::Clearance;
 

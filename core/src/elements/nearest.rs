@@ -39,6 +39,34 @@ pub(super) enum AlongCurve {
     Last(f64),
 }
 
+/// The curve around a foot, and the rest of the curve.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Branches {
+    /// Bounds of the curvature of the connected part around the foot, 1/m.
+    pub bends: [f64; 2],
+    /// The length of this part, m, and the angle by which it turns.
+    pub length: f64,
+    pub turn: f64,
+    /// A distance that the other parts have at least; infinite if they are far.
+    pub other: f64,
+}
+
+impl Branches {
+    /// The largest rate at which the gradient of the distance turns within a radius of a point at a distance, 1/m;
+    /// infinite if the foot may jump. The contact is on the right of the curve for `out` = 1, on the left for -1.
+    pub fn turning(&self, out: f64, distance: f64, within: f64) -> f64 {
+        let Self { bends: [low, high], length, turn, .. } = *self;
+        // how strongly the curve turns towards the point, and away from it
+        let [hollow, round] = if out > 0.0 { [-low, high] } else { [high, -low] };
+        let behind = (-distance).max(0.0) + within + length * turn;
+        if hollow * (distance.abs() + 3.0 * within) >= 1.0 || round * behind >= 1.0 {
+            return f64::INFINITY;
+        }
+        let towards = hollow / (1.0 - hollow * (distance + within));
+        towards.max(round / (1.0 + round * (distance - within)))
+    }
+}
+
 /// A curve that is ready to be searched.
 #[derive(Debug)]
 pub(super) struct CurveSearch {
@@ -50,8 +78,8 @@ pub(super) struct CurveSearch {
     range: [f64; 2],
     /// The largest distance of the curve from its chords, m.
     rise: f64,
-    /// A curvature that is not exceeded in each part, 1/m.
-    bends: Vec<f64>,
+    /// Bounds of the curvature of each part, 1/m, positive where it turns left.
+    bends: Vec<[f64; 2]>,
     /// The root first, the children of k at 2k + 1 and 2k + 2.
     tree: Vec<Circle>,
 }
@@ -105,31 +133,70 @@ impl CurveSearch {
         }
         let rise = |k: usize| tree[k + count - 1].radius - 0.5 * apart(points[k], points[k + 1]);
         let rise = (0..count).map(rise).fold(0.0, f64::max);
-        let bend = |k: f64| curvature(&curve.derivatives(a + (b - a) * k / count as f64)).abs();
-        let most = |k: f64| MARGIN * bend(k).max(bend(k + 0.5)).max(bend(k + 1.0));
-        let mut bends = vec![0.0; tree.len()];
-        for k in (0..tree.len()).rev() {
-            bends[k] = match k >= count - 1 {
-                true => most((k + 1 - count) as f64),
-                false => f64::max(bends[2 * k + 1], bends[2 * k + 2]),
-            };
-        }
+        let bend = |k: f64| curvature(&curve.derivatives(a + (b - a) * k / count as f64));
+        let bends = (0..count).map(|k| {
+            let all = [0.0, 0.5, 1.0].map(|part| MARGIN * bend(k as f64 + part));
+            [all.into_iter().fold(0.0, f64::min), all.into_iter().fold(0.0, f64::max)]
+        });
+        let bends = bends.collect();
         Self { numbers, points, range: [a, b], rise, bends, tree, curve }
     }
 
-    /// A curvature that the curve does not exceed within a distance of p, 1/m.
-    pub fn curved(&self, p: Local, within: f64) -> f64 {
+    /// The pieces within a distance of p, ascending.
+    fn pieces(&self, p: Local, within: f64) -> Vec<usize> {
         let leaves = self.points.len() - 1;
-        let (mut most, mut open) = (0.0, vec![0]);
+        let (mut found, mut open) = (Vec::new(), vec![0]);
         while let Some(k) = open.pop() {
-            let far = apart(p, self.tree[k].center) - self.tree[k].radius > within;
-            match far || self.bends[k] <= most {
+            match apart(p, self.tree[k].center) - self.tree[k].radius > within {
                 true => {}
-                false if k >= leaves - 1 => most = self.bends[k],
-                false => open.extend([2 * k + 1, 2 * k + 2]),
+                false if k >= leaves - 1 => found.push(k + 1 - leaves),
+                false => open.extend([2 * k + 2, 2 * k + 1]),
             }
         }
-        most
+        found
+    }
+
+    /// The curve around the foot u of a point p, and the rest of it, for a motion of the point from p - by to p + by
+    /// with an error.
+    pub fn branches(&self, (p, u): (Local, f64), far: f64, (by, error): (Local, f64)) -> Branches {
+        let (count, [a, b]) = (self.points.len() - 1, self.range);
+        let pieces = self.pieces(p, far);
+        let foot =
+            ((u - a) / (b - a) * count as f64).floor().clamp(0.0, count as f64 - 1.0) as usize;
+        let near = |k: &usize| pieces.binary_search(k).is_ok();
+        let around = if self.curve.periodic() { count } else { 0 };
+        let up = (1..count).map(|by| foot + by).map_while(|k| match around {
+            0 => (k < count).then_some(k),
+            _ => Some(k % count),
+        });
+        let down = (1..count).map_while(|by| (foot + around).checked_sub(by)).map(|k| k % count);
+        let mut own: Vec<usize> = up.take_while(near).collect();
+        if own.len() + 1 < count {
+            own.extend(down.take_while(near));
+        }
+        own.push(foot);
+        own.sort_unstable();
+        let mut found =
+            Branches { bends: [0.0, 0.0], length: 0.0, turn: 0.0, other: f64::INFINITY };
+        for k in own.iter().copied() {
+            let [low, high] = self.bends[k];
+            let length = apart(self.points[k], self.points[k + 1]) + 2.0 * self.rise_of(k);
+            found.bends = [found.bends[0].min(low), found.bends[1].max(high)];
+            found.length += length;
+            found.turn += length * high.max(-low);
+        }
+        for k in pieces.into_iter().filter(|k| own.binary_search(k).is_err()) {
+            let chord = [self.points[k], self.points[k + 1]];
+            let distance = of_segments([p - by, p + by], chord) - self.rise_of(k) - error;
+            found.other = found.other.min(distance);
+        }
+        found
+    }
+
+    /// The largest distance of a piece from its chord.
+    fn rise_of(&self, k: usize) -> f64 {
+        let leaf = self.tree[k + self.points.len() - 2];
+        leaf.radius - 0.5 * apart(self.points[k], self.points[k + 1])
     }
 
     /// The nearest point to p, in the frame of the curve.
@@ -215,4 +282,17 @@ fn to_chord(p: Local, from: Local, to: Local) -> (f64, f64) {
     let share = (chord.dot(arm) / chord.dot(chord)).clamp(0.0, 1.0);
     let share = if share.is_nan() { 0.0 } else { share };
     (apart(p, between(from, to, share)), share)
+}
+
+/// The distance of two straight pieces.
+fn of_segments([a, b]: [Local; 2], [c, d]: [Local; 2]) -> f64 {
+    let side = |from: Local, to: Local, p: Local| (to - from).cross(p - from);
+    let crosses = side(a, b, c) * side(a, b, d) <= 0.0 && side(c, d, a) * side(c, d, b) <= 0.0;
+    let ends =
+        [(a, c, d), (b, c, d), (c, a, b), (d, a, b)].map(|(p, from, to)| to_chord(p, from, to).0);
+    if crosses {
+        0.0
+    } else {
+        ends.into_iter().fold(f64::INFINITY, f64::min)
+    }
 }

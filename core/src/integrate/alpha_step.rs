@@ -43,7 +43,7 @@ const SAME: f64 = 1e-6;
 /// Relative size of corrections that are rounding errors, compared with the largest coordinate.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 /// Largest error that Newton's iteration may leave, as a fraction of the tolerance.
-const PART: f64 = 1e-2;
+pub(super) const PART: f64 = 1e-2;
 
 /// The quantities of v or of z that are carried from step to step: (a - v̇) / h, the rate of v̇ at the beginning of a
 /// step, and the variable a, which replaces v̇ in the method, at both ends.
@@ -286,7 +286,7 @@ impl AlphaStep {
 
     /// Computes the residuals at `end`: those of the forces and states into the first parts of x, and Φ into `rows`.
     #[inline]
-    fn evaluate<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, t: f64) {
+    pub fn evaluate<Y: Dae>(&mut self, system: &mut CountedDae<'_, Y>, t: f64) {
         let (forces, rest) = self.x.split_at_mut(self.dv.len());
         let states = &mut rest[..self.end.z.len()];
         let ImplicitState { q, v, a, lam, z, dz, powers } = &mut self.end;
@@ -337,7 +337,7 @@ impl AlphaStep {
     /// The norm of corrections that contain only rounding errors. The correction of q is compared with the largest
     /// component of q, since every constraint is a sum over several components. The correction of v is that of q
     /// multiplied by γ / (β h).
-    fn rounding(&self, h: f64, scale: &mut ErrorWeights) -> f64 {
+    pub fn rounding(&self, h: f64, scale: &mut ErrorWeights) -> f64 {
         let AlphaParameters { beta, gamma, .. } = self.parameters;
         scale.set(&self.start, &self.end);
         let q = ROUNDING * self.start.q.iter().fold(0.0, |most: f64, q| most.max(q.abs()));
@@ -377,7 +377,6 @@ impl AlphaStep {
         for (normal, v) in self.normal.iter_mut().zip(&self.end.v) {
             *normal = (*normal - v) / (h * h);
         }
-        self.evaluate(system, t + h); // computes the powers
         Ok(changed)
     }
 

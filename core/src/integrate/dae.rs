@@ -152,6 +152,16 @@ pub trait Dae {
     /// Computes and stores M, D, K, B, Φ_q and the derivatives of Q and f at an iterate.
     fn linearize(&mut self, t: f64, at: Iterate<'_>);
 
+    /// The magnitude of the quadratures to which their errors are relative, as [`Ode::quadrature_scale`], after the
+    /// residuals at the end of a trial step, where the quadratures are `works`.
+    ///
+    /// [`Ode::quadrature_scale`]: super::Ode::quadrature_scale
+    #[inline]
+    fn quadrature_scale(&self, works: &[f64]) -> Option<f64> {
+        let _ = works;
+        None
+    }
+
     /// Factorises the matrix with the last tangent. Returns false if the matrix is singular; a shorter step may then
     /// help.
     fn factor(&mut self, coefficients: NewtonCoefficients) -> bool;

@@ -41,6 +41,12 @@ impl ErrorWeights {
         FAR / self.rtol
     }
 
+    /// The norm of the errors of quadratures of a magnitude `scale`.
+    pub fn of_quadratures(&self, scale: f64, errors: impl ExactSizeIterator<Item = f64>) -> f64 {
+        let n = errors.len().max(1);
+        (errors.map(|x| x * x).sum::<f64>() / n as f64).sqrt() / (self.rtol * scale)
+    }
+
     /// √(mean (xᵢ / weightᵢ)²) over q, v and z. A quotient 0 / 0 counts as zero.
     #[inline]
     pub fn norm(&self, dq: &[f64], dv: &[f64], dz: &[f64]) -> f64 {

@@ -20,7 +20,7 @@ pub enum Direction {
 impl Direction {
     /// Whether the sign change from one value to a later value is rising. `None` if there is no sign change that
     /// counts.
-    pub(super) fn counts(self, before: f64, after: f64) -> Option<bool> {
+    pub fn counts(self, before: f64, after: f64) -> Option<bool> {
         let rising = before < 0.0 && after >= 0.0;
         let falling = before > 0.0 && after <= 0.0;
         let counts = match self {

@@ -4,9 +4,10 @@
 //! intended for stiff forces and for tolerances of about 1e-2 to 1e-4. `alpha_step` contains one step.
 
 use super::alpha_parameters::AlphaParameters;
-use super::alpha_step::AlphaStep;
+use super::alpha_step::{AlphaStep, PART};
 use super::arguments::require;
 use super::dae::Dae;
+use super::error_weights::ErrorWeights;
 use super::evaluation_counter::CountedDae;
 use super::failure::Cause;
 use super::implicit_stepper::{ImplicitScheme, ImplicitStepper};
@@ -66,6 +67,40 @@ struct AlphaProgress {
     step: AlphaStep,
     /// The size of the next trial step. None before the derivative at the start was evaluated.
     size: Option<StepSize>,
+    /// The rates of the powers at the beginning of the step.
+    power_slopes: Vec<f64>,
+}
+
+impl AlphaProgress {
+    /// The change of one quadrature in a step, by the trapezoidal rule.
+    #[inline]
+    fn work(&self, k: usize, h: f64) -> f64 {
+        0.5 * h * (self.step.start.powers[k] + self.step.end.powers[k])
+    }
+
+    /// Computes the powers at the end of the step. The multipliers of a step so short that its corrections are
+    /// rounding errors are worthless; those of the accelerations at its end take their place.
+    fn set_powers<Y: Dae>(
+        &mut self,
+        dae: &mut CountedDae<'_, Y>,
+        (t, h): (f64, f64),
+        scale: &mut ErrorWeights,
+    ) -> Result<(), Cause<Y::Stop>> {
+        self.step.evaluate(dae, t + h);
+        if self.step.rounding(h, scale) > PART {
+            let mut end = self.step.end.clone();
+            dae.accelerate(t + h, &mut end)?;
+            self.step.end.powers.copy_from_slice(&end.powers);
+        }
+        Ok(())
+    }
+
+    /// The error h³/12 P̈ of this rule.
+    fn work_error(&self, k: usize, h: f64) -> f64 {
+        let AlphaStep { start, end, h_before, .. } = &self.step;
+        let slope = (end.powers[k] - start.powers[k]) / h;
+        h * h * h / 12.0 * (slope - self.power_slopes[k]) / (0.5 * (h + h_before))
+    }
 }
 
 impl ImplicitMethod for GeneralizedAlpha {
@@ -78,7 +113,11 @@ impl ImplicitMethod for GeneralizedAlpha {
     ) -> Result<BoxedStepper<Y, Y::Stop>, Cause<Y::Stop>> {
         self.check()?;
         let lengths = system.lengths();
-        let state = AlphaProgress { step: AlphaStep::new(self.parameters, lengths), size: None };
+        let state = AlphaProgress {
+            step: AlphaStep::new(self.parameters, lengths),
+            size: None,
+            power_slopes: vec![0.0; lengths.quadratures],
+        };
         ImplicitStepper::start(self.control.clone(), lengths, span, y, state)
     }
 }
@@ -111,6 +150,7 @@ impl ImplicitScheme for AlphaProgress {
     #[inline]
     fn forget(&mut self) -> Option<f64> {
         self.step.forget();
+        self.power_slopes.fill(0.0);
         self.size.take().map(|size| size.size)
     }
 }
@@ -138,7 +178,8 @@ impl AlphaStepper {
         h: f64,
     ) -> Result<(), Cause<Y::Stop>> {
         let delta = PROBE * h;
-        let (t, step) = (self.steps.t, &mut self.method.step);
+        let AlphaProgress { step, power_slopes, .. } = &mut self.method;
+        let t = self.steps.t;
         let (start, end) = (&mut step.start, &mut step.end);
         for i in 0..start.q.len() {
             end.q[i] = start.q[i] + delta * (start.v[i] + 0.5 * delta * start.a[i]);
@@ -153,6 +194,7 @@ impl AlphaStepper {
         };
         let mut normal = difference(&end.a, &start.a);
         let mut of_z = difference(&end.dz, &start.dz);
+        let of_powers = difference(&end.powers, &start.powers);
         if normal.iter().chain(&of_z).any(|x| !x.is_finite()) {
             return Ok(()); // the first steps then only have a lower order
         }
@@ -175,6 +217,7 @@ impl AlphaStepper {
             step.carried[1].slope[i] = rate;
             step.carried[1].shift[i] = p_z.shift() * rate;
         }
+        *power_slopes = of_powers;
         Ok(())
     }
 
@@ -219,6 +262,7 @@ impl AlphaStepper {
                 size.size = SHORTEN * h.abs();
             } else {
                 let norm = self.method.step.error(dae, h, &self.scale);
+                let norm = norm.max(self.quadrature_norm(dae, (t, h))?);
                 if norm < 1.0 {
                     let current = size.size;
                     let wanted = if t_new == t_end { size.size } else { 0.0 };
@@ -233,6 +277,20 @@ impl AlphaStepper {
             }
             dae.counts.rejected += 1;
         }
+    }
+
+    /// The error norm of the quadratures; 0 if they need no test of their own.
+    fn quadrature_norm<Y: Dae>(
+        &mut self,
+        dae: &mut CountedDae<'_, Y>,
+        (t, h): (f64, f64),
+    ) -> Result<f64, Cause<Y::Stop>> {
+        let Self { method, steps, lengths, scale, .. } = self;
+        let old = steps.y[lengths.controlled()..].iter().enumerate();
+        let works: Vec<f64> = old.map(|(k, work)| work + method.work(k, h)).collect();
+        let Some(size) = dae.system.quadrature_scale(&works) else { return Ok(0.0) };
+        method.set_powers(dae, (t, h), scale)?;
+        Ok(scale.of_quadratures(size, (0..works.len()).map(|k| method.work_error(k, h))))
     }
 
     /// Tries one step. Returns whether its equations were solved.
@@ -257,15 +315,22 @@ impl AlphaStepper {
     ) -> Result<(), Cause<Y::Stop>> {
         let h = t_new - self.steps.t;
         self.method.step.project(dae, (self.steps.t, h))?;
-        let Self { method: AlphaProgress { step, .. }, steps, lengths, .. } = self;
+        let Self { method, steps, lengths, scale, .. } = self;
+        method.set_powers(dae, (steps.t, h), scale)?;
         let ImplicitSteps { y, y_new, dy, rows, .. } = steps;
-        if !step.finite() {
+        if !method.step.finite() {
             return Err(Cause::NotFinite { t: t_new });
         }
         let len = lengths.total();
-        step.end.write(y_new);
+        method.step.end.write(y_new);
         for (k, w) in (lengths.controlled()..len).enumerate() {
-            y_new[w] = y[w] + 0.5 * h * (step.start.powers[k] + step.end.powers[k]);
+            y_new[w] = y[w] + method.work(k, h);
+        }
+        let AlphaProgress { step, power_slopes, .. } = method;
+        for (slope, (new, old)) in
+            power_slopes.iter_mut().zip(step.end.powers.iter().zip(&step.start.powers))
+        {
+            *slope = (new - old) / h;
         }
         let (dy_old, dy_new) = dy.split_at_mut(len);
         step.start.derivative(dy_old);

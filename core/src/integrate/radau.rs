@@ -11,7 +11,7 @@ use super::evaluation_counter::CountedDae;
 use super::failure::Cause;
 use super::implicit_stepper::{ImplicitScheme, ImplicitStepper};
 use super::implicit_steps::ImplicitSteps;
-use super::radau_coefficients::{DEGREE, EXTENSION};
+use super::radau_coefficients::{dot, A, DEGREE, ERROR, EXTENSION, REAL};
 use super::radau_step::{NewtonLimits, NewtonOutcome, RadauStep, ROWS};
 use super::right_hand_side::all_finite;
 use super::step_control::StepControl;
@@ -147,6 +147,7 @@ impl RadauStepper {
             let solved = self.method.step.advance(dae, (t, t_new - t), &mut self.scale, CONSTANT);
             if let NewtonOutcome::Converged(_, rate) = solved {
                 self.method.keep_tangent = rate <= FAST;
+                self.method.step.evaluate(dae, (t, t_new - t)); // computes the powers
                 return Ok(t_new);
             }
             singular = matches!(solved, NewtonOutcome::Singular);
@@ -223,12 +224,29 @@ impl RadauStepper {
         rejected: bool,
     ) -> Result<f64, Cause<Y::Stop>> {
         let Self { method: RadauProgress { step, .. }, scale, .. } = self;
+        step.evaluate(dae, span); // computes the powers
         let mut norm = step.error(dae, span, scale, false)?;
         if norm >= 1.0 && (rejected || self.method.before.is_none()) {
             norm = step.error(dae, span, scale, true)?;
         }
+        let norm = norm.max(self.quadrature_norm(dae, span.1));
         // the state may have left the domain; reject the step
         Ok(if norm.is_finite() { norm } else { f64::MAX })
+    }
+
+    /// The error norm of the quadratures; 0 if they need no test of their own.
+    fn quadrature_norm<Y: Dae>(&self, dae: &CountedDae<'_, Y>, h: f64) -> f64 {
+        let Self { method: RadauProgress { step, .. }, steps, lengths, scale, .. } = self;
+        let old = steps.y[lengths.controlled()..].iter().enumerate();
+        let works: Vec<f64> = old.map(|(k, work)| work + step.work(k, h)).collect();
+        // the difference from the embedded method, as for v
+        let error = |k: usize| {
+            let powers = step.powers(k);
+            let risen: f64 = A.iter().zip(ERROR).map(|(row, by)| by * dot(row, &powers)).sum();
+            h * (step.start.powers[k] / REAL + risen)
+        };
+        let errors = (0..works.len()).map(error);
+        dae.system.quadrature_scale(&works).map_or(0.0, |of| scale.of_quadratures(of, errors))
     }
 
     /// Chooses the next step from the errors of this step and the one before (Gustafsson, *Control-theoretic
@@ -260,7 +278,6 @@ impl RadauStepper {
         let Self { method: RadauProgress { step, .. }, steps, lengths, .. } = self;
         let ImplicitSteps { t, y, y_new, dy, rows, .. } = steps;
         let (h, n, len) = (t_new - *t, lengths.coordinates, lengths.total());
-        step.evaluate(dae, (*t, h)); // computes the powers
         step.interpolant_rows(rows);
         step.stages[2].write(y_new);
         let works = lengths.controlled();

@@ -84,6 +84,12 @@ fn integrated(nodes: &[f64], k: usize) -> [f64; DEGREE] {
     std::array::from_fn(|power| polynomial[power] / (power + 1) as f64)
 }
 
+/// Σ aᵢ bᵢ.
+#[inline(always)]
+pub(super) fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
 /// Values at θ of the Lagrange polynomials for the nodes.
 #[inline]
 pub(super) fn lagrange<const N: usize>(nodes: [f64; N], theta: f64) -> [f64; N] {

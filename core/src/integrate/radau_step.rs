@@ -18,7 +18,7 @@ use super::error_weights::ErrorWeights;
 use super::evaluation_counter::CountedDae;
 use super::failure::Cause;
 use super::implicit_state::ImplicitState;
-use super::radau_coefficients::{lagrange, A, C, COMPLEX, ERROR, INVERSE, REAL, T, T_INVERSE};
+use super::radau_coefficients::{dot, lagrange, A, C, COMPLEX, ERROR, INVERSE, REAL, T, T_INVERSE};
 use crate::math::{indexed, Complex, Field};
 
 /// Relative difference of two step sizes below which the steps share their matrices. Differences of times are subject
@@ -360,7 +360,12 @@ impl RadauStep {
 
     /// The change h Σ bᵢ powerᵢ of one quadrature.
     pub fn work(&self, k: usize, h: f64) -> f64 {
-        h * (0..3).map(|i| A[2][i] * self.stages[i].powers[k]).sum::<f64>()
+        h * dot(&A[2], &self.powers(k))
+    }
+
+    /// The powers of one quadrature at the stages.
+    pub fn powers(&self, k: usize) -> [f64; 3] {
+        indexed(|i| self.stages[i].powers[k])
     }
 
     /// Stores the stages for the prediction of the next step.
@@ -391,9 +396,4 @@ fn coefficients<F: Field>(step: F) -> NewtonCoefficients<F> {
 /// h divided by the complex eigenvalue.
 fn complex_step(h: f64) -> Complex {
     Complex::new(COMPLEX[0], COMPLEX[1]).reciprocal() * Field::from_real(h)
-}
-
-#[inline(always)]
-fn dot(a: &[f64; 3], b: &[f64; 3]) -> f64 {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

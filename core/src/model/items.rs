@@ -125,9 +125,34 @@ pub struct ForceMode {
     pub value: f64,
     /// The rounding error of the gap or force of a contact. The mode changes only below minus this value.
     pub slack: f64,
-    /// Whether drivers hold the coordinate of friction. Where they stand still, it is at rest whatever the errors of
+    /// The drivers that hold the coordinate of friction. Where they stand still, it is at rest whatever the errors of
     /// its speed.
-    pub prescribed: bool,
+    pub held_by: DriverSet,
+}
+
+/// Some of the constraints of a model, by their indices. Those from index 127 on are in a set together.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct DriverSet(u128);
+
+impl DriverSet {
+    /// The set of these constraints.
+    pub fn of(indices: impl IntoIterator<Item = usize>) -> Self {
+        Self(indices.into_iter().fold(0, |set, k| set | Self::bit(k)))
+    }
+
+    /// Whether it has no constraints.
+    pub fn is_empty(self) -> bool {
+        self.0 == 0
+    }
+
+    /// Whether it contains a constraint.
+    pub fn contains(self, index: usize) -> bool {
+        self.0 & Self::bit(index) != 0
+    }
+
+    fn bit(index: usize) -> u128 {
+        1 << index.min(127)
+    }
 }
 
 /// A force in a model.

@@ -48,7 +48,7 @@ pub use build::build;
 pub use definition::{Definition, Entry, Value};
 pub use doubt::Doubt;
 pub use functions::{FunctionLaw, Functions, Host, Sampling};
-pub use items::{Body, ConstraintItem, ForceItem, ForceMode};
+pub use items::{Body, ConstraintItem, DriverSet, ForceItem, ForceMode};
 pub use layout::{Block, Columns, Slots, StateLayout, WORKS};
 pub use link::did_you_mean;
 pub use model::Model;

@@ -4,6 +4,7 @@
 mod mechanisms;
 
 mod abilities;
+mod curve_distances;
 mod curves;
 mod events;
 mod friction;

@@ -81,9 +81,8 @@ def _show_remarks(
         span = when(times, of, lambda t: _place(t, of.unit))
         text = f"without bound at singular positions, {counted} ({span}): {few(names)}"
         console.print(Text(f"  {text}"))
-    names = [row[key] for row in rows if not row["unique"]]
-    if names:
-        console.print(Text(f"  {not_unique(names)}"))
+    for line in not_unique({row[key]: row["choice"] for row in rows}):
+        console.print(Text(f"  {line}"))
 
 
 def _show_singular(console: Console, passed: list[dict[str, Any]], at: str) -> None:

@@ -199,12 +199,12 @@ def _show(console: Console, found: SweepResult) -> None:
             if len(good)
             else ["–"] * 3
         )
-        unique = text not in found.minimum_norm
+        unique = text not in found.choices
         rows.append([starred(text, unique=unique), *cells, unit.symbol])
     heading(console, "Measures")
     table(console, ["measure", "least", "mean", "largest", "unit"], rows)
-    if found.minimum_norm:
-        console.print(Text(f"  {not_unique(found.minimum_norm)}"))
+    for line in not_unique(found.choices):
+        console.print(Text(f"  {line}"))
     _show_unbounded(console, found)
     if found.reasons:
         heading(console, f"{len(found.reasons)} variants failed")

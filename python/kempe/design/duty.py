@@ -22,7 +22,7 @@ from kempe.extrema import Extreme
 from kempe.motion import Motion
 from kempe.names import unknown
 from kempe.quantities import named
-from kempe.remarks import is_unique, poles, remark
+from kempe.remarks import choice_of, poles, remark
 from kempe.solution import Solution
 from kempe.variable import Variable
 
@@ -49,7 +49,7 @@ class Duty:
         mean_power: mean of the power over t, W.
         work: work over the whole motion, J.
         driving_work, braking_work: the positive and the negative part of the work, J.
-        unique: whether the effort is unique; if not, it has minimum norm.
+        choice: which of the possible efforts is given; empty if it is unique.
         unbounded_at: times of singular positions beside which the effort has no bound. The peaks
             exclude values there; means, root mean square and works do not.
     """
@@ -69,8 +69,13 @@ class Duty:
     work: float
     driving_work: float
     braking_work: float
-    unique: bool
+    choice: str
     unbounded_at: tuple[float, ...]
+
+    @property
+    def unique(self) -> bool:
+        """Whether the effort is unique."""
+        return not self.choice
 
     @property
     def points(self) -> Floats:
@@ -92,7 +97,7 @@ class Duty:
     def __repr__(self) -> str:
         unit = self.unit.replace("*", "·")
         told = f"peak {self.peak.value:.6g} {unit}, rms {self.rms:.6g} {unit}"
-        beside = remark(unique=self.unique, times=self.unbounded_at, variable=self.variable)
+        beside = remark(self.choice, times=self.unbounded_at, variable=self.variable)
         return f"<Duty of {self.name}: {told}, work {self.work:.6g} J{beside}>"
 
 
@@ -135,7 +140,7 @@ def duty(solution: Solution, name: str) -> Duty:
         float(works.sum()),
         float(works[works > 0.0].sum()),
         float(works[works < 0.0].sum()),
-        is_unique(solution, names[0]),
+        choice_of(solution, names[0]),
         passed,
     )
 
@@ -197,7 +202,7 @@ class Flywheel:
         variable, t: the quantity in t, and instants close enough for a smooth curve, (n,).
         torque: torque on the shaft without a flywheel, (n,), N·m.
         stored: energy that the flywheel has stored since the first instant, (n,), J.
-        unique: whether the torque is unique; if not, it has minimum norm.
+        choice: which of the possible torques is given; empty if it is unique.
     """
 
     inertia: float
@@ -211,11 +216,16 @@ class Flywheel:
     t: Floats
     torque: Floats
     stored: Floats
-    unique: bool
+    choice: str
+
+    @property
+    def unique(self) -> bool:
+        """Whether the torque is unique."""
+        return not self.choice
 
     def __repr__(self) -> str:
         told = f"{self.inertia:.6g} kg·m² for ΔE = {self.energy:.6g} J"
-        return f"<Flywheel: {told}{remark(unique=self.unique)}>"
+        return f"<Flywheel: {told}{remark(self.choice)}>"
 
 
 def flywheel(
@@ -276,7 +286,7 @@ def flywheel(
         fixed(t),
         fixed(effort(found)),
         fixed(-_along(solution, excess, t)),
-        is_unique(solution, _names(solution, driver)[0]),
+        choice_of(solution, _names(solution, driver)[0]),
     )
 
 

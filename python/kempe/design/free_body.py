@@ -21,7 +21,7 @@ from kempe.arrays import Floats, fixed
 from kempe.design.wrenches import Inertia, Load, imbalance, inertia, loads
 from kempe.errors import ModelError
 from kempe.motion import Motion
-from kempe.remarks import MINIMUM_NORM, unbounded_at, when
+from kempe.remarks import by_choice, unbounded_at, when
 from kempe.solution import Solution
 from kempe.state import State
 from kempe.values import instance
@@ -49,7 +49,8 @@ class FreeBody:
         inertia: m a and J α.
         residual: error of Newton's and Euler's equations, relative to the largest force (moment) on
             the body at the instant.
-        not_unique: the joints and drivers whose loads are not unique; these have minimum norm.
+        not_unique: the joints and drivers whose loads are not unique, each with the choice among
+            the possible values: "minimum norm" or "middle of friction at rest".
         unbounded_at: times of singular positions of the solution beside which a load has no bound,
             by joint or driver.
     """
@@ -62,15 +63,15 @@ class FreeBody:
     loads: tuple[Load, ...]
     inertia: Inertia
     residual: float
-    not_unique: tuple[str, ...]
+    not_unique: Mapping[str, str]
     unbounded_at: Mapping[str, tuple[float, ...]]
 
     @property
     def remarks(self) -> tuple[str, ...]:
         """What loads over a driven quantity contain, and which are not unique or have no bound."""
         told = [f"loads {self.variable.condition}"] if self.variable.condition else []
-        if self.not_unique:
-            told.append(f"not unique, {MINIMUM_NORM}: {', '.join(self.not_unique)}")
+        for choice, _, which in by_choice(self.not_unique):
+            told.append(f"not unique, {choice}: {', '.join(which)}")
         if self.unbounded_at:
             times = sorted({t for each in self.unbounded_at.values() for t in each})
             names = ", ".join(self.unbounded_at)
@@ -172,6 +173,7 @@ def free_body(
         raise ModelError(f"{body} does not move", name=body, hint="name a moving body")
     found, own = loads(state, body), inertia(state, body)
     names = [load.name for load in found if load.name in state.compiled.constraints]
+    choices = solution_or_state.choices
     passed = {name: unbounded_at(solution_or_state, name) for name in names}
     return FreeBody(
         state.body(body).name,
@@ -182,6 +184,6 @@ def free_body(
         tuple(found),
         own,
         imbalance(found, own),
-        tuple(name for name in names if not solution_or_state.constraint(name).unique),
+        MappingProxyType({n: choices[n] for n in names if n in choices}),
         MappingProxyType({name: times for name, times in passed.items() if times}),
     )

@@ -46,7 +46,7 @@ class PinLoad:
         extremes: the extreme values with their instants, found on the interpolant: "max" of the
             magnitude, "x_max", "x_min", "y_max" and "y_min" of the components. They exclude values
             beside singular positions that have no bound.
-        unique: whether the force is unique; if not, it has minimum norm.
+        choice: which of the possible forces is given; empty if it is unique.
         unbounded_at: times of singular positions beside which the force has no bound.
     """
 
@@ -57,8 +57,13 @@ class PinLoad:
     force: Floats
     moment: Floats
     extremes: Mapping[str, Extreme]
-    unique: bool
+    choice: str
     unbounded_at: tuple[float, ...]
+
+    @property
+    def unique(self) -> bool:
+        """Whether the force is unique."""
+        return not self.choice
 
     @property
     def magnitude(self) -> Floats:
@@ -71,7 +76,7 @@ class PinLoad:
         return fixed(np.arctan2(self.force[:, 1], self.force[:, 0]))
 
     def __repr__(self) -> str:
-        told = remark(unique=self.unique, times=self.unbounded_at, variable=self.variable)
+        told = remark(self.choice, times=self.unbounded_at, variable=self.variable)
         largest = f"up to {self.extremes['max'].value:.6g} N"
         return f"<PinLoad of {self.joint} on {self.on}: {largest}{told}>"
 
@@ -100,7 +105,7 @@ def pin_load(solution: Solution, joint: str, on: str | None = None) -> PinLoad:
         found.force(on=body, frame="body"),
         fixed(found.torque(on=body)),
         MappingProxyType(_extremes(solution, joint, body)),
-        solution.constraint(joint).unique,
+        solution.constraint(joint).choice,
         unbounded_at(solution, joint, ["force"]),
     )
 

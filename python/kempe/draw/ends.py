@@ -16,7 +16,7 @@ from kempe.compiled import ConstraintInfo
 from kempe.draw.numbers import plain
 from kempe.infos import ForceInfo, Vector
 from kempe.motion import Motion
-from kempe.remarks import is_unique, joint_remark, remark
+from kempe.remarks import choice_of, joint_remark, remark
 from kempe.solution import Solution
 from kempe.state import State
 
@@ -49,7 +49,7 @@ def _of_joint(
 
 
 def _of_force(motion: Motion, info: ForceInfo) -> list[dict[str, Any]]:
-    told = remark(unique=is_unique(motion, f"{info.name}.force"))
+    told = remark(choice_of(motion, f"{info.name}.force"))
     return _made(motion, info, _places(motion, info), told)
 
 

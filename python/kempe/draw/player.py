@@ -25,7 +25,6 @@ from kempe.draw.frame import frame_items
 from kempe.draw.numbers import rounded_all
 from kempe.draw.sampling import Span
 from kempe.draw.scene import Scene, scene
-from kempe.remarks import MINIMUM_NORM
 from kempe.solution import Solution
 from kempe.state import State
 
@@ -83,11 +82,11 @@ def _remarked(shown: Scene) -> Scene:
 
     Their ends get the same names, by which the page finds the forces.
     """
-    open_ones = shown["minimum_norm"]
+    choices = shown["choices"]
 
     def remarked(one: dict[str, Any], key: str) -> dict[str, Any]:
         name = one[key]
-        return {**one, key: f"{name} ({MINIMUM_NORM})"} if name in open_ones else one
+        return {**one, key: f"{name} ({choices[name]})"} if name in choices else one
 
     joints = [remarked(joint, "name") for joint in shown["joints"]]
     channels = [

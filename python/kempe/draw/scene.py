@@ -106,7 +106,7 @@ def scene(
         "channels": channels.channels(
             motion, sampling.energy(solution_or_state, motion), solved=not undetermined
         ),
-        "minimum_norm": [name for name in model.constraints if name in motion.not_unique],
+        "choices": {n: motion.choices[n] for n in model.constraints if n in motion.choices},
     }
 
 

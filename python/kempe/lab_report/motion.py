@@ -12,7 +12,7 @@ from kempe.lab_report.blocks import Block, Cell, Paragraph, Section, Table
 from kempe.lab_report.figures import MOST, Figures
 from kempe.lab_report.printed import FEW, ROUNDING, number, quantity
 from kempe.names import few
-from kempe.remarks import MINIMUM_NORM, starred, when
+from kempe.remarks import by_choice, starred, when
 from kempe.solution import Solution
 
 #: Statistics of a measure that have its unit.
@@ -153,10 +153,8 @@ def _remarks(
     ``counted``: which numbers include values without bound, in words.
     """
     of = "reactions of" if key == "joint" else "reactions in the measures"
-    open_ones = [row[key] for row in rows if not row["unique"]]
-    if open_ones:
-        told_of = f"are not unique; their values have the smallest multipliers ({MINIMUM_NORM})"
-        yield Paragraph(f"* The {of} {few(open_ones)} {told_of}.", warning=True)
+    for _, meaning, names in by_choice({row[key]: row["choice"] for row in rows}):
+        yield Paragraph(f"* The {of} {few(names)} are not unique, {meaning}.", warning=True)
     unbounded = [row[key] for row in rows if row["unbounded_at"]]
     if unbounded:
         times = sorted({t for row in rows for t in row["unbounded_at"]})

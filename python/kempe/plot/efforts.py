@@ -52,7 +52,7 @@ def effort(
         across.label(axes)
         _room(axes, [*_bounded(found, shown, unit), 0.0, found.rms / unit.divisor])
         axes.set_ylabel(unit.axis(f"${symbol}$"))
-        title = f"Effort of {style.short(drive)}{remark(unique=found.unique)}"
+        title = f"Effort of {style.short(drive)}{remark(found.choice)}"
         titled(axes, title, note(found.unbounded_at, found.variable))
         above_or_beside(axes)
         _mark_peak(axes, found, across, unit)
@@ -90,7 +90,7 @@ def torque_speed(solution: Solution, drive: str, *, ax: Axes | None = None) -> A
         axes.set_ylabel(unit.axis(f"${symbol}$"))
         power = scale(of.rate("W"), abs(found.peak_power.value))
         told = f"{found.peak_power.value / power.divisor:.4g} {power.unit}".replace("-", "−")
-        title = f"Duty of {style.short(drive)}: peak power {told}{remark(unique=found.unique)}"
+        title = f"Duty of {style.short(drive)}: peak power {told}{remark(found.choice)}"
         titled(axes, title, note(found.unbounded_at, found.variable))
         return axes
 

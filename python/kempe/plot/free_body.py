@@ -33,7 +33,7 @@ from kempe.plot import style
 from kempe.plot.configuration import instant
 from kempe.plot.picture import drawn, paint
 from kempe.plot.remarked import NO_BOUND, NOT_UNIQUE
-from kempe.remarks import MINIMUM_NORM, when
+from kempe.remarks import together, when
 from kempe.solution import Solution
 from kempe.state import State
 
@@ -109,7 +109,7 @@ def _note(found: FreeBody) -> str:
     of = found.variable
     times = sorted({t for each in found.unbounded_at.values() for t in each})
     told = [verbatim(of.condition)] if of.condition else []
-    told += [f"{NOT_UNIQUE} {MINIMUM_NORM}"] if found.not_unique else []
+    told += [f"{NOT_UNIQUE} {together(found.not_unique.values())}"] if found.not_unique else []
     told += [f"{NO_BOUND} without bound {verbatim(when(times, of))}"] if times else []
     return ", ".join(told)
 

@@ -15,6 +15,7 @@ from kempe.report.singular import singular_positions
 from kempe.solution import Solution
 
 if TYPE_CHECKING:
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 #: Largest number of lines of an event; the lines of a more frequent event are not drawn.
@@ -22,8 +23,11 @@ _MOST = 40
 _COLOUR = "#777777"
 #: Name and dashes of singular positions; events have whole lines.
 SINGULAR, _DASHES = "singular position", (0, (6, 4))
-#: Distance of this name from the line, points: reactions have peaks there.
-_BESIDE_PEAK = 8.0
+#: Distance of a name from the line, points, and that of this name: reactions have peaks there.
+_BESIDE, _BESIDE_PEAK = 1.5, 8.0
+#: Size of names, points, and the distance of two lines of text, relative to it.
+_SIZE, _LINE = 6.0, 1.2
+_POINTS_PER_INCH = 72.0
 
 _known: WeakKeyDictionary[Solution, list[float]] = WeakKeyDictionary()
 
@@ -31,7 +35,8 @@ _known: WeakKeyDictionary[Solution, list[float]] = WeakKeyDictionary()
 def mark_events(figure: Figure, solution: Solution) -> None:
     """Draw events and passed singular positions of a solution into all axes of a figure over time.
 
-    The name is in the axes at the top, at the first line of the event. Events that occur more often
+    The name is in the axes at the top, at the first line of the event. Events whose first lines are
+    so close that their names would lie on each other share one label. Events that occur more often
     than 40 times are left out.
     """
     panels = [axes for axes in figure.axes if axes.lines]
@@ -42,24 +47,45 @@ def mark_events(figure: Figure, solution: Solution) -> None:
         return
     divisor = TimeAxis.of(np.atleast_1d(fine(solution).t), None, solution.variable).unit.divisor
     top = max(panels, key=lambda axes: axes.get_position().y1)
-    for name, times, style in marks:
+    for _, times, style in marks:
         for axes in panels:
             low, high = sorted(axes.get_xlim())
             for t in (t / divisor for t in times):
                 if low <= t <= high:
                     axes.axvline(t, color=_COLOUR, linewidth=0.5, linestyle=style, zorder=0.5)
+    for t, beside, names in _labels(top, [(times[0] / divisor, name) for name, times, _ in marks]):
         top.annotate(
-            verbatim(one_line(name)),
-            (times[0] / divisor, 1.0),
+            verbatim(", ".join(map(one_line, names))),
+            (t, 1.0),
             xycoords=top.get_xaxis_transform(),
-            xytext=(_BESIDE_PEAK if name == SINGULAR else 1.5, -1.5),
+            xytext=(beside, -1.5),
             textcoords="offset points",
             rotation=90,
-            fontsize=6.0,
+            fontsize=_SIZE,
             color=_COLOUR,
             ha="left",
             va="top",
         )
+
+
+def _labels(axes: Axes, first: list[tuple[float, str]]) -> list[tuple[float, float, list[str]]]:
+    """Labels at the first lines of marks: their times, distances from the lines, and names.
+
+    Marks whose labels would lie on each other share one, with the names in the order of time.
+    """
+    low, high = axes.get_xlim()
+    window = axes.get_window_extent()  # in pixels
+    points = window.width / axes.figure.dpi * _POINTS_PER_INCH / abs(high - low)
+    found: list[tuple[float, float, list[str]]] = []
+    for t, name in sorted(first, key=lambda mark: mark[0]):
+        beside = _BESIDE_PEAK if name == SINGULAR else _BESIDE
+        if found:
+            at, last, names = found[-1]
+            if points * (t - at) + beside - last < _LINE * _SIZE:
+                names.append(name)
+                continue
+        found.append((t, beside, [name]))
+    return found
 
 
 def _singular(solution: Solution) -> list[float]:

@@ -14,7 +14,7 @@ from kempe.plot import style
 from kempe.plot.curves import draw
 from kempe.plot.panel import Curve, Panel, curve, times
 from kempe.plot.remarked import note
-from kempe.remarks import is_unique, measure_unbounded_at, remark
+from kempe.remarks import choice_of, measure_unbounded_at, remark
 from kempe.values import instance
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ def measure_panel(motion: Motion, name: str) -> Panel:
     else:
         line = curve(motion, name, partial(values, name=name), style.line(0))
     unit = motion.variable.rate(info.unit).replace("^2", "²").translate(_PRINTED)
-    told = remark(unique=is_unique(motion, name))
+    told = remark(choice_of(motion, name))
     title = f"{style.short(name, 24)} = {style.short(info.expression, 60 - len(told))}{told}"
     below = note(measure_unbounded_at(motion, info), motion.variable) if info.solves else ""
     named, of = f"measure {name}", motion.variable

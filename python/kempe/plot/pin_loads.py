@@ -58,7 +58,7 @@ def pin_load(
         axes.set_xlabel(unit.axis("$F_{x′}$"))
         axes.set_ylabel(unit.axis("$F_{y′}$"))
         title = f"{style.short(joint)} on {style.short(found.on)}, axes of the body"
-        title += remark(unique=found.unique)
+        title += remark(found.choice)
         titled(axes, title, note(found.unbounded_at, found.variable))
         style.lay_out(axes.figure.canvas.figure)
         axes.apply_aspect()

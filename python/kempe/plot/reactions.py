@@ -104,7 +104,7 @@ def torque_panel(motion: Motion, joint: str, body: str, *, remarked: bool = True
 
 def _remarked(panel: Panel, motion: Motion, joint: str, part: str) -> Panel:
     """A panel with the remarks on the force or torque of a joint."""
-    title = panel.title + remark(unique=motion.constraint(joint).unique)
+    title = panel.title + remark(motion.constraint(joint).choice)
     below = note(unbounded_at(motion, joint, [part]), motion.variable)
     return replace(panel, title=title, note=below)
 
@@ -138,7 +138,7 @@ def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None =
     poles: set[float] = set()
     for name in motion.compiled.constraints:
         magnitude = partial(_magnitude, name)
-        label = f"{style.short(name)}{remark(unique=motion.constraint(name).unique)}"
+        label = f"{style.short(name)}{remark(motion.constraint(name).choice)}"
         one = curve(motion, label, magnitude, style.line(len(curves)))
         if name in motion.compiled.joints or one.values.any():
             times_of = unbounded_at(motion, name, ["force"])

@@ -30,7 +30,7 @@ def note(times: Sequence[float], variable: Variable) -> str:
     It gives the times beside which values have no bound, and over a driven quantity, whether the
     forces contain inertia and damping.
     """
-    unbounded = remark(unique=True, times=times, variable=variable).removeprefix(", ")
+    unbounded = remark(times=times, variable=variable).removeprefix(", ")
     return verbatim(", ".join(filter(None, (variable.condition, unbounded))))
 
 
@@ -51,7 +51,7 @@ def titled(axes: Axes, title: str, below: str = "") -> None:
 
 def signed(result: SweepResult, column: str) -> str:
     """The name of a column of a sweep, with the remark or the sign of a measure that has one."""
-    name = column + remark(unique=column not in result.minimum_norm)
+    name = column + remark(result.choices.get(column, ""))
     return f"{name} {NO_BOUND}" if column in result.unbounded else name
 
 
@@ -74,5 +74,5 @@ def explained(axes: Axes, result: SweepResult, measure: str) -> None:
 def meaning(result: SweepResult, measure: str) -> str:
     """The line with the sign of a measure that has no bound in some variants; or empty."""
     passed = len(result.unbounded.get(measure, ()))
-    told = remark_of_variants(unique=True, unbounded=passed, count=int(result.succeeded.sum()))
+    told = remark_of_variants(unbounded=passed, count=int(result.succeeded.sum()))
     return told.replace(", ", f"{NO_BOUND} ", 1)

@@ -23,7 +23,7 @@ from kempe.plot.reactions import torque_panel as reaction_torque
 from kempe.plot.residual import residual
 from kempe.plot.still import drawn_and_left_out, largest_values
 from kempe.plot.torques import torque_panel
-from kempe.remarks import MINIMUM_NORM, unbounded_at, when
+from kempe.remarks import unbounded_at, when
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -111,8 +111,8 @@ class TimePages:
         elif not any(panel.peak for panel in forces):
             forces = []
         of, told = f"The reactions of {joint} are", ""
-        if not self.solution.constraint(joint).unique:
-            told += f"{of} not unique: {MINIMUM_NORM}. "
+        if choice := self.solution.constraint(joint).choice:
+            told += f"{of} not unique: {choice}. "
         if passed := unbounded_at(self.solution, joint):
             told += f"{of} without bound {when(passed, self.solution.variable)}. "
         panels = [*forces, *torques]

@@ -68,11 +68,15 @@ def summary(solution: Solution) -> dict[str, Any]:
 def measure(solution: Solution, name: str) -> dict[str, Any]:
     """The statistics of a measure; None for statistics without a value.
 
-    ``unbounded_at`` and ``unique`` are those of the reactions in it, as for a reaction.
+    ``unbounded_at``, ``unique`` and ``choice`` are those of the reactions in it, as for a reaction.
     """
     found = solution.measure(name)
     about = {"name": name, "expression": found.info.expression, "unit": found.unit}
-    remarked = {"unbounded_at": list(found.unbounded_at), "unique": found.unique}
+    remarked = {
+        "unbounded_at": list(found.unbounded_at),
+        "unique": found.unique,
+        "choice": found.choice,
+    }
     return {**about, **found.statistics(), **remarked}
 
 
@@ -94,13 +98,14 @@ def reaction(sampled: Sampled, name: str) -> dict[str, Any]:
     """Largest reaction of a joint or driver on its body j, with its time.
 
     ``unbounded_at`` are the times of singular positions beside which it has no bound. The peaks
-    exclude the values there. ``unique`` is False if the reaction is not unique because of
-    redundant constraints; its values then have minimum norm.
+    exclude the values there. ``unique`` is False if the reaction is not unique; ``choice`` then
+    says which of the possible values is given.
     """
     on = sampled.solution.compiled.constraints[name].j
     read = partial(_force, name, on)
     force = sampled.peak(read)
     torque = sampled.peak(lambda motion: motion.constraint(name).torque(on=on))
+    choice = sampled.solution.constraint(name).choice
     return {
         "joint": name,
         "on": on,
@@ -109,7 +114,8 @@ def reaction(sampled: Sampled, name: str) -> dict[str, Any]:
         "torque": torque.value,
         "torque_at": torque.t,
         "unbounded_at": list(unbounded_at(sampled.solution, name)),
-        "unique": sampled.solution.constraint(name).unique,
+        "unique": not choice,
+        "choice": choice,
     }
 
 

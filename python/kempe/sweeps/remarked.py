@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.extrema import passes_singular
-from kempe.remarks import MINIMUM_NORM, is_unique, remark_of_variants
+from kempe.remarks import MIDDLE, MINIMUM_NORM, choice_of, remark_of_variants, together
 from kempe.sweeps.numbers import read_at
 
 if TYPE_CHECKING:
@@ -22,15 +22,16 @@ if TYPE_CHECKING:
     from kempe.solution import Solution
     from kempe.sweeps.result import SweepResult
 
-#: The bits of a mark.
-NOT_UNIQUE, NO_BOUND = 1, 2
+#: The bits of a mark: the choices of values that are not unique, and values without bound.
+_BIT = {MINIMUM_NORM: 1, MIDDLE: 4}
+NO_BOUND = 2
 #: The statistic that singular positions before the end of a run do not affect.
 _AT_THE_END = "final"
 
 
 def mark_of_measure(measure: Measure, solution: Solution, statistic: str) -> int:
     """The mark of a statistic of a measure in a run."""
-    mark = 0 if measure.unique else NOT_UNIQUE
+    mark = _mark(measure.choice)
     if statistic != _AT_THE_END and measure.info.solves and passes_singular(solution):
         mark |= NO_BOUND if measure.unbounded_at else 0
     return mark
@@ -39,13 +40,21 @@ def mark_of_measure(measure: Measure, solution: Solution, statistic: str) -> int
 def mark_of_number(found: Result, text: str) -> int:
     """The mark of a number of a result that is not a motion."""
     read = read_at(found, text)
-    return 0 if read is None or is_unique(read[0], *read[1]) else NOT_UNIQUE
+    return 0 if read is None else _mark(choice_of(read[0], *read[1]))
 
 
-def minimum_norm(result: SweepResult) -> tuple[str, ...]:
-    """The measures whose values are not unique in some variant."""
+def _mark(choice: str) -> int:
+    return sum(bit for one, bit in _BIT.items() if one in choice)
+
+
+def choices(result: SweepResult) -> Mapping[str, str]:
+    """The measures whose values are not unique in some variant, and which values are given."""
     pairs = zip(result.measures, result._marks.T, strict=True)
-    return tuple(text for text, marks in pairs if np.any(marks & NOT_UNIQUE))
+    found = {
+        text: together(one for one, bit in _BIT.items() if np.any(marks & bit))
+        for text, marks in pairs
+    }
+    return MappingProxyType({text: choice for text, choice in found.items() if choice})
 
 
 def unbounded(result: SweepResult) -> Mapping[str, tuple[int, ...]]:
@@ -57,10 +66,10 @@ def unbounded(result: SweepResult) -> Mapping[str, tuple[int, ...]]:
 
 def remarks(result: SweepResult) -> Mapping[str, str]:
     """The remarks on measures by their texts."""
-    open_ones, passed, count = result.minimum_norm, result.unbounded, int(result.succeeded.sum())
+    given, passed, count = result.choices, result.unbounded, int(result.succeeded.sum())
     told = {
         text: remark_of_variants(
-            unique=text not in open_ones, unbounded=len(passed.get(text, ())), count=count
+            given.get(text, ""), unbounded=len(passed.get(text, ())), count=count
         )
         for text in result.measures
     }
@@ -69,4 +78,5 @@ def remarks(result: SweepResult) -> Mapping[str, str]:
 
 def labelled(result: SweepResult, column: str) -> str:
     """The name of a column of a file, with a remark if its values are not unique."""
-    return f"{column} [{MINIMUM_NORM}]" if column in result.minimum_norm else column
+    choice = result.choices.get(column)
+    return f"{column} [{choice}]" if choice else column

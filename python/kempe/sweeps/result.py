@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 #: Attributes that are computed again.
-_CACHED = ("_by_name", "succeeded", "_tables", "minimum_norm", "unbounded", "remarks")
+_CACHED = ("_by_name", "succeeded", "_tables", "choices", "unbounded", "remarks")
 
 
 class SweepResult:
@@ -68,9 +68,9 @@ class SweepResult:
         return (*(variable.name for variable in self.variables), *self.measures)
 
     @cached_property
-    def minimum_norm(self) -> tuple[str, ...]:
-        """The measures that read reactions which are not unique; see ``Measure.unique``."""
-        return remarked.minimum_norm(self)
+    def choices(self) -> Mapping[str, str]:
+        """The measures that read reactions which are not unique; see ``Measure.choice``."""
+        return remarked.choices(self)
 
     @cached_property
     def unbounded(self) -> Mapping[str, tuple[int, ...]]:
@@ -86,9 +86,10 @@ class SweepResult:
     def remarks(self) -> Mapping[str, str]:
         """The remarks on measures, by their texts; a measure without a remark is not in it.
 
-        A remark is ``minimum norm`` if redundant constraints leave a reaction open, and ``without
+        A remark is ``minimum norm`` if redundant constraints leave a reaction open, ``middle of
+        friction at rest`` if drivers hold friction at rest, and ``without
         bound in 2 of 16 variants`` if so many of the variants that succeeded are in ``unbounded``;
-        or both, with a comma. Remarks have no unit. Their source is ``Measure.unique`` and
+        or both, with a comma. Remarks have no unit. Their source is ``Measure.choice`` and
         ``Measure.unbounded_at`` of each variant.
         """
         return remarked.remarks(self)
@@ -157,7 +158,7 @@ class SweepResult:
     def _shown(self) -> list[Column]:
         """The columns in the units of ``kp.units``."""
         of = ((name, column(name, self.units[name], self[name])) for name in self.columns)
-        return [replace(one, unique=name not in self.minimum_norm) for name, one in of]
+        return [replace(one, choice=self.choices.get(name, "")) for name, one in of]
 
     def to_csv(self, path: Path | str) -> None:
         """Write the table as CSV with 17 digits, which preserves every number.

@@ -90,7 +90,12 @@ class ConstraintView(Generic[S]):
         While drivers hold friction at rest, it may carry any part of the load up to its limit. The
         values are then those without friction; ``interval`` gives the range.
         """
-        return self.name not in self._motion.not_unique
+        return not self.choice
+
+    @property
+    def choice(self) -> str:
+        """Which of the possible reactions is given; empty if it is unique."""
+        return self._motion.choices.get(self.name, "")
 
     @property
     def interval(self) -> Floats:

@@ -35,8 +35,9 @@ class Reaction:
         axis: angle of the first axis of the frame from the global x axis, (n_t,), rad.
         force: components along the first axis and the axis to its left, (n_t, 2), N.
         torque: torque about the point, counter-clockwise, (n_t,), N·m.
-        unique: False if the values are not unique because of redundant constraints; they then
-            follow from the smallest multipliers that carry the loads.
+        choice: empty if the values are unique. ``minimum norm`` where redundant constraints leave
+            them open: they then follow from the smallest multipliers that carry the loads.
+            ``middle of friction at rest`` where drivers hold friction at rest.
     """
 
     joint: str
@@ -46,10 +47,15 @@ class Reaction:
     axis: Any
     force: Floats
     torque: Any
-    unique: bool
+    choice: str
+
+    @property
+    def unique(self) -> bool:
+        """Whether the reaction is unique."""
+        return not self.choice
 
     def __repr__(self) -> str:
-        axes = f"{self.frame} axes{remark(unique=self.unique)}"
+        axes = f"{self.frame} axes{remark(self.choice)}"
         return f"<Reaction of {self.joint!r} on {self.body!r}, {axes}>"
 
 
@@ -120,5 +126,5 @@ def read(motion: Motion, info: ConstraintInfo, on: str, frame: str, about: str |
         axis=scalar(axis),
         force=turned(values[..., :2], axis),
         torque=scalar(values[..., 2]),
-        unique=info.name not in motion.not_unique,
+        choice=motion.choices.get(info.name, ""),
     )

@@ -244,6 +244,7 @@ impl<'a> EventList<'a> {
             let rising = self.watched[index].direction != Direction::Falling;
             found.push(Crossing { index, t: step.t, rising });
         }
+        found.extend(self.just_after(model, step, (index, &found)));
         // events at the end have its time, in their order
         for crossing in &mut found {
             if crossing.index == index && crossing.t == t || together(crossing.t, step.t) {
@@ -253,6 +254,52 @@ impl<'a> EventList<'a> {
         let sign = (step.t - step.t_old).signum();
         found.order_by(|a, b| (sign * a.t).total_cmp(&(sign * b.t)).then(a.index.cmp(&b.index)));
         Ok(StepEvents::End(found))
+    }
+
+    /// Other conditions that change at the end of a step up to rounding errors, or not later than the one that ends
+    /// the phase, such as one that two events have.
+    fn just_after(
+        &mut self,
+        model: &Model,
+        step: &Step<'_>,
+        (ending, found): (usize, &[Crossing]),
+    ) -> Vec<Crossing> {
+        let spacing = CLOSE * f64::EPSILON * step.t.abs().max(step.t_old.abs());
+        let last = self.late(model, step, ending).map_or(spacing, |(late, _)| late.max(spacing));
+        let others = (0..self.watched.len()).filter(|k| found.iter().all(|own| own.index != *k));
+        let change = |index: usize| {
+            let (late, rising) = self.late(model, step, index)?;
+            (late <= last).then_some(Crossing { index, t: step.t, rising })
+        };
+        others.filter_map(change).collect()
+    }
+
+    /// The time from the end of a step to the change of a condition, if it is close to it, and whether it rises.
+    fn late(&mut self, model: &Model, step: &Step<'_>, index: usize) -> Option<(f64, bool)> {
+        let Watched { function, direction, .. } = self.watched[index];
+        let EventFunction::Condition(_) = function else { return None };
+        let ([old, before, at], h) = self.beside(model, step, function);
+        let rising = direction.counts(old, -old)?;
+        let late = at * h.abs() / (before - at);
+        let near = late >= 0.0 && at * old >= 0.0 && at.abs() <= NEAR * old.abs();
+        near.then_some((late, rising))
+    }
+
+    /// The values of a function at the start of a step, shortly before its end, and there; and the time between the
+    /// last two.
+    fn beside(
+        &mut self,
+        model: &Model,
+        step: &Step<'_>,
+        function: EventFunction<'_>,
+    ) -> ([f64; 3], f64) {
+        let h = SLOPE * (step.t - step.t_old);
+        let mut beside = step.y.to_vec();
+        step.interpolate(step.t - h, &mut beside);
+        let states = [(step.t_old, step.y_old), (step.t - h, &beside), (step.t, step.y)];
+        let value =
+            |state| self.evaluator.see(model, state, step, |seen| function.value(model, seen));
+        (states.map(value), h)
     }
 
     /// The rounding errors at the start of the phase of those functions of conditions that are zero there.
@@ -300,13 +347,7 @@ impl<'a> EventList<'a> {
     /// no event because the interpolant was inaccurate.
     fn later(&mut self, model: &Model, step: &Step<'_>, index: usize, t_end: f64) -> Option<f64> {
         let function = self.watched[index].function;
-        let h = SLOPE * (step.t - step.t_old);
-        let mut beside = step.y.to_vec();
-        step.interpolate(step.t - h, &mut beside);
-        let states = [(step.t_old, step.y_old), (step.t - h, &beside), (step.t, step.y)];
-        let [mut old, before, at] = states.map(|state| {
-            self.evaluator.see(model, state, step, |seen| function.value(model, seen))
-        });
+        let ([mut old, before, at], h) = self.beside(model, step, function);
         if step.t_old == self.began.0 && matches!(function, EventFunction::Mode(_)) {
             old = old.max(f64::MIN_POSITIVE); // the mode has just begun
         }

@@ -1,12 +1,13 @@
 //! The equations of motion for implicit methods: residuals, tangent, and the matrices of Newton's iteration, all with
 //! one elimination plan.
 
+use super::motion_ode::least_energy;
 use super::options::Options;
 use super::stabilizations::Stabilization;
 use crate::equations::balance::Balance;
 use crate::equations::iteration::{assemble, Coefficients, Places};
 use crate::equations::tangent::Tangent;
-use crate::equations::{constraints, Gains, Workspace};
+use crate::equations::{constraints, energy, Gains, Workspace};
 use crate::integrate::{
     ConstraintLevel, Dae, DaeLengths, DaeRates, DaeResidual, DaeState, Iterate, NewtonCoefficients,
 };
@@ -32,6 +33,8 @@ pub(super) struct MotionDae<'a> {
     complex: Option<BlockLu<Complex>>,
     /// Factorisations of the augmented matrix, for accelerations.
     accelerations: usize,
+    /// An energy whose errors matter, J, if works are tested.
+    least_energy: Option<f64>,
 }
 
 impl<'a> MotionDae<'a> {
@@ -56,6 +59,7 @@ impl<'a> MotionDae<'a> {
             tangent,
             places,
             accelerations: 0,
+            least_energy: least_energy(model),
         }
     }
 
@@ -143,6 +147,12 @@ impl Dae for MotionDae<'_> {
         let motions = &mut self.balance.motions;
         motions.place(&self.model.layout, at.q, at.v);
         self.tangent.linearize(self.model, motions, t, [at.a, at.lam, at.z]);
+    }
+
+    /// The largest of the kinetic energy and the works.
+    fn quadrature_scale(&self, works: &[f64]) -> Option<f64> {
+        let least = self.least_energy?.max(energy::kinetic(self.model, &self.balance.motions));
+        Some(works.iter().fold(least, |most, work| most.max(work.abs())))
     }
 
     fn factor(&mut self, coefficients: NewtonCoefficients) -> bool {

@@ -43,6 +43,11 @@ pub(super) fn tests_works(model: &Model) -> bool {
     model.driven && pieces || model.forces.iter().any(|item| item.element.touches_or_rubs())
 }
 
+/// An energy whose errors matter, J, if [works are tested](tests_works).
+pub(super) fn least_energy(model: &Model) -> Option<f64> {
+    tests_works(model).then(|| LEAST * usual_energy(model))
+}
+
 impl<'a> MotionOde<'a> {
     /// Uses a workspace of the model, whose elimination plan is shared by runs.
     pub fn new(model: &'a Model, options: &Options, mut workspace: Workspace) -> Self {
@@ -61,7 +66,7 @@ impl<'a> MotionOde<'a> {
             _ => None,
         };
         let (gains, paradox) = (options.gains(), None);
-        let least_energy = tests_works(model).then(|| LEAST * usual_energy(model));
+        let least_energy = least_energy(model);
         Self {
             model,
             workspace,

@@ -12,8 +12,7 @@ use crate::elements::{Behaviour, Mode};
 use crate::equations::constraints;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
-use crate::math::Listed;
-use crate::model::{size, ForceMode, Model};
+use crate::model::{size, DriverSet, ForceMode, Model};
 
 /// Speed at which friction in a joint that drivers hold begins to slide, relative to the speeds of the mechanism.
 const BEGINS: f64 = 1e-6;
@@ -31,7 +30,7 @@ pub(super) fn independent(
         mode: Mode::Holds(*side),
         value: 0.0,
         slack: 0.0,
-        prescribed: false,
+        held_by: DriverSet::default(),
     };
     let all: Vec<ForceMode> = candidates.iter().map(holds).list();
     let [q, ..] = place.state(model);
@@ -86,8 +85,13 @@ fn dependent(
     held: &[ForceMode],
     (force, free): (usize, Mode),
 ) -> ForceMode {
-    let of =
-        |mode: Mode, slack: f64| ForceMode { force, mode, value: 0.0, slack, prescribed: false };
+    let of = |mode: Mode, slack: f64| ForceMode {
+        force,
+        mode,
+        value: 0.0,
+        slack,
+        held_by: DriverSet::default(),
+    };
     if !matches!(model.forces[force].element.behaviour(), Some(Behaviour::Sticks)) {
         return of(Mode::Idle, 0.0);
     }
@@ -148,13 +152,15 @@ fn passes(
     let fastest = largest(workspace.a()).max(free).max(size(model));
     // the speed of a joint whose drivers stand still is an error
     let [q, ..] = place.state(model);
-    let moves =
-        sign * jet.value > 0.5 * begins && !(model.driven && drivers_rest(model, place.t, q));
-    moves || sign * jet.rate > STILL * fastest
+    let rests = || drivers_rest(model, holders(model, place, force), place.t, q);
+    sign * jet.value > 0.5 * begins && !rests() || sign * jet.rate > STILL * fastest
 }
 
-/// The driver, or the joint, that holds the coordinate of a stop or of friction.
-pub fn held_by(model: &Model, place: &StateAt<'_>, force: usize) -> Option<String> {
+/// The drivers that hold the coordinate of a stop or of friction, together with joints.
+pub fn holders(model: &Model, place: &StateAt<'_>, force: usize) -> DriverSet {
+    if !model.driven {
+        return DriverSet::default();
+    }
     let [q, ..] = place.state(model);
     let at = |value: f64| {
         model.in_modes(&[ForceMode {
@@ -162,24 +168,24 @@ pub fn held_by(model: &Model, place: &StateAt<'_>, force: usize) -> Option<Strin
             mode: Mode::Holds(0.0),
             value,
             slack: 0.0,
-            prescribed: false,
+            held_by: DriverSet::default(),
         }])
     };
     let open = at(0.0);
-    let row = open.forces[force].held_row?;
+    let Some(row) = open.forces[force].held_row else { return DriverSet::default() };
     let mut residual = vec![0.0; open.layout.n_rows];
     constraints::residual(&open, &Motions::at_rest(&open.layout, q), place.t, &mut residual);
     let held = at(residual[row]);
     let last = held.layout.owner(row).0;
     let found = mobility(&held, place.t, q);
-    let group = found.redundant.into_iter().find(|group| group.contains(&last))?;
-    let driver = group.iter().find(|k| model.constraints.get(**k).is_some_and(|item| item.driven));
-    driver.map(|k| model.constraints[*k].name.clone())
+    let group = found.redundant.into_iter().find(|group| group.contains(&last));
+    let driven = |k: &usize| model.constraints.get(*k).is_some_and(|item| item.driven);
+    DriverSet::of(group.into_iter().flatten().filter(driven))
 }
 
-/// Whether drivers hold the coordinates of forces with friction.
-pub fn prescribed(model: &Model, place: &StateAt<'_>, forces: &[usize]) -> Vec<bool> {
+/// The drivers that hold the coordinates of forces with friction.
+pub fn holders_of_friction(model: &Model, place: &StateAt<'_>, forces: &[usize]) -> Vec<DriverSet> {
     let sticks = |k: usize| matches!(model.forces[k].element.behaviour(), Some(Behaviour::Sticks));
-    let held = |k: &usize| model.driven && sticks(*k) && held_by(model, place, *k).is_some();
-    forces.iter().map(held).list()
+    let of = |k: &usize| if sticks(*k) { holders(model, place, *k) } else { DriverSet::default() };
+    forces.iter().map(of).collect()
 }

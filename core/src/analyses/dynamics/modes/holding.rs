@@ -5,14 +5,14 @@
 //! friction exceeds its limit, the force with the largest excess is released.
 
 use super::super::failure::Failure;
-use super::dependence::{independent, prescribed};
+use super::dependence::{holders_of_friction, independent};
 use super::impacts::{self, restitution};
 use super::place::{drivers_rest, largest, mode_of, unit, with_modes, StateAt, STILL};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
-use crate::math::{Jet, Listed, Ordered};
-use crate::model::{ForceMode, Model};
+use crate::math::Jet;
+use crate::model::{DriverSet, ForceMode, Model};
 
 /// Magnitude of a negative reserve that is accepted, as a fraction of the limit.
 const ROUNDING: f64 = 1e-11;
@@ -44,34 +44,33 @@ pub(super) fn decide(
     // after an impact that stops the mechanism, only rounding errors of the speeds remain
     let speed = place.speed_scale(model, before).max(jumped.unwrap_or(0.0));
     let jumped = jumped.is_some();
-    let prescribed = prescribed(model, place, &all);
-    let rests = model.driven && drivers_rest(model, place.t, place.state(model)[0]);
-    let mut modes: Vec<ForceMode> = Vec::new();
-    let mut candidates = Vec::new();
-    for ((k, threshold), prescribed) in all.iter().zip(&thresholds).zip(&prescribed) {
-        let free = match model.forces[*k].element.behaviour() {
+    let holders = holders_of_friction(model, place, &all);
+    let (mut modes, mut candidates) = (Vec::new(), Vec::new());
+    for ((k, threshold), holders) in all.iter().zip(&thresholds).zip(&holders) {
+        let (free, candidate) = match model.forces[*k].element.behaviour() {
             Some(Behaviour::Sticks) => {
-                let old = mode_of(before, *k);
-                let still =
-                    threshold.abs() <= STILL * speed || *threshold == 0.0 || *prescribed && rests;
-                let was = !jumped && (fired.contains(k) || old.holds());
-                if was || still {
-                    candidates.push(*k);
-                }
-                match old {
-                    Mode::Slides(sign) if !jumped && !fired.contains(k) => Mode::Slides(sign),
-                    Mode::Slides(sign) if !jumped => Mode::Slides(-sign),
-                    _ => Mode::Slides(if *threshold < 0.0 { -1.0 } else { 1.0 }),
-                }
+                let rests = drivers_rest(model, *holders, place.t, place.state(model)[0]);
+                let still = threshold.abs() <= STILL * speed || *threshold == 0.0 || rests;
+                let ended = fired.contains(k);
+                let old = if jumped { Mode::Open } else { mode_of(before, *k) };
+                let direction = match old {
+                    Mode::Slides(sign) if ended => -sign,
+                    Mode::Slides(sign) => sign,
+                    _ if still && !holders.is_empty() => onset(model, place, *k),
+                    _ => 1.0_f64.copysign(*threshold),
+                };
+                (Mode::Slides(direction), still || !jumped && ended || old.holds())
             }
-            _ => {
-                if rest.contains(k) {
-                    candidates.push(*k);
-                }
-                Mode::Free
-            }
+            _ => (Mode::Free, rest.contains(k)),
         };
-        modes.push(ForceMode { force: *k, mode: free, value: 0.0, slack: 0.0, prescribed: false });
+        candidates.extend(candidate.then_some(*k));
+        modes.push(ForceMode {
+            force: *k,
+            mode: free,
+            value: 0.0,
+            slack: 0.0,
+            held_by: DriverSet::default(),
+        });
     }
     let contact =
         |k: &usize| !matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Sticks));
@@ -81,7 +80,10 @@ pub(super) fn decide(
     let ended: Vec<usize> = candidates.iter().copied().filter(ended).list();
     let mut modes = hold(model, place, modes, (&candidates, &ended))?;
     give_slack(model, place, touching, &mut modes);
-    mark_prescribed(&mut modes, &all, &prescribed);
+    for own in &mut modes {
+        let at = all.iter().position(|k| *k == own.force);
+        own.held_by = at.map(|at| holders[at]).unwrap_or_default();
+    }
     for (own, threshold) in modes.iter_mut().zip(&thresholds) {
         if let (Mode::Slides(sign), true) = (own.mode, threshold.abs() <= STILL * speed) {
             // a rounding error of the speed may have the opposite direction, and at rest the speed consists of
@@ -92,12 +94,11 @@ pub(super) fn decide(
     Ok(modes)
 }
 
-/// Marks the friction whose coordinate drivers hold.
-fn mark_prescribed(modes: &mut [ForceMode], all: &[usize], prescribed: &[bool]) {
-    for own in modes {
-        let at = all.iter().position(|k| *k == own.force);
-        own.prescribed = at.is_some_and(|at| prescribed[at]);
-    }
+/// The direction in which drivers begin to move friction.
+fn onset(model: &Model, place: &StateAt<'_>, force: usize) -> f64 {
+    let solved = place.solved(model);
+    let rate = solved.map_or(0.0, |now| place.gap_jets(model, &[force], now.a())[0].rate);
+    1.0_f64.copysign(rate)
 }
 
 /// Sets the slack of contacts that touch and of forces that hold, from the rounding errors of gaps and forces.

@@ -20,8 +20,7 @@ use super::place::{mode_of, with_modes, StateAt};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, energy};
-use crate::math::Listed;
-use crate::model::{ForceMode, Model};
+use crate::model::{DriverSet, ForceMode, Model};
 
 /// Largest number of rounds of impacts at one time.
 const ROUNDS: usize = 1000;
@@ -123,7 +122,7 @@ fn hit(
         mode: Mode::Holds(*side),
         value: 0.0,
         slack: 0.0,
-        prescribed: false,
+        held_by: DriverSet::default(),
     };
     let modes: Vec<ForceMode> = contacts.iter().zip(&sides).map(held).list();
     let closed = model.in_modes(&modes).allowing_redundancy();

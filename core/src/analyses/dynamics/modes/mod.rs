@@ -2,18 +2,21 @@
 //!
 //! | file | concept |
 //! |---|---|
+//! | `at_rest` | friction at states outside of runs |
 //! | `mode_events` | the functions whose zeros may change a mode |
 //! | `place` | a state at which modes are determined |
 //! | `impacts` | jumps of velocities where contacts hit |
 //! | `dependence` | which forces can hold together, and the modes of the others |
 //! | `holding` | contacts that rest and friction that sticks |
 
+mod at_rest;
 mod dependence;
 mod holding;
 mod impacts;
 mod mode_events;
 mod place;
 
+pub use at_rest::friction_modes;
 pub(super) use mode_events::{watched_mode, ModeFunction, GRAZE};
 pub(super) use place::{has_mode, is_contact, unit as gap_unit, StateAt};
 
@@ -23,7 +26,7 @@ use place::{largest, with_modes};
 use super::failure::{Failure, Reason};
 use crate::elements::Behaviour;
 use crate::model::{ForceMode, Model};
-use dependence::held_by;
+use dependence::holders;
 use impacts::Hits;
 
 /// The modes of the next phase, and what happened.
@@ -84,9 +87,11 @@ pub(super) fn check(model: &Model, place: &StateAt<'_>) -> Result<(), Box<Failur
             "start where the gap is not negative, or give a stiffness in place of restitution";
         return Err(Reason::Start { t, name, message, hint }.into());
     }
-    for k in all.iter().filter(|_| model.driven) {
-        let Some(driver) = held_by(model, place, *k) else { continue };
-        let name = model.forces[*k].name.clone();
+    for k in all {
+        let by = holders(model, place, k);
+        let Some(at) = (0..model.constraints.len()).find(|at| by.contains(*at)) else { continue };
+        let driver = &model.constraints[at].name;
+        let name = model.forces[k].name.clone();
         let message =
             format!("{name} acts on a coordinate that {driver} holds, which no impact can change");
         let hint =

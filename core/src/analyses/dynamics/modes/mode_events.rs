@@ -6,7 +6,7 @@ use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::integrate::{Bounds, Direction};
 use crate::math::Real;
-use crate::model::Model;
+use crate::model::{DriverSet, Model};
 
 /// The place of the event at which a contact is passed within the error of a step.
 pub const GRAZE: usize = 2;
@@ -22,8 +22,8 @@ pub enum ModeFunction {
         sign: f64,
         /// Added to the function.
         slack: f64,
-        /// Whether the function is negative where the drivers stand still.
-        prescribed: bool,
+        /// The function is negative where these drivers stand still.
+        held_by: DriverSet,
     },
     /// The reserve until friction slips or a contact separates, and the slack of the mode.
     Reserve {
@@ -39,8 +39,8 @@ pub enum ModeFunction {
         force: usize,
         /// This speed.
         at: f64,
-        /// Whether it cannot begin while the drivers stand still.
-        prescribed: bool,
+        /// It cannot begin while these drivers stand still.
+        held_by: DriverSet,
     },
     /// The mode does not end by itself.
     Never,
@@ -56,7 +56,7 @@ impl ModeFunction {
     pub fn bounds(self, clearance: &mut dyn FnMut(usize) -> Option<Bounds>) -> Option<Bounds> {
         let constant = Bounds::constant;
         match self {
-            Self::Threshold { force, sign, slack, prescribed: false } => {
+            Self::Threshold { force, sign, slack, held_by } if held_by.is_empty() => {
                 Some(constant(sign) * clearance(force)? + constant(slack))
             }
             Self::Never => Some(Bounds::one()),
@@ -67,16 +67,16 @@ impl ModeFunction {
     /// The value of the function at a state.
     pub fn value(self, model: &Model, seen: &Seen<'_>) -> f64 {
         let acting = Acting { z: seen.state[2], lam: Some(seen.solved[1]), t: seen.t };
-        let rests = || drivers_rest(model, seen.t, seen.state[0]);
+        let rests = |drivers| drivers_rest(model, drivers, seen.t, seen.state[0]);
         match self {
-            Self::Threshold { prescribed: true, .. } if rests() => -1.0,
+            Self::Threshold { held_by, .. } if rests(held_by) => -1.0,
             Self::Threshold { force, sign, slack, .. } => {
                 sign * forces::threshold(model, force, seen.motions, acting) + slack
             }
             Self::Reserve { force, slack } => {
                 forces::reserve(model, force, seen.motions, acting) + slack
             }
-            Self::Begins { at, prescribed: true, .. } if rests() => at,
+            Self::Begins { at, held_by, .. } if rests(held_by) => at,
             Self::Begins { force, at, .. } => {
                 at - forces::threshold(model, force, seen.motions, acting).abs()
             }
@@ -90,8 +90,8 @@ impl ModeFunction {
 pub fn watched_mode(model: &Model, force: usize, place: usize) -> (ModeFunction, Direction) {
     let item = &model.forces[force];
     let own = model.blueprint.modes.iter().find(|of| of.force == force);
-    let (slack, prescribed) = own.map_or((0.0, false), |of| (of.slack, of.prescribed));
-    let threshold = |sign: f64| ModeFunction::Threshold { force, sign, slack, prescribed };
+    let (slack, held_by) = own.map(|of| (of.slack, of.held_by)).unwrap_or_default();
+    let threshold = |sign: f64| ModeFunction::Threshold { force, sign, slack, held_by };
     let (gap, falling) = (threshold(1.0), Direction::Falling);
     let reserve = ModeFunction::Reserve { force, slack };
     match (item.element.behaviour(), item.mode, place) {
@@ -102,7 +102,7 @@ pub fn watched_mode(model: &Model, force: usize, place: usize) -> (ModeFunction,
         (Some(Behaviour::Impacts { .. }), Mode::Free, 0 | GRAZE) => (gap, falling),
         (Some(_), Mode::Holds(_), 1) => (reserve, falling),
         (Some(Behaviour::Sticks), Mode::Idle, 1) => {
-            (ModeFunction::Begins { force, at: slack, prescribed }, falling)
+            (ModeFunction::Begins { force, at: slack, held_by }, falling)
         }
         _ => (ModeFunction::Never, falling),
     }

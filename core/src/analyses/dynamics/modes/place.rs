@@ -9,8 +9,8 @@ use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, energy};
 use crate::equations::{Gains, Workspace};
-use crate::math::{Jet, Lift, Listed, Real};
-use crate::model::{row_scales, size, ForceMode, Model};
+use crate::math::{Jet, Lift, Real};
+use crate::model::{row_scales, size, DriverSet, ForceMode, Model};
 
 /// Speeds of friction below this value count as zero, relative to the speeds of the mechanism; accelerations
 /// likewise.
@@ -127,12 +127,18 @@ impl StateAt<'_> {
     }
 }
 
-/// Whether all drivers stand still at a position: their laws do not change there.
-pub fn drivers_rest(model: &Model, t: f64, q: &[f64]) -> bool {
+/// Whether there are drivers in a set, and all of them stand still at a position: their laws do not change there.
+pub fn drivers_rest(model: &Model, drivers: DriverSet, t: f64, q: &[f64]) -> bool {
+    if drivers.is_empty() {
+        return false;
+    }
     let at_rest = Motions::at_rest(&model.layout, q);
     let [mut phi, mut by_time, mut gamma] = [0, 1, 2].map(|_| vec![0.0; model.layout.n_rows]);
     constraints::velocity_terms(model, &at_rest, t, &mut phi, &mut by_time, &mut gamma);
-    by_time.iter().zip(row_scales(model)).all(|(rate, scale)| rate.abs() <= STILL * scale)
+    let scales = row_scales(model);
+    let still = |row: usize| by_time[row].abs() <= STILL * scales[row];
+    let own = model.layout.constraints.iter().enumerate().filter(|(k, _)| drivers.contains(*k));
+    own.flat_map(|(_, slots)| slots.rows.clone()).all(still)
 }
 
 /// The forces with modes.
