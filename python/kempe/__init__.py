@@ -128,12 +128,12 @@ if TYPE_CHECKING:
     from kempe.options import InverseDynamics as InverseDynamics
     from kempe.options import Kinematics as Kinematics
     from kempe.options import Limits as Limits
-    from kempe.options import Reachable as Reachable
     from kempe.options import Mobility as Mobility
     from kempe.options import Modes as Modes
     from kempe.options import NoStabilization as NoStabilization
     from kempe.options import Projection as Projection
     from kempe.options import Radau as Radau
+    from kempe.options import Reachable as Reachable
     from kempe.reach import LimitsResult as LimitsResult
     from kempe.reach import limits as limits
     from kempe.record import AssemblyWarning as AssemblyWarning

@@ -1,5 +1,6 @@
 """Regions that a point reaches, against closed forms."""
 
+from itertools import pairwise
 from pathlib import Path
 
 import kempe as kp
@@ -49,7 +50,7 @@ def test_the_error_falls_with_the_square_of_the_number_of_values() -> None:
     m, over, ranges = arm(0.7, 0.4), ("shoulder.angle", "elbow.angle"), ((0, 1.2), (0.3, 2.5))
     expected = 0.6 * (reach(0.7, 0.4, 0.3) - reach(0.7, 0.4, 2.5))
     errors = [abs(region(m, over, ranges, n).area - expected) for n in (16, 31, 61)]
-    ratios = [before / after for before, after in zip(errors, errors[1:], strict=False)]
+    ratios = [before / after for before, after in pairwise(errors)]
     assert ratios == pytest.approx([4, 4], rel=0.1)
 
 

@@ -44,7 +44,7 @@ impl<S: Real> Two<S> {
 /// The wrenches on body i and body j of each part.
 fn actions<S: Real>(f: &ForceElement<S>, at: &Two<S>) -> Vec<[Wrench<S>; 2]> {
     let mut out = vec![Wrench::zero(); 2 * f.parts().len()];
-    f.action(&at.situation(f), |part, body, w| out[2 * part + body] = w);
+    f.action(&at.situation(f), &mut |part: usize, body: usize, w| out[2 * part + body] = w);
     out.chunks_exact(2).map(|two| [two[0], two[1]]).collect()
 }
 

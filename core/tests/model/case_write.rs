@@ -114,6 +114,7 @@ impl Dice {
             Shape::Joint | Shape::Name => Value::Text(self.text()),
             Shape::Number | Shape::Law => self.formula(),
             Shape::Pair | Shape::LawPair => self.pair(),
+            Shape::Ranges => Value::List(vec![self.pair(), self.pair()]),
             Shape::Triple => Value::List(vec![self.formula(), self.formula(), self.formula()]),
             Shape::Laws => Value::List(vec![self.formula(), self.formula()]),
             Shape::Terms => Value::Table(

@@ -12,6 +12,7 @@ use crate::elements::{Behaviour, Mode};
 use crate::equations::constraints;
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
+use crate::math::Listed;
 use crate::model::{size, DriverSet, ForceMode, Model};
 
 /// Speed at which friction in a joint that drivers hold begins to slide, relative to the speeds of the mechanism.

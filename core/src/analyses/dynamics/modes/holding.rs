@@ -12,6 +12,7 @@ use crate::elements::{Behaviour, Mode};
 use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::math::Jet;
+use crate::math::{Listed, Ordered};
 use crate::model::{DriverSet, ForceMode, Model};
 
 /// Magnitude of a negative reserve that is accepted, as a fraction of the limit.

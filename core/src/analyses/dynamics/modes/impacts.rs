@@ -20,6 +20,7 @@ use super::place::{mode_of, with_modes, StateAt};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, energy};
+use crate::math::Listed;
 use crate::model::{DriverSet, ForceMode, Model};
 
 /// Largest number of rounds of impacts at one time.

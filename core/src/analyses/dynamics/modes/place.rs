@@ -9,6 +9,7 @@ use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, energy};
 use crate::equations::{Gains, Workspace};
+use crate::math::Listed;
 use crate::math::{Jet, Lift, Real};
 use crate::model::{row_scales, size, DriverSet, ForceMode, Model};
 
