@@ -8,7 +8,7 @@
 use super::curves::Ranges;
 use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Point, Reason};
 use super::options::{name, options};
-use super::record::{Analysis, Observer, Outcome, Record, StartState, Subject, Unfinished};
+use super::record::{Analysis, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished};
 use super::State;
 use crate::integrate::Flow;
 use crate::model::{size, Model};
@@ -66,6 +66,7 @@ impl Analysis for Options {
             "lower": value(&found.lower), "upper": value(&found.upper),
             "reasons": found.reasons, "turns": found.turns,
         });
+        let (facts, ends) = (facts(&over, &driven.variable.unit, &found), ends(&at, &found));
         let (values, positions): (Vec<f64>, Vec<Vec<f64>>) = found.path.into_iter().unzip();
         let (count, n_q) = (values.len(), driven.model.layout.n_q);
         let record = Record::new(findings, start.clone()).with("values", [count, 1], values).with(
@@ -73,8 +74,31 @@ impl Analysis for Options {
             [count, n_q],
             positions.concat(),
         );
-        Ok(Record { driven: Some(driven), ..record })
+        Ok(Record { driven: Some(driven), ..record.facts(facts).positions(ends) })
     }
+}
+
+/// Both limits with their reasons.
+fn facts(over: &str, unit: &str, found: &Limits) -> Vec<Fact> {
+    let limit = |name: &str, bound: &Option<Bound>| {
+        let value = bound.as_ref().map(|bound| bound.value);
+        Fact::new(format!("{name} limit of {over}"), json!(value)).unit(unit)
+    };
+    let both = [limit("lower", &found.lower), limit("upper", &found.upper)];
+    let limits = both.into_iter().filter(|one| !one.value.is_null());
+    let reasons = found.reasons.iter().map(|reason| Fact::new("reason", reason.clone()));
+    limits.chain(reasons).collect()
+}
+
+/// The positions at the limits.
+fn ends(at: &State, found: &Limits) -> Vec<(Fact, State)> {
+    let ends = [("lower limit", &found.lower), ("upper limit", &found.upper)];
+    let end = |(name, bound): (&str, &Option<Bound>)| {
+        let Bound { value, q, .. } = bound.as_ref()?;
+        let state = State { t: *value, q: q.clone(), v: vec![0.0; q.len()], z: at.z.clone() };
+        Some((Fact::new(name, json!(null)), state))
+    };
+    ends.into_iter().filter_map(end).collect()
 }
 
 /// The limits of a driven value.

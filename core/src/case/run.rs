@@ -33,7 +33,8 @@ impl Case {
         fields
     }
 
-    /// Runs an analysis after the analyses at whose ends it starts.
+    /// Runs an analysis after the analyses at whose ends it starts. Its remarks contain those of all of them, each with
+    /// the name of the analysis.
     ///
     /// # Errors
     /// The failure of the first analysis that cannot be run.
@@ -43,7 +44,8 @@ impl Case {
         subject: &Subject<'_>,
         mut observer: Observer<'_>,
     ) -> Result<Record, Box<Unfinished>> {
-        let path = ["analyses".to_string(), self.analyses[place].name.clone()];
+        let name = &self.analyses[place].name;
+        let path = ["analyses".to_string(), name.clone()];
         let analysis = AnyAnalysis::read(subject.model(), &self.fields(place), &path)?;
         match start_of(&self.analyses, place) {
             None => {
@@ -51,8 +53,19 @@ impl Case {
                 analysis.run(subject, &start, observer)
             }
             Some(before) => {
-                let end = self.run_to(before, subject, observer.again())?.end;
-                run_after(&analysis, subject, &end, observer)
+                let before = self.run_to(before, subject, observer.again())?;
+                let remarked = |mut record: Record| {
+                    let own = record.remarks.iter().map(|remark| format!("{name}: {remark}"));
+                    record.remarks = before.remarks.iter().cloned().chain(own).collect();
+                    record
+                };
+                match run_after(&analysis, subject, &before.end, observer) {
+                    Ok(record) => Ok(remarked(record)),
+                    Err(failed) => {
+                        let Unfinished { outcome, record } = *failed;
+                        Err(Box::new(Unfinished { outcome, record: record.map(remarked) }))
+                    }
+                }
             }
         }
     }
