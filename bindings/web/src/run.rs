@@ -129,7 +129,7 @@ impl Ran {
                 |of| json!({ "name": of.name, "unit": of.unit, "condition": of.condition() })),
             "error": self.error.as_ref().map(|message| json!({ "message": message })),
             "not_unique": self.not_unique(run),
-            "remarks": self.record.remarks,
+            "remarks": self.record.remarks.iter().chain(&run.doubts).collect::<Vec<_>>(),
         })
     }
 

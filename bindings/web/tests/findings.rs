@@ -59,7 +59,7 @@ fn limits_have_positions_and_reasons() {
         let drawn = number(&position["pose"]["poses"][2][2]);
         assert!((drawn - number(value)).abs() < 1e-9, "{drawn} {value}");
     }
-    let (reason, _) = fact(&reply, "reason");
+    let (reason, _) = fact(&reply, "its reason");
     assert!(reason.as_str().expect("a text").contains("dead point"), "{reason}");
 }
 

@@ -78,16 +78,19 @@ impl Analysis for Options {
     }
 }
 
-/// Both limits with their reasons.
+/// Both limits with their reasons, or the description of a motion without limits.
 fn facts(over: &str, unit: &str, found: &Limits) -> Vec<Fact> {
-    let limit = |name: &str, bound: &Option<Bound>| {
-        let value = bound.as_ref().map(|bound| bound.value);
-        Fact::new(format!("{name} limit of {over}"), json!(value)).unit(unit)
+    let bounds = [("lower", &found.lower), ("upper", &found.upper)];
+    let limits = bounds.iter().filter_map(|(name, bound)| Some((name, bound.as_ref()?)));
+    let limits = limits.flat_map(|(name, Bound { value, reason, .. })| {
+        let limit = Fact::new(format!("{name} limit of {over}"), *value).unit(unit);
+        [limit, Fact::new("its reason", reason.clone())]
+    });
+    let of_bound = |reason: &String| {
+        bounds.iter().any(|(_, bound)| bound.as_ref().is_some_and(|it| it.reason == *reason))
     };
-    let both = [limit("lower", &found.lower), limit("upper", &found.upper)];
-    let limits = both.into_iter().filter(|one| !one.value.is_null());
-    let reasons = found.reasons.iter().map(|reason| Fact::new("reason", reason.clone()));
-    limits.chain(reasons).collect()
+    let others = found.reasons.iter().filter(|reason| !of_bound(reason));
+    limits.chain(others.map(|reason| Fact::new("motion", reason.clone()))).collect()
 }
 
 /// The positions at the limits.

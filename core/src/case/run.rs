@@ -33,8 +33,8 @@ impl Case {
         fields
     }
 
-    /// Runs an analysis after the analyses at whose ends it starts. Its remarks contain those of all of them, each with
-    /// the name of the analysis.
+    /// Runs an analysis after the analyses at whose ends it starts. Its remarks contain the remarks and doubts of these,
+    /// each with the name of the analysis.
     ///
     /// # Errors
     /// The failure of the first analysis that cannot be run.
@@ -53,13 +53,16 @@ impl Case {
                 analysis.run(subject, &start, observer)
             }
             Some(before) => {
-                let before = self.run_to(before, subject, observer.again())?;
+                let earlier = self.run_to(before, subject, observer.again())?;
+                let doubts = earlier.doubts().map(named(&self.analyses[before].name));
+                let earlier_remarks: Vec<_> =
+                    earlier.remarks.iter().cloned().chain(doubts).collect();
                 let remarked = |mut record: Record| {
-                    let own = record.remarks.iter().map(|remark| format!("{name}: {remark}"));
-                    record.remarks = before.remarks.iter().cloned().chain(own).collect();
+                    let own = record.remarks.iter().map(named(name));
+                    record.remarks = earlier_remarks.into_iter().chain(own).collect();
                     record
                 };
-                match run_after(&analysis, subject, &before.end, observer) {
+                match run_after(&analysis, subject, &earlier.end, observer) {
                     Ok(record) => Ok(remarked(record)),
                     Err(failed) => {
                         let Unfinished { outcome, record } = *failed;
@@ -69,4 +72,9 @@ impl Case {
             }
         }
     }
+}
+
+/// Writes the name of an analysis before a remark.
+fn named(name: &str) -> impl Fn(&String) -> String + '_ {
+    move |remark| format!("{name}: {remark}")
 }

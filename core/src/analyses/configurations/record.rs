@@ -32,10 +32,10 @@ impl Analysis for Options {
         let count = found.states.len();
         let (n_q, n_z) = (model.layout.n_q, model.layout.n_z);
         let complete = match found.complete {
-            true => "the list is complete",
-            false => "there may be further configurations",
+            true => "yes",
+            false => "not proven: there may be others",
         };
-        let mut facts = vec![Fact::new("configurations", count), Fact::new("list", complete)];
+        let mut facts = vec![Fact::new("configurations", count), Fact::new("complete", complete)];
         if found.left_out > 0 {
             facts.push(Fact::new("left out, because a freedom is left there", found.left_out));
         }

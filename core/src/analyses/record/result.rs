@@ -57,6 +57,11 @@ impl Record {
         Self { motion: Some(motion), message, ..Self::new(Value::Null, end) }
     }
 
+    /// The doubts about the motion.
+    pub fn doubts(&self) -> impl Iterator<Item = &String> {
+        self.motion.iter().flat_map(|motion| &motion.doubts)
+    }
+
     /// Adds rows of numbers; `shape` is their number and their length.
     pub fn with(mut self, name: &'static str, shape: [usize; 2], values: Vec<f64>) -> Self {
         self.numbers.push(NumberTable { name, shape, values });
