@@ -11,6 +11,7 @@ use super::options::{name, options};
 use super::record::{Analysis, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished};
 use super::State;
 use crate::integrate::Flow;
+use crate::math::Listed;
 use crate::model::{size, Model};
 use serde_json::json;
 use std::f64::consts::TAU;
@@ -90,7 +91,7 @@ fn facts(over: &str, unit: &str, found: &Limits) -> Vec<Fact> {
         bounds.iter().any(|(_, bound)| bound.as_ref().is_some_and(|it| it.reason == *reason))
     };
     let others = found.reasons.iter().filter(|reason| !of_bound(reason));
-    limits.chain(others.map(|reason| Fact::new("motion", reason.clone()))).collect()
+    limits.chain(others.map(|reason| Fact::new("motion", reason.clone()))).list()
 }
 
 /// The positions at the limits.
@@ -101,7 +102,7 @@ fn ends(at: &State, found: &Limits) -> Vec<(Fact, State)> {
         let state = State { t: *value, q: q.clone(), v: vec![0.0; q.len()], z: at.z.clone() };
         Some((Fact::new(name, json!(null)), state))
     };
-    ends.into_iter().filter_map(end).collect()
+    ends.into_iter().filter_map(end).list()
 }
 
 /// The limits of a driven value.

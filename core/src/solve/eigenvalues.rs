@@ -1,7 +1,7 @@
 //! Eigenvalues of a dense real matrix by the QR algorithm with double shifts (Golub and Van Loan, *Matrix Computations*,
 //! 4th ed., 7.4 and 7.5), after balancing (Parlett and Reinsch, *Numerische Mathematik* 13, 1969).
 
-use crate::math::Complex;
+use crate::math::{Complex, Listed};
 
 /// Largest number of steps for one eigenvalue; two to four are usual.
 const STEPS: usize = 300;
@@ -78,7 +78,7 @@ impl Square {
     /// Makes all entries below the first subdiagonal zero, by reflections.
     fn reduce(&mut self) {
         for k in 1..self.n.saturating_sub(1) {
-            let column: Vec<f64> = (k..self.n).map(|i| self.at(i, k - 1)).collect();
+            let column: Vec<f64> = (k..self.n).map(|i| self.at(i, k - 1)).list();
             self.reflect(k, &column, (k - 1, self.n), (0, self.n));
             (k + 1..self.n).for_each(|i| self.of[i * self.n + k - 1] = 0.0);
         }
@@ -91,7 +91,7 @@ impl Square {
         if vector[1..].iter().all(|x| *x == 0.0) || !largest.is_finite() {
             return;
         }
-        let mut v: Vec<f64> = vector.iter().map(|x| x / largest).collect();
+        let mut v: Vec<f64> = vector.iter().map(|x| x / largest).list();
         let length = v.iter().map(|x| x * x).sum::<f64>().sqrt();
         v[0] += length.copysign(v[0]);
         let factor = 2.0 / v.iter().map(|x| x * x).sum::<f64>();
@@ -154,7 +154,7 @@ impl Square {
         for k in begin..end - 1 {
             let columns = (k.max(begin + 1) - 1, end);
             self.reflect(k, &vector, columns, (begin, (k + 4).min(end)));
-            vector = (k + 1..(k + 4).min(end)).map(|i| self.at(i, k)).collect();
+            vector = (k + 1..(k + 4).min(end)).map(|i| self.at(i, k)).list();
             if k > begin {
                 (k + 1..(k + 3).min(end)).for_each(|i| self.of[i * self.n + k - 1] = 0.0);
             }

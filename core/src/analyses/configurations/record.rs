@@ -42,7 +42,7 @@ impl Analysis for Options {
         let named = |(k, (state, _)): (usize, &(State, _))| {
             (Fact::new(format!("configuration {}", k + 1), Value::Null), state.clone())
         };
-        let positions: Vec<_> = found.states.iter().enumerate().map(named).collect();
+        let positions: Vec<_> = found.states.iter().enumerate().map(named).list();
         Ok(Record::new(findings, start.clone())
             .facts(facts)
             .positions(positions)

@@ -126,8 +126,7 @@ fn value_on_path(model: &Model, over: &str, name: &str, value: f64) -> Fact {
 /// The positions of a path, each with the value of the parameter.
 fn along(model: &Model, over: &str, found: &EquilibriumPath) -> Vec<(Fact, State)> {
     let all = found.values.iter().zip(&found.points);
-    all.map(|(value, point)| (value_on_path(model, over, "", *value), point.state.clone()))
-        .collect()
+    all.map(|(value, point)| (value_on_path(model, over, "", *value), point.state.clone())).list()
 }
 
 /// A path of equilibria.

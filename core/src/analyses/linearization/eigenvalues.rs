@@ -1,7 +1,7 @@
 //! Eigenvalues of the linear equations M ü + C u̇ + K u = 0 and ẋ = A x.
 
 use super::linearize::Linearization;
-use crate::math::Complex;
+use crate::math::{Complex, Listed};
 use crate::solve::{eigenvalues as of_matrix, Eigen};
 
 /// Largest relative part of a matrix that counts as a rounding error.
@@ -44,7 +44,7 @@ fn of_squares(of: &Linearization, f: usize) -> Vec<Complex> {
         let (i, j) = (k / f, k % f);
         product(&vectors[i], &vectors[j]) / (values[i] * values[j]).sqrt()
     };
-    let reduced: Vec<f64> = (0..f * f).map(entry).collect();
+    let reduced: Vec<f64> = (0..f * f).map(entry).list();
     let squares = Eigen::of(&reduced, f).values;
     let largest = squares.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     let zero = if f == 1 { 0.0 } else { 4.0 * f as f64 * f64::EPSILON * largest };
@@ -55,5 +55,5 @@ fn of_squares(of: &Linearization, f: usize) -> Vec<Complex> {
             false => vec![Complex::new(0.0 - root, 0.0), Complex::new(root, 0.0)],
         }
     };
-    squares.into_iter().flat_map(roots).collect()
+    squares.into_iter().flat_map(roots).list()
 }

@@ -7,8 +7,7 @@ use super::options::Options;
 use crate::analyses::record::{
     Analysis, ErrorClass, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished,
 };
-use crate::math::Complex;
-use crate::math::Listed;
+use crate::math::{Complex, Listed};
 use serde_json::json;
 use std::f64::consts::TAU;
 
@@ -46,7 +45,7 @@ impl Analysis for Options {
             "states": found.states, "inputs": self.inputs, "outputs": self.outputs, "n": self.n,
         });
         let facts: Vec<Fact> =
-            eigenvalues(&found).into_iter().enumerate().flat_map(|(k, s)| mode(k + 1, s)).collect();
+            eigenvalues(&found).into_iter().enumerate().flat_map(|(k, s)| mode(k + 1, s)).list();
         let [inputs, outputs] = [&self.inputs, &self.outputs].map(Vec::len);
         Ok(Record::new(findings, start.clone())
             .facts(facts)
