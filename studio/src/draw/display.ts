@@ -17,7 +17,6 @@ const UNIT = /^(m|rad|J)(?:\/(m|rad|s)(?:\^(\d)|(²))?)?$/;
 
 /** The factor that converts values from an SI unit to the unit of the display, and this unit. */
 export function displayed(unit: string, { degrees, length }: Units): { factor: number; unit: string } {
-  if (unit === "m^2") return { factor: LENGTHS[length] ** 2, unit: `${length}²` };
   const [, of, by, power, squared] = UNIT.exec(unit) ?? [];
   if (!of) return { factor: 1, unit };
   if (degrees && unit === "rad/s") return { factor: RPM, unit: "rpm" };

@@ -3,6 +3,7 @@ import { batch, computed, effect, signal } from "@preact/signals";
 import type { Found, Pose, Quantity, Ran, Requests } from "../core/protocol";
 import { placeIn } from "../plane/instants";
 import { report, Superseded, send, showPresent } from "../store/session";
+import { fitWith } from "../store/sheet";
 import { announce, mechanism, mode, openings, pose, selection } from "../store/state";
 import { texts } from "../texts";
 import { Frames } from "./frames";
@@ -107,6 +108,7 @@ async function showFound(ok: Found): Promise<void> {
     course.value = null;
     found.value = ok;
   });
+  if (ok.outlines.length) fitWith(ok.outlines.flat());
   announce("done", texts.read.found);
   await showPlace(0);
 }

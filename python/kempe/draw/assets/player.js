@@ -1560,7 +1560,6 @@ var RPM = 30 / Math.PI;
 var LENGTHS = { m: 1, mm: 1e3 };
 var UNIT2 = /^(m|rad|J)(?:\/(m|rad|s)(?:\^(\d)|(²))?)?$/;
 function displayed(unit, { degrees, length }) {
-  if (unit === "m^2") return { factor: LENGTHS[length] ** 2, unit: `${length}²` };
   const [, of, by, power, squared] = UNIT2.exec(unit) ?? [];
   if (!of) return { factor: 1, unit };
   if (degrees && unit === "rad/s") return { factor: RPM, unit: "rpm" };
