@@ -19,7 +19,7 @@ pub fn eigenvalues(of: &Linearization) -> Vec<Complex> {
         false => of_matrix(&of.a, 2 * f + of.states.len()),
     };
     found.retain(|s| s.im >= 0.0);
-    found.sort_by(|a, b| a.re.hypot(a.im).total_cmp(&b.re.hypot(b.im)));
+    found.sort_by(|a, b| a.re.hypot(a.im).total_cmp(&b.re.hypot(b.im)).then(a.re.total_cmp(&b.re)));
     found
 }
 
