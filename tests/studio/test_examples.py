@@ -6,11 +6,10 @@ import kempe as kp
 import numpy as np
 import pytest
 from sizes import some
+from studio.agreement import TOLERANCE, coordinates, sizes
 from studio.window import Studio
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
-#: The module and the native core round sines and powers differently.
-TOLERANCE = 1e-9
 #: Chaotic motions are compared for so long, s.
 CHAOTIC = {"double_pendulum": 2.0}
 #: Runs that take the module several seconds are compared for so long, s.
@@ -26,23 +25,6 @@ def text_of(path: Path) -> str:
         assert old in text
         text = text.replace(old, new)
     return text
-
-
-def coordinates(case: kp.Case) -> list[str]:
-    bodies = {name: body for name, body in case.tree()["bodies"].items() if name != "ground"}
-    return [
-        f"{name}.{quantity}"
-        for name, body in bodies.items()
-        for quantity in ("x", "y", "angle")
-        if not (quantity == "angle" and body.get("type") == "point_mass")
-    ]
-
-
-def sizes(names: list[str], rows: np.ndarray) -> np.ndarray:
-    """The size of each quantity: the largest length of the motion, or a radian or the angle."""
-    peaks = np.abs(rows).max(axis=1)
-    angles = np.array([name.endswith(".angle") for name in names])
-    return np.where(angles, np.maximum(peaks, 1.0), peaks[~angles].max() or 1.0)
 
 
 NAMES = [path.stem for path in sorted(EXAMPLES.glob("*.toml"))]

@@ -10,6 +10,7 @@ mod dragged;
 mod drawn;
 mod editing;
 mod fault;
+mod findings;
 mod live;
 mod loaded;
 mod mechanism;

@@ -2,7 +2,6 @@
 
 use kempe::case::Case;
 use kempe::elements::Group;
-use kempe::expression::Inferred;
 use kempe::model::{Body, Value as Written};
 use kempe::Model;
 use serde_json::{json, Map, Value};
@@ -19,7 +18,7 @@ pub fn mechanism(case: &Case, model: &Model) -> Value {
     let blueprint = &model.blueprint;
     let parameters = blueprint.parameters.iter().zip(&model.parameters).zip(&blueprint.inferred);
     let parameters: Vec<Value> = parameters
-        .map(|((name, value), unit)| json!({ "name": name, "value": value, "unit": unit_of(unit) }))
+        .map(|((name, value), unit)| json!({ "name": name, "value": value, "unit": unit.unit() }))
         .collect();
     let analyses = case.analyses.iter().map(|entry| {
         let kind = match entry.get("type") {
@@ -47,16 +46,4 @@ fn body((k, body): (usize, &Body)) -> Value {
         "points": points.collect::<Map<_, _>>(),
         "center": [body.center.x, body.center.y], "mass": body.mass, "inertia": body.inertia,
     })
-}
-
-/// The unit of a parameter. None if it is not known.
-fn unit_of(inferred: &Inferred) -> Option<String> {
-    match inferred {
-        Inferred::Of(of) => Some(match of.common_unit() {
-            Some(unit) => unit.to_string(),
-            None if of.to_string() == "1" => "rad".to_string(),
-            None => of.to_string(),
-        }),
-        Inferred::Number | Inferred::Open => None,
-    }
 }

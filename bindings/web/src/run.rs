@@ -1,7 +1,8 @@
-//! Analyses of a case, and runs without one, whose result is a motion.
+//! Analyses of a case, and runs without one.
 
 use crate::convert::{written, Fields};
 use crate::fault::Fault;
+use crate::findings;
 use crate::loaded::Loaded;
 use crate::named;
 use kempe::analyses::dynamics::{Prepared, Run};
@@ -70,15 +71,7 @@ impl Ran {
         let all = &loaded.case.analyses;
         let place = all.iter().position(|entry| entry.name == name);
         let place = place.ok_or_else(|| Fault::new(format!("there is no analysis '{name}'")))?;
-        let outcome = loaded.case.run_to(place, subject, observer);
-        let ran = Self::recorded(subject, outcome)?;
-        if ran.record.motion.is_none() {
-            let message = format!("the analysis '{name}' has no motion");
-            return Err(Fault::new(message).hint(
-                "its result is in kempe.run; here dynamics, kinematics and inverse_dynamics run",
-            ));
-        }
-        Ok(ran)
+        Self::recorded(subject, loaded.case.run_to(place, subject, observer))
     }
 
     /// The run of a record, also of a record up to a failure.
@@ -98,13 +91,20 @@ impl Ran {
         Ok(Self { model, record, error })
     }
 
-    fn run(&self) -> &Run {
-        self.record.motion.as_ref().expect("only motions are kept")
+    fn run(&self) -> Result<&Run, Fault> {
+        let motion = self.record.motion.as_ref();
+        motion.ok_or_else(|| Fault::new("the result of the last run is not a motion"))
     }
 
     /// The run as a reply.
     pub fn described(&self) -> Value {
-        let run = self.run();
+        match &self.record.motion {
+            Some(run) => self.motion(run),
+            None => findings::described(&self.model, &self.record),
+        }
+    }
+
+    fn motion(&self, run: &Run) -> Value {
         let Run { trajectory, statistics, events, .. } = run;
         let times = events
             .iter()
@@ -128,14 +128,14 @@ impl Ran {
             "over": self.over().map(
                 |of| json!({ "name": of.name, "unit": of.unit, "condition": of.condition() })),
             "error": self.error.as_ref().map(|message| json!({ "message": message })),
-            "not_unique": self.not_unique(),
-            "remarks": self.record.remarks,
+            "not_unique": self.not_unique(run),
+            "remarks": self.record.remarks.iter().chain(&run.doubts).collect::<Vec<_>>(),
         })
     }
 
     /// The names of the joints and drivers without a unique reaction.
-    fn not_unique(&self) -> Vec<&str> {
-        let (model, track) = (&self.model, &self.run().trajectory);
+    fn not_unique(&self, run: &Run) -> Vec<&str> {
+        let (model, track) = (&self.model, &run.trajectory);
         let Some(last) = track.t.len().checked_sub(1).filter(|_| model.allow_redundancy) else {
             return Vec::new();
         };
@@ -147,8 +147,8 @@ impl Ran {
     }
 
     /// Times and poses of the moving bodies, row by row.
-    pub fn frames(&self) -> Vec<f64> {
-        let (layout, track) = (&self.model.layout, &self.run().trajectory);
+    pub fn frames(&self) -> Result<Vec<f64>, Fault> {
+        let (layout, track) = (&self.model.layout, &self.run()?.trajectory);
         let mut motions = Motions::new(layout);
         let mut found = Vec::new();
         for (k, t) in track.t.iter().enumerate() {
@@ -160,7 +160,7 @@ impl Ran {
                 found.extend([pose.r.x, pose.r.y, pose.angle]);
             }
         }
-        found
+        Ok(found)
     }
 
     /// The quantities and expressions that can be read from the run.
@@ -187,7 +187,7 @@ impl Ran {
     ) -> Result<(Vec<String>, Vec<f64>), Fault> {
         let found: Result<Vec<_>, _> =
             names.iter().map(|name| named::find(loaded, &self.model, name)).collect();
-        let (units, numbers) = named::values(&self.model, self.run(), &found?);
+        let (units, numbers) = named::values(&self.model, self.run()?, &found?);
         Ok((units.iter().map(|unit| self.unit(unit)).collect(), numbers))
     }
 }

@@ -76,7 +76,7 @@ impl Session {
             "parameters" => self.parameters(&fields.values("values")?),
             "run" => self.run(fields),
             "frames" => {
-                self.numbers = self.last_run()?.frames();
+                self.numbers = self.last_run()?.frames()?;
                 Ok(json!({ "numbers": self.numbers.len() }))
             }
             "values" => self.values(&fields.texts("names")?),

@@ -9,7 +9,7 @@ use super::limits;
 use super::linearization;
 use super::options::{Declaration, Declared, Family, Member};
 use super::reachable;
-use super::record::{Analysis, Observer, Record, StartState, Subject, Unfinished};
+use super::record::{Analysis, Observer, Outcome, Record, StartState, Subject, Unfinished};
 use crate::model::{Model, Problem, Value};
 use std::sync::LazyLock;
 
@@ -71,6 +71,20 @@ macro_rules! analyses {
             pub fn changes_parameters(&self) -> bool {
                 match self {
                     $(Self::$Name(options) => options.changes_parameters()),+
+                }
+            }
+
+            /// Checks whether the analysis can begin; see [`Analysis::begins`].
+            ///
+            /// # Errors
+            /// The obstacle.
+            pub fn begins(
+                &self,
+                subject: &Subject<'_>,
+                start: &StartState,
+            ) -> Result<(), Outcome> {
+                match self {
+                    $(Self::$Name(options) => options.begins(subject, start)),+
                 }
             }
 

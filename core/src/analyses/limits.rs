@@ -8,9 +8,10 @@
 use super::curves::Ranges;
 use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Point, Reason};
 use super::options::{name, options};
-use super::record::{Analysis, Observer, Outcome, Record, StartState, Subject, Unfinished};
+use super::record::{Analysis, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished};
 use super::State;
 use crate::integrate::Flow;
+use crate::math::Listed;
 use crate::model::{size, Model};
 use serde_json::json;
 use std::f64::consts::TAU;
@@ -66,6 +67,7 @@ impl Analysis for Options {
             "lower": value(&found.lower), "upper": value(&found.upper),
             "reasons": found.reasons, "turns": found.turns,
         });
+        let (facts, ends) = (facts(&over, &driven.variable.unit, &found), ends(&at, &found));
         let (values, positions): (Vec<f64>, Vec<Vec<f64>>) = found.path.into_iter().unzip();
         let (count, n_q) = (values.len(), driven.model.layout.n_q);
         let record = Record::new(findings, start.clone()).with("values", [count, 1], values).with(
@@ -73,8 +75,34 @@ impl Analysis for Options {
             [count, n_q],
             positions.concat(),
         );
-        Ok(Record { driven: Some(driven), ..record })
+        Ok(Record { driven: Some(driven), ..record.facts(facts).positions(ends) })
     }
+}
+
+/// Both limits with their reasons, or the description of a motion without limits.
+fn facts(over: &str, unit: &str, found: &Limits) -> Vec<Fact> {
+    let bounds = [("lower", &found.lower), ("upper", &found.upper)];
+    let limits = bounds.iter().filter_map(|(name, bound)| Some((name, bound.as_ref()?)));
+    let limits = limits.flat_map(|(name, Bound { value, reason, .. })| {
+        let limit = Fact::new(format!("{name} limit of {over}"), *value).unit(unit);
+        [limit, Fact::new("its reason", reason.clone())]
+    });
+    let of_bound = |reason: &String| {
+        bounds.iter().any(|(_, bound)| bound.as_ref().is_some_and(|it| it.reason == *reason))
+    };
+    let others = found.reasons.iter().filter(|reason| !of_bound(reason));
+    limits.chain(others.map(|reason| Fact::new("motion", reason.clone()))).list()
+}
+
+/// The positions at the limits.
+fn ends(at: &State, found: &Limits) -> Vec<(Fact, State)> {
+    let ends = [("lower limit", &found.lower), ("upper limit", &found.upper)];
+    let end = |(name, bound): (&str, &Option<Bound>)| {
+        let Bound { value, q, .. } = bound.as_ref()?;
+        let state = State { t: *value, q: q.clone(), v: vec![0.0; q.len()], z: at.z.clone() };
+        Some((Fact::new(name, json!(null)), state))
+    };
+    ends.into_iter().filter_map(end).list()
 }
 
 /// The limits of a driven value.

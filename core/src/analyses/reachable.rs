@@ -9,7 +9,7 @@
 use super::assemble::position;
 use super::kinematics::{driving, kinematics, DrivenQuantity, Reason};
 use super::options::{count, intervals, kind, name, options};
-use super::record::{Analysis, Observer, Outcome, Record, StartState, Subject, Unfinished};
+use super::record::{Analysis, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished};
 use super::State;
 use crate::elements::{BodyId, Group};
 use crate::equations::kinematics::Motions;
@@ -101,11 +101,13 @@ impl Analysis for Options {
             "of": self.of, "over": self.over, "area": area,
             "complete": region.limits.is_empty(), "limit": region.limits.first(),
         });
-        Ok(Record::new(findings, start.clone()).with("points", [at.len() / 2, 2], at).with(
-            "boundary",
-            [edges.len() / 3, 3],
-            edges,
-        ))
+        let area = Fact::new(format!("area that {} reaches", self.of), area).unit("m^2");
+        let limit = region.limits.first().map(|limit| Fact::new("limit", limit.clone()));
+        Ok(Record::new(findings, start.clone())
+            .facts([area].into_iter().chain(limit))
+            .positions([start.examined()])
+            .with("points", [at.len() / 2, 2], at)
+            .with("boundary", [edges.len() / 3, 3], edges))
     }
 }
 

@@ -33,7 +33,8 @@ impl Case {
         fields
     }
 
-    /// Runs an analysis after the analyses at whose ends it starts.
+    /// Runs an analysis after the analyses at whose ends it starts. Its remarks contain the remarks and doubts of these,
+    /// each with the name of the analysis.
     ///
     /// # Errors
     /// The failure of the first analysis that cannot be run.
@@ -43,7 +44,8 @@ impl Case {
         subject: &Subject<'_>,
         mut observer: Observer<'_>,
     ) -> Result<Record, Box<Unfinished>> {
-        let path = ["analyses".to_string(), self.analyses[place].name.clone()];
+        let name = &self.analyses[place].name;
+        let path = ["analyses".to_string(), name.clone()];
         let analysis = AnyAnalysis::read(subject.model(), &self.fields(place), &path)?;
         match start_of(&self.analyses, place) {
             None => {
@@ -51,9 +53,28 @@ impl Case {
                 analysis.run(subject, &start, observer)
             }
             Some(before) => {
-                let end = self.run_to(before, subject, observer.again())?.end;
-                run_after(&analysis, subject, &end, observer)
+                let earlier = self.run_to(before, subject, observer.again())?;
+                let doubts = earlier.doubts().map(named(&self.analyses[before].name));
+                let earlier_remarks: Vec<_> =
+                    earlier.remarks.iter().cloned().chain(doubts).collect();
+                let remarked = |mut record: Record| {
+                    let own = record.remarks.iter().map(named(name));
+                    record.remarks = earlier_remarks.into_iter().chain(own).collect();
+                    record
+                };
+                match run_after(&analysis, subject, &earlier.end, observer) {
+                    Ok(record) => Ok(remarked(record)),
+                    Err(failed) => {
+                        let Unfinished { outcome, record } = *failed;
+                        Err(Box::new(Unfinished { outcome, record: record.map(remarked) }))
+                    }
+                }
             }
         }
     }
+}
+
+/// Writes the name of an analysis before a remark.
+fn named(name: &str) -> impl Fn(&String) -> String + '_ {
+    move |remark| format!("{name}: {remark}")
 }

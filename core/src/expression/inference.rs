@@ -25,6 +25,20 @@ pub enum Inferred {
 
 const ANGLE: Dimension = Dimension::new(0, 0, 0);
 
+impl Inferred {
+    /// The SI unit, if it is known.
+    pub fn unit(&self) -> Option<String> {
+        match self {
+            Self::Of(dimension) => Some(match dimension.common_unit() {
+                Some(unit) => unit.to_string(),
+                None if *dimension == ANGLE => "rad".to_string(),
+                None => dimension.to_string(),
+            }),
+            Self::Number | Self::Open => None,
+        }
+    }
+}
+
 /// The dimension with the usual unit: `N (kg*m*s^-2)`.
 impl fmt::Display for Inferred {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {

@@ -102,6 +102,27 @@ export interface Ran {
   over: (Quantity & { condition: string }) | null;
   /** The joints and drivers whose reactions are not unique. */
   not_unique: string[];
+  remarks: string[];
+}
+
+/** A named value of a result; the unit is empty without one, and the value null where the name is enough. */
+export interface Fact {
+  name: string;
+  value: string | number | null;
+  unit: string;
+}
+
+/** A result that is not a motion. */
+export interface Found {
+  status: "found";
+  facts: Fact[];
+  /** Positions that can be drawn, each with its name. */
+  positions: (Fact & { pose: Pose })[];
+  /** Closed lines around areas, m. */
+  outlines: Point[][];
+  findings: Value;
+  remarks: string[];
+  error: null;
 }
 
 /** The obstacle of an analysis; its `path` leads to the element. */
@@ -162,7 +183,7 @@ export interface Requests {
   parameters: { send: { values: Record<string, number> }; reply: Pose };
   run: {
     send: { analysis?: string; t_end?: number; output_step?: number; over?: string; range?: [string, string] };
-    reply: Ran;
+    reply: Ran | Found;
   };
   frames: { send: object; reply: object };
   values: { send: { names: string[] }; reply: { units: string[] } };

@@ -90,8 +90,8 @@ export class SvgContext {
     this.path(line, `fill="none" ${this.stroked()}`);
   }
 
-  fill(line: Line): void {
-    this.path(line, `fill="${colour(this.fillStyle)}"`);
+  fill(line: Line, rule?: CanvasFillRule): void {
+    this.path(line, `fill="${colour(this.fillStyle)}"${rule ? ` fill-rule="${rule}"` : ""}`);
   }
 
   strokeText(text: string, x: number, y: number): void {

@@ -26,6 +26,7 @@ export function enter(next: Mode): void {
   if (next === "live") void living.play();
   if (next === "read") {
     if (reading.course.value) reading.show(reading.time.value);
+    else if (reading.found.value) void reading.showPlace(reading.place.value);
     else void reading.run();
   }
 }
@@ -44,6 +45,7 @@ function leave(before: Mode): void {
 effect(() => {
   loads.value;
   reading.course.value = null;
+  reading.found.value = null;
   reading.pause();
   living.stop();
   living.changed.value = {};

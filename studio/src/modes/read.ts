@@ -1,9 +1,10 @@
 // Read mode: a run of an analysis, its poses over time, its quantities.
 import { batch, computed, effect, signal } from "@preact/signals";
-import type { Pose, Quantity, Ran, Requests } from "../core/protocol";
+import type { Found, Pose, Quantity, Ran, Requests } from "../core/protocol";
 import { placeIn } from "../plane/instants";
-import { report, Superseded, send } from "../store/session";
-import { announce, catalogue, mechanism, mode, openings, pose, selection } from "../store/state";
+import { report, Superseded, send, showPresent } from "../store/session";
+import { fitWith } from "../store/sheet";
+import { announce, mechanism, mode, openings, pose, selection } from "../store/state";
 import { texts } from "../texts";
 import { Frames } from "./frames";
 import { gripAt } from "./grip";
@@ -21,6 +22,12 @@ export interface Course {
 }
 
 export const course = signal<Course | null>(null);
+/** The last result that is not a motion, in place of a run. */
+export const found = signal<Found | null>(null);
+/** The number of the drawn position of this result. */
+export const place = signal(0);
+/** Remarks on the result, which the user must see. */
+export const remarks = computed(() => (course.value?.ran ?? found.value)?.remarks ?? []);
 export const quantities = signal<Quantity[]>([]);
 /** The joints and drivers whose reactions are not unique. The shown reactions are the smallest ones. */
 export const notUnique = computed(() => course.value?.ran.not_unique ?? []);
@@ -31,11 +38,8 @@ export const rate = signal(1);
 export const running = signal(false);
 /** The chosen analysis of the case; empty for dynamics from the shown pose. */
 export const chosen = signal<string | null>(null);
-/** The analyses of the case with an end time. Their result is a motion. */
-export const analyses = computed(() => {
-  const motions = catalogue.value.analyses.filter(({ fields }) => fields.some(({ name }) => name === "t_end"));
-  return (mechanism.value?.analyses ?? []).filter(({ type }) => motions.some(({ name }) => name === type));
-});
+/** The analyses of the case. */
+export const analyses = computed(() => mechanism.value?.analyses ?? []);
 
 /** The analysis of the next run: the chosen one if the case contains it, otherwise the first. */
 export const analysis = computed(() => {
@@ -79,24 +83,15 @@ export function starred(name: string, of: string, unit = "N"): string {
   return marked ? `${name} *` : name;
 }
 
-/** Run an analysis and fetch its frames. */
-export async function run(t_end?: number): Promise<Ran | null> {
+/** Run the chosen analysis, the one with a name, or dynamics until a time. */
+export async function run(of?: number | string): Promise<Ran | Found | null> {
   running.value = true;
+  if (typeof of === "string") chosen.value = of;
   try {
-    const { ok } = await send("run", t_end === undefined ? await requested() : await untilTime(t_end));
-    const { numbers } = await send("frames", {});
-    const width = 1 + 3 * ((mechanism.value?.bodies.length ?? 1) - 1);
-    const frames = inOrder(numbers, width);
-    const ground = mechanism.value?.bodies[0]?.name ?? "";
-    const found = (await send("quantities", { of_run: true })).ok.filter(({ name }) => !name.startsWith(`${ground}.`));
-    batch(() => {
-      course.value = { ran: ok, width, ...frames };
-      time.value = frames.t[0] ?? 0;
-      quantities.value = found;
-    });
-    if (ok.error) announce("problem", ok.error.message, ok.error.hint ? { hint: ok.error.hint } : {});
-    else announce("done", texts.read.done(ok.count, variable.value.name, written(ok.t_end, variable.value.unit)));
-    show(time.value);
+    const fields =
+      typeof of === "string" ? { analysis: of } : of === undefined ? await requested() : await untilTime(of);
+    const { ok } = await send("run", fields);
+    await ("count" in ok ? showMotion(ok) : showFound(ok));
     return ok;
   } catch (error) {
     report(error);
@@ -104,6 +99,44 @@ export async function run(t_end?: number): Promise<Ran | null> {
   } finally {
     running.value = false;
   }
+}
+
+/** Show a result that is not a motion, with its first position. */
+async function showFound(ok: Found): Promise<void> {
+  pause();
+  batch(() => {
+    course.value = null;
+    found.value = ok;
+  });
+  if (ok.outlines.length) fitWith(ok.outlines.flat());
+  announce("done", texts.read.found);
+  await showPlace(0);
+}
+
+/** Draw a position of a result that is not a motion. */
+export async function showPlace(number: number): Promise<void> {
+  place.value = number;
+  const position = found.value?.positions[number];
+  if (!position) await showPresent();
+  else if (mode.value === "read") pose.value = position.pose;
+}
+
+/** Fetch the frames of a motion, and show its start. */
+async function showMotion(ok: Ran): Promise<void> {
+  const { numbers } = await send("frames", {});
+  const width = 1 + 3 * ((mechanism.value?.bodies.length ?? 1) - 1);
+  const frames = inOrder(numbers, width);
+  const ground = mechanism.value?.bodies[0]?.name ?? "";
+  const all = (await send("quantities", { of_run: true })).ok.filter(({ name }) => !name.startsWith(`${ground}.`));
+  batch(() => {
+    found.value = null;
+    course.value = { ran: ok, width, ...frames };
+    time.value = frames.t[0] ?? 0;
+    quantities.value = all;
+  });
+  if (ok.error) announce("problem", ok.error.message, ok.error.hint ? { hint: ok.error.hint } : {});
+  else announce("done", texts.read.done(ok.count, variable.value.name, written(ok.t_end, variable.value.unit)));
+  show(time.value);
 }
 
 /** The request of the run that is chosen in the panel. */
@@ -148,11 +181,11 @@ export function posesAt({ t, rows, width }: Course, at: number): Pose["poses"] {
 
 /** Show the mechanism at a time of the run. */
 export function show(at: number): void {
-  const found = course.value;
-  if (!found?.t.length) return;
+  const run = course.value;
+  if (!run?.t.length) return;
   time.value = Math.min(span.value[1], Math.max(span.value[0], at));
   const base = pose.value;
-  if (base && mode.value === "read") pose.value = { ...base, t: time.value, poses: posesAt(found, time.value) };
+  if (base && mode.value === "read") pose.value = { ...base, t: time.value, poses: posesAt(run, time.value) };
 }
 
 export async function play(): Promise<void> {

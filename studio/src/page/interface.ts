@@ -1,6 +1,6 @@
 // window.kempe: the page for programs, as studio/README.md describes it.
 
-import type { Loaded, Ran } from "../core/protocol";
+import type { Found, Loaded, Ran } from "../core/protocol";
 import { enter } from "../modes/modes";
 import { course, run, valuesOf } from "../modes/read";
 import type { Point } from "../plane/points";
@@ -14,7 +14,7 @@ export interface Interface {
   toml(): Promise<string>;
   state(): Promise<{ t: number; q: number[]; v: number[] } | null>;
   quantity(name: string): Promise<{ value: number; unit: string }>;
-  run(t_end?: number): Promise<Ran | null>;
+  run(of?: number | string): Promise<Ran | Found | null>;
   values(names: string[]): Promise<{ t: number[]; units: string[]; rows: number[][] }>;
   screen(point: Point): Promise<Point>;
   settled(): Promise<void>;
@@ -49,8 +49,8 @@ export const kempe: Interface = {
     const { units, rows } = await valuesOf(names);
     return { t: [...(course.value?.t ?? [])], units, rows: rows.map((row) => [...row]) };
   },
-  async run(t_end) {
-    const found = await run(t_end);
+  async run(of) {
+    const found = await run(of);
     if (found && mode.value !== "read") enter("read");
     return found;
   },

@@ -5,7 +5,7 @@ import type { ArrowKind, Vectors } from "../draw/arrows";
 import { displayed } from "../draw/display";
 import { ACTING } from "../draw/ends";
 import { Trace } from "../draw/traces";
-import { type Course, condition, course, quantities, starred, time, valuesOf } from "../modes/read";
+import { type Course, condition, course, found, quantities, starred, time, valuesOf } from "../modes/read";
 import { points } from "../modes/seen";
 import { placeIn } from "../plane/instants";
 import { distinctPaths, type Path } from "../plane/paths";
@@ -81,6 +81,9 @@ export const traces = computed(() => {
   if (mode.value !== "read") return [];
   return paths.value.map(({ body, line }) => new Trace(body, line));
 });
+
+/** The outlines of areas that a result contains, m. */
+export const outlines = computed(() => (mode.value === "read" ? (found.value?.outlines ?? []) : []));
 
 /** Fetch the components of the arrows that are shown, once for each run. */
 effect(() => {

@@ -1,6 +1,7 @@
 // Paints the whole drawing from the state of the page.
 import { isPin } from "../catalogue/catalogue";
 import { entry } from "../catalogue/tree";
+import { paintArea } from "../draw/area";
 import { paintArrows, type Vectors } from "../draw/arrows";
 import { LENGTHS } from "../draw/display";
 import { paintGhost } from "../draw/ghost";
@@ -23,7 +24,7 @@ import { type Point, placed } from "../plane/points";
 import { backdrop } from "../store/backdrop";
 import { preview, view, viewed } from "../store/sheet";
 import { catalogue, items, mechanism, mode, poses, scene, selection, shown, tree, units } from "../store/state";
-import { notes, type Shown, traces, vectors } from "./motionOverlay";
+import { notes, outlines, type Shown, traces, vectors } from "./motionOverlay";
 
 /** Read all signals that the drawing depends on, so that an effect follows them. */
 export function follow(): void {
@@ -35,6 +36,7 @@ export function follow(): void {
     items,
     mechanism,
     mode,
+    outlines,
     poses,
     scene,
     selection,
@@ -54,6 +56,7 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
   if (!bare) paintBackdrop(context);
   if (shown.value.grid) paintGrid(context, view, colours, editing);
   if (found) {
+    paintArea(context, view, outlines.value, colours);
     if (shown.value.traces) paintTraces(context, view, traces.value, colours);
     if (!bare) paintSelection(context, colours);
     const names = paintItems(context, view, items.value, poses.value, shown.value, colours);

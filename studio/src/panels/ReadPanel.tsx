@@ -10,8 +10,10 @@ import {
   chosen,
   condition,
   course,
+  found,
   notUnique,
   quantities,
+  remarks,
   run,
   running,
   variable,
@@ -20,6 +22,7 @@ import { arrows, KINDS, type Kind, onBody } from "../page/motionOverlay";
 import { plots, stored } from "../store/plots";
 import { mechanism } from "../store/state";
 import { texts } from "../texts";
+import { Findings } from "./Findings";
 import { Measures } from "./Measures";
 import { OverFields } from "./OverFields";
 import { PlotCard } from "./Plot";
@@ -30,6 +33,7 @@ export function ReadPanel() {
   return (
     <div class="results">
       <RunBar />
+      <Remarks />
       {course.value ? (
         <>
           <div class="chips">
@@ -81,10 +85,24 @@ export function ReadPanel() {
           </Section>
           <Measures />
         </>
+      ) : found.value ? (
+        <Findings />
       ) : (
         <p class="doc">{running.value ? words.running : words.none}</p>
       )}
     </div>
+  );
+}
+
+/** Remarks on the result, which the user must see. */
+function Remarks() {
+  if (!remarks.value.length) return null;
+  return (
+    <ul class="remarks" id="remarks">
+      {remarks.value.map((one) => (
+        <li key={one}>{one}</li>
+      ))}
+    </ul>
   );
 }
 

@@ -36,6 +36,16 @@ export function fit(): void {
   viewChanged();
 }
 
+/** Show everything, and points beside the mechanism. */
+export function fitWith(points: readonly Point[]): void {
+  const [xs, ys] = [points.map(([x]) => x), points.map(([, y]) => y)];
+  const [x0, y0, x1, y1] = view.bounds;
+  const least = (all: number[], from: number) => all.reduce((a, b) => Math.min(a, b), from);
+  const most = (all: number[], from: number) => all.reduce((a, b) => Math.max(a, b), from);
+  view.bounds = [least(xs, x0), least(ys, y0), most(xs, x1), most(ys, y1)];
+  fit();
+}
+
 export function zoom(factor: number): void {
   view.zoom(factor);
   viewChanged();

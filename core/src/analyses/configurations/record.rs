@@ -4,11 +4,11 @@ use super::options::Options;
 use super::{configurations, Failure};
 use crate::analyses::assemble::Request;
 use crate::analyses::record::{
-    Analysis, ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished,
+    Analysis, ErrorClass, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished,
 };
 use crate::analyses::State;
 use crate::math::Listed;
-use serde_json::json;
+use serde_json::{json, Value};
 
 impl Analysis for Options {
     const NUMBERS: &'static [(&'static str, &'static str)] = &[("count", ""), ("complete", "")];
@@ -31,7 +31,21 @@ impl Analysis for Options {
         });
         let count = found.states.len();
         let (n_q, n_z) = (model.layout.n_q, model.layout.n_z);
+        let complete = match found.complete {
+            true => "yes",
+            false => "not proven: there may be others",
+        };
+        let mut facts = vec![Fact::new("configurations", count), Fact::new("complete", complete)];
+        if found.left_out > 0 {
+            facts.push(Fact::new("left out, because a freedom is left there", found.left_out));
+        }
+        let named = |(k, (state, _)): (usize, &(State, _))| {
+            (Fact::new(format!("configuration {}", k + 1), Value::Null), state.clone())
+        };
+        let positions: Vec<_> = found.states.iter().enumerate().map(named).list();
         Ok(Record::new(findings, start.clone())
+            .facts(facts)
+            .positions(positions)
             .with("q", [count, n_q], rows(|state| &state.q))
             .with("v", [count, n_q], rows(|state| &state.v))
             .with("z", [count, n_z], rows(|state| &state.z)))

@@ -4,11 +4,15 @@ use super::failure::Reason;
 use super::options::Options;
 use super::points::{EquilibriumPath, PathEnd};
 use super::result::Equilibrium;
-use super::{equilibrium, path};
+use super::{begins, equilibrium, path};
+use crate::analyses::readings::find;
 use crate::analyses::record::{
-    Analysis, ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished,
+    effort_unit, Analysis, ErrorClass, Fact, Observer, Outcome, Record, StartState, Subject,
+    Unfinished,
 };
+use crate::analyses::State;
 use crate::math::Listed;
+use crate::model::Model;
 use serde_json::{json, Value};
 
 impl Analysis for Options {
@@ -24,6 +28,10 @@ impl Analysis for Options {
         ("branches", ""),
     ];
 
+    fn begins(&self, subject: &Subject<'_>, start: &StartState) -> Result<(), Outcome> {
+        Ok(begins(&subject.released(start), &start.state)?)
+    }
+
     fn run(
         &self,
         subject: &Subject<'_>,
@@ -31,19 +39,94 @@ impl Analysis for Options {
         observer: Observer<'_>,
     ) -> Result<Record, Box<Unfinished>> {
         let (model, look) = (subject.released(start), observer.look);
-        let (findings, last) = match self.over {
-            None => {
-                let found = equilibrium(&model, &start.state, self, |step| look(step as f64))?;
-                (json!({ "points": [point(&found)] }), found.state)
-            }
-            Some(_) => {
-                let found = path(&model, &start.state, self, look)?;
-                let last = found.points.last().map(|point| point.state.clone());
-                (points(&found), last.unwrap_or_else(|| start.state.clone()))
-            }
+        let Some(over) = &self.over else {
+            let found = equilibrium(&model, &start.state, self, |step| look(step as f64))?;
+            let record =
+                Record::new(json!({ "points": [point(&found)] }), start.at(found.state.clone()));
+            let rest = Fact::new("rest position", Value::Null);
+            return Ok(record
+                .facts(facts(&model, &self.hold, &found))
+                .positions([(rest, found.state)]));
         };
-        Ok(Record::new(findings, start.at(last)))
+        let found = path(&model, &start.state, self, look)?;
+        let last = found.points.last().map(|point| point.state.clone());
+        let last = last.unwrap_or_else(|| start.state.clone());
+        let record = Record::new(points(&found), start.at(last));
+        Ok(record.facts(facts_of_path(&model, over, &found)).positions(along(&model, over, &found)))
     }
+}
+
+/// The stability, the stiffness and the efforts of an equilibrium.
+fn facts(model: &Model, hold: &[String], found: &Equilibrium) -> Vec<Fact> {
+    let Equilibrium { coordinates, eigenvalues, .. } = found;
+    let stability = match (eigenvalues.first(), found.stable) {
+        (None, _) => "held: no freedom is left",
+        (Some(_), true) => "stable",
+        (Some(0.0), false) => "indifferent: it can move without any force",
+        (Some(_), false) => "not stable",
+    };
+    let mut facts = vec![Fact::new("stability", stability)];
+    match &coordinates[..] {
+        [only] => {
+            let (force, per) = (effort_unit(model, only), unit_of(model, only));
+            let name = format!("stiffness along {only}");
+            facts.push(Fact::new(name, eigenvalues[0]).unit(format!("{force}/{per}")));
+        }
+        _ => {
+            facts.extend(eigenvalues.iter().enumerate().map(|(k, value)| {
+                Fact::new(format!("eigenvalue {} of the stiffness", k + 1), *value)
+            }))
+        }
+    }
+    let efforts = found.efforts.iter().map(|(name, value)| {
+        let name = format!("{name}.effort");
+        let unit = unit_of(model, &name);
+        Fact::new(name, *value).unit(unit)
+    });
+    facts.extend(efforts);
+    let holders = hold.iter().zip(&found.holders);
+    facts.extend(holders.map(|(name, value)| {
+        Fact::new(format!("effort of the holder of {name}"), *value).unit(effort_unit(model, name))
+    }));
+    facts
+}
+
+/// The SI unit of a quantity; empty if it is not known.
+fn unit_of(model: &Model, name: &str) -> String {
+    find(model, name).map_or(String::new(), |found| found.unit)
+}
+
+/// The length of a path, its folds and crossings, and its end.
+fn facts_of_path(model: &Model, over: &str, found: &EquilibriumPath) -> Vec<Fact> {
+    let stable = found.points.iter().filter(|point| point.stable).count();
+    let mut facts =
+        vec![Fact::new("positions", found.points.len()), Fact::new("stable positions", stable)];
+    for (name, places) in [("fold", &found.folds), ("crossing", &found.branches)] {
+        facts.extend(places.iter().map(|k| value_on_path(model, over, name, found.values[*k])));
+    }
+    let end = match &found.end {
+        PathEnd::Last => "the path reached the end of the range".to_string(),
+        PathEnd::First => "the path turned and came back to the beginning of the range".to_string(),
+        PathEnd::Lost(reason) => format!("the path could not be followed further: {reason}"),
+        PathEnd::Long => "the path has very many points and was ended".to_string(),
+        PathEnd::Stopped => "the analysis was stopped".to_string(),
+    };
+    facts.push(Fact::new("end", end));
+    facts
+}
+
+/// A value of the parameter of a path.
+fn value_on_path(model: &Model, over: &str, name: &str, value: f64) -> Fact {
+    let place = model.blueprint.parameters.iter().position(|parameter| parameter == over);
+    let unit = place.and_then(|place| model.blueprint.inferred[place].unit());
+    Fact::new(format!("{name} at {over}").trim_start_matches(" at "), value)
+        .unit(unit.unwrap_or_default())
+}
+
+/// The positions of a path, each with the value of the parameter.
+fn along(model: &Model, over: &str, found: &EquilibriumPath) -> Vec<(Fact, State)> {
+    let all = found.values.iter().zip(&found.points);
+    all.map(|(value, point)| (value_on_path(model, over, "", *value), point.state.clone())).list()
 }
 
 /// A path of equilibria.

@@ -260,8 +260,11 @@ impl From<Reason> for Outcome {
     fn from(reason: Reason) -> Self {
         let message = reason.to_string();
         match &reason {
-            Reason::Free { .. } => Self::new(ErrorClass::Model, message)
-                .hint("add a coordinate_driver for each, or use dynamics"),
+            Reason::Free { .. } => {
+                let problems = vec![Problem::at(&["drivers"], &message)];
+                let outcome = Self { problems, ..Self::new(ErrorClass::Model, message) };
+                outcome.hint("add a coordinate_driver for each, or use dynamics")
+            }
             Reason::Open { t, name, .. } => Self::new(ErrorClass::Assembly, message)
                 .name(name)
                 .at(*t)

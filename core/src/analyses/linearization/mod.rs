@@ -9,10 +9,12 @@
 //! | `response` | changes of accelerations and multipliers due to forces |
 //! | `names` | inputs and outputs by name |
 //! | `linearize` | reduced mass, damping and stiffness, and the state-space matrices |
+//! | `eigenvalues` | eigenvalues of the equations |
 //! | `record` | the analysis and its record |
 //! | `options` | options of `modes` |
 //! | `failure` | reasons for which a state cannot be linearized |
 
+mod eigenvalues;
 mod failure;
 mod freedoms;
 mod least_norm;

@@ -1,13 +1,15 @@
 //! Small motions about a state as an analysis.
 
+use super::eigenvalues::eigenvalues;
 use super::failure::{coordinate, Failure};
-use super::linearize::linearize;
+use super::linearize::{begins, linearize};
 use super::options::Options;
 use crate::analyses::record::{
-    Analysis, ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished,
+    Analysis, ErrorClass, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished,
 };
-use crate::math::Listed;
+use crate::math::{Complex, Listed};
 use serde_json::json;
+use std::f64::consts::TAU;
 
 impl Analysis for Options {
     const NUMBERS: &'static [(&'static str, &'static str)] = &[
@@ -21,6 +23,10 @@ impl Analysis for Options {
         ("rates", ""),
         ("acceleration", ""),
     ];
+
+    fn begins(&self, subject: &Subject<'_>, start: &StartState) -> Result<(), Outcome> {
+        Ok(begins(&subject.released(start), &start.state)?)
+    }
 
     fn run(
         &self,
@@ -38,8 +44,12 @@ impl Analysis for Options {
             "coordinates": names.list(), "columns": found.coordinates,
             "states": found.states, "inputs": self.inputs, "outputs": self.outputs, "n": self.n,
         });
+        let facts: Vec<Fact> =
+            eigenvalues(&found).into_iter().enumerate().flat_map(|(k, s)| mode(k + 1, s)).list();
         let [inputs, outputs] = [&self.inputs, &self.outputs].map(Vec::len);
         Ok(Record::new(findings, start.clone())
+            .facts(facts)
+            .positions([start.examined()])
             .with("basis", [f, n_q], found.basis.concat())
             .with("mass", [f, f], found.mass)
             .with("damping", [f, f], found.damping)
@@ -50,6 +60,23 @@ impl Analysis for Options {
             .with("D", [outputs, inputs], found.d)
             .with("acceleration", [1, n_q], found.acceleration)
             .with("values", [1, outputs], found.values))
+    }
+}
+
+/// The frequency and the damping ratio of a mode with the eigenvalue s, or how it decays or grows.
+fn mode(number: usize, s: Complex) -> Vec<Fact> {
+    let size = s.re.hypot(s.im);
+    if s.im > 0.0 {
+        let frequency = Fact::new(format!("mode {number}: frequency"), s.im / TAU).unit("Hz");
+        let ratio = 0.0 - s.re / size;
+        return vec![frequency, Fact::new(format!("mode {number}: damping ratio"), ratio)];
+    }
+    match s.re {
+        0.0 => vec![Fact::new(format!("mode {number}"), "it moves freely")],
+        _ => {
+            let way = if s.re < 0.0 { "decays" } else { "grows" };
+            vec![Fact::new(format!("mode {number} {way} with the rate"), s.re).unit("1/s")]
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 //! The trait of analyses.
 
+use super::outcome::Outcome;
 use super::result::{Record, Unfinished};
 use super::start_state::StartState;
 use crate::analyses::dynamics::{Act, Prepared};
@@ -28,6 +29,16 @@ pub trait Analysis: Declared {
     /// Whether it changes parameters, so that its start may not meet the constraints.
     fn changes_parameters(&self) -> bool {
         false
+    }
+
+    /// Checks whether the analysis can begin. Without checks of its own, it runs until it first calls an observer.
+    ///
+    /// # Errors
+    /// The obstacle.
+    fn begins(&self, subject: &Subject<'_>, start: &StartState) -> Result<(), Outcome> {
+        let mut look = |_| Flow::Stop;
+        self.run(subject, start, Observer::new(&mut look))
+            .map_or_else(|it| Err(it.outcome), |_| Ok(()))
     }
 
     /// Runs the analysis.

@@ -8,16 +8,19 @@
 //! | `start_state` | the state in which an analysis starts |
 //! | `analysis` | the trait of analyses, their subject, and who watches them |
 //! | `result` | the record, and the quantity that replaces the time |
+//! | `fact` | a named value of a result, for readers |
 //! | `outcome` | the reason for which an analysis fails, with advice |
 //! | `motion` | the record of forward dynamics |
 
 mod analysis;
+mod fact;
 mod motion;
 mod outcome;
 mod result;
 mod start_state;
 
 pub use analysis::{Analysis, EventActions, Observer, Subject};
+pub use fact::{effort_unit, Fact};
 pub use motion::missing;
 pub use outcome::{ErrorClass, Outcome};
 pub use result::{rate_unit, Driven, NumberTable, Record, Unfinished, Variable};

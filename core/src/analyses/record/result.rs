@@ -1,8 +1,10 @@
 //! The record of an analysis.
 
+use super::fact::Fact;
 use super::outcome::Outcome;
 use super::start_state::StartState;
 use crate::analyses::dynamics::{Accelerations, Run};
+use crate::analyses::State;
 use crate::model::{Definition, Model};
 use serde_json::Value;
 use std::sync::Arc;
@@ -20,6 +22,10 @@ pub struct Record {
     pub numbers: Vec<NumberTable>,
     /// The other findings, by name.
     pub findings: Value,
+    /// The findings for readers, in their order.
+    pub facts: Vec<Fact>,
+    /// Positions that the findings contain, each with its name.
+    pub positions: Vec<(Fact, State)>,
     /// The reason for which the analysis ended.
     pub message: String,
     /// Remarks that a user must see.
@@ -31,15 +37,16 @@ pub struct Record {
 impl Record {
     /// A record with findings alone.
     pub fn new(findings: Value, end: StartState) -> Self {
-        let (message, remarks, numbers) = (String::new(), Vec::new(), Vec::new());
         Self {
             motion: None,
             responses: None,
             driven: None,
-            numbers,
+            numbers: Vec::new(),
             findings,
-            message,
-            remarks,
+            facts: Vec::new(),
+            positions: Vec::new(),
+            message: String::new(),
+            remarks: Vec::new(),
             end,
         }
     }
@@ -50,9 +57,26 @@ impl Record {
         Self { motion: Some(motion), message, ..Self::new(Value::Null, end) }
     }
 
+    /// The doubts about the motion.
+    pub fn doubts(&self) -> impl Iterator<Item = &String> {
+        self.motion.iter().flat_map(|motion| &motion.doubts)
+    }
+
     /// Adds rows of numbers; `shape` is their number and their length.
     pub fn with(mut self, name: &'static str, shape: [usize; 2], values: Vec<f64>) -> Self {
         self.numbers.push(NumberTable { name, shape, values });
+        self
+    }
+
+    /// Adds facts for readers.
+    pub fn facts(mut self, facts: impl IntoIterator<Item = Fact>) -> Self {
+        self.facts.extend(facts);
+        self
+    }
+
+    /// Adds positions with their names.
+    pub fn positions(mut self, positions: impl IntoIterator<Item = (Fact, State)>) -> Self {
+        self.positions.extend(positions);
         self
     }
 }

@@ -1,7 +1,9 @@
 //! The start of an analysis.
 
+use super::fact::Fact;
 use crate::analyses::dynamics::Run;
 use crate::analyses::State;
+use serde_json::Value;
 
 /// The state in which an analysis starts.
 #[derive(Clone, Debug, PartialEq)]
@@ -21,6 +23,11 @@ impl StartState {
     /// The same drivers in another state.
     pub fn at(&self, state: State) -> Self {
         Self { state, released: self.released.clone() }
+    }
+
+    /// The position, for readers of an analysis that examines it.
+    pub fn examined(&self) -> (Fact, State) {
+        (Fact::new("examined position", Value::Null), self.state.clone())
     }
 
     /// The end of a motion that begins here.
