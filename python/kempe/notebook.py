@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 from kempe.errors import KempeError
 
 if TYPE_CHECKING:
-    from kempe.model import Model
-    from kempe.solution import Solution
-    from kempe.state import State
+    from kempe.model.model import Model
+    from kempe.results.solution import Solution
+    from kempe.results.state import State
 
 #: Width of a drawing, pixels.
 _WIDTH = 480
@@ -21,7 +21,7 @@ _MOST_ROWS = 30
 
 def of_model(model: Model) -> str:
     """Drawing of the assembled mechanism, and its bodies and elements."""
-    from kempe.analyses import assemble
+    from kempe.analyses.dynamics import assemble
 
     try:
         import warnings

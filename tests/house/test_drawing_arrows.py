@@ -7,12 +7,11 @@ from pathlib import Path
 import pytest
 from house.places import PACKAGE
 
-#: What each folder may import of the others; plot draws what studies found, and a report shows it.
+#: What each folder may import of the others; a report shows figures.
 ALLOWED = {
     "draw": set(),
-    "studies": set(),
-    "plot": {"draw", "studies"},
-    "lab_report": {"plot", "draw", "studies"},
+    "plot": {"draw"},
+    "lab_report": {"plot", "draw"},
 }
 
 

@@ -12,9 +12,9 @@ from kempe.cli.figures import Drawing
 from kempe.cli.results import write_result
 from kempe.plot import Page, pages
 from kempe.plot import result_pages as listed
-from kempe.result import Result
-from kempe.state import State
-from kempe.table import Column
+from kempe.results.result import Result
+from kempe.results.state import State
+from kempe.results.table import Column
 from matplotlib.figure import Figure
 
 

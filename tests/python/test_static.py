@@ -9,7 +9,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from command_line import kempe
-from kempe.variable import Variable
+from kempe.results.variable import Variable
 from numpy.testing import assert_allclose
 
 SIZES = [(1e-3, 1e3), (1.0, 1.0), (1e3, 1e-3)]

@@ -35,7 +35,7 @@ PAGES = {
         "and is what a file contains.",
         (
             "kempe.Model",
-            "kempe.ground.Ground",
+            "kempe.model.ground.Ground",
             "kempe.Sampled",
             "kempe.Case",
             "kempe.load",
@@ -46,7 +46,7 @@ PAGES = {
         "Elements",
         "One class for each joint, driver and force. The method of `kp.Model` with the name of its "
         "type adds it: `m.revolute(...)` adds a `Revolute`.",
-        ("kempe.elements",),
+        ("kempe.model.elements",),
     ),
     "analyses": ApiPage(
         "Analyses",

@@ -6,11 +6,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from kempe.analyses.mode_shape import ModeShape
+from kempe.analyses.modes import ModesResult
 from kempe.draw.items import Item
 from kempe.draw.oscillation import bounds_of
 from kempe.draw.scene import Scene, scene
-from kempe.linearization import ModesResult
-from kempe.mode_shape import ModeShape
 from kempe.plot import style
 from kempe.plot.page import Page
 from kempe.plot.picture import drawn

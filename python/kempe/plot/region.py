@@ -13,7 +13,7 @@ from kempe.plot.picture import at_rest, drawn, frame, paint
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from kempe.region import ReachableResult
+    from kempe.analyses.reachable import ReachableResult
 
 #: Margins around the axes, and the largest height of the axes, mm.
 _LEFT, _RIGHT, _ABOVE, _BELOW = 19.0, 3.0, 7.0, 11.0

@@ -9,22 +9,22 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kempe.arrays import Floats
-from kempe.display_units import display
+from kempe.base.arrays import Floats
+from kempe.base.display_units import display
 from kempe.draw.scene import scene
 from kempe.draw.units import Scale, scale
-from kempe.measures import parameter_unit
 from kempe.plot import style
 from kempe.plot.page import Page
 from kempe.plot.picture import drawn, frame, paint
+from kempe.results.measures import parameter_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from kempe.analyses.equilibrium_result import EquilibriumResult
     from kempe.draw.scene import Scene
-    from kempe.rest import EquilibriumResult
-    from kempe.state import State
+    from kempe.results.state import State
 
 #: Margins around the axes of a drawing, and their largest height, mm.
 _LEFT, _RIGHT, _ABOVE, _BELOW = 19.0, 3.0, 7.0, 11.0

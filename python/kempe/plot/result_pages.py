@@ -12,7 +12,7 @@ from kempe.plot.page import Page
 from kempe.plot.region import pages as region_pages
 from kempe.plot.rest import rest_pages
 from kempe.plot.sheet import pages as sheets
-from kempe.result import Result
+from kempe.results.result import Result
 
 #: The function that lists the figures of a result, by the type of the analysis. It is called with
 #: the result and the number of the first body.

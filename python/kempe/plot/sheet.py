@@ -13,7 +13,7 @@ from kempe.plot.picture import at_rest, drawn, frame, paint
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from kempe.closures import ConfigurationsResult
+    from kempe.analyses.configurations import ConfigurationsResult
 
 #: Panels beside each other, and on one sheet.
 _COLUMNS, _MOST = 3, 12
