@@ -63,7 +63,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from kempe import _processor
+from kempe import _processor, _upwards
 from kempe._version import __version__
 
 _processor.load_core()
@@ -140,10 +140,10 @@ if TYPE_CHECKING:
     from kempe.results.assembly_report import AssemblyReport as AssemblyReport
     from kempe.results.energy import Energy as Energy
     from kempe.results.events import EventWarning as EventWarning
-    from kempe.results.matrices import Labelled as Labelled
-    from kempe.results.matrices import Matrices as Matrices
-    from kempe.results.matrices import show as show
     from kempe.results.matrices.equations import equations as equations
+    from kempe.results.matrices.labelled import Labelled as Labelled
+    from kempe.results.matrices.labelled import show as show
+    from kempe.results.matrices.values import Matrices as Matrices
     from kempe.results.motion import Motion as Motion
     from kempe.results.solution import Solution as Solution
     from kempe.results.state import State as State
@@ -183,12 +183,12 @@ _HOME = {
     "InverseDynamics": "analyses.options",
     "KempeError": "errors",
     "Kinematics": "analyses.options",
-    "Labelled": "results.matrices",
+    "Labelled": "results.matrices.labelled",
     "Limits": "analyses.options",
     "LimitsResult": "analyses.limits",
     "Reachable": "analyses.options",
     "ReachableResult": "analyses.reachable",
-    "Matrices": "results.matrices",
+    "Matrices": "results.matrices.values",
     "Mobility": "analyses.options",
     "MobilityResult": "analyses.mobility",
     "Model": "model.model",
@@ -234,7 +234,7 @@ _HOME = {
     "plot": "",
     "report": "",
     "scene": "draw.scene",
-    "show": "results.matrices",
+    "show": "results.matrices.labelled",
     "stiffness_at": "analyses.equilibrium",
     "still": "draw.still",
     "study": "sweeps.studies",
@@ -257,6 +257,30 @@ def __getattr__(name: str) -> Any:
     )
     globals()[name] = value
     return value
+
+
+# The calls upwards; see _upwards.py.
+
+
+def _html(of: Any) -> str:
+    from kempe.notebook import html
+
+    return html(of)
+
+
+def _model(compiled: Any) -> Any:
+    from kempe.model.model import Model
+
+    return Model.of_compiled(compiled)
+
+
+def _state(*parts: Any, **more: Any) -> Any:
+    from kempe.results.state import State
+
+    return State(*parts, **more)
+
+
+_upwards.CALLS.update(html=_html, model=_model, state=_state)
 
 
 def __dir__() -> list[str]:

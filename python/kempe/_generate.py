@@ -65,6 +65,7 @@ from dataclasses import dataclass
 from typing import ClassVar{words}, TypeVar
 
 from kempe.model.element import Element
+from kempe.model.functions import {laws}
 from kempe.model.values import {imports}
 
 E = TypeVar("E", bound=Element)
@@ -103,13 +104,18 @@ def source(catalogue: str) -> str:
             field["of_force"] = section == "forces"
     used = {element_type(field) for _, table in tables for field in table["fields"]}
     words = ", Literal" if any(kind.startswith("Literal") for kind in used) else ""
-    imports = ", ".join(
-        sorted(used & {"Law", "LawPair", "Number", "Numbers", "Pair", "Terms", "Words"})
+    laws, imports = (
+        ", ".join(sorted(used & names))
+        for names in ({"Law", "LawPair"}, {"Number", "Numbers", "Pair", "Terms", "Words"})
     )
     classes = [element_class(section, table) for section, table in tables]
     methods = [method(table) for _, table in tables]
     return "\n\n".join(
-        [HEADER.format(imports=imports, words=words), *classes, "\n".join([METHODS, *methods])]
+        [
+            HEADER.format(laws=laws, imports=imports, words=words),
+            *classes,
+            "\n".join([METHODS, *methods]),
+        ]
     )
 
 

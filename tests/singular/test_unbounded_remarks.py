@@ -15,9 +15,9 @@ import pytest
 from kempe import design
 from kempe.cli.findings import show_findings
 from kempe.lab_report.write import page
+from kempe.model.measure_infos import measure_info
 from kempe.plot import pages
 from kempe.results import remarks
-from kempe.results.measures import measure_info
 from matplotlib.axes import Axes
 from rich.console import Console
 from singular.equal_cranks import cranks, run

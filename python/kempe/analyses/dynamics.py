@@ -20,10 +20,11 @@ from kempe.base.names import one_of, unknown
 from kempe.errors import ModelError
 from kempe.model.compiled import CompiledModel
 from kempe.model.functions import FunctionWarning
+from kempe.model.infos import Setting
 from kempe.model.model import Model, Redundancy, compiled_model
 from kempe.model.values import Number, number, numbers
 from kempe.results.assembly_report import AssemblyReport
-from kempe.results.phases import Setting
+from kempe.results.events import EventWarning, true_at_start, warnings_of
 from kempe.results.solution import Solution
 from kempe.results.state import State
 
@@ -192,8 +193,6 @@ def _simulate(
         warnings.warn(doubt, AccuracyWarning, stacklevel=3)
     declared = any(any(info.events) for info in model.constraints.values())
     if declared or run.events:
-        from kempe.results.events import EventWarning, true_at_start, warnings_of
-
         for warning in [*warnings_of(solution), *true_at_start(solution, entry)]:
             warnings.warn(warning, EventWarning, stacklevel=3)
     return solution

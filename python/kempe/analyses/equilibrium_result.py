@@ -13,8 +13,8 @@ from kempe.analyses.record import Record
 from kempe.base.arrays import Floats, fixed
 from kempe.base.display_units import display
 from kempe.model.compiled import CompiledModel
+from kempe.model.measure_infos import parameter_unit
 from kempe.results import quantities
-from kempe.results.measures import parameter_unit
 from kempe.results.result import Result
 from kempe.results.state import State
 from kempe.results.table import Column, column

@@ -12,7 +12,7 @@ from kempe.cli.console import figure, heading, table
 
 if TYPE_CHECKING:
     from kempe.model.values import Number
-    from kempe.results.matrices import Matrices
+    from kempe.results.matrices.values import Matrices
     from kempe.results.state import State
 
 #: Largest number of columns of a printed Jacobian.

@@ -27,7 +27,7 @@ from kempe.errors import FileError, ModelError
 
 if TYPE_CHECKING:
     from kempe.case import Case
-    from kempe.results.matrices import Labelled
+    from kempe.results.matrices.labelled import Labelled
     from kempe.results.solution import Solution
     from kempe.results.state import State
 
@@ -156,7 +156,7 @@ def _put(text: str, output: Path | None) -> None:
 
 
 def _matrices(case: Case, state: State, wanted: list[str], assembly: bool) -> Iterator[Labelled]:
-    from kempe.results.matrices import show as labelled
+    from kempe.results.matrices.labelled import show as labelled
 
     held = case.held if assembly else {}
     positions = {name: value for name, value in held.items() if name in state.model.column_names()}

@@ -13,7 +13,7 @@ from kempe.errors import ModelError
 from kempe.model.compiled import CompiledModel, ConstraintInfo, Vector
 from kempe.model.values import vector
 from kempe.results.motion import Motion
-from kempe.results.views import PointView
+from kempe.results.views.body import PointView
 
 #: A point: "coupler.P", or a body and coordinates in its frame: ("coupler", (0.1, 0.2)), m.
 Place: TypeAlias = "str | tuple[str, Vector]"

@@ -13,8 +13,8 @@ from kempe.lab_report.blocks import Block, Cell, Matrix, Number, Paragraph, Poin
 from kempe.lab_report.data import initial_set
 from kempe.lab_report.printed import FEW, number, quantity, tidy
 from kempe.lab_report.subject import Subject
-from kempe.results.matrices import Labelled
-from kempe.results.matrices import show as labelled
+from kempe.results.matrices.labelled import Labelled
+from kempe.results.matrices.labelled import show as labelled
 from kempe.results.matrices.writing import number as entry
 from kempe.results.state import State
 

@@ -10,6 +10,7 @@ from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 from kempe import _core
+from kempe._upwards import CALLS
 from kempe.base.names import entry
 from kempe.model.functions import Functions, refuse_saving
 from kempe.model.infos import (
@@ -19,6 +20,7 @@ from kempe.model.infos import (
     BodyInfo,
     ConstraintInfo,
     ForceInfo,
+    Setting,
     Vector,
     body,
     constraint,
@@ -26,11 +28,10 @@ from kempe.model.infos import (
     vector,
 )
 from kempe.model.lookup_tables import TableInfo
+from kempe.model.measure_infos import MeasureInfo, measure_infos
 
 if TYPE_CHECKING:
     from kempe.model.model import Model
-    from kempe.results.measures import MeasureInfo
-    from kempe.results.phases import Setting
 
 __all__ = [
     "ACCELERATIONS",
@@ -82,9 +83,7 @@ class CompiledModel:
     def model(self) -> Model:
         """The model that was compiled; if there was none, it is built from the case."""
         if self._model is None:
-            from kempe.model.model import Model
-
-            self._model = Model.of_compiled(self)
+            self._model = CALLS["model"](self)
         return self._model
 
     @property
@@ -258,8 +257,6 @@ class CompiledModel:
     @cached_property
     def measures(self) -> Mapping[str, MeasureInfo]:
         """The measures, in the order of the file."""
-        from kempe.results.measures import measure_infos
-
         return MappingProxyType({info.name: info for info in measure_infos(self)})
 
     @cached_property

@@ -6,7 +6,8 @@ from collections.abc import Mapping
 from dataclasses import MISSING, dataclass, fields
 from typing import Any, ClassVar
 
-from kempe.model.values import CHECKS, reference
+from kempe.model.functions import ELEMENT_CHECKS
+from kempe.model.values import reference
 
 
 @dataclass(frozen=True)
@@ -34,7 +35,7 @@ class Element:
         for field, shape in self.value_kinds.items():
             value = getattr(self, field)
             if value is not None:
-                checked = CHECKS[shape](value, f"{self.section}.{self.name}.{field}")
+                checked = ELEMENT_CHECKS[shape](value, f"{self.section}.{self.name}.{field}")
                 object.__setattr__(self, field, checked)
 
     def tree(self) -> dict[str, Any]:

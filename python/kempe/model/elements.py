@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from typing import ClassVar, Literal, TypeVar
 
 from kempe.model.element import Element
-from kempe.model.values import Law, LawPair, Number, Numbers, Pair, Terms, Words
+from kempe.model.functions import Law, LawPair
+from kempe.model.values import Number, Numbers, Pair, Terms, Words
 
 E = TypeVar("E", bound=Element)
 

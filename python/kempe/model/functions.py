@@ -4,14 +4,16 @@ from __future__ import annotations
 
 import pickle
 import weakref
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from types import FunctionType, MethodType, ModuleType
 from typing import TYPE_CHECKING, Any, NoReturn, TypeAlias
 
+from kempe._upwards import CALLS
 from kempe.base.arrays import Floats
 from kempe.errors import ModelError, Problem
+from kempe.model.values import CHECKS, number, refuse, two
 
 if TYPE_CHECKING:
     from kempe.model.compiled import CompiledModel
@@ -51,8 +53,6 @@ class Sampled:
 
     def __post_init__(self) -> None:
         """Check the fields."""
-        from kempe.model.values import number, refuse
-
         if not callable(self.f):
             refuse("Sampled.f", f"{self.f!r} is not a function f(t, state)")
         for field in ("period", "start"):
@@ -106,6 +106,43 @@ class FunctionLaw:
     def __repr__(self) -> str:
         name = getattr(self.f, "__name__", type(self.f).__name__)
         return f"<Python function {name!r}>"
+
+
+#: A number, a formula, or a Python function ``f(t, state)``.
+Law: TypeAlias = "float | str | Function | Sampled"
+#: Two of them.
+LawPair: TypeAlias = "Sequence[float | str | Function | Sampled]"
+
+
+#: The sections whose laws may be Python functions.
+_WITH_FUNCTIONS = "forces."
+
+
+def law(value: object, path: str) -> float | str | FunctionLaw:
+    """A number, a formula, or for a force a Python function."""
+    if not callable(value) and not isinstance(value, Sampled):
+        return value if isinstance(value, FunctionLaw) else number(value, path)
+    if not path.startswith(_WITH_FUNCTIONS):
+        refuse(
+            path,
+            "a Python function can only be a law of a force: derivatives of the laws of joints and "
+            "drivers are needed; write a formula or a table",
+        )
+    return FunctionLaw(path, value)
+
+
+def law_pair(value: object, path: str) -> tuple[float | str | FunctionLaw, ...]:
+    """Two numbers, formulas or Python functions."""
+    first, second = two(value, path, "two numbers or formulas")
+    return law(first, f"{path}[0]"), law(second, f"{path}[1]")
+
+
+#: The check for each kind of field of an element.
+ELEMENT_CHECKS: Mapping[str, Callable[[object, str], Any]] = {
+    **CHECKS,
+    "law": law,
+    "law_pair": law_pair,
+}
 
 
 def memory(f: Any) -> bytes:
@@ -211,14 +248,13 @@ class Functions:
 
     def state(self, x: Floats) -> State:
         """The state with t, q, v and z."""
-        from kempe.results.state import State
-
         compiled = self._compiled()
         if compiled is None:
             raise ModelError("the model of this function no longer exists")
         n = 1 + compiled.n_q
         v, z = x[n : n + compiled.n_q], x[n + compiled.n_q :]
-        return State(compiled, x[0], x[1:n], v, z=z)
+        state: State = CALLS["state"](compiled, x[0], x[1:n], v, z=z)
+        return state
 
 
 def _found(tree: Mapping[str, Any]) -> Iterator[tuple[str, str, int | None, FunctionLaw]]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from types import MappingProxyType
-from typing import Any
+from typing import Any, TypeAlias
 
 from kempe.base.names import few
 
@@ -14,6 +14,10 @@ RATES = ("vx", "vy", "omega")
 ACCELERATIONS = ("ax", "ay", "alpha")
 
 Vector = tuple[float, float]
+#: Force, name of its mode, sign, leader and held value.
+Mode: TypeAlias = "tuple[int, str, float, int, float]"
+#: Values of parameters that differ from those of the case, released drivers, and modes of forces.
+Setting: TypeAlias = "tuple[list[tuple[str, float]], list[str], list[Mode]]"
 
 
 @dataclass(frozen=True, repr=False)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, Literal, TypeAlias
 
 from kempe import _core
+from kempe._upwards import CALLS
 from kempe.base.names import few, unknown
 from kempe.errors import ModelError
 from kempe.model.body_methods import BodyMethods
@@ -322,9 +323,7 @@ class Model(BodyMethods, ElementMethods, MeasureMethods, TreeMethods):
         return f"<Model {self.title!r}: {'; '.join(parts) or 'empty'}>"
 
     def _repr_html_(self) -> str:
-        from kempe.notebook import of_model
-
-        return of_model(self)
+        return str(CALLS["html"](self))
 
 
 def compiled_model(model: Model | CompiledModel) -> CompiledModel:

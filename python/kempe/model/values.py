@@ -11,7 +11,6 @@ from numbers import Integral, Real
 from typing import Any, NoReturn, TypeAlias
 
 from kempe.errors import ModelError, Problem
-from kempe.model.functions import Function, FunctionLaw, Sampled
 
 #: A number in SI units, or a formula in the parameters of the model as text.
 Number: TypeAlias = "float | str"
@@ -19,10 +18,6 @@ Number: TypeAlias = "float | str"
 Pair: TypeAlias = "Sequence[float | str]"
 #: Pairs, such as ranges.
 Pairs: TypeAlias = "Sequence[Pair]"
-#: A number, a formula, or a Python function ``f(t, state)``.
-Law: TypeAlias = "float | str | Function | Sampled"
-#: Two of them.
-LawPair: TypeAlias = "Sequence[float | str | Function | Sampled]"
 #: Numbers or formulas.
 Numbers: TypeAlias = "Sequence[float | str]"
 #: Numbers or formulas by the names of quantities.
@@ -73,29 +68,6 @@ def number(value: object, path: str) -> float | str:
     return _finite(value, path)
 
 
-#: The sections whose laws may be Python functions.
-_WITH_FUNCTIONS = "forces."
-
-
-def law(value: object, path: str) -> float | str | FunctionLaw:
-    """A number, a formula, or for a force a Python function."""
-    if not callable(value) and not isinstance(value, Sampled):
-        return value if isinstance(value, FunctionLaw) else number(value, path)
-    if not path.startswith(_WITH_FUNCTIONS):
-        refuse(
-            path,
-            "a Python function can only be a law of a force: derivatives of the laws of joints and "
-            "drivers are needed; write a formula or a table",
-        )
-    return FunctionLaw(path, value)
-
-
-def law_pair(value: object, path: str) -> tuple[float | str | FunctionLaw, ...]:
-    """Two numbers, formulas or Python functions."""
-    first, second = _two(value, path, "two numbers or formulas")
-    return law(first, f"{path}[0]"), law(second, f"{path}[1]")
-
-
 def _finite(value: Real, path: str) -> float:
     try:
         result = float(value)
@@ -106,7 +78,7 @@ def _finite(value: Real, path: str) -> float:
 
 def pair(value: object, path: str) -> tuple[float | str, float | str]:
     """Two numbers or formulas from any sequence of two."""
-    first, second = _two(value, path, "two numbers or formulas")
+    first, second = two(value, path, "two numbers or formulas")
     return number(first, f"{path}[0]"), number(second, f"{path}[1]")
 
 
@@ -178,7 +150,7 @@ def mapping(value: object, path: str, form: str) -> Mapping[Any, Any]:
 
 def names(value: object, path: str) -> tuple[str, str]:
     """Two names."""
-    first, second = _two(value, path, "two names")
+    first, second = two(value, path, "two names")
     return reference(first, f"{path}[0]"), reference(second, f"{path}[1]")
 
 
@@ -250,7 +222,8 @@ def tolerance(value: object, path: str) -> float | str | dict[str, float | str]:
     return numbers(value, path) if isinstance(value, Mapping) else number(value, path)
 
 
-def _two(value: object, path: str, what: str) -> tuple[object, object]:
+def two(value: object, path: str, what: str) -> tuple[object, object]:
+    """The entries of a sequence of two."""
     if callable(value):
         refuse(path, "one Python function; write two, or formulas as text")
     entries = None if isinstance(value, str | bytes | Mapping) else _listed(value)
@@ -320,18 +293,16 @@ def data(value: Any) -> Any:
     return [data(entry) for entry in value] if isinstance(value, list | tuple) else value
 
 
-#: The check for each kind of field.
+#: The check for each kind of field; ``functions`` has those of laws.
 CHECKS: Mapping[str, Callable[[object, str], Any]] = {
     "body": reference,
     "point": reference,
     "coordinate": reference,
     "joint": reference,
     "number": number,
-    "law": law,
     "pair": pair,
     "ranges": pairs,
     "triple": triple,
-    "law_pair": law_pair,
     "laws": listed_numbers,
     "terms": numbers,
     "units": listed_words,

@@ -13,8 +13,8 @@ from kempe.plot import style
 from kempe.plot.curves import draw
 from kempe.plot.panel import Curve, Panel, curve, times
 from kempe.plot.remarked import note
-from kempe.results.measures import values
 from kempe.results.motion import Motion
+from kempe.results.quantities import measure_values as values
 from kempe.results.remarks import choice_of, measure_unbounded_at, remark
 
 if TYPE_CHECKING:

@@ -13,10 +13,10 @@ from kempe.base.arrays import Floats
 from kempe.base.display_units import display
 from kempe.draw.scene import scene
 from kempe.draw.units import Scale, scale
+from kempe.model.measure_infos import parameter_unit
 from kempe.plot import style
 from kempe.plot.page import Page
 from kempe.plot.picture import drawn, frame, paint
-from kempe.results.measures import parameter_unit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

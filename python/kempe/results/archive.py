@@ -1,4 +1,4 @@
-"""Files of solutions: NumPy arrays and one JSON text that contains the case, without pickle.
+"""Reading files of solutions, which ``saving`` writes.
 
 A file is checked before its data are read. The names, types and sizes of the arrays in its
 directory and their headers are checked first, then the numbers. Arrays that do not belong to a
@@ -20,20 +20,17 @@ import numpy as np
 from numpy.lib import format as npy
 
 from kempe import _core
-from kempe._version import __version__
 from kempe.base import files
 from kempe.base.arrays import Floats
 from kempe.errors import FileError, KempeError
 from kempe.model.compiled import CompiledModel
 from kempe.results.dense import WORKS
 from kempe.results.phases import Settings
-from kempe.results.runs import EventRows, StoredRun
-from kempe.results.solution import STATUS, Solution
+from kempe.results.runs import STATUS, EventRows, StoredRun
+from kempe.results.saving import EVENTS, KIND, LAYOUT
+from kempe.results.solution import Solution
 from kempe.results.variable import TIME, Variable
 
-KIND = "kempe solution"
-#: Version of the file layout.
-LAYOUT = 1
 #: The largest JSON text, bytes: a case has at most 16 MiB, and NumPy takes 4 bytes for a letter.
 _LARGEST_TEXT = 16 * files.LARGEST_TEXT
 _HIGHEST_DEGREE = 32
@@ -43,51 +40,9 @@ _SAMPLES = 9
 #: Statistics that are counts.
 _COUNTS = {"steps", "rejected", "evaluations", "jacobians", "iterations", "factorisations"}
 _DENSE = ("dense_t", "dense_y", "dense_c")
-_EVENTS = ("event_t", "event_q", "event_v", "event_z", "event_impulses")
 
 #: Letters for the sizes of an array, such as n for the number of times, or the size itself.
 _Shape = tuple["int | str", ...]
-
-
-def save(solution: Solution, path: Path | str) -> None:
-    """Write a solution completely or not at all; see ``Solution.save``."""
-    arrays = {name: getattr(solution, name) for name in ("t", "q", "v", "z", "a", "lam")}
-    arrays["energy"] = solution.energy.columns
-    if solution.dense is not None:
-        dense = solution.dense
-        arrays |= {"dense_t": dense.t, "dense_y": dense.y, "dense_c": dense.c}
-    arrays |= _event_arrays(solution)
-    about = json.dumps(_about(solution), allow_nan=False)
-    with files.writing(path) as file:
-        np.savez(file, about=np.array(about), **arrays)
-
-
-def _about(solution: Solution) -> dict[str, Any]:
-    settings = solution._run.settings
-    return {
-        "kind": KIND,
-        "layout": LAYOUT,
-        "kempe": __version__,
-        "core": _core.version(),
-        "numpy": np.__version__,
-        "case": json.loads(solution._base.case),
-        "status": next(name for name, status in STATUS.items() if status == solution.status),
-        "message": solution.message,
-        "statistics": dict(solution.statistics),
-        "projection": solution._run.projection,
-        "settings": [[row, list(map(list, p)), *rest] for row, (p, *rest) in settings],
-        "variable": [solution.variable.name, solution.variable.unit],
-        "static": solution.variable.static,
-        "events": [[name, len(t)] for name, t, *_ in solution._run.events],
-    }
-
-
-def _event_arrays(solution: Solution) -> dict[str, Floats]:
-    """The states of all events, one event after the other; empty if no event occurred."""
-    if not any(len(t) for _, t, *_ in solution._run.events):
-        return {}
-    columns = list(zip(*solution._run.events, strict=True))[1:]
-    return {name: np.concatenate(part) for name, part in zip(_EVENTS, columns, strict=True)}
 
 
 def load_solution(path: Path | str) -> Solution:
@@ -206,7 +161,7 @@ def _shapes(stored: zipfile.ZipFile, model: CompiledModel) -> dict[str, _Shape]:
     if present & {f"{name}.npy" for name in _DENSE}:
         n_y = 2 * model.n_q + model.n_z + WORKS
         shapes |= {"dense_t": ("k + 1",), "dense_y": ("k", n_y), "dense_c": ("k", n_y, "degree")}
-    if present & {f"{name}.npy" for name in _EVENTS}:
+    if present & {f"{name}.npy" for name in EVENTS}:
         widths = {"event_q": model.n_q, "event_v": model.n_q, "event_z": model.n_z}
         widths |= {"event_impulses": model.n_multipliers}
         shapes |= {"event_t": ("events",)}
@@ -287,7 +242,7 @@ def _events(about: Mapping[str, Any], arrays: Mapping[str, Floats]) -> list[Even
         _refuse("its events are damaged")
     ends = np.cumsum([n for _, n in counts])
     widths = [arrays[name].shape[1] for name in ("q", "v", "z", "lam")]
-    empty = dict(zip(_EVENTS, [np.zeros(0), *(np.zeros((0, n)) for n in widths)], strict=True))
+    empty = dict(zip(EVENTS, [np.zeros(0), *(np.zeros((0, n)) for n in widths)], strict=True))
     found: list[EventRows] = []
     for (name, n), end in zip(counts, ends, strict=True):
         t, *rows = (arrays.get(part, none)[end - n : end] for part, none in empty.items())

@@ -4,20 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from functools import partial
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from kempe import _core
 from kempe.base.arrays import Floats
-from kempe.results.fine import fine
-from kempe.results.motion import Motion
+from kempe.results.fine import continuous, fine
 from kempe.results.refine import Indices, Maxima
-from kempe.results.solution import Solution
+
+if TYPE_CHECKING:
+    from kempe.results.motion import Motion
+    from kempe.results.solution import Solution
 
 #: A quantity of a motion, (n_t,), such as ``lambda motion: motion.body("crank").omega``.
-Quantity = Callable[[Motion], Floats]
+Quantity: TypeAlias = "Callable[[Motion], Floats]"
 
 
 class _Passed(NamedTuple):
@@ -93,10 +95,10 @@ def unbounded(motion: Motion, quantity: Quantity) -> Floats:
 
 def passes_singular(motion: Motion) -> bool:
     """Whether a run passes positions beside which multipliers are meaningless."""
-    if fine(motion) is motion:
+    solution = continuous(motion)
+    if solution is None or fine(solution) is solution:
         return False
-    assert isinstance(motion, Solution)
-    found = _singular(motion).maxima
+    found = _singular(solution).maxima
     return found is not None and len(found.near) > 0
 
 
@@ -118,16 +120,15 @@ def _extreme(motion: Motion, quantity: Quantity, sign: float) -> Extreme:
 
 def _maxima(motion: Motion, quantity: Quantity, sign: float) -> Maxima | None:
     """The maxima of sign times a quantity; None for a constant and without an interpolant."""
-    dense = fine(motion)
-    if dense is motion:
+    solution = continuous(motion)
+    if solution is None or (dense := fine(solution)) is solution:
         return None
-    assert isinstance(motion, Solution)
-    passed = _singular(motion)
+    passed = _singular(solution)
     values = sign * np.atleast_1d(quantity(dense))[passed.keep]
     if not _core.changes(values):
         return None
-    read = partial(_read, motion, quantity, sign)
-    return Maxima(read, passed.t, values, passed.maxima, resolved=_resolved(motion))
+    read = partial(_read, solution, quantity, sign)
+    return Maxima(read, passed.t, values, passed.maxima, resolved=_resolved(solution))
 
 
 def _read(solution: Solution, quantity: Quantity, sign: float, t: Floats) -> Floats:

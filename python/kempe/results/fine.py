@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -11,8 +12,10 @@ from kempe import _core
 from kempe.base.arrays import Floats
 from kempe.errors import KempeError
 from kempe.results.energy import Energy
-from kempe.results.motion import Motion
-from kempe.results.solution import Solution
+
+if TYPE_CHECKING:
+    from kempe.results.motion import Motion
+    from kempe.results.solution import Solution
 
 _known: WeakKeyDictionary[Solution, Motion] = WeakKeyDictionary()
 
@@ -30,11 +33,17 @@ def fine(motion: Motion) -> Motion:
         The motion at these instants. It is the solution itself if there is no interpolant, or if
         the reactions are not unique at one of the instants.
     """
-    if not isinstance(motion, Solution) or motion.dense is None or len(motion.t) < 2:
+    solution = continuous(motion)
+    if solution is None or len(solution.t) < 2:
         return motion
-    if motion not in _known:
-        _known[motion] = _evaluated(motion)
-    return _known[motion]
+    if solution not in _known:
+        _known[solution] = _evaluated(solution)
+    return _known[solution]
+
+
+def continuous(motion: Motion) -> Solution | None:
+    """A motion that is a solution with an interpolant; None for any other motion."""
+    return motion if getattr(motion, "dense", None) is not None else None  # type: ignore[return-value]
 
 
 def _evaluated(solution: Solution) -> Motion:

@@ -6,98 +6,25 @@ A measure such as ``pin = "C.force"`` is declared in ``[measures]`` of a file or
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from kempe import _core
-from kempe.base.arrays import Floats, fixed
 from kempe.base.names import entry
-from kempe.results import quantities, remarks
+from kempe.model.measure_infos import MeasureInfo
+from kempe.results import remarks
 from kempe.results.dominant_frequency import dominant_frequency
+from kempe.results.extrema import Extreme, largest, least
+from kempe.results.quantities import values_of
+from kempe.results.settling import settling
 
 if TYPE_CHECKING:
-    from kempe.model.compiled import CompiledModel
-    from kempe.results.extrema import Extreme
-    from kempe.results.motion import Motion
     from kempe.results.solution import Solution
 
 #: The statistics of a measure, in the order of tables.
 STATISTICS = ("max", "min", "peak", "mean", "rms", "final", "settling", "frequency")
-
-
-@dataclass(frozen=True)
-class MeasureInfo:
-    """A measure of a model.
-
-    Attributes:
-        name: name of the measure.
-        expression: the expression, as written.
-        quantities: names of the quantities that it uses, each once.
-        unit: its SI unit; "1" for a number, "SI" if it does not follow from the expression.
-        is_of_run: whether it uses energies or balances of a run, which exist at the outputs only.
-        solves: whether it needs accelerations or multipliers.
-    """
-
-    name: str
-    expression: str
-    quantities: tuple[str, ...]
-    unit: str
-    is_of_run: bool
-    solves: bool
-
-
-def measure_infos(model: CompiledModel) -> Iterator[MeasureInfo]:
-    """The measures of a compiled model, in the order of the file."""
-    for name, expression in model.tree.get("measures", {}).items():
-        yield measure_info(model, expression, name)
-
-
-def measure_info(model: CompiledModel, expression: str, name: str = "") -> MeasureInfo:
-    """An expression of quantities as a measure; its name is the expression by default.
-
-    Raises:
-        ModelError: the expression is invalid or contains an unknown name.
-    """
-    used, unit, is_of_run, solves = _core.measure(model.core, expression)
-    return MeasureInfo(name or expression, expression, tuple(used), unit, is_of_run, solves)
-
-
-def parameter_unit(model: CompiledModel, name: str) -> str:
-    """The SI unit of a parameter that is written with one; "SI" for a parameter without a unit."""
-    return str(_core.measure(model.core, f"`{name}`")[1])
-
-
-def values(motion: Motion, name: str) -> Floats:
-    """Values of a measure at the times of a motion, (n_t,).
-
-    Raises:
-        ModelError: there is no such measure, the motion lacks one of its quantities, or the
-            expression has no value at one of the times.
-        SingularityError: a reaction or acceleration is not unique at one of the times.
-    """
-    return values_of(motion, entry("measure", name, motion.compiled.measures))
-
-
-def values_of(motion: Motion, info: MeasureInfo) -> Floats:
-    """Values of an expression, as ``values``."""
-    t = np.atleast_1d(motion.t)
-    compiled = motion.compiled
-    if not info.is_of_run and motion._decided is None and compiled.is_plain:
-        states = (np.atleast_2d(rows) for rows in (motion.q, motion.v, motion.z))
-        solved = (np.atleast_2d(motion.a), np.atleast_2d(motion.lam)) if info.solves else ()
-        return fixed(_core.measure_at(compiled.core, info.expression, t, *states, *solved))
-    columns = [np.atleast_1d(quantities.named(motion, one).read()) for one in info.quantities]
-    given = np.column_stack(columns) if columns else np.empty((len(t), 0))
-    (found,) = motion._by_phase(
-        lambda core, *of: (_core.measure_values(core, info.expression, *of),),
-        t,
-        np.ascontiguousarray(given),
-    )
-    return fixed(found)
 
 
 class Measure:
@@ -154,23 +81,17 @@ class Measure:
 
     @cached_property
     def _highest(self) -> Extreme:
-        from kempe.results.extrema import largest
-
         if self.info.is_of_run:
             return self._at(int(self.values.argmax()))
         return largest(self._solution, partial(values_of, info=self.info))
 
     @cached_property
     def _lowest(self) -> Extreme:
-        from kempe.results.extrema import least
-
         if self.info.is_of_run:
             return self._at(int(self.values.argmin()))
         return least(self._solution, partial(values_of, info=self.info))
 
     def _at(self, row: int) -> Extreme:
-        from kempe.results.extrema import Extreme
-
         return Extreme(float(self.values[row]), float(self.t[row]))
 
     @property
@@ -221,8 +142,6 @@ class Measure:
         the values leave this band in the last tenth of the time, and the first time if they do not
         change.
         """
-        from kempe.results.settling import settling
-
         solution = self._solution
         continuous = solution.dense is not None and not self.info.is_of_run
         found = settling(

@@ -21,7 +21,9 @@ from kempe.results.phases import Phases
 from kempe.results.redundant import redundant
 from kempe.results.remarks import MIDDLE, MINIMUM_NORM, together
 from kempe.results.variable import TIME, Variable
-from kempe.results.views import BodyView, ConstraintView, ForceView
+from kempe.results.views.body import BodyView
+from kempe.results.views.constraint import ConstraintView
+from kempe.results.views.force import ForceView
 
 
 class Motion:

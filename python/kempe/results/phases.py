@@ -9,15 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kempe.base.arrays import Floats
+from kempe.model.infos import Setting
 
 if TYPE_CHECKING:
     from kempe import _core
     from kempe.model.compiled import CompiledModel
 
-#: Force, name of its mode, sign, leader and held value.
-Mode: TypeAlias = "tuple[int, str, float, int, float]"
-#: Values of parameters that differ from those of the case, released drivers, and modes of forces.
-Setting: TypeAlias = "tuple[list[tuple[str, float]], list[str], list[Mode]]"
 #: The first row of each phase, with its setting.
 Settings: TypeAlias = "Sequence[tuple[int, Setting]]"
 

@@ -14,8 +14,9 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from kempe.base.arrays import Floats, scalar
-from kempe.base.names import unknown
+from kempe import _core
+from kempe.base.arrays import Floats, fixed, scalar
+from kempe.base.names import entry, unknown
 from kempe.model.compiled import (
     ACCELERATIONS,
     COORDINATES,
@@ -28,6 +29,7 @@ from kempe.model.compiled import (
 from kempe.results.views.frames import FRAMES
 
 if TYPE_CHECKING:
+    from kempe.model.measure_infos import MeasureInfo
     from kempe.results.motion import Motion
 
 UNITS = (("m", "m", "rad"), ("m/s", "m/s", "rad/s"), ("m/s^2", "m/s^2", "rad/s^2"))
@@ -86,9 +88,37 @@ def names(motion: Motion) -> Iterator[str]:
 
 def _measure_of(motion: Motion, name: str) -> Quantity:
     """A measure as a quantity."""
-    from kempe.results.measures import values  # which read quantities
+    unit = motion.compiled.measures[name].unit
+    return Quantity(unit, lambda: _one(motion, measure_values(motion, name)))
 
-    return Quantity(motion.compiled.measures[name].unit, lambda: _one(motion, values(motion, name)))
+
+def measure_values(motion: Motion, name: str) -> Floats:
+    """Values of a measure at the times of a motion, (n_t,).
+
+    Raises:
+        ModelError: there is no such measure, the motion lacks one of its quantities, or the
+            expression has no value at one of the times.
+        SingularityError: a reaction or acceleration is not unique at one of the times.
+    """
+    return values_of(motion, entry("measure", name, motion.compiled.measures))
+
+
+def values_of(motion: Motion, info: MeasureInfo) -> Floats:
+    """Values of an expression of quantities, as ``measure_values``."""
+    t = np.atleast_1d(motion.t)
+    compiled = motion.compiled
+    if not info.is_of_run and motion._decided is None and compiled.is_plain:
+        states = (np.atleast_2d(rows) for rows in (motion.q, motion.v, motion.z))
+        solved = (np.atleast_2d(motion.a), np.atleast_2d(motion.lam)) if info.solves else ()
+        return fixed(_core.measure_at(compiled.core, info.expression, t, *states, *solved))
+    columns = [np.atleast_1d(_named(motion, one).read()) for one in info.quantities]
+    given = np.column_stack(columns) if columns else np.empty((len(t), 0))
+    (found,) = motion._by_phase(
+        lambda core, *of: (_core.measure_values(core, info.expression, *of),),
+        t,
+        np.ascontiguousarray(given),
+    )
+    return fixed(found)
 
 
 def _owners(motion: Motion) -> Iterator[str]:

@@ -17,13 +17,15 @@ import numpy as np
 
 from kempe.base.display_units import display
 from kempe.base.names import few
+from kempe.results.extrema import peak, unbounded
+from kempe.results.quantities import values_of
 from kempe.results.variable import TIME, Variable
 
 if TYPE_CHECKING:
     from kempe.base.arrays import Floats
     from kempe.model.compiled import CompiledModel
     from kempe.model.infos import ConstraintInfo
-    from kempe.results.measures import MeasureInfo
+    from kempe.model.measure_infos import MeasureInfo
     from kempe.results.motion import Motion
 
 #: The remarks at values that are not unique: which of the possible values is given.
@@ -137,7 +139,6 @@ def poles(motion: Motion, read: Callable[[Motion], Floats]) -> list[float]:
 
     A force that vanishes has none, although its errors grow beside such a position.
     """
-    from kempe.results.extrema import peak, unbounded  # which need solutions
 
     def multipliers(at: Motion) -> Floats:
         return np.asarray(np.linalg.norm(np.atleast_2d(at.lam), axis=1))
@@ -150,8 +151,6 @@ def poles(motion: Motion, read: Callable[[Motion], Floats]) -> list[float]:
 
 def measure_unbounded_at(motion: Motion, info: MeasureInfo) -> tuple[float, ...]:
     """Times of singular positions beside which a measure has no bound."""
-    from kempe.results.extrema import unbounded  # which needs solutions
-    from kempe.results.measures import values_of
 
     def read(at: Motion) -> Floats:
         return values_of(at, info)

@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     Run: TypeAlias = "_core.Run | StoredRun | PartialRun"
 
 
+#: Values of ``status``, as in scipy's ``solve_ivp``: the end was reached, an event stopped the run,
+#: or it failed.
+REACHED, EVENT, STOPPED = 0, 1, -1
+STATUS = {"reached": REACHED, "event": EVENT, "stopped": STOPPED}
 #: Name of an event, its times, and rows of q, v and z there.
 EventRows: TypeAlias = "tuple[str, Floats, Floats, Floats, Floats, Floats]"
 

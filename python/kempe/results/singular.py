@@ -8,14 +8,16 @@ such a position is found from the multipliers on the interpolant.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
 from kempe.base.arrays import Floats
 from kempe.results.extrema import singular_times
-from kempe.results.solution import Solution
-from kempe.results.state import State
+
+if TYPE_CHECKING:
+    from kempe.results.solution import Solution
+    from kempe.results.state import State
 
 #: The smallest σ that counts: beside a singular position, factors have a ridge of its square.
 _LEAST = 1e-5
@@ -72,8 +74,8 @@ def _least(solution: Solution, t: float) -> tuple[float, Floats]:
 
 def _decomposed(solution: Solution, t: float) -> tuple[Floats, Floats]:
     """Singular values of the rows of Phi_q, of length 1, ascending; and the left vectors."""
-    at = solution(t)
-    rows = np.asarray(State(at.compiled, t, at.q, at.v, z=at.z).matrices().Phi_q)
+    state = cast("State", solution(t))  # as at every single time
+    rows = np.asarray(state.matrices().Phi_q)
     lengths = np.linalg.norm(rows, axis=1, keepdims=True)
     left, values, _ = np.linalg.svd(rows / np.where(lengths > 0.0, lengths, 1.0))
     whole = np.zeros(len(rows))

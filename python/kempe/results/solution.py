@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from kempe import _core
+from kempe._upwards import CALLS
 from kempe.base.arrays import Floats, fixed
 from kempe.errors import IntegrationError, KempeError, ModelError, SingularityError
 from kempe.model.compiled import CompiledModel
@@ -20,25 +21,23 @@ from kempe.model.model import compiled_model
 from kempe.results.dense import WORKS, DenseOutput
 from kempe.results.drift import Drift
 from kempe.results.energy import Energy
+from kempe.results.events import EventTimes, events
+from kempe.results.measures import Measure
 from kempe.results.motion import Motion
 from kempe.results.phases import Phases, phases
-from kempe.results.runs import PartialRun, StoredRun
+from kempe.results.runs import REACHED, STATUS, PartialRun, StoredRun
+from kempe.results.saving import save
 from kempe.results.state import State
+from kempe.results.summary import summary
+from kempe.results.table import Extent, dataframe, write_csv
 from kempe.results.variable import TIME, Variable
 
 if TYPE_CHECKING:
     import pandas
 
     from kempe.model.model import Model
-    from kempe.results.events import EventTimes
-    from kempe.results.measures import Measure
     from kempe.results.runs import Run
     from kempe.results.views.frames import Frame
-
-#: Values of ``status``, as in scipy's ``solve_ivp``: the end was reached, an event stopped the run,
-#: or it failed.
-REACHED, EVENT, STOPPED = 0, 1, -1
-STATUS = {"reached": REACHED, "event": EVENT, "stopped": STOPPED}
 
 
 def _project(tolerance: float, core: _core.Model, *rows: Floats) -> tuple[Floats, Floats]:
@@ -168,7 +167,7 @@ class Solution(Motion):
 
     def dissipated(self, name: str) -> Floats:
         """Energy that a force element has dissipated since the start; see ``ForceView``."""
-        from kempe.results.dissipation import dissipated
+        from kempe.results.dissipation import dissipated  # loads polynomials of NumPy
 
         return dissipated(self, name)
 
@@ -204,15 +203,11 @@ class Solution(Motion):
 
         An event that did not occur has no times.
         """
-        from kempe.results.events import events
-
         return events(self)
 
     @cached_property
     def summary(self) -> Mapping[str, Any]:
         """Peaks, energy balance, events, settling times and cost; see ``kempe.report.summary``."""
-        from kempe.report import summary
-
         return MappingProxyType(summary(self))
 
     def measure(self, name: str) -> Measure:
@@ -221,8 +216,6 @@ class Solution(Motion):
         Raises:
             ModelError: there is no such measure; the error is also a ``KeyError``.
         """
-        from kempe.results.measures import Measure
-
         return Measure(self, name)
 
     @property
@@ -332,8 +325,6 @@ class Solution(Motion):
         Raises:
             ModelError: pandas is not installed, or there is no such frame or point.
         """
-        from kempe.results.table import Extent, dataframe
-
         return dataframe(self, Extent(frames, points))
 
     def to_csv(
@@ -358,8 +349,6 @@ class Solution(Motion):
             FileError: the file cannot be written; an existing file is not changed.
             ModelError: there is no such frame or point.
         """
-        from kempe.results.table import Extent, write_csv
-
         write_csv(self, path, Extent(frames, points))
 
     def save(self, path: Path | str) -> None:
@@ -368,14 +357,10 @@ class Solution(Motion):
         Raises:
             FileError: the file cannot be written; an existing file is not changed.
         """
-        from kempe.results.archive import save
-
         save(self, path)
 
     def _repr_html_(self) -> str:
-        from kempe.notebook import of_solution
-
-        return of_solution(self)
+        return str(CALLS["html"](self))
 
     def __repr__(self) -> str:
         count = len(self.t)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from kempe._upwards import CALLS
 from kempe.base.arrays import Floats
 from kempe.base.display_units import display, heading
 from kempe.base.names import few
@@ -12,9 +13,11 @@ from kempe.model.compiled import CompiledModel
 from kempe.model.model import Model
 from kempe.model.values import Number, mapping
 from kempe.results.assembly_report import AssemblyReport
-from kempe.results.matrices import Matrices, matrices
+from kempe.results.matrices.values import Matrices, matrices
 from kempe.results.motion import Motion
-from kempe.results.views import BodyView, ConstraintView, ForceView
+from kempe.results.views.body import BodyView
+from kempe.results.views.constraint import ConstraintView
+from kempe.results.views.force import ForceView
 
 #: Columns of a printed state: quantity, SI unit, and the unit where none was chosen.
 _COLUMNS = (
@@ -177,9 +180,7 @@ class State(Motion):
         return f"<State of {self.compiled.title!r} at {at}: {few(self.compiled.bodies)}>"
 
     def _repr_html_(self) -> str:
-        from kempe.notebook import of_state
-
-        return of_state(self)
+        return str(CALLS["html"](self))
 
 
 def _restored(  # noqa: PLR0917 - a pickle passes positional arguments

@@ -9,15 +9,14 @@ import numpy as np
 
 from kempe._version import __version__
 from kempe.base.arrays import Floats
-from kempe.model.values import instance
 from kempe.results.extremes import Sampled
 from kempe.results.remarks import unbounded_at
 from kempe.results.settling import settling
 from kempe.results.singular import singular_positions
-from kempe.results.solution import Solution
 
 if TYPE_CHECKING:
     from kempe.results.motion import Motion
+    from kempe.results.solution import Solution
     from kempe.results.state import State
 
 #: Angles below this are rounding errors, rad.
@@ -25,13 +24,7 @@ _NO_ANGLE = 1e-9
 
 
 def summary(solution: Solution) -> dict[str, Any]:
-    """Mechanism, initial and final state, peak values, energy balance, events, settling times.
-
-    Peaks and settling times are found on the interpolant, also between the outputs. The residual is
-    the largest at the outputs and at the beginnings of steps, since elsewhere it includes the error
-    of the interpolant. The result can be written as JSON. Units: m, rad, N, N·m, J, s.
-    """
-    instance(solution, Solution, "a solution")
+    """The summary of a solution; see ``kempe.report.summary``."""
     sampled = Sampled(solution)
     compiled = solution.compiled
     return {

@@ -12,8 +12,9 @@ from kempe.analyses.record import driven_by
 from kempe.base.names import unknown
 from kempe.errors import ModelError
 from kempe.model.catalogue import declared
+from kempe.model.measure_infos import measure_info
 from kempe.model.values import refuse
-from kempe.results.measures import measure_info, values_of
+from kempe.results.quantities import values_of
 from kempe.results.state import State
 from kempe.results.variable import Variable
 

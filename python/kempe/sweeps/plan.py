@@ -24,8 +24,8 @@ from kempe.analyses.request_cache import encode
 from kempe.base.arrays import Floats
 from kempe.base.names import one_of
 from kempe.errors import InternalError, KempeError, ModelError
+from kempe.model.measure_infos import measure_info, parameter_unit
 from kempe.model.values import numbers
-from kempe.results.measures import measure_info, parameter_unit
 from kempe.sweeps.reasons import origin_of, reason
 from kempe.sweeps.wanted import Wanted
 

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Any
 from kempe.base.names import unknown
 from kempe.errors import ModelError
 from kempe.model.catalogue import declared
+from kempe.model.measure_infos import MeasureInfo, measure_info
 from kempe.model.values import refuse, texts
-from kempe.results.measures import STATISTICS, Measure, MeasureInfo, measure_info
+from kempe.results.measures import STATISTICS, Measure
 from kempe.results.solution import Solution
 from kempe.results.variable import TIME
 from kempe.sweeps.numbers import driven_model, number, unit_of

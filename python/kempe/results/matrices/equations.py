@@ -12,11 +12,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from kempe import _core
+from kempe.model.model import Model, compiled_model
 from kempe.results.matrices.writing import named
 
 if TYPE_CHECKING:
     from kempe.model.compiled import CompiledModel, ConstraintInfo
-    from kempe.model.model import Model
 
 
 @dataclass(frozen=True)
@@ -112,8 +112,6 @@ def equations(model: Model | CompiledModel) -> list[Equations]:
     Args:
         model: the mechanism.
     """
-    from kempe.model.model import compiled_model
-
     compiled = compiled_model(model)
     tree = compiled.tree
     infos = compiled.constraints.values()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, TypeAlias
@@ -11,18 +10,19 @@ import numpy as np
 
 from kempe.base.arrays import Floats
 from kempe.base.display_units import chosen_for, display, units
+from kempe.base.html import block, table
 from kempe.base.names import one_of
 from kempe.errors import ModelError
+from kempe.model.model import Model, compiled_model
 from kempe.model.values import instance
 from kempe.results.matrices import writing
 from kempe.results.quantities import FORCE_UNITS
+from kempe.results.state import State
 
 if TYPE_CHECKING:
     from kempe.model.compiled import CompiledModel
-    from kempe.model.model import Model
     from kempe.model.values import Number
     from kempe.results.matrices.values import Matrices
-    from kempe.results.state import State
 
 MatrixName: TypeAlias = Literal["M", "Phi", "Phi_q", "nu", "gamma", "Q", "kkt", "rhs", "a", "lam"]
 #: The matrices that can be shown, each with its symbol, its meaning, and the units of a column.
@@ -137,13 +137,11 @@ class Labelled:
         return f"$\\displaystyle {body}$"
 
     def _repr_html_(self) -> str:
-        from kempe.notebook import table
-
         names, columns = self._labels()
         header = ["", *(columns or [self.name])]
         numbers = ([writing.number(value) for value in row] for row in self.cells().tolist())
         rows = [[name, *cells] for name, cells in zip(names, numbers, strict=True)]
-        return f"<div><b>{html.escape(self.title)}</b>{table(header, rows)}</div>"
+        return block(self.title, table(header, rows))
 
     def __array__(self, dtype: object = None, copy: bool | None = None) -> Floats:
         """The values, for conversion by numpy."""
@@ -232,9 +230,6 @@ def _duals(coordinates: Iterable[str]) -> list[str]:
 
 
 def _refuse_foreign(model: Model | CompiledModel, state: State) -> None:
-    from kempe.model.model import compiled_model
-    from kempe.results.state import State
-
     instance(state, State, "a state")
     if list(compiled_model(model).bodies) != list(state.compiled.bodies):
         raise ModelError("the state is of another model", hint="assemble this model")
