@@ -74,10 +74,10 @@ if TYPE_CHECKING:
     from kempe import errors as errors
     from kempe import plot as plot
     from kempe import report as report
+    from kempe.analyses.assembly import assemble as assemble
     from kempe.analyses.configurations import ConfigurationsResult as ConfigurationsResult
     from kempe.analyses.configurations import configurations as configurations
     from kempe.analyses.dynamics import AccuracyWarning as AccuracyWarning
-    from kempe.analyses.dynamics import assemble as assemble
     from kempe.analyses.dynamics import dynamics as dynamics
     from kempe.analyses.equilibrium import EquilibriumResult as EquilibriumResult
     from kempe.analyses.equilibrium import PointStiffness as PointStiffness
@@ -214,7 +214,7 @@ _HOME = {
     "Tolerances": "sweeps",
     "Units": "base.display_units",
     "animate": "draw.animate",
-    "assemble": "analyses.dynamics",
+    "assemble": "analyses.assembly",
     "configurations": "analyses.configurations",
     "design": "",
     "draw": "",

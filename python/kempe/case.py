@@ -10,8 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from kempe import _core
+from kempe.analyses.assembly import Coordinates, assemble
 from kempe.analyses.configurations import ConfigurationsResult
-from kempe.analyses.dynamics import Coordinates, assemble, simulate
+from kempe.analyses.dynamics import simulate
 from kempe.analyses.equilibrium_result import EquilibriumResult
 from kempe.analyses.kinematics import follow
 from kempe.analyses.limits import LimitsResult

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import warnings
 
-from kempe.analyses.dynamics import assemble
+from kempe.analyses.assembly import assemble
 from kempe.base.html import block, paragraph, table
 from kempe.errors import KempeError
 from kempe.model.model import Model

@@ -4,9 +4,12 @@ import ast
 from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 
+import kempe
 from house.places import PACKAGE
 
 Graph = dict[str, set[str]]
+#: The compiled modules, and the version, which the root defines at once.
+EXTENSIONS = {"kempe._core", "kempe._core_sweeps", "kempe.__version__"}
 
 
 def modules() -> dict[str, str]:
@@ -21,6 +24,8 @@ def _name(path: Path) -> str:
 
 def graph(texts: Mapping[str, str], *, types: bool = False) -> Graph:
     """For each module, the modules that it imports anywhere, with the packages that load first.
+
+    A public name that is imported from the root counts as an import of its module.
 
     Args:
         texts: the text of each module by its name.
@@ -39,23 +44,35 @@ def graph(texts: Mapping[str, str], *, types: bool = False) -> Graph:
 
 def _imported(tree: ast.AST, known: set[str], *, types: bool) -> Iterator[str]:
     for node in ast.iter_child_nodes(tree):
-        if isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING" and not types:
+        if not isinstance(node, ast.stmt | ast.excepthandler | ast.match_case):
+            continue
+        if isinstance(node, ast.If) and not types and _is_for_types(node.test):
             for other in node.orelse:
                 yield from _imported(other, known, types=types)
             continue
         if isinstance(node, ast.Import):
             yield from (alias.name for alias in node.names if alias.name in known)
         elif isinstance(node, ast.ImportFrom) and node.module:
-            names = (f"{node.module}.{alias.name}" for alias in node.names)
-            found = {name if name in known else node.module for name in names}
-            yield from found & known
+            for alias in node.names:
+                name = f"{node.module}.{alias.name}"
+                if node.module == "kempe" and (home := kempe._HOME.get(alias.name)):
+                    yield f"kempe.{home}"
+                elif name in known:
+                    yield name
+                elif node.module in known and name not in EXTENSIONS:
+                    yield node.module
         yield from _imported(node, known, types=types)
+
+
+def _is_for_types(test: ast.expr) -> bool:
+    return isinstance(test, ast.Name) and test.id == "TYPE_CHECKING"
 
 
 def _loaded(name: str, by: str) -> Iterator[str]:
     """A module, and the packages around it that are not also around the module that imports it."""
+    yield name
     parts = name.split(".")
-    for end in range(len(parts), 1, -1):
+    for end in range(len(parts) - 1, 1, -1):
         package = ".".join(parts[:end])
         if not f"{by}.".startswith(f"{package}."):
             yield package

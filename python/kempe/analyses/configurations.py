@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
 
-from kempe.analyses.dynamics import Coordinates
+from kempe.analyses.assembly import Coordinates
 from kempe.analyses.options import Configurations
 from kempe.analyses.record import Record, run_analysis
 from kempe.model.model import Model, compiled_model

@@ -1,92 +1,38 @@
-"""The analyses: assembly and dynamics as functions of a model, a state and options."""
+"""Dynamics: the motion from a state."""
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
-from typing import Any, Literal, TypeAlias
+from typing import Any, Literal
 
-import numpy as np
-
-from kempe import _core
+from kempe.analyses.assembly import allowing
 from kempe.analyses.event import Action, Events, with_actions
 from kempe.analyses.option import Option, core_options
 from kempe.analyses.options import Auto, Dynamics, Projection
-from kempe.analyses.record import AssemblyWarning, Progress, Record, check, released, run_analysis
+from kempe.analyses.record import (
+    Progress,
+    keep_solution,
+    run_analysis,
+    solution_of,
+)
 from kempe.analyses.request_cache import Request, encode, request
 from kempe.base.arrays import Floats
-from kempe.base.names import one_of, unknown
+from kempe.base.names import unknown
 from kempe.errors import ModelError
 from kempe.model.compiled import CompiledModel
 from kempe.model.functions import FunctionWarning
 from kempe.model.infos import Setting
 from kempe.model.model import Model, Redundancy, compiled_model
-from kempe.model.values import Number, number, numbers
-from kempe.results.assembly_report import AssemblyReport
+from kempe.model.values import Number, numbers
 from kempe.results.events import EventWarning, true_at_start, warnings_of
 from kempe.results.solution import Solution
 from kempe.results.state import State
 
-Coordinates: TypeAlias = "Mapping[str, float | str]"
-
 
 class AccuracyWarning(UserWarning):
     """A result exceeds a limit of accuracy, by an error that belongs to the chosen method."""
-
-
-def assemble(
-    model: Model | CompiledModel,
-    set: Coordinates | None = None,  # noqa: A002
-    guess: Coordinates | None = None,
-    t: float | None = None,
-    *,
-    from_state: State | None = None,
-    redundancy: Redundancy | None = None,
-    from_guess: bool = False,
-) -> State:
-    """Assemble a mechanism.
-
-    Args:
-        model: the mechanism.
-        set: prescribed coordinates and rates, m, rad, per s: ``{"crank.angle": "70*deg"}``.
-        guess: starting values of coordinates and rates; can be incomplete.
-        t: time, s; None means the time of ``from_state``, or 0.
-        from_state: a state of the same bodies, for example with other parameters or with joints
-            that drifted. The mechanism moves from it as little as possible. ``set`` and ``guess``
-            have priority over it. Drivers that were released in this state remain released.
-        redundancy: "allow" accepts redundant constraints in the assembly and in simulations that
-            start from the state; None uses the setting of the model.
-        from_guess: start the Newton iteration from the guess with open loops, without closing
-            dyads first. This is the classical iteration; see ``state.report.iterations``.
-
-    Returns:
-        The state, with ``report``.
-
-    Raises:
-        AssemblyError: the mechanism does not close; the message names the open joint.
-        RedundancyError: constraints are redundant.
-        ModelError: the model is invalid, or ``set`` or ``guess`` contains an unknown name.
-    """
-    compiled = _allowing(compiled_model(model), redundancy)
-    held = encode(numbers(set, "set"))
-    q = v = z = None
-    if isinstance(guess, State):
-        raise ModelError("guess: a State", hint="pass it as from_state=")
-    hint = encode(numbers(guess, "guess"))
-    if from_state is not None:
-        check(compiled, from_state, "from_state")
-        compiled = compiled.variant(([], released(compiled, from_state), []))
-        t = float(from_state.t) if t is None else t
-        q, v, z = (np.array(part) for part in (from_state.q, from_state.v, from_state.z))
-        z = z if len(z) == compiled.n_z else np.zeros(compiled.n_z)
-    t_found, q_found, v_found, z_found, text = _core.assemble(
-        compiled.core, held, hint, _time(0.0 if t is None else t), q, v, z, from_guess
-    )
-    report = AssemblyReport.from_json(text)
-    for warning in report.warnings:
-        warnings.warn(warning, AssemblyWarning, stacklevel=2)
-    return State(compiled, t_found, q_found, v_found, report, z=z_found)
 
 
 def dynamics(
@@ -141,7 +87,7 @@ def dynamics(
         ModelError: an option is invalid.
     """
     inherited = start.compiled.redundancy if isinstance(start, State) else None
-    compiled = _allowing(compiled_model(model), redundancy if redundancy is not None else inherited)
+    compiled = allowing(compiled_model(model), redundancy if redundancy is not None else inherited)
     fields = (t_end, output_step, method, stabilization, max_steps)
     plain, actions = with_actions(events)
     given = {"events": plain, "stop": stop, "release": release, "parameters": parameters}
@@ -198,19 +144,6 @@ def _simulate(
     return solution
 
 
-def solution_of(record: Record, method: str) -> Solution:
-    """The motion that an analysis found."""
-    assert record.run is not None
-    return Solution(record.model, record.run, method, record.variable)
-
-
-def keep_solution(error: BaseException, method: str) -> None:
-    """Add the motion so far to an error as ``solution``, if it has a state."""
-    partial: Record | None = vars(error).pop("record", None)
-    if partial is not None and partial.run is not None and len(partial.run.t):
-        error.solution = solution_of(partial, method)  # type: ignore[attr-defined]
-
-
 class Acting:
     """Calls the actions of events.
 
@@ -264,16 +197,3 @@ def _method(entry: Mapping[str, Any]) -> str:
     """The type of the method in an entry of ``[analyses]``."""
     method = entry.get("method", Auto.kind)
     return str(method["type"] if isinstance(method, Mapping) else method)
-
-
-def _allowing(model: CompiledModel, redundancy: str | None) -> CompiledModel:
-    if redundancy is None or one_of("redundancy", redundancy, ("refuse", "allow")) == "refuse":
-        return model
-    return model.allowing_redundancy()
-
-
-def _time(t: float) -> float:
-    value = number(t, "t")
-    if isinstance(value, str):
-        raise ModelError(f"t: {value!r} is not a number")
-    return float(value)

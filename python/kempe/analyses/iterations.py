@@ -6,7 +6,7 @@ import warnings
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from kempe.analyses.dynamics import assemble
+from kempe.analyses.assembly import assemble
 from kempe.analyses.record import AssemblyWarning
 
 if TYPE_CHECKING:

@@ -5,9 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from kempe.analyses.dynamics import keep_solution, solution_of
 from kempe.analyses.options import InverseDynamics, Kinematics
-from kempe.analyses.record import Progress, run_analysis
+from kempe.analyses.record import Progress, keep_solution, run_analysis, solution_of
 from kempe.errors import SingularityError
 from kempe.model.compiled import CompiledModel
 from kempe.model.model import Model, compiled_model

@@ -14,6 +14,7 @@ from kempe.analyses.request_cache import encode
 from kempe.base.arrays import Floats
 from kempe.errors import ModelError
 from kempe.model.compiled import CompiledModel
+from kempe.results.solution import Solution
 from kempe.results.state import State
 from kempe.results.variable import TIME, Variable
 
@@ -125,6 +126,19 @@ def _record(
         model = model.variant(([], list(before), []))
     findings = {} if found.run is not None else json.loads(found.findings)
     return Record(entry, start, model, variable, value, found.run, found.numbers, findings)
+
+
+def solution_of(record: Record, method: str) -> Solution:
+    """The motion that an analysis found."""
+    assert record.run is not None
+    return Solution(record.model, record.run, method, record.variable)
+
+
+def keep_solution(error: BaseException, method: str) -> None:
+    """Add the motion so far to an error as ``solution``, if it has a state."""
+    partial: Record | None = vars(error).pop("record", None)
+    if partial is not None and partial.run is not None and len(partial.run.t):
+        error.solution = solution_of(partial, method)  # type: ignore[attr-defined]
 
 
 def driven_by(

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from kempe.analyses.dynamics import Coordinates
+from kempe.analyses.assembly import Coordinates
 from kempe.base.names import unknown
 from kempe.model.values import mapping, numbers
 
