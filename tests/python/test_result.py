@@ -71,8 +71,8 @@ def test_the_next_analysis_starts_from_its_state(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     turned = kp.assemble(pendulum(), set={"rod.angle": 1.25})
-    monkeypatch.setitem(cases._RUNNERS, "kinematics", lambda *_: Weighed(turned))
-    rest, fall = kp.Kinematics(t_end=0.01, name="rest"), kp.Dynamics(t_end=0.1, name="fall")
+    monkeypatch.setitem(cases._RESULTS, "mobility", lambda _: Weighed(turned))
+    rest, fall = kp.Mobility(name="rest"), kp.Dynamics(t_end=0.1, name="fall")
     case = kp.Case(pendulum(), {"set": {"rod.angle": 0}}, [rest, fall])
     results = case.run()
     assert isinstance(results["rest"], Weighed)
