@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from kempe.analyses.assembly import assemble
 from kempe.analyses.record import AssemblyWarning
+from kempe.results.matrices.writing import latex_number
 
 if TYPE_CHECKING:
     from kempe.case import Case
@@ -47,8 +48,6 @@ class Iterations:
 
     def latex(self) -> str:
         """A ``tabular``."""
-        from kempe.results.matrices.writing import latex_number
-
         lines = [
             f"{k} & ${latex_number(row.residual)}$ & "
             + (f"${latex_number(row.step)}$ & {row.damping:g}" if k else "& ")

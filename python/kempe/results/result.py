@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from kempe.base import files
+from kempe.results.table import Column, write_columns
 
 if TYPE_CHECKING:
     from kempe.results.state import State
-    from kempe.results.table import Column
 
 
 class Result(ABC):
@@ -49,8 +49,6 @@ class Result(ABC):
         Raises:
             FileError: a file cannot be written.
         """
-        from kempe.results.table import write_columns
-
         where = files.checked_path(folder, "write")
         written = []
         for name, columns in self.tables().items():
