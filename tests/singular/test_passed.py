@@ -6,7 +6,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe.cli.findings import show_findings
-from kempe.report import singular
+from kempe.results import singular
 from kempe.results.singular import singular_positions
 from kempe.results.summary import summary
 from rich.console import Console
