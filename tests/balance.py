@@ -9,7 +9,7 @@ import os
 from typing import Any
 
 import kempe as kp
-from kempe.solution import Solution
+from kempe.results.solution import Solution
 
 #: The largest residual that is accepted, relative to the largest force (moment) on the body.
 BALANCED = 1e-9

@@ -31,24 +31,24 @@ ROOT = Path(__file__).resolve().parents[1]
 #: Modules of python/kempe, and the tests that concern each, the quick ones first. The tests of
 #: whole pages take long; quicker ones cover the same code.
 TESTS = {
-    "views": (
+    "results/views": (
         "tests/python/test_views.py",
         "tests/python/test_solution.py",
         "tests/python/test_states.py",
         "tests/python/test_table.py",
     ),
-    "report": (
+    "results/summary.py": (
         "tests/python/test_settling.py",
         "tests/python/test_summary.py",
         "tests/python/test_extremes.py",
         "tests/python/test_solution.py",
         "tests/python/test_show.py",
     ),
-    "table.py": (
+    "results/table.py": (
         "tests/python/test_table.py",
         "tests/python/test_display_units.py",
     ),
-    "archive.py": (
+    "results/archive.py": (
         "tests/python/test_archive.py",
         "tests/python/test_copies.py",
     ),
@@ -65,7 +65,7 @@ TESTS = {
         "tests/plot/test_units.py",
         "tests/study",
     ),
-    "studies": ("tests/study",),
+    "sweeps/studies": ("tests/study",),
 }
 #: A mutant is killed if its tests take this many times as long as before, and some seconds.
 _PATIENCE, _GRACE = 4.0, 20.0

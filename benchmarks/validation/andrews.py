@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import kempe as kp
 import numpy as np
-from kempe.compiled import CompiledModel
-from kempe.options import Option
+from kempe.analyses.options import Option
+from kempe.model.compiled import CompiledModel
 
 from benchmarks.validation.comparison import ROOT, Benchmark, compared, reference
 

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import kempe as kp
 import numpy as np
-from kempe.options import Option
+from kempe.analyses.options import Option
 
 #: Number of halvings of the step.
 HALVINGS = 3

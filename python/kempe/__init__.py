@@ -63,7 +63,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from kempe import _processor
+from kempe import _processor, _upwards
 from kempe._version import __version__
 
 _processor.load_core()
@@ -74,25 +74,56 @@ if TYPE_CHECKING:
     from kempe import errors as errors
     from kempe import plot as plot
     from kempe import report as report
-    from kempe.analyses import AccuracyWarning as AccuracyWarning
-    from kempe.analyses import assemble as assemble
-    from kempe.analyses import dynamics as dynamics
-    from kempe.archive import load_solution as load_solution
-    from kempe.assembly_report import AssemblyReport as AssemblyReport
+    from kempe.analyses.assembly import assemble as assemble
+    from kempe.analyses.configurations import ConfigurationsResult as ConfigurationsResult
+    from kempe.analyses.configurations import configurations as configurations
+    from kempe.analyses.dynamics import AccuracyWarning as AccuracyWarning
+    from kempe.analyses.dynamics import dynamics as dynamics
+    from kempe.analyses.equilibrium import EquilibriumResult as EquilibriumResult
+    from kempe.analyses.equilibrium import PointStiffness as PointStiffness
+    from kempe.analyses.equilibrium import equilibrium as equilibrium
+    from kempe.analyses.equilibrium import stiffness_at as stiffness_at
+    from kempe.analyses.event import Event as Event
+    from kempe.analyses.kinematics import inverse_dynamics as inverse_dynamics
+    from kempe.analyses.kinematics import kinematics as kinematics
+    from kempe.analyses.limits import LimitsResult as LimitsResult
+    from kempe.analyses.limits import limits as limits
+    from kempe.analyses.mobility import MobilityResult as MobilityResult
+    from kempe.analyses.mobility import mobility as mobility
+    from kempe.analyses.modes import ModesResult as ModesResult
+    from kempe.analyses.modes import modes as modes
+    from kempe.analyses.options import DOP853 as DOP853
+    from kempe.analyses.options import HHT as HHT
+    from kempe.analyses.options import RK4 as RK4
+    from kempe.analyses.options import RK45 as RK45
+    from kempe.analyses.options import Auto as Auto
+    from kempe.analyses.options import Baumgarte as Baumgarte
+    from kempe.analyses.options import Configurations as Configurations
+    from kempe.analyses.options import Dynamics as Dynamics
+    from kempe.analyses.options import Equilibrium as Equilibrium
+    from kempe.analyses.options import GeneralizedAlpha as GeneralizedAlpha
+    from kempe.analyses.options import InverseDynamics as InverseDynamics
+    from kempe.analyses.options import Kinematics as Kinematics
+    from kempe.analyses.options import Limits as Limits
+    from kempe.analyses.options import Mobility as Mobility
+    from kempe.analyses.options import Modes as Modes
+    from kempe.analyses.options import NoStabilization as NoStabilization
+    from kempe.analyses.options import Projection as Projection
+    from kempe.analyses.options import Radau as Radau
+    from kempe.analyses.options import Reachable as Reachable
+    from kempe.analyses.reachable import ReachableResult as ReachableResult
+    from kempe.analyses.reachable import reachable as reachable
+    from kempe.analyses.record import AssemblyWarning as AssemblyWarning
+    from kempe.analyses.start import Start as Start
+    from kempe.base.display_units import Units as Units
+    from kempe.base.display_units import units as units
     from kempe.case import Case as Case
     from kempe.case import Results as Results
     from kempe.case import load as load
-    from kempe.closures import ConfigurationsResult as ConfigurationsResult
-    from kempe.closures import configurations as configurations
-    from kempe.display_units import Units as Units
-    from kempe.display_units import units as units
     from kempe.draw.animate import animate as animate
     from kempe.draw.player import player as player
     from kempe.draw.scene import scene as scene
     from kempe.draw.still import still as still
-    from kempe.driven import inverse_dynamics as inverse_dynamics
-    from kempe.driven import kinematics as kinematics
-    from kempe.energy import Energy as Energy
     from kempe.errors import AssemblyError as AssemblyError
     from kempe.errors import FileError as FileError
     from kempe.errors import IntegrationError as IntegrationError
@@ -101,146 +132,115 @@ if TYPE_CHECKING:
     from kempe.errors import ModelError as ModelError
     from kempe.errors import RedundancyError as RedundancyError
     from kempe.errors import SingularityError as SingularityError
-    from kempe.event import Event as Event
-    from kempe.events import EventWarning as EventWarning
-    from kempe.freedom import MobilityResult as MobilityResult
-    from kempe.freedom import mobility as mobility
-    from kempe.functions import FunctionWarning as FunctionWarning
-    from kempe.functions import Sampled as Sampled
     from kempe.lab_report import write_report as write_report
-    from kempe.linearization import ModesResult as ModesResult
-    from kempe.linearization import modes as modes
-    from kempe.matrices import Labelled as Labelled
-    from kempe.matrices import Matrices as Matrices
-    from kempe.matrices import show as show
-    from kempe.model import Model as Model
-    from kempe.motion import Motion as Motion
-    from kempe.options import DOP853 as DOP853
-    from kempe.options import HHT as HHT
-    from kempe.options import RK4 as RK4
-    from kempe.options import RK45 as RK45
-    from kempe.options import Auto as Auto
-    from kempe.options import Baumgarte as Baumgarte
-    from kempe.options import Configurations as Configurations
-    from kempe.options import Dynamics as Dynamics
-    from kempe.options import Equilibrium as Equilibrium
-    from kempe.options import GeneralizedAlpha as GeneralizedAlpha
-    from kempe.options import InverseDynamics as InverseDynamics
-    from kempe.options import Kinematics as Kinematics
-    from kempe.options import Limits as Limits
-    from kempe.options import Mobility as Mobility
-    from kempe.options import Modes as Modes
-    from kempe.options import NoStabilization as NoStabilization
-    from kempe.options import Projection as Projection
-    from kempe.options import Radau as Radau
-    from kempe.options import Reachable as Reachable
-    from kempe.reach import LimitsResult as LimitsResult
-    from kempe.reach import limits as limits
-    from kempe.record import AssemblyWarning as AssemblyWarning
-    from kempe.region import ReachableResult as ReachableResult
-    from kempe.region import reachable as reachable
-    from kempe.solution import Solution as Solution
-    from kempe.start import Start as Start
-    from kempe.state import State as State
-    from kempe.statics import EquilibriumResult as EquilibriumResult
-    from kempe.statics import PointStiffness as PointStiffness
-    from kempe.statics import equilibrium as equilibrium
-    from kempe.statics import stiffness_at as stiffness_at
-    from kempe.studies import Study as Study
-    from kempe.studies import study as study
+    from kempe.model.functions import FunctionWarning as FunctionWarning
+    from kempe.model.functions import Sampled as Sampled
+    from kempe.model.model import Model as Model
+    from kempe.results.archive import load_solution as load_solution
+    from kempe.results.assembly_report import AssemblyReport as AssemblyReport
+    from kempe.results.energy import Energy as Energy
+    from kempe.results.events import EventWarning as EventWarning
+    from kempe.results.matrices.equations import equations as equations
+    from kempe.results.matrices.labelled import Labelled as Labelled
+    from kempe.results.matrices.labelled import show as show
+    from kempe.results.matrices.values import Matrices as Matrices
+    from kempe.results.motion import Motion as Motion
+    from kempe.results.solution import Solution as Solution
+    from kempe.results.state import State as State
     from kempe.sweeps import SweepResult as SweepResult
     from kempe.sweeps import Tolerances as Tolerances
     from kempe.sweeps import sweep as sweep
     from kempe.sweeps import tolerances as tolerances
-    from kempe.symbolic import equations as equations
+    from kempe.sweeps.studies import Study as Study
+    from kempe.sweeps.studies import study as study
 
 # ``import kempe`` is fast, because each public name is imported on first use. A new public name
 # needs one line in ``_HOME`` and one in the block for type checkers.
 #: Public name → module of kempe that defines it; "" if the name itself is a module.
 _HOME = {
     "AssemblyError": "errors",
-    "AssemblyReport": "assembly_report",
-    "AccuracyWarning": "analyses",
-    "AssemblyWarning": "record",
-    "Auto": "options",
-    "Baumgarte": "options",
+    "AssemblyReport": "results.assembly_report",
+    "AccuracyWarning": "analyses.dynamics",
+    "AssemblyWarning": "analyses.record",
+    "Auto": "analyses.options",
+    "Baumgarte": "analyses.options",
     "Case": "case",
-    "Configurations": "options",
-    "ConfigurationsResult": "closures",
-    "DOP853": "options",
-    "Dynamics": "options",
-    "Energy": "energy",
-    "Equilibrium": "options",
-    "EquilibriumResult": "statics",
-    "Event": "event",
-    "EventWarning": "events",
+    "Configurations": "analyses.options",
+    "ConfigurationsResult": "analyses.configurations",
+    "DOP853": "analyses.options",
+    "Dynamics": "analyses.options",
+    "Energy": "results.energy",
+    "Equilibrium": "analyses.options",
+    "EquilibriumResult": "analyses.equilibrium",
+    "Event": "analyses.event",
+    "EventWarning": "results.events",
     "FileError": "errors",
-    "FunctionWarning": "functions",
-    "GeneralizedAlpha": "options",
-    "HHT": "options",
+    "FunctionWarning": "model.functions",
+    "GeneralizedAlpha": "analyses.options",
+    "HHT": "analyses.options",
     "IntegrationError": "errors",
     "InternalError": "errors",
-    "InverseDynamics": "options",
+    "InverseDynamics": "analyses.options",
     "KempeError": "errors",
-    "Kinematics": "options",
-    "Labelled": "matrices",
-    "Limits": "options",
-    "LimitsResult": "reach",
-    "Reachable": "options",
-    "ReachableResult": "region",
-    "Matrices": "matrices",
-    "Mobility": "options",
-    "MobilityResult": "freedom",
-    "Model": "model",
+    "Kinematics": "analyses.options",
+    "Labelled": "results.matrices.labelled",
+    "Limits": "analyses.options",
+    "LimitsResult": "analyses.limits",
+    "Reachable": "analyses.options",
+    "ReachableResult": "analyses.reachable",
+    "Matrices": "results.matrices.values",
+    "Mobility": "analyses.options",
+    "MobilityResult": "analyses.mobility",
+    "Model": "model.model",
     "ModelError": "errors",
-    "Modes": "options",
-    "ModesResult": "linearization",
-    "Motion": "motion",
-    "NoStabilization": "options",
-    "PointStiffness": "statics",
-    "Projection": "options",
-    "RK4": "options",
-    "RK45": "options",
-    "Radau": "options",
+    "Modes": "analyses.options",
+    "ModesResult": "analyses.modes",
+    "Motion": "results.motion",
+    "NoStabilization": "analyses.options",
+    "PointStiffness": "analyses.equilibrium",
+    "Projection": "analyses.options",
+    "RK4": "analyses.options",
+    "RK45": "analyses.options",
+    "Radau": "analyses.options",
     "RedundancyError": "errors",
     "Results": "case",
-    "Sampled": "functions",
+    "Sampled": "model.functions",
     "SingularityError": "errors",
-    "Solution": "solution",
-    "Start": "start",
-    "State": "state",
-    "Study": "studies",
+    "Solution": "results.solution",
+    "Start": "analyses.start",
+    "State": "results.state",
+    "Study": "sweeps.studies",
     "SweepResult": "sweeps",
     "Tolerances": "sweeps",
-    "Units": "display_units",
+    "Units": "base.display_units",
     "animate": "draw.animate",
-    "assemble": "analyses",
-    "configurations": "closures",
+    "assemble": "analyses.assembly",
+    "configurations": "analyses.configurations",
     "design": "",
     "draw": "",
-    "dynamics": "analyses",
-    "equations": "symbolic",
-    "equilibrium": "statics",
+    "dynamics": "analyses.dynamics",
+    "equations": "results.matrices.equations",
+    "equilibrium": "analyses.equilibrium",
     "errors": "",
-    "inverse_dynamics": "driven",
-    "kinematics": "driven",
-    "limits": "reach",
-    "reachable": "region",
+    "inverse_dynamics": "analyses.kinematics",
+    "kinematics": "analyses.kinematics",
+    "limits": "analyses.limits",
+    "reachable": "analyses.reachable",
     "load": "case",
-    "load_solution": "archive",
-    "modes": "linearization",
-    "mobility": "freedom",
+    "load_solution": "results.archive",
+    "modes": "analyses.modes",
+    "mobility": "analyses.mobility",
     "player": "draw.player",
     "plot": "",
     "report": "",
     "scene": "draw.scene",
-    "show": "matrices",
-    "stiffness_at": "statics",
+    "show": "results.matrices.labelled",
+    "stiffness_at": "analyses.equilibrium",
     "still": "draw.still",
-    "study": "studies",
+    "study": "sweeps.studies",
     "sweep": "sweeps",
     "tolerances": "sweeps",
-    "units": "display_units",
+    "units": "base.display_units",
     "write_report": "lab_report",
 }
 
@@ -257,6 +257,30 @@ def __getattr__(name: str) -> Any:
     )
     globals()[name] = value
     return value
+
+
+# The calls upwards; see _upwards.py.
+
+
+def _html(of: Any) -> str:
+    from kempe.notebook import html
+
+    return html(of)
+
+
+def _model(compiled: Any) -> Any:
+    from kempe.model.model import Model
+
+    return Model.of_compiled(compiled)
+
+
+def _state(*parts: Any, **more: Any) -> Any:
+    from kempe.results.state import State
+
+    return State(*parts, **more)
+
+
+_upwards.CALLS.update(html=_html, model=_model, state=_state)
 
 
 def __dir__() -> list[str]:

@@ -301,10 +301,10 @@ def place(model: Model, joint: str, on: str, t: _F, q: _F) -> _F:
     """The point at which the reaction on a body is given, (n_t, 2), global, m."""
 
 def newton_euler(model: Model, t: _F, q: _F, v: _F, z: _F, a: _F, lam: _F) -> _F:
-    """The balances of bodies and coordinates; see ``kempe.newton_euler``."""
+    """The balances of bodies and coordinates; see ``kempe.results.newton_euler``."""
 
 def friction_modes(model: Model, t: _F, q: _F, v: _F, z: _F) -> list[tuple[int, list[_Mode]]]:
-    """The modes of friction at rest, by stretches of states; see ``kempe.friction_at_rest``."""
+    """The modes of friction at rest, by stretches of states; see ``results.friction_at_rest``."""
 
 def friction_range(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool) -> tuple[_F, _F] | None:
     """The least and the largest multipliers, (n_t, m), while drivers hold friction at rest."""
@@ -352,7 +352,7 @@ def formulas(model: Model, name: str, written: dict[str, str], form: str) -> str
     """
 
 def scene(model: Model, poses: _F, efforts: list[tuple[str, _F, _F]]) -> str:
-    """The static parts of a scene as JSON; see ``kempe.drawing`` for this and the following."""
+    """The static parts of a scene as JSON; see ``kempe.model.drawing`` for all of these."""
 
 def display(scene: str, poses: _F, view: _View, request: str) -> str:
     """The display list of a scene; ``request`` has the fields of ``Request`` in Rust."""

@@ -1,9 +1,9 @@
 """Write the files that follow from the catalogue of the core: ``python -m kempe._generate``.
 
 The catalogue is the one statement of the fields of elements, analyses and options. The typed
-dataclasses and the methods of ``Model`` in ``elements.py`` follow from it, and so do the classes in
-``options.py``, the reference page and the list of elements. Adding one of them touches no Python by
-hand.
+dataclasses and the methods of ``Model`` in ``model/elements.py`` follow from it, and so do the
+classes in ``analyses/options.py``, the reference page and the list of elements. Adding one of them
+touches no Python by hand.
 """
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
-from kempe import _core, _reference, files, templates
+from kempe import _core, _reference, templates
+from kempe.base import files
 
 WIDTH = 100
 EXAMPLES = Path(__file__).parents[2] / "examples"
@@ -63,8 +64,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar{words}, TypeVar
 
-from kempe.element import Element
-from kempe.values import {imports}
+from kempe.model.element import Element
+from kempe.model.functions import {laws}
+from kempe.model.values import {imports}
 
 E = TypeVar("E", bound=Element)
 '''
@@ -79,9 +81,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from kempe.event import Events
-from kempe.option import Analysis, Option, Shape
-from kempe.values import Number, Pair, Pairs, Terms, Tolerance, Words
+from kempe.analyses.event import Events
+from kempe.analyses.option import Analysis, Option, Shape
+from kempe.model.values import Number, Pair, Pairs, Terms, Tolerance, Words
 '''
 
 METHODS = '''\
@@ -102,13 +104,18 @@ def source(catalogue: str) -> str:
             field["of_force"] = section == "forces"
     used = {element_type(field) for _, table in tables for field in table["fields"]}
     words = ", Literal" if any(kind.startswith("Literal") for kind in used) else ""
-    imports = ", ".join(
-        sorted(used & {"Law", "LawPair", "Number", "Numbers", "Pair", "Terms", "Words"})
+    laws, imports = (
+        ", ".join(sorted(used & names))
+        for names in ({"Law", "LawPair"}, {"Number", "Numbers", "Pair", "Terms", "Words"})
     )
     classes = [element_class(section, table) for section, table in tables]
     methods = [method(table) for _, table in tables]
     return "\n\n".join(
-        [HEADER.format(imports=imports, words=words), *classes, "\n".join([METHODS, *methods])]
+        [
+            HEADER.format(laws=laws, imports=imports, words=words),
+            *classes,
+            "\n".join([METHODS, *methods]),
+        ]
     )
 
 
@@ -288,11 +295,11 @@ def camel(name: str) -> str:
 
 
 def main() -> None:
-    """Write the files beside this one, the pages in ``docs``, and the copies of the examples."""
+    """Write the classes, the pages in ``docs``, and the copies of the examples."""
     here = Path(__file__)
     written = {
-        here.with_name("elements.py"): source,
-        here.with_name("options.py"): options_source,
+        here.with_name("model") / "elements.py": source,
+        here.with_name("analyses") / "options.py": options_source,
         _reference.TARGET: _reference.page,
         _reference.ELEMENTS: _reference.elements,
     }

@@ -9,29 +9,31 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from kempe import _core, files
-from kempe.analyses import Coordinates, assemble, simulate
-from kempe.closures import ConfigurationsResult
-from kempe.compiled import CompiledModel
-from kempe.driven import follow
+from kempe import _core
+from kempe.analyses.assembly import Coordinates, assemble
+from kempe.analyses.configurations import ConfigurationsResult
+from kempe.analyses.dynamics import simulate
+from kempe.analyses.equilibrium_result import EquilibriumResult
+from kempe.analyses.kinematics import follow
+from kempe.analyses.limits import LimitsResult
+from kempe.analyses.mobility import MobilityResult
+from kempe.analyses.modes import ModesResult
+from kempe.analyses.option import Analysis, Option
+from kempe.analyses.options import Dynamics
+from kempe.analyses.reachable import ReachableResult
+from kempe.analyses.record import Progress, Record, run_analysis
+from kempe.analyses.sequence import of_type, read_entries
+from kempe.analyses.start import Start, read_start
+from kempe.base import files
+from kempe.base.names import entry as named
+from kempe.base.names import few, one_of
 from kempe.errors import FileError, KempeError, ModelError
-from kempe.freedom import MobilityResult
-from kempe.linearization import ModesResult
-from kempe.model import Model
-from kempe.names import entry as named
-from kempe.names import few, one_of
-from kempe.option import Analysis, Option
-from kempe.options import Dynamics
-from kempe.reach import LimitsResult
-from kempe.record import Progress, Record, run_analysis
-from kempe.region import ReachableResult
-from kempe.rest import EquilibriumResult
-from kempe.result import Result
-from kempe.sequence import of_type, read_entries
-from kempe.solution import Solution
-from kempe.start import Start, read_start
-from kempe.state import State
-from kempe.values import Number, data, mapping, numbers, plain
+from kempe.model.compiled import CompiledModel
+from kempe.model.model import Model
+from kempe.model.values import Number, data, mapping, numbers, plain
+from kempe.results.result import Result
+from kempe.results.solution import Solution
+from kempe.results.state import State
 
 FORMATS = {".toml": "toml", ".json": "json"}
 

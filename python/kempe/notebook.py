@@ -2,30 +2,31 @@
 
 from __future__ import annotations
 
-import html
-from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING
+import warnings
 
+from kempe.analyses.assembly import assemble
+from kempe.base.html import block, paragraph, table
 from kempe.errors import KempeError
-
-if TYPE_CHECKING:
-    from kempe.model import Model
-    from kempe.solution import Solution
-    from kempe.state import State
+from kempe.model.model import Model
+from kempe.plot import style
+from kempe.plot.mechanism import mechanism
+from kempe.results.solution import Solution
+from kempe.results.state import State
 
 #: Width of a drawing, pixels.
 _WIDTH = 480
-#: Largest number of rows of a table; the last row gives the number of omitted rows.
-_MOST_ROWS = 30
+
+
+def html(of: Model | State | Solution) -> str:
+    """What a notebook shows of an object: a block of HTML."""
+    if isinstance(of, Model):
+        return of_model(of)
+    return of_state(of) if isinstance(of, State) else of_solution(of)
 
 
 def of_model(model: Model) -> str:
     """Drawing of the assembled mechanism, and its bodies and elements."""
-    from kempe.analyses import assemble
-
     try:
-        import warnings
-
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
             picture = drawing(assemble(model))
@@ -34,13 +35,13 @@ def of_model(model: Model) -> str:
             for body in model.bodies.values()
         ]
     except KempeError as error:  # a model that is not finished
-        return _block(model.title, _paragraph(repr(model)), _paragraph(str(error)))
+        return block(model.title, paragraph(repr(model)), paragraph(str(error)))
     tables = [table(("", "body", "type", "mass / kg", "inertia / kg·m²"), bodies)]
     rows = [(joint.name, joint.type, joint.i, joint.j) for joint in model.constraints.values()]
     rows += [(force.name, force.type, force.i, force.j) for force in model.forces.values()]
     if rows:
         tables.append(table(("element", "type", "body i", "body j"), rows))
-    return _block(model.title, picture, *tables)
+    return block(model.title, picture, *tables)
 
 
 def of_state(state: State) -> str:
@@ -48,8 +49,8 @@ def of_state(state: State) -> str:
     header, rows = state.table()
     caption = f"{state.compiled.title}, t = {state.t:g} s"
     unset = "" if state.report is None else str(state.report.unset)
-    told = [_paragraph(unset)] if unset else []
-    return _block(caption, drawing(state), table(header, rows), *told)
+    told = [paragraph(unset)] if unset else []
+    return block(caption, drawing(state), table(header, rows), *told)
 
 
 def of_solution(solution: Solution) -> str:
@@ -65,40 +66,16 @@ def of_solution(solution: Solution) -> str:
         ("largest opening of a joint", f"{solution.drift.position.max(initial=0.0):.3g} m or rad"),
     ]
     picture = drawing(solution.final) if len(solution.t) else ""
-    return _block(solution.compiled.title, picture, table(("", ""), rows))
+    return block(solution.compiled.title, picture, table(("", ""), rows))
 
 
 def drawing(state: State) -> str:
     """The mechanism as an SVG picture; empty if it has no bodies."""
     if not state.compiled.bodies:
         return ""
-    from kempe.plot import mechanism, style
-
     with style.applied():
         figure = style.figure(style.WIDTH * 0.6)
         mechanism(state, ax=figure.add_subplot())
     return style.svg(figure).replace(
         "<svg ", f'<svg style="display: block; max-width: {_WIDTH}px" ', 1
     )
-
-
-def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """A table; its cells are texts."""
-    given = list(rows)
-    lines = [_row("th", header)] if any(header) else []
-    lines += [_row("td", row) for row in given[:_MOST_ROWS]]
-    if len(given) > _MOST_ROWS:
-        lines.append(_row("td", (f"… {len(given) - _MOST_ROWS} more",)))
-    return f"<table>{''.join(lines)}</table>"
-
-
-def _row(kind: str, cells: Sequence[str]) -> str:
-    return "<tr>" + "".join(f"<{kind}>{html.escape(cell)}</{kind}>" for cell in cells) + "</tr>"
-
-
-def _paragraph(text: str) -> str:
-    return f"<p>{html.escape(text)}</p>"
-
-
-def _block(caption: str, *parts: str) -> str:
-    return f"<div><b>{html.escape(caption)}</b>{''.join(parts)}</div>"

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from kempe import files
+from kempe.base import files
 from kempe.cli import main
 
 EXAMPLE = Path(__file__).parents[2] / "examples" / "four_bar.toml"

@@ -6,9 +6,9 @@ from pathlib import Path
 import kempe as kp
 import numpy as np
 import pytest
+from kempe.analyses.option import Option
 from kempe.cli import main
 from kempe.cli.arguments import Changes, Method, read_case
-from kempe.option import Option
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 FOUR_BAR, SLIDER, SIX_BAR = (
@@ -112,7 +112,7 @@ def test_tolerances_keep_the_method() -> None:
     assert case.analyses["turns"]["method"] == {"type": "auto", "rtol": 1e-4}
 
 
-@pytest.mark.filterwarnings("ignore::kempe.analyses.AccuracyWarning")  # of the coarse run
+@pytest.mark.filterwarnings("ignore::kempe.AccuracyWarning")  # of the coarse run
 def test_the_method_is_used() -> None:
     usual = run(FOUR_BAR, "--t-end", "0.2")
     other = run(FOUR_BAR, "--t-end", "0.2", "--method", "dop853")

@@ -9,7 +9,8 @@ from pathlib import Path
 import kempe as kp
 import pytest
 from command_line import kempe
-from kempe import files, templates
+from kempe import templates
+from kempe.base import files
 from kempe.cli import main
 from kempe.templates import FILES, NAMES, template
 from sizes import some

@@ -33,7 +33,7 @@ def test_dop853_conserves_the_energy(start: kp.State) -> None:
     assert found.residual < 1e-10
 
 
-@pytest.mark.filterwarnings("ignore::kempe.analyses.AccuracyWarning")  # damped methods lose energy
+@pytest.mark.filterwarnings("ignore::kempe.AccuracyWarning")  # damped methods lose energy
 @pytest.mark.parametrize("name", sorted(BY_NAME))
 def test_every_method_keeps_the_joints_closed(start: kp.State, name: str) -> None:
     found = conserve(BY_NAME[name], start, 2000)

@@ -2,7 +2,7 @@
 
 import pytest
 from kempe import _core
-from kempe.options import Option
+from kempe.analyses.options import Option
 
 from benchmarks.validation.convergence import (
     HALVINGS,

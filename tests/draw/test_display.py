@@ -311,7 +311,7 @@ def test_no_name_of_an_element_type_is_in_a_drawing() -> None:
     names = [one["name"] for group in ("joints", "drivers", "forces") for one in catalogue[group]]
     #: Words that are quantities of views too: ``view.torque(on=…)``, ``quantity="torque"``.
     common = {"torque", "force"}
-    for part in ("draw", "plot", "studies"):
+    for part in ("draw", "plot", "sweeps/studies"):
         for path in (PACKAGE / part).rglob("*"):
             if path.suffix not in (".py", ".js"):
                 continue

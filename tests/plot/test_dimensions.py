@@ -9,7 +9,7 @@ import pytest
 from kempe.draw.display import Display
 from kempe.draw.items import line, print_points, upright
 from kempe.draw.placing import View, place
-from kempe.drawing import measured
+from kempe.model.drawing import measured
 
 #: The view of most tests: 400 × 300 points of print, the origin in the lower left corner.
 SIZE = np.array([400.0, 300.0])

@@ -9,7 +9,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe import plot
-from kempe.compiled import ACCELERATIONS, COORDINATES, RATES
+from kempe.model.compiled import ACCELERATIONS, COORDINATES, RATES
 from matplotlib.axes import Axes
 from plot.paintings import links
 

@@ -9,7 +9,7 @@ from kempe import plot
 from kempe.draw.units import Scale
 from kempe.plot.abscissa import Abscissa, abscissa
 from kempe.plot.marks import mark_events
-from kempe.variable import TIME, Variable
+from kempe.results.variable import TIME, Variable
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D

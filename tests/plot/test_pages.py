@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from kempe import plot
 from kempe.plot.page import file_names
-from kempe.report.summary import summary
+from kempe.results.summary import summary
 from matplotlib.text import Text
 from plot.clipping import clipped_lengths
 from plot.conftest import NAMES, chain, driven, pendulum

@@ -5,10 +5,10 @@ from typing import Any
 import numpy as np
 import pytest
 from kempe.draw.units import Scale
-from kempe.extrema import Extreme
 from kempe.plot import style
 from kempe.plot.panel import Curve
 from kempe.plot.peaks import add_peaks, chosen_peaks, peak_text
+from kempe.results.extrema import Extreme
 from matplotlib.axes import Axes
 
 SECONDS = Scale(1.0, "s")

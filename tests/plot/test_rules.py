@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from kempe import plot
 from kempe.draw.units import Scale
-from kempe.drawing import measured
+from kempe.model.drawing import measured
 from kempe.plot import drawing_pages, style
 from kempe.plot.envelope import BINS, draw_envelope, envelope, logarithmic
 from kempe.plot.panel import Curve, Panel

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from kempe import plot
 from kempe.draw.units import axis_label, scale
-from kempe.drawing import measured, place_texts
+from kempe.model.drawing import measured, place_texts
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import text_to_path
 from plot.clipping import clipped_lengths

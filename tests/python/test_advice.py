@@ -3,7 +3,7 @@
 import kempe as kp
 import numpy as np
 import pytest
-from kempe.settling import settling
+from kempe.results.settling import settling
 
 
 def swing() -> kp.Solution:

@@ -241,7 +241,7 @@ def test_an_interruption_gives_exit_code_130_and_keeps_the_solution(
 
 
 def test_settling_differs_from_endless_motion() -> None:
-    from kempe.settling import settling
+    from kempe.results.settling import settling
 
     t = np.linspace(0.0, 10.0, 1001)
     damped = settling(t, np.exp(-2.0 * t))

@@ -10,7 +10,7 @@ from typing import Any
 import kempe as kp
 import numpy as np
 import pytest
-from kempe.runs import StoredRun
+from kempe.results.runs import StoredRun
 
 COPIES: dict[str, Callable[[Any], Any]] = {
     "copy": copy.copy,

@@ -9,7 +9,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from house.places import ROOT
-from kempe.display_units import chosen_for, display
+from kempe.base.display_units import chosen_for, display
 from kempe.draw.units import scale
 
 

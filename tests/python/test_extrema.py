@@ -6,8 +6,8 @@ from pathlib import Path
 import kempe as kp
 import numpy as np
 import pytest
-from kempe.extrema import Extreme, largest, least, peak
-from kempe.fine import fine, fine_energies
+from kempe.results.extrema import Extreme, largest, least, peak
+from kempe.results.fine import fine, fine_energies
 
 EXAMPLES = Path(__file__).parents[2] / "examples"
 G = 9.81

@@ -7,10 +7,10 @@ import kempe as kp
 import numpy as np
 import pytest
 from house.places import ROOT
-from kempe.motion import Motion
 from kempe.report import summary
-from kempe.report.extremes import Sampled
-from kempe.settling import settling
+from kempe.results.extremes import Sampled
+from kempe.results.motion import Motion
+from kempe.results.settling import settling
 
 
 def run(name: str, output_step: float | None) -> kp.Solution:

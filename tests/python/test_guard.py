@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from command_line import kempe
 from house.places import ROOT
-from kempe.option import Option
+from kempe.analyses.option import Option
 
 FOUR_BAR = ROOT / "examples" / "four_bar.toml"
 

@@ -9,7 +9,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe import plot
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 
 TIGHT = kp.DOP853(rtol=1e-11, atol=1e-13)
 LENGTHS = {"crank": 0.4, "coupler": 1.1, "rocker": 0.8}

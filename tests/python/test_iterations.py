@@ -4,8 +4,8 @@ import re
 from pathlib import Path
 
 import kempe as kp
-from kempe.assembly_report import Iteration
-from kempe.iterations import Iterations, iterations
+from kempe.analyses.iterations import Iterations, iterations
+from kempe.results.assembly_report import Iteration
 
 
 def test_columns_of_the_iterations_are_residual_step_and_damping(four_bar_file: Path) -> None:

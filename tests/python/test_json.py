@@ -9,7 +9,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from house.places import ROOT
-from kempe import files
+from kempe.base import files
 from kempe.cli import results
 from kempe.cli.failure import print_json
 from kempe.cli.figures import Drawing, Which

@@ -7,8 +7,8 @@ import kempe as kp
 import numpy as np
 import pytest
 from house.places import ROOT
-from kempe import quantities
-from kempe.dominant_frequency import dominant_frequency
+from kempe.results import quantities
+from kempe.results.dominant_frequency import dominant_frequency
 
 SPEED = 2 * np.pi  # rad/s: one period a second
 

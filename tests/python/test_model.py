@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from kempe import _core, _generate, elements
+from kempe import _core, _generate
+from kempe.model import elements
 
 
 def test_the_dimensions_of_the_flagship(model: kp.Model) -> None:

@@ -7,9 +7,10 @@ from pathlib import Path
 import kempe as kp
 import numpy as np
 import pytest
-from kempe import _core, _generate, options
-from kempe.bodies import Bar, Body, PointMass
-from kempe.option import Option
+from kempe import _core, _generate
+from kempe.analyses import options
+from kempe.analyses.option import Option
+from kempe.model.bodies import Bar, Body, PointMass
 
 CATALOGUE = json.loads(_core.catalogue())
 FAMILIES = [*CATALOGUE["methods"], *CATALOGUE["stabilizations"]]

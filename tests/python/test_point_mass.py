@@ -6,7 +6,7 @@ from pathlib import Path
 import kempe as kp
 import numpy as np
 import pytest
-from kempe.table import columns
+from kempe.results.table import columns
 from matplotlib.figure import Figure
 
 

@@ -9,10 +9,10 @@ from typing import Any
 import kempe as kp
 import numpy as np
 import pytest
-from kempe import request_cache
-from kempe.model import Model
-from kempe.solution import Solution
-from kempe.state import State
+from kempe.analyses import request_cache
+from kempe.model.model import Model
+from kempe.results.solution import Solution
+from kempe.results.state import State
 
 GRID: dict[str, Any] = {"t_end": 0.1, "output_step": 0.005}
 

@@ -12,9 +12,9 @@ from kempe.cli.figures import Drawing
 from kempe.cli.results import write_result
 from kempe.plot import Page, pages
 from kempe.plot import result_pages as listed
-from kempe.result import Result
-from kempe.state import State
-from kempe.table import Column
+from kempe.results.result import Result
+from kempe.results.state import State
+from kempe.results.table import Column
 from matplotlib.figure import Figure
 
 
@@ -71,8 +71,8 @@ def test_the_next_analysis_starts_from_its_state(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     turned = kp.assemble(pendulum(), set={"rod.angle": 1.25})
-    monkeypatch.setitem(cases._RUNNERS, "kinematics", lambda *_: Weighed(turned))
-    rest, fall = kp.Kinematics(t_end=0.01, name="rest"), kp.Dynamics(t_end=0.1, name="fall")
+    monkeypatch.setitem(cases._RESULTS, "mobility", lambda _: Weighed(turned))
+    rest, fall = kp.Mobility(name="rest"), kp.Dynamics(t_end=0.1, name="fall")
     case = kp.Case(pendulum(), {"set": {"rod.angle": 0}}, [rest, fall])
     results = case.run()
     assert isinstance(results["rest"], Weighed)

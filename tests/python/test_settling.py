@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from kempe.settling import Settling, settling
+from kempe.results.settling import Settling, settling
 
 
 def test_a_decay_enters_the_band_where_it_does_between_the_outputs() -> None:

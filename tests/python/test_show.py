@@ -13,9 +13,9 @@ import numpy as np
 import pytest
 import sympy
 from kempe import _core
+from kempe.analyses.iterations import iterations
 from kempe.cli import main
-from kempe.iterations import iterations
-from kempe.symbolic import Equations
+from kempe.results.matrices.equations import Equations
 from numpy.testing import assert_allclose
 
 REFERENCE = json.loads(

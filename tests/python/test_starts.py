@@ -26,7 +26,7 @@ def case(four_bar_file: Path) -> kp.Case:
 
 @pytest.mark.parametrize("stabilization", STABILIZATIONS, ids=str)
 def test_a_start_of_other_lengths_is_refused_with_gap_joint_and_remedy(
-    model: kp.Model, start: kp.State, stabilization: kp.option.Option | None
+    model: kp.Model, start: kp.State, stabilization: kp.analyses.option.Option | None
 ) -> None:
     # the coupler grows by 1 m about its centre, so that it leaves B and C by 0.5 m
     longer = model.with_parameters({"L2": 27})

@@ -11,11 +11,11 @@ from types import SimpleNamespace
 import kempe as kp
 import numpy as np
 import pytest
-from kempe import archive
-from kempe.compiled import CompiledModel
-from kempe.dense import DenseOutput
-from kempe.motion import Motion
-from kempe.table import columns
+from kempe.model.compiled import CompiledModel
+from kempe.results import archive
+from kempe.results.dense import DenseOutput
+from kempe.results.motion import Motion
+from kempe.results.table import columns
 
 T = np.array([0.0, 0.5, 1.0])
 #: Current and pressure at these times.
@@ -91,7 +91,7 @@ def test_a_force_that_depends_on_a_reaction_is_given_the_multipliers(
         given.append(arguments[-2:])
         return np.zeros((1, 3))
 
-    monkeypatch.setattr("kempe.motion._core.force", force)
+    monkeypatch.setattr("kempe.results.motion._core.force", force)
     seeing = CompiledModel(start.compiled.core, start.compiled.case)
     seeing._about["forces"][0]["reads_multipliers"] = True
     for model in (start.compiled, seeing):

@@ -7,9 +7,9 @@ import numpy as np
 import pytest
 from house.places import ROOT
 from kempe.report import summary
-from kempe.report.extremes import Sampled
-from kempe.report.summary import _turning_by_violation, residual
-from kempe.settling import settling
+from kempe.results.extremes import Sampled
+from kempe.results.settling import settling
+from kempe.results.summary import _turning_by_violation, residual
 
 #: Times at which a motion is sampled.
 STEPS = 4001
@@ -151,7 +151,7 @@ def test_the_unit_of_an_angle_in_the_residual() -> None:
     m.translational("guide", "ground.O", "slider.P", axes=(0, 0))
     start = kp.assemble(m, set={"slider.x": 0.5})
     sol = kp.dynamics(m, start, t_end=0.1, output_step=0.05)
-    opened = kp.motion.Motion(m, sol.t, sol.q + np.array([0, 0, 0.01]), sol.v)
+    opened = kp.results.motion.Motion(m, sol.t, sol.q + np.array([0, 0, 0.01]), sol.v)
     sampled = Sampled(sol)
     sampled.solution, sampled.steps = opened, opened  # type: ignore[assignment]
     found = residual(sampled)

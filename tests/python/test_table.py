@@ -11,7 +11,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from house.places import ROOT
-from kempe import table
+from kempe.results import table
 
 
 @pytest.fixture(autouse=True)

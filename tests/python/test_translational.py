@@ -7,7 +7,7 @@ from pathlib import Path
 import kempe as kp
 import numpy as np
 import pytest
-from kempe.analyses import AssemblyWarning
+from kempe.analyses.record import AssemblyWarning
 from numpy.testing import assert_allclose
 
 FORMS = json.loads(

@@ -40,7 +40,7 @@ def test_a_type_checker_knows_views_and_choices(
     assert 'Revealed type is "float"' in at[8].replace("builtins.", "")
     assert "ndarray" in at[9]
     assert 'Revealed type is "float"' in at[10].replace("builtins.", "")
-    assert "kempe.model.Model" in at[11]
+    assert "kempe.model.model.Model" in at[11]
     for line in range(12, 19):
         assert "error" in at[line], told
     assert "Literal['stop', 'pass']" in at[14]

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from kempe import design
 from kempe.report import summary
-from kempe.variable import TIME, Variable
+from kempe.results.variable import TIME, Variable
 from python.test_kinematics import slider_crank, started
 from typer.testing import CliRunner
 

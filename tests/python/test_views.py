@@ -167,7 +167,7 @@ def test_the_residuals_of_an_open_mechanism_by_hand() -> None:
     m.body("rod", mass=1, inertia=1, points={"A": (0.3, 0)})
     m.revolute("O", "ground.O", "rod.A")
     q, v = np.array([0.01, -0.02, math.pi / 2]), np.array([0.5, 0.7, 2.0])
-    state = kp.motion.Motion(m, 0.0, q, v)
+    state = kp.results.motion.Motion(m, 0.0, q, v)
     view = state.joint("O")
     np.testing.assert_allclose(view.residual, [0.01, 0.28], atol=1e-14)
     np.testing.assert_allclose(view.residual_rate, [0.5 - 0.6, 0.7], atol=1e-14)

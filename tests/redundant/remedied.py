@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from typing import Any
 
 import kempe as kp
+from kempe.analyses.mobility import Remedy
 from kempe.case import parsed
-from kempe.freedom import Remedy
 
 
 def without(model: kp.Model, state: kp.State, remedies: Sequence[tuple[Remedy, str]]) -> kp.Model:

@@ -5,7 +5,7 @@ from functools import cache
 import kempe as kp
 import numpy as np
 import pytest
-from kempe.freedom import MobilityResult
+from kempe.analyses.mobility import MobilityResult
 from redundant.pinned import PINNED, Redundant
 from redundant.remedied import without
 from redundant.wheels import WHEELS

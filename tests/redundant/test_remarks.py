@@ -7,10 +7,11 @@ from pathlib import Path
 
 import kempe as kp
 import pytest
-from kempe import design, remarks
+from kempe import design
 from kempe.cli.findings import show_findings
 from kempe.lab_report.write import page
-from kempe.table import columns
+from kempe.results import remarks
+from kempe.results.table import columns
 from matplotlib.axes import Axes
 from redundant.pinned import PINNED, Redundant
 from redundant.wheels import WHEELS

@@ -7,7 +7,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from kempe import _core, files
+from kempe import _core
+from kempe.base import files
 
 ROOT = Path(__file__).parents[2]
 FILES = sorted([*ROOT.glob("examples/*.toml"), *ROOT.glob("python/kempe/templates/*.toml")])

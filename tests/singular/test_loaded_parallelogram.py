@@ -16,8 +16,8 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe.cli.findings import show_findings
-from kempe.extrema import largest, least, unbounded
-from kempe.report.summary import summary
+from kempe.results.extrema import largest, least, unbounded
+from kempe.results.summary import summary
 from rich.console import Console
 
 G = 9.81

@@ -6,9 +6,9 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe.cli.findings import show_findings
-from kempe.report import singular
-from kempe.report.singular import singular_positions
-from kempe.report.summary import summary
+from kempe.results import singular
+from kempe.results.singular import singular_positions
+from kempe.results.summary import summary
 from rich.console import Console
 from singular.equal_cranks import Cranks, cranks, run
 

@@ -10,9 +10,9 @@ from typing import Any
 import kempe as kp
 import numpy as np
 import pytest
-from kempe.extrema import largest, least, peak, unbounded
 from kempe.plot.panel import curve
 from kempe.report import summary
+from kempe.results.extrema import largest, least, peak, unbounded
 
 from examples import n_four_bar
 from examples.n_four_bar import GRAVITY, rate, upright, windows

@@ -12,11 +12,12 @@ from pathlib import Path
 import kempe as kp
 import numpy as np
 import pytest
-from kempe import design, remarks
+from kempe import design
 from kempe.cli.findings import show_findings
 from kempe.lab_report.write import page
-from kempe.measures import measure_info
+from kempe.model.measure_infos import measure_info
 from kempe.plot import pages
+from kempe.results import remarks
 from matplotlib.axes import Axes
 from rich.console import Console
 from singular.equal_cranks import cranks, run
@@ -202,7 +203,7 @@ def test_forces_that_vanish_have_bounds() -> None:
 
 
 def test_the_words_of_remarks() -> None:
-    time, over = kp.variable.TIME, kp.variable.Variable("crank.angle", "rad")
+    time, over = kp.results.variable.TIME, kp.results.variable.Variable("crank.angle", "rad")
     told = remarks.remark(remarks.MINIMUM_NORM, times=[0.5, 0.7], variable=time)
     assert told == ", minimum norm, without bound first at 0.5 s, last at 0.7 s"
     assert remarks.when([0.5, 0.5], time) == "at 0.5 s"

@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 
 import kempe as kp
 import numpy as np
-from kempe.compiled import CompiledModel
+from kempe.model.compiled import CompiledModel
 from stress.mechanisms import KINDS, Random, chance, power
 
 #: Longest run, s of CPU time.

@@ -68,7 +68,7 @@ def test_an_analysis_over_the_crank_angle_has_the_numbers_of_python(
     names = ("crank.angle", output, *rates[output])
     t, rows, units = read(one, *names)
     assert len(t) == 361
-    assert units == [kp.quantities.named(solution, name).unit for name in names]
+    assert units == [kp.results.quantities.named(solution, name).unit for name in names]
     assert units[2:] == {"rocker.angle": ["rad/rad", "rad/rad^2"]}.get(output, ["m/rad", "m/rad^2"])
     np.testing.assert_allclose(t[TEN], np.radians(TEN), rtol=0, atol=1e-12)
     for name, row in zip(names, rows, strict=True):

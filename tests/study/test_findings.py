@@ -11,9 +11,9 @@ import kempe as kp
 import numpy as np
 import pytest
 from house.places import ROOT
-from kempe.studies import Outcome, Variant, variants
-from kempe.studies.findings import growth
-from kempe.studies.run import Study
+from kempe.sweeps.studies import Outcome, Variant, variants
+from kempe.sweeps.studies.findings import growth
+from kempe.sweeps.studies.run import Study
 
 
 def outcome(variant: Variant, **numbers: float) -> Outcome:

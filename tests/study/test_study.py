@@ -14,8 +14,8 @@ from kempe.draw.painter import Painting
 from kempe.draw.placing import place
 from kempe.plot import study_figures
 from kempe.plot.study_gaps import joint_gaps, magnification
-from kempe.studies import Outcome, Variant
-from kempe.studies.findings import growth
+from kempe.sweeps.studies import Outcome, Variant
+from kempe.sweeps.studies.findings import growth
 from matplotlib.axes import Axes
 
 ROOT = Path(__file__).parents[2]

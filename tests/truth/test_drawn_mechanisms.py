@@ -65,7 +65,7 @@ def test_starts(part: int) -> None:
             assert apart(made, again.v, state.v) < EXACT, seed
 
 
-@pytest.mark.filterwarnings("ignore::kempe.events.EventWarning")  # flats that lift off
+@pytest.mark.filterwarnings("ignore::kempe.EventWarning")  # flats that lift off
 @pytest.mark.parametrize("method", [kp.DOP853, kp.Radau], ids=["dop853", "radau"])
 @pytest.mark.parametrize("part", range(count(4, 40)))
 def test_motions(part: int, method: type) -> None:

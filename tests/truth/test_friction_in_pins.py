@@ -9,7 +9,7 @@ from __future__ import annotations
 import kempe as kp
 import numpy as np
 import pytest
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 

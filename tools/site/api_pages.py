@@ -35,7 +35,7 @@ PAGES = {
         "and is what a file contains.",
         (
             "kempe.Model",
-            "kempe.ground.Ground",
+            "kempe.model.ground.Ground",
             "kempe.Sampled",
             "kempe.Case",
             "kempe.load",
@@ -46,7 +46,7 @@ PAGES = {
         "Elements",
         "One class for each joint, driver and force. The method of `kp.Model` with the name of its "
         "type adds it: `m.revolute(...)` adds a `Revolute`.",
-        ("kempe.elements",),
+        ("kempe.model.elements",),
     ),
     "analyses": ApiPage(
         "Analyses",
@@ -91,6 +91,7 @@ PAGES = {
             "kempe.Equilibrium",
             "kempe.Modes",
             "kempe.Limits",
+            "kempe.Reachable",
             "kempe.Mobility",
             "kempe.Configurations",
             "kempe.Event",
@@ -146,6 +147,7 @@ PAGES = {
             "kempe.IntegrationError",
             "kempe.FileError",
             "kempe.InternalError",
+            "kempe.AccuracyWarning",
             "kempe.AssemblyWarning",
             "kempe.EventWarning",
             "kempe.FunctionWarning",

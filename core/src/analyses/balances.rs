@@ -2,7 +2,7 @@
 //!
 //! Reports relate a balance to the largest energies or forces of a whole run. A condition can use only the run so
 //! far, so its balance is the balance of a run that ends at the state. The scales are those of
-//! `python/kempe/energy.py` and `python/kempe/newton_euler.py`.
+//! `python/kempe/results/energy.py` and `python/kempe/results/newton_euler.py`.
 
 use crate::equations::newton_euler::{Balances, BodyBalance};
 use crate::math::Listed;

@@ -29,7 +29,7 @@ from kempe.errors import ModelError
 
 if TYPE_CHECKING:
     from kempe.draw.pixels import Pixels
-    from kempe.solution import Solution
+    from kempe.results.solution import Solution
 
 STEM, PICTURE = "animation", "still.png"
 

@@ -16,14 +16,14 @@ from kempe.errors import FileError, ModelError
 
 if TYPE_CHECKING:
     from kempe.case import Case
-    from kempe.state import State
+    from kempe.results.state import State
 
 #: In place of a file: standard input.
 STDIN = "-"
 
 
 class Method(str, Enum):
-    """The methods of integration; must agree with the classes in ``kempe.options``."""
+    """The methods of integration; must agree with the classes in ``kempe.analyses.options``."""
 
     auto = "auto"
     rk45 = "rk45"
@@ -114,7 +114,7 @@ class Changes:
 
     def of_type(self, case: Case, kind: str) -> Case:
         """The case with the analyses of one type; if it has none, one from the start is added."""
-        from kempe.option import Analysis
+        from kempe.analyses.option import Analysis
 
         end = {} if self.t_end is None else {"t_end": number_or_formula(self.t_end)}
         fields = next(each.shapes for each in Analysis.__subclasses__() if each.kind == kind)
@@ -138,14 +138,14 @@ class Changes:
 
 def _having(field: str, case: Case) -> list[str]:
     """The names of the analyses that have a field."""
-    from kempe.option import Analysis
+    from kempe.analyses.option import Analysis
 
     kinds = {each.kind for each in Analysis.__subclasses__() if field in each.shapes}
     return [name for name, entry in case.analyses.items() if entry["type"] in kinds]
 
 
 def _fields(method: Method) -> set[str]:
-    from kempe.option import Option
+    from kempe.analyses.option import Option
 
     for kind in Option.__subclasses__():
         if kind.kind == method.value:
@@ -163,7 +163,7 @@ def shown_in(names: str | None) -> Iterator[None]:
     Raises:
         ModelError: a unit is unknown.
     """
-    from kempe.display_units import units
+    from kempe.base.display_units import units
 
     with units("SI" if names is None else names):
         yield
@@ -193,7 +193,7 @@ def read_case(file: Path, changes: Changes, kind: str | None = None) -> Case:
 
 
 def _standard_input() -> str:
-    from kempe import files
+    from kempe.base import files
 
     if sys.stdin is None:
         raise FileError("cannot read standard input: it is closed", hint="name a file")
@@ -229,7 +229,7 @@ def assembled(case: Case) -> State:
     """The assembled mechanism; its warnings are printed with the report."""
     import warnings
 
-    from kempe.record import AssemblyWarning
+    from kempe.analyses.record import AssemblyWarning
 
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", AssemblyWarning)

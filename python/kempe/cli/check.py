@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from rich.text import Text
 
+from kempe.analyses.sequence import of_type
 from kempe.cli.arguments import (
     STDIN,
     AbsoluteTolerance,
@@ -26,13 +27,12 @@ from kempe.cli.arguments import (
 from kempe.cli.console import answers, heading
 from kempe.cli.failure import document
 from kempe.errors import SingularityError
-from kempe.sequence import of_type
 
 if TYPE_CHECKING:
-    from kempe.assembly_report import AssemblyReport
+    from kempe.analyses.mobility import MobilityResult
     from kempe.case import Case
-    from kempe.freedom import MobilityResult
-    from kempe.state import State
+    from kempe.results.assembly_report import AssemblyReport
+    from kempe.results.state import State
 
 EXAMPLES = """Examples:
 
@@ -108,7 +108,7 @@ def _report(report: AssemblyReport) -> dict[str, Any]:
 
 def _content(case: Case, state: State) -> dict[str, Any]:
     """The mechanism, its configuration and the report of its assembly; units: m, rad, kg, s."""
-    from kempe.report.summary import mechanism
+    from kempe.results.summary import mechanism
 
     return {
         "title": state.model.title,

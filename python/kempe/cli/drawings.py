@@ -10,8 +10,8 @@ from kempe.cli.clock import drawing as progress_of
 from kempe.cli.figures import Drawing, Which
 
 if TYPE_CHECKING:
-    from kempe.result import Result
-    from kempe.solution import Solution
+    from kempe.results.result import Result
+    from kempe.results.solution import Solution
 
 FIRST, LAST = "first_frame.png", "last_frame.png"
 

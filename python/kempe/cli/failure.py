@@ -9,7 +9,8 @@ from typing import Any
 
 from rich.text import Text
 
-from kempe import errors, files
+from kempe import errors
+from kempe.base import files
 from kempe.cli import exit_codes
 from kempe.cli.console import remarks
 

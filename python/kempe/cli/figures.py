@@ -13,8 +13,8 @@ from kempe.errors import ModelError
 
 if TYPE_CHECKING:
     from kempe.plot import Page
-    from kempe.result import Result
-    from kempe.solution import Solution
+    from kempe.results.result import Result
+    from kempe.results.solution import Solution
 
 
 class Which(str, Enum):
@@ -78,7 +78,7 @@ def formats(text: str) -> list[str]:
     Raises:
         ModelError: it is empty or names a format that there is not.
     """
-    from kempe.names import one_of
+    from kempe.base.names import one_of
     from kempe.plot.style import FORMATS
 
     words = [word.strip().lower() for word in text.split(",") if word.strip()]

@@ -7,12 +7,12 @@ from typing import Any
 from rich.console import Console
 from rich.text import Text
 
+from kempe.base.display_units import Shown, display
+from kempe.base.display_units import heading as units_heading
+from kempe.base.names import few
 from kempe.cli.console import figure, heading, table
-from kempe.display_units import Shown, display
-from kempe.display_units import heading as units_heading
-from kempe.names import few
-from kempe.remarks import not_unique, starred, when
-from kempe.variable import Variable
+from kempe.results.remarks import not_unique, starred, when
+from kempe.results.variable import Variable
 
 
 def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:

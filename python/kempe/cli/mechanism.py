@@ -11,9 +11,9 @@ from rich.text import Text
 from kempe.cli.console import figure, heading, table
 
 if TYPE_CHECKING:
-    from kempe.matrices import Matrices
-    from kempe.state import State
-    from kempe.values import Number
+    from kempe.model.values import Number
+    from kempe.results.matrices.values import Matrices
+    from kempe.results.state import State
 
 #: Largest number of columns of a printed Jacobian.
 WIDEST = 30
@@ -46,7 +46,7 @@ def show_mechanism(console: Console, state: State) -> None:
 
 def show_configuration(console: Console, state: State) -> None:
     """Print the initial configuration and the assembly report."""
-    from kempe.display_units import display
+    from kempe.base.display_units import display
 
     time = display("s")
     told = f"{figure(state.t / time.divisor)} {time.symbol}"

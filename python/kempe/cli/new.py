@@ -47,7 +47,7 @@ def new(
     ] = False,
 ) -> None:
     """Write a commented example to start from, or list the examples."""
-    from kempe import files
+    from kempe.base import files
     from kempe.templates import template, title
 
     if name is None:

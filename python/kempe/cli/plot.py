@@ -25,8 +25,8 @@ from kempe.cli.solved import CaseOrSolution, results_folder, solved
 
 if TYPE_CHECKING:
     from kempe.plot import Page
-    from kempe.result import Result
-    from kempe.solution import Solution
+    from kempe.results.result import Result
+    from kempe.results.solution import Solution
 
 EXAMPLES = """Examples:
 
@@ -92,7 +92,7 @@ def _chosen(solution: Solution | Result, known: list[Page], names: list[str]) ->
         ModelError: there is no such figure, joint or force.
     """
     from kempe.plot import select
-    from kempe.solution import Solution
+    from kempe.results.solution import Solution
 
     if not isinstance(solution, Solution):
         return select(known, names)

@@ -91,7 +91,7 @@ def report(  # noqa: PLR0917 - typer distinguishes options by their annotations
 
 def _listing(file: Path, changes: Changes) -> str | None:
     """The text of a case file; None if the command line changes the case."""
-    from kempe import files
+    from kempe.base import files
 
     is_as_written = not changes and str(file) != STDIN
     return files.read_text(file) if is_as_written else None

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from kempe.cli.figures import Drawing
-    from kempe.result import Result
-    from kempe.solution import Solution
+    from kempe.results.result import Result
+    from kempe.results.solution import Solution
 
 SUMMARY = "summary.json"
 EVENTS = "events.csv"
@@ -32,7 +32,7 @@ def write_results(
         FileError: a file cannot be written.
     """
     from kempe.cli.drawings import write_drawings, write_figures
-    from kempe.event_table import write_events
+    from kempe.results.event_table import write_events
 
     data, text, overview = (folder / name for name in FILES)
     solution.save(data)
@@ -59,7 +59,7 @@ def write_result(result: Result, folder: Path, drawing: Drawing) -> list[Path]:
 
 
 def _write_summary(path: Path, summary: dict[str, Any], written: list[Path]) -> None:
-    from kempe import files
+    from kempe.base import files
 
     names = [each.relative_to(path.parent).as_posix() for each in written]
     files.write_text(path, files.json_text({**summary, "files": names}) + "\n")

@@ -39,9 +39,9 @@ from kempe.errors import KempeError
 
 if TYPE_CHECKING:
     from kempe.case import Case
-    from kempe.result import Result
-    from kempe.solution import Solution
-    from kempe.state import State
+    from kempe.results.result import Result
+    from kempe.results.solution import Solution
+    from kempe.results.state import State
 
 EXAMPLES = """Examples:
 
@@ -128,7 +128,7 @@ class _Finished:
 
     def finish(self, name: str, found: Solution | Result) -> None:
         from kempe.cli.results import write_result
-        from kempe.result import Result
+        from kempe.results.result import Result
 
         folder = self.folder / name if self.apart else self.folder
         if isinstance(found, Result):

@@ -27,9 +27,9 @@ from kempe.errors import FileError, ModelError
 
 if TYPE_CHECKING:
     from kempe.case import Case
-    from kempe.matrices import Labelled
-    from kempe.solution import Solution
-    from kempe.state import State
+    from kempe.results.matrices.labelled import Labelled
+    from kempe.results.solution import Solution
+    from kempe.results.state import State
 
 
 class Form(str, Enum):
@@ -145,7 +145,7 @@ def _read(file: Path, changes: Changes) -> tuple[Case, Solution | None]:
 
 
 def _put(text: str, output: Path | None) -> None:
-    from kempe import files
+    from kempe.base import files
 
     if output is None:
         answers().print(Text(text.rstrip("\n")))
@@ -156,7 +156,7 @@ def _put(text: str, output: Path | None) -> None:
 
 
 def _matrices(case: Case, state: State, wanted: list[str], assembly: bool) -> Iterator[Labelled]:
-    from kempe.matrices import show as labelled
+    from kempe.results.matrices.labelled import show as labelled
 
     held = case.held if assembly else {}
     positions = {name: value for name, value in held.items() if name in state.model.column_names()}
@@ -167,7 +167,7 @@ def _matrices(case: Case, state: State, wanted: list[str], assembly: bool) -> It
 
 def _written(shown: Labelled, state: State, form: Form) -> str:
     if form is Form.text:
-        from kempe.display_units import display
+        from kempe.base.display_units import display
 
         time = display("s")
         when = f"t = {figure(float(state.t) / time.divisor)} {time.symbol}"
@@ -177,7 +177,7 @@ def _written(shown: Labelled, state: State, form: Form) -> str:
 
 def _state(case: Case, solution: Solution | None, t: float | None) -> State:
     """The assembled mechanism, or the state of the simulation at ``t``."""
-    from kempe.solution import Solution
+    from kempe.results.solution import Solution
 
     if solution is not None:
         solutions, start = iter([solution]), solution.initial
@@ -220,18 +220,18 @@ def _content(
             for shown in matrices
         ]
     if iterations:
-        from kempe.iterations import iterations as computed
+        from kempe.analyses.iterations import iterations as computed
 
         content["iterations"] = [asdict(row) for row in computed(case).rows]
     if symbolic:
-        from kempe.symbolic import equations
+        from kempe.results.matrices.equations import equations
 
         content["equations"] = [asdict(equation) for equation in equations(case.model)]
     return content
 
 
 def _iterations(case: Case, form: Form) -> str:
-    from kempe.iterations import iterations
+    from kempe.analyses.iterations import iterations
 
     course = iterations(case)
     if form is Form.csv:
@@ -240,7 +240,7 @@ def _iterations(case: Case, form: Form) -> str:
 
 
 def _symbolic(case: Case, form: Form) -> str:
-    from kempe.symbolic import equations
+    from kempe.results.matrices.equations import equations
 
     if form is Form.csv:
         raise ModelError("--symbolic has no CSV", hint="use --format text or latex")

@@ -13,8 +13,8 @@ from kempe.errors import ModelError
 
 if TYPE_CHECKING:
     from kempe.case import Case
-    from kempe.result import Result
-    from kempe.solution import Solution
+    from kempe.results.result import Result
+    from kempe.results.solution import Solution
 
 CaseOrSolution = Annotated[
     Path,
@@ -36,7 +36,7 @@ def motions(file: Path, changes: Changes) -> list[tuple[str, Solution]]:
     Raises:
         ModelError: the case contains no analysis of a motion.
     """
-    from kempe.solution import Solution
+    from kempe.results.solution import Solution
 
     found = [each for each in solved(file, changes) if isinstance(each[1], Solution)]
     if not found:
@@ -66,7 +66,7 @@ def stored(file: Path, changes: Changes) -> Solution:
     Raises:
         ModelError: it is to be changed.
     """
-    from kempe.archive import load_solution
+    from kempe.results.archive import load_solution
 
     if changes:
         raise ModelError(

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from rich.console import Console
 
     from kempe.case import Case
-    from kempe.studies import Study
+    from kempe.sweeps.studies import Study
 
 EXAMPLES = """Examples:
 
@@ -44,7 +44,7 @@ def study(  # noqa: PLR0917 - typer distinguishes options by their annotations
 ) -> None:
     """Compare stabilizations, methods and tolerances on one analysis."""
     from kempe.plot import study_figures
-    from kempe.studies.table import json_text
+    from kempe.sweeps.studies.table import json_text
 
     with document(as_json) as content, shown_in(units):
         case = read_case(file, Changes(settings))
@@ -64,9 +64,9 @@ def computed(case: Case, analysis: str | None = None) -> Study:
     """The study of an analysis; a terminal shows the variant that is computed."""
     import warnings
 
-    from kempe.events import EventWarning
-    from kempe.record import AssemblyWarning
-    from kempe.studies import study as compute
+    from kempe.analyses.record import AssemblyWarning
+    from kempe.results.events import EventWarning
+    from kempe.sweeps.studies import study as compute
 
     silent = not remarks().is_terminal
     with warnings.catch_warnings(), remarks().status("", spinner="line") as status:
@@ -76,8 +76,8 @@ def computed(case: Case, analysis: str | None = None) -> Study:
 
 
 def _show(console: Console, found: Study) -> None:
-    from kempe.studies.table import cells, fate, header
-    from kempe.studies.variants import GROUPS
+    from kempe.sweeps.studies.table import cells, fate, header
+    from kempe.sweeps.studies.variants import GROUPS
 
     console.print(Text(f"{found.title}: study of {found.analysis}", style="bold"))
     for group, title in GROUPS.items():

@@ -67,7 +67,7 @@ def sweep(  # noqa: PLR0917 - typer uses the annotations of options and argument
     as_json: AsJson = False,
 ) -> None:
     """Run many variants of a case; write a table and figures. Resumes where it was stopped."""
-    from kempe import files
+    from kempe.base import files
     from kempe.sweeps import sweep as compute
 
     with document(as_json) as content, shown_in(units):
@@ -184,8 +184,8 @@ def _show(console: Console, found: SweepResult) -> None:
     """Print the range of each measure and the most frequent failures."""
     from collections import Counter
 
-    from kempe.display_units import display
-    from kempe.remarks import not_unique, starred
+    from kempe.base.display_units import display
+    from kempe.results.remarks import not_unique, starred
 
     names = ", ".join(variable.name for variable in found.variables)
     console.print(Text(f"{len(found)} variants over {names}", style="bold"))
@@ -214,7 +214,7 @@ def _show(console: Console, found: SweepResult) -> None:
 
 def _show_unbounded(console: Console, found: SweepResult) -> None:
     """Print the measures that have no bound in some variants."""
-    from kempe.names import few
+    from kempe.base.names import few
 
     if found.unbounded:
         count = int(found.succeeded.sum())

@@ -14,9 +14,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from kempe.arrays import Floats, fixed
+from kempe.base.arrays import Floats, fixed
 from kempe.errors import ModelError
-from kempe.motion import Motion
+from kempe.results.motion import Motion
 
 #: A centre is at infinity if its distance exceeds the size of the mechanism by this factor.
 _FAR = 1e12

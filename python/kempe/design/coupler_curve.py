@@ -11,13 +11,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kempe.arrays import Floats, fixed
+from kempe.base.arrays import Floats, fixed
 from kempe.design.locate import instants, integral, interpolated, zeros
 from kempe.design.places import Place, located, point_of
 from kempe.errors import ModelError
-from kempe.motion import Motion
-from kempe.solution import Solution
-from kempe.variable import Variable
+from kempe.results.motion import Motion
+from kempe.results.solution import Solution
+from kempe.results.variable import Variable
 
 #: A path is closed if the distance of its ends is less than this fraction of its size.
 _CLOSED = 1e-9

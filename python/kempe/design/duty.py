@@ -14,17 +14,17 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kempe.arrays import Floats, fixed
+from kempe.base.arrays import Floats, fixed
+from kempe.base.names import unknown
 from kempe.design.locate import instants, integral, interpolated, limits, zeros
 from kempe.design.transmission import rate_name
 from kempe.errors import ModelError
-from kempe.extrema import Extreme
-from kempe.motion import Motion
-from kempe.names import unknown
-from kempe.quantities import named
-from kempe.remarks import choice_of, poles, remark
-from kempe.solution import Solution
-from kempe.variable import Variable
+from kempe.results.extrema import Extreme
+from kempe.results.motion import Motion
+from kempe.results.quantities import named
+from kempe.results.remarks import choice_of, poles, remark
+from kempe.results.solution import Solution
+from kempe.results.variable import Variable
 
 Read = Callable[[Motion], Floats]
 

@@ -16,16 +16,16 @@ from types import MappingProxyType
 
 import numpy as np
 
-from kempe import files
-from kempe.arrays import Floats, fixed
+from kempe.base import files
+from kempe.base.arrays import Floats, fixed
 from kempe.design.wrenches import Inertia, Load, imbalance, inertia, loads
 from kempe.errors import ModelError
-from kempe.motion import Motion
-from kempe.remarks import by_choice, unbounded_at, when
-from kempe.solution import Solution
-from kempe.state import State
-from kempe.values import instance
-from kempe.variable import Variable
+from kempe.model.values import instance
+from kempe.results.motion import Motion
+from kempe.results.remarks import by_choice, unbounded_at, when
+from kempe.results.solution import Solution
+from kempe.results.state import State
+from kempe.results.variable import Variable
 
 #: A load case is written if its error of balance is at most this share of its largest load.
 BALANCED = 1e-9

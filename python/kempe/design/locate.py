@@ -8,12 +8,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.errors import ModelError
-from kempe.extrema import Extreme, largest, least
-from kempe.motion import Motion
-from kempe.solution import Solution
-from kempe.values import instance
+from kempe.model.values import instance
+from kempe.results.extrema import Extreme, largest, least
+from kempe.results.motion import Motion
+from kempe.results.solution import Solution
 
 #: A quantity of a motion, (n_t,).
 Read = Callable[[Motion], Floats]

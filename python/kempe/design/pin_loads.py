@@ -14,19 +14,19 @@ from types import MappingProxyType
 
 import numpy as np
 
-from kempe import files
-from kempe.arrays import Floats, fixed
+from kempe.base import files
+from kempe.base.arrays import Floats, fixed
+from kempe.base.names import one_of
 from kempe.design.free_body import FreeBody, free_body
 from kempe.design.locate import instants, interpolated, limits
 from kempe.errors import ModelError
-from kempe.extrema import Extreme
-from kempe.motion import Motion
-from kempe.names import one_of
-from kempe.remarks import remark, unbounded_at
-from kempe.solution import Solution
-from kempe.table import Column, column, remarked, write_columns
-from kempe.variable import Variable
-from kempe.views.frames import checked_body
+from kempe.results.extrema import Extreme
+from kempe.results.motion import Motion
+from kempe.results.remarks import remark, unbounded_at
+from kempe.results.solution import Solution
+from kempe.results.table import Column, column, remarked, write_columns
+from kempe.results.variable import Variable
+from kempe.results.views.frames import checked_body
 
 #: The extreme cases of a joint on a body.
 CASES = ("max", "x_max", "x_min", "y_max", "y_min")

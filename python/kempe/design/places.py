@@ -7,13 +7,13 @@ from typing import TypeAlias
 import numpy as np
 
 from kempe import _core
-from kempe.arrays import Floats, fixed
-from kempe.compiled import CompiledModel, ConstraintInfo, Vector
+from kempe.base.arrays import Floats, fixed
+from kempe.base.names import few, unknown
 from kempe.errors import ModelError
-from kempe.motion import Motion
-from kempe.names import few, unknown
-from kempe.values import vector
-from kempe.views import PointView
+from kempe.model.compiled import CompiledModel, ConstraintInfo, Vector
+from kempe.model.values import vector
+from kempe.results.motion import Motion
+from kempe.results.views.body import PointView
 
 #: A point: "coupler.P", or a body and coordinates in its frame: ("coupler", (0.1, 0.2)), m.
 Place: TypeAlias = "str | tuple[str, Vector]"

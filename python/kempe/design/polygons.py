@@ -16,15 +16,15 @@ from types import MappingProxyType
 
 import numpy as np
 
-from kempe.arrays import Floats, fixed
-from kempe.compiled import CompiledModel, Vector
+from kempe.base.arrays import Floats, fixed
 from kempe.design.places import is_pin
 from kempe.errors import ModelError
-from kempe.motion import Motion
-from kempe.solution import Solution
-from kempe.state import State
-from kempe.values import instance
-from kempe.variable import Variable
+from kempe.model.compiled import CompiledModel, Vector
+from kempe.model.values import instance
+from kempe.results.motion import Motion
+from kempe.results.solution import Solution
+from kempe.results.state import State
+from kempe.results.variable import Variable
 
 #: Names of the pole.
 POLE = "o"

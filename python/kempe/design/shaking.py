@@ -12,15 +12,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kempe.arrays import Floats, fixed
+from kempe.base.arrays import Floats, fixed
 from kempe.design.locate import instants
 from kempe.design.places import mass_and_inertia
 from kempe.design.wrenches import cross, loads
 from kempe.errors import ModelError
-from kempe.motion import Motion
-from kempe.solution import Solution
-from kempe.values import vector
-from kempe.variable import Variable
+from kempe.model.values import vector
+from kempe.results.motion import Motion
+from kempe.results.solution import Solution
+from kempe.results.variable import Variable
 
 
 @dataclass(frozen=True, repr=False)

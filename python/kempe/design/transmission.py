@@ -14,18 +14,18 @@ from functools import partial
 import numpy as np
 
 from kempe import _core
-from kempe.arrays import Floats, fixed
-from kempe.compiled import CompiledModel
+from kempe.base.arrays import Floats, fixed
 from kempe.design.locate import Limits, instants, limits, zeros
 from kempe.design.places import Place, is_pin, line_at, others_at, point_of
 from kempe.errors import ModelError
-from kempe.extrema import Extreme
-from kempe.motion import Motion
-from kempe.quantities import named
-from kempe.solution import Solution
-from kempe.state import State
-from kempe.values import mapping
-from kempe.variable import Variable
+from kempe.model.compiled import CompiledModel
+from kempe.model.values import mapping
+from kempe.results.extrema import Extreme
+from kempe.results.motion import Motion
+from kempe.results.quantities import named
+from kempe.results.solution import Solution
+from kempe.results.state import State
+from kempe.results.variable import Variable
 
 #: Links are in line if the sine of the angle between them is below this.
 _IN_LINE = 1e-6

@@ -11,11 +11,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from kempe.arrays import Floats, fixed
-from kempe.compiled import ConstraintInfo, ForceInfo
+from kempe.base.arrays import Floats, fixed
 from kempe.design.places import mass_and_inertia
-from kempe.motion import Motion
-from kempe.state import State
+from kempe.model.compiled import ConstraintInfo, ForceInfo
+from kempe.results.motion import Motion
+from kempe.results.state import State
 
 
 @dataclass(frozen=True, repr=False)

@@ -9,7 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from kempe import files
+from kempe.analyses.mode_shape import ModeShape
+from kempe.base import files
 from kempe.draw.frame import Frame, Picture
 from kempe.draw.oscillation import pictures as pictures_of_mode
 from kempe.draw.pixels import Pixels, format_of
@@ -17,8 +18,7 @@ from kempe.draw.player import player
 from kempe.draw.sampling import FRAMES_PER_SECOND, Span
 from kempe.draw.scene import playback_rate, scene
 from kempe.errors import ModelError
-from kempe.mode_shape import ModeShape
-from kempe.solution import Solution
+from kempe.results.solution import Solution
 
 FORMATS = ("html", "mp4", "gif")
 #: A function that is called with the number of drawn frames and the number of all frames.

@@ -13,14 +13,14 @@ from typing import Any
 
 import numpy as np
 
-from kempe.arrays import Floats
-from kempe.compiled import ConstraintInfo, ForceInfo
+from kempe.base.arrays import Floats
 from kempe.draw.numbers import rounded
 from kempe.errors import KempeError
-from kempe.extrema import Quantity, largest, passes_singular
-from kempe.motion import Motion
-from kempe.solution import Solution
-from kempe.state import State
+from kempe.model.compiled import ConstraintInfo, ForceInfo
+from kempe.results.extrema import Quantity, largest, passes_singular
+from kempe.results.motion import Motion
+from kempe.results.solution import Solution
+from kempe.results.state import State
 
 #: Number of a body and a point in its frame.
 Tracked = tuple[int, Sequence[float]]

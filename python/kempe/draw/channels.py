@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from kempe.arrays import Floats
-from kempe.compiled import CompiledModel
+from kempe.base.arrays import Floats
 from kempe.draw.numbers import plain
-from kempe.energy import Energy
-from kempe.motion import Motion
+from kempe.model.compiled import CompiledModel
+from kempe.results.energy import Energy
+from kempe.results.motion import Motion
 
 #: Torques and forces below this share of the largest one of an element are rounding errors.
 _NOTHING = 1e-9

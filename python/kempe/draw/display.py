@@ -6,12 +6,12 @@ from typing import Any
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.draw.items import Frame, Item
 from kempe.draw.palette import one_line
 from kempe.draw.placing import View
 from kempe.draw.scene import Scene
-from kempe.drawing import display_list
+from kempe.model.drawing import display_list
 
 
 class Display:

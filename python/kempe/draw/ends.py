@@ -12,13 +12,13 @@ from typing import Any
 
 import numpy as np
 
-from kempe.compiled import ConstraintInfo
 from kempe.draw.numbers import plain
-from kempe.infos import ForceInfo, Vector
-from kempe.motion import Motion
-from kempe.remarks import choice_of, joint_remark, remark
-from kempe.solution import Solution
-from kempe.state import State
+from kempe.model.compiled import ConstraintInfo
+from kempe.model.infos import ForceInfo, Vector
+from kempe.results.motion import Motion
+from kempe.results.remarks import choice_of, joint_remark, remark
+from kempe.results.solution import Solution
+from kempe.results.state import State
 
 #: A place: the body in whose frame a point is, and the point.
 _Place = tuple[str, Vector]

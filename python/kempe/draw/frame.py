@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from kempe import files
-from kempe.arrays import Floats
+from kempe.base import files
+from kempe.base.arrays import Floats
 from kempe.draw import palette
 from kempe.draw.display import display
 from kempe.draw.geometry import placed, smooth
@@ -20,7 +20,7 @@ from kempe.draw.numbers import round_below
 from kempe.draw.palette import one_line, verbatim
 from kempe.draw.placing import View, view_around
 from kempe.draw.scene import Scene
-from kempe.drawing import measured
+from kempe.model.drawing import measured
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist

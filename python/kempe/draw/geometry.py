@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 
 
 def placed(poses: Floats, points: Floats | Sequence[float]) -> Floats:

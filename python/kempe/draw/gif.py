@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe import files
+from kempe.base import files
 from kempe.draw.frame import Picture
 
 if TYPE_CHECKING:

@@ -24,7 +24,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 
 Item: TypeAlias = dict[str, Any]
 Frame: TypeAlias = dict[str, Any]

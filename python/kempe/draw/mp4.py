@@ -9,7 +9,7 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import IO
 
-from kempe import files
+from kempe.base import files
 from kempe.draw.frame import Picture
 from kempe.errors import FileError
 

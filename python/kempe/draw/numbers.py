@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 
 
 def plain(values: Floats, digits: int = 9) -> Any:

@@ -6,11 +6,11 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 
+from kempe.analyses.mode_shape import ModeShape
 from kempe.draw.frame import Frame, Picture
 from kempe.draw.numbers import plain
 from kempe.draw.pixels import Pixels, format_of
 from kempe.draw.scene import Scene, scene
-from kempe.mode_shape import ModeShape
 
 #: Duration of a period on the screen, s.
 PERIOD = 2.0

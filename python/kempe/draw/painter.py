@@ -15,7 +15,7 @@ from matplotlib.patheffects import withStroke
 from matplotlib.text import Text
 from matplotlib.transforms import IdentityTransform
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.draw.items import Item
 from kempe.draw.palette import rgb, verbatim
 from kempe.draw.placing import HATCH_WIDTH, View, direction, hatching, place

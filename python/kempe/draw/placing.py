@@ -12,10 +12,10 @@ from itertools import pairwise
 
 import numpy as np
 
-from kempe import drawing
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.draw.geometry import placed
 from kempe.draw.items import Frame, Item
+from kempe.model import drawing
 
 #: Of the hatching of ground: distance and length of its strokes, and their width, points.
 _SPACING, _STROKE, HATCH_WIDTH = 4.0, 5.0, 0.7

@@ -19,14 +19,14 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
-from kempe import files
 from kempe._version import __version__
+from kempe.base import files
 from kempe.draw.frame import frame_items
 from kempe.draw.numbers import rounded_all
 from kempe.draw.sampling import Span
 from kempe.draw.scene import Scene, scene
-from kempe.solution import Solution
-from kempe.state import State
+from kempe.results.solution import Solution
+from kempe.results.state import State
 
 
 def player(

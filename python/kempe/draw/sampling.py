@@ -8,13 +8,13 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from kempe.arrays import Floats, fixed
+from kempe.base.arrays import Floats, fixed
 from kempe.draw.numbers import rounded
-from kempe.energy import Energy
 from kempe.errors import KempeError, ModelError
-from kempe.motion import Motion
-from kempe.solution import Solution
-from kempe.state import State
+from kempe.results.energy import Energy
+from kempe.results.motion import Motion
+from kempe.results.solution import Solution
+from kempe.results.state import State
 
 FRAMES_PER_SECOND = 60
 MOST_FRAMES = 1200

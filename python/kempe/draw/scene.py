@@ -11,20 +11,20 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
-from kempe.arrays import Floats
-from kempe.compiled import ACCELERATIONS, COORDINATES, RATES, CompiledModel
-from kempe.display_units import chosen_for, display
+from kempe.base.arrays import Floats
+from kempe.base.display_units import chosen_for, display
+from kempe.base.names import unknown
 from kempe.draw import arrows, channels, sampling
 from kempe.draw.ends import ends
 from kempe.draw.numbers import plain, round_below, rounded
-from kempe.drawing import static_scene
 from kempe.errors import ModelError
-from kempe.motion import Motion
-from kempe.names import unknown
-from kempe.solution import Solution
-from kempe.state import State
-from kempe.values import instance, texts
-from kempe.variable import Variable
+from kempe.model.compiled import ACCELERATIONS, COORDINATES, RATES, CompiledModel
+from kempe.model.drawing import static_scene
+from kempe.model.values import instance, texts
+from kempe.results.motion import Motion
+from kempe.results.solution import Solution
+from kempe.results.state import State
+from kempe.results.variable import Variable
 
 Scene: TypeAlias = dict[str, Any]
 

@@ -8,8 +8,8 @@ from kempe.draw.frame import Frame
 from kempe.draw.pixels import Pixels, format_of
 from kempe.draw.scene import scene
 from kempe.errors import ModelError
-from kempe.solution import Solution
-from kempe.state import State
+from kempe.results.solution import Solution
+from kempe.results.state import State
 
 #: Default size of a picture, pixels.
 USUAL: Pixels = (1440, 810)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from kempe.display_units import chosen_for
+from kempe.base.display_units import chosen_for
 
 #: SI prefixes by the power of ten.
 _PREFIXES = {9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n"}

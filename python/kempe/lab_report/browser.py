@@ -9,7 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from kempe import files
+from kempe.base import files
 from kempe.errors import FileError
 
 #: The variable that names the browser, and the names of browsers that print without a window.

@@ -7,14 +7,14 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from kempe import mobility
-from kempe.catalogue import about, declared
-from kempe.display_units import Shown, display, heading
+from kempe.base.display_units import Shown, display, heading
 from kempe.errors import KempeError
 from kempe.lab_report.blocks import Block, Cell, Paragraph, Points, Section, Table
 from kempe.lab_report.figures import drawn
 from kempe.lab_report.printed import ROUNDING, number, text
 from kempe.lab_report.subject import Subject
-from kempe.model import Model
+from kempe.model.catalogue import about, declared
+from kempe.model.model import Model
 from kempe.plot.drawing_pages import of_configuration, of_mechanism
 
 #: Fields of elements that other tables contain.

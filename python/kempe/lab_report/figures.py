@@ -15,8 +15,8 @@ from kempe.plot.pages import DRAWINGS
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from kempe.result import Result
-    from kempe.solution import Solution
+    from kempe.results.result import Result
+    from kempe.results.solution import Solution
 
 #: Largest number of figures of one kind, such as the figures of the joints.
 MOST = 12

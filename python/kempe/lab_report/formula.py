@@ -7,7 +7,7 @@ import re
 from collections.abc import Iterator
 
 from kempe.lab_report.blocks import Formula
-from kempe.matrices.writing import replace_names
+from kempe.results.matrices.writing import replace_names
 
 #: Formulas with more signs than this do not fit on a page.
 LONGEST = 420

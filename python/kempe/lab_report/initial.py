@@ -7,16 +7,16 @@ from itertools import groupby
 
 import numpy as np
 
-from kempe.display_units import display, heading, units
+from kempe.base.display_units import display, heading, units
 from kempe.errors import KempeError
 from kempe.lab_report.blocks import Block, Cell, Matrix, Number, Paragraph, Points, Section, Table
 from kempe.lab_report.data import initial_set
 from kempe.lab_report.printed import FEW, number, quantity, tidy
 from kempe.lab_report.subject import Subject
-from kempe.matrices import Labelled
-from kempe.matrices import show as labelled
-from kempe.matrices.writing import number as entry
-from kempe.state import State
+from kempe.results.matrices.labelled import Labelled
+from kempe.results.matrices.labelled import show as labelled
+from kempe.results.matrices.writing import number as entry
+from kempe.results.state import State
 
 #: Largest number of columns of a matrix in the report, and of a part that fits on a page.
 _MOST_COLUMNS, _WIDTH = 45, 9

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from kempe.catalogue import about
 from kempe.lab_report.blocks import Block, Formula, Formulas, Paragraph, Points, Section, Table
 from kempe.lab_report.formula import formula, is_readable
 from kempe.lab_report.subject import Subject
-from kempe.matrices.writing import named
-from kempe.symbolic import Equations, equations
+from kempe.model.catalogue import about
+from kempe.results.matrices.equations import Equations, equations
+from kempe.results.matrices.writing import named
 
 #: Largest number of joints and drivers whose equations are printed; larger models repeat types.
 _MOST = 40

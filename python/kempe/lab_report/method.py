@@ -6,13 +6,13 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from kempe.catalogue import about, declared
-from kempe.display_units import Shown
+from kempe.base.display_units import Shown
 from kempe.lab_report.blocks import Block, Cell, Formulas, Paragraph, Section, Table
 from kempe.lab_report.formula import formula
 from kempe.lab_report.printed import number, text
 from kempe.lab_report.subject import Subject
-from kempe.solution import Solution
+from kempe.model.catalogue import about, declared
+from kempe.results.solution import Solution
 
 _HAUG = (
     "Numbers of equations are those of E. J. Haug, Computer-Aided Kinematics and Dynamics of "

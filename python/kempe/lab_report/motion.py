@@ -7,13 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from kempe.display_units import display, heading
+from kempe.base.display_units import display, heading
+from kempe.base.names import few
 from kempe.lab_report.blocks import Block, Cell, Paragraph, Section, Table
 from kempe.lab_report.figures import MOST, Figures
 from kempe.lab_report.printed import FEW, ROUNDING, number, quantity
-from kempe.names import few
-from kempe.remarks import by_choice, starred, when
-from kempe.solution import Solution
+from kempe.results.remarks import by_choice, starred, when
+from kempe.results.solution import Solution
 
 #: Statistics of a measure that have its unit.
 _STATISTICS = ("max", "min", "mean", "rms", "final")

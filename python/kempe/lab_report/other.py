@@ -17,12 +17,12 @@ from kempe.lab_report.blocks import (
 from kempe.lab_report.figures import Figures, picture
 from kempe.lab_report.printed import FEW, number
 from kempe.plot.study_figures import drawn
-from kempe.result import Result
-from kempe.studies import Study
-from kempe.studies.outcome import Outcome
-from kempe.studies.table import fate, header
-from kempe.studies.variants import GROUPS
-from kempe.table import Column
+from kempe.results.result import Result
+from kempe.results.table import Column
+from kempe.sweeps.studies import Study
+from kempe.sweeps.studies.outcome import Outcome
+from kempe.sweeps.studies.table import fate, header
+from kempe.sweeps.studies.variants import GROUPS
 
 #: A longer table is left to the CSV files of ``kempe run``.
 _MOST_ROWS = 60
@@ -87,7 +87,7 @@ def of_study(found: Study | None) -> Section:
 
 
 def _cells(of: Outcome) -> list[Cell]:
-    """One row; its columns are those of ``kempe.studies.table`` without the time."""
+    """One row; its columns are those of ``kempe.sweeps.studies.table`` without the time."""
     errors = ((of.angle_error, "rad"), (of.position_error, "m"), (of.residual, "m"))
     measured = [number(value, unit, digits=FEW) for value, unit in errors]
     counts = [Number(float(count), str(count)) for count in (of.steps, of.evaluations)]

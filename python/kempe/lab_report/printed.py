@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from kempe.arrays import Floats
-from kempe.display_units import display
+from kempe.base.arrays import Floats
+from kempe.base.display_units import display
 from kempe.lab_report.blocks import Number
 
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

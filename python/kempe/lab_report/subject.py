@@ -9,20 +9,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe.analyses import AccuracyWarning
-from kempe.assembly_report import Iteration
+from kempe.analyses.dynamics import AccuracyWarning
+from kempe.analyses.iterations import iterations
+from kempe.analyses.record import AssemblyWarning
 from kempe.case import Case, parsed
-from kempe.compiled import CompiledModel
 from kempe.errors import KempeError, ModelError
-from kempe.events import EventWarning
-from kempe.iterations import iterations
-from kempe.record import AssemblyWarning
-from kempe.result import Result
-from kempe.solution import Solution
-from kempe.state import State
+from kempe.model.compiled import CompiledModel
+from kempe.results.assembly_report import Iteration
+from kempe.results.events import EventWarning
+from kempe.results.result import Result
+from kempe.results.solution import Solution
+from kempe.results.state import State
 
 if TYPE_CHECKING:
-    from kempe.studies import Study
+    from kempe.sweeps.studies import Study
 
 #: The name of the analysis of a solution that was not computed from a case.
 _UNNAMED = "motion"

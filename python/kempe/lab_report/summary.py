@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from kempe.display_units import display
+from kempe.base.display_units import display
 from kempe.lab_report.blocks import Cell, Paragraph, Section, Table
 from kempe.lab_report.motion import Told
 from kempe.lab_report.printed import FEW, number
 from kempe.lab_report.subject import Subject
-from kempe.solution import Solution
+from kempe.results.solution import Solution
 
 _HEADER = ("analysis", "result", "value", "unit", "")
 

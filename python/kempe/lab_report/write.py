@@ -9,8 +9,8 @@ from importlib import resources
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from kempe import files
 from kempe._version import __version__
+from kempe.base import files
 from kempe.case import Case
 from kempe.errors import FileError, ModelError
 from kempe.lab_report import subject as subjects
@@ -24,13 +24,13 @@ from kempe.lab_report.motion import motion
 from kempe.lab_report.other import of_study, other
 from kempe.lab_report.subject import Subject
 from kempe.lab_report.summary import at_a_glance
-from kempe.solution import Solution
+from kempe.results.solution import Solution
 
 if TYPE_CHECKING:
     from markupsafe import Markup
 
-    from kempe.result import Result
-    from kempe.studies import Study
+    from kempe.results.result import Result
+    from kempe.sweeps.studies import Study
 
 #: Endings of the name of a report.
 ENDINGS = (".html", ".pdf")

@@ -10,17 +10,17 @@ from kempe.plot.configuration import configuration
 from kempe.plot.coupler_curves import coupler_curve
 from kempe.plot.efforts import effort, torque_speed
 from kempe.plot.energy import energy, energy_balance
+from kempe.plot.equilibrium import path, rest_position
 from kempe.plot.free_body import draw_free_body, free_body
 from kempe.plot.measures import measure
 from kempe.plot.mechanism import mechanism
-from kempe.plot.mode_shapes import mode_shape
+from kempe.plot.modes import mode_shape
 from kempe.plot.page import Page, save, select
 from kempe.plot.pages import pages
 from kempe.plot.pin_loads import pin_load
 from kempe.plot.polygons import acceleration_polygon, velocity_polygon
 from kempe.plot.reactions import all_reactions, reactions
 from kempe.plot.residual import residual
-from kempe.plot.rest import path, rest_position
 from kempe.plot.shaking import shaking_force
 from kempe.plot.sweep_pages import sweep_pages
 from kempe.plot.sweep_scatter import sweep_scatter

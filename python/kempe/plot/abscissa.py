@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.design.locate import instants
 from kempe.draw.units import Scale
 from kempe.plot.time_axis import TimeAxis, show_time
-from kempe.quantities import named
-from kempe.solution import Solution
-from kempe.variable import TIME, Variable
+from kempe.results.quantities import named
+from kempe.results.solution import Solution
+from kempe.results.variable import TIME, Variable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,16 +7,16 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe.compiled import ACCELERATIONS, COORDINATES, RATES
-from kempe.display_units import chosen_for
-from kempe.motion import Motion
-from kempe.names import one_of
+from kempe.base.display_units import chosen_for
+from kempe.base.names import one_of
+from kempe.model.compiled import ACCELERATIONS, COORDINATES, RATES
+from kempe.model.values import instance
 from kempe.plot import style
 from kempe.plot.curves import draw
 from kempe.plot.panel import Curve, Panel, curve, times
 from kempe.plot.ticks import set_ticks
 from kempe.plot.time_axis import TimeAxis, show_time
-from kempe.values import instance
+from kempe.results.motion import Motion
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -24,8 +24,8 @@ if TYPE_CHECKING:
     from matplotlib.lines import Line2D
     from numpy.typing import ArrayLike
 
-    from kempe.arrays import Floats
-    from kempe.compiled import BodyInfo
+    from kempe.base.arrays import Floats
+    from kempe.model.compiled import BodyInfo
 
 #: Quantity → symbol and SI unit.
 QUANTITIES = {

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.design.centres import instant_centre
 from kempe.design.polygons import state_at
 from kempe.draw.items import upright
@@ -17,8 +17,8 @@ from kempe.plot import style
 from kempe.plot.configuration import instant
 from kempe.plot.coupler_curves import over
 from kempe.plot.picture import drawn, paint
-from kempe.solution import Solution
-from kempe.state import State
+from kempe.results.solution import Solution
+from kempe.results.state import State
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from kempe.display_units import display
+from kempe.base.display_units import display
 from kempe.draw.scene import scene
 from kempe.plot import style
 from kempe.plot.picture import drawn, paint
-from kempe.solution import Solution
+from kempe.results.solution import Solution
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from kempe.state import State
+    from kempe.results.state import State
 
 
 def configuration(

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.design.coupler_curve import CouplerCurve
 from kempe.design.coupler_curve import coupler_curve as curve_of
 from kempe.design.places import Place
@@ -14,7 +14,7 @@ from kempe.draw.scene import Scene, scene
 from kempe.draw.units import Scale, scale
 from kempe.plot import style
 from kempe.plot.picture import drawn, paint
-from kempe.solution import Solution
+from kempe.results.solution import Solution
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.draw.units import NOISE, Scale, scale
-from kempe.fine import jumps
 from kempe.plot import style
 from kempe.plot.legend import above_or_beside
 from kempe.plot.panel import CONSTANT, Curve, Panel
@@ -17,6 +16,7 @@ from kempe.plot.peaks import ROOM, add_peaks, chosen_peaks
 from kempe.plot.remarked import titled
 from kempe.plot.ticks import set_ticks
 from kempe.plot.time_axis import TimeAxis, show_time
+from kempe.results.fine import jumps
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

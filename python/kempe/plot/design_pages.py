@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe.compiled import CompiledModel
 from kempe.design.coupler_curve import coupler_curve as curve_of
 from kempe.design.transmission import transmitting
 from kempe.errors import KempeError
+from kempe.model.compiled import CompiledModel
 from kempe.plot import style
 from kempe.plot.centres import instant_centres
 from kempe.plot.coupler_curves import coupler_curve
@@ -21,7 +21,7 @@ from kempe.plot.pin_loads import pin_load
 from kempe.plot.polygons import acceleration_polygon, velocity_polygon
 from kempe.plot.shaking import shaking_force
 from kempe.plot.transmission import transmission_angle
-from kempe.solution import Solution
+from kempe.results.solution import Solution
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from kempe.solution import Solution
-    from kempe.state import State
+    from kempe.results.solution import Solution
+    from kempe.results.state import State
 
 #: Margins around the axes, and their largest height, mm.
 _LEFT, _RIGHT, _ABOVE, _BELOW = 19.0, 3.0, 7.0, 11.0

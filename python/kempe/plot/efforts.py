@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.design.duty import Duty, duty
 from kempe.draw.units import Scale, scale
 from kempe.plot import style
@@ -16,8 +16,8 @@ from kempe.plot.labelled import add_labels
 from kempe.plot.legend import above_or_beside
 from kempe.plot.remarked import note, titled
 from kempe.plot.ticks import set_ticks
-from kempe.remarks import remark
-from kempe.solution import Solution
+from kempe.results.remarks import remark
+from kempe.results.solution import Solution
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,14 +6,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe.fine import fine_energies
+from kempe.model.values import instance
 from kempe.plot import style
 from kempe.plot.curves import draw, finish
 from kempe.plot.envelope import draw_envelope, envelope, logarithmic
 from kempe.plot.panel import Curve, Panel
 from kempe.plot.time_axis import TimeAxis
-from kempe.solution import Solution
-from kempe.values import instance
+from kempe.results.fine import fine_energies
+from kempe.results.solution import Solution
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

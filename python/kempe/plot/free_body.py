@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.design.free_body import FreeBody
 from kempe.design.free_body import free_body as body_of
 from kempe.draw.display import Display
@@ -33,9 +33,9 @@ from kempe.plot import style
 from kempe.plot.configuration import instant
 from kempe.plot.picture import drawn, paint
 from kempe.plot.remarked import NO_BOUND, NOT_UNIQUE
-from kempe.remarks import together, when
-from kempe.solution import Solution
-from kempe.state import State
+from kempe.results.remarks import together, when
+from kempe.results.solution import Solution
+from kempe.results.state import State
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

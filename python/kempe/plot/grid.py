@@ -8,7 +8,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.draw.units import Scale, scale
 from kempe.plot import style
 from kempe.plot.body_motion import add_degrees

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe.arrays import Floats
-from kempe.drawing import measured, place_texts
+from kempe.base.arrays import Floats
+from kempe.model.drawing import measured, place_texts
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.plot import style
 from kempe.plot.page import Page
 from kempe.plot.picture import at_rest, drawn, frame, paint
@@ -14,9 +14,9 @@ from kempe.plot.picture import at_rest, drawn, frame, paint
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from kempe.motion import Motion
-    from kempe.reach import LimitsResult
-    from kempe.state import State
+    from kempe.analyses.limits import LimitsResult
+    from kempe.results.motion import Motion
+    from kempe.results.state import State
 
 #: Margins around the axes, space between them, and the largest height of a panel, mm.
 _LEFT, _RIGHT, _ABOVE, _BELOW, _BETWEEN = 19.0, 3.0, 7.0, 11.0, 19.0

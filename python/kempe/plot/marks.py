@@ -9,10 +9,10 @@ import numpy as np
 
 from kempe.draw.palette import one_line, verbatim
 from kempe.errors import KempeError
-from kempe.fine import fine
 from kempe.plot.time_axis import TimeAxis
-from kempe.report.singular import singular_positions
-from kempe.solution import Solution
+from kempe.results.fine import fine
+from kempe.results.singular import singular_positions
+from kempe.results.solution import Solution
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe.measures import values
-from kempe.motion import Motion
-from kempe.names import entry
+from kempe.base.names import entry
+from kempe.model.values import instance
 from kempe.plot import style
 from kempe.plot.curves import draw
 from kempe.plot.panel import Curve, Panel, curve, times
 from kempe.plot.remarked import note
-from kempe.remarks import choice_of, measure_unbounded_at, remark
-from kempe.values import instance
+from kempe.results.motion import Motion
+from kempe.results.quantities import measure_values as values
+from kempe.results.remarks import choice_of, measure_unbounded_at, remark
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

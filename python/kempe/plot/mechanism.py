@@ -12,8 +12,8 @@ from kempe.plot.picture import drawn, paint
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from kempe.solution import Solution
-    from kempe.state import State
+    from kempe.results.solution import Solution
+    from kempe.results.state import State
 
 
 def mechanism(solution_or_state: Solution | State, *, ax: Axes | None = None) -> Axes:

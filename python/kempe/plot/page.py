@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from kempe import files
-from kempe.names import one_of, unknown
+from kempe.base import files
+from kempe.base.names import one_of, unknown
+from kempe.model.values import instance, listed, texts
 from kempe.plot import style
 from kempe.plot.style import FORMATS, Format
-from kempe.values import instance, listed, texts
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -6,16 +6,16 @@ from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from kempe.compiled import COORDINATES
+from kempe.model.compiled import COORDINATES
+from kempe.model.values import instance
 from kempe.plot import design_pages, drawing_pages
 from kempe.plot.marks import mark_events
 from kempe.plot.page import Page, file_names
 from kempe.plot.result_pages import result_pages
 from kempe.plot.time_axis import transient
 from kempe.plot.time_pages import TimePages, only_turns
-from kempe.result import Result
-from kempe.solution import Solution
-from kempe.values import instance
+from kempe.results.result import Result
+from kempe.results.solution import Solution
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

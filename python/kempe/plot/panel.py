@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe.arrays import Floats
-from kempe.extrema import Extreme, Quantity, largest, least
-from kempe.fine import fine
-from kempe.variable import TIME, Variable
+from kempe.base.arrays import Floats
+from kempe.results.extrema import Extreme, Quantity, largest, least
+from kempe.results.fine import fine
+from kempe.results.variable import TIME, Variable
 
 if TYPE_CHECKING:
-    from kempe.motion import Motion
+    from kempe.results.motion import Motion
 
 #: A line that varies by less than this fraction of its value is a constant.
 CONSTANT = 1e-6

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from kempe.draw.units import Scale
-from kempe.drawing import measured
-from kempe.extrema import Extreme
+from kempe.model.drawing import measured
 from kempe.plot import style
 from kempe.plot.panel import Curve
+from kempe.results.extrema import Extreme
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

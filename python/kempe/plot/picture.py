@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.draw.display import Display
 from kempe.draw.placing import View
 from kempe.draw.scene import Scene
@@ -15,7 +15,7 @@ from kempe.draw.units import Scale
 from kempe.plot import style
 from kempe.plot.remarked import titled
 from kempe.plot.ticks import set_ticks
-from kempe.state import State
+from kempe.results.state import State
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

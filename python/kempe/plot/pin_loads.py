@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.design.pin_loads import PinLoad
 from kempe.design.pin_loads import pin_load as load_of
 from kempe.draw.units import Scale, scale
@@ -15,8 +15,8 @@ from kempe.plot.abscissa import Abscissa, abscissa
 from kempe.plot.labelled import add_labels
 from kempe.plot.remarked import note, titled
 from kempe.plot.ticks import set_ticks
-from kempe.remarks import remark
-from kempe.solution import Solution
+from kempe.results.remarks import remark
+from kempe.results.solution import Solution
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

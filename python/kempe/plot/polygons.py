@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.design import polygons
 from kempe.design.polygons import POLE, Polygon, Side
 from kempe.draw.units import Scale, scale
@@ -14,8 +14,8 @@ from kempe.plot import style
 from kempe.plot.configuration import instant
 from kempe.plot.labelled import add_labels
 from kempe.plot.ticks import set_ticks
-from kempe.solution import Solution
-from kempe.state import State
+from kempe.results.solution import Solution
+from kempe.results.state import State
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -8,23 +8,23 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from kempe.base.names import one_of
 from kempe.draw.units import scale
-from kempe.motion import Motion
-from kempe.names import one_of
+from kempe.model.values import instance
 from kempe.plot import style
 from kempe.plot.curves import draw
 from kempe.plot.panel import Curve, Panel, curve, times
 from kempe.plot.peaks import peak_text
 from kempe.plot.remarked import NO_BOUND, note
 from kempe.plot.time_axis import TimeAxis
-from kempe.remarks import remark, unbounded_at
-from kempe.values import instance
+from kempe.results.motion import Motion
+from kempe.results.remarks import remark, unbounded_at
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from kempe.arrays import Floats
-    from kempe.views.frames import ReactionFrame
+    from kempe.base.arrays import Floats
+    from kempe.results.views.frames import ReactionFrame
 
 #: Symbols of the axes in each frame: x″ is the axis of the joint, x′ the axis of the body.
 _PRIMES = {"global": "", "body": "′", "joint": "″"}

@@ -8,8 +8,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from kempe.draw.palette import verbatim
-from kempe.remarks import remark, remark_of_variants
-from kempe.variable import Variable
+from kempe.results.remarks import remark, remark_of_variants
+from kempe.results.variable import Variable
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from kempe.display_units import Shown, display
+from kempe.base.display_units import Shown, display
 from kempe.draw.units import axis_label
+from kempe.model.values import instance
 from kempe.plot import style
 from kempe.plot.curves import finish
 from kempe.plot.envelope import draw_envelope, envelope, logarithmic
 from kempe.plot.panel import Panel
 from kempe.plot.time_axis import TimeAxis
-from kempe.solution import Solution
-from kempe.values import instance
+from kempe.results.solution import Solution
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

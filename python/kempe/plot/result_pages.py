@@ -6,13 +6,13 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import Any
 
+from kempe.plot.configurations import pages as sheets
+from kempe.plot.equilibrium import rest_pages
 from kempe.plot.limits import pages as limit_pages
-from kempe.plot.mode_shapes import mode_pages
+from kempe.plot.modes import mode_pages
 from kempe.plot.page import Page
-from kempe.plot.region import pages as region_pages
-from kempe.plot.rest import rest_pages
-from kempe.plot.sheet import pages as sheets
-from kempe.result import Result
+from kempe.plot.reachable import pages as region_pages
+from kempe.results.result import Result
 
 #: The function that lists the figures of a result, by the type of the analysis. It is called with
 #: the result and the number of the first body.

@@ -12,7 +12,7 @@ from kempe.plot import style
 from kempe.plot.abscissa import abscissa
 from kempe.plot.labelled import add_labels
 from kempe.plot.pin_loads import _frame
-from kempe.solution import Solution
+from kempe.results.solution import Solution
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe.arrays import Floats
-from kempe.compiled import ACCELERATIONS, COORDINATES, RATES
+from kempe.base.arrays import Floats
 from kempe.draw.units import Scale, scale
-from kempe.fine import fine
+from kempe.model.compiled import ACCELERATIONS, COORDINATES, RATES
 from kempe.plot.body_motion import QUANTITIES
 from kempe.plot.panel import CONSTANT, Panel
+from kempe.results.fine import fine
 
 if TYPE_CHECKING:
-    from kempe.motion import Motion
+    from kempe.results.motion import Motion
 
 #: A quantity below this fraction of the largest value of its kind in the mechanism is zero.
 _NOTHING = 1e-9

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from kempe.display_units import display
+from kempe.base.display_units import display
 from kempe.draw.units import axis_label
 from kempe.plot import style
 from kempe.plot.legend import beside
@@ -12,7 +12,7 @@ from kempe.plot.legend import beside
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from kempe.studies import Outcome, Study
+    from kempe.sweeps.studies import Outcome, Study
 
 _GRID: dict[str, Any] = {"visible": True, "which": "both", "color": "#EEEEEE"}
 

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-    from kempe.studies import Study
+    from kempe.sweeps.studies import Study
 
 FIGURES: dict[str, Callable[[Study, Axes], None]] = {
     "residual": residual_history,

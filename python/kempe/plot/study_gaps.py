@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe.arrays import Floats
-from kempe.display_units import display
+from kempe.base.arrays import Floats
+from kempe.base.display_units import display
 from kempe.draw.items import PIN, arrow_head, fill, line, on_body
 from kempe.draw.scene import scene
 from kempe.plot import style
@@ -17,10 +17,10 @@ from kempe.plot.picture import drawn, paint
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from kempe.compiled import ConstraintInfo
-    from kempe.solution import Solution
-    from kempe.state import State
-    from kempe.studies import Study
+    from kempe.model.compiled import ConstraintInfo
+    from kempe.results.solution import Solution
+    from kempe.results.state import State
+    from kempe.sweeps.studies import Study
 
 #: Approximate drawn length of the largest gap, as a fraction of the drawing.
 LENGTH = 0.25
@@ -117,7 +117,7 @@ def magnification(largest: float, size: float) -> float:
 
 def state_at(solution: Solution, k: int) -> State:
     """The k-th output as a state."""
-    from kempe.state import State
+    from kempe.results.state import State
 
     return State(
         solution.compiled, float(solution.t[k]), solution.q[k], solution.v[k], z=solution.z[k]

@@ -7,20 +7,20 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe.arrays import Floats
-from kempe.display_units import display
+from kempe.base.arrays import Floats
+from kempe.base.display_units import display
 from kempe.draw.units import axis_label
 from kempe.plot import style
 from kempe.plot.envelope import BINS, envelope, logarithmic
 from kempe.plot.legend import beside
 from kempe.plot.time_axis import TimeAxis, show_time
-from kempe.studies.outcome import differences
+from kempe.sweeps.studies.outcome import differences
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from kempe.solution import Solution
-    from kempe.studies import Outcome, Study
+    from kempe.results.solution import Solution
+    from kempe.sweeps.studies import Outcome, Study
 
 #: Least value of the logarithmic axis, in its unit.
 FLOOR = 1e-16

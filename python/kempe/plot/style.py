@@ -153,7 +153,7 @@ def save(made: Figure, path: Path, formats: Sequence[str] = ("png",)) -> list[Pa
     Raises:
         FileError: a file cannot be written.
     """
-    from kempe import files
+    from kempe.base import files
 
     written = []
     with applied():

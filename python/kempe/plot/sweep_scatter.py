@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe.arrays import Floats
-from kempe.display_units import chosen_for
+from kempe.base.arrays import Floats
+from kempe.base.display_units import chosen_for
 from kempe.draw.units import axis_label
 from kempe.errors import ModelError
+from kempe.model.values import texts
 from kempe.plot import style
 from kempe.plot.remarked import NO_BOUND, SIZE, signed
 from kempe.plot.sweeps import in_unit
-from kempe.values import texts
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

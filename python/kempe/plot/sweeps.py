@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe.arrays import Floats
-from kempe.display_units import display
+from kempe.base.arrays import Floats
+from kempe.base.display_units import display
+from kempe.base.names import entry
 from kempe.draw.units import Scale, axis_label, scale
 from kempe.errors import ModelError
-from kempe.names import entry
 from kempe.plot import style
 from kempe.plot.legend import beside
 from kempe.plot.remarked import explained, meaning, signed, titled

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import TYPE_CHECKING
 
-from kempe.drawing import measured
+from kempe.model.drawing import measured
 
 if TYPE_CHECKING:
     from matplotlib.axis import Axis

@@ -11,17 +11,17 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe.arrays import Floats
-from kempe.display_units import display
+from kempe.base.arrays import Floats
+from kempe.base.display_units import display
 from kempe.draw.units import Scale, scale
 from kempe.plot.ticks import DEGREES, STEPS, labels, set_ticks
-from kempe.settling import settling
-from kempe.variable import TIME, Variable
+from kempe.results.settling import settling
+from kempe.results.variable import TIME, Variable
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from kempe.motion import Motion
+    from kempe.results.motion import Motion
 
 #: The fraction of the axis for the transient when the later part is compressed.
 SHARE = 0.72

@@ -8,9 +8,8 @@ from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
-from kempe.compiled import ACCELERATIONS, COORDINATES, RATES
 from kempe.draw.units import Scale
-from kempe.fine import fine
+from kempe.model.compiled import ACCELERATIONS, COORDINATES, RATES
 from kempe.plot import style
 from kempe.plot.body_motion import QUANTITIES, body_panel, body_title
 from kempe.plot.energy import energy, energy_balance
@@ -23,12 +22,13 @@ from kempe.plot.reactions import torque_panel as reaction_torque
 from kempe.plot.residual import residual
 from kempe.plot.still import drawn_and_left_out, largest_values
 from kempe.plot.torques import torque_panel
-from kempe.remarks import unbounded_at, when
+from kempe.results.fine import fine
+from kempe.results.remarks import unbounded_at, when
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-    from kempe.solution import Solution
+    from kempe.results.solution import Solution
 
 #: Largest number of panels on a page.
 _MOST_PANELS = 12

@@ -5,17 +5,17 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from kempe.motion import Motion
+from kempe.model.values import instance
 from kempe.plot import style
 from kempe.plot.curves import draw
 from kempe.plot.panel import Panel, curve, times
 from kempe.plot.remarked import note
-from kempe.values import instance
+from kempe.results.motion import Motion
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from kempe.arrays import Floats
+    from kempe.base.arrays import Floats
 
 
 def torques(

@@ -7,15 +7,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.design.places import Place
 from kempe.design.transmission import transmission_angle as angle_of
-from kempe.extrema import Extreme
 from kempe.plot import style
 from kempe.plot.abscissa import abscissa
 from kempe.plot.labelled import add_labels
 from kempe.plot.ticks import DEGREES, set_ticks
-from kempe.solution import Solution
+from kempe.results.extrema import Extreme
+from kempe.results.solution import Solution
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -6,9 +6,10 @@ import json
 from pathlib import Path
 from typing import Any
 
-from kempe import _core, files
+from kempe import _core
+from kempe.base import files
 from kempe.case import load
-from kempe.lookup_tables import TableFile
+from kempe.model.lookup_tables import TableFile
 
 
 def case_text(path: Path) -> str:

@@ -14,8 +14,8 @@ import zlib
 from dataclasses import dataclass
 from pathlib import Path
 
+from kempe.base.files import write_text
 from kempe.errors import FileError
-from kempe.files import write_text
 
 #: The page that kempe carries.
 CARRIED = Path(__file__).with_name("page.html.gz")

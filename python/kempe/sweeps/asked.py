@@ -7,12 +7,12 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from kempe.errors import ModelError
+from kempe.model.values import instance
 from kempe.sweeps import design as designs
 from kempe.sweeps.doubts import warn_of_degrees
 from kempe.sweeps.plan import Plan, chosen, without_later
 from kempe.sweeps.variables import Variable, read_variables
 from kempe.sweeps.wanted import read_wanted
-from kempe.values import instance
 
 if TYPE_CHECKING:
     from kempe.case import Case

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.errors import ModelError
 from kempe.sweeps.plan import Block, Plan
 from kempe.sweeps.table import Table

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.sweeps.variables import Variable
 
 if TYPE_CHECKING:

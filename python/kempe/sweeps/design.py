@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from kempe.arrays import Floats, fixed
+from kempe.base.arrays import Floats, fixed
+from kempe.base.names import one_of
 from kempe.errors import ModelError
-from kempe.names import one_of
+from kempe.model.values import refuse
 from kempe.sweeps.variables import Variable
-from kempe.values import refuse
 
 #: The designs; the last three place points in the unit cube.
 DESIGNS = ("grid", "paired", "random", "latin", "sobol")

@@ -6,8 +6,8 @@ import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from math import radians
 
-from kempe.names import few
-from kempe.record import AssemblyWarning
+from kempe.analyses.record import AssemblyWarning
+from kempe.base.names import few
 from kempe.sweeps.plan import Plan
 from kempe.sweeps.variables import Variable
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from time import perf_counter
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.sweeps.plan import Plan
 from kempe.sweeps.table import Table
 

@@ -8,17 +8,18 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe.catalogue import declared
+from kempe.analyses.record import driven_by
+from kempe.base.names import unknown
 from kempe.errors import ModelError
-from kempe.measures import measure_info, values_of
-from kempe.names import unknown
-from kempe.record import driven_by
-from kempe.state import State
-from kempe.values import refuse
-from kempe.variable import Variable
+from kempe.model.catalogue import declared
+from kempe.model.measure_infos import measure_info
+from kempe.model.values import refuse
+from kempe.results.quantities import values_of
+from kempe.results.state import State
+from kempe.results.variable import Variable
 
 if TYPE_CHECKING:
-    from kempe.compiled import CompiledModel
+    from kempe.model.compiled import CompiledModel
 
 #: Attributes that are lists, of which the number of entries counts.
 _COUNTED = ("redundant", "singular", "locked", "loose", "undetermined")

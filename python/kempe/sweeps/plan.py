@@ -19,21 +19,21 @@ from numpy.typing import NDArray
 
 from kempe import _core
 from kempe._version import __version__
-from kempe.arrays import Floats
+from kempe.analyses.option import core_options
+from kempe.analyses.request_cache import encode
+from kempe.base.arrays import Floats
+from kempe.base.names import one_of
 from kempe.errors import InternalError, KempeError, ModelError
-from kempe.measures import measure_info, parameter_unit
-from kempe.names import one_of
-from kempe.option import core_options
-from kempe.request_cache import encode
+from kempe.model.measure_infos import measure_info, parameter_unit
+from kempe.model.values import numbers
 from kempe.sweeps.reasons import origin_of, reason
 from kempe.sweeps.wanted import Wanted
-from kempe.values import numbers
 
 if TYPE_CHECKING:
     from kempe.case import Case
-    from kempe.compiled import CompiledModel
-    from kempe.result import Result
-    from kempe.solution import Solution
+    from kempe.model.compiled import CompiledModel
+    from kempe.results.result import Result
+    from kempe.results.solution import Solution
 
 
 #: The format of files of sweeps: 2 since rows have marks.

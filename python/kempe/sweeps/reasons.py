@@ -7,7 +7,7 @@ from decimal import Decimal
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from kempe.model import Model
+    from kempe.model.model import Model
 
 #: A line of a file in a message, and the line with carets below it.
 _EXCERPT = re.compile(r"^ +\d* \| ")

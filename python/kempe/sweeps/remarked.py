@@ -12,14 +12,14 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe.extrema import passes_singular
-from kempe.remarks import MIDDLE, MINIMUM_NORM, choice_of, remark_of_variants, together
+from kempe.results.extrema import passes_singular
+from kempe.results.remarks import MIDDLE, MINIMUM_NORM, choice_of, remark_of_variants, together
 from kempe.sweeps.numbers import read_at
 
 if TYPE_CHECKING:
-    from kempe.measures import Measure
-    from kempe.result import Result
-    from kempe.solution import Solution
+    from kempe.results.measures import Measure
+    from kempe.results.result import Result
+    from kempe.results.solution import Solution
     from kempe.sweeps.result import SweepResult
 
 #: The bits of a mark: the choices of values that are not unique, and values without bound.

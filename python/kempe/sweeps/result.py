@@ -14,20 +14,20 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from kempe import files
-from kempe.arrays import Floats, fixed
-from kempe.display_units import units
+from kempe.base import files
+from kempe.base.arrays import Floats, fixed
+from kempe.base.display_units import units
+from kempe.base.names import entry
 from kempe.errors import ModelError
-from kempe.names import entry
+from kempe.results.table import Column, column
 from kempe.sweeps import remarked
 from kempe.sweeps.plan import Plan
 from kempe.sweeps.variables import Variable
-from kempe.table import Column, column
 
 if TYPE_CHECKING:
     from kempe.case import Case
-    from kempe.result import Result
-    from kempe.solution import Solution
+    from kempe.results.result import Result
+    from kempe.results.solution import Solution
     from kempe.sweeps.table import Table
 
 

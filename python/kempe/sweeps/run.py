@@ -7,7 +7,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
+from kempe.model.values import refuse
 from kempe.sweeps import design as designs
 from kempe.sweeps.asked import asked_of, design_of, planned
 from kempe.sweeps.local import fill
@@ -16,7 +17,6 @@ from kempe.sweeps.result import SweepResult
 from kempe.sweeps.storage import Storage
 from kempe.sweeps.table import Progress, Table
 from kempe.sweeps.variables import Values
-from kempe.values import refuse
 
 if TYPE_CHECKING:
     from kempe.case import Case

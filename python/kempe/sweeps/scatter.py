@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.errors import ModelError
+from kempe.model.values import mapping, numbers
 from kempe.sweeps.result import SweepResult
 from kempe.sweeps.run import sweep
-from kempe.values import mapping, numbers
 
 if TYPE_CHECKING:
     from kempe.case import Case

@@ -15,8 +15,8 @@ from typing import NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from kempe import files
-from kempe.arrays import Floats
+from kempe.base import files
+from kempe.base.arrays import Floats
 from kempe.errors import FileError
 from kempe.sweeps.plan import Block
 

@@ -9,7 +9,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
 from kempe.sweeps.plan import Block
 from kempe.sweeps.storage import Storage
 

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 
-from kempe.arrays import Floats
+from kempe.base.arrays import Floats
+from kempe.base.names import unknown
 from kempe.errors import ModelError
-from kempe.names import unknown
-from kempe.values import mapping, refuse
+from kempe.model.values import mapping, refuse
 
 if TYPE_CHECKING:
     from kempe.case import Case

@@ -6,19 +6,20 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from kempe.catalogue import declared
+from kempe.base.names import unknown
 from kempe.errors import ModelError
-from kempe.measures import STATISTICS, Measure, MeasureInfo, measure_info
-from kempe.names import unknown
-from kempe.solution import Solution
+from kempe.model.catalogue import declared
+from kempe.model.measure_infos import MeasureInfo, measure_info
+from kempe.model.values import refuse, texts
+from kempe.results.measures import STATISTICS, Measure
+from kempe.results.solution import Solution
+from kempe.results.variable import TIME
 from kempe.sweeps.numbers import driven_model, number, unit_of
 from kempe.sweeps.remarked import mark_of_measure, mark_of_number
-from kempe.values import refuse, texts
-from kempe.variable import TIME
 
 if TYPE_CHECKING:
-    from kempe.compiled import CompiledModel
-    from kempe.result import Result
+    from kempe.model.compiled import CompiledModel
+    from kempe.results.result import Result
 
 #: Every statistic of a measure, by the last part of a text such as ``pin.max``.
 ALL = (*STATISTICS, "t_max", "t_min")

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from kempe import files
-from kempe.names import one_of
+from kempe.base import files
+from kempe.base.names import one_of
 
 #: A program is stored as text, so that it is not a module of the package.
 _TEXT = ".txt"

@@ -1,0 +1,1 @@
+"""The analyses, one file for each type, with their options and records."""

@@ -1,0 +1,1 @@
+"""What all parts use: read-only arrays, files, names in errors, units of display."""

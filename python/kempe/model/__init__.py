@@ -1,0 +1,1 @@
+"""Models: their elements, the checks of their values, and the compiled model."""

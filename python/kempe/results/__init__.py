@@ -1,0 +1,1 @@
+"""Results: motions, solutions and states, their quantities, measures and files."""

@@ -1,0 +1,220 @@
+"""The summary of a solution as plain data."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from kempe._version import __version__
+from kempe.base.arrays import Floats
+from kempe.results.extremes import Sampled
+from kempe.results.remarks import unbounded_at
+from kempe.results.settling import settling
+from kempe.results.singular import singular_positions
+
+if TYPE_CHECKING:
+    from kempe.results.motion import Motion
+    from kempe.results.solution import Solution
+    from kempe.results.state import State
+
+#: Angles below this are rounding errors, rad.
+_NO_ANGLE = 1e-9
+
+
+def summary(solution: Solution) -> dict[str, Any]:
+    """The summary of a solution; see ``kempe.report.summary``."""
+    sampled = Sampled(solution)
+    compiled = solution.compiled
+    return {
+        "kempe": __version__,
+        "title": compiled.title,
+        "success": solution.success,
+        "message": solution.message,
+        "time": {
+            "start": float(solution.t[0]),
+            "end": float(solution.t[-1]),
+            "outputs": len(solution.t),
+        },
+        "variable": {"name": solution.variable.name, "unit": solution.variable.unit},
+        "static": solution.variable.static,
+        "mechanism": mechanism(solution.initial),
+        "start": solution.initial.coordinates(),
+        "end": solution.final.coordinates(),
+        "peaks": {
+            "reactions": [reaction(sampled, name) for name in compiled.constraints],
+            "forces": [force(sampled, name) for name in compiled.forces],
+            "residual": residual(sampled),
+            "residual_rate": max(_largest_rate(solution), _largest_rate(sampled.steps)),
+        },
+        "singular": singular_positions(solution),
+        "energy": energy(sampled),
+        "newton_euler": solution.newton_euler.largest,
+        "measures": [measure(solution, name) for name in compiled.measures],
+        "events": {name: event.t.tolist() for name, event in solution.events.items()},
+        "settling": [settling_of(sampled, name) for name in compiled.bodies],
+        "statistics": {k: v for k, v in solution.statistics.items() if k != "singular"},
+    }
+
+
+def measure(solution: Solution, name: str) -> dict[str, Any]:
+    """The statistics of a measure; None for statistics without a value.
+
+    ``unbounded_at``, ``unique`` and ``choice`` are those of the reactions in it, as for a reaction.
+    """
+    found = solution.measure(name)
+    about = {"name": name, "expression": found.info.expression, "unit": found.unit}
+    remarked = {
+        "unbounded_at": list(found.unbounded_at),
+        "unique": found.unique,
+        "choice": found.choice,
+    }
+    return {**about, **found.statistics(), **remarked}
+
+
+def mechanism(state: State) -> dict[str, Any]:
+    """Elements of the mechanism, and its degrees of freedom in a state."""
+    model = state.compiled
+    return {
+        "bodies": list(model.bodies),
+        "joints": list(model.joints),
+        "drivers": list(model.drivers),
+        "forces": list(model.forces),
+        "coordinates": model.n_q,
+        "equations": model.n_rows,
+        "degrees_of_freedom": state.matrices().degrees_of_freedom,
+    }
+
+
+def reaction(sampled: Sampled, name: str) -> dict[str, Any]:
+    """Largest reaction of a joint or driver on its body j, with its time.
+
+    ``unbounded_at`` are the times of singular positions beside which it has no bound. The peaks
+    exclude the values there. ``unique`` is False if the reaction is not unique; ``choice`` then
+    says which of the possible values is given.
+    """
+    on = sampled.solution.compiled.constraints[name].j
+    read = partial(_force, name, on)
+    force = sampled.peak(read)
+    torque = sampled.peak(lambda motion: motion.constraint(name).torque(on=on))
+    choice = sampled.solution.constraint(name).choice
+    return {
+        "joint": name,
+        "on": on,
+        "force": force.value,
+        "force_at": force.t,
+        "torque": torque.value,
+        "torque_at": torque.t,
+        "unbounded_at": list(unbounded_at(sampled.solution, name)),
+        "unique": not choice,
+        "choice": choice,
+    }
+
+
+def _force(name: str, on: str, motion: Motion) -> Floats:
+    return _size(motion.constraint(name).force(on=on))
+
+
+def force(sampled: Sampled, name: str) -> dict[str, Any]:
+    """Largest force and torque of a force element on its body j, with their times."""
+    info = sampled.solution.compiled.forces[name]
+    on = info.j
+    magnitude = sampled.peak(lambda motion: _size(motion.force(name).force(on=on)))
+    torque = sampled.peak(lambda motion: motion.force(name).torque(on=on))
+    parts = {}
+    for part in info.parts:
+        read = partial(_torque, name, on, part)
+        parts[part] = sampled.peak(read).value
+    return {
+        "name": name,
+        "on": on,
+        "force": magnitude.value,
+        "force_at": magnitude.t,
+        "torque": torque.value,
+        "torque_at": torque.t,
+        "torque_by_part": parts,
+    }
+
+
+def _torque(name: str, on: str, part: str, motion: Motion) -> Floats:
+    return motion.force(name).torque(on=on, part=part)
+
+
+def residual(sampled: Sampled) -> dict[str, Any] | None:
+    """Largest constraint violation with its equation and time; None without constraints."""
+    model = sampled.solution.compiled
+    if not model.n_rows:
+        return None
+    worst = max(
+        (sampled.solution, sampled.steps),
+        key=lambda motion: float(np.abs(motion.residuals[0]).max()),
+    )
+    opening = np.abs(worst.residuals[0])
+    k, row = np.unravel_index(int(opening.argmax()), opening.shape)
+    return {
+        "value": float(opening[k, row]),
+        "equation": model.row_names()[row],
+        "unit": model.row_units()[row],
+        "at": float(worst.t[k]),
+    }
+
+
+def _largest_rate(motion: Motion) -> float:
+    return float(np.abs(motion.residuals[1]).max(initial=0.0))
+
+
+def energy(sampled: Sampled) -> dict[str, float]:
+    """Largest kinetic energy, dissipated energy, work, and largest error of the balance.
+
+    The error is relative to ``scale``, the largest energy of the run.
+    """
+    found = sampled.solution.energy
+    largest = sampled.peak(kinetic_energy)
+    return {
+        "largest_kinetic": largest.value,
+        "largest_kinetic_at": largest.t,
+        "dissipated": float(found.dissipated[-1]),
+        "work": float(found.work[-1]),
+        "scale": found.scale,
+        "largest_imbalance": float(np.abs(found.balance).max(initial=0.0)),
+    }
+
+
+def kinetic_energy(motion: Motion) -> Floats:
+    """Kinetic energy of all bodies, (n_t,), J."""
+    total = np.zeros(len(motion.t))
+    for name, info in motion.compiled.bodies.items():
+        body = motion.body(name)
+        velocity = body.at(info.center).velocity
+        total += 0.5 * info.mass * (velocity**2).sum(axis=1)
+        total += 0.5 * info.inertia * body.omega**2
+    return total
+
+
+def settling_of(sampled: Sampled, name: str) -> dict[str, Any]:
+    """Settling of the angle of a body; ``time`` is None if the angle does not settle."""
+    motion, solution = sampled.motion, sampled.solution
+    noise = max(_NO_ANGLE, _turning_by_violation(sampled))
+    found = settling(
+        motion.t,
+        motion.body(name).angle,
+        between=(lambda t: solution(t).body(name).angle) if sampled.is_continuous else None,
+        noise=noise,
+    )
+    angle = float(solution.body(name).angle[-1])
+    shown = 0.0 if abs(angle) <= noise and not found.moves else angle
+    return {"body": name, "moves": found.moves, "time": found.time, "angle": shown}
+
+
+def _turning_by_violation(sampled: Sampled) -> float:
+    """An angle by which open joints may turn a body: twice the largest opening over the size."""
+    model = sampled.solution.compiled
+    points = [point for body in model.all_bodies.values() for point in body.points.values()]
+    size = float(np.ptp(np.array([(0.0, 0.0), *points]), axis=0).max())
+    opening = float(sampled.solution.drift.position.max(initial=0.0))
+    return 2.0 * opening / size if size > 0.0 else 0.0
+
+
+def _size(vectors: Floats) -> Floats:
+    return np.hypot(vectors[:, 0], vectors[:, 1])

@@ -1,0 +1,1 @@
+"""Views of a motion: one body, joint or force."""
