@@ -11,7 +11,7 @@ toolchain (tools/build_packages.py).
 import json
 import re
 import subprocess
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -27,6 +27,8 @@ MARKS = {
     "BSD-2-Clause": "Redistribution and use in source and binary forms",
     "Apache-2.0": "TERMS AND CONDITIONS FOR USE, REPRODUCTION, AND DISTRIBUTION",
 }
+#: Crates without a text, and a crate of the same author and licence that contains it.
+TEXT_OF = {"i_key_sort": "i_shape", "i_overlay": "i_shape"}
 INTRODUCTION = """\
 The compiled core of kempe contains the following Rust crates. Each is used under the licence that
 its heading names. kempe itself is licensed under MIT OR Apache-2.0.
@@ -89,7 +91,11 @@ def crates() -> list[Crate]:
         )["packages"]
     ]
     known = {(crate.name, crate.version): crate for crate in found}
-    return [known[key] for key in sorted(linked())]
+    all_linked = [known[key] for key in sorted(linked())]
+    folders = {crate.name: crate.folder for crate in all_linked}
+    return [
+        replace(crate, folder=folders[TEXT_OF.get(crate.name, crate.name)]) for crate in all_linked
+    ]
 
 
 def cargo(*words: str) -> str:

@@ -199,6 +199,12 @@ from = "start"
 [analyses.ten]
 type = "mobility"
 from = "start"
+[analyses.twelve]
+type = "reachable"
+of = "d.P"
+over = ["a.angle", "b.angle"]
+ranges = [[0, 1], [0, 1]]
+from = "start"
 [analyses.eleven]
 type = "configurations"
 set = { "a.angle" = "20 deg" }

@@ -12,7 +12,7 @@ use kempe::elements::{
 use kempe::equations::reactions::touched;
 use kempe::expression::Table;
 use kempe::math::Local;
-use kempe::model::{Body, Columns, Definition, Drawn, DriverSet, ForceMode, Functions, Model};
+use kempe::model::{Body, Columns, Definition, Drawn, ForceMode, Functions, Model};
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
 use serde_json::{json, Map, Value};
@@ -180,7 +180,7 @@ fn read_mode(
     if !has_modes(force) || matches!(mode, Mode::Follows { leader, .. } if !has_modes(&leader)) {
         return Err(refuse(py, "modes", format!("force {force} has no modes")));
     }
-    Ok(ForceMode { force: *force, mode, value: *value, slack: 0.0, held_by: DriverSet::default() })
+    Ok(ForceMode { value: *value, ..ForceMode::new(*force, mode) })
 }
 
 fn pair(s: &Local) -> Value {

@@ -13,7 +13,7 @@ use kempe::equations::newton_euler::balances;
 use kempe::equations::reactions;
 use kempe::integrate::Flow;
 use kempe::math::Wrench;
-use kempe::model::{DriverSet, ForceMode, Model};
+use kempe::model::{ForceMode, Model};
 use pyo3::prelude::*;
 use std::collections::BTreeSet;
 
@@ -84,13 +84,7 @@ pub fn impulse<'py>(
         states.each(model, |at, t, motions| {
             let acting = Acting { z: &z, lam: Some(&impulses[at * m..(at + 1) * m]), t };
             let mode = Mode::Holds(forces::side(model, k, motions, acting));
-            let resting = model.marked(&[ForceMode {
-                force: k,
-                mode,
-                value: 0.0,
-                slack: 0.0,
-                held_by: DriverSet::default(),
-            }]);
+            let resting = model.marked(&[ForceMode::new(k, mode)]);
             let mut sum = Wrench::zero();
             each_action(&resting, k, motions, acting, |_, on, wrench| {
                 if on == body {

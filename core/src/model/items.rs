@@ -130,6 +130,13 @@ pub struct ForceMode {
     pub held_by: DriverSet,
 }
 
+impl ForceMode {
+    /// A force in a mode, without rounding errors.
+    pub fn new(force: usize, mode: Mode) -> Self {
+        Self { force, mode, value: 0.0, slack: 0.0, held_by: DriverSet::default() }
+    }
+}
+
 /// Some of the constraints of a model, by their indices. Those from index 127 on are in a set together.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct DriverSet(u128);

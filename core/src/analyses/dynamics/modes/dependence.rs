@@ -26,13 +26,7 @@ pub(super) fn independent(
     free: &[ForceMode],
     candidates: &[(usize, f64)],
 ) -> Vec<ForceMode> {
-    let holds = |(k, side): &(usize, f64)| ForceMode {
-        force: *k,
-        mode: Mode::Holds(*side),
-        value: 0.0,
-        slack: 0.0,
-        held_by: DriverSet::default(),
-    };
+    let holds = |(k, side): &(usize, f64)| ForceMode::new(*k, Mode::Holds(*side));
     let all: Vec<ForceMode> = candidates.iter().map(holds).list();
     let [q, ..] = place.state(model);
     let phase = model.in_modes(&all);
@@ -86,13 +80,7 @@ fn dependent(
     held: &[ForceMode],
     (force, free): (usize, Mode),
 ) -> ForceMode {
-    let of = |mode: Mode, slack: f64| ForceMode {
-        force,
-        mode,
-        value: 0.0,
-        slack,
-        held_by: DriverSet::default(),
-    };
+    let of = |mode: Mode, slack: f64| ForceMode { slack, ..ForceMode::new(force, mode) };
     if !matches!(model.forces[force].element.behaviour(), Some(Behaviour::Sticks)) {
         return of(Mode::Idle, 0.0);
     }
@@ -164,13 +152,7 @@ pub fn holders(model: &Model, place: &StateAt<'_>, force: usize) -> DriverSet {
     }
     let [q, ..] = place.state(model);
     let at = |value: f64| {
-        model.in_modes(&[ForceMode {
-            force,
-            mode: Mode::Holds(0.0),
-            value,
-            slack: 0.0,
-            held_by: DriverSet::default(),
-        }])
+        model.in_modes(&[ForceMode { value, ..ForceMode::new(force, Mode::Holds(0.0)) }])
     };
     let open = at(0.0);
     let Some(row) = open.forces[force].held_row else { return DriverSet::default() };

@@ -13,7 +13,7 @@ use crate::equations::forces::{self, Acting};
 use crate::equations::kinematics::Motions;
 use crate::math::Jet;
 use crate::math::{Listed, Ordered};
-use crate::model::{DriverSet, ForceMode, Model};
+use crate::model::{ForceMode, Model};
 
 /// Magnitude of a negative reserve that is accepted, as a fraction of the limit.
 const ROUNDING: f64 = 1e-11;
@@ -65,13 +65,7 @@ pub(super) fn decide(
             _ => (Mode::Free, rest.contains(k)),
         };
         candidates.extend(candidate.then_some(*k));
-        modes.push(ForceMode {
-            force: *k,
-            mode: free,
-            value: 0.0,
-            slack: 0.0,
-            held_by: DriverSet::default(),
-        });
+        modes.push(ForceMode::new(*k, free));
     }
     let contact =
         |k: &usize| !matches!(model.forces[*k].element.behaviour(), Some(Behaviour::Sticks));

@@ -21,7 +21,7 @@ use crate::elements::{Behaviour, Mode};
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, energy};
 use crate::math::Listed;
-use crate::model::{DriverSet, ForceMode, Model};
+use crate::model::{ForceMode, Model};
 
 /// Largest number of rounds of impacts at one time.
 const ROUNDS: usize = 1000;
@@ -118,13 +118,7 @@ fn hit(
     let t = place.t;
     let contacts: Vec<usize> = approach.iter().map(|(k, _)| *k).list();
     let sides = place.sides(model, &contacts);
-    let held = |(k, side): (&usize, &f64)| ForceMode {
-        force: *k,
-        mode: Mode::Holds(*side),
-        value: 0.0,
-        slack: 0.0,
-        held_by: DriverSet::default(),
-    };
+    let held = |(k, side): (&usize, &f64)| ForceMode::new(*k, Mode::Holds(*side));
     let modes: Vec<ForceMode> = contacts.iter().zip(&sides).map(held).list();
     let closed = model.in_modes(&modes).allowing_redundancy();
     let [q, v, z] = place.state(model).map(<[f64]>::to_vec);
