@@ -286,9 +286,14 @@ impl Dice {
     }
 }
 
-/// The analysis without fields that refer to other analyses or exclude other fields.
+/// The analysis without optional fields that refer to other analyses or exclude other fields.
 fn consistent(mut analysis: Entry) -> Entry {
-    analysis.fields.retain(|(key, _)| !["from", "output", "over"].contains(&key.as_str()));
+    let needs_over = analysis.get("ranges").is_some();
+    analysis.fields.retain(|(key, _)| match key.as_str() {
+        "from" | "output" => false,
+        "over" => needs_over,
+        _ => true,
+    });
     analysis
 }
 
