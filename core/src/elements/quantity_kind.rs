@@ -34,9 +34,14 @@ impl QuantityKind {
         ["N", "N*m", "J"][self as usize]
     }
 
+    /// The kind with this unit.
+    pub fn of_unit(unit: &str) -> Option<Self> {
+        [Self::Length, Self::Angle, Self::Pure].into_iter().find(|kind| kind.unit() == unit)
+    }
+
     /// The kind of an equation with this unit.
     pub fn of_equation(unit: &str) -> Option<Self> {
-        Self::OF_EQUATIONS.into_iter().find(|kind| kind.unit() == unit)
+        Self::of_unit(unit).filter(|kind| Self::OF_EQUATIONS.contains(kind))
     }
 
     /// A value of this kind that is comparable with the size of a mechanism.
