@@ -7,7 +7,7 @@ use crate::guard::guard;
 use crate::run_analysis::RecentAnalysis;
 use kempe::analyses::dynamics::{Prepared, Setting};
 use kempe::elements::{
-    BodyId, Curve, CurveOn, Measured, Mode, OwnState, ResultQuantity, SceneSymbol, SymbolEnd,
+    BodyId, Curve, Measured, Mode, OwnState, ResultQuantity, SceneSymbol, SymbolEnd,
 };
 use kempe::equations::reactions::touched;
 use kempe::expression::Table;
@@ -274,20 +274,19 @@ fn connected<'a>(model: &'a Model, bodies: &[BodyId]) -> (Value, Value, Vec<&'a 
     (at(0), at(1), names)
 }
 
-/// Names and units of the internal coordinates of an element: u of its curve, or lengths u, or u1, u2 and u3.
-/// Assembly treats them as lengths.
-fn internal(columns: Columns, curve: Option<&CurveOn>) -> Vec<Value> {
-    let unit = curve.map_or("m", |on| on.curve.unit());
+/// Names and units of the internal coordinates of an element: u, or u1, u2 and u3.
+fn internal(model: &Model, columns: Columns) -> Vec<Value> {
+    let unit = |k: usize| model.layout.kinds[columns.first + k].unit();
     let name = |k: usize| match columns.count {
         1 => "u".to_string(),
         _ => format!("u{}", k + 1),
     };
-    (0..columns.count).map(|k| json!({ "name": name(k), "unit": unit })).collect()
+    (0..columns.count).map(|k| json!({ "name": name(k), "unit": unit(k) })).collect()
 }
 
 /// Position quantities: the names of position, rate and acceleration, and the unit of the position.
 fn measured(all: &[Measured]) -> Vec<Value> {
-    all.iter().map(|of| json!({ "names": of.names, "unit": of.unit })).collect()
+    all.iter().map(|of| json!({ "names": of.names, "unit": of.kind.unit() })).collect()
 }
 
 fn constraint(model: &Model, k: usize) -> Value {
@@ -297,7 +296,7 @@ fn constraint(model: &Model, k: usize) -> Value {
     let (_, _, bodies) = connected(model, &touched);
     let result =
         |r: &ResultQuantity| json!({ "name": r.name, "unit": r.unit, "negative": r.negative });
-    let equation = |e: &kempe::elements::Equation| json!({ "name": e.name, "unit": e.unit });
+    let equation = |e: &kempe::elements::Equation| json!({ "name": e.name, "unit": e.kind.unit() });
     json!({
         "name": item.name,
         "group": item.group.section(),
@@ -310,7 +309,7 @@ fn constraint(model: &Model, k: usize) -> Value {
         "axis_j": item.element.attachment(1).axis,
         "bodies": bodies,
         "columns": span(&slots.own.range()),
-        "coordinates": internal(slots.own, item.element.curve()),
+        "coordinates": internal(model, slots.own),
         "rows": span(&slots.rows),
         "equations": item.equations.iter().map(equation).collect::<Vec<_>>(),
         "results": item.element.result_quantities().iter().map(result).collect::<Vec<_>>(),

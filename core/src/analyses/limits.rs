@@ -10,6 +10,7 @@ use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Poi
 use super::options::{name, options};
 use super::record::{Analysis, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished};
 use super::State;
+use crate::elements::QuantityKind;
 use crate::integrate::Flow;
 use crate::math::Listed;
 use crate::model::{size, Model};
@@ -63,7 +64,7 @@ impl Analysis for Options {
         let found = found.map_err(|failure| Outcome::from(failure.reason))?;
         let value = |bound: &Option<Bound>| bound.as_ref().map(|bound| bound.value);
         let findings = json!({
-            "over": over, "start": driven.variable.start, "unit": found.unit,
+            "over": over, "start": driven.variable.start, "unit": found.kind.unit(),
             "lower": value(&found.lower), "upper": value(&found.upper),
             "reasons": found.reasons, "turns": found.turns,
         });
@@ -112,8 +113,8 @@ pub struct Limits {
     pub lower: Option<Bound>,
     /// The end of the motion upwards; None without a limit.
     pub upper: Option<Bound>,
-    /// Unit of the value, m or rad.
-    pub unit: &'static str,
+    /// A length or an angle.
+    pub kind: QuantityKind,
     /// Descriptions of the lower and the upper end, or of the motion without ends.
     pub reasons: Vec<String>,
     /// Number of turns after which the mechanism returns to its start, if it turns fully.
@@ -154,9 +155,10 @@ pub fn limits(
     start: &State,
     mut watch: impl FnMut(f64) -> Flow,
 ) -> Result<Limits, Box<Failure>> {
-    let (driven, unit) = driven(model);
-    let mut found = Limits { unit, ..Limits::default() };
-    let mut walk = Walk { model, start, unit, curves: Ranges::of(model), watch: &mut watch };
+    let (driven, kind) = driven(model);
+    let kind = kind.unwrap_or_default();
+    let mut found = Limits { kind, ..Limits::default() };
+    let mut walk = Walk { model, start, kind, curves: Ranges::of(model), watch: &mut watch };
     let (down, mut path) = walk.towards(-1.0)?;
     path.reverse();
     let described = |end: &DirectionEnd| {
@@ -167,10 +169,10 @@ pub fn limits(
             "{driven} turns fully: it meets no dead point, and the mechanism is the same after {n} turns, {}°",
             360 * n
         ),
-        DirectionEnd::Never if unit == "rad" => {
+        DirectionEnd::Never if kind == QuantityKind::Angle => {
             format!("{driven} turns fully: it meets no dead point in {MOST_TURNS} turns")
         }
-        DirectionEnd::Never => format!("{driven} has no limit within {}", written(reach(model), unit)),
+        DirectionEnd::Never => format!("{driven} has no limit within {}", written(reach(model), Some(kind))),
         DirectionEnd::Stopped => String::new(),
     }
     };
@@ -207,7 +209,7 @@ fn reach(model: &Model) -> f64 {
 struct Walk<'a, W> {
     model: &'a Model,
     start: &'a State,
-    unit: &'static str,
+    kind: QuantityKind,
     curves: Ranges,
     watch: &'a mut W,
 }
@@ -219,8 +221,8 @@ impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
     fn towards(&mut self, way: f64) -> Result<(DirectionEnd, Path), Box<Failure>> {
         let mut motion = Continuation::begin(self.model, self.start)?;
         let mut path = Path::new();
-        let (turns, length) = match self.unit {
-            "rad" => (MOST_TURNS, TAU),
+        let (turns, length) = match self.kind {
+            QuantityKind::Angle => (MOST_TURNS, TAU),
             _ => (1, reach(self.model)),
         };
         for turn in 1..=turns {
@@ -242,7 +244,8 @@ impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
                     return Ok((DirectionEnd::Stopped, path));
                 }
             }
-            if self.unit == "rad" && same(self.model, &self.start.q, &motion.point().q, SAME) {
+            let turned = self.kind == QuantityKind::Angle;
+            if turned && same(self.model, &self.start.q, &motion.point().q, SAME) {
                 return Ok((DirectionEnd::Returned(turn), path));
             }
         }
@@ -255,8 +258,8 @@ impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
         let (name, _) = curves.beyond(model, &motion.point().q)?;
         motion.back(before, |_, q| curves.beyond(model, q).is_none());
         let Point { t, q, .. } = &**motion.point();
-        let (driven, unit) = driven(model);
-        let value = written(*t, unit);
+        let value = written(*t, Some(self.kind));
+        let (driven, _) = driven(model);
         let reason = format!("{driven} cannot pass {value}: {name} is at the end of its curve");
         Some(Bound { value: *t, q: q.clone(), reason })
     }

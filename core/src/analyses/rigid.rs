@@ -19,11 +19,8 @@ pub fn is_rigid(model: &Model, force: usize) -> bool {
 
 /// The size of the mechanism for a gap that is a length, 1 rad for one that is an angle.
 pub fn unit(model: &Model, force: usize) -> f64 {
-    let measured = model.forces[force].element.measured();
-    match measured.first().is_some_and(|of| of.unit == "rad") {
-        true => 1.0,
-        false => size(model),
-    }
+    let measured = model.forces[force].element.measured().first();
+    measured.map(|of| of.kind).unwrap_or_default().scale(size(model))
 }
 
 /// The stops and contacts with restitution of a model, without those for which a run has decided.

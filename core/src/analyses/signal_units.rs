@@ -2,22 +2,18 @@
 
 use super::signal_names::COORDINATES;
 use super::signals::{Energy, ForcePart, Signal};
+use crate::elements::QuantityKind;
 use crate::equations::measured::offered;
 use crate::model::Model;
 
 /// The SI unit of a quantity, such as `rad/s`; `m or rad` for the largest violation of constraints of both kinds.
 pub(super) fn unit_of(model: &Model, name: &str, signal: &Signal) -> String {
-    let of = |position: &str, order: usize| match order {
-        0 => position.to_string(),
-        1 => format!("{position}/s"),
-        _ => format!("{position}/s^2"),
-    };
     match signal {
         Signal::Constant(_) => of_ground(name),
-        Signal::Column { order, column } => of(of_column(model, *column), *order),
+        Signal::Column { order, column } => model.layout.kinds[*column].unit_of_rate(*order),
         Signal::State(place) => of_state(model, *place).to_string(),
-        Signal::Point { order, .. } => of("m", *order),
-        Signal::Measured { id, k, order } => of(offered(model, *id)[*k].unit, *order),
+        Signal::Point { order, .. } => QuantityKind::Length.unit_of_rate(*order),
+        Signal::Measured { id, k, order } => offered(model, *id)[*k].kind.unit_of_rate(*order),
         Signal::Reaction { part, .. } | Signal::Force { part, .. } => of_part(*part).to_string(),
         Signal::ForceResult { k, place } => {
             model.forces[*k].element.result_quantities()[*place].unit.to_string()
@@ -25,7 +21,7 @@ pub(super) fn unit_of(model: &Model, name: &str, signal: &Signal) -> String {
         Signal::Result { k, place } => {
             model.constraints[*k].element.result_quantities()[*place].unit.to_string()
         }
-        Signal::Effort(k) => of_effort(model.constraints[*k].equations[0].unit).to_string(),
+        Signal::Effort(k) => model.constraints[*k].equations[0].kind.unit_of_effort().to_string(),
         Signal::Line { .. } => "N".to_string(),
         Signal::Power(..) | Signal::ForcePower(_) => "W".to_string(),
         Signal::ForceEnergy(_) | Signal::ForceDissipated(_) => "J".to_string(),
@@ -40,18 +36,7 @@ fn of_ground(name: &str) -> String {
     let last = name.rsplit('.').next().unwrap_or_default();
     let places = (0..3).flat_map(|order| (0..3).map(move |k| (order, k)));
     let found = places.into_iter().find(|(order, k)| COORDINATES[*order][*k] == last);
-    let rate = ["", "/s", "/s^2"];
-    found.map_or("1".to_string(), |(order, k)| format!("{}{}", ["m", "m", "rad"][k], rate[order]))
-}
-
-fn of_column(model: &Model, column: usize) -> &'static str {
-    let bodies = &model.layout.bodies;
-    if let Some(own) = bodies.iter().find(|own| own.range().contains(&column)) {
-        return ["m", "m", "rad"][column - own.first];
-    }
-    let owners = model.constraints.iter().zip(&model.layout.constraints);
-    let owner = owners.into_iter().find(|(_, slots)| slots.own.range().contains(&column));
-    owner.and_then(|(item, _)| item.element.curve()).map_or("m", |on| on.curve.unit())
+    found.map_or("1".to_string(), |(order, k)| QuantityKind::OF_BODY[k].unit_of_rate(order))
 }
 
 fn of_state(model: &Model, place: usize) -> &'static str {
@@ -65,13 +50,5 @@ fn of_part(part: ForcePart) -> &'static str {
     match part {
         ForcePart::Torque => "N*m",
         ForcePart::X | ForcePart::Y | ForcePart::Size => "N",
-    }
-}
-
-/// The unit of an effort: effort times coordinate is an energy.
-fn of_effort(coordinate: &str) -> &'static str {
-    match coordinate {
-        "rad" => "N*m",
-        _ => "N",
     }
 }

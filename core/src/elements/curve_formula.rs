@@ -3,6 +3,7 @@
 //! The formulas are evaluated over series in u whose coefficients are the [base](crate::math::OverBase) of the scalar. The
 //! derivatives that the scalar adds follow from the higher derivatives by u.
 
+use super::quantity_kind::QuantityKind;
 use crate::expression::{switch_places, Knots, Symbol, Tape, Values};
 use crate::math::{compose, indexed, Lift, Listed, Local, Real, TaylorSeries};
 use std::sync::{Arc, Mutex, PoisonError};
@@ -17,8 +18,8 @@ pub struct Formula<S = f64> {
     pub range: [S; 2],
     /// Whether the curve repeats periodically beyond these ends.
     pub periodic: bool,
-    /// SI unit of u.
-    pub unit: &'static str,
+    /// What u measures.
+    pub kind: QuantityKind,
 }
 
 /// The numbers for which the breaks of a curve were searched, and the breaks.
@@ -46,13 +47,13 @@ impl Formula<Tape> {
             values,
             range,
             periodic,
-            unit: "1",
+            kind: QuantityKind::Pure,
         }
     }
 
     /// A curve from a formula of the radius, with u as the polar angle.
     pub fn polar(self) -> Self {
-        Self { unit: "rad", ..self }
+        Self { kind: QuantityKind::Angle, ..self }
     }
 }
 
@@ -64,7 +65,7 @@ impl<S> Formula<S> {
             values: self.values.iter().map(&mut *f).list(),
             range: [f(&self.range[0]), f(&self.range[1])],
             periodic: self.periodic,
-            unit: self.unit,
+            kind: self.kind,
         }
     }
 }

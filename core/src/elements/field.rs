@@ -1,5 +1,7 @@
 //! Fields of an element as data: shape, unit, default, and one sentence.
 
+use super::quantity_kind::QuantityKind;
+
 /// The values that a field accepts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Shape {
@@ -72,7 +74,8 @@ pub enum Shape {
 }
 
 /// The units that an equation may have.
-pub const UNITS_OF_EQUATIONS: &[&str] = &["m", "rad"];
+pub const UNITS_OF_EQUATIONS: &[&str] =
+    &[QuantityKind::OF_EQUATIONS[0].unit(), QuantityKind::OF_EQUATIONS[1].unit()];
 
 /// The kinds of quantities that can have their own tolerance.
 pub const TOLERANCES: [&str; 3] = ["length", "angle", "z"];

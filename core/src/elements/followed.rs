@@ -1,6 +1,7 @@
 //! Bodies, their coordinates, and the position quantities that an element follows or acts on.
 
 use super::attachment::Attachment;
+use super::quantity_kind::QuantityKind;
 use crate::math::{Local, Pose, Real, Twist};
 
 /// A body of a model: 0 is ground, and moving bodies are numbered from 1.
@@ -50,6 +51,10 @@ impl Coordinate {
     pub fn unit(self) -> &'static str {
         ["m", "m", "rad", "m/s", "m/s", "rad/s"][self as usize]
     }
+    /// Its kind, or the kind of the coordinate of which it is the rate.
+    pub fn kind(self) -> QuantityKind {
+        QuantityKind::OF_BODY[self.column()]
+    }
     /// The coordinate with this name.
     pub fn named(name: &str) -> Option<Self> {
         Self::ALL.into_iter().find(|c| c.name() == name)
@@ -90,9 +95,9 @@ pub struct QuantityOf<S = f64> {
     /// Its name as written, such as `slide.displacement`.
     pub name: String,
     /// The last part of its name.
-    pub kind: &'static str,
-    /// SI unit: `m` or `rad`.
-    pub unit: &'static str,
+    pub word: &'static str,
+    /// A length or an angle.
+    pub kind: QuantityKind,
     /// Bodies i and j. The quantity is the motion of j relative to i.
     pub bodies: [BodyId; 2],
     /// The frame on each of these bodies to which forces are reduced.
@@ -143,11 +148,19 @@ impl<S> Followed<S> {
         }
     }
 
-    /// Its name in labels, and its SI unit.
-    pub fn label(&self) -> (&'static str, &'static str) {
+    /// Its name in labels.
+    pub fn label(&self) -> &'static str {
         match self {
-            Self::Coordinate(of) => (of.coordinate.name(), of.coordinate.unit()),
-            Self::Quantity(of) => (of.kind, of.unit),
+            Self::Coordinate(of) => of.coordinate.name(),
+            Self::Quantity(of) => of.word,
+        }
+    }
+
+    /// A length or an angle.
+    pub fn kind(&self) -> QuantityKind {
+        match self {
+            Self::Coordinate(of) => of.coordinate.kind(),
+            Self::Quantity(of) => of.kind,
         }
     }
 }

@@ -6,16 +6,28 @@ use super::derive;
 use super::followed::{BodyId, CoordinateOf, Followed};
 use super::kinds::CurveOn;
 use super::measured::Measured;
+use super::quantity_kind::QuantityKind;
 use super::symbols::SceneSymbol;
 use crate::math::{Local, Motion, Pose, Real, Wrench};
 
-/// A scalar constraint equation of a joint: its name in labels and its unit.
+/// A scalar constraint equation of a joint: its name in labels and its kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Equation {
     /// Name within the joint, such as `x`.
     pub name: &'static str,
-    /// Unit of the residual: `m` or `rad`.
-    pub unit: &'static str,
+    /// Kind of the residual.
+    pub kind: QuantityKind,
+}
+
+impl Equation {
+    /// An equation whose residual is a length.
+    pub const fn length(name: &'static str) -> Self {
+        Self { name, kind: QuantityKind::Length }
+    }
+    /// An equation whose residual is an angle.
+    pub const fn angle(name: &'static str) -> Self {
+        Self { name, kind: QuantityKind::Angle }
+    }
 }
 
 /// Positions of the participants of a joint, and the time.
@@ -171,7 +183,7 @@ pub trait Joint: Element {
         None
     }
 
-    /// Names and units of the equations.
+    /// Names and kinds of the equations.
     fn equations<S>(e: &Self::Over<S>) -> Vec<Equation>;
 
     /// Φ, one entry for each equation.

@@ -1,9 +1,10 @@
 //! Kinds of fields: the values that an element may contain, and how each value is read and converted between scalars.
 
-use super::field::{Default, Field, Shape};
+use super::field::{Default, Field, Shape, UNITS_OF_EQUATIONS};
 use super::followed::{Acted, BodyId, Followed, JointId, QuantityOf};
 use super::plain_bearing::Bearing;
 use super::plane_curve::Curve;
+use super::quantity_kind::QuantityKind;
 use crate::expression::Tape;
 use crate::math::{Listed, Local, Real};
 
@@ -64,8 +65,8 @@ pub trait Source {
     fn laws(&mut self, field: &Field) -> Option<Vec<Tape>>;
     /// At least one position quantity, each with a factor in the parameters.
     fn terms(&mut self, field: &Field) -> Option<Vec<(Followed<Tape>, Tape)>>;
-    /// The units of equations.
-    fn units(&mut self, field: &Field) -> Option<Vec<&'static str>>;
+    /// The kinds of equations, given by their units.
+    fn units(&mut self, field: &Field) -> Option<Vec<QuantityKind>>;
     /// A condition, as it is written.
     fn condition(&mut self, field: &Field) -> Option<String>;
     /// true or false.
@@ -127,8 +128,8 @@ kind!(
         Followed::Coordinate(of) => Followed::Coordinate(*of),
         Followed::Quantity(of) => Followed::Quantity(Box::new(QuantityOf {
             name: of.name.clone(),
+            word: of.word,
             kind: of.kind,
-            unit: of.unit,
             bodies: of.bodies,
             ends: [of.ends[0].map(f), of.ends[1].map(f)],
             value: f(&of.value),
@@ -184,8 +185,8 @@ kind!(
     }
 );
 kind!(
-    /// Units of equations: `m` or `rad`.
-    units, Units, S => Vec<&'static str>, |v, _f| v.clone()
+    /// The kinds of equations, given by their units `m` or `rad`.
+    units, Units, S => Vec<QuantityKind>, |v, _f| v.clone()
 );
 kind!(
     /// A condition on quantities.
@@ -279,13 +280,19 @@ words! {
     }
 }
 
-words! {
-    /// The unit of an equation.
-    equation_unit: EquationUnit {
-        /// Metre.
-        Metre = "m",
-        /// Radian.
-        Radian = "rad",
+/// The kind of an equation, given by its unit.
+#[allow(non_camel_case_types)] // a type in `element!`, written like a word
+#[derive(Clone, Copy, Debug)]
+pub enum equation_unit {}
+
+impl Kind for equation_unit {
+    type Over<S> = QuantityKind;
+    const SHAPE: Shape = Shape::Word(UNITS_OF_EQUATIONS);
+    fn read(source: &mut dyn Source, field: &Field) -> Option<QuantityKind> {
+        source.word(field, UNITS_OF_EQUATIONS).map(|k| QuantityKind::OF_EQUATIONS[k])
+    }
+    fn map<S, T>(value: &QuantityKind, _: &mut dyn FnMut(&S) -> T) -> QuantityKind {
+        *value
     }
 }
 

@@ -1,28 +1,34 @@
-//! Position quantities that can be measured on an element: the motion of body j relative to body i.
+//! The position quantities that can be measured on an element: the motion of body j relative to body i.
+
+use super::quantity_kind::QuantityKind;
 
 /// A position quantity of an element and the names of its derivatives in time.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Measured {
     /// Names of the position, the rate and the acceleration. A quantity with an empty name is not available.
     pub names: [&'static str; 3],
-    /// SI unit of the position: `m` or `rad`.
-    pub unit: &'static str,
+    /// Kind of the position.
+    pub kind: QuantityKind,
 }
 
 impl Measured {
     /// The relative angle angle_j - angle_i, continuous.
-    pub const ANGLE: Self = Self { names: ["angle", "omega", "alpha"], unit: "rad" };
+    pub const ANGLE: Self = Self::angle(["angle", "omega", "alpha"]);
     /// The component of the distance along a direction of body i.
-    pub const DISPLACEMENT: Self =
-        Self { names: ["displacement", "rate", "acceleration"], unit: "m" };
+    pub const DISPLACEMENT: Self = Self::length(["displacement", "rate", "acceleration"]);
     /// The distance of two points.
-    pub const LENGTH: Self = Self { names: ["length", "rate", "acceleration"], unit: "m" };
+    pub const LENGTH: Self = Self::length(["length", "rate", "acceleration"]);
 
     /// The distance of two bodies that may touch; positive if they are apart.
-    pub const GAP: Self = Self { names: ["gap", "gap_rate", ""], unit: "m" };
+    pub const GAP: Self = Self::length(["gap", "gap_rate", ""]);
 
-    /// SI unit of the derivative of this order.
-    pub fn unit_of(&self, order: usize) -> String {
-        self.unit.to_string() + ["", "/s", "/s^2"][order]
+    /// A length with the names of its derivatives.
+    pub const fn length(names: [&'static str; 3]) -> Self {
+        Self { names, kind: QuantityKind::Length }
+    }
+
+    /// An angle with the names of its derivatives.
+    pub const fn angle(names: [&'static str; 3]) -> Self {
+        Self { names, kind: QuantityKind::Angle }
     }
 }

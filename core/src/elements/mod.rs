@@ -34,6 +34,7 @@ mod nearest;
 mod plain_bearing;
 mod plane_curve;
 mod pool;
+mod quantity_kind;
 mod symbols;
 mod value;
 mod wheels;
@@ -137,14 +138,15 @@ use joints::*;
 pub use kinds::{
     acted, bearing, body, condition, coordinate, curve, equation_unit, flag, frame, joint, law,
     law_pair, laws, number, optional_condition, optional_law, optional_number, optional_only,
-    optional_pair, optional_unit, pair, point, side, terms, triple, units, CurveOn, EquationUnit,
-    Frame, Kind, Only, Optional, PointOn, Side, Source,
+    optional_pair, optional_unit, pair, point, side, terms, triple, units, CurveOn, Frame, Kind,
+    Only, Optional, PointOn, Side, Source,
 };
 pub use measured::Measured;
 pub use mode::{Behaviour, Mode};
 pub use plain_bearing::Bearing;
 pub use plane_curve::Curve;
 pub use pool::{Place, Pooled, VisitForces, VisitJoints};
+pub use quantity_kind::QuantityKind;
 pub use symbols::{Mark, SceneSymbol, SymbolEnd};
 #[cfg(feature = "test-elements")]
 use test_elements::*;

@@ -2,6 +2,7 @@
 
 use super::attachment::Attachment;
 use super::followed::{BodyId, JointId, QuantityOf};
+use super::quantity_kind::QuantityKind;
 use crate::expression::Tape;
 use crate::math::{Local, Motion, Pose, Real, Rotation, Vec2};
 use std::sync::Arc;
@@ -27,7 +28,7 @@ impl<S> Bearing<S> {
 
     /// Whether its bodies rotate relative to each other; otherwise body j slides along a line of body i.
     pub fn turns(&self) -> bool {
-        self.coordinate.unit == "rad"
+        self.coordinate.kind == QuantityKind::Angle
     }
 
     /// The same over another scalar.

@@ -7,6 +7,7 @@
 
 use super::curve_formula::Formula;
 use super::curve_points::CurvePoints;
+use super::quantity_kind::QuantityKind;
 use crate::expression::Knots;
 use crate::math::{indexed, Interpolation, Local, Real};
 use std::sync::Arc;
@@ -52,12 +53,12 @@ impl<S> Curve<S> {
         }
     }
 
-    /// SI unit of u: rad for an angle, m for a length, 1 for a number.
-    pub fn unit(&self) -> &'static str {
+    /// What u measures.
+    pub fn kind(&self) -> QuantityKind {
         match self {
-            Self::Formula(formula) => formula.unit,
-            Self::Circle { .. } => "rad",
-            Self::Points(_) | Self::Line { .. } | Self::Near { .. } => "m",
+            Self::Formula(formula) => formula.kind,
+            Self::Circle { .. } => QuantityKind::Angle,
+            Self::Points(_) | Self::Line { .. } | Self::Near { .. } => QuantityKind::Length,
         }
     }
 

@@ -6,6 +6,7 @@
 
 use super::followed::{BodyId, Coordinate, CoordinateOf, Followed};
 use super::kinds::PointOn;
+use super::quantity_kind::QuantityKind;
 use crate::math::Local;
 
 /// Declares the marks, each with its name in a scene.
@@ -188,8 +189,8 @@ impl SceneSymbol {
                 (end(0), end(1))
             }
         };
-        match driven.label().1 {
-            "rad" => Self::between_bodies(Mark::DriveTurn, i.body, j.body),
+        match driven.kind() {
+            QuantityKind::Angle => Self::between_bodies(Mark::DriveTurn, i.body, j.body),
             _ => Self::new(Mark::DriveShift, i, j),
         }
     }

@@ -15,6 +15,7 @@
 //! the heaviest connected body counts.
 
 use super::inertia::{self, Inertia};
+use crate::elements::QuantityKind;
 use crate::math::{each, Listed, Ordered, Real};
 use crate::model::{Body, ConstraintItem, Model, Slots, Weighed};
 
@@ -107,10 +108,9 @@ fn internals<S: Real>(model: &Model<S>, all: &Bodies) -> Vec<Internal> {
             FLOOR * own.or_else(|| mean(of.iter().copied())).unwrap_or(1.0)
         };
         let weights = [touched(&all.mass), touched(&all.turning)];
-        let rows =
-            item.equations.iter().enumerate().map(|(k, equation)| {
-                (block.first / 3 + k, weights[usize::from(equation.unit != "m")])
-            });
+        let rows = item.equations.iter().enumerate().map(|(k, equation)| {
+            (block.first / 3 + k, weights[usize::from(equation.kind != QuantityKind::Length)])
+        });
         Some(Internal { owner: block.owner, size: slots.own.count, rows: rows.list() })
     };
     model.constraints.iter().zip(&model.layout.constraints).filter_map(of_element).list()

@@ -3,7 +3,9 @@
 use super::body_shape::{BodyShape, Weighed};
 use super::curves::Curves;
 use super::outline::Outline;
-use crate::elements::{BodyId, Constraint, Equation, ForceElement, Group, JointId, Mode, OwnState};
+use crate::elements::{
+    BodyId, Constraint, Equation, ForceElement, Group, JointId, Mode, OwnState, QuantityKind,
+};
 use crate::expression::Tape;
 use crate::math::{Listed, Local, Real};
 
@@ -112,6 +114,20 @@ pub struct ConstraintItem<S = f64> {
     pub equations: Vec<Equation>,
     /// The switch of its curve. The function of this switch is the first internal coordinate.
     pub curve_switch: Option<usize>,
+}
+
+impl<S> ConstraintItem<S> {
+    /// The opening as a length or as an angle: the root of the sum of squares of the residuals of this kind.
+    pub fn opening(&self, kind: QuantityKind, residuals: &[f64]) -> f64 {
+        let own = self.equations.iter().zip(residuals).filter(|(own, _)| own.kind == kind);
+        own.map(|(_, x)| x * x).sum::<f64>().sqrt()
+    }
+
+    /// The largest residual and its kind.
+    pub fn largest(&self, residuals: &[f64]) -> (f64, QuantityKind) {
+        let own = self.equations.iter().zip(residuals).map(|(own, x)| (x.abs(), own.kind));
+        own.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or_default()
+    }
 }
 
 /// The mode of a force in a phase.

@@ -4,7 +4,7 @@
 //! Φ_q is stored by constraint. For each owner of columns in a constraint there is a dense block of (equations × 3)
 //! entries, row by row, padded with zeros where the owner has fewer than three columns. Ground owns no columns.
 
-use crate::elements::BodyId;
+use crate::elements::{BodyId, QuantityKind};
 use crate::math::Listed;
 use std::ops::Range;
 
@@ -84,8 +84,8 @@ pub(super) struct Touched {
     pub equations: usize,
     /// Bodies, i and j first.
     pub bodies: Vec<BodyId>,
-    /// Number of its internal coordinates.
-    pub own: usize,
+    /// Number and kind of its internal coordinates.
+    pub own: (usize, QuantityKind),
     /// Whether its columns of translation are -I for body i and +I for body j.
     pub constant_columns: bool,
 }
@@ -116,6 +116,8 @@ pub struct StateLayout {
     pub n_works: usize,
     /// Columns of every body, ground first.
     pub bodies: Vec<Columns>,
+    /// The kind of each coordinate, shape (n_q).
+    pub kinds: Vec<QuantityKind>,
     /// Columns of the moving bodies, then of the elements with internal coordinates.
     pub owners: Vec<Columns>,
     /// The slots of each constraint.
@@ -139,6 +141,7 @@ impl StateLayout {
             Self { n_works: WORKS, bodies: vec![Columns::default()], ..Self::default() };
         for count in bodies {
             let columns = layout.own(count);
+            layout.kinds.extend(&QuantityKind::OF_BODY[..count]);
             layout.bodies.push(columns);
         }
         for touched in constraints {
@@ -186,8 +189,10 @@ impl StateLayout {
             }
         }
         let mut columns = Columns::default();
-        if *own > 0 {
-            columns = self.own(*own);
+        let (count, kind) = *own;
+        if count > 0 {
+            columns = self.own(count);
+            self.kinds.extend(std::iter::repeat_n(kind, count));
             blocks.push(self.block(self.owners.len() - 1, None, 0.0, *equations));
         }
         Slots { rows, blocks, own: columns }

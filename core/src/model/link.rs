@@ -9,7 +9,7 @@ use super::scope::{LawOf, Quantities, Reach, Scope};
 use super::unit_check::ANY_UNIT;
 use crate::elements::{
     measured_of, BodyId, Constraint, Coordinate, CoordinateOf, Default, Field, Followed, Group,
-    Measured,
+    Measured, QuantityKind,
 };
 use crate::expression::{suggest, Tape};
 use crate::math::Listed;
@@ -131,27 +131,29 @@ impl<'a> Linker<'a> {
     /// coordinate.
     pub(super) fn unit(&self, field: &Field) -> String {
         let Some((first, other)) = field.unit.split_once('|') else { return field.unit.clone() };
-        let unit =
+        let kind =
             match (self.entry.get("coordinate"), self.entry.get("terms"), self.entry.get("unit")) {
-                (_, _, Some(Value::Text(unit))) => unit,
-                (Some(Value::Text(text)), ..) => self.unit_of(text).unwrap_or(ANY_UNIT),
+                (_, _, Some(Value::Text(unit))) => QuantityKind::of_equation(unit),
+                (Some(Value::Text(text)), ..) => self.kind_of(text),
                 (_, Some(Value::Table(terms)), _) => {
-                    terms.first().and_then(|(text, _)| self.unit_of(text)).unwrap_or(ANY_UNIT)
+                    terms.first().and_then(|(text, _)| self.kind_of(text))
                 }
-                _ => ANY_UNIT,
+                _ => None,
             };
-        match unit {
-            "m" => first.to_string(),
-            "rad" => other.to_string(),
-            _ => ANY_UNIT.to_string(),
-        }
+        let unit = match kind {
+            Some(QuantityKind::Length) => first,
+            Some(QuantityKind::Angle) => other,
+            _ => ANY_UNIT,
+        };
+        unit.to_string()
     }
 
-    pub(super) fn unit_of(&self, quantity: &str) -> Option<&'static str> {
+    /// The kind of a position quantity by name.
+    fn kind_of(&self, quantity: &str) -> Option<QuantityKind> {
         let (owner, word) = quantity.rsplit_once('.')?;
         match self.scope.body(owner) {
-            Some(_) => Coordinate::named(word).map(Coordinate::unit),
-            None => self.quantities.followed(quantity).map(|followed| followed.label().1),
+            Some(_) => Coordinate::named(word).filter(|of| !of.is_rate()).map(Coordinate::kind),
+            None => self.quantities.followed(quantity).map(|followed| followed.kind()),
         }
     }
 

@@ -74,7 +74,7 @@ impl<S: Real> Model<S> {
             touched.push(Touched {
                 equations: equations.len(),
                 bodies: bodies.iter().chain(&depends.bodies).copied().list(),
-                own: formula.own(),
+                own: (formula.own(), formula.curve().map(|on| on.curve.kind()).unwrap_or_default()),
                 constant_columns: formula.constant_columns() && !depends.any(),
             });
             constraints.push(ConstraintItem {

@@ -147,7 +147,7 @@ pub fn quantity_of(blueprint: &Blueprint, owner: &str, word: &str) -> Option<Off
     let owner = linked(blueprint, owner)?;
     Some(match place(owner.measured(), word) {
         Some((k, order @ 0..=1)) if owner.has_formulas() => {
-            let unit = owner.measured()[k].unit_of(order);
+            let unit = owner.measured()[k].kind.unit_of_rate(order);
             Offered::Position(formulas.followed(&owner, k, &name), order == 1, unit)
         }
         _ => Offered::Other(owner.measured()),

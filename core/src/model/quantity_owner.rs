@@ -18,10 +18,8 @@ pub(super) enum QuantityOwner<S> {
 }
 
 /// Components of a point as quantities.
-const OF_POINT: [Measured; 2] = [
-    Measured { names: ["x", "vx", "ax"], unit: "m" },
-    Measured { names: ["y", "vy", "ay"], unit: "m" },
-];
+const OF_POINT: [Measured; 2] =
+    [Measured::length(["x", "vx", "ax"]), Measured::length(["y", "vy", "ay"])];
 
 impl<S> QuantityOwner<S> {
     fn map<T>(&self, f: &mut dyn FnMut(&S) -> T) -> QuantityOwner<T> {
@@ -233,8 +231,8 @@ impl FormulaModel {
         }
         Followed::Quantity(Box::new(QuantityOf {
             name: name.to_string(),
-            kind: measured.names[0],
-            unit: measured.unit,
+            word: measured.names[0],
+            kind: measured.kind,
             bodies: [bodies[0], bodies[1]],
             ends,
             value,

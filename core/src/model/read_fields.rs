@@ -5,7 +5,7 @@ use super::scope::Reach;
 use super::unit_check::ANY_UNIT;
 use crate::elements::{
     types_that_rub, Acted, Bearing, BodyId, CurveOn, Default, Field, Followed, JointId, PointOn,
-    Source, UNITS_OF_EQUATIONS,
+    QuantityKind, Source,
 };
 use crate::expression::Tape;
 use crate::math::Listed;
@@ -107,7 +107,8 @@ impl Source for Linker<'_> {
         let Some(Followed::Quantity(of)) = found else {
             return self.report(field, format!("the bodies of '{name}' do not move"), None);
         };
-        let holds_angle = element.equations().iter().any(|equation| equation.unit == "rad");
+        let holds_angle =
+            element.equations().iter().any(|equation| equation.kind == QuantityKind::Angle);
         Some(Bearing { joint, holds_angle, ends: of.ends.clone(), coordinate: Arc::from(of) })
     }
 
@@ -188,7 +189,7 @@ impl Source for Linker<'_> {
         all.into_iter().collect()
     }
 
-    fn units(&mut self, field: &Field) -> Option<Vec<&'static str>> {
+    fn units(&mut self, field: &Field) -> Option<Vec<QuantityKind>> {
         let items = match self.entry.get(field.name) {
             Some(Value::List(items)) => items,
             Some(other) => {
@@ -198,11 +199,11 @@ impl Source for Linker<'_> {
             None => return self.missing(field),
         };
         let known = |item: &Value| match item {
-            Value::Text(unit) => UNITS_OF_EQUATIONS.iter().find(|known| *known == unit).copied(),
+            Value::Text(unit) => QuantityKind::of_equation(unit),
             _ => None,
         };
         match items.iter().map(known).collect::<Option<Vec<_>>>() {
-            Some(units) => Some(units),
+            Some(kinds) => Some(kinds),
             None => self.report(field, "each must be \"m\" or \"rad\"".to_string(), None),
         }
     }

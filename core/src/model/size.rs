@@ -44,6 +44,6 @@ pub fn column_scales<S: Real>(model: &Model<S>) -> Vec<f64> {
 /// Scale of each row of Φ, shape (n_rows): the size for lengths, 1 for angles.
 pub fn row_scales<S: Real>(model: &Model<S>) -> Vec<f64> {
     let size = size(model);
-    let units = model.constraints.iter().flat_map(|c| c.equations.iter().map(|e| e.unit));
-    units.map(|unit| if unit == "m" { size } else { 1.0 }).list()
+    let equations = model.constraints.iter().flat_map(|c| &c.equations);
+    equations.map(|equation| equation.kind.scale(size)).list()
 }

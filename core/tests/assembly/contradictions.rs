@@ -162,3 +162,19 @@ fn of_many_drivers_only_those_that_contradict_are_named() {
         "{failure}"
     );
 }
+
+/// The unit is that of the equation that is missed, not of the first equation of its joint.
+#[test]
+fn the_second_equation_of_a_joint_is_missed() {
+    let joint = |name: &str, length: &str, angle: &str| {
+        format!(
+            "[joints.{name}]\ntype = 'constraint'\nresidual = ['{length}', 'a.angle - {angle} - t']\n\
+             units = ['m', 'rad']\n"
+        )
+    };
+    let body = "[bodies.a]\nmass = 1\ninertia = 1\n".to_string();
+    let m = model(&(body + &joint("one", "a.x", "1") + &joint("two", "a.y", "1.15")));
+    let failure = refused(&m, &[]);
+    assert!(failure.message.ends_with("joint two is missed by 0.15 rad"), "{failure}");
+    assert_eq!(failure.gap, 0.0);
+}

@@ -105,3 +105,15 @@ fn a_loop_that_only_newton_meets() {
     assert!(failure.message.contains("the loop A-B-C-D cannot close"), "{failure}");
     close("3 m of links between pins 3.5 m apart", failure.gap, 0.5, 0.05);
 }
+
+/// Only openings of one kind add up. This constraint closes its length and misses its angle.
+#[test]
+fn an_angle_that_is_missed_is_no_length() {
+    let m = model(
+        "[bodies.a]\nmass = 1\ninertia = 1\n[joints.given]\ntype = 'constraint'\n\
+         residual = ['a.x - 1', 'sin(a.angle) - 2']\nunits = ['m', 'rad']\n",
+    );
+    let failure = refused(&m, &[]);
+    assert!(failure.message.ends_with("given is missed by 1 rad"), "{failure}");
+    assert_eq!((failure.name.as_str(), failure.gap), ("given", 0.0));
+}

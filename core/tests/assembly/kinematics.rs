@@ -136,3 +136,19 @@ fn the_time_of_a_six_bar() {
     let best = (0..2000).map(measure).fold(f64::INFINITY, f64::min);
     println!("360 positions of a six-bar linkage: {best:.3} ms");
 }
+
+/// A limit over time is the length of a driven rod, or the time where a law drives no quantity.
+#[test]
+fn the_limit_of_a_joint_with_a_law() {
+    let text = slider_crank([1.0, 3.0, 0.0, 0.0], ["1"; 2], "mass = 2\ninertia = 1");
+    let distance =
+        "[joints.pull]\ntype = 'distance'\ni = 'ground.O'\nj = 'piston.B'\nlength = '3 + t/2'\n";
+    let sum = "[joints.pull]\ntype = 'coupling'\nterms = { 'piston.x' = 1 }\nvalue = '3 + t/2'\n";
+    for (joint, value, written) in [(distance, 4.0, "4 m"), (sum, 2.0, "2 s")] {
+        let m = model(&(text.clone() + joint));
+        let (limit, _) = limit_of(through(&m, &[("crank.angle", "1")], &even(10, 3.0)));
+        assert!((limit.t - 2.0).abs() < 1e-9 && (limit.value - value).abs() < 1e-9, "{limit:?}");
+        let told = format!("pull cannot pass {written}: dead point");
+        assert!(limit.to_string().starts_with(&told), "{limit}");
+    }
+}

@@ -3,7 +3,7 @@
 
 use crate::mechanisms::{close, count, worst, Random};
 use crate::samples::{constraints, motion, phi, terms, Participants};
-use kempe::elements::{Constraint, Fixes};
+use kempe::elements::{Constraint, Fixes, QuantityKind};
 use kempe::expression::{Expression, Tape};
 use kempe::math::{Dual, Jet, Lanes, Lift, Real, Rotation, Vec2};
 
@@ -391,7 +391,7 @@ fn joints_have_names_and_units() {
         let equations = c.equations();
         assert!(!equations.is_empty(), "{}", c.kind());
         for (k, e) in equations.iter().enumerate() {
-            assert!(!e.name.is_empty() && ["m", "rad"].contains(&e.unit), "{e:?}");
+            assert!(!e.name.is_empty() && QuantityKind::OF_EQUATIONS.contains(&e.kind), "{e:?}");
             assert!(equations[..k].iter().all(|other| other.name != e.name), "{e:?}");
         }
     }

@@ -1,12 +1,14 @@
 //! Samples of friction.
 
 use kempe::elements::forces::Friction;
-use kempe::elements::{Attachment, Bearing, BodyId, ForceElement, JointId, QuantityOf};
+use kempe::elements::{
+    Attachment, Bearing, BodyId, ForceElement, JointId, QuantityKind, QuantityOf,
+};
 use kempe::expression::Tape;
 use kempe::math::Local;
 
 /// A joint between bodies 1 and 2.
-fn bearing(kind: &'static str, quantity: &'static str, unit: &'static str) -> Bearing {
+fn bearing(kind: &'static str, quantity: &'static str, measures: QuantityKind) -> Bearing {
     let end = |x: f64, y: f64, axis: f64| Attachment { s: Local::new(x, y), axis };
     let ends = [end(0.3, -0.7, 0.4), end(-1.1, 0.4, -0.2)];
     let tapes = ends.map(|Attachment { s, axis }| Attachment {
@@ -15,8 +17,8 @@ fn bearing(kind: &'static str, quantity: &'static str, unit: &'static str) -> Be
     });
     let coordinate = QuantityOf {
         name: format!("joint.{quantity}"),
-        kind: quantity,
-        unit,
+        word: quantity,
+        kind: measures,
         bodies: [BodyId(1), BodyId(2)],
         ends: tapes,
         value: Tape::from(0.0),
@@ -27,7 +29,7 @@ fn bearing(kind: &'static str, quantity: &'static str, unit: &'static str) -> Be
 
 pub fn frictions() -> Vec<ForceElement> {
     let pin = Friction {
-        joint: bearing("revolute", "angle", "rad"),
+        joint: bearing("revolute", "angle", QuantityKind::Angle),
         kinetic: 0.3,
         r#static: Some(0.5),
         radius: Some(0.2),
@@ -38,13 +40,13 @@ pub fn frictions() -> Vec<ForceElement> {
         load: None,
     };
     let slide = Friction {
-        joint: bearing("translational", "displacement", "m"),
+        joint: bearing("translational", "displacement", QuantityKind::Length),
         radius: None,
         guide: 0.5,
         ..pin.clone()
     };
     let slot = Friction {
-        joint: bearing("pin_in_slot", "displacement", "m"),
+        joint: bearing("pin_in_slot", "displacement", QuantityKind::Length),
         guide: 0.0,
         velocity: Some(0.3),
         load: Some(2.5),

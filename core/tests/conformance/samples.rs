@@ -12,6 +12,7 @@ use kempe::elements::joints::{
 use kempe::elements::test_elements::{
     Bead, Blower, GapSpring, Lag, Levels, Overload, Pulley, Rubbing, TurnedPin,
 };
+use kempe::elements::QuantityKind;
 use kempe::elements::{
     catalogue, At, BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveFormula, CurveOn,
     CurvePoints, ForceElement, Frame, Group, JointId, Linearized, Moving, Only, PointOn, Side,
@@ -173,7 +174,7 @@ fn by_formulas() -> Vec<Constraint> {
         }),
         Constraint::GivenConstraint(GivenConstraint {
             residual: vec![0.3, -0.2],
-            units: vec!["m", "rad"],
+            units: vec![QuantityKind::Length, QuantityKind::Angle],
         }),
     ]
 }

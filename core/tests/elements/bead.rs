@@ -24,7 +24,7 @@ impl Joint for Bead {
     }
 
     fn equations<S>(_: &Bead<S>) -> Vec<Equation> {
-        vec![Equation { name: "x", unit: "m" }, Equation { name: "y", unit: "m" }]
+        vec![Equation::length("x"), Equation::length("y")]
     }
 
     fn residual<S: Real>(e: &Bead<S>, at: &At<'_, S>, phi: &mut [S]) {

@@ -23,8 +23,9 @@ impl Joint for Levels {
     }
 
     fn equations<S>(_: &Levels<S>) -> Vec<Equation> {
-        let one = |name, unit| Equation { name, unit };
-        vec![one("lower", "m"), one("upper", "m"), one("angle_j", "rad"), one("angle_k", "rad")]
+        let lengths = ["lower", "upper"].map(Equation::length);
+        let angles = ["angle_j", "angle_k"].map(Equation::angle);
+        [lengths, angles].concat()
     }
 
     fn residual<S: Real>(e: &Levels<S>, at: &At<'_, S>, phi: &mut [S]) {

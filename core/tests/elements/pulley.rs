@@ -23,7 +23,7 @@ impl Joint for Pulley {
     }
 
     fn equations<S>(_: &Pulley<S>) -> Vec<Equation> {
-        vec![Equation { name: "angle", unit: "rad" }]
+        vec![Equation::angle("angle")]
     }
 
     fn residual<S: Real>(e: &Pulley<S>, at: &At<'_, S>, phi: &mut [S]) {

@@ -20,7 +20,7 @@ impl Joint for TurnedPin {
     }
 
     fn equations<S>(_: &TurnedPin<S>) -> Vec<Equation> {
-        vec![Equation { name: "x", unit: "m" }, Equation { name: "y", unit: "m" }]
+        vec![Equation::length("x"), Equation::length("y")]
     }
 
     fn residual<S: Real>(e: &TurnedPin<S>, at: &At<'_, S>, phi: &mut [S]) {

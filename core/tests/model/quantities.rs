@@ -3,9 +3,10 @@
 //! A torque whose law is a quantity has that value; it is compared with a formula written down by hand.
 
 use crate::mechanisms::{close, faults, model, start};
-use kempe::elements::BodyId;
+use kempe::elements::{BodyId, QuantityKind};
 use kempe::equations::forces::{each_wrench, Acting};
 use kempe::equations::kinematics::Motions;
+use kempe::expression::unit::Unit;
 use kempe::model::Model;
 
 /// Bodies a and b with every kind of element between them, and `probe`, a torque on a third body.
@@ -209,5 +210,17 @@ fn a_driver_of_an_unsuitable_quantity_is_refused() {
     ] {
         let found = faults(&driven(coordinate, "1"));
         assert!(found.contains(message), "{coordinate}: {found}");
+    }
+}
+
+/// Effort times quantity is an energy; a number has no unit.
+#[test]
+fn an_effort_along_a_quantity_does_work() {
+    let joule = Unit::parse("J").unwrap().dimension;
+    for kind in [QuantityKind::Length, QuantityKind::Angle, QuantityKind::Pure] {
+        let factor = if kind == QuantityKind::Pure { "" } else { &format!("*{}", kind.unit()) };
+        let product = format!("{}{factor}", kind.unit_of_effort());
+        assert_eq!(Unit::parse(&product).unwrap().dimension, joule, "{product}");
+        assert_eq!(kind.unit_of_rate(2), format!("{}/s^2", kind.unit()));
     }
 }

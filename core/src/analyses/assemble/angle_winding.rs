@@ -5,7 +5,7 @@
 //! For the other bodies, each torsional spring is relaxed as far as whole turns allow, in the order of the file.
 
 use super::targets::{nearest_turn, Targets};
-use crate::elements::{BodyId, Fixes, Group};
+use crate::elements::{BodyId, Fixes, Group, QuantityKind};
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
 use crate::math::{each, Listed};
@@ -77,7 +77,7 @@ fn root(group: &mut [usize], mut b: usize) -> usize {
 pub(in crate::analyses) fn wind(model: &Model, t: f64, q: &mut [f64]) {
     for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
         let ([i, j], [equation]) = (&item.bodies[..], &item.equations[..]) else { continue };
-        if item.group != Group::Drivers || equation.unit != "rad" {
+        if item.group != Group::Drivers || equation.kind != QuantityKind::Angle {
             continue;
         }
         let mut phi = vec![0.0; model.layout.n_rows];

@@ -7,6 +7,7 @@
 
 use super::failure::{freed, Failure, Fault};
 use super::holding::SET;
+use super::openings::Openings;
 use super::request::Request;
 use super::target::trimmed;
 use super::velocities;
@@ -17,9 +18,10 @@ use crate::analyses::dependence;
 use crate::analyses::freedoms::NEARLY;
 use crate::analyses::mobility::moved;
 use crate::analyses::Dependent;
+use crate::elements::QuantityKind;
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
-use crate::model::{listed, row_scales, size, Model};
+use crate::model::{listed, row_scales, Model};
 use crate::solve::RANK_TOLERANCE;
 use std::sync::Arc;
 
@@ -36,7 +38,7 @@ struct Contradiction {
     met: Vec<usize>,
     /// The constraint that then does not hold.
     missed: usize,
-    by: f64,
+    by: (f64, QuantityKind),
     /// Order of the derivative in time: 0 for positions, 1 for rates, 2 for accelerations.
     order: usize,
 }
@@ -101,7 +103,7 @@ pub(super) fn of_positions(
         let near = close(&moved(model, &q, NEIGHBOUR, 0), &driven[k..]);
         near.map_or(Some(Vec::new()), |near| dependent(model, t, &near, (&met, *last), stop))?;
         let phi = Closing::new(model, t, stop).phi(&q);
-        let by = phi[rows(last)].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let by = model.constraints[*last].largest(&phi[rows(last)]);
         let found = Contradiction { met: met_there, missed: *last, by, order: 0 };
         return Some(failure(model, request, &found));
     }
@@ -127,28 +129,18 @@ pub(super) fn of_joints(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Opt
     let one = here.iter().find(contradicts)?;
     let name = |k: &usize| model.constraints[*k].name.as_str();
     let names = listed(&one.group.iter().map(name).list());
-    // gaps add up to the missing length; if they are small, an angle does not agree
-    let miss = |k: &usize, unit: &str| {
-        let first = model.layout.constraints[*k].rows.start;
-        let own = model.constraints[*k].equations.iter().enumerate();
-        let own = own.filter(|(_, equation)| equation.unit == unit);
-        own.map(|(row, _)| phi[first + row] * phi[first + row]).sum::<f64>().sqrt()
-    };
-    let total = |unit: &str| one.group.iter().map(|k| miss(k, unit)).sum::<f64>();
-    let unit = if total("m") >= total("rad") * size(model) { "m" } else { "rad" };
-    let by = trimmed(total(unit), 3);
-    let worst = one.group.iter().max_by(|a, b| miss(a, unit).total_cmp(&miss(b, unit)))?;
+    let open = Openings::of(model, &phi, one.group.iter().copied())?;
+    let (by, unit, worst) = (trimmed(open.total, 3), open.kind.unit(), name(&open.worst.0));
     let driven = one.group.iter().any(|k| model.constraints[*k].driven);
     let values = if driven { "driven values" } else { "lengths" };
     let freed = freed(model, t, q, std::slice::from_ref(one));
     Some(Failure {
         fault: Fault::Open,
-        name: name(worst).to_string(),
-        gap: if unit == "m" { miss(worst, unit) } else { 0.0 },
+        name: worst.to_string(),
+        gap: open.gap(),
         places: one.group.iter().map(|k| place(model, *k)).list(),
         message: format!(
-            "{names} contradict each other: they have one equation too many, and stay open by {by} {unit} in all, most at {}",
-            name(worst)
+            "{names} contradict each other: they have one equation too many, and stay open by {by} {unit} in all, most at {worst}"
         ),
         hint: format!("correct the {values} or the guess, or {freed}"),
     })
@@ -185,7 +177,7 @@ pub(super) fn of_rates(
         let motions = Motions::at(&model.layout, q, &v);
         constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
         let rows = model.layout.constraints[last].rows.clone();
-        let by = rate[rows].iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let by = model.constraints[last].largest(&rate[rows]);
         let found = Contradiction { met: others, missed: last, by, order: 1 };
         return Some(failure(model, request, &found));
     }
@@ -220,12 +212,13 @@ pub(super) fn of_accelerations(
             (sum + part, f64::max(size, f64::max(f64::abs(part), scale)))
         });
         let rows = &model.layout.constraints[missed].rows;
-        let (_, y) = one.factors.iter().find(|(row, _)| rows.contains(row))?;
+        let (row, y) = one.factors.iter().find(|(row, _)| rows.contains(row))?;
         if f64::abs(sum) <= AGREE * size || !f64::is_finite(sum) {
             return None;
         }
         let met = one.group.iter().copied().filter(|k| *k != missed).list();
-        let found = Contradiction { met, missed, by: f64::abs(sum / y), order: 2 };
+        let kind = model.constraints[missed].equations[row - rows.start].kind;
+        let found = Contradiction { met, missed, by: (f64::abs(sum / y), kind), order: 2 };
         Some(failure(model, request, &found))
     })
 }
@@ -249,7 +242,7 @@ fn place(model: &Model, k: usize) -> Vec<String> {
 }
 
 fn failure(model: &Model, request: &Request, found: &Contradiction) -> Failure {
-    let Contradiction { met, missed, by, order } = found;
+    let Contradiction { met, missed, by: (by, kind), order } = found;
     let driven: Vec<usize> = met.iter().filter(|k| model.constraints[**k].driven).copied().list();
     // without another driver, the joints determine the quantity
     let others = if driven.is_empty() { met } else { &driven };
@@ -257,7 +250,7 @@ fn failure(model: &Model, request: &Request, found: &Contradiction) -> Failure {
     let others = listed(&labels.iter().map(String::as_str).list());
     let last = label(model, request, *missed);
     let hold = if labels.len() == 1 { "holds" } else { "hold" };
-    let unit = model.constraints[*missed].equations[0].unit;
+    let unit = kind.unit();
     let (of, per) = [("", ""), ("the rate of ", "/s"), ("the acceleration of ", "/s²")][*order];
     let missed_by = trimmed(*by, 3);
     let message = format!(
@@ -271,7 +264,7 @@ fn failure(model: &Model, request: &Request, found: &Contradiction) -> Failure {
     Failure {
         fault: if *order > 0 { Fault::Rates } else { Fault::Open },
         name: name.strip_prefix(SET).unwrap_or(name).to_string(),
-        gap: if *order > 0 || unit != "m" { 0.0 } else { *by },
+        gap: if *order > 0 || *kind != QuantityKind::Length { 0.0 } else { *by },
         places: driven.iter().chain([missed]).map(|k| place(model, *k)).list(),
         message,
         hint,

@@ -1,5 +1,6 @@
 //! Failures of assembly, in terms of the mechanism.
 
+use super::openings::Openings;
 use super::placement::DyadGap;
 use super::request::Request;
 use super::target::{of_motion, of_rates, trimmed, Target};
@@ -7,7 +8,7 @@ use crate::analyses::closing::Closing;
 use crate::analyses::diagnosis::{remedies, Remedy};
 use crate::analyses::required::Unmet;
 use crate::analyses::{Dependent, Mobility};
-use crate::elements::{Attachment, BodyId, Fixes, Group};
+use crate::elements::{Attachment, BodyId, Fixes, Group, QuantityKind};
 use crate::equations::kinematics::Motions;
 use crate::equations::{at, constraints};
 use crate::expression::TABLE_ENDS;
@@ -36,7 +37,7 @@ pub struct Failure {
     pub fault: Fault,
     /// The joint or driver with the largest error.
     pub name: String,
-    /// The gap that remains at this joint or driver, m; zero for faults without a gap.
+    /// The gap that remains at this joint or driver or in its loop, m; zero for faults without a gap.
     pub gap: f64,
     /// Description of the fault.
     pub message: String,
@@ -154,34 +155,24 @@ fn dyad_open(model: &Model, request: &Request, gap: &DyadGap) -> Failure {
 }
 
 fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
-    let mut worst = (0, 0.0);
-    let mut total = 0.0;
-    for (k, slots) in model.layout.constraints.iter().enumerate() {
-        let gap = phi[slots.rows.clone()].iter().map(|r| r * r).sum::<f64>().sqrt();
-        if model.constraints[k].equations[0].unit == "m" {
-            total += gap; // the gaps of the joints of a loop add up to the missing length
-        }
-        if gap > worst.1 {
-            worst = (k, gap);
-        }
-    }
-    let name = model.constraints[worst.0].name.clone();
+    let open = Openings::of(model, phi, 0..model.constraints.len()).expect("a joint that is open");
+    let (worst, missed) = open.worst;
+    let name = model.constraints[worst].name.clone();
     // if a driver or a set coordinate has the largest error, the constraints contradict each other
-    let joint = model.constraints[worst.0].group == Group::Joints;
-    let around = match loop_through(model, worst.0).filter(|_| joint) {
+    let joint = model.constraints[worst].group == Group::Joints;
+    let around = match loop_through(model, worst).filter(|_| joint) {
         Some(loop_) => format!("the loop {loop_}"),
         None => "the mechanism".to_string(),
     };
     let set = asked(model, of_motion(&request.set));
-    let gap = if total > 0.0 { total } else { worst.1 };
-    let unit = model.constraints[worst.0].equations[0].unit;
-    let message = if unit == "m" {
-        let gap = length(gap);
+    let message = if open.kind == QuantityKind::Length {
+        let gap = length(open.total);
         format!("{around} cannot close: {set}the joints stay open by {gap} in all, most at joint {name}")
     } else {
-        let missed = trimmed(worst.1, 3);
+        let (missed, unit) = (trimmed(missed, 3), open.kind.unit());
         format!("{around} cannot close: {set}{name} is missed by {missed} {unit}")
     };
+    let gap = if open.kind == QuantityKind::Length { open.total } else { 0.0 };
     let hint = "give a guess nearer to the position meant, change what is set, or change lengths";
     Failure { fault: Fault::Open, name, gap, message, hint: hint.to_string(), places: Vec::new() }
 }

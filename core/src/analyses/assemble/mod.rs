@@ -21,6 +21,7 @@ mod holding;
 mod legs;
 mod named;
 mod open_placement;
+mod openings;
 mod outcome;
 mod placement;
 mod placements;
@@ -60,6 +61,7 @@ use super::curves;
 use super::mobility::mobility_until;
 use super::required;
 use super::State;
+use crate::elements::QuantityKind;
 use crate::model::Model;
 use attempt::{close_from, given, internal, Closed, MOST_TRIES};
 use placements::Placements;
@@ -198,7 +200,7 @@ fn asked(model: &Model, request: &Request) -> Targets {
         asked.turn[target.body.0] |= target.coordinate.column() == 2;
     }
     for target in of_quantities(&request.set).chain(of_quantities(&request.guess)) {
-        let turned = target.of.label().1 == "rad";
+        let turned = target.of.kind() == QuantityKind::Angle;
         target.of.bodies().iter().for_each(|body| asked.turn[body.0] |= turned);
     }
     for (hard, turn) in asked.hard.iter().zip(&mut asked.turn) {

@@ -1,7 +1,7 @@
 //! The quantities that `set` and `guess` may name.
 
 use super::target::{CoordinateTarget, QuantityTarget, Target};
-use crate::elements::{BodyId, Coordinate, Followed, Measured};
+use crate::elements::{BodyId, Coordinate, Followed, Measured, QuantityKind};
 use crate::expression::Tape;
 use crate::math::Listed;
 use crate::model::{
@@ -43,6 +43,15 @@ impl Named {
     /// Whether the quantity follows from the bodies, so that it cannot be set.
     pub fn follows(&self) -> bool {
         matches!(self.of, Quantity::Internal(_))
+    }
+
+    /// Whether the quantity is an angle.
+    pub fn is_angle(&self) -> bool {
+        match &self.of {
+            Quantity::Coordinate(_, of) => *of == Coordinate::Angle,
+            Quantity::Element { of, rate, .. } => !rate && of.kind() == QuantityKind::Angle,
+            Quantity::Internal(_) | Quantity::State(_) => false,
+        }
     }
 
     /// The target for the quantity with this value.

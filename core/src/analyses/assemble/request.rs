@@ -83,7 +83,7 @@ pub fn doubts(model: &Model, written: &[(String, Value)]) -> Vec<Doubt> {
     let names = NamedTargets::of(model);
     let angle = |doubt: &Doubt| {
         let found = named(&names, &doubt.place, &[], &mut Vec::new());
-        found.is_some_and(|named| named.unit == "rad")
+        found.is_some_and(|named| named.is_angle())
     };
     doubted.into_iter().filter(angle).list()
 }

@@ -193,8 +193,7 @@ fn source(
 
 /// Compares a value with its guess.
 fn near(model: &Model, coordinate: Coordinate, guess: f64, value: f64) -> ValueSource {
-    let unit = if coordinate.column() == 2 { 1.0 } else { size(model) };
-    match (value - guess).abs() <= EQUAL * unit.max(value.abs()) {
+    match (value - guess).abs() <= EQUAL * coordinate.kind().scale(size(model)).max(value.abs()) {
         true => ValueSource::Guess,
         false => ValueSource::NearGuess(guess),
     }

@@ -4,7 +4,7 @@ use super::found::Positions;
 use crate::analyses::assemble::{following, place, wind, Targets};
 use crate::analyses::closing::{Closing, Halt};
 use crate::analyses::kinematics::circuit;
-use crate::elements::{holding, Followed, Group};
+use crate::elements::{holding, Followed, Group, QuantityKind};
 use crate::equations::at;
 use crate::equations::kinematics::Motions;
 use crate::expression::Tape;
@@ -111,6 +111,9 @@ fn moving(model: &Model, t: f64, q: &[f64], driver: usize) -> (Model, bool) {
         let now = value(&of);
         *constraint = holding(of, Tape::line(now, rate, t));
     }
-    let turns = model.constraints[driver].equations.iter().all(|equation| equation.unit == "rad");
+    let turns = model.constraints[driver]
+        .equations
+        .iter()
+        .all(|equation| equation.kind == QuantityKind::Angle);
     (Model::new(&Arc::new(blueprint), &model.parameters), turns)
 }

@@ -6,7 +6,7 @@
 use super::found::Positions;
 use crate::analyses::assemble::Targets;
 use crate::analyses::closing::{Closing, Halt};
-use crate::elements::Group;
+use crate::elements::{Group, QuantityKind};
 use crate::math::{each, Listed};
 use crate::model::{ConstraintItem, Model};
 use std::f64::consts::TAU;
@@ -17,7 +17,7 @@ const LINEAR: f64 = 1e-12;
 /// Whether a constraint distinguishes whole turns.
 fn counts(item: &ConstraintItem) -> bool {
     let [equation] = &item.equations[..] else { return false };
-    item.group == Group::Joints && equation.unit == "rad"
+    item.group == Group::Joints && equation.kind == QuantityKind::Angle
 }
 
 /// The columns of the angles for which such constraints distinguish whole turns.

@@ -318,8 +318,8 @@ fn apart_in_print(a: f64, b: f64) -> [String; 2] {
 pub(super) fn equation(model: &Model, row: usize) -> (String, &'static str) {
     let (k, equation) = model.layout.owner(row);
     let item = &model.constraints[k];
-    let Equation { name, unit } = item.equations[equation];
-    (format!("{}.{name}", item.name), unit)
+    let Equation { name, kind } = item.equations[equation];
+    (format!("{}.{name}", item.name), kind.unit())
 }
 
 /// Largest number of bodies whose coordinates a message contains.

@@ -55,7 +55,7 @@ impl LawJump {
         let item = &model.constraints[self.constraint];
         let what = item.group.singular();
         let (of, per) = if self.position { ("", "") } else { ("rate of the ", "/s") };
-        let unit = item.equations[0].unit;
+        let unit = item.equations[0].kind.unit();
         let [before, after] = self.values;
         format!(
             "the {of}law of {what} {} jumps from {before:.6} to {after:.6} {unit}{per} at t = {t:.6} s; a body with \

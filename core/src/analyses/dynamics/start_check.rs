@@ -139,10 +139,9 @@ impl ConstraintRows<'_> {
         let widest = over.enumerate().max_by(|a, b| a.1.total_cmp(&b.1));
         let Some((row, _)) = widest.filter(|(_, over)| *over > 1.0) else { return Ok(()) };
         let item = &model.constraints[model.layout.owner(row).0];
-        let unit = item.equations[model.layout.owner(row).1].unit;
+        let kind = item.equations[model.layout.owner(row).1].kind;
         let own = model.layout.constraints[model.layout.owner(row).0].rows.clone();
-        let alike = item.equations.iter().zip(&self.rows[own]).filter(|(e, _)| e.unit == unit);
-        let gap = alike.map(|(_, x)| x * x).sum::<f64>().sqrt();
+        let (gap, unit) = (item.opening(kind, &self.rows[own]), kind.unit());
         let (what, per) = (if item.group == Group::Drivers { "driver" } else { "joint" }, self.per);
         let (verb, most) = (if per.is_empty() { "is open by" } else { "opens at" }, self.most[row]);
         let message = format!(

@@ -2,6 +2,7 @@
 
 use crate::analyses::linearization::coordinate as named;
 use crate::analyses::mobility::mobility;
+use crate::elements::QuantityKind;
 use crate::math::Listed;
 use crate::model::{Model, Problem};
 use std::fmt;
@@ -29,11 +30,11 @@ pub enum Reason {
     Endless {
         /// The independent coordinate that moved farthest.
         coordinate: String,
-        /// Its motion, m or rad.
+        /// Its motion.
         moved: f64,
-        /// Its unit.
-        unit: &'static str,
-        /// The force or torque that acts along it, N or N·m.
+        /// Its kind.
+        kind: QuantityKind,
+        /// The effort that acts along it.
         force: f64,
     },
     /// The search ended without an equilibrium.
@@ -106,7 +107,7 @@ impl Reason {
             true => Self::Endless {
                 coordinate,
                 moved: moved[column].abs(),
-                unit: if model.layout.lengths()[column] { "m" } else { "rad" },
+                kind: model.layout.kinds[column],
                 force: -missing[column],
             },
             false => Self::Lost { relative: left / largest, coordinate },
@@ -123,10 +124,11 @@ impl fmt::Display for Reason {
             Self::State { name } => {
                 write!(f, "{name} has no value at which it rests, so that there is no equilibrium")
             }
-            Self::Endless { coordinate, moved, unit, .. } => write!(
+            Self::Endless { coordinate, moved, kind, .. } => write!(
                 f,
                 "there is no equilibrium within reach: the forces still do work after {coordinate} has moved by \
-                 {moved:.3} {unit}"
+                 {}",
+                kind.with_unit(&format!("{moved:.3}"))
             ),
             Self::Lost { relative, coordinate } => write!(
                 f,

@@ -11,6 +11,7 @@ use crate::analyses::record::{
     Unfinished,
 };
 use crate::analyses::State;
+use crate::elements::Coordinate;
 use crate::math::Listed;
 use crate::model::Model;
 use serde_json::{json, Value};
@@ -153,6 +154,12 @@ fn point(found: &Equilibrium) -> Value {
     })
 }
 
+/// The option that holds a coordinate. None for an internal coordinate, which cannot be held.
+fn hold(coordinate: &str) -> Option<String> {
+    let (_, word) = coordinate.rsplit_once('.')?;
+    Coordinate::named(word).map(|_| format!("hold = [\"{coordinate}\"]"))
+}
+
 impl From<Reason> for Outcome {
     fn from(reason: Reason) -> Self {
         let message = reason.to_string();
@@ -173,11 +180,11 @@ impl From<Reason> for Outcome {
             Reason::State { name } => {
                 outcome(ErrorClass::Singularity, "its rate must depend on it").name(name)
             }
-            Reason::Endless { coordinate, force, unit, .. } => {
-                let unit = if unit == "m" { "N" } else { "N m" };
+            Reason::Endless { coordinate, force, kind, .. } => {
+                let hold = hold(&coordinate).map_or(String::new(), |hold| format!(", or {hold}"));
                 let hint = format!(
-                    "{force:.4} {unit} still act along {coordinate}; add a spring or a stop, or \
-                     hold = [\"{coordinate}\"]"
+                    "{force:.4} {} still act along {coordinate}; add a spring or a stop{hold}",
+                    kind.unit_of_effort()
                 );
                 outcome(ErrorClass::Singularity, &hint).name(coordinate)
             }
@@ -192,7 +199,10 @@ impl From<Reason> for Outcome {
                  coordinate where it is",
             ),
             Reason::Loose { coordinate } => {
-                let hint = format!("hold = [\"{coordinate}\"] keeps it where it is");
+                let hint = match hold(&coordinate) {
+                    Some(hold) => format!("{hold} keeps it where it is"),
+                    None => "add a spring or a stop".to_string(),
+                };
                 outcome(ErrorClass::Singularity, &hint).name(coordinate)
             }
             Reason::Stopped => outcome(ErrorClass::Internal, "the search was stopped"),

@@ -2,10 +2,10 @@
 
 use super::solution::Point;
 use crate::analyses::assemble::trimmed;
-use crate::elements::{Attachment, BodyId, Coordinate, Fixes, Followed, Group};
+use crate::elements::{At, Attachment, BodyId, Coordinate, Fixes, Followed, Group, QuantityKind};
 use crate::equations::at;
 use crate::equations::kinematics::Motions;
-use crate::math::{Local, Rotation, Vec2};
+use crate::math::{Listed, Local, Rotation, Vec2};
 use crate::model::{column_scales, ConstraintItem, Model};
 use std::fmt;
 
@@ -28,10 +28,10 @@ pub struct Limit {
     pub driver: String,
     /// The driven quantity, such as `crank` for the angle of this body, or `slide.displacement`.
     pub driven: String,
-    /// The value of the driven quantity, m or rad.
+    /// The value of the driven quantity, m or rad; otherwise the time, s.
     pub value: f64,
-    /// Its unit, m or rad.
-    pub unit: &'static str,
+    /// A length or an angle; None for the time.
+    pub kind: Option<QuantityKind>,
     /// Two bodies that are in line there, if any.
     pub in_line: Option<[String; 2]>,
     /// A body and a slide at right angles to each other, if any.
@@ -45,14 +45,14 @@ impl Limit {
     pub(super) fn new(model: &Model, t: f64, q: Vec<f64>, rates: &[f64]) -> Self {
         let motions = Motions::at(&model.layout, &q, rates);
         let item = driver(model);
-        let (driven, unit) = driven(model);
+        let (driven, kind) = driven(model);
         let moving = LockedDriver { model, motions: &motions, least: least(model, rates) };
         Self {
             t,
             driver: item.map(|item| item.name.clone()).unwrap_or_default(),
             driven,
             value: item.map_or(t, |item| value(model, item, &motions, t)),
-            unit,
+            kind,
             in_line: moving.in_line(),
             across: moving.across(),
             stop: None,
@@ -69,7 +69,7 @@ impl Limit {
 
 impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{} cannot pass {}: ", self.driven, written(self.value, self.unit))?;
+        write!(f, "{} cannot pass {}: ", self.driven, written(self.value, self.kind))?;
         if let Some(stop) = &self.stop {
             return write!(f, "{stop} is reached");
         }
@@ -90,10 +90,11 @@ pub(in crate::analyses) fn in_line(model: &Model, q: &[f64], rates: &[f64]) -> O
 }
 
 /// A value with its unit, angles in degrees.
-pub(in crate::analyses) fn written(value: f64, unit: &str) -> String {
-    match unit {
-        "rad" => format!("{}°", trimmed(value.to_degrees(), DIGITS)),
-        unit => format!("{} {unit}", trimmed(value, DIGITS)),
+pub(in crate::analyses) fn written(value: f64, kind: Option<QuantityKind>) -> String {
+    match kind {
+        Some(QuantityKind::Angle) => format!("{}°", trimmed(value.to_degrees(), DIGITS)),
+        Some(kind) => kind.with_unit(&trimmed(value, DIGITS)),
+        None => format!("{} s", trimmed(value, DIGITS)),
     }
 }
 
@@ -103,9 +104,12 @@ fn driver(model: &Model) -> Option<&ConstraintItem> {
     items.max_by_key(|item| item.group == Group::Drivers)
 }
 
-/// Name and unit of the driven value: `crank` for the angle of this body, otherwise `slide.displacement`.
-pub(in crate::analyses) fn driven(model: &Model) -> (String, &'static str) {
-    let Some(item) = driver(model) else { return (String::new(), "m") };
+/// Name and kind of the driven value: `crank` for the angle of this body, otherwise `slide.displacement`. A joint with
+/// a law of time drives the first quantity that can be measured on it, or only the time.
+pub(in crate::analyses) fn driven(model: &Model) -> (String, Option<QuantityKind>) {
+    let Some(item) = driver(model) else { return (String::new(), None) };
+    let measured = item.element.measured().first().map(|of| of.kind);
+    let kind = item.element.drives().map(Followed::kind).or(measured);
     let name = match item.element.drives() {
         None => item.name.clone(),
         Some(Followed::Quantity(of)) => of.name.clone(),
@@ -117,7 +121,7 @@ pub(in crate::analyses) fn driven(model: &Model) -> (String, &'static str) {
             }
         }
     };
-    (name, item.equations[0].unit)
+    (name, kind)
 }
 
 /// The driven value at a position.
@@ -132,7 +136,12 @@ fn value(model: &Model, item: &ConstraintItem, motions: &Motions, t: f64) -> f64
             let [i, j] = of.bodies().map(|body| motions[body.0].pose);
             of.value(&i, &j)
         }
-        None => t,
+        None => {
+            let bodies = item.bodies.iter().map(|body| motions[body.0].pose).list();
+            let mut values = vec![t; element.measured().len().max(1)];
+            element.measure(&At { bodies: &bodies, own: &[], t }, &mut values);
+            values[0]
+        }
     }
 }
 

@@ -72,7 +72,7 @@ impl Reason {
     pub(super) fn open(model: &Model, t: f64, row: usize, gap: f64) -> Self {
         let (k, equation) = model.layout.owner(row);
         let item = &model.constraints[k];
-        Self::Open { t, name: item.name.clone(), gap, unit: item.equations[equation].unit }
+        Self::Open { t, name: item.name.clone(), gap, unit: item.equations[equation].kind.unit() }
     }
 
     pub(super) fn singular_start(model: &Model, t: f64, q: &[f64], freedom: &Mobility) -> Self {

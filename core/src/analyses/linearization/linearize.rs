@@ -306,7 +306,7 @@ fn check_closed(model: &Model, state: &State) -> Result<(), Failure> {
         Some(row) => {
             let (k, equation) = model.layout.owner(row);
             let item = &model.constraints[k];
-            let unit = item.equations[equation].unit;
+            let unit = item.equations[equation].kind.unit();
             Err(Failure::Open { t: state.t, name: item.name.clone(), gap: phi[row], unit })
         }
     }

@@ -1,6 +1,7 @@
 //! A named value of a result, for readers.
 
 use crate::analyses::readings::find;
+use crate::elements::QuantityKind;
 use crate::model::Model;
 use serde_json::Value;
 
@@ -33,10 +34,8 @@ impl Fact {
     }
 }
 
-/// The SI unit of the force or torque along a quantity: N for a length, N*m for an angle.
+/// The SI unit of the effort along a quantity: N for a length, N*m for an angle, J for a number.
 pub fn effort_unit(model: &Model, quantity: &str) -> &'static str {
-    match find(model, quantity) {
-        Ok(found) if found.unit == "rad" => "N*m",
-        _ => "N",
-    }
+    let kind = find(model, quantity).ok().and_then(|found| QuantityKind::of_unit(&found.unit));
+    kind.unwrap_or_default().unit_of_effort()
 }

@@ -5,7 +5,7 @@
 //! bodies of the quantity. The law may use t and the positions of other bodies.
 
 use crate::elements::{
-    element, At, Attachment, BodyId, Equation, Fixes, Followed, Joint, SceneSymbol,
+    element, At, Attachment, BodyId, Equation, Fixes, Followed, Joint, QuantityKind, SceneSymbol,
 };
 use crate::math::Real;
 
@@ -37,8 +37,7 @@ impl Joint for CoordinateDriver {
     }
 
     fn equations<S>(e: &CoordinateDriver<S>) -> Vec<Equation> {
-        let (name, unit) = e.coordinate.label();
-        vec![Equation { name, unit }]
+        vec![Equation { name: e.coordinate.label(), kind: e.coordinate.kind() }]
     }
 
     fn residual<S: Real>(e: &CoordinateDriver<S>, at: &At<'_, S>, phi: &mut [S]) {
@@ -56,7 +55,7 @@ impl Joint for CoordinateDriver {
     fn fixes<S: Clone>(e: &CoordinateDriver<S>) -> Vec<Fixes<S>> {
         match &e.coordinate {
             Followed::Coordinate(of) => vec![Fixes::Coordinate(*of, e.value.clone())],
-            Followed::Quantity(of) if of.unit == "rad" => vec![Fixes::Turn],
+            Followed::Quantity(of) if of.kind == QuantityKind::Angle => vec![Fixes::Turn],
             Followed::Quantity(_) => Vec::new(),
         }
     }

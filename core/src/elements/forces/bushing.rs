@@ -30,10 +30,6 @@ element! {
     }
 }
 
-const fn component(names: [&'static str; 3], unit: &'static str) -> Measured {
-    Measured { names, unit }
-}
-
 /// x, y, θ.
 fn position<S: Real>(e: &Bushing<S>, at: &Situation<'_, S>) -> [S; 3] {
     let (i, j) = (at.i().pose, at.j().pose);
@@ -52,9 +48,9 @@ fn rate<S: Real>(e: &Bushing<S>, at: &Situation<'_, S>) -> [S; 3] {
 
 impl Force for Bushing {
     const MEASURED: &'static [Measured] = &[
-        component(["x", "vx", ""], "m"),
-        component(["y", "vy", ""], "m"),
-        component(["angle", "omega", ""], "rad"),
+        Measured::length(["x", "vx", ""]),
+        Measured::length(["y", "vy", ""]),
+        Measured::angle(["angle", "omega", ""]),
     ];
     const PARTS: &'static [Part] = &[
         Part { name: "stiffness", nature: Nature::Conservative },

@@ -304,7 +304,7 @@ impl Joint for Resting {
     }
 
     fn equations<S>(_: &Resting<S>) -> Vec<Equation> {
-        vec![Equation { name: "gap", unit: "m" }]
+        vec![Equation::length("gap")]
     }
 
     fn residual<S: Real>(e: &Resting<S>, at: &At<'_, S>, phi: &mut [S]) {

@@ -28,10 +28,8 @@ element! {
 }
 
 impl Force for PointForce {
-    const MEASURED: &'static [Measured] = &[
-        Measured { names: ["x", "vx", "ax"], unit: "m" },
-        Measured { names: ["y", "vy", "ay"], unit: "m" },
-    ];
+    const MEASURED: &'static [Measured] =
+        &[Measured::length(["x", "vx", "ax"]), Measured::length(["y", "vy", "ay"])];
     const PARTS: &'static [Part] = &[Part { name: "applied", nature: Nature::Applied }];
 
     fn bodies<S>(e: &PointForce<S>) -> Vec<BodyId> {

@@ -13,7 +13,8 @@
 use crate::elements::hertz::{self, Depth, Hertz, SWITCHES};
 use crate::elements::{
     element, holding, Acted, At, Behaviour, BodyId, Clearance, Constraint, Followed, Force, Mark,
-    Measured, Nature, Part, ResultQuantity, SceneSymbol, Situation, SymbolEnd, Wrenches,
+    Measured, Nature, Part, QuantityKind, ResultQuantity, SceneSymbol, Situation, SymbolEnd,
+    Wrenches,
 };
 use crate::expression::Tape;
 use crate::math::{Listed, Local, Real, Vec2, Wrench};
@@ -105,7 +106,7 @@ fn symbol(of: &Followed, (k, limit): (usize, f64)) -> Option<SceneSymbol> {
     if mark == Mark::DriveTurn {
         return Some(SceneSymbol::new(Mark::TurnStop, i.along(limit), j));
     }
-    let axis = match of.label().0 {
+    let axis = match of.label() {
         "x" | "displacement" => i.axis,
         "y" => FRAC_PI_2,
         _ => return None,
@@ -131,8 +132,8 @@ impl Force for Stop {
     }
 
     fn measured<S>(e: &Stop<S>) -> &'static [Measured] {
-        match e.coordinate.of.label().1 {
-            "rad" => &[Measured { unit: "rad", ..Measured::GAP }],
+        match e.coordinate.of.kind() {
+            QuantityKind::Angle => const { &[Measured::angle(Measured::GAP.names)] },
             _ => Self::MEASURED,
         }
     }
@@ -176,8 +177,10 @@ impl Force for Stop {
     }
 
     fn result_quantities<S>(e: &Stop<S>) -> &'static [ResultQuantity] {
-        match e.coordinate.of.label().1 {
-            "rad" => &[ResultQuantity { name: "torque", unit: "N*m", negative: None }],
+        match e.coordinate.of.kind() {
+            QuantityKind::Angle => {
+                &[ResultQuantity { name: "torque", unit: "N*m", negative: None }]
+            }
             _ => &[ResultQuantity { name: "force", unit: "N", negative: None }],
         }
     }

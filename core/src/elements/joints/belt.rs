@@ -45,7 +45,7 @@ impl Joint for Belt {
     }
 
     fn equations<S>(_: &Belt<S>) -> Vec<Equation> {
-        vec![Equation { name: "tangential", unit: "m" }]
+        vec![Equation::length("tangential")]
     }
 
     fn residual<S: Real>(e: &Belt<S>, at: &At<'_, S>, phi: &mut [S]) {

@@ -3,9 +3,7 @@
 //! Φ = Σ factorₖ quantityₖ - value = 0. With the multiplier λ, the effort -λ factorₖ acts on body j of quantity k,
 //! and the opposite effort on its body i. All positions are allowed.
 
-use crate::elements::{
-    element, At, Attachment, BodyId, Equation, EquationUnit, Joint, SceneSymbol,
-};
+use crate::elements::{element, At, Attachment, BodyId, Equation, Joint, SceneSymbol};
 use crate::math::{Local, Real};
 
 element! {
@@ -39,13 +37,8 @@ impl Joint for Coupling {
     }
 
     fn equations<S>(e: &Coupling<S>) -> Vec<Equation> {
-        let first = e.terms.first().map_or("m", |(of, _)| of.label().1);
-        let unit = match e.unit {
-            Some(EquationUnit::Metre) => "m",
-            Some(EquationUnit::Radian) => "rad",
-            None => first,
-        };
-        vec![Equation { name: "sum", unit }]
+        let first = e.terms.first().map(|(of, _)| of.kind());
+        vec![Equation { name: "sum", kind: e.unit.or(first).unwrap_or_default() }]
     }
 
     fn residual<S: Real>(e: &Coupling<S>, at: &At<'_, S>, phi: &mut [S]) {

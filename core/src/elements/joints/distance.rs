@@ -34,7 +34,7 @@ impl Joint for Distance {
     }
 
     fn equations<S>(_: &Distance<S>) -> Vec<Equation> {
-        vec![Equation { name: "length", unit: "m" }]
+        vec![Equation::length("length")]
     }
 
     fn residual<S: Real>(e: &Distance<S>, at: &At<'_, S>, phi: &mut [S]) {

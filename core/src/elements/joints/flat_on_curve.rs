@@ -43,7 +43,7 @@ impl Joint for FlatOnCurve {
     }
 
     fn equations<S>(_: &FlatOnCurve<S>) -> Vec<Equation> {
-        vec![Equation { name: "distance", unit: "m" }, Equation { name: "angle", unit: "rad" }]
+        vec![Equation::length("distance"), Equation::angle("angle")]
     }
 
     fn residual<S: Real>(e: &FlatOnCurve<S>, at: &At<'_, S>, phi: &mut [S]) {

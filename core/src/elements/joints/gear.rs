@@ -84,7 +84,7 @@ impl Joint for Gear {
     }
 
     fn equations<S>(_: &Gear<S>) -> Vec<Equation> {
-        vec![Equation { name: "tangential", unit: "m" }]
+        vec![Equation::length("tangential")]
     }
 
     fn residual<S: Real>(e: &Gear<S>, at: &At<'_, S>, phi: &mut [S]) {

@@ -3,7 +3,7 @@
 //! Φₖ = residualₖ(q, t) = 0. Its derivatives follow from the formulas. The reaction on a body is -Φ_qᵀ λ in its
 //! columns, about the origin of its frame. All positions at which the formulas have a value are allowed.
 
-use crate::elements::{element, At, Attachment, BodyId, Equation, Joint};
+use crate::elements::{element, At, Attachment, BodyId, Equation, Joint, QuantityKind};
 use crate::math::{Listed, Local, Real};
 
 element! {
@@ -27,9 +27,9 @@ impl Joint for GivenConstraint {
     }
 
     fn equations<S>(e: &GivenConstraint<S>) -> Vec<Equation> {
-        let units = e.units.iter().chain(std::iter::repeat(&"m"));
+        let kinds = e.units.iter().copied().chain(std::iter::repeat(QuantityKind::Length));
         let names = NAMES.iter().take(e.residual.len());
-        names.zip(units).map(|(name, unit)| Equation { name, unit }).list()
+        names.zip(kinds).map(|(name, kind)| Equation { name, kind }).list()
     }
 
     fn residual<S: Real>(e: &GivenConstraint<S>, _: &At<'_, S>, phi: &mut [S]) {

@@ -32,7 +32,7 @@ impl Joint for PinInSlot {
     }
 
     fn equations<S>(_: &PinInSlot<S>) -> Vec<Equation> {
-        vec![Equation { name: "normal", unit: "m" }]
+        vec![Equation::length("normal")]
     }
 
     fn residual<S: Real>(e: &PinInSlot<S>, at: &At<'_, S>, phi: &mut [S]) {

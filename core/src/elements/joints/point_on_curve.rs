@@ -29,7 +29,7 @@ impl Joint for PointOnCurve {
     }
 
     fn equations<S>(_: &PointOnCurve<S>) -> Vec<Equation> {
-        vec![Equation { name: "x", unit: "m" }, Equation { name: "y", unit: "m" }]
+        vec![Equation::length("x"), Equation::length("y")]
     }
 
     fn residual<S: Real>(e: &PointOnCurve<S>, at: &At<'_, S>, phi: &mut [S]) {

@@ -41,7 +41,7 @@ impl Joint for Rack {
     }
 
     fn equations<S>(_: &Rack<S>) -> Vec<Equation> {
-        vec![Equation { name: "tangential", unit: "m" }]
+        vec![Equation::length("tangential")]
     }
 
     fn residual<S: Real>(e: &Rack<S>, at: &At<'_, S>, phi: &mut [S]) {

@@ -31,7 +31,7 @@ impl Joint for Revolute {
     }
 
     fn equations<S>(_: &Revolute<S>) -> Vec<Equation> {
-        vec![Equation { name: "x", unit: "m" }, Equation { name: "y", unit: "m" }]
+        vec![Equation::length("x"), Equation::length("y")]
     }
 
     fn residual<S: Real>(e: &Revolute<S>, at: &At<'_, S>, phi: &mut [S]) {

@@ -63,7 +63,7 @@ impl Joint for RollerOnCurve {
     }
 
     fn equations<S>(_: &RollerOnCurve<S>) -> Vec<Equation> {
-        vec![Equation { name: "x", unit: "m" }, Equation { name: "y", unit: "m" }]
+        vec![Equation::length("x"), Equation::length("y")]
     }
 
     fn residual<S: Real>(e: &RollerOnCurve<S>, at: &At<'_, S>, phi: &mut [S]) {

@@ -40,7 +40,7 @@ impl Joint for Rolling {
     }
 
     fn equations<S>(_: &Rolling<S>) -> Vec<Equation> {
-        vec![Equation { name: "normal", unit: "m" }, Equation { name: "tangential", unit: "m" }]
+        vec![Equation::length("normal"), Equation::length("tangential")]
     }
 
     fn residual<S: Real>(e: &Rolling<S>, at: &At<'_, S>, phi: &mut [S]) {

@@ -44,7 +44,7 @@ impl Joint for Translational {
     }
 
     fn equations<S>(_: &Translational<S>) -> Vec<Equation> {
-        vec![Equation { name: "normal", unit: "m" }, Equation { name: "angle", unit: "rad" }]
+        vec![Equation::length("normal"), Equation::angle("angle")]
     }
 
     fn residual<S: Real>(e: &Translational<S>, at: &At<'_, S>, phi: &mut [S]) {

@@ -29,8 +29,7 @@ impl Joint for Weld {
     }
 
     fn equations<S>(_: &Weld<S>) -> Vec<Equation> {
-        let equation = |name, unit| Equation { name, unit };
-        vec![equation("x", "m"), equation("y", "m"), equation("angle", "rad")]
+        vec![Equation::length("x"), Equation::length("y"), Equation::angle("angle")]
     }
 
     fn residual<S: Real>(e: &Weld<S>, at: &At<'_, S>, phi: &mut [S]) {

@@ -5,7 +5,7 @@ use super::scalars::{scalars, Scalar};
 use super::{print, residual, Formulas};
 use crate::elements::{
     Acted, Bearing, BodyId, Constraint, Coordinate, CoordinateOf, Curve, CurveOn, Default, Field,
-    Followed, Group, JointId, PointOn, Source,
+    Followed, Group, JointId, PointOn, QuantityKind, Source,
 };
 use crate::expression::Tape;
 use crate::math::{each, Listed, Local, Pose};
@@ -122,8 +122,8 @@ impl Source for SampleNames {
         let mut term = || Some((self.coordinate(field)?, Tape::from(1.0)));
         Some(vec![term()?, term()?])
     }
-    fn units(&mut self, _: &Field) -> Option<Vec<&'static str>> {
-        Some(vec!["m"])
+    fn units(&mut self, _: &Field) -> Option<Vec<QuantityKind>> {
+        Some(vec![QuantityKind::Length])
     }
     fn joint(&mut self, _: &Field) -> Option<JointId> {
         Some(JointId(0))

@@ -3,6 +3,8 @@
 use super::{found, holding, rest};
 use crate::mechanisms::{model, start, PENDULUM};
 use kempe::analyses::equilibrium::{Options, Reason};
+use kempe::analyses::record::Outcome;
+use kempe::elements::QuantityKind;
 
 const WHEEL: &str = "[bodies.ground]\npoints = { O = [0, 0] }\n[bodies.wheel]\nmass = 1\ninertia = 1\n\
                      points = { O = [0, 0] }\n[joints.O]\ntype = 'revolute'\ni = 'ground.O'\nj = 'wheel.O'\n";
@@ -47,5 +49,34 @@ fn a_coordinate_is_held_once() {
     for name in ["rod.omega", "rod.colour", "pin.force", "nothing"] {
         let reason = found(&m, &state, &holding(&[name])).expect_err(name);
         assert!(matches!(reason, Reason::Option(_)), "{reason}");
+    }
+}
+
+/// The parameter of a curve from formulas has no unit, so that the effort along it is an energy. It cannot be held.
+#[test]
+fn a_bead_slides_down_a_wire_without_end() {
+    for (curve, measured, unit, effort) in [
+        ("{ x = 'u/1000', y = '-u/1000', range = [-1000, 1000] }", QuantityKind::Pure, "", " J "),
+        ("{ line = [[-1, 1], [1, -1]] }", QuantityKind::Length, " m", " N "),
+    ] {
+        let m = model(&format!(
+            "gravity = [0, -9.81]\n[bodies.ground]\ncurves = {{ wire = {curve} }}\n[bodies.bead]\n\
+             type = 'point_mass'\nmass = 2\n[joints.wire]\ntype = 'point_on_curve'\ni = 'bead.P'\n\
+             curve = 'ground.wire'\n"
+        ));
+        let (state, _) = start(&m, &[("bead.x", "0.1")], &[]);
+        let reason = found(&m, &state, &Options::new()).expect_err("no equilibrium");
+        let Reason::Endless { coordinate, kind, moved, force } = &reason else {
+            panic!("{reason}")
+        };
+        if measured == QuantityKind::Pure {
+            assert_eq!(coordinate, "wire.u");
+            assert!((force / (2.0 * 9.81 / 1000.0) - 1.0).abs() < 1e-5, "{force}");
+        }
+        assert_eq!(*kind, measured);
+        assert!(reason.to_string().ends_with(&format!(" by {moved:.3}{unit}")), "{reason}");
+        let hold = coordinate == "bead.x";
+        let hint = Outcome::from(reason).hint.unwrap_or_default();
+        assert!(hint.contains(effort) && hint.contains("hold = ") == hold, "{hint}");
     }
 }
