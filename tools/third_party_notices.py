@@ -31,7 +31,8 @@ MARKS = {
 TEXT_OF = {"i_key_sort": "i_shape", "i_overlay": "i_shape"}
 INTRODUCTION = """\
 The compiled core of kempe contains the following Rust crates. Each is used under the licence that
-its heading names. kempe itself is licensed under MIT OR Apache-2.0.
+its heading names. Crates whose licences have the same text stand above it together, each with its
+copyright. kempe itself is licensed under MIT OR Apache-2.0.
 """
 
 
@@ -107,13 +108,18 @@ def cargo(*words: str) -> str:
 
 
 def notices() -> str:
-    """The content of the file."""
-    parts = [INTRODUCTION]
+    """The content of the file: texts that differ in their copyright lines alone are written once."""
+    groups: dict[str, list[str]] = {}
     for crate in crates():
         licence, texts = crate.notice()
         heading = f"{crate.name} {crate.version} ({licence})"
-        parts += [f"{heading}\n{'-' * len(heading)}\n", *(f"{text}\n" for text in texts)]
-    return "\n".join(parts)
+        own = "\n\n".join(texts).splitlines()
+        holders = [line for line in own if line.startswith("Copyright")]
+        common = one_line("\n".join(line for line in own if not line.startswith("Copyright")))
+        parts = groups.setdefault(common, [normal("\n".join(own)) + "\n"])
+        named = [heading, "-" * len(heading), *holders]
+        parts.insert(-1, "".join(f"{line}\n" for line in named))
+    return "\n".join([INTRODUCTION, *(part for parts in groups.values() for part in parts)])
 
 
 if __name__ == "__main__":
