@@ -23,7 +23,7 @@ use crate::model::Model;
 /// while !stepper.is_at_end() {
 ///     stepper.step()?;
 ///     if let Some(event) = stepper.locate(|_, [q, _, _]| q[0], Direction::Falling)? {
-///         stepper.restart(&State { v: event.v.iter().map(|v| -v).list(), ..event })?;
+///         stepper.restart(&State { v: event.v.iter().map(|v| -v).collect(), ..event })?;
 ///     }
 /// }
 /// # Ok(())
