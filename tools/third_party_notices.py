@@ -108,7 +108,7 @@ def cargo(*words: str) -> str:
 
 
 def notices() -> str:
-    """The content of the file: texts that differ in their copyright lines alone are written once."""
+    """The content of the file: texts that differ in copyright lines alone are written once."""
     groups: dict[str, list[str]] = {}
     for crate in crates():
         licence, texts = crate.notice()
