@@ -12,7 +12,9 @@ FOLDER=$ROOT/python/kempe/studio
 CARRIED=$FOLDER/page.html.gz
 
 "$ROOT/tools/build_studio.sh"
-# without name and time, so that the same page gives the same file
-gzip -9 -n -c "$FOLDER/built/page.html" >"$CARRIED.new"
+# by Node, as the build measures it; without name and time, so that the same page gives the same file
+node -e 'const fs = require("fs"), zlib = require("zlib")
+fs.writeFileSync(process.argv[2], zlib.gzipSync(fs.readFileSync(process.argv[1]), { level: 9 }))' \
+    "$FOLDER/built/page.html" "$CARRIED.new"
 mv -f "$CARRIED.new" "$CARRIED"
 printf 'studio: %s has %s bytes; commit it\n' "$CARRIED" "$(wc -c <"$CARRIED")" >&2

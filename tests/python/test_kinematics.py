@@ -239,3 +239,9 @@ def test_a_linkage_with_two_drivers_for_one_freedom() -> None:
     assert np.allclose(total, (2 / 3 + 5 + 3 / 3) * length**2, rtol=1e-9)
     assert not sol["crank_motor"].unique
     assert not sol["rocker_motor"].unique
+
+
+def test_too_many_outputs_are_refused() -> None:
+    m = slider_crank()
+    with pytest.raises(kp.ModelError, match=r"output_step: .*at least 1e-6 of the time"):
+        kp.kinematics(m, started(m), t_end=1.0, output_step=1e-7)

@@ -7,6 +7,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe.cli import app
+from kempe.plot.result_pages import result_pages
 
 
 def arm(first: float, second: float) -> kp.Model:
@@ -126,3 +127,13 @@ def test_in_a_file_with_its_figure(
     area = abs(np.sum(x * np.roll(y, -1) - y * np.roll(x, -1))) / 2
     assert area == pytest.approx(result.area, rel=1e-9)
     assert list((tmp_path / "found").glob("*reachable*"))
+
+
+def test_a_point_that_moves_on_a_line_or_not_at_all_reaches_no_area(tmp_path: Path) -> None:
+    m, over = arm(0.7, 0.4), ("shoulder.angle", "elbow.angle")
+    start = kp.assemble(m, set={"upper.angle": 0.2, "fore.angle": 1.0})
+    for point in ("upper.E", "upper.O"):
+        found = kp.reachable(m, start, of=point, over=over, ranges=((0, 1), (0, 1)), n=11)
+        assert found.area == pytest.approx(0, abs=1e-9)
+        assert {path.name for path in found.save(tmp_path)} == {"reachable.csv", "boundary.csv"}
+        assert result_pages(found)[0].figure().axes

@@ -2,9 +2,8 @@
 //!
 //! The motion is followed along the first quantity, and from each of its values along the second one, by the
 //! continuation of `kinematics`. It ends at a limit inside a range, which is located exactly. If there is one, the
-//! region is also followed along the second quantity first. Triangles between
-//! neighbouring positions cover the region, and their union gives its boundary and area. The error of both falls with
-//! the square of the number of values.
+//! region is also followed along the second quantity first. Triangles between neighbouring positions cover the region,
+//! and their union gives its boundary and area. The error of both falls with the square of the number of values.
 
 use super::assemble::position;
 use super::kinematics::{driving, kinematics, DrivenQuantity, Reason};
@@ -15,10 +14,11 @@ use crate::elements::{BodyId, Group};
 use crate::equations::kinematics::Motions;
 use crate::integrate::Flow;
 use crate::math::{Local, Vec2};
-use crate::model::{Model, Value};
+use crate::model::{Definition, Model, Value};
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::float::simplify::SimplifyShape;
 use serde_json::json;
+use std::sync::Arc;
 
 /// Default of the number of values of each quantity.
 const VALUES: usize = 61;
@@ -86,7 +86,13 @@ impl Analysis for Options {
         start: &StartState,
         observer: Observer<'_>,
     ) -> Result<Record, Box<Unfinished>> {
-        let mut region = Region { options: self, subject, start, limits: Vec::new() };
+        let mut region = Region {
+            options: self,
+            subject,
+            start,
+            acting: subject.acting(start),
+            limits: Vec::new(),
+        };
         let mut all = vec![region.rows([0, 1], observer.look)?];
         if !region.limits.is_empty() {
             // along the second quantity, parts beyond the limits of the first one may be reached
@@ -119,6 +125,8 @@ struct Region<'a> {
     options: &'a Options,
     subject: &'a Subject<'a>,
     start: &'a StartState,
+    /// The definition without the drivers that were released before.
+    acting: Definition,
     /// The limits that ended the motion within the ranges.
     limits: Vec<String>,
 }
@@ -152,6 +160,7 @@ impl Region<'_> {
             let states = self.both_ways(&model, &State { t: middle, ..state }, across)?;
             rows.push(states.iter().map(|(at, _)| (at.t, self.point(&model, at))).collect());
             if look(a) == Flow::Stop {
+                self.limits.push("the analysis was stopped".to_string());
                 break;
             }
         }
@@ -160,7 +169,7 @@ impl Region<'_> {
 
     fn quantity(&self, k: usize) -> Result<DrivenQuantity, Outcome> {
         let model = self.subject.released(self.start);
-        let found = DrivenQuantity::named(self.subject.definition, &model, &self.options.over[k]);
+        let found = DrivenQuantity::named(&self.acting, &model, &self.options.over[k]);
         found.map_err(|problem| vec![problem].into())
     }
 
@@ -175,14 +184,12 @@ impl Region<'_> {
     }
 
     /// The mechanism in which laws give the values of both quantities.
-    fn driven(&self, laws: [(&DrivenQuantity, Value); 2]) -> Result<Model, Outcome> {
-        let Self { subject, start, .. } = self;
-        let mut definition = subject.definition.clone();
-        definition.drivers.retain(|driver| !start.released.contains(&driver.name));
+    fn driven(&self, laws: [(&DrivenQuantity, Value); 2]) -> Result<Arc<Model>, Outcome> {
+        let Self { subject, start, acting, .. } = self;
         let model = subject.released(start);
-        let driven = driving(&definition, &model, start.state.t, &laws);
-        let model = subject.rebuilt(&driven.map_err(|one| Outcome::from(vec![one]))?)?;
-        Ok((*model).clone())
+        let driven = driving(acting, &model, start.state.t, &laws);
+        let driven = driven.map_err(|one| Outcome::from(vec![one]))?;
+        Ok(subject.rebuilt(&driven)?)
     }
 
     /// The state of a mechanism at another value.

@@ -88,10 +88,10 @@ class ReachableResult(Result):
     def tables(self) -> Mapping[str, Sequence[Column]]:
         """``reachable``: the points; ``boundary``: the points of each contour."""
         numbers = [np.full(len(one), k, dtype=float) for k, one in enumerate(self.boundary, 1)]
-        edges = np.concatenate(self.boundary)
+        edges = np.concatenate([np.empty((0, 2)), *self.boundary])
         points = [Column(name, "m", self.points[:, k]) for k, name in enumerate("xy")]
         contours = [Column(name, "m", edges[:, k]) for k, name in enumerate("xy")]
-        number = Column("contour", "", np.concatenate(numbers))
+        number = Column("contour", "", np.concatenate([np.empty(0), *numbers]))
         return {"reachable": points, "boundary": [number, *contours]}
 
     def __repr__(self) -> str:

@@ -33,9 +33,9 @@ def reachable(result: ReachableResult) -> Figure:
     from matplotlib.path import Path
 
     scene = at_rest(result.final)
-    edges = np.concatenate(result.boundary)
     low, high = np.array(scene["bounds"][:2]), np.array(scene["bounds"][2:])
-    low, high = np.minimum(low, edges.min(axis=0)), np.maximum(high, edges.max(axis=0))
+    low = np.minimum(low, result.points.min(axis=0))
+    high = np.maximum(high, result.points.max(axis=0))
     shown = {**scene, "bounds": [*map(float, low), *map(float, high)]}
     low, high = frame({"bounds": shown["bounds"]})
     wide = style.WIDTH - _LEFT - _RIGHT
@@ -46,8 +46,9 @@ def reachable(result: ReachableResult) -> Figure:
     display = drawn(axes, shown, f"{result.of} reaches {result.area:.4g} m²")
     metres = shown["length"]["metres"]
     corners = [np.concatenate([one, one[:1]]) / metres for one in result.boundary]
-    outline = Path.make_compound_path(*(Path(one, closed=True) for one in corners))
-    axes.add_patch(PathPatch(outline, facecolor=_INSIDE, edgecolor=_EDGE, lw=0.8, zorder=0.4))
+    if corners:
+        outline = Path.make_compound_path(*(Path(one, closed=True) for one in corners))
+        axes.add_patch(PathPatch(outline, facecolor=_INSIDE, edgecolor=_EDGE, lw=0.8, zorder=0.4))
     display.name_joints()
     paint(axes, display)
     return made

@@ -28,7 +28,7 @@ impl Analysis for Options {
     const MOTION: bool = true;
 
     fn ends(&self, _: &Model, begin: Option<f64>) -> Result<Option<f64>, Vec<Problem>> {
-        self.backward(begin).map_or(Ok(self.t_end), |problem| Err(vec![problem]))
+        self.time_problem(begin).map_or(Ok(self.t_end), |problem| Err(vec![problem]))
     }
 
     fn run(
@@ -110,7 +110,7 @@ impl PlannedMotion<'_> {
         match options.over.as_ref().zip(options.range) {
             None => {
                 let begin = start.state.t;
-                if let Some(problem) = options.backward(Some(begin)) {
+                if let Some(problem) = options.time_problem(Some(begin)) {
                     return Err(vec![problem].into());
                 }
                 self.through(&subject.released(start), start, &options.times(begin), look)
@@ -118,18 +118,7 @@ impl PlannedMotion<'_> {
             Some((over, [first, last])) => {
                 let driven = subject.driven_by(start, over, self.rests)?;
                 let at = start.at(State { t: driven.variable.start, ..start.state.clone() });
-                let model = &driven.model;
-                let begin = match first == at.state.t {
-                    true => at,
-                    false => self.through(model, &at, &[first], look)?.end,
-                };
-                let step = (last - first) / (options.n - 1) as f64;
-                let value = |k: usize| match k + 1 == options.n {
-                    true => last,
-                    false => first + step * k as f64,
-                };
-                let values: Vec<f64> = (0..options.n).map(value).list();
-                match self.through(model, &begin, &values, look) {
+                match self.over(&driven.model, at, [first, last], look) {
                     Ok(record) => Ok(Record { driven: Some(driven), ..record }),
                     Err(mut failed) => {
                         failed.record =
@@ -139,6 +128,25 @@ impl PlannedMotion<'_> {
                 }
             }
         }
+    }
+
+    /// The motion over a range of the quantity that replaces the time in a model.
+    fn over(
+        &self,
+        model: &Model,
+        start: StartState,
+        [first, last]: [f64; 2],
+        look: &mut dyn FnMut(f64) -> Flow,
+    ) -> Result<Record, Box<Unfinished>> {
+        let begin = match first == start.state.t {
+            true => start,
+            false => self.through(model, &start, &[first], look)?.end,
+        };
+        let n = self.options.n;
+        let step = (last - first) / (n - 1) as f64;
+        let value = |k: usize| if k + 1 == n { last } else { first + step * k as f64 };
+        let values: Vec<f64> = (0..n).map(value).list();
+        self.through(model, &begin, &values, look)
     }
 
     /// The motion of a model at times, or at values of the quantity that replaces the time.
@@ -198,7 +206,7 @@ impl Options {
             let inner = (0..POINTS - 1).map(|k| begin + step * k as f64);
             return inner.chain([end]).list();
         };
-        let count = ((end - begin) / step * (1.0 + ROUNDING)).min(MOST_OUTPUTS) as usize;
+        let count = ((end - begin) / step * (1.0 + ROUNDING)) as usize;
         let mut times: Vec<f64> = (0..=count).map(|k| begin + step * k as f64).list();
         match times.last_mut() {
             Some(last) if (end - *last).abs() <= ROUNDING * end.abs().max(last.abs()) => {}
@@ -207,12 +215,16 @@ impl Options {
         times
     }
 
-    /// The problem of an end before the start.
-    fn backward(&self, begin: Option<f64>) -> Option<Problem> {
+    /// The problem of an end before the start, or of too many outputs.
+    fn time_problem(&self, begin: Option<f64>) -> Option<Problem> {
         let (begin, end) = (begin?, self.t_end?);
-        let message = || format!("{end} s lies before {begin} s, where the motion starts");
-        (end < begin)
-            .then(|| Problem::at(&["t_end"], message()).hint("t_end is a time, not a duration"))
+        if end < begin {
+            let message = format!("{end} s lies before {begin} s, where the motion starts");
+            return Some(Problem::at(&["t_end"], message).hint("t_end is a time, not a duration"));
+        }
+        let step = self.output_step.filter(|step| end - begin > MOST_OUTPUTS * step)?;
+        let message = format!("{step} s; must be at least 1e-6 of the time of the motion");
+        Some(Problem::at(&["output_step"], message))
     }
 }
 
@@ -227,8 +239,7 @@ impl Subject<'_> {
         quantity: &str,
         rests: bool,
     ) -> Result<Driven, Vec<Problem>> {
-        let mut definition = self.definition.clone();
-        definition.drivers.retain(|driver| !start.released.contains(&driver.name));
+        let definition = self.acting(start);
         let found = over(&definition, &self.released(start), &start.state, quantity);
         let Over { definition, quantity, unit, value } = found.map_err(|one| vec![one])?;
         let model = self.rebuilt(&definition)?;

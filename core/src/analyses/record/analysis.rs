@@ -76,6 +76,13 @@ impl<'a> Subject<'a> {
         }
     }
 
+    /// The definition without the drivers that were released before a start.
+    pub fn acting(&self, start: &StartState) -> Definition {
+        let mut definition = self.definition.clone();
+        definition.drivers.retain(|driver| !start.released.contains(&driver.name));
+        definition
+    }
+
     /// The model of a changed definition, with the same values of the parameters.
     ///
     /// # Errors
