@@ -96,7 +96,7 @@ def test_a_parallelogram_turns_fully_through_its_change_points() -> None:
 def test_refusals() -> None:
     m = four_bar()
     start = kp.assemble(m, set={"crank.angle": 0.5})
-    with pytest.raises(kp.ModelError, match="it has no driver"):
+    with pytest.raises(kp.ModelError, match="the model has no driver that acts"):
         kp.limits(m, start)
     with pytest.raises(kp.ModelError, match="over"):
         kp.limits(m, start, over="crankle.angle")

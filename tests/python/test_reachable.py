@@ -86,6 +86,15 @@ def test_drivers_are_named_too_and_others_keep_their_value() -> None:
     assert found.area == pytest.approx(same.area, rel=1e-12)
 
 
+def test_a_driver_and_its_quantity_are_one() -> None:
+    m = arm(0.7, 0.4)
+    m.coordinate_driver("lift", "shoulder.angle", value="0.2 + t")
+    start = kp.assemble(m, set={"elbow.angle": 0.8})
+    over = ("lift", "shoulder.angle")
+    with pytest.raises(kp.ModelError, match="shoulder.angle twice, by its name and by its driver"):
+        kp.reachable(m, start, of="fore.H", over=over, ranges=((0, 1), (0, 1)))
+
+
 @pytest.mark.parametrize(
     ("changed", "message"),
     [

@@ -41,5 +41,5 @@ def test_limits_and_motions_over_its_quantity_drive_it_anew() -> None:
     assert dropped(m, kp.Limits("rod.angle"))["limits"].turns_fully
     turned = dropped(m, kp.Kinematics(over="rod.angle", range=(-1, 1), n=3))["kinematics"]
     assert turned["rod.P.y"] == pytest.approx(np.sin([-1, 0, 1]))
-    with pytest.raises(kp.ModelError, match="it has no driver"):
+    with pytest.raises(kp.ModelError, match="the model has no driver that acts"):
         dropped(m, kp.Limits())

@@ -14,7 +14,7 @@ use crate::elements::{BodyId, Group};
 use crate::equations::kinematics::Motions;
 use crate::integrate::Flow;
 use crate::math::{Local, Vec2};
-use crate::model::{Definition, Model, Value};
+use crate::model::{Definition, Model, Problem, Value};
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::float::simplify::SimplifyShape;
 use serde_json::json;
@@ -140,6 +140,10 @@ impl Region<'_> {
     ) -> Result<Vec<Row>, Box<Unfinished>> {
         let [first, second] = order.map(|k| self.quantity(k));
         let (first, second) = (first?, second?);
+        if first.quantity == second.quantity {
+            let message = format!("{} twice, by its name and by its driver", first.quantity);
+            return Err(vec![Problem::at(&["over"], message)].into());
+        }
         let [a, b] = [&first, &second].map(|of| self.value(&of.quantity));
         let [range, across] = order.map(|k| self.options.ranges[k]);
         // along the first quantity, with the second one at its start, or at the nearest end of its range

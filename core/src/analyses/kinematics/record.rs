@@ -259,7 +259,7 @@ impl Subject<'_> {
         let names: Vec<&str> = drivers.map(|item| &item.name[..]).list();
         let reason = match names[..] {
             [only] => return Ok(only.to_string()),
-            [] => "it has no driver".to_string(),
+            [] => "the model has no driver that acts".to_string(),
             _ => format!("the model has the drivers {}", names.join(", ")),
         };
         Err(Outcome::new(ErrorClass::Model, format!("over: missing; {reason}"))
