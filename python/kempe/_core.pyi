@@ -279,61 +279,87 @@ def compliance(
 ) -> list[float]:
     """∂(displacement)/∂(force) of a point at rest, m/N: xx, xy, yx, yy."""
 
-def evaluate(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool = False) -> tuple[_F, _F, _F]:
-    """Accelerations (n_t, n_q), multipliers (n_t, n_rows), with γ, not γ̂; regularity (n_t, 1).
+class States:
+    """States of a model in rows, with accelerations and multipliers where they are known."""
 
-    With ``passing`` near singular positions as well, as in runs that pass them.
-    """
+    def __init__(
+        self,
+        model: Model,
+        t: _F,
+        q: _F,
+        v: _F,
+        z: _F,
+        a: _F | None = None,
+        lam: _F | None = None,
+    ) -> None:
+        """Read (n_t,), (n_t, n_q) twice, (n_t, n_z), (n_t, n_q) and (n_t, n_rows).
 
-def project(model: Model, tolerance: float, t: _F, q: _F, v: _F, z: _F) -> tuple[_F, _F]:
-    """States of an interpolant, projected as reported states are: q and v, (n_t, n_q)."""
+        Raises:
+            ModelError: an array has another shape, or contains a number that is not finite.
+        """
 
-def energies(model: Model, t: _F, q: _F, v: _F, z: _F, works: _F) -> _F:
-    """``Run.energies`` at states with these ends of the rows of the interpolant, (n_t, n_works)."""
+    def evaluate(self, passing: bool) -> list[_F]:
+        """Accelerations (n_t, n_q), multipliers (n_t, n_rows), with γ, not γ̂; regularity (n_t, 1).
 
-def residual(model: Model, t: _F, q: _F, v: _F) -> tuple[_F, _F]:
-    """Φ and Φ_q q̇ + Φ_t at states, (n_t, n_rows) each."""
+        With ``passing`` near singular positions as well, as in runs that pass them.
+        """
 
-def reaction(model: Model, joint: str, on: str, frame: str, t: _F, q: _F, lam: _F) -> _F:
-    """Force and torque about the joint point of a joint on a body: (n_t, 3), N and N·m."""
+    def project(self, tolerance: float) -> list[_F]:
+        """q and v, (n_t, n_q), of an interpolant, projected as reported states are."""
 
-def place(model: Model, joint: str, on: str, t: _F, q: _F) -> _F:
-    """The point at which the reaction on a body is given, (n_t, 2), global, m."""
+    def energies(self, works: _F) -> _F:
+        """``Run.energies`` with these ends of the rows of the interpolant, (n_t, n_works)."""
 
-def newton_euler(model: Model, t: _F, q: _F, v: _F, z: _F, a: _F, lam: _F) -> _F:
-    """The balances of bodies and coordinates; see ``kempe.results.newton_euler``."""
+    def residual(self) -> list[_F]:
+        """Φ and Φ_q q̇ + Φ_t, (n_t, n_rows) each."""
 
-def friction_modes(model: Model, t: _F, q: _F, v: _F, z: _F) -> list[tuple[int, list[_Mode]]]:
-    """The modes of friction at rest, by stretches of states; see ``results.friction_at_rest``."""
+    def measured(self, name: str) -> _F:
+        """Position, rate and acceleration of each position quantity of an element: (n_t, 3 n).
 
-def friction_range(model: Model, t: _F, q: _F, v: _F, z: _F, passing: bool) -> tuple[_F, _F] | None:
-    """The least and the largest multipliers, (n_t, m), while drivers hold friction at rest."""
+        Without accelerations these are taken as zero.
+        """
 
-def not_unique(model: Model, t: _F, q: _F) -> list[str]:
-    """The joints and drivers without a unique reaction at one of the states."""
+    def reaction(self, joint: str, on: str, frame: str) -> _F:
+        """Force and torque about the joint point of a joint on a body: (n_t, 3), N and N·m."""
 
-def results(model: Model, joint: str, t: _F, q: _F, lam: _F) -> _F:
-    """The results of a joint beside its reaction, (n_t, n); ``describe`` names them."""
+    def impulse(self, name: str, on: str) -> _F:
+        """The same at impacts, N·s and N·m·s; the multipliers are the impulses."""
 
-def measured(model: Model, name: str, t: _F, q: _F, v: _F, a: _F | None = None) -> _F:
-    """Position, rate and acceleration of each position quantity of an element: (n_t, 3 n).
+    def place(self, joint: str, on: str) -> _F:
+        """The point at which the reaction on a body is given, (n_t, 2), global, m."""
 
-    Without accelerations ``a``, (n_t, n_q), these are taken as zero.
-    """
+    def results(self, joint: str) -> _F:
+        """The results of a joint beside its reaction, (n_t, n); ``describe`` names them."""
 
-def force(model: Model, name: str, on: str, part: str | None, frame: str, *states: _F | None) -> _F:
-    """Force of a force element on a body, and its torque about its place: (n_t, 3).
+    def force(self, name: str, on: str, part: str | None, frame: str) -> _F:
+        """Force of a force element on a body, and its torque about its place: (n_t, 3).
 
-    ``states`` are t, q, v and z, and the multipliers, (n_t, n_rows), if it depends on a reaction.
-    """
+        It needs multipliers if it depends on a reaction.
+        """
 
-def force_place(model: Model, name: str, on: str, t: _F, q: _F, v: _F, z: _F) -> _F:
-    """The point at which a force element acts on a body, or the body's origin: (n_t, 2), m."""
+    def force_place(self, name: str, on: str) -> _F:
+        """The point at which a force element acts on a body, or the body's origin: (n_t, 2), m."""
 
-def impulse(model: Model, name: str, on: str, t: _F, q: _F, impulses: _F) -> _F: ...
-def force_results(model: Model, name: str, t: _F, q: _F, v: _F, z: _F, lam: _F) -> _F: ...
-def force_energy(model: Model, name: str, t: _F, q: _F, v: _F, z: _F, lam: _F | None = None) -> _F:
-    """Energy that a force element stores, J, and power that it dissipates, W: (n_t, 2)."""
+    def force_results(self, name: str) -> _F:
+        """The results of a force element beside its wrenches, (n_t, n); ``describe`` names them."""
+
+    def force_energy(self, name: str) -> _F:
+        """Energy that a force element stores, J, and power that it dissipates, W: (n_t, 2)."""
+
+    def newton_euler(self) -> _F:
+        """The balances of bodies and coordinates; see ``kempe.results.newton_euler``."""
+
+    def friction_modes(self) -> list[tuple[int, list[_Mode]]]:
+        """The modes of friction at rest, by stretches of rows; see ``results.friction_at_rest``."""
+
+    def friction_range(self, passing: bool) -> list[_F] | None:
+        """The least and the largest multipliers, (n_t, m), while drivers hold friction at rest."""
+
+    def not_unique(self) -> list[str]:
+        """The joints and drivers without a unique reaction at one of the states."""
+
+    def measure(self, text: str) -> _F:
+        """The values of a measure, (n_t,), from accelerations and multipliers if it needs them."""
 
 def matrices(model: Model, t: float, q: _F, v: _F, z: _F, set: str) -> dict[str, _F]:  # noqa: A002
     """``M``, ``Phi``, ``Phi_q``, ``nu``, ``gamma``, ``Q`` and ``kkt`` at a state.

@@ -114,23 +114,8 @@ def measure(model: Model, text: str) -> tuple[list[str], str, bool, bool]:
     multipliers.
     """
 
-def measure_at(
-    model: Model,
-    text: str,
-    t: _F,
-    q: _F,
-    v: _F,
-    z: _F,
-    a: _F | None = None,
-    lam: _F | None = None,
-) -> _F:
-    """Values of an expression at states, (n_t,), with what it needs of the solution there."""
-
 def measure_values(model: Model, text: str, t: _F, quantities: _F) -> _F:
     """Values of an expression, (n_t,), for the values of its quantities, (n_t, n)."""
-
-def mobility(model: Model, t: float, q: _F, v: _F, z: _F) -> str:
-    """The freedoms, redundancies and singular positions at a position, as JSON."""
 
 def line_at(model: Model, joint: str, body: str) -> tuple[list[str], float | None]:
     """The pins and slides of a body besides a joint, and its line from there in its frame, rad."""

@@ -28,6 +28,7 @@ MODEL = CASE.model("{}")
 T, Q, V, Z, _ = _core.assemble(MODEL, '{"crank.angle": "70*deg"}', "{}", 0.0, None, None, None)
 TIMES, ROW, STATES, LAM = np.array([T]), Q[None, :], Z[None, :], np.zeros((1, 8))
 WORKS, FOURS, POSES = np.zeros((1, 3)), np.zeros((0, 4)), np.zeros((1, 3, 3))
+AT_ONCE = _core.States(MODEL, TIMES, ROW, ROW, STATES, ROW, LAM)
 OPTIONS = '{"type": "dynamics", "t_end": 0.01}'
 AT = (T, Q, V, Z)
 RUN = _core.run_analysis(MODEL, OPTIONS, AT, [], None).run
@@ -62,15 +63,8 @@ CALLS: dict[str, Callable[[], object]] = {
     "compliance": lambda: _core.compliance(MODEL, T, Q, V, Z, "rocker.C", ["crank.angle"]),
     "Run.responses": RUN.responses,
     "Run.energies": RUN.energies,
-    "evaluate": lambda: _core.evaluate(MODEL, TIMES, ROW, ROW, STATES),
-    "project": lambda: _core.project(MODEL, 1e-12, TIMES, ROW, ROW, STATES),
-    "energies": lambda: _core.energies(MODEL, TIMES, ROW, ROW, STATES, WORKS),
-    "residual": lambda: _core.residual(MODEL, TIMES, ROW, ROW),
-    "measured": lambda: _core.measured(MODEL, "C", TIMES, ROW, ROW, ROW),
-    "reaction": lambda: _core.reaction(MODEL, "C", "rocker", "global", TIMES, ROW, LAM),
     "measure": lambda: _core.measure(MODEL, "C.force"),
     "measure_values": lambda: _core.measure_values(MODEL, "C.force", TIMES, ROW[:, :1]),
-    "measure_at": lambda: _core.measure_at(MODEL, "crank.x", TIMES, ROW, ROW, STATES),
     "instants": lambda: _core.instants(np.arange(2.0), TIMES, 9),
     "interpolate": lambda: _core.interpolate(
         np.arange(2.0), np.zeros((1, 2)), np.zeros((1, 2, 4)), TIMES
@@ -87,23 +81,25 @@ CALLS: dict[str, Callable[[], object]] = {
     "sweep": lambda: _core.sweep(
         MODEL, "{}", "{}", '{"type": "dynamics", "t_end": 1}', [], [], [], [], np.zeros((0, 0)), 1
     ),
-    "not_unique": lambda: _core.not_unique(MODEL, TIMES, ROW),
-    "place": lambda: _core.place(MODEL, "C", "rocker", TIMES, ROW),
-    "newton_euler": lambda: _core.newton_euler(MODEL, TIMES, ROW, ROW, STATES, ROW, LAM),
-    "results": lambda: _core.results(MODEL, "C", TIMES, ROW, LAM),
-    "force_results": lambda: _core.force_results(
-        MODEL, "spring", TIMES, ROW, ROW, STATES, np.zeros((1, 8))
-    ),
-    "friction_modes": lambda: _core.friction_modes(MODEL, TIMES, ROW, ROW, np.zeros((1, 0))),
-    "friction_range": lambda: _core.friction_range(
-        MODEL, TIMES, ROW, ROW, np.zeros((1, 0)), passing=True
-    ),
-    "impulse": lambda: _core.impulse(MODEL, "C", "rocker", TIMES, ROW, np.zeros((1, 8))),
-    "force_energy": lambda: _core.force_energy(MODEL, "spring", TIMES, ROW, ROW, STATES),
-    "force": lambda: _core.force(
-        MODEL, "spring", "rocker", None, "global", TIMES, ROW, ROW, STATES
-    ),
-    "force_place": lambda: _core.force_place(MODEL, "spring", "rocker", TIMES, ROW, ROW, STATES),
+    "States": lambda: _core.States(MODEL, TIMES, ROW, ROW, STATES),
+    "States.evaluate": lambda: AT_ONCE.evaluate(False),
+    "States.project": lambda: AT_ONCE.project(1e-12),
+    "States.energies": lambda: AT_ONCE.energies(WORKS),
+    "States.residual": AT_ONCE.residual,
+    "States.measured": lambda: AT_ONCE.measured("C"),
+    "States.reaction": lambda: AT_ONCE.reaction("C", "rocker", "global"),
+    "States.impulse": lambda: AT_ONCE.impulse("C", "rocker"),
+    "States.place": lambda: AT_ONCE.place("C", "rocker"),
+    "States.results": lambda: AT_ONCE.results("C"),
+    "States.force": lambda: AT_ONCE.force("spring", "rocker", None, "global"),
+    "States.force_place": lambda: AT_ONCE.force_place("spring", "rocker"),
+    "States.force_results": lambda: AT_ONCE.force_results("spring"),
+    "States.force_energy": lambda: AT_ONCE.force_energy("spring"),
+    "States.newton_euler": AT_ONCE.newton_euler,
+    "States.friction_modes": AT_ONCE.friction_modes,
+    "States.friction_range": lambda: AT_ONCE.friction_range(True),
+    "States.not_unique": AT_ONCE.not_unique,
+    "States.measure": lambda: AT_ONCE.measure("crank.x"),
     "matrices": lambda: _core.matrices(MODEL, T, Q, V, Z, "{}"),
     "formulas": lambda: _core.formulas(MODEL, "C", {}, "latex"),
     "scene": lambda: _core.scene(MODEL, POSES, []),
@@ -161,7 +157,7 @@ def test_every_function_and_method_of_the_core_is_in_the_list_of_calls() -> None
         for method, member in vars(entry).items()
         if not method.startswith("_") and callable(member)
     }
-    made_by_python = {"Case", "_raise"}
+    made_by_python = {"Case", "States", "_raise"}
     assert set(CALLS) == (public.keys() - classes.keys()) | methods | made_by_python
 
 

@@ -51,35 +51,18 @@ pub fn measure_values<'py>(
 }
 
 /// The values of a measure at states, with accelerations and multipliers if it needs them.
-#[pyfunction]
-#[pyo3(signature = (model, text, t, q, v, z, a=None, lam=None))]
-#[allow(clippy::too_many_arguments)] // the arguments of Python
 pub fn measure_at<'py>(
     py: Python<'py>,
     model: &PyModel,
     text: &str,
-    t: Row<'py>,
-    q: Rows<'py>,
-    v: Rows<'py>,
-    z: Rows<'py>,
-    a: Option<Rows<'py>>,
-    lam: Option<Rows<'py>>,
+    states: States<'_>,
+    solved: Option<[&[f64]; 2]>,
 ) -> PyResult<Bound<'py, PyArray1<f64>>> {
-    guard("measure_at", || {
-        let (found, layout) = (read(py, model, text)?, &model.model.layout);
-        let t = t.as_array().to_vec();
-        let table = |name, given: &Rows<'py>, width| rows(py, name, given, (t.len(), width));
-        let (q, v) = (table("q", &q, layout.n_q)?, table("v", &v, layout.n_q)?);
-        let z = table("z", &z, layout.n_z)?;
-        let a = a.map(|a| table("a", &a, layout.n_q)).transpose()?;
-        let lam = lam.map(|lam| table("lam", &lam, model.model.n_multipliers())).transpose()?;
-        let solved = a.as_deref().zip(lam.as_deref()).map(|(a, lam)| [a, lam]);
-        if found.needs_solution(&model.model) && solved.is_none() {
-            return Err(refuse(py, text, "needs accelerations and multipliers".to_string()));
-        }
-        let states = States { t: &t, q: &q, v: &v, z: &z };
-        finite(py, text, &t, found.values(&model.model, states, solved))
-    })
+    let found = read(py, model, text)?;
+    if found.needs_solution(&model.model) && solved.is_none() {
+        return Err(refuse(py, text, "needs accelerations and multipliers".to_string()));
+    }
+    finite(py, text, states.t, found.values(&model.model, states, solved))
 }
 
 /// The values of a measure at times, which must be finite.

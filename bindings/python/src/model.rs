@@ -161,6 +161,17 @@ pub fn written_modes(modes: &[ForceMode]) -> Vec<WrittenMode> {
     modes.collect()
 }
 
+/// The first row of each stretch of rows with the same modes, and these.
+pub fn stretches(rows: &[Vec<ForceMode>]) -> Vec<(usize, Vec<WrittenMode>)> {
+    let modes = |of: &ForceMode| (of.force, of.mode);
+    let mut row = 0;
+    let stretches = rows.chunk_by(|a, b| a.iter().map(modes).eq(b.iter().map(modes))).map(|of| {
+        row += of.len();
+        (row - of.len(), written_modes(&of[0]))
+    });
+    stretches.collect()
+}
+
 /// Reads a mode from Python.
 fn read_mode(
     py: Python<'_>,

@@ -1,8 +1,8 @@
 //! Lines of links at their pins, for transmission angles.
 
-use crate::evaluate::{one_of, unknown};
 use crate::guard::guard;
 use crate::model::PyModel;
+use crate::names::{constraint, one_of};
 use kempe::analyses::transmission::{line_at as line, others_at, transmitting as pins};
 use pyo3::prelude::*;
 
@@ -18,7 +18,7 @@ pub fn line_at(
 ) -> PyResult<(Vec<String>, Option<f64>)> {
     guard("line_at", || {
         let model = &model.model;
-        let k = model.constraint(joint).ok_or_else(|| unknown(py, "joint or driver", joint))?;
+        let k = constraint(py, model, joint)?;
         let on = one_of(py, model, &model.constraints[k].bodies, joint, body)?;
         let name = |k: usize| model.constraints[k].name.clone();
         Ok((others_at(model, k, on).into_iter().map(name).collect(), line(model, k, on)))

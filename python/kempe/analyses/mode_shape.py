@@ -46,7 +46,7 @@ class ModeShape:
         changed = self.state.q + (self._factor * self.shape * np.exp(1j * phase)).real
         model, none = self.state.compiled, np.zeros((1, self.state.compiled.n_q))
         rows = np.array([self.state.t]), changed[None], none, self.state.z[None]
-        closed, _ = _core.project(model.core, _CLOSED, *rows)
+        closed, _ = _core.States(model.core, *rows).project(_CLOSED)
         return State(model, self.state.t, closed[0], none[0], z=self.state.z)
 
     def states(self, count: int) -> list[State]:

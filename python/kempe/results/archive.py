@@ -296,7 +296,7 @@ def _check_agreement(solution: Solution) -> None:
         )
         try:
             model = solution._state_of(int(k)).compiled
-            a, *_ = _core.evaluate(model.core, t, q, v, z, solution._passing)
+            a, *_ = _core.States(model.core, t, q, v, z).evaluate(solution._passing)
         except KempeError:  # a run may end in a position without unique accelerations
             continue
         largest = max(

@@ -67,8 +67,8 @@ class EventTimes:
         """
         found = np.zeros((len(self.t), 2))
         for k, (state, impulse) in enumerate(zip(self.states, self._impulses, strict=False)):
-            rows = np.atleast_1d(state.t), np.atleast_2d(state.q), np.atleast_2d(impulse)
-            found[k] = _core.impulse(state.compiled.core, joint, on, *rows)[0, :2]
+            rows = *state._rows(), None, np.atleast_2d(impulse)
+            found[k] = _core.States(state.compiled.core, *rows).impulse(joint, on)[0, :2]
         return fixed(found)
 
     def __repr__(self) -> str:

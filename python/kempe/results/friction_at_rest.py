@@ -7,6 +7,7 @@ any part of the load up to its limit; reports give the middle of this range.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -33,7 +34,7 @@ def phases(motion: Motion) -> Phases | None:
     parameters, released, modes = core.setting
     if modes:  # a run has decided
         return None
-    found = _core.friction_modes(core, *motion._rows(), np.atleast_2d(motion.z))
+    found = _core.States(core, *motion._rows()).friction_modes()
     if not any(own for _, own in found):
         return None
     settings = [(row, (parameters, released, own)) for row, own in found]
@@ -44,16 +45,14 @@ def multiplier_range(motion: Motion) -> tuple[Floats, Floats] | None:
     """The least and the largest multipliers; see ``Motion.multiplier_range``."""
     if motion._decided is None and not motion.compiled.core.setting[2]:
         return None
-    found: list[tuple[Floats, Floats] | None] = []
+    found: list[Sequence[Floats] | None] = []
 
-    def evaluate(core: _core.Model, *of: Floats) -> tuple[Floats, ...]:
-        t, q, v, z, lam = of
-        ends = _core.friction_range(core, t, q, v, z, motion._passing)
+    def ask(states: _core.States, lam: Floats) -> Sequence[Floats]:
+        ends = states.friction_range(motion._passing)
         found.append(ends)
         return ends or (lam, lam)
 
-    rows = *motion._rows(), np.atleast_2d(motion.z), np.atleast_2d(motion.lam)
-    low, high = motion._by_phase(evaluate, *rows)
+    low, high = motion._asked(ask, motion.lam)
     return (low, high) if any(ends is not None for ends in found) else None
 
 

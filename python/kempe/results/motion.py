@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property
 from types import MappingProxyType
 from typing import Any
@@ -114,21 +114,15 @@ class Motion:
 
     def _evaluated(self) -> tuple[Floats, ...]:
         """Accelerations, multipliers and regularity from the core."""
-        rows = *self._rows(), np.atleast_2d(self.z)
-        passing = self._passing
         if self._decided is None:
             friction_at_rest.phases(self)  # raises the error again
-
-        def evaluate(core: _core.Model, *of: Floats) -> tuple[Floats, ...]:
-            t, q, v, z = of
-            return _core.evaluate(core, t, q, v, z, passing)
-
-        return tuple(self._as_given(values) for values in self._by_phase(evaluate, *rows))
+        found = self._asked(lambda states: states.evaluate(self._passing))
+        return tuple(self._as_given(values) for values in found)
 
     @cached_property
     def residuals(self) -> tuple[Floats, Floats]:
         """Φ and Φ_q q̇ + Φ_t, (n_t, n_rows) or (n_rows,), m or rad and per s."""
-        position, velocity = self._by_phase(_core.residual, *self._rows())
+        position, velocity = self._asked(lambda states: states.residual())
         if self.variable.static:  # at rest, with the driver at rest too
             velocity = np.zeros_like(velocity)
         return self._as_given(position), self._as_given(velocity)
@@ -142,10 +136,7 @@ class Motion:
         Raises:
             SingularityError: the reactions are not unique at one of the times.
         """
-        given = (np.atleast_2d(values) for values in (self.z, self.a, self.lam))
-        (rows,) = self._by_phase(
-            lambda core, *of: (_core.newton_euler(core, *of),), *self._rows(), *given
-        )
+        (rows,) = self._asked(lambda states: [states.newton_euler()], a=self.a, lam=self.lam)
         own = [
             f"{name}.{coordinate}"
             for name, info in self.compiled.constraints.items()
@@ -160,9 +151,8 @@ class Motion:
             SingularityError: the accelerations, for order 2, are not unique at one of the times.
         """
         if (name, order == 2) not in self._measured:
-            a = np.atleast_2d(self.a) if order == 2 else None
-            rows = *self._rows(), a
-            (values,) = self._by_phase(lambda core, *of: (_core.measured(core, name, *of),), *rows)
+            a = self.a if order == 2 else None
+            (values,) = self._asked(lambda states: [states.measured(name)], a=a)
             self._measured[name, order == 2] = values
         return self._as_given(self._measured[name, order == 2][:, 3 * k + order])
 
@@ -175,12 +165,7 @@ class Motion:
         """Force and torque of a joint on a body, (…, 3); see ``ConstraintView``."""
         kept, values = self._last_reaction
         if kept != (joint, on, frame):  # its components are often read one after the other
-            t, q, _ = self._rows()
-            rows = t, q, np.atleast_2d(self.lam)
-            (found,) = self._by_phase(
-                lambda core, *of: (_core.reaction(core, joint, on, frame, *of),), *rows
-            )
-            values = self._as_given(found)
+            values = self._answer(lambda states: states.reaction(joint, on, frame), self.lam)
             self._last_reaction = (joint, on, frame), values
         return values
 
@@ -223,53 +208,32 @@ class Motion:
 
     def place(self, joint: str, on: str) -> Floats:
         """The point at which the reaction of a joint on a body is given, (…, 2), global, m."""
-        t, q, _ = self._rows()
-        (found,) = self._by_phase(lambda core, *of: (_core.place(core, joint, on, *of),), t, q)
-        return self._as_given(found)
+        return self._answer(lambda states: states.place(joint, on))
 
     def results(self, joint: str) -> Floats:
         """Results of a joint beside its reaction, (…, n); see ``ConstraintInfo.results``."""
-        t, q, _ = self._rows()
-        rows = t, q, np.atleast_2d(self.lam)
-        (found,) = self._by_phase(lambda core, *of: (_core.results(core, joint, *of),), *rows)
-        return self._as_given(found)
+        return self._answer(lambda states: states.results(joint), self.lam)
 
     def action(self, name: str, on: str, part: str | None, frame: str) -> Floats:
         """Force and torque of a force element on a body, (…, 3); see ``ForceView``."""
-        rows = *self._rows(), np.atleast_2d(self.z)
-        seen = self.compiled.forces[name].reads_multipliers
-        lam = np.atleast_2d(self.lam) if seen else None
-        (found,) = self._by_phase(
-            lambda core, *of: (_core.force(core, name, on, part, frame, *of),), *rows, lam
-        )
-        return self._as_given(found)
+        lam = self.lam if self.compiled.forces[name].reads_multipliers else None
+        return self._answer(lambda states: states.force(name, on, part, frame), lam)
 
     def action_place(self, name: str, on: str) -> Floats:
         """The point at which a force element acts on a body, (…, 2), global, m.
 
         It is the origin of the frame of the body for an element without points.
         """
-        rows = *self._rows(), np.atleast_2d(self.z)
-        (found,) = self._by_phase(
-            lambda core, *of: (_core.force_place(core, name, on, *of),), *rows
-        )
-        return self._as_given(found)
+        return self._answer(lambda states: states.force_place(name, on))
 
     def force_results(self, name: str) -> Floats:
         """Results of a force element beside its wrenches, (…, n); see ``ForceInfo.results``."""
-        rows = *self._rows(), np.atleast_2d(self.z), np.atleast_2d(self.lam)
-        (found,) = self._by_phase(lambda core, *of: (_core.force_results(core, name, *of),), *rows)
-        return self._as_given(found)
+        return self._answer(lambda states: states.force_results(name), self.lam)
 
     def force_energy(self, name: str) -> Floats:
         """Energy that a force element stores and power that it dissipates, (…, 2), J and W."""
-        rows = *self._rows(), np.atleast_2d(self.z)
-        seen = self.compiled.forces[name].reads_multipliers
-        lam = np.atleast_2d(self.lam) if seen else None
-        (found,) = self._by_phase(
-            lambda core, *of: (_core.force_energy(core, name, *of),), *rows, lam
-        )
-        return self._as_given(found)
+        lam = self.lam if self.compiled.forces[name].reads_multipliers else None
+        return self._answer(lambda states: states.force_energy(name), lam)
 
     def dissipated(self, name: str) -> Floats:
         """Energy that a force element has dissipated since the start; see ``ForceView``."""
@@ -279,17 +243,38 @@ class Motion:
             hint="it belongs to a solution",
         )
 
+    def _answer(self, ask: Callable[[_core.States], Floats], lam: Floats | None = None) -> Floats:
+        """One table of the core at its states, with the multipliers if they are needed."""
+        (found,) = self._asked(lambda states: [ask(states)], lam=lam)
+        return self._as_given(found)
+
+    def _asked(
+        self,
+        ask: Callable[..., Sequence[Floats]],
+        *more: Floats,
+        a: Floats | None = None,
+        lam: Floats | None = None,
+    ) -> Sequence[Floats]:
+        """Tables of the core at its states, which ``ask`` gets with its part of ``more`` rows."""
+        solved = (None if rows is None else np.atleast_2d(rows) for rows in (a, lam))
+
+        def evaluate(core: _core.Model, *rows: Floats) -> Sequence[Floats]:
+            return ask(_core.States(core, *rows[:6]), *rows[6:])
+
+        return self._by_phase(evaluate, *self._rows(), *solved, *map(np.atleast_2d, more))
+
     def _by_phase(
-        self, evaluate: Callable[..., tuple[Floats, ...]], *rows: Floats | None
-    ) -> tuple[Floats, ...]:
+        self, evaluate: Callable[..., Sequence[Floats]], *rows: Floats | None
+    ) -> Sequence[Floats]:
         """Values of the core at rows, each with the parameters and drivers of its phase."""
         if self._decided is None:
             return evaluate(self.compiled.core, *rows)
         return self._decided.evaluate(evaluate, *rows)
 
-    def _rows(self) -> tuple[Floats, Floats, Floats]:
-        """t, q, v with a time axis, as required by the core."""
-        return np.atleast_1d(self.t), np.atleast_2d(self.q), np.atleast_2d(self.v)
+    def _rows(self) -> tuple[Floats, Floats, Floats, Floats]:
+        """t, q, v and z with a time axis, as required by the core."""
+        q, v, z = (np.atleast_2d(rows) for rows in (self.q, self.v, self.z))
+        return np.atleast_1d(self.t), q, v, z
 
     def _as_given(self, values: Floats) -> Floats:
         return fixed(values[0] if self.q.ndim == 1 else values)

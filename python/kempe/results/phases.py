@@ -36,8 +36,8 @@ class Phases:
         return Phases(self.models, of_row)
 
     def evaluate(
-        self, evaluate: Callable[..., tuple[Floats, ...]], *rows: Floats | None
-    ) -> tuple[Floats, ...]:
+        self, evaluate: Callable[..., Sequence[Floats]], *rows: Floats | None
+    ) -> Sequence[Floats]:
         """Values of the core at rows, each by the model of its phase."""
         found: list[Floats] = []
         for phase in np.unique(self.of_row):

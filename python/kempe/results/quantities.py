@@ -108,9 +108,9 @@ def values_of(motion: Motion, info: MeasureInfo) -> Floats:
     t = np.atleast_1d(motion.t)
     compiled = motion.compiled
     if not info.is_of_run and motion._decided is None and compiled.is_plain:
-        states = (np.atleast_2d(rows) for rows in (motion.q, motion.v, motion.z))
-        solved = (np.atleast_2d(motion.a), np.atleast_2d(motion.lam)) if info.solves else ()
-        return fixed(_core.measure_at(compiled.core, info.expression, t, *states, *solved))
+        a, lam = (motion.a, motion.lam) if info.solves else (None, None)
+        (found,) = motion._asked(lambda states: [states.measure(info.expression)], a=a, lam=lam)
+        return fixed(found)
     columns = [np.atleast_1d(_named(motion, one).read()) for one in info.quantities]
     given = np.column_stack(columns) if columns else np.empty((len(t), 0))
     (found,) = motion._by_phase(

@@ -19,7 +19,7 @@ def redundant(motion: Motion) -> frozenset[str]:
     """The names of such joints and drivers."""
     if motion.compiled.redundancy != "allow" or not len(np.atleast_1d(motion.t)):
         return frozenset()
-    t, q, _ = motion._rows()
-    some = np.unique(np.linspace(0, len(t) - 1, _EXAMINED).round().astype(int))
-    model = motion.compiled.core
-    return frozenset(_core.not_unique(model, t[some], np.ascontiguousarray(q[some])))
+    rows = motion._rows()
+    some = np.unique(np.linspace(0, len(rows[0]) - 1, _EXAMINED).round().astype(int))
+    states = _core.States(motion.compiled.core, *(of[some] for of in rows))
+    return frozenset(states.not_unique())

@@ -5,14 +5,13 @@ from __future__ import annotations
 import json
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from functools import cached_property, partial
+from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from kempe import _core
 from kempe._upwards import CALLS
 from kempe.base.arrays import Floats, fixed
 from kempe.errors import IntegrationError, KempeError, ModelError, SingularityError
@@ -38,10 +37,6 @@ if TYPE_CHECKING:
     from kempe.model.model import Model
     from kempe.results.runs import Run
     from kempe.results.views.frames import Frame
-
-
-def _project(tolerance: float, core: _core.Model, *rows: Floats) -> tuple[Floats, Floats]:
-    return _core.project(core, tolerance, *rows)
 
 
 class Solution(Motion):
@@ -274,7 +269,7 @@ class Solution(Motion):
         motion.variable = self.variable
         motion._passing, motion._phases = self._passing, self._phases_at(times)
         if (tolerance := self._run.projection) is not None:
-            q, v = motion._by_phase(partial(_project, tolerance), times, q, v, z)
+            q, v = motion._asked(lambda states: states.project(tolerance))
             rates = np.zeros_like(v) if self.variable.static else v
             q, v = fixed(q), fixed(rates)
             motion.q, motion.v = q, v
@@ -305,10 +300,7 @@ class Solution(Motion):
         motion = self(t)
         assert self.dense is not None  # otherwise the line before raises the error
         works = self.dense(motion.t)[..., 2 * self.compiled.n_q + self.compiled.n_z :]
-        rows = (np.atleast_2d(values) for values in (motion.q, motion.v, motion.z, works))
-        (found,) = motion._by_phase(
-            lambda core, *of: (_core.energies(core, *of),), np.atleast_1d(motion.t), *rows
-        )
+        (found,) = motion._asked(lambda states, works: [states.energies(works)], works)
         return Energy(found)
 
     def to_dataframe(

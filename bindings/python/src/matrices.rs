@@ -1,0 +1,44 @@
+//! The matrices of the equations at a state.
+
+use crate::assemble::targets;
+use crate::convert::{state, table, Row};
+use crate::guard::guard;
+use crate::model::PyModel;
+use kempe::analyses::assemble::{holding, Request};
+use numpy::PyArrayMethods;
+use pyo3::prelude::*;
+use pyo3::types::PyDict;
+
+/// The matrices and right sides of the equations at a state. `set` adds rows of drivers as in assembly.
+#[pyfunction]
+#[pyo3(signature = (model, t, q, v, z, set))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
+pub fn matrices<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    t: f64,
+    q: Row<'py>,
+    v: Row<'py>,
+    z: Row<'py>,
+    set: &str,
+) -> PyResult<Bound<'py, PyDict>> {
+    guard("matrices", || {
+        let state = state(py, &model.model, t, [&q, &v, &z])?;
+        let set = targets(py, model, "set", set)?;
+        let active = model.active.prepared.model();
+        let extended = holding(active, &Request { set, t, ..Request::default() });
+        let all = kempe::equations::dense::matrices(&extended, t, [&state.q, &state.v, &state.z]);
+        let (n, m) = (extended.layout.n_q, extended.layout.n_rows);
+        let out = PyDict::new(py);
+        out.set_item("M", table(py, all.mass, (n, n))?)?;
+        out.set_item("Phi_q", table(py, all.jacobian, (m, n))?)?;
+        out.set_item("kkt", table(py, all.kkt, (n + m, n + m))?)?;
+        let columns = [("Phi", all.phi), ("nu", all.nu), ("gamma", all.gamma), ("Q", all.forces)];
+        for (name, column) in columns {
+            let length = column.len();
+            let column = table(py, column, (1, length))?.reshape([length])?;
+            out.set_item(name, column)?;
+        }
+        Ok(out)
+    })
+}
