@@ -92,6 +92,27 @@ def test_the_core_computes_them(case: kp.Case, monkeypatch: pytest.MonkeyPatch) 
     assert result["pin.max"][1] > 20e3
 
 
+@pytest.mark.parametrize("name", ["slamming_door", "barrier", "jumping_follower", "trebuchet"])
+def test_the_core_computes_runs_with_phases(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Friction that sticks, contacts, releases and actions: each row has the model of its phase."""
+    case = kp.load(ROOT / "examples" / f"{name}.toml")
+    joint = next(iter(case.model.joints))
+    parameter, value = next(iter(case.model.parameters.items()))
+    analysis = next(n for n, e in case.analyses.items() if e["type"] == "dynamics")
+    texts = [f"{joint}.force.{statistic}" for statistic in NATIVE]
+    given = {parameter: [value, 1.01 * value]}
+    monkeypatch.setattr(kp.Case, "each", None)
+    result = kp.sweep(case, given, texts, analysis=analysis)
+    monkeypatch.undo()
+    assert result.succeeded.all()
+    for k in range(2):
+        variant = result.case(k)
+        variant.model.measures(one=f"{joint}.force")
+        measure = variant.run()[analysis].measure("one")
+        expected = [getattr(measure, statistic) for statistic in NATIVE]
+        np.testing.assert_array_equal([result[text][k] for text in texts], expected)
+
+
 def test_start_values_and_parameters_vary_together(case: kp.Case) -> None:
     given = {"crank.angle": np.radians([60, 75]), "k": [1e6, 2e6], "crank.omega": [0, 0.5]}
     result = kp.sweep(case, given, ["pin.max", "crank.omega.final"], design="paired")

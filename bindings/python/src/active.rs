@@ -76,6 +76,13 @@ impl Active {
         self.spread(found, count, self.n_rows)
     }
 
+    /// The multipliers of its equations, from rows of those of the whole model.
+    pub fn own(&self, lam: &[f64], count: usize) -> Vec<f64> {
+        let Some(rows) = &self.rows else { return lam.to_vec() };
+        let of = |k: usize| rows.iter().map(move |row| lam[k * self.n_multipliers + row]);
+        (0..count).flat_map(of).collect()
+    }
+
     fn spread(&self, found: Vec<f64>, count: usize, width: usize) -> Vec<f64> {
         let Some(rows) = &self.rows else { return found };
         let mut all = vec![0.0; count * width];

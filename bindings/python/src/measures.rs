@@ -62,7 +62,11 @@ pub fn measure_at<'py>(
     if found.needs_solution(&model.model) && solved.is_none() {
         return Err(refuse(py, text, "needs accelerations and multipliers".to_string()));
     }
-    finite(py, text, states.t, found.values(&model.model, states, solved))
+    let (active, count) = (&model.active, states.t.len());
+    let lam = solved.map_or_else(Vec::new, |[_, lam]| active.own(lam, count));
+    let solved = solved.map(|[a, _]| [a, &lam[..]]);
+    let own = active.prepared.model();
+    finite(py, text, states.t, found.in_phase(own).values(own, states, solved))
 }
 
 /// The values of a measure at times, which must be finite.

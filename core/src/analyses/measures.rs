@@ -6,6 +6,7 @@
 
 use super::dynamics::States;
 use super::quantities::{QuantityNames, QuantityValues};
+use super::signal_names::signal;
 use super::signal_rows::{each, each_over_lanes, Rows};
 use super::signal_units::unit_of;
 use super::signals::Signal;
@@ -62,6 +63,12 @@ impl Measure {
     /// Whether one of its quantities needs accelerations or multipliers.
     pub fn needs_solution(&self, model: &Model) -> bool {
         self.signals.iter().any(|signal| signal.needs_solution(model))
+    }
+
+    /// The same measure with the quantities of the model of a phase, in which a released driver has zero effort.
+    pub fn in_phase(&self, model: &Model) -> Self {
+        let of = |name: &String| signal(model, name).unwrap_or(Signal::Constant(0.0));
+        Self { signals: self.quantities.iter().map(of).list(), ..self.clone() }
     }
 
     /// The values at states, with rows of accelerations and multipliers where the measure

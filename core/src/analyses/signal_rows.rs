@@ -68,7 +68,8 @@ pub(super) fn each_over_lanes(
     let tables = [states.q, states.v, states.z, works];
     let mut lanes = tables.map(|table| vec![Lanes::zero(); table.len() / count]);
     let absent = [wide.layout.n_q, wide.n_multipliers()];
-    let mut of_solved = absent.map(|n| vec![Lanes::constant(f64::NAN); n]);
+    let widths = solved.map_or(absent, |tables| tables.map(|table| table.len() / count));
+    let mut of_solved = widths.map(|n| vec![Lanes::constant(f64::NAN); n]);
     let mut motions = Motions::new(&wide.layout);
     let mut values = vec![0.0; signals.len()];
     for (k, t) in fours.enumerate() {

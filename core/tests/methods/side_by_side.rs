@@ -10,6 +10,7 @@ use kempe::case::{read, Format};
 use kempe::equations::Gains;
 use kempe::integrate::{Dop853, Flow, Rk45};
 use kempe::model::{build, Model};
+use std::sync::Arc;
 
 /// A model and its start.
 type Made = (Model, State);
@@ -73,7 +74,8 @@ fn compare(made: &[Made], way: &Options) -> Trials {
             Options { t_end, output_step: Some(2.0 * t_end), ..way.clone() }
         })
         .collect();
-    let prepared: Vec<_> = made.iter().map(|(model, _)| Prepared::new(model)).collect();
+    let prepared: Vec<_> =
+        made.iter().map(|(model, _)| Prepared::new(Arc::new(model.clone()))).collect();
     let all = made.iter().zip(&prepared).zip(&options);
     let all: Vec<Variant<'_>> = all
         .map(|(((_, start), prepared), options)| Variant { prepared, start, options })

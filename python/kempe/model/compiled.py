@@ -166,15 +166,6 @@ class CompiledModel:
         """The drivers that no longer act."""
         return tuple(self.core.setting[1])
 
-    @cached_property
-    def is_plain(self) -> bool:
-        """Whether it is the model of the case, without redundant constraints.
-
-        Only then does the name of a quantity and the state determine its value: the rows of a
-        released driver have no multiplier, and a redundant joint may have no unique reaction.
-        """
-        return self.redundancy == "refuse" and not any(self.core.setting)
-
     @property
     def redundancy(self) -> str:
         """Whether redundant constraints are accepted: "allow" or "refuse"."""

@@ -106,8 +106,7 @@ def measure_values(motion: Motion, name: str) -> Floats:
 def values_of(motion: Motion, info: MeasureInfo) -> Floats:
     """Values of an expression of quantities, as ``measure_values``."""
     t = np.atleast_1d(motion.t)
-    compiled = motion.compiled
-    if not info.is_of_run and motion._decided is None and compiled.is_plain:
+    if not info.is_of_run and motion.compiled.redundancy == "refuse":
         a, lam = (motion.a, motion.lam) if info.solves else (None, None)
         (found,) = motion._asked(lambda states: [states.measure(info.expression)], a=a, lam=lam)
         return fixed(found)

@@ -21,13 +21,14 @@ use crate::analyses::State;
 use crate::integrate::{Flow, LaneSteps, Steppers, Taken};
 use crate::math::{Lanes, Listed};
 use crate::model::{usual_energy, Model};
+use std::sync::Arc;
 
 const WIDTH: usize = Lanes::WIDTH;
 
 /// A run: its model, start and options.
 pub struct Variant<'a> {
     /// The model.
-    pub prepared: &'a Prepared<&'a Model>,
+    pub prepared: &'a Prepared<Arc<Model>>,
     /// The start.
     pub start: &'a State,
     /// The options.
@@ -43,7 +44,7 @@ impl Variant<'_> {
     pub fn serves(&self) -> bool {
         let Options { method, stabilization, events, stop, dense_output, output_step, .. } =
             self.options;
-        let model = *self.prepared.model();
+        let model: &Model = self.prepared.model();
         let explicit = matches!(method, Scheme::Auto(_) | Scheme::Dop853(_) | Scheme::Rk45(_));
         let span = (self.options.t_end - self.start.t).abs();
         explicit
@@ -65,7 +66,7 @@ impl Variant<'_> {
 struct Underway<'a> {
     /// Index among the variants.
     place: usize,
-    prepared: &'a Prepared<&'a Model>,
+    prepared: &'a Prepared<Arc<Model>>,
     options: &'a Options,
     at: Progress,
     run: Run,
@@ -120,7 +121,7 @@ impl<'a> Underway<'a> {
 }
 
 fn conclude(
-    (prepared, options): (&Prepared<&Model>, &Options),
+    (prepared, options): (&Prepared<Arc<Model>>, &Options),
     recorder: Recorder<'_>,
     at: &Progress,
     outcome: Result<PhaseEnd, Box<Failure>>,

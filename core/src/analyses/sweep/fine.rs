@@ -1,7 +1,7 @@
 //! The measures of a run at closely spaced instants.
 
-use super::readings::{Missing, ReadRows, Readings};
-use crate::analyses::statistics::{changes, instants, row_norms, Maxima, SingularInstants};
+use super::readings::{Missing, Readings};
+use crate::analyses::statistics::{changes, instants, Maxima, SingularInstants};
 use crate::math::Listed;
 use std::cell::OnceCell;
 
@@ -50,20 +50,18 @@ impl Fine {
         let Some(dense) = dense else { return Ok(None) };
         let layout = &readings.model().layout;
         let t = instants(&dense.t, outputs, 4 * layout.n_q + layout.n_rows + 1);
-        let mut values = vec![Vec::new(); readings.measures.len()];
+        let mut values = vec![Vec::new(); readings.wanted.len()];
+        let wanted: Vec<usize> =
+            (0..readings.wanted.len()).filter(|measure| readings.wanted[*measure]).list();
         let [mut sizes, mut regularity] = [(); 2].map(|()| Vec::with_capacity(t.len()));
         for block in blocks(&t, readings.run.projection.is_some()) {
             // if multipliers are missing at an instant, a single run uses its outputs only
-            let rows = readings.at(block, true).ok_or(Missing::Single)?;
-            sizes.extend(norms(&rows));
-            regularity.extend_from_slice(rows.regularity());
-            for ((measure, is_wanted), values) in readings.measures.iter().zip(&mut values) {
-                if *is_wanted {
-                    values.extend(readings.values(measure, &rows).ok_or(Missing::Single)?);
-                }
-            }
+            let rows = readings.at(block, true, &wanted).ok_or(Missing::Single)?;
+            sizes.extend(rows.sizes);
+            regularity.extend(rows.regularity);
+            wanted.iter().zip(rows.values).for_each(|(measure, of)| values[*measure].extend(of));
         }
-        let mut read = |t: &[f64]| readings.at(t, true).map(|rows| rows.regularity().to_vec());
+        let mut read = |t: &[f64]| readings.at(t, true, &[]).map(|rows| rows.regularity);
         let found = SingularInstants::find(&t, &regularity, &mut read);
         let select = |values: Vec<f64>| match values.is_empty() {
             true => values,
@@ -101,15 +99,8 @@ fn singular(
         let (near, near_t) = (known.near.clone(), known.near_t.clone());
         return Maxima { near, near_t, ..Maxima::default() };
     }
-    let mut read = |t: &[f64]| readings.at(t, true).map(|rows| norms(&rows));
+    let mut read = |t: &[f64]| readings.at(t, true, &[]).map(|rows| rows.sizes);
     Maxima::search((t, sizes), (&known.near, &known.near_t), resolved, &mut read)
-}
-
-/// The norm of the multipliers of each row.
-fn norms(rows: &ReadRows) -> Vec<f64> {
-    let count = rows.t.len();
-    let lam = rows.multipliers();
-    row_norms(lam, lam.len() / count.max(1), count)
 }
 
 #[cfg(test)]

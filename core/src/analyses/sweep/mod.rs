@@ -23,7 +23,7 @@ use crate::integrate::Flow;
 use crate::math::Listed;
 use crate::model::{Model, Value};
 use fine::Between;
-use readings::{Missing, Readings};
+use readings::{Missing, PreparedModel, Readings};
 use series::Series;
 use std::sync::Arc;
 
@@ -51,8 +51,8 @@ pub enum Outcome {
     Values(Vec<f64>),
     /// The run failed, with the reason in terms of the mechanism.
     Failed(String),
-    /// This module does not compute the variant, so that a single run of the case is needed. Reasons are phases,
-    /// redundant joints, positions near which multipliers are meaningless, and invalid numbers.
+    /// This module does not compute the variant, so that a single run of the case is needed. Reasons are redundant
+    /// joints, friction at rest that drivers hold, positions near which multipliers are meaningless, and invalid numbers.
     Single,
     /// The run was stopped.
     Stopped,
@@ -63,7 +63,7 @@ pub type VariantRow = (Vec<(String, f64)>, Vec<(String, f64)>);
 
 /// A variant before its run.
 struct Ready {
-    model: Model,
+    model: Arc<Model>,
     state: State,
     options: Options,
     /// The options without output that no statistic needs.
@@ -71,11 +71,10 @@ struct Ready {
 }
 
 impl Sweep {
-    /// Whether this module can compute variants of a model. The model must not have redundant joints, functions of
-    /// the caller or forces with modes.
+    /// Whether this module can compute variants of a model. The model must not have redundant joints or functions of
+    /// the caller.
     pub fn serves(model: &Model) -> bool {
-        let plain = !model.allow_redundancy && model.blueprint.functions.is_none();
-        plain && model.n_multipliers() == model.layout.n_rows
+        !model.allow_redundancy && model.blueprint.functions.is_none()
     }
 
     /// Runs variants, each with its own values of some parameters and of some entries of `set`. Where it is faster,
@@ -85,8 +84,9 @@ impl Sweep {
     pub fn variants(&self, rows: &[VariantRow], stop: &(dyn Fn() -> bool + Sync)) -> Vec<Outcome> {
         let ready: Vec<_> = rows.iter().map(|row| self.ready(row, stop)).list();
         let prepared = ready.iter().map(|ready| ready.as_ref().ok());
-        let prepared: Vec<_> =
-            prepared.map(|ready| ready.map(|ready| Prepared::new(&ready.model))).list();
+        let prepared: Vec<_> = prepared
+            .map(|ready| ready.map(|of| Arc::new(Prepared::new(Arc::clone(&of.model)))))
+            .list();
         let together = self.together(&ready, &prepared, stop);
         let runs = ready.iter().zip(&prepared).zip(together);
         let outcomes = runs.map(|((ready, prepared), run)| match (ready, prepared) {
@@ -122,14 +122,14 @@ impl Sweep {
         }
         let wanted: Vec<Statistic> = self.wanted.iter().map(|(_, statistic)| *statistic).list();
         let kept = kept::kept(&options, &wanted, options.t_start.unwrap_or(state.t));
-        Ok(Ready { model, state, options, kept })
+        Ok(Ready { model: Arc::new(model), state, options, kept })
     }
 
     /// The runs that are integrated side by side; None for the other variants.
     fn together<'r>(
         &self,
         ready: &'r [Result<Ready, Outcome>],
-        prepared: &'r [Option<Prepared<&'r Model>>],
+        prepared: &'r [Option<Arc<PreparedModel>>],
         stop: &dyn Fn() -> bool,
     ) -> Vec<Option<dynamics::RunOutcome>> {
         let mut runs: Vec<_> = ready.iter().map(|_| None).list();
@@ -153,7 +153,7 @@ impl Sweep {
     fn outcome(
         &self,
         ready: &Ready,
-        prepared: &Prepared<&Model>,
+        prepared: &Arc<PreparedModel>,
         run: Option<dynamics::RunOutcome>,
         stop: &dyn Fn() -> bool,
     ) -> Outcome {
@@ -169,9 +169,6 @@ impl Sweep {
             Ok(run) => run,
             Err(failure) => return failed(&failure.reason),
         };
-        if run.settings.iter().any(|setting| !setting.is_plain()) {
-            return Outcome::Single;
-        }
         match self.numbers(prepared, &run) {
             Ok(values) => Outcome::Values(values),
             Err(Missing::Failed(reason)) => failed(&reason),
@@ -179,14 +176,15 @@ impl Sweep {
         }
     }
 
-    fn numbers(&self, prepared: &Prepared<&Model>, run: &Run) -> Result<Vec<f64>, Missing> {
+    fn numbers(&self, prepared: &Arc<PreparedModel>, run: &Run) -> Result<Vec<f64>, Missing> {
         let measures = self.measures.iter().enumerate().map(|(k, text)| {
             // measures are read for each variant, because the position of a point may depend on a parameter
             let measure = Measure::read(prepared.model(), text).map_err(|_| Missing::Single)?;
             let is_extreme = |(of, one): &(usize, Statistic)| *of == k && one.is_extreme();
             Ok((measure, self.wanted.iter().any(is_extreme)))
         });
-        let readings = Readings::new(prepared, run, measures.collect::<Result<_, _>>()?);
+        let measures = measures.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
+        let readings = Readings::new(prepared, run, measures)?;
         let between = Between::new(readings);
         let series = (0..self.measures.len()).map(|k| Series::new(&between, k));
         let series = series.collect::<Result<Vec<_>, _>>()?;

@@ -1,10 +1,14 @@
-//! A run at its outputs and between them, with accelerations and multipliers if they are needed.
+//! A run at its outputs and between them, each state with the model of its phase.
 
 use crate::analyses::dynamics::{Accelerations, Prepared, Reason, Run, States};
 use crate::analyses::measures::Measure;
+use crate::analyses::statistics::row_norms;
+use crate::elements::Mode;
 use crate::integrate::Flow;
+use crate::math::Listed;
 use crate::model::Model;
 use std::cell::OnceCell;
+use std::sync::Arc;
 
 /// The reason why a statistic is missing.
 #[derive(Debug)]
@@ -15,121 +19,184 @@ pub enum Missing {
     Single,
 }
 
-/// Rows of states at times, with accelerations and multipliers.
+/// A model that is prepared for runs.
+pub type PreparedModel = Prepared<Arc<Model>>;
+
+/// What is read at times.
+#[derive(Default)]
 pub struct ReadRows {
-    pub t: Vec<f64>,
-    q: Vec<f64>,
-    v: Vec<f64>,
-    z: Vec<f64>,
-    solved: Option<Accelerations>,
+    /// The values of each measure that was asked for.
+    pub values: Vec<Vec<f64>>,
+    /// The norm of all multipliers and the regularity at each time; empty if they were not computed.
+    pub sizes: Vec<f64>,
+    pub regularity: Vec<f64>,
 }
 
-impl ReadRows {
-    fn states(&self) -> States<'_> {
-        States { t: &self.t, q: &self.q, v: &self.v, z: &self.z }
-    }
-
-    /// Rows of multipliers; empty if they were not computed.
-    pub fn multipliers(&self) -> &[f64] {
-        self.solved.as_ref().map_or(&[], |solved| &solved.lam)
-    }
-
-    /// Regularity of each position; empty if it was not computed.
-    pub fn regularity(&self) -> &[f64] {
-        self.solved.as_ref().map_or(&[], |solved| &solved.regularity)
-    }
+/// A phase of a run.
+struct Phase {
+    prepared: Arc<PreparedModel>,
+    /// Its first time, s.
+    begins: f64,
+    /// The measures, with quantities of its model.
+    measures: Vec<Measure>,
 }
 
 /// A run whose measures are evaluated.
 pub struct Readings<'a> {
-    prepared: &'a Prepared<&'a Model>,
+    phases: Vec<Phase>,
     pub run: &'a Run,
-    /// The measures, and whether the extreme values of each are required.
-    pub measures: Vec<(Measure, bool)>,
-    /// Accelerations and multipliers at the outputs.
-    solved: OnceCell<Accelerations>,
+    /// Whether the extreme values of each measure are required.
+    pub wanted: Vec<bool>,
+    /// Accelerations and multipliers at the outputs of each phase.
+    solved: OnceCell<Vec<Accelerations>>,
 }
 
 impl<'a> Readings<'a> {
+    /// The readings of a run of a model.
+    ///
+    /// # Errors
+    /// [`Missing::Single`] if drivers hold friction at rest in a phase, because such forces have a mark.
     pub fn new(
-        prepared: &'a Prepared<&'a Model>,
+        whole: &Arc<PreparedModel>,
         run: &'a Run,
-        measures: Vec<(Measure, bool)>,
-    ) -> Self {
-        Self { prepared, run, measures, solved: OnceCell::new() }
+        (measures, wanted): (Vec<Measure>, Vec<bool>),
+    ) -> Result<Self, Missing> {
+        let mut phases = Vec::new();
+        for (k, first) in run.phases.iter().enumerate() {
+            let prepared = match run.settings.get(k).filter(|setting| !setting.is_plain()) {
+                None => Arc::clone(whole),
+                Some(setting) if setting.modes.iter().any(|of| of.mode == Mode::Idle) => {
+                    return Err(Missing::Single)
+                }
+                Some(setting) => {
+                    let own = setting.model(whole.model()).map_err(|_| Missing::Single)?;
+                    Arc::new(Prepared::new(Arc::new(own)))
+                }
+            };
+            let begins = run.trajectory.t.get(*first).copied().ok_or(Missing::Single)?;
+            let measures = measures.iter().map(|of| of.in_phase(prepared.model())).list();
+            phases.push(Phase { prepared, begins, measures });
+        }
+        Ok(Self { phases, run, wanted, solved: OnceCell::new() })
     }
 
-    pub fn model(&self) -> &'a Model {
-        self.prepared.model()
+    /// The model at the start.
+    pub fn model(&self) -> &Model {
+        self.phases[0].prepared.model()
     }
 
-    /// The values at the outputs.
-    pub fn outputs(&self, of: &Measure) -> Result<Vec<f64>, Missing> {
-        let states = self.run.trajectory.states();
-        let solved = match of.needs_solution(self.model()) {
-            true => Some(self.solved()?),
-            false => None,
-        };
-        let values = self.values_of(of, states, solved);
+    /// Whether a measure needs accelerations or multipliers.
+    pub fn solves(&self, measure: usize) -> bool {
+        self.phases.iter().any(|of| of.measures[measure].needs_solution(of.prepared.model()))
+    }
+
+    /// The values of a measure at the outputs.
+    pub fn outputs(&self, measure: usize) -> Result<Vec<f64>, Missing> {
+        let solved = if self.solves(measure) { Some(self.solved()?) } else { None };
+        let mut values = Vec::with_capacity(self.run.trajectory.t.len());
+        for (k, phase) in self.phases.iter().enumerate() {
+            let solved = solved.map(|solved| &solved[k]);
+            values.extend(phase.values(measure, self.run.states_of(k), solved));
+        }
         match values.iter().all(|x| x.is_finite()) && !values.is_empty() {
             true => Ok(values),
             false => Err(Missing::Single),
         }
     }
 
-    fn solved(&self) -> Result<&Accelerations, Missing> {
+    fn solved(&self) -> Result<&[Accelerations], Missing> {
         if let Some(known) = self.solved.get() {
             return Ok(known);
         }
-        let states = self.run.trajectory.states();
-        let found = self.prepared.accelerations(states, self.run.passing, |_| Flow::Continue);
+        let of = |(k, phase): (usize, &Phase)| {
+            let states = self.run.states_of(k);
+            phase.prepared.accelerations(states, self.run.passing, |_| Flow::Continue)
+        };
+        let found = self.phases.iter().enumerate().map(of).collect::<Result<Vec<_>, _>>();
         let found = found.map_err(|failure| Missing::Failed(failure.reason))?;
         Ok(self.solved.get_or_init(|| found))
     }
 
-    /// The motion at times between the outputs. None if the run has no interpolant or accelerations cannot be
-    /// computed.
-    pub fn at(&self, times: &[f64], solve: bool) -> Option<ReadRows> {
-        let (layout, dense) = (&self.model().layout, self.run.dense.as_ref()?);
+    /// The motion at times between the outputs, with the values of some measures. At the time of a change, the phase
+    /// after it counts. None if the run has no interpolant or a value cannot be computed.
+    pub fn at(&self, times: &[f64], solve: bool, measures: &[usize]) -> Option<ReadRows> {
+        let phase_of = |t: f64| {
+            let after = self.phases.partition_point(|phase| phase.begins <= t);
+            after.saturating_sub(1)
+        };
+        let of_row: Vec<usize> = times.iter().map(|t| phase_of(*t)).list();
+        let first = of_row.first().copied().unwrap_or(0);
+        if of_row.iter().all(|k| *k == first) {
+            return self.in_phase(first, times, solve, measures);
+        }
+        let mut found = ReadRows {
+            values: measures.iter().map(|_| vec![0.0; times.len()]).list(),
+            sizes: vec![0.0; times.len()],
+            regularity: vec![0.0; times.len()],
+        };
+        for k in 0..self.phases.len() {
+            let rows: Vec<usize> = (0..times.len()).filter(|row| of_row[*row] == k).list();
+            let own: Vec<f64> = rows.iter().map(|row| times[*row]).list();
+            let part = self.in_phase(k, &own, solve, measures)?;
+            let spread = |to: &mut Vec<f64>, from: &[f64]| {
+                rows.iter().zip(from).for_each(|(row, x)| to[*row] = *x);
+            };
+            found.values.iter_mut().zip(&part.values).for_each(|(to, from)| spread(to, from));
+            spread(&mut found.sizes, &part.sizes);
+            spread(&mut found.regularity, &part.regularity);
+        }
+        Some(found)
+    }
+
+    fn in_phase(
+        &self,
+        phase: usize,
+        times: &[f64],
+        solve: bool,
+        measures: &[usize],
+    ) -> Option<ReadRows> {
+        let phase = &self.phases[phase];
+        let (layout, dense) = (&phase.prepared.model().layout, self.run.dense.as_ref()?);
         let (y, width, n, n_z) = (dense.at(times), layout.n_y(), layout.n_q, layout.n_z);
         let room = |width: usize| Vec::with_capacity(width * times.len());
-        let (t, mut q, mut v, mut z) = (times.to_vec(), room(n), room(n), room(n_z));
+        let (mut q, mut v, mut z) = (room(n), room(n), room(n_z));
         for row in y.chunks_exact(width) {
             q.extend_from_slice(&row[..n]);
             v.extend_from_slice(&row[n..2 * n]);
             z.extend_from_slice(&row[2 * n..2 * n + n_z]);
         }
-        let mut rows = ReadRows { t, q, v, z, solved: None };
         if let Some(projection) = self.run.projection {
-            let [q, v] = self.prepared.project(rows.states(), projection).ok()?;
-            (rows.q, rows.v) = (q, v);
+            let states = States { t: times, q: &q, v: &v, z: &z };
+            [q, v] = phase.prepared.project(states, projection).ok()?;
         }
-        if solve {
-            let passing = self.run.projection.is_some();
-            let found = self.prepared.accelerations(rows.states(), passing, |_| Flow::Continue);
-            rows.solved = Some(found.ok()?);
+        let (states, mut rows) = (States { t: times, q: &q, v: &v, z: &z }, ReadRows::default());
+        let passing = self.run.projection.is_some();
+        let solved =
+            solve.then(|| phase.prepared.accelerations(states, passing, |_| Flow::Continue));
+        let solved = solved.transpose().ok()?;
+        rows.values = measures.iter().map(|k| phase.values(*k, states, solved.as_ref())).list();
+        if let Some(Accelerations { lam, regularity, .. }) = solved {
+            rows.sizes = row_norms(&lam, lam.len() / times.len().max(1), times.len());
+            rows.regularity = regularity;
         }
-        Some(rows)
+        rows.values.iter().flatten().all(|x| x.is_finite()).then_some(rows)
     }
 
     /// Whether there are at least as many instants as ends of steps.
     pub fn resolved(&self, instants: &[f64]) -> bool {
         self.run.dense.as_ref().is_some_and(|dense| instants.len() >= dense.t.len())
     }
+}
 
-    /// The values at states between the outputs. None if a value is not finite.
-    pub fn values(&self, of: &Measure, rows: &ReadRows) -> Option<Vec<f64>> {
-        let values = self.values_of(of, rows.states(), rows.solved.as_ref());
-        values.iter().all(|x| x.is_finite()).then_some(values)
-    }
-
-    fn values_of(
+impl Phase {
+    fn values(
         &self,
-        of: &Measure,
+        measure: usize,
         states: States<'_>,
         solved: Option<&Accelerations>,
     ) -> Vec<f64> {
-        let (model, solved) = (self.model(), solved.map(|s| [&s.a[..], &s.lam[..]]));
+        let (model, of) = (&**self.prepared.model(), &self.measures[measure]);
+        let solved = solved.map(|found| [&found.a[..], &found.lam[..]]);
         match self.prepared.wide_for(states.t.len()) {
             Some(wide) => of.values_over_lanes((model, wide), states, solved),
             None => of.values(model, states, solved),

@@ -26,16 +26,13 @@ pub struct Series<'a> {
 impl<'a> Series<'a> {
     pub fn new(between: &'a Between<'a>, place: usize) -> Result<Self, Missing> {
         let readings = &between.readings;
-        let (measure, _) = &readings.measures[place];
-        let outputs = readings.outputs(measure)?;
-        let solves = measure.needs_solution(readings.model());
+        let (outputs, solves) = (readings.outputs(place)?, readings.solves(place));
         Ok(Self { between, readings, place, solves, outputs, extremes: Default::default() })
     }
 
     /// The values at other times. None if a value cannot be computed.
     fn read(&self, t: &[f64]) -> Option<Vec<f64>> {
-        let (measure, _) = &self.readings.measures[self.place];
-        self.readings.values(measure, &self.readings.at(t, self.solves)?)
+        self.readings.at(t, self.solves, &[self.place])?.values.pop()
     }
 
     /// A statistic of the measure.
