@@ -65,7 +65,7 @@ class Row:
         return [min(max(rate, low), high) for _, rate, n in pools for _ in range(n)]
 
     def by_rounds(self) -> tuple[bool, list[float]]:
-        """Whether the impacts end, and the rates then: those of two bodies above a wall, hit by hit."""
+        """Whether the impacts of two bodies above a wall end, and the rates then."""
         (m, n), (u, v), e = self.masses, self.rates, self.restitution
         least = 1e-12 * max(abs(u), abs(v))
         for _ in range(ROUNDS):
@@ -101,7 +101,7 @@ def test_rows_without_restitution(seed: int) -> None:
 
 @pytest.mark.parametrize("seed", range(count(100, 2000)))
 def test_a_light_body_before_a_wall(seed: int) -> None:
-    """Hits of a body and a wall on a lighter one, one by one; a sequence without end has its limit."""
+    """Hits on a light body, one by one; a sequence without end has its limit."""
     random = np.random.default_rng([42, seed])
     light, scale, rate, size = 10 ** random.uniform([-3, -3, -3, -3], [0, 0, 3, 3])
     heavy = light * 10 ** random.uniform(0, 6)
