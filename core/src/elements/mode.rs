@@ -38,14 +38,14 @@ impl Mode {
 pub enum Behaviour<S> {
     /// The force slides and sticks; events `stick` and `slip`.
     Sticks,
-    /// The contact has impacts and may rest; events `hit`, `release` and `graze`.
+    /// The contact has impacts and may rest; events `hit`, `release`, `graze` and `collapse`.
     Impacts {
         /// Coefficient of restitution, 0 to 1.
         restitution: S,
         /// The speed below which the contact rests.
         rest_speed: S,
     },
-    /// The contact touches and separates without a change of mode; events as above.
+    /// The contact touches and separates without a change of mode; events `hit`, `release` and `graze`.
     Compliant {
         /// k of the force k δⁿ, N/mⁿ.
         stiffness: S,
@@ -61,7 +61,8 @@ impl<S> Behaviour<S> {
     pub fn events(&self) -> &'static [&'static str] {
         match self {
             Self::Sticks => &["stick", "slip"],
-            Self::Impacts { .. } | Self::Compliant { .. } => &["hit", "release", "graze"],
+            Self::Impacts { .. } => &["hit", "release", "graze", "collapse"],
+            Self::Compliant { .. } => &["hit", "release", "graze"],
         }
     }
 

@@ -140,6 +140,7 @@ impl<'a> MethodSwitching<'a> {
             }
             SwitchedStepper::Implicit(_) => {
                 self.detector.resume(t);
+                self.detector.wait(4.0);
                 SwitchedStepper::Explicit(Dop853 { control }.start(ode, span, &y)?)
             }
         };

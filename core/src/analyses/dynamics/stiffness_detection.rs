@@ -77,12 +77,10 @@ impl<'a> StiffnessDetector<'a> {
     /// Uses the elimination plan of the equations of motion of this run.
     pub fn new(model: &'a Model, one: &Workspace, t0: f64) -> Self {
         let n = 2 * model.layout.n_q + model.layout.n_z;
-        // an arbitrary vector has a component in every motion
-        let start = (0..n).map(|k| (1.0 + 0.7 * k as f64).sin()).list();
         Self {
             model,
             workspace: Workspace::like(model, one),
-            x: [start, vec![0.0; n], vec![0.0; n]],
+            x: [arbitrary(n), vec![0.0; n], vec![0.0; n]],
             steps: 0,
             next: FIRST_LOOK,
             since: (0, t0),
@@ -91,8 +89,9 @@ impl<'a> StiffnessDetector<'a> {
         }
     }
 
-    /// Omits the same rows as `one`.
+    /// Omits the same rows as `one`, and holds the same pieces of switches.
     pub fn follow(&mut self, one: &Workspace) {
+        self.workspace.motions.pieces.clone_from(&one.motions.pieces);
         if self.workspace.matrix.omitted() != one.matrix.omitted() {
             self.workspace.omit(one.matrix.omitted());
         }
@@ -126,7 +125,7 @@ impl<'a> StiffnessDetector<'a> {
     /// Restarts the detection where the explicit method continues from `t`.
     pub fn resume(&mut self, t: f64) {
         self.since = (self.steps, t);
-        self.wait(4.0);
+        self.next = self.next.max(self.steps + FIRST_LOOK);
     }
 
     /// Accelerations at a state, and their rate along the motion from a difference over the time `probe`, s. None
@@ -165,6 +164,7 @@ impl<'a> StiffnessDetector<'a> {
                     + largest(of_z) / largest(z).max(reach);
                 let epsilon = DIFFERENCE / size;
                 if !(epsilon.is_finite() && epsilon > 0.0) {
+                    self.x[0] = arbitrary(self.x[0].len());
                     return None;
                 }
                 let moved = |y: &[f64], x: &[f64]| -> Vec<f64> {
@@ -189,8 +189,18 @@ impl<'a> StiffnessDetector<'a> {
         }
         // after the rotation: J² x, x, J x
         let [last, first, second] = &self.x;
-        dominant(n, first, second, last)
+        let found = dominant(n, first, second, last);
+        if found.is_none() {
+            // bodies that move freely leave no vector with which the next check could begin
+            self.x[0] = arbitrary(last.len());
+        }
+        found
     }
+}
+
+/// An arbitrary vector, which has a component in every motion.
+fn arbitrary(n: usize) -> Vec<f64> {
+    (0..n).map(|k| (1.0 + 0.7 * k as f64).sin()).list()
 }
 
 /// The dominant λ from x, J x and J² x, each with a q part of length n: J² x = s J x - p x holds for one pair of

@@ -223,7 +223,11 @@ fn with_held(
 ) -> Vec<ForceMode> {
     let mut modes = free.to_vec();
     for own in independent(model, place, free, left) {
-        *modes.iter_mut().find(|of| of.force == own.force).expect("it has modes") = own;
+        // at the start of a run, no force has a mode yet
+        match modes.iter_mut().find(|of| of.force == own.force) {
+            Some(of) => *of = own,
+            None => modes.push(own),
+        }
     }
     modes
 }

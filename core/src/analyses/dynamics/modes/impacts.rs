@@ -12,8 +12,19 @@
 //! systems*, Nonlinear Dynamics 7 (1995) 471). If all e are equal, the kinetic energy does not grow: its change is -½
 //! (1 - e²) ġ⁻ᵀ (G M⁻¹ Gᵀ)⁻¹ ġ⁻. If contacts with different e would gain energy together, all of them use the least
 //! e.
+//!
+//! A light body between others may hit them without end, with speeds that shrink in a geometric sequence. If a contact
+//! that hits without end has the impulse R > 0 in all, its rate tends to zero, so the limit solves one complementarity
+//! problem over all closed contacts,
+//!
+//! ```text
+//! M (v⁺ - v⁻) = Φ_qᵀ P + G_qᵀ R,   Φ_q v⁺ = -Φ_t,   0 ≤ R ⟂ ġ⁺ ≥ 0,
+//! ```
+//!
+//! which has one solution v⁺: the nearest to v⁻ in the norm of M (Moreau, *Liaisons unilatérales sans frottement et chocs
+//! inélastiques*, C. R. Acad. Sci. Paris 296 (1983) 1473). Without restitution, it is the law of the impact itself.
 
-use super::super::failure::{Failure, Reason};
+use super::super::failure::Failure;
 use super::super::model_cache::ModelCache;
 use super::super::redundant_rows::workspace_at;
 use super::place::{mode_of, with_modes, StateAt};
@@ -24,7 +35,11 @@ use crate::math::Listed;
 use crate::model::{ForceMode, Model};
 
 /// Largest number of rounds of impacts at one time.
-const ROUNDS: usize = 1000;
+const ROUNDS: usize = 10_000;
+/// Number of approaches of one contact from which on a sequence may be without end.
+const MANY: usize = 20;
+/// Largest change of the ratios of rates from one approach to the next in a sequence without end.
+const STEADY: f64 = 1e-9;
 
 /// The restitution of each contact.
 type Restitutions<'r> = &'r dyn Fn(usize) -> f64;
@@ -34,6 +49,26 @@ type Restitutions<'r> = &'r dyn Fn(usize) -> f64;
 pub(super) struct Hits {
     pub hits: Vec<usize>,
     pub impulses: Vec<f64>,
+    /// Contacts at which a sequence of impacts without end has been replaced by its limit.
+    pub ended: Vec<usize>,
+}
+
+/// An impact at some contacts.
+struct Impact {
+    contacts: Vec<usize>,
+    /// The model with these contacts held, and the impulses of its rows.
+    closed: Model,
+    found: Vec<f64>,
+    /// The velocities after the impact, and the energy that it takes.
+    after: Vec<f64>,
+    loss: f64,
+}
+
+/// The approaches of a contact at one time: their number, and the rates of all gaps at the last of them.
+#[derive(Clone, Default)]
+struct Approaches {
+    count: usize,
+    rates: Vec<f64>,
 }
 
 /// The contacts that touch: contacts that rest, and contacts with a closed gap.
@@ -63,34 +98,105 @@ pub(super) fn resolve(
     touching: &[usize],
 ) -> Result<Hits, Box<Failure>> {
     let mut found = Hits::default();
-    for _ in 0..ROUNDS {
+    let mut seen = vec![Approaches::default(); touching.len()];
+    let plastic = touching.iter().all(|k| restitution(model, *k).0 == 0.0);
+    for round in 0.. {
         let rates = place.gap_rates(model, touching);
-        let approach: Vec<(usize, f64)> = touching
-            .iter()
-            .copied()
-            .zip(rates)
-            .filter(|(k, rate)| *rate < -restitution(model, *k).1)
-            .list();
-        if approach.is_empty() {
-            return Ok(found);
+        let approaching = approaching(model, touching, &rates);
+        if approaching.is_empty() {
+            break;
         }
         if found.impulses.is_empty() {
             found.impulses = vec![0.0; model.n_multipliers()];
         }
-        let own = |k: usize| restitution(model, k).0;
-        hit(model, place, (&approach, &own), &mut found.impulses)?;
-        approach.iter().map(|(k, _)| *k).append_to(&mut found.hits);
-        found.hits.sort_unstable();
-        found.hits.dedup();
+        let endless = is_endless(&mut seen, &approaching, &rates) || round == ROUNDS;
+        let impact = match plastic || endless {
+            true => together(model, place, touching)?,
+            false => {
+                let approach = approaching.iter().map(|at| (touching[*at], rates[*at])).list();
+                hit(model, place, &approach, &|k| restitution(model, k).0)?
+            }
+        };
+        impact.apply(model, place, &mut found.impulses);
+        found.hits.extend(&impact.contacts);
+        if plastic || endless {
+            found.ended = if plastic { Vec::new() } else { impact.contacts };
+            break;
+        }
     }
-    let t = place.t;
-    let names: Vec<&str> = found.hits.iter().map(|k| model.forces[*k].name.as_str()).list();
-    let message = format!(
-        "impacts at t = {t:.6} s do not end: after {ROUNDS} rounds some of {} still approach",
-        names.join(", ")
-    );
-    let hint = "a smaller restitution loses energy in each round";
-    Err(Reason::Integration { t, message, hint }.into())
+    found.hits.sort_unstable();
+    found.hits.dedup();
+    Ok(found)
+}
+
+/// The places of the touching contacts that approach faster than they may rest.
+fn approaching(model: &Model, touching: &[usize], rates: &[f64]) -> Vec<usize> {
+    let fast = |at: &usize| rates[*at] < -restitution(model, touching[*at]).1;
+    (0..touching.len()).filter(fast).list()
+}
+
+/// Counts the contacts that approach. Returns whether one of them has approached often, and the rates of contacts that
+/// approach often have shrunk by one factor since it did so last: the same impacts then follow without end.
+fn is_endless(seen: &mut [Approaches], approaching: &[usize], rates: &[f64]) -> bool {
+    approaching.iter().for_each(|at| seen[*at].count += 1);
+    let often = (0..seen.len()).filter(|at| seen[*at].count > MANY / 2).list();
+    let of = |x: &[f64]| often.iter().map(|at| x[*at]).list();
+    let size = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
+    let steady = |at: &usize| {
+        let (old, new) = (of(&seen[*at].rates), of(rates));
+        let (was, is) = (size(&old), size(&new));
+        let changes = old.iter().zip(&new).map(|(old, new)| (new / is - old / was).abs());
+        is < was && changes.fold(0.0, f64::max) < STEADY
+    };
+    let endless = approaching.iter().any(|at| seen[*at].count >= MANY && steady(at));
+    approaching.iter().for_each(|at| seen[*at].rates = rates.to_vec());
+    endless
+}
+
+/// The one impact without restitution after which no contact approaches. It is found as the least squares with
+/// impulses ≥ 0 of Lawson and Hanson, *Solving Least Squares Problems* (1974), chapter 23.
+fn together(
+    model: &Model,
+    place: &StateAt<'_>,
+    touching: &[usize],
+) -> Result<Impact, Box<Failure>> {
+    let mut y = place.y.to_vec();
+    let before = place.gap_rates(model, touching);
+    let with = |held: &[(usize, f64)]| {
+        let approach = held.iter().map(|(at, _)| (touching[*at], before[*at])).list();
+        hit(model, place, &approach, &|_| 0.0)
+    };
+    let mut held: Vec<(usize, f64)> = Vec::new();
+    let mut impact = with(&held)?;
+    // each contact enters once, or again after it was released
+    for _ in 0..touching.len() * touching.len() {
+        model.layout.split_mut(&mut y)[1].copy_from_slice(&impact.after);
+        let rates = StateAt { t: place.t, y: &mut y }.gap_rates(model, touching);
+        let mut others = approaching(model, touching, &rates);
+        others.retain(|at| held.iter().all(|(own, _)| own != at));
+        let next = others.into_iter().min_by(|a, b| rates[*a].total_cmp(&rates[*b]));
+        let Some(next) = next else { break };
+        held.push((next, 0.0));
+        loop {
+            impact = with(&held)?;
+            let pushes = impact.pushes();
+            let part = |((_, old), new): (&(usize, f64), &f64)| match *new > 0.0 {
+                true => 1.0,
+                false => old / (old - new).max(f64::MIN_POSITIVE),
+            };
+            let least = held.iter().zip(&pushes).map(part).fold(1.0, f64::min);
+            for ((_, old), new) in held.iter_mut().zip(&pushes) {
+                *old += least * (new - *old);
+            }
+            if pushes.iter().all(|push| *push > 0.0) {
+                break;
+            }
+            let pulls = |at: usize| pushes[at] <= 0.0 && part((&held[at], &pushes[at])) <= least;
+            let left = (0..held.len()).filter(|at| !pulls(*at)).map(|at| held[at]);
+            held = left.list();
+        }
+    }
+    Ok(impact)
 }
 
 /// Removes the small gap rates of contacts that come to rest.
@@ -105,27 +211,29 @@ pub(super) fn halt(
     if moving.is_empty() {
         return Ok(());
     }
-    hit(model, place, (&moving, &|_| 0.0), &mut vec![0.0; model.n_multipliers()])
+    let impact = hit(model, place, &moving, &|_| 0.0)?;
+    impact.apply(model, place, &mut vec![0.0; model.n_multipliers()]);
+    Ok(())
 }
 
-/// Computes one round, in which all these contacts hit, each with the rate of its gap and with its restitution.
+/// Computes the impact of all these contacts, each with the rate of its gap and with its restitution.
 fn hit(
     model: &Model,
-    place: &mut StateAt<'_>,
-    (approach, own): (&[(usize, f64)], Restitutions<'_>),
-    impulses: &mut [f64],
-) -> Result<(), Box<Failure>> {
+    place: &StateAt<'_>,
+    approach: &[(usize, f64)],
+    own: Restitutions<'_>,
+) -> Result<Impact, Box<Failure>> {
     let t = place.t;
     let contacts: Vec<usize> = approach.iter().map(|(k, _)| *k).list();
     let sides = place.sides(model, &contacts);
     let held = |(k, side): (&usize, &f64)| ForceMode::new(*k, Mode::Holds(*side));
     let modes: Vec<ForceMode> = contacts.iter().zip(&sides).map(held).list();
     let closed = model.in_modes(&modes).allowing_redundancy();
-    let [q, v, z] = place.state(model).map(<[f64]>::to_vec);
-    let mut workspace = workspace_at((&closed, &ModelCache::default()), t, [&q, &v, &z]);
+    let [q, v, z] = place.state(model);
+    let mut workspace = workspace_at((&closed, &ModelCache::default()), t, [q, v, z]);
     let least = approach.iter().map(|(k, _)| own(*k)).fold(1.0, f64::min);
-    let kinetic = |v: &[f64]| energy::kinetic(model, &Motions::at(&model.layout, &q, v));
-    let before = kinetic(&v);
+    let kinetic = |v: &[f64]| energy::kinetic(model, &Motions::at(&model.layout, q, v));
+    let before = kinetic(v);
     let mut rates = vec![0.0; closed.layout.n_rows];
     let mut outcome = None;
     // first with the individual restitutions
@@ -136,8 +244,8 @@ fn hit(
             // the gap of an upper limit grows as its coordinate falls
             rates[row] = side * (1.0 + e) * rate;
         }
-        let jump = workspace.jump(&closed, t, &q, &rates);
-        let [dv, found] = jump.map_err(|breakdown| Failure::at_state(&closed, t, &q, breakdown))?;
+        let jump = workspace.jump(&closed, t, q, &rates);
+        let [dv, found] = jump.map_err(|breakdown| Failure::at_state(&closed, t, q, breakdown))?;
         let after: Vec<f64> = v.iter().zip(&dv).map(|(v, dv)| v + dv).list();
         let loss = before - kinetic(&after);
         let grows = loss < -1e-13 * before;
@@ -147,21 +255,38 @@ fn hit(
         }
     }
     let (after, found, loss) = outcome.expect("it was computed");
-    let base = model.layout.n_rows;
-    for (sum, own) in impulses.iter_mut().zip(&found[..base]) {
-        *sum += own;
+    Ok(Impact { contacts, closed, found, after, loss })
+}
+
+impl Impact {
+    /// The impulse with which each of its contacts pushes.
+    fn pushes(&self) -> Vec<f64> {
+        let push = |k: &usize| match (self.closed.forces[*k].mode, self.closed.forces[*k].held_row)
+        {
+            (Mode::Holds(side), Some(row)) => side * self.found[row],
+            _ => 0.0,
+        };
+        self.contacts.iter().map(push).list()
     }
-    for (k, _) in approach {
-        if let (Some(to), Some(from)) = (model.forces[*k].held_row, closed.forces[*k].held_row) {
-            impulses[to] += found[from];
+
+    /// Changes the velocities and works of a state, and adds the impulses to a sum.
+    fn apply(&self, model: &Model, place: &mut StateAt<'_>, impulses: &mut [f64]) {
+        let base = model.layout.n_rows;
+        for (sum, own) in impulses.iter_mut().zip(&self.found[..base]) {
+            *sum += own;
         }
+        for k in &self.contacts {
+            let rows = (model.forces[*k].held_row, self.closed.forces[*k].held_row);
+            if let (Some(to), Some(from)) = rows {
+                impulses[to] += self.found[from];
+            }
+        }
+        let driven = driver_work(model, place.t, place.state(model)[0], &self.found);
+        let [_, v, _, works] = model.layout.split_mut(place.y);
+        v.copy_from_slice(&self.after);
+        works[0] += self.loss + driven;
+        works[1] += driven;
     }
-    let [_, v, _, works] = model.layout.split_mut(place.y);
-    v.copy_from_slice(&after);
-    let driven = driver_work(model, t, &q, &found);
-    works[0] += loss + driven;
-    works[1] += driven;
-    Ok(())
 }
 
 /// Work of the impulses of drivers. The rates of their rows are -Φ_t before and after.

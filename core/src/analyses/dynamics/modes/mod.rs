@@ -17,7 +17,7 @@ mod mode_events;
 mod place;
 
 pub use at_rest::friction_modes;
-pub(super) use mode_events::{watched_mode, ModeFunction, GRAZE};
+pub(super) use mode_events::{watched_mode, ModeFunction, COLLAPSE, GRAZE};
 pub(super) use place::{has_mode, is_contact, unit as gap_unit, StateAt};
 
 use crate::math::Listed;
@@ -46,7 +46,7 @@ pub(super) struct Settled {
 /// ended there. If `before` contains no modes, the run begins.
 ///
 /// # Errors
-/// [`Failure`] where contacts hit without end, and where the equations have no solution.
+/// [`Failure`] where the equations have no solution.
 pub(super) fn settle(
     model: &Model,
     place: &mut StateAt<'_>,
@@ -55,10 +55,10 @@ pub(super) fn settle(
 ) -> Result<Settled, Box<Failure>> {
     let touching = impacts::touching(model, place, before);
     let fastest = largest(place.state(model)[1]);
-    let Hits { hits, impulses } = impacts::resolve(model, place, &touching)?;
+    let Hits { hits, impulses, ended } = impacts::resolve(model, place, &touching)?;
     let jumped = (!hits.is_empty()).then_some(fastest);
     let modes = holding::decide(model, place, before, (&touching, fired, jumped))?;
-    let mut changed = Vec::new();
+    let mut changed = ended.into_iter().map(|k| (k, COLLAPSE)).list();
     for (old, new) in before.iter().zip(&modes) {
         let sticks = matches!(model.forces[old.force].element.behaviour(), Some(Behaviour::Sticks));
         match (old.mode.holds(), new.mode.holds(), sticks) {

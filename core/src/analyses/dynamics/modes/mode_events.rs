@@ -10,6 +10,8 @@ use crate::model::{DriverSet, Model};
 
 /// The place of the event at which a contact is passed within the error of a step.
 pub const GRAZE: usize = 2;
+/// The place of the event at which a sequence of impacts without end is replaced by its limit.
+pub const COLLAPSE: usize = 3;
 
 /// A function of a force.
 #[derive(Clone, Copy, Debug, PartialEq)]
