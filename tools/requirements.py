@@ -1,4 +1,4 @@
-"""Print what pyproject.toml requires, one package a line: `requirements.py run`, `test` or `packages`.
+"""Print what pyproject.toml requires, one package a line: `requirements.py run`, test or packages.
 
 tools/lock.sh adds the versions and hashes.
 """
