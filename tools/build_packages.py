@@ -1,6 +1,6 @@
 """Build the packages of kempe for other machines: a source distribution and, from it, a wheel.
 
-    .venv/bin/pip install -c constraints.txt maturin wheel ziglang
+    .venv/bin/pip install --require-hashes -r tools/lock/packages.txt
     .venv/bin/python tools/build_packages.py
 
 The packages are written to dist/. A wheel for x86-64 contains the core twice (kempe/_processor.py).

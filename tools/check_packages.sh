@@ -27,7 +27,7 @@ if [ "${1:-}" = --source ]; then
         tests/packages/test_contents.py::test_the_source_distribution_has_what_a_build_needs "$@"
     exit
 fi
-python -m pip install --quiet -c constraints.txt maturin wheel ziglang || exit 5
+python -m pip install --quiet --require-hashes -r tools/lock/packages.txt || exit 5
 if [ "${1:-}" = --quick ]; then
     shift
     export KEMPE_PACKAGES="$ROOT/target/packages/quick"

@@ -1,6 +1,6 @@
-"""Print what pyproject.toml requires, one package a line: `requirements.py run` or `… test`.
+"""Print what pyproject.toml requires, one package a line: `requirements.py run`, test or packages.
 
-It needs nothing but the standard library and pip, since it runs before anything is installed.
+tools/lock.sh adds the versions and hashes.
 """
 
 import sys
@@ -13,12 +13,14 @@ except ModuleNotFoundError:  # Python 3.10
 
 
 def requirements(purpose: str) -> list[str]:
-    """What must be installed to build and run kempe, and also to test it for "test"."""
+    """What must be installed to build and run kempe, to test it too, or to build its packages."""
     text = Path(__file__).parent.with_name("pyproject.toml").read_text(encoding="utf-8")
     table = tomllib.loads(text)
+    extras = table["project"]["optional-dependencies"]
+    if purpose == "packages":
+        return list(extras["packages"])
     names = table["build-system"]["requires"] + table["project"]["dependencies"]
     if purpose == "test":
-        extras = table["project"]["optional-dependencies"]
         names += extras["test"] + extras["docs"]
     return names
 

@@ -66,7 +66,7 @@ has_packages() {
     esac
 }
 
-packages_sum() { (cd "$ROOT" && cat pyproject.toml constraints.txt | cksum); }
+packages_sum() { (cd "$ROOT" && cat pyproject.toml tools/lock/*.txt | cksum); }
 
 has_extension() {
     for extension in "$ROOT"/python/kempe/_core.*; do
@@ -292,10 +292,9 @@ install_packages() {
     has_packages "$1" && return
     say "installing Python packages"
     sum=$(packages_sum)
-    "$VENV/bin/python" "$ROOT/tools/requirements.py" "$1" >"$VENV/requirements.txt" ||
-        give_up "cannot read pyproject.toml"
+    # Files with other hashes than those of the lock file are refused.
     logged "installing Python packages" "$VENV/bin/python" -m pip install --no-input \
-        --disable-pip-version-check -c "$ROOT/constraints.txt" -r "$VENV/requirements.txt"
+        --disable-pip-version-check --require-hashes -r "$ROOT/tools/lock/$1.txt"
     write_stamp packages "$1 $sum"
 }
 

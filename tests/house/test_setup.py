@@ -73,14 +73,14 @@ def test_no_module_is_imported_from_the_current_folder(tmp_path: Path) -> None:
 def bare(tmp_path: Path) -> Path:
     """A copy of the scripts in a folder with a space, and a `bin` with standard programs."""
     root = tmp_path / "my kempe"
-    (root / "tools").mkdir(parents=True)
+    (root / "tools" / "lock").mkdir(parents=True)
     for name in (
         "kempe",
         "tools/setup.sh",
-        "tools/requirements.py",
+        "tools/lock/run.txt",
+        "tools/lock/test.txt",
         "Cargo.lock",
         "pyproject.toml",
-        "constraints.txt",
     ):
         shutil.copy(ROOT / name, root / name)
     (tmp_path / "bin").mkdir()

@@ -253,6 +253,14 @@ def test_the_shaking_force_of_a_slider_crank_by_hand(turn: kp.Solution) -> None:
     assert found.moment == pytest.approx(moment, abs=1e-10 * np.abs(moment).max())
     assert found.weight == pytest.approx(np.tile([0, -(M1 + M2 + M3) * G], (len(found.t), 1)))
     assert found.on_ground == pytest.approx(found.force + found.weight)
+    turning = sum(
+        -mass * G * (place - about).real
+        for mass, place in zip((M1, M2, M3), hand["at"], strict=True)
+    )
+    assert found.weight_moment == pytest.approx(turning, abs=1e-10 * np.abs(turning).max())
+    assert found.moment_on_ground == pytest.approx(
+        moment + turning, abs=1e-9 * np.abs(moment).max()
+    )
     with pytest.raises(kp.ModelError, match="not a point of ground"):
         design.shaking(turn, "crank.O")
 

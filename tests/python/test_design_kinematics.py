@@ -158,6 +158,9 @@ def test_the_transmission_angle_of_a_four_bar(crank_rocker: kp.Solution) -> None
     diagonal = A**2 + G**2 - 2 * A * G * np.cos(found.t)
     cosine = (B**2 + C**2 - diagonal) / (2 * B * C)
     assert found.angle == pytest.approx(np.arccos(cosine), abs=2e-12)
+    assert np.sin(found.deviation) == pytest.approx(-cosine, abs=2e-12)  # positive beyond π/2
+    assert found.deviation.min() < 0.0 < found.deviation.max()
+    assert np.sin(found.transmission) == pytest.approx(np.sqrt(1.0 - cosine**2), abs=2e-12)
     least, most = (np.arccos((B**2 + C**2 - d**2) / (2 * B * C)) for d in (G - A, G + A))
     assert found.limits.least.value == pytest.approx(least, abs=2e-12)
     assert found.limits.largest.value == pytest.approx(most, abs=2e-12)

@@ -207,3 +207,27 @@ def test_a_run_without_events_writes_no_table_of_them(tmp_path: Path) -> None:
     (folder / "events.csv").write_text("of an earlier run")
     assert main(["run", str(file), "-o", str(folder), "--no-figures", "-q"]) == 0
     assert not (folder / "events.csv").exists()
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+def test_the_table_of_events_is_in_the_order_of_time(scale: float, tmp_path: Path) -> None:
+    """A ball that is thrown up passes heights twice; events are declared in another order."""
+    from kempe.results.event_table import write_events
+
+    m = kp.Model("ball", gravity=(0, -G))
+    m.point_mass("ball", mass=scale)
+    speed = math.sqrt(2 * G * scale)
+    start = kp.assemble(m, {"ball.x": 0.0, "ball.y": 0.0, "ball.vy": speed})
+    heights = {"high": 0.75, "low": 0.25, "half": 0.5}
+    events = {name: f"ball.y - {share * scale}" for name, share in heights.items()}
+    sol = kp.dynamics(m, start, t_end=2 * speed / G, events=events)
+    assert write_events(sol, tmp_path / "events.csv")
+    lines = [line.split(",") for line in (tmp_path / "events.csv").read_text().splitlines()[1:]]
+    expected = []
+    for name, share in heights.items():
+        away = math.sqrt(2 * (1 - share) * scale / G)  # from the top
+        expected += [(speed / G - away, name), (speed / G + away, name)]
+    assert [line[0] for line in lines] == [name for _, name in sorted(expected)]
+    for line, (t, name) in zip(lines, sorted(expected), strict=True):
+        assert float(line[1]) == pytest.approx(t, rel=1e-9), name
+        assert float(line[3]) == pytest.approx(heights[name] * scale, rel=1e-9), name

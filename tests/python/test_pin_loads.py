@@ -39,6 +39,22 @@ def test_a_pin_load_is_in_the_frame_of_the_body(turn: kp.Solution) -> None:
     assert found.force @ [1, 1j] == pytest.approx(expected, abs=1e-9 * scale)
     assert found.extremes["max"].value == pytest.approx(np.abs(expected).max(), rel=1e-5)
     assert found.extremes["x_min"].value <= expected.real.min() + 1e-9 * scale
+    hand_values = {
+        "max": np.abs(expected).max(),
+        "x_max": expected.real.max(),
+        "x_min": expected.real.min(),
+        "y_max": expected.imag.max(),
+        "y_min": expected.imag.min(),
+    }
+    assert set(found.extremes) == set(hand_values)
+    for case, value in hand_values.items():
+        extreme = found.extremes[case]
+        assert extreme.value == pytest.approx(value, abs=1e-4 * scale), case
+        near = (found.force @ [1, 1j])[np.abs(found.t - extreme.t).argmin()]
+        read = {"m": np.abs(near), "x": near.real, "y": near.imag}[case[0]]
+        assert read == pytest.approx(extreme.value, abs=0.05 * scale), case
+    assert np.exp(1j * found.direction) == pytest.approx(expected / np.abs(expected), abs=1e-9)
+    assert np.abs(found.direction).max() <= np.pi
     assert found.magnitude == pytest.approx(np.abs(expected), abs=1e-9 * scale)
     other = design.pin_load(turn, "A", on="crank")
     assert other.magnitude == pytest.approx(found.magnitude, abs=1e-9 * scale)

@@ -8,6 +8,7 @@ from typing import Any
 import kempe as kp
 import numpy as np
 import pytest
+from kempe.model.lookup_tables import TableFile
 from numpy.polynomial import Polynomial
 
 ANGLES = [0, 90, 180, 270, 360]
@@ -281,3 +282,32 @@ def test_the_core_refuses_unknown_tables() -> None:
         core.table("gift", 0, np.zeros(1))
     with pytest.raises(kp.ModelError, match="derivative: 6; must be at most 5"):
         core.table("lift", 6, np.zeros(1))
+
+
+DAMAGED = {
+    "a line break in quotation marks": ('x,y\n0,0\n"1\n2",3\n2,4\n', r"line 3 of .*one line"),
+    "a quotation mark without its end": ('x,y\n0,"0\n1,1\n2,3\n', r"line 2 of .*one line"),
+    "a line break in a name": ('"x\nm",y\n0,0\n1,1\n', r"line 1 of .*one line"),
+    "a long field": ("x,y\n0," + "9" * 200_000 + "\n1,1\n", r"line 2 of .*one line"),
+    "a long text": ("x,y\n0," + "b" * 1000 + "\n1,1\n", r"line 2 of .*'b{40}…' in column 2"),
+    "one column": ("x\n0\n1\n", "one column; write two columns"),
+    "tabs": ("0\t1\n1\t2\n", "one column; .*comma or a semicolon"),
+    "no numbers": ("x,y\n", "no points; write numbers below"),
+    "commas in numbers": ("x;y\n0,5;1,5\n1,0;2\n", r"line 2 .*'0,5'.*decimal point"),
+    "a number of Python only": ("x,y\n0,1_000\n1,2\n", r"line 2 .*'1_000'"),
+    "a separator of Unicode": ("x,y\n0,0\x1c1,1\n2,2\n", r"line 2 .*column 2"),
+}
+
+
+@pytest.mark.parametrize(("text", "told"), DAMAGED.values(), ids=DAMAGED.keys())
+def test_a_damaged_file_is_refused_with_its_line(text: str, told: str, tmp_path: Path) -> None:
+    (tmp_path / "lift.csv").write_bytes(text.encode())
+    with pytest.raises(kp.FileError, match=told) as caught:
+        TableFile.read("lift", {"file": "lift.csv"}, tmp_path)
+    assert len(str(caught.value)) < 400 + len(str(tmp_path))
+
+
+def test_one_name_of_a_column_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "lift.csv").write_text("x,y\n0,0\n1,1\n")
+    with pytest.raises(kp.FileError, match=r"columns: 1 given; must be 2; name two"):
+        TableFile.read("lift", {"file": "lift.csv", "columns": ["x"]}, tmp_path)

@@ -6,11 +6,13 @@ import sqlite3
 import subprocess
 import sys
 import time
+from contextlib import closing
 from pathlib import Path
 
 import kempe as kp
 import numpy as np
 import pytest
+from kempe.sweeps import storage
 from sweeps.conftest import FLAGSHIP, flagship
 
 GIVEN = {"L2": {"from": 25.0, "to": 46.0, "n": 12}, "k": [5e5, 1e6, 2e6]}
@@ -65,10 +67,11 @@ def test_a_killed_sweep_resumes(folder: Path) -> None:
 
 def test_a_finished_sweep_is_only_read(case: kp.Case, folder: Path) -> None:
     first = kp.sweep(case, {"k": [1e6, 2e6]}, ["pin.max"], out=folder / "a" / "s.db")
-    data = sqlite3.connect(folder / "a" / "s.db")
-    data.execute("UPDATE row SET reason = 'kept' WHERE k = 1")
-    data.commit()
-    data.close()
+    with closing(sqlite3.connect(folder / "a" / "s.db")) as data, data:
+        row = data.execute("SELECT k, numbers, marks FROM row WHERE k = 1").fetchone()
+        data.execute("DELETE FROM row WHERE k = 1")
+        told = storage._entry(row[0], row[1], "kept", row[2])
+        data.execute("INSERT INTO row VALUES (?, ?, ?, ?, ?)", told)
     again = kp.sweep(case, {"k": [1e6, 2e6]}, ["pin.max"], out=folder / "a" / "s.db")
     assert again.reasons == {1: "kept"}
     assert again["pin.max"][0] == first["pin.max"][0]
@@ -91,7 +94,7 @@ def test_the_file_of_another_sweep_is_refused(
 
 def test_a_file_that_is_no_sweep_is_refused(case: kp.Case, folder: Path) -> None:
     (folder / "s.db").write_text("not a database, but long enough to be one " * 10)
-    with pytest.raises(kp.FileError, match="cannot write"):
+    with pytest.raises(kp.FileError, match=r"cannot use .*s.db.*delete this file"):
         kp.sweep(case, {"k": [1e6]}, ["pin.max"], out=folder / "s.db")
 
 

@@ -210,6 +210,18 @@ def _keep_mode(target: Path, draft: Path) -> None:
         draft.chmod(target.stat().st_mode & 0o7777)
 
 
+def remove(path: Path) -> None:
+    """Delete a file, if it exists.
+
+    Raises:
+        FileError: it cannot be deleted.
+    """
+    try:
+        path.unlink(missing_ok=True)
+    except OSError as error:
+        raise trouble(path, "delete", error) from error
+
+
 def write_text(path: Path | str, text: str) -> None:
     """Write UTF-8 text, whole or not at all.
 

@@ -75,7 +75,7 @@ def sweep(  # noqa: PLR0917 - typer uses the annotations of options and argument
         folder = files.checked_path(output or Path("out") / stem(file) / "sweep", "write")
         kept = folder / "sweep.db"
         if anew:
-            kept.unlink(missing_ok=True)
+            files.remove(kept)
         with _anew_named(), _told(case.model.title or stem(file)) as progress:
             try:
                 found = compute(
@@ -134,15 +134,17 @@ def _range(text: str) -> tuple[str, Mapping[str, Any]]:
 
 @contextmanager
 def _anew_named() -> Iterator[None]:
-    """Name the option --anew where the folder contains another sweep."""
-    from kempe.sweeps.storage import CHANGED
+    """Name the option --anew where the folder contains another sweep, or a damaged one."""
+    from kempe.sweeps.storage import CHANGED, DELETE
 
     try:
         yield
     except FileError as error:
+        way = "--anew discards its results, and --output names another folder"
         if (error.hint or "").startswith(CHANGED):
-            way = "--anew discards its results, and --output names another folder"
             error.hint = f"{CHANGED}; {way}"
+        elif error.hint == DELETE:
+            error.hint = way
         raise
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import os
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, fields
 from pathlib import Path
@@ -22,6 +23,9 @@ from kempe.model.values import flag, listed, number, reference, refuse
 Interpolation: TypeAlias = Literal["linear", "cubic", "quintic", "monotone"]
 #: The value of a table beyond its points.
 Outside: TypeAlias = Literal["refuse", "hold", "linear"]
+_LINE_BREAK = re.compile(r"\r\n|\r|\n")
+#: The largest part of a field that a message repeats.
+_LONGEST_SHOWN = 40
 
 
 @dataclass(frozen=True)
@@ -137,23 +141,34 @@ def _points(
     """
     lines = [
         (number, line)
-        for number, line in enumerate(text.splitlines(), 1)
+        for number, line in enumerate(_LINE_BREAK.split(text), 1)
         if line.strip() and not line.lstrip().startswith("#")
     ]
     if not lines:
         raise FileError(f"{path} has no points", hint="write two columns of numbers")
     mark = ";" if ";" in lines[0][1] and "," not in lines[0][1] else ","
-    read = csv.reader((line for _, line in lines), delimiter=mark, skipinitialspace=True)
-    rows = [[cell.strip() for cell in row] for row in read]
-    numbers = [number for number, _ in lines]
-    header = None if all(_float(cell) is not None for cell in rows[0]) else rows[0]
-    at = _places(header, len(rows[0]), columns, path)
+    rows = [(number, _row(line, mark, number, path)) for number, line in lines]
+    first = rows[0][1]
+    header = None if all(_float(cell) is not None for cell in first) else first
+    at = _places(header, len(first), columns, path)
     if header is not None:
-        rows, numbers = rows[1:], numbers[1:]
-    x, y = (
-        [_cell(row, k, line, path) for row, line in zip(rows, numbers, strict=True)] for k in at
-    )
+        rows = rows[1:]
+    if not rows:
+        raise FileError(f"{path} has no points", hint="write numbers below the names of columns")
+    x, y = ([_cell(row, k, line, path) for line, row in rows] for k in at)
     return x, y
+
+
+def _row(line: str, mark: str, number: int, path: Path) -> list[str]:
+    """The fields of a line. A field ends with its line, also where a quotation mark opens it."""
+    try:
+        (row,) = csv.reader([line], delimiter=mark, skipinitialspace=True, strict=True)
+    except csv.Error as error:
+        raise FileError(
+            f"line {number} of {path}: {error}",
+            hint="write each point in one line, as two numbers without quotation marks",
+        ) from None
+    return [cell.strip() for cell in row]
 
 
 def _places(
@@ -161,8 +176,12 @@ def _places(
 ) -> tuple[int, int]:
     if columns is None:
         if width < 2:
-            raise FileError(f"{path} has one column", hint="write two columns of numbers")
+            hint = "write two columns of numbers, separated by a comma or a semicolon"
+            raise FileError(f"{path} has one column", hint=hint)
         return 0, 1
+    if len(columns) != 2:
+        hint = "name two columns, of x and of y"
+        raise FileError(f"columns: {len(columns)} given; must be 2", hint=hint)
     if header is None:
         hint = "remove columns, so that the first two are read, or add a first line with names"
         raise FileError(f"{path} has no names of columns", hint=hint)
@@ -178,14 +197,19 @@ def _cell(row: list[str], column: int, line: int, path: Path) -> float:
     cell = row[column] if column < len(row) else ""
     value = _float(cell)
     if value is None or not np.isfinite(value):
-        message = f"line {line} of {path}: {cell!r} in column {column + 1} is not a finite number"
-        raise FileError(message, hint="correct or remove this line")
+        shown = cell if len(cell) <= _LONGEST_SHOWN else f"{cell[:_LONGEST_SHOWN]}…"
+        raise FileError(
+            f"line {line} of {path}: {shown!r} in column {column + 1} is not a finite number",
+            hint="write it with a decimal point"
+            if "," in cell and _float(cell.replace(",", ".")) is not None
+            else "correct or remove this line",
+        )
     return value
 
 
 def _float(cell: str) -> float | None:
     try:
-        return float(cell)
+        return None if "_" in cell else float(cell)  # Python reads 1_000 as a number
     except ValueError:
         return None
 

@@ -30,7 +30,7 @@ def write_events(solution: Solution, path: Path | str) -> bool:
         for t, state in zip(event.t, event.states, strict=True)
     ]
     if not found:
-        Path(path).unlink(missing_ok=True)
+        files.remove(Path(path))
         return False
     found.sort(key=lambda line: line[0])
     model, first = solution.compiled, solution.variable

@@ -2,9 +2,33 @@
 
 from __future__ import annotations
 
+import ipaddress
+import re
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 
 HOST = "127.0.0.1"
+#: The name in the header Host, and its port.
+_NAMED = re.compile(r"(\[[0-9A-Fa-f:.]+\]|[^\[\]:\s]+)(?::\d{1,5})?")
+_REFUSAL = (
+    f"This server answers only to the names of this machine, such as {HOST} and localhost. "
+    "Open the address that kempe studio printed.\n"
+)
+
+
+def is_loopback(host: str) -> bool:
+    """Whether a header Host names this machine.
+
+    A page of another host whose name leads to this machine (DNS rebinding) could read answers
+    otherwise.
+    """
+    found = _NAMED.fullmatch(host.strip())
+    if found is None:
+        return False
+    name = found[1].strip("[]").lower()
+    try:
+        return ipaddress.ip_address(name).is_loopback
+    except ValueError:
+        return name == "localhost"
 
 
 class Server(ThreadingHTTPServer):
@@ -32,15 +56,22 @@ class _Handler(BaseHTTPRequestHandler):
 
     def do_GET(self) -> None:
         """Send the page; there is nothing else."""
+        hosts = self.headers.get_all("Host", [])
+        if len(hosts) != 1 or not is_loopback(hosts[0]):
+            self._send(403, "text/plain", _REFUSAL.encode())
+            return
         if self.path not in {"/", "/index.html"}:
             self.send_error(404)
             return
-        self.send_response(200)
-        self.send_header("Content-Type", "text/html; charset=utf-8")
-        self.send_header("Content-Length", str(len(self.server.body)))
+        self._send(200, "text/html", self.server.body)
+
+    def _send(self, code: int, kind: str, body: bytes) -> None:
+        self.send_response(code)
+        self.send_header("Content-Type", f"{kind}; charset=utf-8")
+        self.send_header("Content-Length", str(len(body)))
         self.send_header("Cache-Control", "no-store")
         self.end_headers()
-        self.wfile.write(self.server.body)
+        self.wfile.write(body)
 
     def log_message(self, format: str, *args: object) -> None:  # noqa: A002 - a name of the base class
         """Requests are not printed."""

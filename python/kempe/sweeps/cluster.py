@@ -7,7 +7,7 @@ again on another worker. The size of a block follows from the measured time of a
 from __future__ import annotations
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from time import perf_counter
 from typing import Any
 
@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from kempe.base.arrays import Floats
-from kempe.errors import ModelError
+from kempe.errors import KempeError, ModelError
 from kempe.sweeps.plan import Block, Plan
 from kempe.sweeps.table import Table
 
@@ -31,11 +31,28 @@ def fill(table: Table, plan: Plan, design: Floats, scheduler: Any, workers: int 
     """Run the variants that are left on a cluster.
 
     Raises:
-        ModelError: Dask is not installed, or the scheduler is not one of Dask.
+        ModelError: Dask is not installed, this is no scheduler of Dask, or the cluster was lost.
     """
     with _client_of(scheduler, workers) as client:
-        print(f"Dask dashboard: {client.dashboard_link}", flush=True)
+        with _answering():
+            link = client.dashboard_link
+        print(f"Dask dashboard: {link}", flush=True)
         _Blocks(table, plan, design, client).run()
+
+
+@contextmanager
+def _answering() -> Iterator[None]:
+    """Report a cluster or a worker that fails; Dask raises errors of many classes."""
+    try:
+        yield
+    except KempeError:
+        raise
+    except Exception as error:
+        raise ModelError(
+            f"the Dask cluster was lost, or a worker failed: {type(error).__name__}: {error}",
+            hint="check the scheduler and that its workers have this version of kempe, then repeat "
+            "the sweep with a new client; with a file for its rows it continues from them",
+        ) from error
 
 
 class _Blocks:
@@ -50,18 +67,24 @@ class _Blocks:
     def run(self) -> None:
         from distributed import as_completed
 
-        threads = max(1, sum(self._client.nthreads().values()))
-        pending = as_completed([self._submitted() for _ in range(_AHEAD * threads) if self._more])
+        with _answering():
+            threads = max(1, sum(self._client.nthreads().values()))
+            blocks = [self._submitted() for _ in range(_AHEAD * threads) if self._more]
+            pending = as_completed(blocks)
         try:
-            for future in pending:
-                block, seconds = future.result()
+            while self._rows:
+                with _answering():
+                    future = next(pending)
+                    block, seconds = future.result()
                 rows = self._rows.pop(future.key)
                 self._table.add(rows, block)
                 self._size(len(rows), seconds)
                 if self._more:
-                    pending.add(self._submitted())
+                    with _answering():
+                        pending.add(self._submitted())
         finally:
-            self._client.cancel(list(pending.futures), force=True)
+            with suppress(Exception):  # the client may have been closed
+                self._client.cancel(list(pending.futures), force=True)
 
     @property
     def _more(self) -> bool:

@@ -36,8 +36,8 @@ if TYPE_CHECKING:
     from kempe.results.solution import Solution
 
 
-#: The format of files of sweeps: 2 since rows have marks.
-FORMAT = 2
+#: The format of files of sweeps: 3 since rows have checksums.
+FORMAT = 3
 
 
 @dataclass(frozen=True)

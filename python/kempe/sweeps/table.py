@@ -37,7 +37,7 @@ class Table:
         self._done = np.zeros(n, dtype=bool)
         self._storage, self._progress = storage, progress
         if storage is not None:
-            for k, numbers, reason, marks in storage.read():
+            for k, numbers, reason, marks in storage.read(n, width):
                 self._put(k, numbers, reason)
                 self.marks[k] = marks
         self._began, self._before = monotonic(), int(self._done.sum())
