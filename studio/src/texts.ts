@@ -43,12 +43,21 @@ export const texts = {
     read: "Run an analysis and read its results (4)",
   },
   playback: { play: "Play", pause: "Pause", speed: "Speed", time: "Time" },
-  files: { csv: "CSV", npz: "NPZ", png: "PNG", svg: "SVG", gif: "GIF" },
+  files: {
+    csv: "CSV",
+    npz: "NPZ",
+    png: "PNG",
+    svg: "SVG",
+    gif: "GIF",
+    saved: (name: string) => `Saved in ${name}.`,
+    copied: (name: string) =>
+      `This tab is a copy of another open tab. Changes here do not change the other one; the file of this one is ${name}.`,
+  },
   untitled: "Untitled mechanism",
   menu: { new: "New", open: "Open", save: "Save", gallery: "Gallery", share: "Share", undo: "Undo", redo: "Redo" },
   menuHints: {
     open: "Open a case file (ctrl O)",
-    save: "Save the case as TOML (ctrl S)",
+    save: "Save the case as TOML (ctrl S; in another file: ctrl shift S)",
     undo: "Undo (ctrl Z)",
     redo: "Redo (ctrl shift Z)",
     gallery: "Examples to start from",
@@ -313,7 +322,7 @@ export const texts = {
     keys: [
       ["1 2 3 4", "edit, move, live, read"],
       ["ctrl Z, ctrl shift Z", "undo, redo"],
-      ["ctrl S, ctrl O", "save, open"],
+      ["ctrl S, ctrl shift S, ctrl O", "save, save in another file, open"],
       ["ctrl C, ctrl V", "copy and paste the selected body"],
       ["del", "delete the selection"],
       ["esc", "end the tool, clear the selection; in Live, let go"],

@@ -44,8 +44,8 @@ function withControl(event: KeyboardEvent): (() => void) | null {
   const actions: Record<string, () => void> = {
     z: () => void (event.shiftKey ? redo() : undo()),
     y: () => void redo(),
-    s: saveFile,
-    o: openFile,
+    s: () => void saveFile(event.shiftKey),
+    o: () => void openFile(),
     c: copySelection,
     v: () => {
       if (copied) void paste(copied.name, copied.body);
