@@ -87,6 +87,12 @@ export const texts = {
   edit: {
     fixed: (body: string, point: string) =>
       `${body}.${point} does not follow: a length or a formula of the text determines it.`,
+    changes: (names: string) => `A drag changes ${names}.`,
+    instead: "Instead:",
+    locked: (body: string, point: string) =>
+      `${body}.${point} cannot be dragged: joints, drivers and contacts determine its place, and no number of ${body} moves it.`,
+    heldPoint: (body: string, point: string) =>
+      `${body}.${point} is kept while drawing: see the properties of ${body}.`,
     place: (body: string) => `Place ${body} by its points`,
     noLength: (unit: string) =>
       `A length is greater than 0: a number in ${unit}, a number with its unit, or a formula.`,

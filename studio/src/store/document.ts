@@ -119,6 +119,12 @@ export class Draft {
     this.working ??= this.work();
   }
 
+  /** Show these changes, and wait until they are drawn. */
+  async apply(changes: Change[]): Promise<void> {
+    this.show(changes);
+    await this.working;
+  }
+
   private async work(): Promise<void> {
     while (this.latest) {
       const changes = this.latest;
