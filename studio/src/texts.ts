@@ -252,6 +252,7 @@ export const texts = {
     notUnique: (names: readonly string[]) =>
       `* Not unique: of the possible reactions of redundant joints, the smallest are shown (minimum norm): ${names.join(", ")}.`,
     done: (count: number, name: string, end: string) => `${count} states up to ${name} = ${end}`,
+    begun: (names: string) => `The motion begins here: the law of ${names} was changed. Undo restores it.`,
     none: "Run an analysis to read its results.",
     found: "The result is beside the drawing.",
     findings: "Result",

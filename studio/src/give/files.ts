@@ -1,6 +1,7 @@
 // Opening and saving case files.
 
 import { restart } from "../modes/place";
+import { withAnalysis } from "../modes/starting";
 import { file as caseFile, open } from "../store/document";
 import { MOST_OF_TEXT } from "../store/limits";
 import { report } from "../store/session";
@@ -52,6 +53,7 @@ export async function take(given: File, handle?: FileSystemFileHandle): Promise<
 
 /** Write the case into its file, or with `elsewhere` into another one; a browser without file access offers a download. */
 export async function saveFile(elsewhere = false): Promise<void> {
+  await withAnalysis();
   const { name } = caseFile.value;
   const suggestedName = name.endsWith(".toml") ? name : `${name}.toml`;
   const { showSaveFilePicker } = pickers();

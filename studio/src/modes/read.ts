@@ -11,6 +11,7 @@ import { gripAt } from "./grip";
 import type { Handler } from "./handler";
 import { OVER, offer, over, rangeOfCore, TIME } from "./over";
 import { written } from "./shown";
+import { duration, hasMoved, withAnalysis } from "./starting";
 
 /** A run with its frames: t and the poses of all moving bodies, row by row. A run to lower values is reversed. */
 export interface Course {
@@ -59,10 +60,8 @@ export const variable = computed<Quantity>(() => course.value?.ran.over ?? TIME)
 /** What forces over this quantity contain; empty over time. */
 export const condition = computed(() => course.value?.ran.over?.condition ?? "");
 
-/** The end of a run without an analysis, s. A run over a quantity is also played in this time. */
-const T_END = 5;
-/** The number of outputs of a run without an analysis. */
-const OUTPUTS = 500;
+/** A run over a quantity is played in this time, s. */
+const PLAYED = 5;
 
 export const span = computed<[number, number]>(() => {
   const t = course.value?.t;
@@ -141,6 +140,8 @@ async function showMotion(ok: Ran): Promise<void> {
 
 /** The request of the run that is chosen in the panel. */
 async function requested(): Promise<Requests["run"]["send"]> {
+  if (!analyses.value.length && chosen.value === null && !(hasMoved() && !mechanism.value?.drivers.length))
+    await withAnalysis();
   if (analysis.value !== OVER) return analysis.value ? { analysis: analysis.value } : untilTime();
   offer((await send("quantities", {})).ok);
   const range = rangeOfCore();
@@ -160,11 +161,12 @@ function inOrder(numbers: Float64Array, width: number): Pick<Course, "t" | "rows
   return { t: Float64Array.from({ length: n }, (_, k) => rows[k * width]!), rows, backwards };
 }
 
-/** The request of a run from the pose of the core until `t_end`, or for T_END. */
+/** The request of a run from the pose of the core until `t_end`, or for one turn. */
 async function untilTime(t_end?: number): Promise<{ t_end: number; output_step: number }> {
   const { t } = (await send("pose", {})).ok;
-  const end = t_end ?? t + T_END;
-  return { t_end: end, output_step: (end - t) / OUTPUTS };
+  const usual = await duration();
+  const end = t_end ?? t + usual.t_end;
+  return { t_end: end, output_step: ((end - t) / usual.t_end) * usual.output_step };
 }
 
 /** The poses at one time, by linear interpolation between frames. */
@@ -193,7 +195,7 @@ export async function play(): Promise<void> {
   if (time.value >= span.value[1]) show(span.value[0]);
   await frames.play((ms) => {
     if (mode.value !== "read") return false;
-    const pace = variable.value === TIME ? 1 : (span.value[1] - span.value[0]) / T_END;
+    const pace = variable.value === TIME ? 1 : (span.value[1] - span.value[0]) / PLAYED;
     const next = time.value + (Math.min(500, ms) / 1000) * rate.value * pace;
     show(next >= span.value[1] ? span.value[0] : next);
     return true;
