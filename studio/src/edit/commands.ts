@@ -1,5 +1,5 @@
 // Commands on the selection: rename, remove, copy, mirror, move by keys.
-import { typeOf } from "../catalogue/catalogue";
+import { type Group, typeOf } from "../catalogue/catalogue";
 import { entry, freeName, freePointNames, groupOf, isTable } from "../catalogue/tree";
 import type { Change, Tree, Value } from "../core/protocol";
 import { gridStep, snapStep } from "../draw/measure";
@@ -16,6 +16,7 @@ import { lengthened } from "./length";
 import { lengthMeant, meantValue } from "./meaning";
 import { isPlain, moved } from "./moving";
 import { removed, removedPoint, renamed } from "./removing";
+import { swapped } from "./swapping";
 
 const RESERVED = ["t", "pi", "deg", "ground", "energy", "drift"];
 
@@ -162,4 +163,11 @@ export function chosenPoints(all: PointHit[]): PointHit[] {
       ? chosen.name === name && (!chosen.point || chosen.point === point)
       : references.includes(`${name}.${point}`),
   );
+}
+
+/** Exchange the two sides of an element. */
+export async function swap(group: Group, name: string): Promise<void> {
+  const found = entry(tree.value, group, name);
+  const type = typeOf(catalogue.value, group, name, found);
+  if (found && type) await change(swapped(type, [group, name], found, mechanism.value?.bodies ?? [], poses.value));
 }

@@ -3,7 +3,7 @@ import { effect } from "@preact/signals";
 import { entries } from "../catalogue/tree";
 import type { Body, Change } from "../core/protocol";
 import { snapStep } from "../draw/measure";
-import { GROUND } from "../edit/adding";
+import { GROUND, pinTo } from "../edit/adding";
 import { chosenPoints, nudge } from "../edit/commands";
 import { heldShift, ofPoint } from "../edit/holding";
 import { drawnThrough, moved } from "../edit/moving";
@@ -32,7 +32,7 @@ import { texts } from "../texts";
 import { Follower } from "./following";
 import type { Handler, Spot } from "./handler";
 import { type Grasp, graspOf, type Knob, nameOf, naturalOf, otherWays, placeOf } from "./knobs";
-import { bodyUnder, elementUnder, points, pointsUnder } from "./seen";
+import { bodyUnder, elementUnder, links, points, pointsUnder } from "./seen";
 
 /** A drag: the places of the drawing that move together, each with the points that are pinned there. */
 interface Drag {
@@ -50,6 +50,8 @@ interface Drag {
   follower: Follower | null;
   /** Why the place cannot follow. */
   locked: string;
+  /** The points to which the dragged one is pinned when it is dropped. */
+  meets: PointHit[];
 }
 
 let drag: Drag | null = null;
@@ -64,7 +66,14 @@ export const edit: Handler = {
     const own = hits.length ? hits : ownOf(body!, spot, all);
     const places = placesOf(own, all);
     const still = all.filter((hit) => !places.some((place) => place.hits.includes(hit))).map(({ at }) => at);
-    const rest = { latest: null, ready: Promise.resolve(), known: places.length > 1, follower: null, locked: "" };
+    const rest = {
+      latest: null,
+      ready: Promise.resolve(),
+      known: places.length > 1,
+      follower: null,
+      locked: "",
+      meets: [],
+    };
     drag = { draft: new Draft(), began: spot.at, places, still, all, placements: poses.value, ...rest };
     if (places.length === 1) drag.ready = begin(drag).catch(report);
     return true;
@@ -178,6 +187,11 @@ async function end(one: Drag): Promise<void> {
   const { follower, latest, draft } = one;
   preview.value = null;
   if (!follower || !latest) {
+    const hit = one.places[0]!.hits.find(({ body }) => !body.ground) ?? one.places[0]!.hits[0]!;
+    if (one.meets.length) {
+      const pin = pinTo({ hits: one.meets }, hit.body.name, hit.point, catalogue.value, tree.value, new Set());
+      await draft.apply(pin);
+    }
     await draft.keep();
     if (one.locked) explain(one);
     return;
@@ -242,12 +256,15 @@ function near(a: Point, b: Point): boolean {
   return distance(a, b) * view.scale < 0.5;
 }
 
-function changesOf({ began, places, still, all, placements }: Drag, spot: Spot): Change[] {
+function changesOf(one: Drag, spot: Spot): Change[] {
+  const { began, places, still, all, placements } = one;
   const first = places[0]!;
   const to: Point = [first.at[0] + spot.at[0] - began[0], first.at[1] + spot.at[1] - began[1]];
   const free = spot.free || !snapping.value;
   const { at, kind } = snapped(to, {
-    points: places.length > 1 ? [] : still,
+    points: places.length > 1 || spot.free ? [] : still,
+    lines: places.length > 1 || free ? [] : links(new Set(first.hits.map(({ body }) => body.name))),
+    from: places.length > 1 ? undefined : otherEnd(first.hits, all),
     step: snapStep(view),
     scale: view.scale,
     free,
@@ -257,12 +274,27 @@ function changesOf({ began, places, still, all, placements }: Drag, spot: Spot):
   const limited = shift[0] !== wanted[0] || shift[1] !== wanted[1];
   const end: Point = limited ? [first.at[0] + shift[0], first.at[1] + shift[1]] : at;
   preview.value = { line: [], mark: { at: end, kind: limited ? "held" : kind } };
+  const own = new Set(first.hits.map(({ body }) => body.name));
+  const others = all.filter((hit) => near(hit.at, at) && !own.has(hit.body.name));
+  one.meets =
+    kind === "point" && !limited && !(own.has(GROUND) && own.size === 1 && others.every(({ body }) => body.ground))
+      ? others
+      : [];
+  const [other] = one.meets;
+  note.value = other ? { at: spot.px, text: texts.edit.meets(`${other.body.name}.${other.point}`) } : null;
   return places.flatMap((place) => {
     const target: Point =
       place === first && !limited ? at : [round(place.at[0] + shift[0]), round(place.at[1] + shift[1])];
     const found = moved(tree.value, place.hits, placements, mechanism.value?.bodies ?? [], target);
     return found.changes;
   });
+}
+
+/** The other end of a body with two points, for directions at round angles. */
+function otherEnd([hit, ...others]: readonly PointHit[], all: readonly PointHit[]): Point | undefined {
+  if (!hit || others.length || hit.body.ground) return undefined;
+  const rest = all.filter((one) => one.body.name === hit.body.name && one.point !== hit.point);
+  return rest.length === 1 ? rest[0]!.at : undefined;
 }
 
 function round(value: number): number {
