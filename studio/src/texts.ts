@@ -262,6 +262,7 @@ export const texts = {
     warnings: (n: number) => `${n} ${n === 1 ? "warning" : "warnings"}`,
     bodies: (n: number) => `${n} moving ${n === 1 ? "body" : "bodies"}`,
     dismiss: "Dismiss",
+    undo: "Undo the last change",
   },
   move: {
     hint: "Drag a point or a body. Every length is kept.",
@@ -317,6 +318,12 @@ export const texts = {
       `* Not unique: of the possible reactions of redundant joints, the smallest are shown (minimum norm): ${names.join(", ")}.`,
     done: (count: number, name: string, end: string) => `${count} states up to ${name} = ${end}`,
     begun: (names: string) => `The motion begins here: the law of ${names} was changed. Undo restores it.`,
+    stops: (owner: string, value: string, reason: string) => `${owner} stops at ${value}: ${reason}.`,
+    swings: (text: string) => `${text} It swings between its ends now; undo restores the former law.`,
+    swing: "Swing between the ends",
+    singular: (time: string, names: string) =>
+      `A dead point${time ? ` at ${time}` : ""}: ${names} do not determine how the mechanism goes on.`,
+    undetermined: "The motion ends here: in this position it is not determined how the mechanism goes on.",
     none: "Run an analysis to read its results.",
     found: "The result is beside the drawing.",
     findings: "Result",

@@ -1,6 +1,7 @@
 // Changing between the modes.
 import { effect } from "@preact/signals";
 import { scaling } from "../store/backdrop";
+import { note } from "../store/note";
 import { goHome, report, showPresent } from "../store/session";
 import { loads, type Mode, mode, panel, tool } from "../store/state";
 import { edit } from "./edit";
@@ -35,6 +36,7 @@ export function enter(next: Mode): void {
 
 function leave(before: Mode): void {
   restart(null);
+  note.value = null;
   configurations.value = null;
   endScaling();
   const others = Object.keys(living.changed.value).length > 0;

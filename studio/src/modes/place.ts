@@ -16,7 +16,8 @@ import { addElement, type Scale } from "../edit/element";
 import { hasLine, hasSides } from "../edit/swapping";
 import { distance, type Point } from "../plane/points";
 import { type Snapped, snapped } from "../plane/snap";
-import { change } from "../store/document";
+import { plainly } from "../store/blame";
+import { change, undo } from "../store/document";
 import { note } from "../store/note";
 import { report } from "../store/session";
 import { preview, typedLength, view } from "../store/sheet";
@@ -270,7 +271,9 @@ async function apply(active: Tool, { changes: all, name }: Added): Promise<void>
   selection.value = { group: active.group, name };
   if (active.placing !== "fixed" && panel.value !== "text") panel.value = "properties";
   const problem = problems.value[0] ?? unassembled.value;
-  if (problem) announce("problem", texts.place.incomplete(active.label, name, problem.message));
+  const back = { label: texts.status.undo, run: () => void undo() };
+  if (problem)
+    announce("problem", texts.place.incomplete(active.label, name, plainly(problem.message)), { action: back });
   else
     announce(
       "done",

@@ -11,18 +11,18 @@ import { texts } from "../texts";
 const T_END = 5;
 const LONGEST = 100;
 /** The number of outputs of a run without an analysis. */
-const OUTPUTS = 500;
+export const OUTPUTS = 500;
 /** A drag has moved the mechanism if a coordinate differs by more than this. */
 const MOVED = 1e-6;
 
 /** Drivers of one coordinate, with this coordinate and their law. */
-function driven(): { name: string; coordinate: string; value: Value }[] {
+export function driven(): { name: string; coordinate: string; value: Value }[] {
   return Object.entries(entries(tree.value, "drivers")).flatMap(([name, { coordinate, value }]) =>
     typeof coordinate === "string" && value !== undefined ? [{ name, coordinate, value }] : [],
   );
 }
 
-async function quantityOf(name: string | undefined): Promise<number> {
+export async function quantityOf(name: string | undefined): Promise<number> {
   return name
     ? send("quantity", { name }).then(
         ({ ok }) => ok.value,
@@ -42,11 +42,12 @@ export async function duration(): Promise<{ t_end: number; output_step: number }
 }
 
 /** Give a case without an analysis the one that *Read* runs, so that the case can be run everywhere. */
-export async function withAnalysis(): Promise<void> {
+export async function withAnalysis(): Promise<boolean> {
   const [type] = catalogue.value.analyses;
-  if (!type || Object.keys(entries(tree.value, "analyses")).length || (mechanism.value?.bodies.length ?? 0) < 2) return;
+  if (!type || Object.keys(entries(tree.value, "analyses")).length || (mechanism.value?.bodies.length ?? 0) < 2)
+    return false;
   const value: Tree = { type: type.name, ...(await duration()) };
-  await change([{ path: ["analyses", freeName(tree.value, "run")], value }]);
+  return change([{ path: ["analyses", freeName(tree.value, "run")], value }]);
 }
 
 /** Whether a drag in *Move* has left the pose of the text. */
