@@ -149,7 +149,7 @@ def see_a_coupler_curve(one: Person) -> None:
     one.think()
     one.button("Add a point")
     one.think()
-    one.button("Coordinate driver")
+    one.button("Driver")
     one.sheet(middle(A, B))
     one.think()
     one.mode("Read")

@@ -4,11 +4,13 @@ import { examples } from "virtual:examples";
 import { render } from "preact";
 import { EMPTY, take } from "./give/files";
 import { textOf } from "./give/link";
+import { enter } from "./modes/modes";
 import { packedCore, worker } from "./page/core";
 import { kempe } from "./page/interface";
 import { listenToKeys } from "./page/keyboard";
 import { Page } from "./page/Page";
-import { open } from "./store/document";
+import { open, take as show } from "./store/document";
+import { begunWith, keep, restored, tellApart } from "./store/kept";
 import { connect } from "./store/session";
 import { announce } from "./store/state";
 import { texts } from "./texts";
@@ -26,17 +28,38 @@ function ownText(): string | null {
   return JSON.parse(document.getElementById("case")?.textContent ?? "null") as string | null;
 }
 
-/** The first text: from the link, from the page, or from the first example. */
-async function begin(): Promise<void> {
-  let given: string | null = null;
-  let damaged = false;
+/** The text of the link or of the page; null without one, undefined if the link is damaged. */
+function givenText(): string | null | undefined {
   try {
-    given = textOf(location.hash);
+    return textOf(location.hash) ?? ownText();
   } catch {
-    damaged = true;
+    return undefined;
   }
-  await open(given ?? ownText() ?? examples.find(({ name }) => name === FIRST)?.text ?? EMPTY);
-  if (damaged) announce("problem", texts.share.damaged);
+}
+
+/** Open the text of the link, the text of the page, or the first example, unless this tab has begun with it. */
+async function begin(): Promise<void> {
+  const given = givenText();
+  const source = given ?? "";
+  const kept = restored();
+  if (kept) {
+    await show(kept.text, false);
+    if (kept.source === source) enter(kept.mode);
+  }
+  if (kept?.source !== source) await open(given ?? examples.find(({ name }) => name === FIRST)?.text ?? EMPTY);
+  begunWith(source);
+  keep();
+  tellApart(kept !== null);
+  if (given === undefined) announce("problem", texts.share.damaged);
+}
+
+/** Open the text of another link. */
+async function follow(): Promise<void> {
+  const given = givenText();
+  if (given) {
+    await open(given);
+    begunWith(given);
+  } else if (given === undefined) announce("problem", texts.share.damaged);
 }
 
 async function start(): Promise<void> {
@@ -47,7 +70,7 @@ async function start(): Promise<void> {
 
 render(<Page />, document.getElementById("page")!);
 listenToKeys();
-addEventListener("hashchange", () => void begin());
+addEventListener("hashchange", () => void follow());
 addEventListener("dragover", (event) => event.preventDefault());
 addEventListener("drop", (event) => {
   event.preventDefault();

@@ -4,13 +4,40 @@ import { ARROWS_ON, forces, ON_ALL } from "./playerTexts";
 
 export * from "./playerTexts";
 
-const articles: Record<string, string> = {
+const things: Record<string, string> = {
   body: "a body, or empty ground",
   curve: "a body with a curve",
-  coordinate: "a body or an element that moves",
+  coordinate: "a body or a joint that moves",
 };
 
-const article = (shape: string) => articles[shape] ?? `a ${shape}`;
+/** What the clicks of a tool choose, in the order of its references. */
+const roles: Record<string, readonly string[]> = {
+  revolute: ["the first of two points to pin", "the point of the other body"],
+  translational: ["the guide: a body, or the ground", "the body that slides along it"],
+  pin_in_slot: ["the body with the slot, or the ground", "the pin, a point of another body"],
+  gear: ["the first wheel", "the second wheel"],
+  belt: ["the first wheel", "the second wheel"],
+  rack: ["the rack: a body, or the ground", "the pinion"],
+  rolling: ["the line: a body, or the ground", "the wheel that rolls on it"],
+  point_on_curve: ["the point that follows a curve", "the body with the curve"],
+  roller_on_curve: ["the centre of the roller", "the body with the curve"],
+  flat_on_curve: ["a point of the flat face", "the body with the curve"],
+  contact: ["the point that touches", "the body with the curve"],
+  coordinate_driver: ["the body or joint that is driven"],
+  generalized_force: ["the body or joint on which it acts"],
+  stop: ["the body or joint that is stopped"],
+  torque: ["the body that it turns"],
+  motor: ["the rotor"],
+  force: ["the point where it acts"],
+  friction: ["the joint"],
+  coupling: ["the first body or joint that moves", "the second one"],
+};
+/** Of elements between two points or bodies. */
+const ENDS = ["its first end", "its second end"];
+
+/** What the click for a reference chooses; `k` is its number among `n`. */
+const role = (type: string, k: number, n: number, shape: string) =>
+  roles[type]?.[k] ?? (n === 2 ? ENDS[k]! : (things[shape] ?? `a ${shape}`));
 
 const variable = (name: string) => (name === "t" ? "the time" : name);
 
@@ -43,17 +70,52 @@ export const texts = {
     read: "Run an analysis and read its results (4)",
   },
   playback: { play: "Play", pause: "Pause", speed: "Speed", time: "Time" },
-  files: { csv: "CSV", npz: "NPZ", png: "PNG", svg: "SVG", gif: "GIF" },
+  files: {
+    csv: "CSV",
+    npz: "NPZ",
+    png: "PNG",
+    svg: "SVG",
+    gif: "GIF",
+    saved: (name: string) => `Saved in ${name}.`,
+    copied: (name: string) =>
+      `This tab is a copy of another open tab. Changes here do not change the other one; the file of this one is ${name}.`,
+  },
   untitled: "Untitled mechanism",
   menu: { new: "New", open: "Open", save: "Save", gallery: "Gallery", share: "Share", undo: "Undo", redo: "Redo" },
   menuHints: {
     open: "Open a case file (ctrl O)",
-    save: "Save the case as TOML (ctrl S)",
+    save: "Save the case as TOML (ctrl S; in another file: ctrl shift S)",
     undo: "Undo (ctrl Z)",
     redo: "Redo (ctrl shift Z)",
     gallery: "Examples to start from",
     share: "A link that holds the whole model",
   },
+  /** Words for types whose names in the file are no plain words, and the start of the names of new entries. */
+  labels: {
+    coordinate_driver: "Driver",
+    spring_damper: "Spring, damper",
+    translational: "Slide",
+    generalized_force: "Effort",
+    constraint: "Formula",
+  } as Record<string, string>,
+  machines: {
+    slider: "A block on a straight guide of the ground or of a body; a point at its place is pinned to it",
+    cylinder: "A barrel and its rod between two points, with a driver of its length",
+  },
+  stems: {
+    slider: "block",
+    cylinder: "barrel",
+    coordinate_driver: "driver",
+    spring_damper: "spring",
+    torsion_spring: "spring",
+    translational: "slide",
+    pin_in_slot: "slot",
+    generalized_force: "effort",
+    point_on_curve: "follower",
+    roller_on_curve: "roller",
+    flat_on_curve: "flat",
+    point_mass: "mass",
+  } as Record<string, string>,
   groups: { bodies: "Bodies", joints: "Joints", drivers: "Drivers", forces: "Forces" },
   palette: { title: "Insert", select: "Select and drag" },
   tabs: { insert: "Insert", properties: "Properties", text: "Text", results: "Results" },
@@ -78,6 +140,13 @@ export const texts = {
   edit: {
     fixed: (body: string, point: string) =>
       `${body}.${point} does not follow: a length or a formula of the text determines it.`,
+    changes: (names: string) => `A drag changes ${names}.`,
+    instead: "Instead:",
+    meets: (point: string) => `Pinned to ${point} when you let go; hold alt to leave it free.`,
+    locked: (body: string, point: string) =>
+      `${body}.${point} cannot be dragged: joints, drivers and contacts determine its place, and no number of ${body} moves it.`,
+    heldPoint: (body: string, point: string) =>
+      `${body}.${point} is kept while drawing: see the properties of ${body}.`,
     place: (body: string) => `Place ${body} by its points`,
     noLength: (unit: string) =>
       `A length is greater than 0: a number in ${unit}, a number with its unit, or a formula.`,
@@ -96,13 +165,23 @@ export const texts = {
         ? `${label}: click where the fixed point is.`
         : placing === "one"
           ? `${label}: click where it is.`
-          : `${label}: click its first point. An existing point is joined by a pin.`,
-    next: (label: string, many: boolean) =>
-      many
+          : placing === "slider"
+            ? `${label}: click where the block is: a point that it carries, its guide, or the ground.`
+            : `${label}: click its first point. An existing point is joined by a pin.`,
+    next: (label: string, placing: string | null) =>
+      placing === "many"
         ? `${label}: click the next point; double click or enter finishes.`
-        : `${label}: click its second point, or type a length.`,
-    choose: (label: string, field: string, shape: string) => `${label}: click ${article(shape)} for ${field}.`,
-    wanted: (shape: string) => `There is no ${shape} here. Click ${article(shape)}.`,
+        : placing === "slider"
+          ? `${label}: click the direction of the guide.`
+          : `${label}: click its second point, or type a length.`,
+    choose: (label: string, type: string, k: number, n: number, shape: string) =>
+      `${label}: click ${role(type, k, n, shape)}.`,
+    wanted: (shape: string, type: string, k: number, n: number) =>
+      `There is no ${shape === "coordinate" ? "moving part" : shape} here. Click ${role(type, k, n, shape)}.`,
+    role,
+    same: (body: string, wanted: string) => `This is ${body} again. Click ${wanted}, on another body.`,
+    notGround: (wanted: string) => `The ground does not move. Click ${wanted}.`,
+    swap: "Swap the two sides",
     addCurve: (body: string) => `Add a curve to ${body}`,
     held: (owner: string) =>
       `${owner} cannot be driven here: the joints and drivers leave it no freedom. Click another body or joint.`,
@@ -183,6 +262,7 @@ export const texts = {
     warnings: (n: number) => `${n} ${n === 1 ? "warning" : "warnings"}`,
     bodies: (n: number) => `${n} moving ${n === 1 ? "body" : "bodies"}`,
     dismiss: "Dismiss",
+    undo: "Undo the last change",
   },
   move: {
     hint: "Drag a point or a body. Every length is kept.",
@@ -237,6 +317,13 @@ export const texts = {
     notUnique: (names: readonly string[]) =>
       `* Not unique: of the possible reactions of redundant joints, the smallest are shown (minimum norm): ${names.join(", ")}.`,
     done: (count: number, name: string, end: string) => `${count} states up to ${name} = ${end}`,
+    begun: (names: string) => `The motion begins here: the law of ${names} was changed. Undo restores it.`,
+    stops: (owner: string, value: string, reason: string) => `${owner} stops at ${value}: ${reason}.`,
+    swings: (text: string) => `${text} It swings between its ends now; undo restores the former law.`,
+    swing: "Swing between the ends",
+    singular: (time: string, names: string) =>
+      `A dead point${time ? ` at ${time}` : ""}: ${names} do not determine how the mechanism goes on.`,
+    undetermined: "The motion ends here: in this position it is not determined how the mechanism goes on.",
     none: "Run an analysis to read its results.",
     found: "The result is beside the drawing.",
     findings: "Result",
@@ -313,7 +400,7 @@ export const texts = {
     keys: [
       ["1 2 3 4", "edit, move, live, read"],
       ["ctrl Z, ctrl shift Z", "undo, redo"],
-      ["ctrl S, ctrl O", "save, open"],
+      ["ctrl S, ctrl shift S, ctrl O", "save, save in another file, open"],
       ["ctrl C, ctrl V", "copy and paste the selected body"],
       ["del", "delete the selection"],
       ["esc", "end the tool, clear the selection; in Live, let go"],
@@ -324,7 +411,7 @@ export const texts = {
         "move the selected point; with a tool, the place of the next click; in Move, the body; in Live, pull at it",
       ],
       ["shift arrow keys", "move the sheet"],
-      ["alt", "place freely, without snapping"],
+      ["alt", "place and drag freely, without snapping and pins"],
       ["+ − 0", "zoom in, out, show everything"],
       ["space", "play, pause; with a tool or to scale a picture, click at the place that the arrow keys move"],
       ["wheel, two fingers", "zoom; drag the empty sheet to move it"],

@@ -44,7 +44,7 @@ test("what a tool needs follows from the fields", () => {
     },
   });
   const tools = toolsOf(catalogue);
-  expect(tools.map(({ placing }) => placing)).toEqual(["two", "many", "one", "fixed", null]);
+  expect(tools.map(({ placing }) => placing)).toEqual(["two", "many", "one", "fixed", null, "slider", "cylinder"]);
   expect(tools[4]!.references.map(({ name }) => name)).toEqual(["j"]);
 });
 

@@ -11,6 +11,8 @@ import { typed, typedList, written, writtenList } from "../src/edit/values";
 import { allPoints } from "../src/plane/hits";
 import { inFrame, placed } from "../src/plane/points";
 
+const MEASURES = { length: 1, size: 1, mass: 1, weight: 10, turn: 0, beside: 0, pin: false, degrees: true };
+
 const field = (name: string, shape: string, unit = "", required = false) => ({
   name,
   shape,
@@ -132,7 +134,7 @@ test("a body that is placed by its points gets another place, as it was drawn", 
 test("a driver begins at the present value of its quantity, with all digits, and has a parameter for its speed", () => {
   const motion = { name: "crank.angle", unit: "rad", value: 1 / 3, rate: 0, alone: true };
   const chosen = { coordinate: "crank.angle" };
-  const { changes } = addElement(drive, chosen, { length: 1, degrees: true, now: [motion] }, {});
+  const { changes } = addElement(drive, chosen, { ...MEASURES, length: 1, now: [motion] }, {});
   expect(changes).toEqual([
     { path: ["parameters", "speed1"], value: "10 rpm" },
     {
@@ -141,7 +143,7 @@ test("a driver begins at the present value of its quantity, with all digits, and
     },
   ]);
   const sliding = { name: "block.x", unit: "m", value: 0.25, rate: 0, alone: true };
-  const [speed] = addElement(drive, chosen, { length: 0.05, degrees: true, now: [sliding] }, tree).changes;
+  const [speed] = addElement(drive, chosen, { ...MEASURES, length: 0.05, now: [sliding] }, tree).changes;
   expect(speed).toEqual({ path: ["parameters", "speed1"], value: "50 mm/s" });
   expect(hinge.references.length).toBe(2);
 });

@@ -5,6 +5,8 @@ import { curveFor } from "../src/edit/curve";
 import { addElement } from "../src/edit/element";
 import { isNotation, typeMeant } from "../src/edit/values";
 
+const MEASURES = { length: 1, size: 1, mass: 1, weight: 10, turn: 0, beside: 0, pin: false, degrees: true };
+
 const field = (name: string, shape: string | { options: string }, unit = "", required = true) => ({
   name,
   shape,
@@ -28,12 +30,12 @@ test("a relation consists of the coordinates that were clicked, and holds where 
   const [link, zero] = toolsOf(catalogue);
   expect(link!.references.map(({ shape }) => shape)).toEqual(["coordinate", "coordinate"]);
   expect(
-    addElement(link!, { "terms 1": "a.angle", "terms 2": "b.angle" }, { length: 1, degrees: true, now }, null).changes,
+    addElement(link!, { "terms 1": "a.angle", "terms 2": "b.angle" }, { ...MEASURES, length: 1, now }, null).changes,
   ).toEqual([
     { path: ["joints", "link1"], value: { type: "link", terms: { "a.angle": 1, "b.angle": -1 }, value: 0.75 } },
   ]);
   expect(zero!.references.length).toBe(1);
-  expect(addElement(zero!, {}, { length: 1, degrees: true, now: now.slice(1) }, null).changes).toEqual([
+  expect(addElement(zero!, {}, { ...MEASURES, length: 1, now: now.slice(1) }, null).changes).toEqual([
     { path: ["joints", "zero1"], value: { type: "zero", residual: ["b.angle - (-0.25)"], units: ["rad"] } },
   ]);
 });

@@ -16,6 +16,8 @@ ROOT = Path(__file__).parents[2]
 PAGE = ROOT / "studio" / "dist" / "index.html"
 #: The case with which a page begins.
 FIRST = ROOT / "examples" / "four_bar.toml"
+#: Files are chosen and downloaded as in browsers without access to files.
+NO_PICKERS = "delete window.showOpenFilePicker; delete window.showSaveFilePicker"
 
 
 @pytest.fixture(scope="session")
@@ -31,6 +33,7 @@ def built() -> None:
 def opened(browser: "sync_api.Browser", link: str = "", page: Path = PAGE, **more: Any) -> Studio:
     """The studio in a window of its own, which notes messages, errors and requests."""
     context = browser.new_context(**more)
+    context.add_init_script(NO_PICKERS)
     one = Studio(context.new_page())
     one.page.on("console", lambda message: one.messages.append(message.text))
     one.page.on("pageerror", lambda error: one.messages.append(str(error)))

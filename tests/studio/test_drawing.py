@@ -281,3 +281,36 @@ def test_the_editor_has_its_styles_within_the_policy(studio: Opener) -> None:
     one.page.wait_for_timeout(800)
     assert one.call(style, [".cm-tooltip", "position"]) in ("absolute", "fixed")
     assert "mass" in one.page.locator(".cm-tooltip").inner_text()
+
+
+def test_keys_of_the_editor_and_its_history_are_those_of_the_case(studio: Opener) -> None:
+    one = studio()
+    text = one.toml()
+    one.page.locator("#tab-text").click()
+    one.page.locator(".cm-content").click()
+    one.page.keyboard.press("Control+End")
+    one.page.keyboard.type("[parameters.x]")
+    one.page.keyboard.press("Enter")
+    one.page.keyboard.press("Tab")
+    one.page.keyboard.type("# aa")
+    one.page.keyboard.press("Enter")
+    one.page.keyboard.type("b")
+    one.page.keyboard.press("Backspace")
+    one.page.wait_for_timeout(300)
+    one.settle()
+    assert one.toml() == text + "[parameters.x]\n  # aa\n  "
+    one.page.keyboard.press("Control+z")
+    one.settle()
+    assert one.toml() == text
+    one.page.keyboard.press("Control+Shift+z")
+    one.settle()
+    assert one.toml().endswith("# aa\n  ")
+    one.page.keyboard.press("Control+a")
+    one.page.keyboard.press("Delete")
+    one.page.wait_for_timeout(300)
+    assert one.toml() == ""
+    one.page.keyboard.press("Control+z")
+    one.settle()
+    colour = """name => getComputedStyle([...document.querySelector(".editor").shadowRoot
+      .querySelectorAll(".cm-line span")].find(one => one.textContent === name)).color"""
+    assert len({one.call(colour, name) for name in ("kempe", "15", "[bodies.crank]")} - {None}) == 2

@@ -73,7 +73,7 @@ def test_limits_need_a_single_freedom(one: Studio) -> None:
     one.mode("edit")
     obstacle = shown(one)["Limits"]
     assert "2 degrees of freedom" in obstacle
-    assert "coordinate driver" in obstacle
+    assert "add a driver" in obstacle
     model = kp.load(case).model
     with pytest.raises(kp.KempeError):
         kp.limits(model, kp.assemble(model), over="first.angle")

@@ -68,8 +68,9 @@ export function paintRing(
   at: Point,
   colours: Colours,
   radius = 12,
+  colour: "accent" | "problem" = "accent",
 ): void {
-  context.strokeStyle = colours.named.accent;
+  context.strokeStyle = colours.named[colour];
   context.lineWidth = 2.5;
   context.stroke(circle(view.toScreen(at), radius));
 }

@@ -28,9 +28,14 @@ export interface Case {
 export const GROUND = "ground";
 
 /** Add a body with points at these places, pinned to the bodies that have points there. */
-export function addBody({ type, placing }: Tool, places: Place[], catalogue: Catalogue, { tree, bodies }: Case): Added {
+export function addBody(
+  { type, placing, stem }: Tool,
+  places: Place[],
+  catalogue: Catalogue,
+  { tree, bodies }: Case,
+): Added {
   if (placing === "fixed") return addGroundPoint(places[0]!.at, { tree, bodies });
-  const name = freeName(tree, type.name.replaceAll("_", ""));
+  const name = freeName(tree, stem);
   const names = namesFor(places, tree, bodies);
   const value: Tree = { type: type.name };
   for (const field of type.fields) {
@@ -100,9 +105,9 @@ function namesFor(places: Place[], tree: Tree | null, bodies: readonly Body[]): 
   });
 }
 
-/** A pin between the first point of a place and a point of a new body. */
-function pinTo(
-  { hits }: Place,
+/** A pin between the first point of a place and a point of a body. */
+export function pinTo(
+  { hits }: Pick<Place, "hits">,
   body: string,
   point: string,
   catalogue: Catalogue,

@@ -1,9 +1,9 @@
 // Commands on the selection: rename, remove, copy, mirror, move by keys.
-import { typeOf } from "../catalogue/catalogue";
+import { type Group, typeOf } from "../catalogue/catalogue";
 import { entry, freeName, freePointNames, groupOf, isTable } from "../catalogue/tree";
 import type { Change, Tree, Value } from "../core/protocol";
 import { gridStep, snapStep } from "../draw/measure";
-import { allPoints } from "../plane/hits";
+import { allPoints, type PointHit } from "../plane/hits";
 import { distance, type Point, placed } from "../plane/points";
 import { change } from "../store/document";
 import { view } from "../store/sheet";
@@ -16,6 +16,7 @@ import { lengthened } from "./length";
 import { lengthMeant, meantValue } from "./meaning";
 import { isPlain, moved } from "./moving";
 import { removed, removedPoint, renamed } from "./removing";
+import { swapped } from "./swapping";
 
 const RESERVED = ["t", "pi", "deg", "ground", "energy", "drift"];
 
@@ -139,7 +140,7 @@ export async function nudge(dx: number, dy: number): Promise<void> {
   const step = snapStep(view);
   const bodies = mechanism.value?.bodies ?? [];
   const all = allPoints(bodies, poses.value);
-  const own = all.filter(({ body, point }) => isChosen(body.name, point));
+  const own = chosenPoints(all);
   if (!chosen || !own.length) return;
   const places = own.map(({ at }) => ({
     at,
@@ -152,9 +153,21 @@ export async function nudge(dx: number, dy: number): Promise<void> {
   await change([...new Map(changes.map((one) => [one.path.join("\0"), one])).values()]);
 }
 
-/** Whether a point belongs to the selection; a joint has the points to which it refers. */
-function isChosen(body: string, point: string): boolean {
-  const chosen = selection.value!;
-  if (chosen.group === "bodies") return chosen.name === body && (!chosen.point || chosen.point === point);
-  return Object.values(entry(tree.value, chosen.group, chosen.name) ?? {}).includes(`${body}.${point}`);
+/** The points that belong to the selection; a joint has those to which it refers. */
+export function chosenPoints(all: PointHit[]): PointHit[] {
+  const chosen = selection.value;
+  if (!chosen) return [];
+  const references = Object.values(entry(tree.value, chosen.group, chosen.name) ?? {});
+  return all.filter(({ body: { name }, point }) =>
+    chosen.group === "bodies"
+      ? chosen.name === name && (!chosen.point || chosen.point === point)
+      : references.includes(`${name}.${point}`),
+  );
+}
+
+/** Exchange the two sides of an element. */
+export async function swap(group: Group, name: string): Promise<void> {
+  const found = entry(tree.value, group, name);
+  const type = typeOf(catalogue.value, group, name, found);
+  if (found && type) await change(swapped(type, [group, name], found, mechanism.value?.bodies ?? [], poses.value));
 }

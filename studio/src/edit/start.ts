@@ -9,9 +9,10 @@ export interface Prescribed {
   path: Path;
 }
 
-export function prescribed(tree: Tree | null): Prescribed[] {
+export function prescribed(tree: Tree | null, part: "set" | "guess" = "set"): Prescribed[] {
   const start = tree?.start;
-  return isTable(start) && isTable(start.set) ? within(start.set, ["start", "set"], []) : [];
+  const table = isTable(start) ? start[part] : undefined;
+  return isTable(table) ? within(table, ["start", part], []) : [];
 }
 
 function within(table: Tree, path: Path, names: string[]): Prescribed[] {

@@ -2,6 +2,8 @@
 import { signal } from "@preact/signals";
 import { snapStep } from "../draw/measure";
 import { type Point, placed } from "../plane/points";
+import { plainly } from "../store/blame";
+import { note } from "../store/note";
 import { goHome, report, send } from "../store/session";
 import { preview, view } from "../store/sheet";
 import { announce, home, mechanism, mode, pose, poses, selection, live as state } from "../store/state";
@@ -9,6 +11,7 @@ import { texts } from "../texts";
 import { Frames } from "./frames";
 import { type Grip, gripAt, gripOfKeys } from "./grip";
 import type { Handler } from "./handler";
+import { pinOf, stopsOf, stopText, swing } from "./stops";
 
 const frames = new Frames();
 export const playing = frames.playing;
@@ -127,9 +130,23 @@ async function advance(by: number): Promise<boolean> {
   pose.value = ok;
   const pulled = preview.value?.pull;
   if (pulled && view) showPull(pulled[1]);
-  if (ok.ended) announce("problem", ok.ended);
+  if (ok.ended) await explain(ok.ended);
   else if (ok.events.length) announce("info", texts.live.event(ok.events.map(({ name }) => name).join(", ")));
   return !ok.ended;
+}
+
+/** Say why a motion has ended: where the crank stops, otherwise in the words of the core. */
+async function explain(ended: string): Promise<void> {
+  const last = pose.value;
+  const stops = await stopsOf();
+  begun = false;
+  pose.value = last;
+  const again = () => stops && void swing(stops).then(play);
+  const action = stops?.low && stops.high ? { action: { label: texts.read.swing, run: again } } : {};
+  const words = stops ? stopText(stops) : plainly(ended);
+  announce("problem", words, action);
+  const at = stops && pinOf(words, poses.value);
+  if (at) note.value = { at: view.toScreen(at), text: words, kind: "wrong" };
 }
 
 export function pause(): void {

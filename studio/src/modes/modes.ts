@@ -1,7 +1,8 @@
 // Changing between the modes.
 import { effect } from "@preact/signals";
 import { scaling } from "../store/backdrop";
-import { goHome, showPresent } from "../store/session";
+import { note } from "../store/note";
+import { goHome, report, showPresent } from "../store/session";
 import { loads, type Mode, mode, panel, tool } from "../store/state";
 import { edit } from "./edit";
 import type { Handler } from "./handler";
@@ -10,6 +11,7 @@ import { configurations, move } from "./move";
 import { place, restart } from "./place";
 import * as reading from "./read";
 import { endScaling, scale } from "./scaling";
+import { beginHere } from "./starting";
 
 export function handler(): Handler {
   if (mode.value === "edit" && scaling.value) return scale;
@@ -19,20 +21,22 @@ export function handler(): Handler {
 
 export function enter(next: Mode): void {
   if (mode.value === next) return;
-  leave(mode.value);
+  const before = mode.value;
+  leave(before);
   mode.value = next;
   if (next === "edit") void goHome();
   panel.value = next === "read" ? "results" : "properties";
-  if (next === "live") void living.play();
+  if (next === "live") void (before === "read" ? goHome() : Promise.resolve()).then(living.play);
   if (next === "read") {
     if (reading.course.value) reading.show(reading.time.value);
     else if (reading.found.value) void reading.showPlace(reading.place.value);
-    else void reading.run();
+    else void (before === "move" ? beginHere() : Promise.resolve()).then(() => reading.run()).catch(report);
   }
 }
 
 function leave(before: Mode): void {
   restart(null);
+  note.value = null;
   configurations.value = null;
   endScaling();
   const others = Object.keys(living.changed.value).length > 0;

@@ -1,18 +1,24 @@
 // Drawing with a tool of the palette: clicks choose places and references.
 
 import type { Field } from "../catalogue/catalogue";
+import { isPin } from "../catalogue/catalogue";
 import type { Tool } from "../catalogue/tools";
-import type { Change, Value } from "../core/protocol";
+import { entry } from "../catalogue/tree";
+import type { Body, Change, Value } from "../core/protocol";
 import { displayed } from "../draw/display";
 import { gridStep, snapStep } from "../draw/measure";
 import { besideUnit, roundQuantity, significant } from "../draw/numbers";
 import { type Added, addBody, type Case, GROUND, type Place, pointReference } from "../edit/adding";
-import { addCurve, takesCurves } from "../edit/commands";
+import { addCurve, swap, takesCurves } from "../edit/commands";
+import { addMachine, isMachine } from "../edit/composing";
 import type { Motion } from "../edit/driving";
-import { addElement } from "../edit/element";
+import { addElement, type Scale } from "../edit/element";
+import { hasLine, hasSides } from "../edit/swapping";
 import { distance, type Point } from "../plane/points";
 import { type Snapped, snapped } from "../plane/snap";
-import { change } from "../store/document";
+import { plainly } from "../store/blame";
+import { change, undo } from "../store/document";
+import { note } from "../store/note";
 import { report } from "../store/session";
 import { preview, typedLength, view } from "../store/sheet";
 import {
@@ -22,6 +28,7 @@ import {
   panel,
   poses,
   problems,
+  scene,
   selection,
   snapping,
   tool,
@@ -33,13 +40,15 @@ import { texts } from "../texts";
 import { alikeOf, coordinateOf } from "./coordinate";
 import type { Handler, Spot } from "./handler";
 import { lengthNow, readLength } from "./length";
-import { curveUnder, jointUnder, ownerUnder, type Under, under } from "./refer";
-import { points } from "./seen";
+import { curveUnder, jointUnder, ownerUnder, pivotOf, type Under, under } from "./refer";
+import { bodyUnder, links, points } from "./seen";
 
 let places: Place[] = [];
 let chosen: Record<string, Value> = {};
 let changes: Change[] = [];
 let now: Motion[] = [];
+/** The bodies under the clicked places that have no point there. */
+let below: (Body | null)[] = [];
 
 /** The work of earlier clicks; it resolves when all of it is done. */
 let working: Promise<void> = Promise.resolve();
@@ -64,20 +73,51 @@ export const place: Handler = {
   hover(spot) {
     const active = tool.value;
     if (!spot || !active) {
-      preview.value = null;
+      preview.value = note.value = null;
       return;
     }
     const { at, kind } = snapHere(spot);
-    const line = [...places.map((one) => one.at), at];
+    const line = places.length ? [...places.map((one) => one.at), at] : guideAt(active, spot, at);
+    if (!refused || distance(refused, spot.px) > NEW) {
+      refused = null;
+      note.value = { at: spot.px, text: prompt(active) };
+    }
     preview.value = {
-      line: places.length ? line : [],
+      line,
       closed: active.placing === "many",
       mark: { at, kind },
-      label: labelOf(line),
+      label: places.length ? labelOf(line) : "",
     };
   },
   cursor: () => "crosshair",
 };
+
+/** The place of the pointer where the last click was refused; the reason stays until the pointer has moved. */
+let refused: Point | null = null;
+const NEW = 25;
+
+/** What the next click chooses. */
+function prompt(active: Tool): string {
+  const { label, placing, references, type } = active;
+  const k = references.findIndex(({ name }) => !(name in chosen));
+  if (k >= 0) return texts.place.choose(label, type.name, k, references.length, String(references[k]!.shape));
+  return places.length ? texts.place.next(label, placing) : texts.place.first(label, placing);
+}
+
+/** The line that a click gives to the body under the pointer, for an element with a slot or a rack. */
+function guideAt({ type }: Tool, spot: Spot, at: Point): Point[] {
+  if (!type.fields.some(({ name }) => name === "axis" || name === "axes")) return [];
+  const { body } = under(spot, new Set());
+  const angle = body ? (poses.value[mechanism.value!.bodies.indexOf(body)]?.[2] ?? 0) : 0;
+  const [x, y] = [GUIDE * Math.cos(angle), GUIDE * Math.sin(angle)].map((one) => one / view.scale) as Point;
+  return [
+    [at[0] - x, at[1] - y],
+    [at[0] + x, at[1] + y],
+  ];
+}
+
+/** Half of the drawn part of a slot, px. */
+const GUIDE = 60;
 
 function present(): Case {
   return { tree: tree.value, bodies: mechanism.value?.bodies ?? [], poses: poses.value };
@@ -86,6 +126,7 @@ function present(): Case {
 function snapHere(spot: Spot): Snapped {
   return snapped(spot.at, {
     points: points().map(({ at }) => at),
+    lines: links(),
     step: snapStep(view),
     scale: view.scale,
     from: places.at(-1)?.at,
@@ -111,9 +152,10 @@ async function clickPlace(active: Tool, spot: Spot): Promise<void> {
   if (places.some((one) => distance(one.at, at) * view.scale < 2)) return;
   places.push({ at, hits });
   if (places.length > 1) typedLength.value = "";
-  const enough = active.placing === "many" ? 8 : active.placing === "two" ? 2 : 1;
+  below.push(hits.length ? null : bodyUnder(spot));
+  const enough = active.placing === "many" ? 8 : active.placing === "one" || active.placing === "fixed" ? 1 : 2;
   if (places.length >= enough) await make(active);
-  else announce("info", texts.place.next(active.label, active.placing === "many"));
+  else announce("info", prompt(active));
 }
 
 /** Make the body from the places that are chosen. */
@@ -123,27 +165,58 @@ export async function finish(): Promise<void> {
 }
 
 async function make(active: Tool): Promise<void> {
-  if (!active.placing || places.length < (active.placing === "two" || active.placing === "many" ? 2 : 1)) return;
-  const made = places;
+  const least = active.placing === "one" || active.placing === "fixed" ? 1 : 2;
+  if (!active.placing || places.length < least) return;
+  const [made, bodies] = [places, below];
   restart();
-  await apply(active, addBody(active, made, catalogue.value, present()));
+  const added = isMachine(active)
+    ? addMachine(active, [made[0]!, made[1]!], bodies, catalogue.value, present())
+    : addBody(active, made, catalogue.value, present());
+  await apply(active, added);
 }
 
 async function clickReference(active: Tool, spot: Spot): Promise<void> {
   const field = active.references.find(({ name }) => !(name in chosen));
   if (field) {
-    const reference = await referenceOf(active, String(field.shape), spot);
+    const [kept, added] = [places.length, changes.length];
+    const reference = await referenceOf(active, field, spot);
+    const wrong = reference === null ? "" : wrongSide(active, field, reference);
+    if (wrong) {
+      places.length = kept;
+      changes.length = added;
+      return tell(spot, wrong);
+    }
     if (reference === null) return refuse(active, field, spot);
     chosen[field.name] = reference;
   }
   await goOn(active);
 }
 
+/** Why a reference cannot be chosen, because of its body; empty if it can. */
+function wrongSide({ references, type }: Tool, field: Field, reference: string): string {
+  const shape = String(field.shape);
+  if (!["point", "body", "curve"].includes(shape)) return "";
+  const body = reference.split(".")[0]!;
+  const wanted = texts.place.role(type.name, references.indexOf(field), references.length, shape);
+  if (Object.values(chosen).some((one) => String(one).split(".")[0] === body)) return texts.place.same(body, wanted);
+  return references.length === 1 && body === GROUND ? texts.place.notGround(wanted) : "";
+}
+
+/** Give the reason of a refused click, below the drawing and beside the pointer. */
+function tell(spot: Spot, text: string, more: Parameters<typeof announce>[2] = {}): void {
+  announce("info", text, more);
+  refused = spot.px;
+  note.value = { at: spot.px, text, kind: "wrong" };
+}
+
 /** Show which reference is needed. If it is a curve, offer to add one. */
 function refuse(active: Tool, field: Field, spot: Spot): void {
+  const { references, type } = active;
   const found = under(spot, new Set());
   const held = active.group === "drivers" && field.shape === "coordinate" ? ownerUnder(found) : null;
-  const wanted = held ? texts.place.held(held) : texts.place.wanted(String(field.shape));
+  const wanted = held
+    ? texts.place.held(held)
+    : texts.place.wanted(String(field.shape), type.name, references.indexOf(field), references.length);
   const body = found.body?.name ?? GROUND;
   const add = async () => {
     const curve = await addCurve(body);
@@ -152,22 +225,45 @@ function refuse(active: Tool, field: Field, spot: Spot): void {
     await goOn(active);
   };
   const action = { label: texts.place.addCurve(body), run: () => void queue(active, add) };
-  announce("info", wanted, field.shape === "curve" && takesCurves(body) ? { action } : {});
+  tell(spot, wanted, field.shape === "curve" && takesCurves(body) ? { action } : {});
 }
 
 /** Show which reference is next, or make the element. */
 async function goOn(active: Tool): Promise<void> {
   const next = active.references.find(({ name }) => !(name in chosen));
-  if (next) announce("info", texts.place.choose(active.label, next.name, String(next.shape)));
+  if (next) announce("info", prompt(active));
   else await complete(active);
 }
 
 async function complete(active: Tool): Promise<void> {
-  const length = places.length > 1 ? distance(places[0]!.at, places[1]!.at) : gridStep(view) / 2;
-  const added = addElement(active, chosen, { length, degrees: units.value.degrees, now }, tree.value);
+  const added = addElement(active, chosen, scaleNow(active), tree.value);
   const all = { ...added, changes: [...changes, ...added.changes] };
   restart(active.references.length ? active : null);
   await apply(active, all);
+}
+
+/** The measures of the drawing for initial values. */
+function scaleNow({ type }: Tool): Scale {
+  const { bodies = [], gravity = [0, 0] } = mechanism.value ?? {};
+  const poseOf = (reference: Value | undefined) =>
+    poses.value[bodies.findIndex(({ name }) => name === String(reference).split(".")[0])] ?? [0, 0, 0];
+  const [[, , first], [, , second]] = [poseOf(chosen.i), poseOf(chosen.j)];
+  const [a, b] = places.map(({ at }) => at);
+  const mass = bodies.reduce((sum, body) => sum + (body.mass ?? 0), 0) || 1;
+  const [x0, y0, x1, y1] = scene.value?.bounds ?? [0, 0, 0, 0];
+  const line = type.fields.some(({ name }) => name === "axis");
+  const joint = String(entry(tree.value, "joints", String(chosen.joint))?.type);
+  return {
+    length: a && b ? distance(a, b) : gridStep(view) / 2,
+    size: Math.max(x1 - x0, y1 - y0) || gridStep(view),
+    mass,
+    weight: mass * (Math.hypot(...gravity) || 9.81),
+    turn: second - first,
+    beside: a && b && line ? Math.cos(first) * (b[1] - a[1]) - Math.sin(first) * (b[0] - a[0]) : 0,
+    pin: catalogue.value.joints.some((one) => one.name === joint && isPin(one)),
+    degrees: units.value.degrees,
+    now,
+  };
 }
 
 async function apply(active: Tool, { changes: all, name }: Added): Promise<void> {
@@ -175,14 +271,32 @@ async function apply(active: Tool, { changes: all, name }: Added): Promise<void>
   selection.value = { group: active.group, name };
   if (active.placing !== "fixed" && panel.value !== "text") panel.value = "properties";
   const problem = problems.value[0] ?? unassembled.value;
-  if (problem) announce("problem", texts.place.incomplete(active.label, name, problem.message));
-  else announce("done", texts.place.added(active.label, name));
+  const back = { label: texts.status.undo, run: () => void undo() };
+  if (problem)
+    announce("problem", texts.place.incomplete(active.label, name, plainly(problem.message)), { action: back });
+  else
+    announce(
+      "done",
+      texts.place.added(active.label, name),
+      hasSides(active.type) && hasLine(active.type) ? { action: swapAction(name) } : {},
+    );
+}
+
+function swapAction(name: string) {
+  return { label: texts.place.swap, run: () => void swap("joints", name) };
 }
 
 /** The reference under the pointer, in the notation of the file. */
-async function referenceOf(active: Tool, shape: string, spot: Spot): Promise<string | null> {
+async function referenceOf(active: Tool, field: Field, spot: Spot): Promise<string | null> {
+  const shape = String(field.shape);
   const taken = new Set(Object.values(chosen).map((one) => String(one).split(".")[0]!));
-  const found = under(spot, taken);
+  const wheel = field.doc.startsWith("Centre");
+  const found = under(spot, taken, wheel);
+  const pivot = wheel && found.body && !found.fresh ? pivotOf(found.body) : null;
+  if (pivot) {
+    const hit = points().find(({ body, point }) => body === found.body && point === pivot)!;
+    return pointUnder(spot, { ...found, fresh: hit });
+  }
   if (shape === "body") return found.body?.name ?? GROUND;
   if (shape === "point") return pointUnder(spot, found);
   if (shape === "joint") return jointUnder(found);
@@ -205,19 +319,13 @@ function pointUnder(spot: Spot, { fresh, body }: Under): string {
 
 /** Forget all clicks, and start with the active tool or another one. */
 export function restart(next: Tool | null = tool.value): void {
-  [places, chosen, changes, now] = [[], {}, [], []];
+  [places, below, chosen, changes, now] = [[], [], {}, [], []];
   typedLength.value = "";
-  preview.value = null;
+  preview.value = note.value = refused = null;
   tool.value = next;
   if (!next) return;
-  const first = next.references[0];
-  announce(
-    "info",
-    first
-      ? texts.place.choose(next.label, first.name, String(first.shape))
-      : texts.place.first(next.label, next.placing),
-  );
-  if (!next.placing && !first) void complete(next);
+  announce("info", prompt(next));
+  if (!next.placing && !next.references.length) void complete(next);
 }
 
 /** Whether a line is in progress; its length may then be typed. */

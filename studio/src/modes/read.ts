@@ -2,15 +2,19 @@
 import { batch, computed, effect, signal } from "@preact/signals";
 import type { Found, Pose, Quantity, Ran, Requests } from "../core/protocol";
 import { placeIn } from "../plane/instants";
+import { plainly } from "../store/blame";
+import { note } from "../store/note";
 import { report, Superseded, send, showPresent } from "../store/session";
-import { fitWith } from "../store/sheet";
-import { announce, mechanism, mode, openings, pose, selection } from "../store/state";
+import { fitWith, view } from "../store/sheet";
+import { announce, mechanism, mode, openings, pose, poses, selection } from "../store/state";
 import { texts } from "../texts";
 import { Frames } from "./frames";
 import { gripAt } from "./grip";
 import type { Handler } from "./handler";
 import { OVER, offer, over, rangeOfCore, TIME } from "./over";
 import { written } from "./shown";
+import { duration, hasMoved, withAnalysis } from "./starting";
+import { pinOf, type Stops, stopsOf, stopText, swing } from "./stops";
 
 /** A run with its frames: t and the poses of all moving bodies, row by row. A run to lower values is reversed. */
 export interface Course {
@@ -59,10 +63,8 @@ export const variable = computed<Quantity>(() => course.value?.ran.over ?? TIME)
 /** What forces over this quantity contain; empty over time. */
 export const condition = computed(() => course.value?.ran.over?.condition ?? "");
 
-/** The end of a run without an analysis, s. A run over a quantity is also played in this time. */
-const T_END = 5;
-/** The number of outputs of a run without an analysis. */
-const OUTPUTS = 500;
+/** A run over a quantity is played in this time, s. */
+const PLAYED = 5;
 
 export const span = computed<[number, number]>(() => {
   const t = course.value?.t;
@@ -90,8 +92,15 @@ export async function run(of?: number | string): Promise<Ran | Found | null> {
   try {
     const fields =
       typeof of === "string" ? { analysis: of } : of === undefined ? await requested() : await untilTime(of);
-    const { ok } = await send("run", fields);
-    await ("count" in ok ? showMotion(ok) : showFound(ok));
+    let { ok } = await send("run", fields);
+    const stops = "count" in ok && ok.error && !("over" in fields) ? await stopsOf() : null;
+    if (stops) {
+      const name = "analysis" in fields ? fields.analysis! : "";
+      // a case that was drawn swings by itself; the analysis of another case may ask for this motion
+      const turn = name === drawn ? await swing(stops) : null;
+      ({ ok } = await send("run", turn ? { analysis: name } : fields));
+      await showMotion(ok as Ran, { stops, swings: turn !== null });
+    } else await ("count" in ok ? showMotion(ok) : showFound(ok));
     return ok;
   } catch (error) {
     report(error);
@@ -122,7 +131,7 @@ export async function showPlace(number: number): Promise<void> {
 }
 
 /** Fetch the frames of a motion, and show its start. */
-async function showMotion(ok: Ran): Promise<void> {
+async function showMotion(ok: Ran, end?: { stops: Stops; swings: boolean }): Promise<void> {
   const { numbers } = await send("frames", {});
   const width = 1 + 3 * ((mechanism.value?.bodies.length ?? 1) - 1);
   const frames = inOrder(numbers, width);
@@ -134,13 +143,34 @@ async function showMotion(ok: Ran): Promise<void> {
     time.value = frames.t[0] ?? 0;
     quantities.value = all;
   });
-  if (ok.error) announce("problem", ok.error.message, ok.error.hint ? { hint: ok.error.hint } : {});
+  if (end) showEnd(end.stops, end.swings);
+  else if (ok.error) announce("problem", plainly(ok.error.message), ok.error.hint ? { hint: ok.error.hint } : {});
   else announce("done", texts.read.done(ok.count, variable.value.name, written(ok.t_end, variable.value.unit)));
-  show(time.value);
+  if (!end || end.swings) show(time.value);
 }
+
+/** Say where the crank stops, and mark the place; it may swing between its ends instead. */
+function showEnd(stops: Stops, swings: boolean): void {
+  if (swings) {
+    announce("info", texts.read.swings(stopText(stops)));
+    return;
+  }
+  show(span.value[1]);
+  const words = stopText(stops);
+  const again = () => void swing(stops).then(() => run());
+  const action = stops.low && stops.high ? { action: { label: texts.read.swing, run: again } } : {};
+  announce("problem", words, action);
+  const at = pinOf(words, poses.value);
+  if (at) note.value = { at: view.toScreen(at), text: words, kind: "wrong" };
+}
+
+/** The analysis that the page has added to a drawn case. */
+let drawn: string | null = null;
 
 /** The request of the run that is chosen in the panel. */
 async function requested(): Promise<Requests["run"]["send"]> {
+  const begins = chosen.value === null && !(hasMoved() && !mechanism.value?.drivers.length);
+  if (begins && !analyses.value.length && (await withAnalysis())) drawn = analysis.value;
   if (analysis.value !== OVER) return analysis.value ? { analysis: analysis.value } : untilTime();
   offer((await send("quantities", {})).ok);
   const range = rangeOfCore();
@@ -160,11 +190,12 @@ function inOrder(numbers: Float64Array, width: number): Pick<Course, "t" | "rows
   return { t: Float64Array.from({ length: n }, (_, k) => rows[k * width]!), rows, backwards };
 }
 
-/** The request of a run from the pose of the core until `t_end`, or for T_END. */
+/** The request of a run from the pose of the core until `t_end`, or for one turn. */
 async function untilTime(t_end?: number): Promise<{ t_end: number; output_step: number }> {
   const { t } = (await send("pose", {})).ok;
-  const end = t_end ?? t + T_END;
-  return { t_end: end, output_step: (end - t) / OUTPUTS };
+  const usual = await duration();
+  const end = t_end ?? t + usual.t_end;
+  return { t_end: end, output_step: ((end - t) / usual.t_end) * usual.output_step };
 }
 
 /** The poses at one time, by linear interpolation between frames. */
@@ -190,10 +221,11 @@ export function show(at: number): void {
 
 export async function play(): Promise<void> {
   if (!course.value) return;
+  note.value = null;
   if (time.value >= span.value[1]) show(span.value[0]);
   await frames.play((ms) => {
     if (mode.value !== "read") return false;
-    const pace = variable.value === TIME ? 1 : (span.value[1] - span.value[0]) / T_END;
+    const pace = variable.value === TIME ? 1 : (span.value[1] - span.value[0]) / PLAYED;
     const next = time.value + (Math.min(500, ms) / 1000) * rate.value * pace;
     show(next >= span.value[1] ? span.value[0] : next);
     return true;

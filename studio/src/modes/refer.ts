@@ -1,8 +1,9 @@
 // The references of a click, in the notation of the file.
-import { entry, isTable } from "../catalogue/tree";
+import { isPin } from "../catalogue/catalogue";
+import { entries, entry, isTable } from "../catalogue/tree";
 import type { Body } from "../core/protocol";
 import type { PointHit } from "../plane/hits";
-import { tree } from "../store/state";
+import { catalogue, mechanism, tree } from "../store/state";
 import type { Spot } from "./handler";
 import { bodyUnder, elementUnder, pointsUnder } from "./seen";
 
@@ -14,10 +15,25 @@ export interface Under {
   body: Body | null;
 }
 
-export function under(spot: Spot, taken: ReadonlySet<string>): Under {
+/** With `wheel`, a moving body comes before the ground to which it is pinned. */
+export function under(spot: Spot, taken: ReadonlySet<string>, wheel = false): Under {
   const hits = pointsUnder(spot);
-  const fresh = hits.find(({ body }) => !taken.has(body.name)) ?? hits[0];
+  const others = hits.filter(({ body }) => !taken.has(body.name));
+  const fresh = (wheel && others.find(({ body }) => !body.ground)) || (others[0] ?? hits[0]);
   return { spot, hits, fresh, body: fresh?.body ?? bodyUnder(spot) };
+}
+
+/** The point about which a body turns: one that is pinned, to the ground if possible. */
+export function pivotOf({ name, points }: Body): string | null {
+  const pins = new Set(catalogue.value.joints.filter(isPin).map((type) => type.name));
+  const joints = Object.values(entries(tree.value, "joints")).filter(({ type }) => pins.has(String(type)));
+  const sides = joints.map(({ i, j }) => [String(i), String(j)]);
+  const ground = mechanism.value?.bodies.find((body) => body.ground)?.name;
+  const own = Object.keys(points).filter((point) => sides.some((pair) => pair.includes(`${name}.${point}`)));
+  const fixed = own.find((point) =>
+    sides.some((pair) => pair.includes(`${name}.${point}`) && pair.some((one) => one.startsWith(`${ground}.`))),
+  );
+  return fixed ?? own[0] ?? null;
 }
 
 /** The joint of a symbol or at a point. */

@@ -3,12 +3,25 @@
 import type { Group } from "../catalogue/catalogue";
 import type { Body } from "../core/protocol";
 import { allPoints, bodyAt, elementAt, type PointHit, pointsAt, reachOf } from "../plane/hits";
+import { hull, type Point, placed } from "../plane/points";
 import { view } from "../store/sheet";
 import { items, mechanism, poses } from "../store/state";
 import type { Spot } from "./handler";
 
 export function points(): PointHit[] {
   return allPoints(mechanism.value?.bodies ?? [], poses.value);
+}
+
+/** The links of bodies, as lines between their points, without some bodies. */
+export function links(without: ReadonlySet<string> = new Set()): [Point, Point][] {
+  return (mechanism.value?.bodies ?? []).flatMap((body, k) => {
+    const pose = poses.value[k];
+    if (body.ground || without.has(body.name) || !pose) return [];
+    const corners = hull(Object.values(body.points).map((at) => placed(pose, at)));
+    return corners
+      .slice(corners.length > 2 ? 0 : 1)
+      .map((at, n): [Point, Point] => [at, corners.at(corners.length > 2 ? n - 1 : 0)!]);
+  });
 }
 
 export function pointsUnder(spot: Spot): PointHit[] {

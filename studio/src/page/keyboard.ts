@@ -2,10 +2,11 @@
 
 import { entry } from "../catalogue/tree";
 import type { Tree } from "../core/protocol";
-import { nudge, paste, remove } from "../edit/commands";
+import { paste, remove } from "../edit/commands";
 import { openFile, saveFile } from "../give/files";
 import { ghost } from "../guide/guide";
 import { clickCursor, moveCursor } from "../modes/cursor";
+import { push as pushSelected } from "../modes/edit";
 import * as living from "../modes/live";
 import { enter } from "../modes/modes";
 import { push } from "../modes/move";
@@ -14,6 +15,7 @@ import * as reading from "../modes/read";
 import { awaitsClick, endScaling } from "../modes/scaling";
 import type { Point } from "../plane/points";
 import { redo, undo } from "../store/document";
+import { note } from "../store/note";
 import { fit, pan, typedLength, view, zoom } from "../store/sheet";
 import { dialog, MODES, mechanism, message, mode, selection, tool, tree } from "../store/state";
 
@@ -44,8 +46,8 @@ function withControl(event: KeyboardEvent): (() => void) | null {
   const actions: Record<string, () => void> = {
     z: () => void (event.shiftKey ? redo() : undo()),
     y: () => void redo(),
-    s: saveFile,
-    o: openFile,
+    s: () => void saveFile(event.shiftKey),
+    o: () => void openFile(),
     c: copySelection,
     v: () => {
       if (copied) void paste(copied.name, copied.body);
@@ -92,7 +94,7 @@ function plain(event: KeyboardEvent): (() => void) | null {
   if (key === " " && drawsByKeys()) return () => clickCursor(suggested());
   if (step && mode.value === "move") return () => void push(...step);
   if (step && mode.value === "live") return () => void living.pullBy(...step);
-  if (step && mode.value === "edit" && selection.value) return () => void nudge(...step);
+  if (step && mode.value === "edit" && selection.value) return () => void pushSelected(...step);
   if (step && mode.value === "read" && step[0]) return () => reading.show(reading.time.value + step[0] * frame());
   return actions[key] ?? null;
 }
@@ -121,6 +123,7 @@ function typeLength(key: string): void {
 
 function stopAll(): void {
   living.letGo();
+  note.value = null;
   if (awaitsClick()) endScaling();
   if (tool.value) restart(drawing() ? tool.value : null);
   else selection.value = null;

@@ -1,5 +1,5 @@
 // Traces of points, and arrows of forces, velocities and accelerations, which a run adds to the drawing.
-import { computed, effect, signal } from "@preact/signals";
+import { computed, effect, signal, untracked } from "@preact/signals";
 import type { Group } from "../catalogue/catalogue";
 import type { ArrowKind, Vectors } from "../draw/arrows";
 import { displayed } from "../draw/display";
@@ -11,6 +11,7 @@ import { placeIn } from "../plane/instants";
 import { distinctPaths, type Path } from "../plane/paths";
 import { type Point, placed } from "../plane/points";
 import { report } from "../store/session";
+import { fitWith, view } from "../store/sheet";
 import { mechanism, mode, units } from "../store/state";
 import { texts } from "../texts";
 import { endsOf } from "./acting";
@@ -60,6 +61,12 @@ const all = computed(() => {
 
 /** The paths that are drawn. */
 const paths = computed(() => distinctPaths(all.value));
+
+/** Show the paths of a new run, unless the user has chosen the view. */
+effect(() => {
+  const places = paths.value.flatMap(({ line }) => line);
+  if (places.length && !view.moved) untracked(() => fitWith(places));
+});
 
 /**
  * The paths whose points have arrows. Of points that are pinned together, one has an arrow. If a body is

@@ -22,6 +22,7 @@ import { ghost } from "../guide/guide";
 import { points } from "../modes/seen";
 import { type Point, placed } from "../plane/points";
 import { backdrop } from "../store/backdrop";
+import { blamed, type Part } from "../store/blame";
 import { preview, view, viewed } from "../store/sheet";
 import { catalogue, items, mechanism, mode, poses, scene, selection, shown, tree, units } from "../store/state";
 import { notes, outlines, type Shown, traces, vectors } from "./motionOverlay";
@@ -30,6 +31,7 @@ import { notes, outlines, type Shown, traces, vectors } from "./motionOverlay";
 export function follow(): void {
   for (const one of [
     backdrop,
+    blamed,
     ghost,
     viewed,
     preview,
@@ -59,6 +61,8 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
     paintArea(context, view, outlines.value, colours);
     if (shown.value.traces) paintTraces(context, view, traces.value, colours);
     if (!bare) paintSelection(context, colours);
+    if (!bare)
+      for (const at of blamed.value.flatMap(placesOfPart)) paintRing(context, view, at, colours, 18, "problem");
     const names = paintItems(context, view, items.value, poses.value, shown.value, colours);
     if (!items.value.length) paintLinks(context, view, found.bodies, poses.value, colours);
     if (editing) paintHandles(context, view, loosePoints(), colours);
@@ -128,6 +132,12 @@ function paintSelection(context: CanvasRenderingContext2D, colours: Colours): vo
   }
   for (const at of placesOf(Object.values(entry(tree.value, chosen.group, chosen.name) ?? {})))
     paintRing(context, view, at, colours, 15);
+}
+
+/** The places of a part that a fault names: its points, or those of a body. */
+function placesOfPart({ group, name }: Part): Point[] {
+  if (group === "bodies") return [];
+  return placesOf(Object.values(entry(tree.value, group, name) ?? {})).slice(0, 1);
 }
 
 /** The positions of the points to which an element refers. */

@@ -43,7 +43,7 @@ function Gallery() {
               data-example={name}
               onClick={() => {
                 dialog.value = null;
-                void open(found, `${name}.toml`);
+                void open(found, { name: `${name}.toml` });
               }}
             >
               <strong>{title}</strong>

@@ -1,15 +1,22 @@
 // The text of the case, with the core's problems at line and column.
-import { defaultKeymap, history, historyKeymap, indentWithTab } from "@codemirror/commands";
-import { HighlightStyle, StreamLanguage, syntaxHighlighting } from "@codemirror/language";
-import { toml } from "@codemirror/legacy-modes/mode/toml";
 import { type Diagnostic, lintGutter, setDiagnostics } from "@codemirror/lint";
 import { EditorState } from "@codemirror/state";
-import { drawSelection, EditorView, highlightActiveLine, keymap, lineNumbers } from "@codemirror/view";
-import { tags } from "@lezer/highlight";
+import {
+  type Command,
+  Decoration,
+  type DecorationSet,
+  drawSelection,
+  EditorView,
+  highlightActiveLine,
+  keymap,
+  lineNumbers,
+  MatchDecorator,
+  ViewPlugin,
+} from "@codemirror/view";
 import { effect } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type { Problem } from "../core/protocol";
-import { type } from "../store/document";
+import { redo, type, undo } from "../store/document";
 import { problems, text, unassembled } from "../store/state";
 import { texts } from "../texts";
 
@@ -34,6 +41,11 @@ const LOOK = EditorView.theme({
     maxWidth: "420px",
   },
   ".cm-diagnostic": { padding: "6px 10px", borderLeft: "3px solid var(--problem)" },
+  ".part1": { color: "var(--soft)", fontStyle: "italic" },
+  ".part2": { color: "var(--velocities)" },
+  ".part3": { color: "var(--accent)" },
+  ".part4": { color: "var(--force)" },
+  ".part5": { color: "var(--accelerations)" },
   ".cm-lintRange-error": {
     backgroundImage: "none",
     textDecoration: "underline wavy var(--problem)",
@@ -41,13 +53,54 @@ const LOOK = EditorView.theme({
   },
 });
 
-const COLOURS = HighlightStyle.define([
-  { tag: tags.comment, color: "var(--soft)", fontStyle: "italic" },
-  { tag: [tags.string, tags.special(tags.string)], color: "var(--velocities)" },
-  { tag: tags.number, color: "var(--accelerations)" },
-  { tag: [tags.propertyName, tags.variableName], color: "var(--accent)" },
-  { tag: tags.atom, color: "var(--force)" },
-]);
+/** Parts of a line of TOML: a comment, a text, a key or the name of a table, a word, a number. */
+const PARTS =
+  /(#.*)|("(?:[^"\\]|\\.)*"|'[^']*')|([\w.-]+(?=\s*=)|^\s*\[.*?\]+)|(\b(?:true|false)\b)|([-+]?\b\d[\w.+-]*)/g;
+const marks = new MatchDecorator({
+  regexp: PARTS,
+  decoration: (found) => Decoration.mark({ class: `part${found.findIndex((one, k) => k > 0 && one !== undefined)}` }),
+});
+const colours = ViewPlugin.fromClass(
+  class {
+    decorations: DecorationSet;
+    constructor(view: EditorView) {
+      this.decorations = marks.createDeco(view);
+    }
+    update(update: Parameters<typeof marks.updateDeco>[0]) {
+      this.decorations = marks.updateDeco(update, this.decorations);
+    }
+  },
+  { decorations: ({ decorations }) => decorations },
+);
+
+const insert = (text: (view: EditorView) => string) => (view: EditorView) => {
+  view.dispatch(view.state.replaceSelection(text(view)), { scrollIntoView: true, userEvent: "input" });
+  return true;
+};
+/** The blanks at the start of the present line. */
+const indent = ({ state }: EditorView) => /^\s*/.exec(state.doc.lineAt(state.selection.main.head).text)![0];
+const removeSelected: Command = (view) => !view.state.selection.main.empty && insert(() => "")(view);
+const go = (to: (view: EditorView) => number, from?: (view: EditorView) => number) => (view: EditorView) => {
+  const head = to(view);
+  view.dispatch({ selection: { anchor: from ? from(view) : head, head }, scrollIntoView: true });
+  return true;
+};
+const page = (forward: boolean) => (view: EditorView) =>
+  view.moveVertically(view.state.selection.main, forward, view.dom.clientHeight).head;
+const anchor = ({ state }: EditorView) => state.selection.main.anchor;
+const first = () => 0;
+const last = ({ state }: EditorView) => state.doc.length;
+const KEYS = [
+  { key: "Enter", run: insert((view) => `\n${indent(view)}`) },
+  { key: "Tab", run: insert(() => "  ") },
+  { key: "Backspace", run: removeSelected },
+  { key: "Delete", run: removeSelected },
+  { key: "Mod-a", run: go(last, first) },
+  { key: "Mod-Home", run: go(first), shift: go(first, anchor) },
+  { key: "Mod-End", run: go(last), shift: go(last, anchor) },
+  { key: "PageUp", run: go(page(false)), shift: go(page(false), anchor) },
+  { key: "PageDown", run: go(page(true)), shift: go(page(true), anchor) },
+];
 
 export function Editor() {
   const host = useRef<HTMLDivElement>(null);
@@ -62,6 +115,14 @@ function connect(host: HTMLElement): () => void {
   parent.style.height = "100%";
   root.replaceChildren(parent);
   let timer: ReturnType<typeof setTimeout> | undefined;
+  /** The history is that of the case; what was typed is a part of it. */
+  const step = (_: EditorView, event: KeyboardEvent) => {
+    const key = event.key.toLowerCase();
+    if (!(event.ctrlKey || event.metaKey) || !["y", "z"].includes(key)) return false;
+    clearTimeout(timer);
+    void type(view.state.doc.toString()).then(key === "y" || event.shiftKey ? redo : undo);
+    return true;
+  };
   const listener = EditorView.updateListener.of((update) => {
     if (!update.docChanged) return;
     clearTimeout(timer);
@@ -76,13 +137,11 @@ function connect(host: HTMLElement): () => void {
       extensions: [
         lineNumbers(),
         lintGutter(),
-        history(),
         drawSelection(),
         highlightActiveLine(),
-        StreamLanguage.define(toml),
-        syntaxHighlighting(COLOURS),
+        colours,
         LOOK,
-        keymap.of([indentWithTab, ...defaultKeymap, ...historyKeymap]),
+        keymap.of([{ any: step }, ...KEYS]),
         listener,
         EditorView.contentAttributes.of({ "aria-label": texts.editor.label, tabindex: "0" }),
       ],

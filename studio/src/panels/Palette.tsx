@@ -51,7 +51,7 @@ function ToolButton({ one }: { one: Tool }) {
       data-type={one.type.name}
       aria-pressed={active}
       title={one.type.doc.replaceAll("\n", " ")}
-      onClick={() => choose(active ? null : one)}
+      onClick={() => choose(one)}
     >
       <span>{one.label}</span>
     </button>

@@ -2,7 +2,8 @@
 import { type Group, spoken, typeOf } from "../catalogue/catalogue";
 import { entry, isTable } from "../catalogue/tree";
 import type { Tree } from "../core/protocol";
-import { addCurve, addPoint, copy, mirror, remove, rename, setLength, takesCurves } from "../edit/commands";
+import { addCurve, addPoint, copy, mirror, remove, rename, setLength, swap, takesCurves } from "../edit/commands";
+import { hasSides } from "../edit/swapping";
 import { openOutline } from "../give/outline";
 import { report } from "../store/session";
 import { catalogue, selection, tree, units } from "../store/state";
@@ -66,6 +67,9 @@ function Entry({ group, name, value }: { group: Group; name: string; value: Tree
             <Button label={words.copy} onClick={() => void copy(name)} />
             <Button label={words.mirror} hint={words.mirrorHint} onClick={() => void mirror(name)} />
           </>
+        ) : null}
+        {type && hasSides(type) ? (
+          <Button label={texts.place.swap} onClick={() => void swap(group, name)} id="swap" />
         ) : null}
         <Button label={words.remove} hint={words.removeHint} kind="danger" onClick={() => void remove()} />
       </div>

@@ -3,6 +3,7 @@ import { useEffect, useState } from "preact/hooks";
 import { GROUPS } from "../catalogue/catalogue";
 import type { Tool } from "../catalogue/tools";
 import type { Readiness } from "../core/protocol";
+import { plainly } from "../store/blame";
 import { send } from "../store/session";
 import { loads, mechanism, mobility, panel, selection, tools } from "../store/state";
 import { texts } from "../texts";
@@ -58,7 +59,7 @@ function Obstacle({ message, hint, path }: NonNullable<Readiness["problem"]>) {
   const tool = toolOf(path ?? "");
   return (
     <span class="problem">
-      {message}
+      {plainly(message)}
       {hint ? <span class="hint"> {hint}</span> : null}
       <button type="button" class="link" onClick={() => lead(path ?? "")}>
         {tool ? texts.ready.add(tool.label) : path?.includes(".") ? path : texts.ready.text}

@@ -16,6 +16,7 @@ import { fit, preview, typedLength, view, viewChanged, zoom } from "../store/she
 import { items, mode, shown, snapping, title, tool, units } from "../store/state";
 import { texts } from "../texts";
 import { Guide } from "./Guide";
+import { Note } from "./Note";
 import { Button, Check } from "./parts";
 
 /** The mark that benchmarks/studio_page.py reads. */
@@ -73,6 +74,7 @@ export function Sheet() {
           aria-label={words.label(title.value || texts.untitled)}
         />
         <Guide />
+        <Note />
       </div>
     </section>
   );

@@ -1,5 +1,7 @@
 // The line at the bottom: the last message, and a summary of the mechanism.
-import { mechanism, message, mobility, panel, problems, ready, unassembled } from "../store/state";
+import { blamed, type Part, plainly } from "../store/blame";
+import { past, undo } from "../store/document";
+import { mechanism, message, mobility, panel, problems, ready, selection, unassembled } from "../store/state";
 import { texts } from "../texts";
 import { Button } from "./parts";
 import { Units } from "./Units";
@@ -42,8 +44,9 @@ function Standing() {
   const show = () => (panel.value = "text");
   return (
     <span class="problem">
-      {problem.message}
+      {plainly(problem.message)}
       {problem.hint ? <span class="hint"> {problem.hint}</span> : null}
+      <Remedies />
       {problem.line ? (
         <button type="button" class="link" onClick={show}>
           {texts.status.at(problem.line, problem.column ?? null)}
@@ -51,6 +54,32 @@ function Standing() {
       ) : null}
     </span>
   );
+}
+
+/** The parts that a fault names, as links to their properties, and the way back. */
+function Remedies() {
+  return (
+    <>
+      {blamed.value.slice(0, MOST).map((part) => (
+        <button key={part.name} type="button" class="link" onClick={() => show(part)}>
+          {part.name}
+        </button>
+      ))}
+      {past.value.length ? (
+        <button type="button" class="link" id="remedy-undo" onClick={() => void undo()}>
+          {texts.status.undo}
+        </button>
+      ) : null}
+    </>
+  );
+}
+
+/** Parts that are offered at most. */
+const MOST = 4;
+
+function show(part: Part): void {
+  selection.value = part;
+  panel.value = "properties";
 }
 
 function Facts() {

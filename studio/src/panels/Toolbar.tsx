@@ -17,9 +17,9 @@ export function Toolbar() {
       </h1>
       <nav class="buttons" aria-label={texts.name}>
         <Button label={menu.new} onClick={() => void begin()} id="new" />
-        <Button label={menu.open} hint={menuHints.open} onClick={openFile} id="open" />
+        <Button label={menu.open} hint={menuHints.open} onClick={() => void openFile()} id="open" />
         <Button label={menu.gallery} hint={menuHints.gallery} onClick={() => open("gallery")} id="gallery" />
-        <Button label={menu.save} hint={menuHints.save} onClick={saveFile} id="save" />
+        <Button label={menu.save} hint={menuHints.save} onClick={() => void saveFile()} id="save" />
         <Button label={menu.share} hint={menuHints.share} onClick={() => open("share")} id="share" />
         <span class="rule" />
         <Button

@@ -14,7 +14,7 @@ const ICONS = {
   back: "M12.5 4.5 7 10l5.5 5.5",
   pointer: "M5 3l10 6.5-4.5 1L13 16l-2 1-2.4-5.3L5 14z",
   help: "M7.5 7.5a2.5 2.5 0 1 1 3.6 2.2c-.8.4-1.1.9-1.1 1.8M10 14.5v.1",
-  dots: "M5 10h.01M10 10h.01M15 10h.01",
+  lock: "M5 9h10v8H5zM7 9V6a3 3 0 0 1 6 0v3",
 } as const;
 
 export function Icon({ name }: { name: keyof typeof ICONS }) {

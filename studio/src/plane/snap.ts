@@ -1,4 +1,4 @@
-// Snaps a new point to an existing point, to the grid, or to a line at a round angle.
+// Snaps a new point to an existing point, to a link, to the grid, or to a line at a round angle.
 import { distance, type Point, rounded } from "./points";
 
 /** Lines snap to multiples of this angle, rad. */
@@ -10,6 +10,8 @@ const REACH_OF_ANGLE = 7;
 export interface Snapping {
   /** Existing points of the plane. */
   points: readonly Point[];
+  /** Links of bodies, on which a point may lie. */
+  lines?: readonly (readonly [Point, Point])[];
   /** The step of the grid, m. */
   step: number;
   /** Pixels per metre. */
@@ -24,15 +26,20 @@ export interface Snapping {
 
 export interface Snapped {
   at: Point;
-  kind: "point" | "angle" | "grid" | "free" | "length";
+  kind: "point" | "line" | "angle" | "grid" | "free" | "length";
 }
 
 /** The place for a point near `p`. */
-export function snapped(p: Point, { points, step, scale, from, length, free }: Snapping): Snapped {
+export function snapped(p: Point, { points, lines = [], step, scale, from, length, free }: Snapping): Snapped {
   if (from && length !== undefined) return { at: atLength(p, from, length), kind: "length" };
   const near = nearest(p, points);
   if (near && distance(p, near) * scale < REACH) return { at: clean(near, step), kind: "point" };
   if (free) return { at: [rounded(p[0], step / 100), rounded(p[1], step / 100)], kind: "free" };
+  const on = nearest(
+    p,
+    lines.map(([a, b]) => nearestOn(p, a, b)),
+  );
+  if (on && distance(p, on) * scale < REACH_OF_ANGLE) return { at: clean(on, step), kind: "line" };
   const grid: Point = [round(p[0], step), round(p[1], step)];
   const angled = from && atAngle(p, from, step);
   if (angled && distance(p, angled) * scale < REACH_OF_ANGLE && distance(p, angled) < distance(p, grid)) {
@@ -44,6 +51,13 @@ export function snapped(p: Point, { points, step, scale, from, length, free }: S
 /** A place, rounded to remove the errors of the pose from which it was computed. */
 function clean([x, y]: Point, step: number): Point {
   return [rounded(x, step * 1e-6), rounded(y, step * 1e-6)];
+}
+
+function nearestOn(p: Point, a: Point, b: Point): Point {
+  const [dx, dy] = [b[0] - a[0], b[1] - a[1]];
+  const share = ((p[0] - a[0]) * dx + (p[1] - a[1]) * dy) / (dx * dx + dy * dy || 1);
+  const s = Math.min(1, Math.max(0, share));
+  return [a[0] + s * dx, a[1] + s * dy];
 }
 
 function nearest(p: Point, points: readonly Point[]): Point | null {

@@ -7,26 +7,50 @@ import { edited, load, reason, report, Superseded } from "./session";
 import { fitNext } from "./sheet";
 import { announce, held, message, openings, selection, text } from "./state";
 
+/** The file of a case: its name, and where the browser may write it again. */
+export interface CaseFile {
+  name: string;
+  handle?: FileSystemFileHandle;
+}
+
+/** A text of the history. Another opening is another case. */
+export interface Step {
+  text: string;
+  file: CaseFile;
+  opening: number;
+}
+
 /** Texts kept for undoing; a text is at most 2 MB. */
 const MOST = 200;
 /** Changes typed within this time are one step of the history, ms. */
 const PAUSE = 900;
 
-export const past = signal<string[]>([]);
-export const future = signal<string[]>([]);
-export const fileName = signal("mechanism.toml");
+export const past = signal<Step[]>([]);
+export const future = signal<Step[]>([]);
+export const file = signal<CaseFile>({ name: "mechanism.toml" });
 let typedAt = 0;
 
-/** Open another text. Returns the reason if the core could not read it, otherwise null. */
-export async function open(given: string, name = "mechanism.toml"): Promise<string | null> {
-  if (isTooLarge(given)) return texts.core.tooLarge;
-  openings.value += 1;
-  past.value = [];
-  future.value = [];
-  fileName.value = name;
+function present(given = text.value): Step {
+  return { text: given, file: file.value, opening: openings.value };
+}
+
+/** Begin with another case, whose view and selection are its own. */
+function begin(opening: number, of: CaseFile): void {
+  openings.value = opening;
+  file.value = of;
   selection.value = null;
   held.value = new Set();
   fitNext();
+}
+
+/**
+ * Open another text; undo brings the present one back. Returns the reason if the core could not read it, otherwise
+ * null.
+ */
+export async function open(given: string, of: CaseFile = { name: "mechanism.toml" }): Promise<string | null> {
+  if (isTooLarge(given)) return texts.core.tooLarge;
+  if (text.value && text.value !== given) remember(text.value);
+  begin(openings.value + 1, of);
   message.value = null;
   text.value = given;
   try {
@@ -66,7 +90,7 @@ export async function type(given: string): Promise<void> {
 }
 
 function remember(before: string): void {
-  past.value = [...past.value.slice(1 - MOST), before];
+  past.value = [...past.value.slice(1 - MOST), present(before)];
   future.value = [];
 }
 
@@ -93,6 +117,12 @@ export class Draft {
   show(changes: Change[]): void {
     this.latest = changes;
     this.working ??= this.work();
+  }
+
+  /** Show these changes, and wait until they are drawn. */
+  async apply(changes: Change[]): Promise<void> {
+    this.show(changes);
+    await this.working;
   }
 
   private async work(): Promise<void> {
@@ -122,18 +152,15 @@ export class Draft {
   }
 }
 
-export async function undo(): Promise<void> {
-  const before = past.value.at(-1);
-  if (before === undefined) return;
-  past.value = past.value.slice(0, -1);
-  future.value = [...future.value, text.value];
-  await take(before, false);
+/** Go to the last step of one list; the present text becomes a step of the other. */
+async function go(from: typeof past, to: typeof past): Promise<void> {
+  const next = from.value.at(-1);
+  if (!next) return;
+  from.value = from.value.slice(0, -1);
+  to.value = [...to.value, present()];
+  if (next.opening !== openings.value) begin(next.opening, next.file);
+  await take(next.text, false);
 }
 
-export async function redo(): Promise<void> {
-  const after = future.value.at(-1);
-  if (after === undefined) return;
-  future.value = future.value.slice(0, -1);
-  past.value = [...past.value, text.value];
-  await take(after, false);
-}
+export const undo = () => go(past, future);
+export const redo = () => go(future, past);

@@ -15,7 +15,9 @@ export const quiet = signal(false);
 /** The mode or kind of tool in use. */
 const used = computed<Hint>(() => {
   if (mode.value !== "edit") return mode.value;
-  return tool.value ? (tool.value.placing ?? "reference") : "edit";
+  const placing = tool.value?.placing;
+  if (placing === "slider" || placing === "cylinder") return "two";
+  return tool.value ? (placing ?? "reference") : "edit";
 });
 
 export const hint = computed<Hint | null>(() => (quiet.value || seen.value.has(used.value) ? null : used.value));

@@ -4,6 +4,7 @@ import { readCatalogue } from "../catalogue/catalogue";
 import type { Answer, Change, Do, Loaded, Requests } from "../core/protocol";
 import { CoreError, type Line, Restarted, Superseded, Transport } from "../core/transport";
 import { texts } from "../texts";
+import { plainly } from "./blame";
 import {
   announce,
   catalogue,
@@ -74,7 +75,7 @@ export function report(error: unknown): void {
   if (error instanceof Superseded || error instanceof Restarted) return;
   if (error instanceof CoreError) {
     const { message, hint } = error.problem;
-    announce("problem", message, hint ? { hint } : {});
+    announce("problem", plainly(message), hint ? { hint } : {});
   } else announce("problem", reason(error));
 }
 

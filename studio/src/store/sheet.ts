@@ -62,11 +62,18 @@ const ROOM = 0.2;
 /** The visible part of an empty sheet, m. */
 const EMPTY: Bounds = [-1, -0.75, 1, 0.75];
 let fitting = true;
+/** The view that replaces the fitted one, because it was kept: its middle, and its scale as a multiple of the fitted one. */
+let kept: { center: Point; zoom: number } | null = null;
 
 /** Fit the next scene into the view, because another case is opened. Later scenes do not change the view. */
 export function fitNext(): void {
   fitting = true;
   view.bounds = EMPTY;
+}
+
+/** Show the next scene in this view. */
+export function viewNext(shown: typeof kept): void {
+  kept = shown;
 }
 
 effect(() => {
@@ -76,7 +83,11 @@ effect(() => {
   const room = ROOM * Math.max(x1 - x0, y1 - y0);
   const before = view.bounds;
   if (room > 0) view.bounds = [x0 - room, y0 - room, x1 + room, y1 + room];
-  if (fitting) view.fit();
+  if (fitting) {
+    view.fit();
+    if (kept) Object.assign(view, { center: kept.center, scale: kept.zoom * view.scale, moved: true });
+    kept = null;
+  }
   // A new size of the canvas must not fit the view to other bounds.
   else if (before.some((one, k) => one !== view.bounds[k])) view.moved = true;
   fitting = false;
