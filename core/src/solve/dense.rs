@@ -4,29 +4,8 @@
 /// becomes x. Returns false if a pivot is zero or not finite.
 pub fn solve_dense(a: &mut [f64], b: &mut [f64]) -> bool {
     let n = b.len();
-    assert_eq!(a.len(), n * n, "a square matrix");
-    for k in 0..n {
-        let best = (k..n).max_by(|i, j| a[i * n + k].abs().total_cmp(&a[j * n + k].abs()));
-        let best = best.unwrap_or(k);
-        let pivot = a[best * n + k];
-        if pivot == 0.0 || !pivot.is_finite() {
-            return false;
-        }
-        if best != k {
-            for column in k..n {
-                a.swap(k * n + column, best * n + column);
-            }
-            b.swap(k, best);
-        }
-        for row in k + 1..n {
-            let factor = a[row * n + k] / pivot;
-            if factor != 0.0 {
-                for column in k + 1..n {
-                    a[row * n + column] -= factor * a[k * n + column];
-                }
-                b[row] -= factor * b[k];
-            }
-        }
+    if eliminate(a, b).0 == 0.0 {
+        return false;
     }
     for k in (0..n).rev() {
         let sum: f64 = (k + 1..n).map(|column| a[k * n + column] * b[column]).sum();
@@ -35,30 +14,42 @@ pub fn solve_dense(a: &mut [f64], b: &mut [f64]) -> bool {
     true
 }
 
-/// The sign of the determinant of a row-major matrix of shape (n, n), which is overwritten. Returns 0 if a pivot is
-/// zero or not finite.
-pub fn sign_of_determinant(a: &mut [f64], n: usize) -> f64 {
+/// The sign of the determinant of a row-major matrix of shape (n, n), which is overwritten, and the ratio of the
+/// smallest to the largest pivot. The sign is 0 if a pivot is zero or not finite.
+pub fn sign_of_determinant(a: &mut [f64], n: usize) -> (f64, f64) {
+    eliminate(a, &mut vec![0.0; n])
+}
+
+/// Gaussian elimination with exchanges of rows. Returns the sign of the determinant, which is 0 if a pivot is zero or
+/// not finite, and the ratio of the smallest to the largest pivot.
+fn eliminate(a: &mut [f64], b: &mut [f64]) -> (f64, f64) {
+    let n = b.len();
+    assert_eq!(a.len(), n * n, "a square matrix");
+    let (mut least, mut most) = (f64::INFINITY, 0.0_f64);
     let mut sign = 1.0;
     for k in 0..n {
         let best = (k..n).max_by(|i, j| a[i * n + k].abs().total_cmp(&a[j * n + k].abs()));
         let best = best.unwrap_or(k);
         let pivot = a[best * n + k];
         if pivot == 0.0 || !pivot.is_finite() {
-            return 0.0;
+            return (0.0, 0.0);
         }
         if best != k {
             (k..n).for_each(|column| a.swap(k * n + column, best * n + column));
+            b.swap(k, best);
             sign = -sign;
         }
         sign *= pivot.signum();
+        (least, most) = (least.min(pivot.abs()), most.max(pivot.abs()));
         for row in k + 1..n {
             let factor = a[row * n + k] / pivot;
             if factor != 0.0 {
                 (k + 1..n).for_each(|column| a[row * n + column] -= factor * a[k * n + column]);
+                b[row] -= factor * b[k];
             }
         }
     }
-    sign
+    (sign, least / most)
 }
 
 #[cfg(test)]
@@ -76,9 +67,9 @@ mod tests {
 
     #[test]
     fn the_sign_of_a_determinant() {
-        assert_eq!(sign_of_determinant(&mut [0.0, 2.0, 3.0, 1.0], 2), -1.0);
-        assert_eq!(sign_of_determinant(&mut [2.0, 0.0, 3.0, 1.0], 2), 1.0);
-        assert_eq!(sign_of_determinant(&mut [1.0, 2.0, 2.0, 4.0], 2), 0.0);
+        assert_eq!(sign_of_determinant(&mut [0.0, 2.0, 3.0, 1.0], 2), (-1.0, 2.0 / 3.0));
+        assert_eq!(sign_of_determinant(&mut [2.0, 0.0, 3.0, 1.0], 2).0, 1.0);
+        assert_eq!(sign_of_determinant(&mut [1.0, 2.0, 2.0, 4.0], 2).0, 0.0);
     }
 
     #[test]

@@ -22,6 +22,7 @@ mod large;
 mod limits;
 mod limits_of_motion;
 mod meshes_and_rods;
+mod near_folded;
 mod quantities;
 mod redundancy;
 mod six_bars;

@@ -56,15 +56,14 @@ fn follow(
 ) -> bool {
     let mut solver = Solver::new(model);
     let Some(start) = solver.point(t, q.to_vec()) else { return true };
-    let pace = solver.norm(&start.v);
-    let unit = if pace > 0.0 { 1.0 / pace } else { 1.0 };
+    let unit = solver.unit(&start).unwrap_or(1.0);
     let mut path = DrivenPath { solver: &mut solver, unit };
     let Some(mut place) = path.begin(&start, sign) else { return true };
     let period = if turns { TAU } else { f64::INFINITY };
     let farthest = if turns { MOST_TURNS * TAU } else { FARTHEST * size(model) };
     let mut ds = FIRST;
     for step in 0..MOST {
-        let Some(next) = path.advance(&place, ds) else {
+        let Some(next) = path.onward(&place, &mut ds) else {
             ds *= 0.5;
             if ds < SHORTEST {
                 return false;

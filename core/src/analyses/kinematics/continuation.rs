@@ -6,7 +6,7 @@
 //! A rejected step is halved.
 
 use super::dead_point::Limit;
-use super::failure::{Failure, Reason};
+use super::failure::{self, Failure, Reason};
 use super::passage;
 use super::quintic::Quintic;
 use super::solution::{Point, Solver};
@@ -25,9 +25,13 @@ const CORRECTION: f64 = 0.05;
 const SMALL: f64 = 1e-4;
 /// Largest deviation of the velocity from its linear prediction, as a fraction of the larger of the two velocities.
 const TURN: f64 = 0.3;
-/// Shortest step, relative to the smaller of the longest step and the time to the next output. Below it, the branch
-/// is followed by arc length.
-const SHORTEST: f64 = 1e-5;
+/// Largest change of position, if the velocity deviates, that is accepted as a jump of the velocity of a law.
+const KINK: f64 = 1e-6;
+/// Step, relative to the smaller of the longest step and the time to the next output, below which the branch is
+/// followed by arc length.
+const BY_LENGTH: f64 = 1e-3;
+/// Shortest step, relative to the same time.
+const SHORTEST: f64 = 1e-6;
 /// Longest step that may end at a singular position, as a fraction of the longest step.
 const SHORT: f64 = 0.2;
 /// Largest scaled residual at which the start, or an interpolated position, counts as closed.
@@ -132,8 +136,9 @@ impl<'a> Continuation<'a> {
         let pace = self.solver.norm(&self.point.v);
         let most = if pace > 0.0 { LONGEST / pace } else { f64::INFINITY };
         let mut h = left.signum() * self.length.min(most).min(left.abs());
-        let shortest = SHORTEST * most.min(left.abs());
-        while h.abs() >= shortest {
+        let scale = most.min(left.abs());
+        let mut lost = None;
+        while h.abs() >= SHORTEST * scale {
             // the last step ends at the goal exactly
             let t = if h == left { goal } else { self.point.t + h };
             let predicted = self.point.predicted(h, self.before.as_deref());
@@ -154,11 +159,20 @@ impl<'a> Continuation<'a> {
                 }
             }
             h *= 0.5;
+            if h.abs() < BY_LENGTH * scale && lost.is_none() {
+                match passage::around(&mut self.solver, &self.point, goal) {
+                    Ok(next) => {
+                        self.length = f64::INFINITY;
+                        self.point = next.into();
+                        (self.before, self.orientation) = (None, None);
+                        return Ok(());
+                    }
+                    Err(limit @ Reason::Limit(_)) => return Err(limit),
+                    Err(reason) => lost = Some(reason),
+                }
+            }
         }
-        self.length = f64::INFINITY;
-        self.point = passage::around(&mut self.solver, &self.point, goal)?.into();
-        (self.before, self.orientation) = (None, None);
-        Ok(())
+        Err(lost.unwrap_or_else(|| failure::lost(self.solver.model, self.point.t, &self.point.q)))
     }
 
     /// The motion at a singular position `goal`, interpolated between this point and a point equally far beyond
@@ -176,14 +190,15 @@ impl<'a> Continuation<'a> {
     }
 
     /// Whether det Φ_q keeps its sign. The sign changes only across a singular position, and between branches that
-    /// nearly meet there. The test rejects a step that would jump between two such branches.
+    /// nearly meet there. The test rejects a step that would jump between two such branches, or that ends so near to a
+    /// singular position that rounding errors determine the sign.
     fn keeps_orientation(&mut self, next: &Point) -> bool {
         if self.solver.is_clear() {
             return true;
         }
-        let before = self.orientation.unwrap_or_else(|| self.solver.orientation(&self.point));
-        let after = self.solver.orientation(next);
-        let keeps = before * after >= 0.0;
+        let before = self.orientation.or_else(|| self.solver.orientation(&self.point));
+        let Some((before, after)) = before.zip(self.solver.orientation(next)) else { return true };
+        let keeps = after != 0.0 && before * after >= 0.0;
         self.orientation = Some(if keeps { after } else { before });
         keeps
     }
@@ -196,6 +211,6 @@ impl<'a> Continuation<'a> {
         let fastest = self.solver.norm(&next.v).max(self.solver.norm(&self.point.v));
         moved <= 2.0 * LONGEST
             && self.solver.corrected <= SMALL.max(CORRECTION * moved)
-            && (turned <= TURN * fastest || turned * h.abs() <= SMALL)
+            && (turned <= TURN * fastest || turned * h.abs() <= KINK)
     }
 }

@@ -7,8 +7,8 @@ use super::solution::Point;
 use crate::math::Listed;
 use crate::model::Model;
 
-/// Length of the path, scaled, to which a limit is located; the error of t is about its square.
-const LOCATED: f64 = 1e-9;
+/// Part of the path to which a limit is located; the error of t is about its square.
+const LOCATED: f64 = 1e-8;
 /// Largest number of bisections.
 const MOST: usize = 60;
 
@@ -25,7 +25,7 @@ pub(super) fn locate(
     let mut best = from.clone();
     let mut values = [forward(from), -1.0];
     for k in 0..MOST {
-        if high - low < LOCATED {
+        if high - low < LOCATED * ds {
             break;
         }
         // regula falsi, and bisection in every third trial
@@ -33,7 +33,7 @@ pub(super) fn locate(
         let middle = low + share.clamp(0.01, 0.99) * (high - low);
         let Some(place) = path.advance(from, middle) else { break };
         let value = forward(&place);
-        if sign * (place.t - best.t) > 0.0 {
+        if value.abs() < forward(&best).abs() {
             best = place;
         }
         if value > 0.0 {
@@ -42,7 +42,7 @@ pub(super) fn locate(
             (high, values[1]) = (middle, value);
         }
     }
-    let PathPoint { t, q, tangent } = best;
+    let PathPoint { t, q, tangent, .. } = best;
     let rates: Vec<f64> =
         tangent.iter().zip(&path.solver.columns).map(|(x, scale)| x * scale).list();
     Reason::Limit(Box::new(Limit::new(path.solver.model, t, q, &rates)))

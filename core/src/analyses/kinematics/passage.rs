@@ -17,15 +17,14 @@ const MOST: usize = 2000;
 /// beyond a change point and ends at a limit.
 pub(super) fn around(solver: &mut Solver<'_>, from: &Point, goal: f64) -> Result<Point, Reason> {
     let sign = (goal - from.t).signum();
-    let pace = solver.norm(&from.v);
-    let unit = if pace > 0.0 { 1.0 / pace } else { (goal - from.t).abs() };
+    let unit = solver.unit(from).unwrap_or_else(|| (goal - from.t).abs());
     let mut path = DrivenPath { solver, unit };
     let Some(mut place) = path.begin(from, sign) else {
         return Err(limit::lost(path.solver.model, from));
     };
     let mut ds = SHORTEST.sqrt();
     for _ in 0..MOST {
-        let Some(next) = path.advance(&place, ds) else {
+        let Some(next) = path.onward(&place, &mut ds) else {
             ds *= 0.5;
             if ds < SHORTEST {
                 return Err(limit::lost(path.solver.model, from));

@@ -10,6 +10,9 @@ use crate::solve::solve_dense;
 
 /// Least cosine of the angle between the tangents at two neighbouring points.
 const ALONG: f64 = 0.95;
+/// Step below which the path crosses another branch, or passes it at a distance that rounding errors do not resolve,
+/// and the step with which it does so.
+const CROSSING: [f64; 2] = [1e-6, 1e-4];
 /// Scaled residual of a closed position, and largest number of iterations.
 const CLOSED: f64 = 1e-13;
 const ITERATIONS: usize = 8;
@@ -21,6 +24,9 @@ pub(super) struct PathPoint {
     pub q: Vec<f64>,
     /// The unit tangent (q′, t′), scaled.
     pub tangent: Vec<f64>,
+    /// The sign of the determinant of Φ_q and Φ_t with the tangent as last row; see [`Solver::sign`]. It is constant
+    /// along a branch, and another one on a branch that nearly crosses it.
+    pub orientation: f64,
 }
 
 /// The path from a regular point.
@@ -31,19 +37,44 @@ pub(super) struct DrivenPath<'s, 'a> {
 }
 
 impl DrivenPath<'_, '_> {
-    /// The path point of a regular point. Its tangent points towards increasing t if `sign` is positive.
+    /// The path point of a regular point. Its tangent points towards increasing t if `sign` is positive. None if Φ_q is
+    /// not square.
     pub fn begin(&mut self, from: &Point, sign: f64) -> Option<PathPoint> {
+        let Point { t, q, v, .. } = from;
         let columns = &self.solver.columns;
+        if self.solver.rows.len() != columns.len() {
+            return None;
+        }
         let mut tangent: Vec<f64> =
-            from.v.iter().zip(columns).map(|(v, scale)| sign * v * self.unit / scale).list();
+            v.iter().zip(columns).map(|(v, scale)| sign * v * self.unit / scale).list();
         tangent.push(sign);
         normalize(&mut tangent);
-        Some(PathPoint { t: from.t, q: from.q.clone(), tangent })
+        let mut matrix = self.matrix(*t, q, &tangent);
+        let orientation = self.solver.sign(&mut matrix, q.len() + 1);
+        Some(PathPoint { t: *t, q: q.clone(), tangent, orientation })
     }
 
-    /// The path point at the distance `ds` along the tangent. None if Newton's method fails or the tangent turns too
-    /// far.
+    /// The path point at the distance `ds` along the tangent, or beyond another branch that crosses the path there,
+    /// which changes `ds`.
+    pub fn onward(&mut self, from: &PathPoint, ds: &mut f64) -> Option<PathPoint> {
+        let [least, length] = CROSSING;
+        if let Some(next) = self.point(from, *ds, false) {
+            return Some(next);
+        }
+        let crosses = *ds < least || from.orientation == 0.0;
+        let next = crosses.then(|| self.point(from, length, true)).flatten()?;
+        *ds = length;
+        Some(next)
+    }
+
+    /// The path point at the distance `ds` along the tangent. None if Newton's method fails, if the tangent turns too
+    /// far, or if the point lies on a neighbouring branch.
     pub fn advance(&mut self, from: &PathPoint, ds: f64) -> Option<PathPoint> {
+        self.point(from, ds, false)
+    }
+
+    /// The path point at the distance `ds`, which lies beyond a singular position if the path `crosses` another branch.
+    fn point(&mut self, from: &PathPoint, ds: f64, crosses: bool) -> Option<PathPoint> {
         let n = from.q.len();
         let columns = self.solver.columns.clone();
         let (mut q, mut t) = (from.q.clone(), from.t);
@@ -62,42 +93,42 @@ impl DrivenPath<'_, '_> {
             if gap.is_nan() {
                 return None;
             }
-            let done = gap <= CLOSED;
+            let mut matrix = self.matrix(t, &q, &from.tangent);
             // the right side of the last row is 0: corrections are normal to the tangent
-            let mut right: Vec<f64> = phi.iter().map(|x| -x).list();
-            right.push(0.0);
-            if done {
-                right.fill(0.0);
-                right[n] = 1.0;
-            }
-            let step = self.solved(t, &q, &from.tangent, right)?;
-            if done {
-                let mut tangent = step;
-                normalize(&mut tangent);
-                let cosine: f64 = tangent.iter().zip(&from.tangent).map(|(a, b)| a * b).sum();
-                return (cosine >= ALONG).then_some(PathPoint { t, q, tangent });
+            let mut step: Vec<f64> = phi.iter().map(|x| -x).chain([0.0]).list();
+            if !solve_dense(&mut matrix.clone(), &mut step) {
+                return None;
             }
             let size = step.iter().map(|x| x * x).sum::<f64>().sqrt();
-            if size >= 0.5 * last && size > 1e-14 {
+            if gap > CLOSED && size >= 0.5 * last && size > 1e-14 {
                 return None;
             }
             shift(&mut q, &mut t, &step, self.unit);
             last = size;
+            if gap <= CLOSED {
+                let mut tangent = vec![0.0; n + 1];
+                tangent[n] = 1.0;
+                solve_dense(&mut matrix.clone(), &mut tangent);
+                normalize(&mut tangent);
+                let cosine: f64 = tangent.iter().zip(&from.tangent).map(|(a, b)| a * b).sum();
+                let orientation = self.solver.sign(&mut matrix, n + 1);
+                let continues = (orientation == from.orientation && orientation != 0.0) != crosses;
+                return (cosine >= ALONG && continues).then_some(PathPoint {
+                    t,
+                    q,
+                    tangent,
+                    orientation,
+                });
+            }
         }
         None
     }
 
-    /// Solves the linear system whose matrix consists of Φ_q and Φ_t with the tangent as last row.
-    fn solved(
-        &mut self,
-        t: f64,
-        q: &[f64],
-        tangent: &[f64],
-        mut right: Vec<f64>,
-    ) -> Option<Vec<f64>> {
+    /// The matrix of Φ_q and Φ_t with the tangent as last row.
+    fn matrix(&mut self, t: f64, q: &[f64], tangent: &[f64]) -> Vec<f64> {
         let mut matrix = self.solver.extended(t, q, self.unit);
         matrix.extend_from_slice(tangent);
-        solve_dense(&mut matrix, &mut right).then_some(right)
+        matrix
     }
 }
 

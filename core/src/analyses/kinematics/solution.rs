@@ -19,7 +19,9 @@ const CONTRACTS: f64 = 0.25;
 const REDUNDANT: f64 = 1e-12;
 /// Smallest fraction of a pivot that remains after elimination if Φ_q counts as regular.
 const REGULAR: f64 = 1e-9;
-/// The same bound relative to the fraction at the first position. The smaller of the two bounds applies.
+/// Ratio of the smallest to the largest pivot above which the sign of a determinant counts.
+const DECIDED: f64 = 3e-7;
+/// These bounds relative to the values at the first position. The smaller bound applies.
 const OF_FIRST: f64 = 1e-4;
 /// Fraction of a pivot above which no singular position is near, and so no other branch.
 const CLEAR: f64 = 0.01;
@@ -70,6 +72,8 @@ pub(super) struct Solver<'a> {
     kept: f64,
     /// The bound of `kept` for a regular position; None before the first factorisation.
     regular: Option<f64>,
+    /// The ratio of pivots above which the sign of a determinant counts; None before the first one.
+    decided: Option<f64>,
     /// Φ, its rate and γ.
     terms: [Vec<f64>; 3],
     solution: Vec<f64>,
@@ -95,6 +99,7 @@ impl<'a> Solver<'a> {
             corrected: 0.0,
             kept: 1.0,
             regular: None,
+            decided: None,
             terms: std::array::from_fn(|_| vec![0.0; m]),
             solution: vec![0.0; n + m],
             model,
@@ -224,16 +229,36 @@ impl<'a> Solver<'a> {
         self.kept > CLEAR
     }
 
-    /// The sign of det Φ_q, which is constant along a regular motion; 0 if Φ_q is not square or too large.
-    pub fn orientation(&mut self, point: &Point) -> f64 {
+    /// The sign of det Φ_q, which is constant along a regular motion; see [`Solver::sign`]. None if Φ_q is not square or
+    /// too large.
+    pub fn orientation(&mut self, point: &Point) -> Option<f64> {
         let n = self.model.layout.n_q;
         if self.model.layout.n_rows != n || n > MOST_DENSE {
-            return 0.0;
+            return None;
         }
         let full = self.extended(point.t, &point.q, 1.0);
         let mut square: Vec<f64> =
             full.chunks(n + 1).flat_map(|row| row[..n].iter().copied()).list();
-        sign_of_determinant(&mut square, n)
+        Some(self.sign(&mut square, n))
+    }
+
+    /// The sign of the determinant of a scaled matrix of shape (n, n), which is overwritten; 0 if rounding errors
+    /// could determine it.
+    pub fn sign(&mut self, matrix: &mut [f64], n: usize) -> f64 {
+        let (sign, ratio) = sign_of_determinant(matrix, n);
+        let least = *self.decided.get_or_insert(DECIDED.min(OF_FIRST * ratio));
+        if ratio > least {
+            sign
+        } else {
+            0.0
+        }
+    }
+
+    /// A unit of t in which the drivers move as far as the mechanism is large, or by 1 rad. None if they rest.
+    pub fn unit(&mut self, point: &Point) -> Option<f64> {
+        self.evaluate(point.t, &point.q);
+        let rates = self.terms[1].iter().zip(&self.rows).map(|(rate, scale)| rate.abs() / scale);
+        Some(1.0 / rates.fold(0.0, f64::max)).filter(|unit| unit.is_finite())
     }
 
     /// The scaled matrix [Φ_q Φ_t], row by row, shape (n_rows, n_q + 1). `unit` is the scale of t.
