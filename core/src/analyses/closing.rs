@@ -115,6 +115,14 @@ impl<'a> Closing<'a> {
         phi
     }
 
+    /// `q` after one step of Newton's method that removes given values of Φ, in m and rad.
+    pub fn without_openings(&mut self, q: &[f64], phi: &[f64]) -> Vec<f64> {
+        let scaled = phi.iter().zip(&self.scales).map(|(phi, s)| phi / s).list();
+        let mut step = vec![0.0; q.len()];
+        let Ok(()) = self.step(q, &scaled, 0.0, &mut step) else { return q.to_vec() };
+        q.iter().zip(&step).map(|(q, step)| q + step).list()
+    }
+
     /// aᵀ W b, dimensionless: lengths are relative to the size of the mechanism.
     pub fn product(&self, a: &[f64], b: &[f64]) -> f64 {
         a.iter().zip(b).zip(&self.weights).map(|((a, b), w)| a * w * b).sum()
@@ -122,17 +130,21 @@ impl<'a> Closing<'a> {
 
     /// The motions x that generalized forces f would cause if W were the mass matrix: [W Φ_qᵀ; Φ_q 0] [x; λ] = [f;
     /// 0]. None if the matrix cannot be factorised.
-    pub fn motions_under(&mut self, q: &[f64], forces: &[Vec<f64>; 2]) -> Option<[Vec<f64>; 2]> {
-        if !self.set_matrix(q, 0.0) {
-            return None;
-        }
-        let n = q.len();
-        Some(forces.each_ref().map(|force| {
-            self.solution.fill(0.0);
-            self.solution[..n].copy_from_slice(force);
-            self.matrix.solve(&mut self.solution);
-            self.solution[..n].to_vec()
-        }))
+    pub fn motions_under<const N: usize>(
+        &mut self,
+        q: &[f64],
+        forces: &[Vec<f64>; N],
+    ) -> Option<[Vec<f64>; N]> {
+        self.set_matrix(q, 0.0).then(|| forces.each_ref().map(|force| self.motion_under(force)))
+    }
+
+    /// The motion under generalized forces at the position of the last factors.
+    fn motion_under(&mut self, force: &[f64]) -> Vec<f64> {
+        let n = force.len();
+        self.solution.fill(0.0);
+        self.solution[..n].copy_from_slice(force);
+        self.matrix.solve(&mut self.solution);
+        self.solution[..n].to_vec()
     }
 
     fn at(&self, q: &[f64]) -> Motions {

@@ -1,9 +1,8 @@
 //! Quantities that the rest of the mechanism must hold for some joints, such as the centre distance of gears.
 
+use super::closing::Closing;
 use crate::elements::derive::{columns_of, participants};
 use crate::elements::{At, Required};
-use crate::equations::augmented::Augmented;
-use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
 use crate::math::{Listed, Motion, Pose};
 use crate::model::{column_scales, ConstraintItem, Model};
@@ -12,8 +11,6 @@ use crate::model::{column_scales, ConstraintItem, Model};
 const NEAR: f64 = 1e-6;
 /// Largest part of the gradient of a held quantity along admissible motions, as a fraction of the gradient.
 const HELD: f64 = 1e-6;
-/// Damping for dependent rows, see [`super::closing`].
-const REDUNDANT: f64 = 1e-9;
 
 /// A quantity that differs from its required value, or that the mechanism does not hold.
 #[derive(Clone, Debug, PartialEq)]
@@ -41,11 +38,12 @@ pub(super) fn loose(model: &Model, t: f64, q: &[f64]) -> Option<Unmet> {
     let needs = |item: &&ConstraintItem| !required(item, &motions, t).is_empty();
     let mut needing = model.constraints.iter().filter(needs).peekable();
     needing.peek()?;
-    let projection = AdmissibleProjection::new(model, &motions, t)?;
+    let mut closing = Closing::new(model, t, &|| false);
     needing.find_map(|item| {
-        let all = required(item, &motions, t);
-        let free = gradients(model, item, &motions, t).into_iter().map(|g| projection.free(&g));
-        let (required, _) = all.into_iter().zip(free).find(|(_, free)| *free > HELD)?;
+        let all = required(item, &motions, t).into_iter();
+        let gradients = gradients(model, item, &motions, t).into_iter();
+        let free = |(_, gradient): &(_, Vec<f64>)| free(&mut closing, q, gradient) > HELD;
+        let (required, _) = all.zip(gradients).find(free)?;
         Some(Unmet {
             name: item.name.clone(),
             gap: 0.0,
@@ -97,36 +95,9 @@ fn gradients(model: &Model, item: &ConstraintItem, motions: &[Motion], t: f64) -
     all
 }
 
-/// The projection onto the admissible motions, Φ_q v = 0.
-struct AdmissibleProjection {
-    matrix: Augmented,
-    /// Squares of the scales of the coordinates.
-    squares: Vec<f64>,
-    rows: usize,
-}
-
-impl AdmissibleProjection {
-    fn new(model: &Model, motions: &Motions, t: f64) -> Option<Self> {
-        let rows = model.layout.n_rows;
-        let squares: Vec<f64> = column_scales(model).iter().map(|scale| scale * scale).list();
-        let weights: Vec<f64> = squares.iter().map(|square| 1.0 / square).list();
-        let mut matrix = Augmented::new(model);
-        matrix.set_weights(&weights);
-        constraints::jacobian(model, motions, t, matrix.jacobian_mut());
-        let factored = [0.0, REDUNDANT].into_iter().any(|damping| {
-            matrix.set_damping((0..rows).map(|_| damping));
-            matrix.factor().is_ok()
-        });
-        factored.then_some(Self { matrix, squares, rows })
-    }
-
-    /// The fraction of a gradient that the constraints leave free, 0 to 1.
-    fn free(&self, gradient: &[f64]) -> f64 {
-        let mut x = gradient.to_vec();
-        x.resize(gradient.len() + self.rows, 0.0);
-        self.matrix.solve(&mut x);
-        let left = x.iter().zip(&self.squares).map(|(v, square)| v * v / square).sum::<f64>();
-        let whole = gradient.iter().zip(&self.squares).map(|(g, s)| g * g * s).sum::<f64>();
-        (left / whole).sqrt()
-    }
+/// The fraction of a gradient that the constraints leave free, 0 to 1.
+fn free(closing: &mut Closing<'_>, q: &[f64], gradient: &[f64]) -> f64 {
+    let Some([motion]) = closing.motions_under(q, &[gradient.to_vec()]) else { return 0.0 };
+    let whole = gradient.iter().zip(column_scales(closing.model())).map(|(g, s)| (g * s).powi(2));
+    (closing.product(&motion, &motion) / whole.sum::<f64>()).sqrt()
 }

@@ -5,13 +5,16 @@ use crate::equations::augmented::Augmented;
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, refine, Compiled};
 use crate::math::Listed;
-use crate::model::{size, Model};
+use crate::model::{column_scales, row_scales, size, Model};
 
 /// Largest velocity residual that is not corrected, relative to its summands.
 const TOLERANCE: f64 = 1e-12;
 /// If a larger residual remains after corrections in the metric of the mass matrix, it is corrected in the metric of
 /// the unit matrix. With mass ratios of 1e10 and more, the mass matrix leaves too few digits.
 const ALIKE: f64 = 1e-10;
+/// Damping of redundant rows, relative to the compliance of a point, and to that of an angle where it moves a point at
+/// the distance of the size of the mechanism.
+const REDUNDANT: f64 = 1e-10;
 /// Number of corrections that are always made. The second removes the rounding errors of the first.
 const LEAST: usize = 2;
 /// Largest number of corrections. Damped rows converge by the ratio of their damping to the compliance at the
@@ -29,9 +32,10 @@ struct Metric<'a> {
 /// ν, relative to its summands. It is not near zero if the requested rates contradict each other.
 pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
     let motions = Motions::at(&model.layout, q, v);
-    let rate = velocity_residual(model, t, &motions);
-    let scale = scale(model, v, &rate);
-    if largest(&rate) / scale <= TOLERANCE {
+    let scales = row_scales(model);
+    let open = largest(&velocity_residual(model, t, &motions), &scales);
+    let fastest = open.max(largest(v, &column_scales(model))).max(f64::MIN_POSITIVE);
+    if open / fastest <= TOLERANCE {
         return 0.0;
     }
     let mut matrix = Augmented::new(model);
@@ -39,7 +43,7 @@ pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
     matrix.set_mass(&compiled, &motions);
     constraints::jacobian(model, &motions, t, matrix.jacobian_mut());
     let metric = Metric { matrix: &mut matrix, compliance: compiled.compliance() };
-    let left = correct(model, t, q, v, (metric, scale));
+    let left = correct(model, t, q, v, (metric, &scales, fastest));
     if left <= ALIKE {
         return left;
     }
@@ -48,7 +52,7 @@ pub fn project(model: &Model, t: f64, q: &[f64], v: &mut [f64]) -> f64 {
     let alike: Vec<f64> = lengths.map(|length| if length { 1.0 } else { turning }).list();
     matrix.set_weights(&alike);
     let metric = Metric { matrix: &mut matrix, compliance: 1.0 };
-    correct(model, t, q, v, (metric, scale))
+    correct(model, t, q, v, (metric, &scales, fastest))
 }
 
 /// Corrects `v` with the weights of the matrix until the residual no longer decreases; returns the residual.
@@ -57,12 +61,12 @@ fn correct(
     t: f64,
     q: &[f64],
     v: &mut [f64],
-    (Metric { matrix, compliance }, scale): (Metric<'_>, f64),
+    (Metric { matrix, compliance }, scales, fastest): (Metric<'_>, &[f64], f64),
 ) -> f64 {
-    let m = model.layout.n_rows;
-    matrix.set_damping((0..m).map(|_| 0.0));
+    matrix.set_damping(scales.iter().map(|_| 0.0));
     if matrix.factor().is_err() {
-        matrix.set_damping((0..m).map(|_| 1e-10 * compliance));
+        let of_length = REDUNDANT * compliance / size(model).powi(2);
+        matrix.set_damping(scales.iter().map(|scale| of_length * scale * scale));
         if matrix.factor().is_err() {
             return f64::INFINITY;
         }
@@ -71,7 +75,7 @@ fn correct(
     for correction in 0..=MOST {
         let motions = Motions::at(&model.layout, q, v);
         let rate = velocity_residual(model, t, &motions);
-        let left = largest(&rate) / scale;
+        let left = largest(&rate, scales) / fastest;
         let settled = left <= TOLERANCE || left > 0.5 * last;
         if (correction >= LEAST && settled) || left.is_nan() {
             return left;
@@ -99,8 +103,9 @@ fn nearest(model: &Model, motions: &Motions, matrix: &Augmented, x: &mut Vec<f64
     matrix.solve(x);
 }
 
-fn largest(rate: &[f64]) -> f64 {
-    rate.iter().fold(0.0, |a: f64, r| a.max(r.abs()))
+/// The largest rate, with lengths relative to the size of the mechanism.
+fn largest(rate: &[f64], scales: &[f64]) -> f64 {
+    rate.iter().zip(scales).fold(0.0, |most: f64, (rate, scale)| most.max(rate.abs() / scale))
 }
 
 /// Φ_q q̇ + Φ_t.
@@ -109,12 +114,4 @@ fn velocity_residual(model: &Model, t: f64, motions: &Motions) -> Vec<f64> {
     let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
     constraints::velocity_terms(model, motions, t, &mut phi, &mut rate, &mut gamma);
     rate
-}
-
-fn scale(model: &Model, v: &[f64], rate: &[f64]) -> f64 {
-    let size = size(model);
-    let scaled = v.iter().zip(model.layout.lengths());
-    let scaled = scaled.map(|(v, length)| if length { v.abs() } else { v.abs() * size });
-    let fastest = scaled.fold(0.0, f64::max);
-    fastest.max(largest(rate)).max(f64::MIN_POSITIVE)
 }

@@ -4,10 +4,11 @@ use super::passing::freedoms;
 use crate::analyses::mobility::neighbour;
 use crate::elements::Group;
 use crate::math::Listed;
-use crate::model::Model;
+use crate::model::{column_scales, Model};
 use std::sync::Arc;
 
-/// Components of a motion below this fraction of its largest component count as rest.
+/// Components of a motion below this fraction of the motion count as rest. Lengths are relative to the size of the
+/// mechanism.
 const AT_REST: f64 = 1e-7;
 
 /// The bodies that no motion without drivers moves. Empty if the model is too large for this check.
@@ -24,10 +25,10 @@ pub(super) fn locked(model: &Model, t: f64, q: &[f64]) -> Vec<String> {
 
 /// The bodies with zero velocity in every motion at a position.
 fn resting(model: &Model, t: f64, q: &[f64]) -> Option<Vec<usize>> {
-    let freedoms = freedoms(model, t, q)?;
+    let (freedoms, scales) = (freedoms(model, t, q)?, column_scales(model));
     let rests = |body: &usize| {
         let columns = model.layout.bodies[*body].range();
-        freedoms.iter().all(|w| columns.clone().all(|k| w[k].abs() <= AT_REST))
+        freedoms.iter().all(|w| columns.clone().all(|k| w[k].abs() <= AT_REST * scales[k]))
     };
     Some((1..model.bodies.len()).filter(rests).list())
 }

@@ -18,7 +18,7 @@
 use crate::equations::{Gains, Workspace};
 use crate::integrate::Step;
 use crate::math::Listed;
-use crate::model::Model;
+use crate::model::{column_scales, Model};
 
 /// Length of the stability region of DOP853 along the negative real axis.
 pub(super) const LIMIT: f64 = 6.1;
@@ -62,8 +62,11 @@ pub(super) struct Fastest {
 pub(super) struct StiffnessDetector<'a> {
     model: &'a Model,
     workspace: Workspace,
-    /// The vector of the power iteration: (q part, v part, z part), and its two images.
+    /// The vector of the power iteration: (q part, v part, z part), and its two images. Lengths are relative to the
+    /// size of the mechanism.
     x: [Vec<f64>; 3],
+    /// Scale of each component.
+    scales: Vec<f64>,
     steps: usize,
     next: usize,
     since: (usize, f64),
@@ -77,9 +80,13 @@ impl<'a> StiffnessDetector<'a> {
     /// Uses the elimination plan of the equations of motion of this run.
     pub fn new(model: &'a Model, one: &Workspace, t0: f64) -> Self {
         let n = 2 * model.layout.n_q + model.layout.n_z;
+        let columns = column_scales(model);
+        let ones = std::iter::repeat_n(1.0, model.layout.n_z);
+        let scales = columns.iter().chain(&columns).copied().chain(ones).list();
         Self {
             model,
             workspace: Workspace::like(model, one),
+            scales,
             x: [arbitrary(n), vec![0.0; n], vec![0.0; n]],
             steps: 0,
             next: FIRST_LOOK,
@@ -155,22 +162,27 @@ impl<'a> StiffnessDetector<'a> {
         let n = self.model.layout.n_q;
         let [q, v, z, _] = self.model.layout.split(y);
         let [a, dz] = self.respond(t, [q, v, z])?;
-        let reach = largest(q).max(1e-3);
+        let scales = self.scales.clone();
+        let [columns, ..] = parts(n, &scales);
+        let relative = |x: &[f64]| x.iter().zip(columns).map(|(x, scale)| x / scale).list();
+        let reach = largest(&relative(q)).max(1e-3);
         for _ in 0..ITERATIONS {
             for k in 0..2 {
                 let [of_q, of_v, of_z] = parts(n, &self.x[k]);
                 let size = largest(of_q) / reach
-                    + largest(of_v) / largest(v).max(reach)
+                    + largest(of_v) / largest(&relative(v)).max(reach)
                     + largest(of_z) / largest(z).max(reach);
                 let epsilon = DIFFERENCE / size;
                 if !(epsilon.is_finite() && epsilon > 0.0) {
                     self.x[0] = arbitrary(self.x[0].len());
                     return None;
                 }
-                let moved = |y: &[f64], x: &[f64]| -> Vec<f64> {
-                    y.iter().zip(x).map(|(y, x)| y + epsilon * x).list()
+                let moved = |y: &[f64], x: &[f64], scales: &[f64]| -> Vec<f64> {
+                    let parts = y.iter().zip(x).zip(scales);
+                    parts.map(|((y, x), scale)| y + epsilon * x * scale).list()
                 };
-                let (q, v, z) = (moved(q, of_q), moved(v, of_v), moved(z, of_z));
+                let [q, v] = [(q, of_q), (v, of_v)].map(|(y, x)| moved(y, x, columns));
+                let z = moved(z, of_z, &scales[2 * n..]);
                 let [near_a, near_dz] = self.respond(t, [&q, &v, &z])?;
                 let images = near_a.iter().zip(&a).chain(near_dz.iter().zip(&dz));
                 let (from, to) = self.x.split_at_mut(k + 1);
@@ -178,7 +190,8 @@ impl<'a> StiffnessDetector<'a> {
                 to[0][n..]
                     .iter_mut()
                     .zip(images)
-                    .for_each(|(to, (near, x))| *to = (near - x) / epsilon);
+                    .zip(&scales[n..])
+                    .for_each(|((to, (near, x)), scale)| *to = (near - x) / (epsilon * scale));
             }
             self.x.rotate_left(2);
             let scale = 1.0 / largest(&self.x[0]).max(f64::MIN_POSITIVE);

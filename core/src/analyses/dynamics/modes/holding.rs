@@ -23,7 +23,7 @@ const USED_UP: f64 = 1e-6;
 
 /// Height of a flight, as a fraction of the mechanism's size or in rad, below which a contact without losses rests.
 const LOW: f64 = 1e-10;
-/// Rate of a gap, m/s or rad/s, below which the next flight is so low that rounding errors of the gap matter.
+/// Rate of a gap, as a fraction of the mechanism's size per second or in rad/s, below which the next flight is so low that rounding errors of the gap matter.
 const SLOW: f64 = 2e-7;
 /// Largest number of forces for which all combinations are tried.
 const MOST_TRIED: usize = 5;
@@ -104,7 +104,7 @@ fn give_slack(model: &Model, place: &StateAt<'_>, touching: &[usize], modes: &mu
     for own in modes {
         let at = touching.iter().position(|k| *k == own.force);
         own.slack = match (own.mode, at) {
-            (Mode::Free, Some(at)) if rates[at] > SLOW => 0.0,
+            (Mode::Free, Some(at)) if rates[at] > SLOW * unit(model, own.force) => 0.0,
             // a gap that was held is not exactly zero
             (Mode::Free, Some(at)) => place.rounding(model, own.force) + (-gaps[at]).max(0.0),
             (Mode::Holds(_) | Mode::Follows { .. }, _) => noise,

@@ -11,7 +11,7 @@ use crate::equations::{constraints, energy};
 use crate::equations::{Gains, Workspace};
 use crate::math::Listed;
 use crate::math::{Jet, Lift, Real};
-use crate::model::{row_scales, size, DriverSet, ForceMode, Model};
+use crate::model::{column_scales, row_scales, size, DriverSet, ForceMode, Model};
 
 /// Speeds of friction below this value count as zero, relative to the speeds of the mechanism; accelerations
 /// likewise.
@@ -118,8 +118,8 @@ impl StateAt<'_> {
     /// The rounding error of a gap.
     pub fn rounding(&self, model: &Model, force: usize) -> f64 {
         let q = self.state(model)[0];
-        let largest = q.iter().fold(unit(model, force), |most: f64, q| most.max(q.abs()));
-        ROUNDING * f64::EPSILON * largest
+        let scaled = q.iter().zip(column_scales(model)).map(|(q, scale)| q.abs() / scale);
+        ROUNDING * f64::EPSILON * unit(model, force) * scaled.fold(1.0, f64::max)
     }
 
     /// Whether the gap of a contact is closed.
