@@ -85,7 +85,14 @@ impl Curve {
             Self::Formula(_) if !(finite(&a) && finite(&b) && a < b) => {
                 Some(("range", format!("[{a}, {b}]; must increase")))
             }
-            Self::Formula(_) if self.periodic() => self.open_seam(a, b),
+            Self::Formula(_) => {
+                let empty = places(self).find(|u| !self::finite(self.point(*u)));
+                let message = |u| {
+                    format!("it has no finite value at u = {u:.6}; change its formula or range")
+                };
+                let open = || self.open_seam(a, b).filter(|_| self.periodic());
+                empty.map(|u| ("", message(u))).or_else(open)
+            }
             Self::Circle { radius, .. } if !(finite(radius) && *radius > 0.0) => {
                 Some(("circle", format!("its radius is {radius} m; must be > 0")))
             }

@@ -18,7 +18,9 @@ pub fn numbers(model: &Model, problems: &mut Vec<Problem>) {
         finite_points(body, problems);
         for (name, curve) in &body.curves {
             if let Some((key, message)) = curve.as_ref().and_then(Curve::fault) {
-                problems.push(Problem::at(&["bodies", &body.name, "curves", name, key], message));
+                let path = ["bodies", &body.name, "curves", name, key];
+                let path = &path[..path.len() - usize::from(key.is_empty())];
+                problems.push(Problem::at(path, message));
             }
         }
         if let Some((key, message)) = body.outline.as_ref().and_then(Outline::fault) {

@@ -21,6 +21,8 @@ pub struct Freedoms {
     pub coordinates: Vec<usize>,
     /// N by columns, each of shape (n_q).
     pub basis: Vec<Vec<f64>>,
+    /// Number of coordinates.
+    n_q: usize,
 }
 
 impl Freedoms {
@@ -65,7 +67,7 @@ impl Freedoms {
             let unit = column[own];
             column.iter_mut().for_each(|x| *x /= unit);
         }
-        Ok((Self { coordinates, basis }, factors))
+        Ok((Self { coordinates, basis, n_q: q.len() }, factors))
     }
 
     /// Nᵀ f, shape (f) for f of shape (n_q).
@@ -75,8 +77,7 @@ impl Freedoms {
 
     /// N α, shape (n_q).
     pub fn extend(&self, alpha: &[f64]) -> Vec<f64> {
-        let n = self.basis.first().map_or(0, Vec::len);
-        let mut x = vec![0.0; n];
+        let mut x = vec![0.0; self.n_q];
         for (column, alpha) in self.basis.iter().zip(alpha) {
             x.iter_mut().zip(column).for_each(|(x, n)| *x += alpha * n);
         }
