@@ -1,6 +1,7 @@
 //! The description of a state of a mechanism for a page.
 
 use crate::convert::row;
+use kempe::analyses::meshed;
 use kempe::equations::constraints;
 use kempe::equations::kinematics::Motions;
 use kempe::model::row_scales;
@@ -29,6 +30,8 @@ pub fn pose(model: &Model, state: &State) -> Value {
 
 /// The largest violation of the constraints, with lengths relative to the size of the mechanism.
 pub fn residual(model: &Model, t: f64, q: &[f64]) -> f64 {
+    let meshed = meshed(model, t, q);
+    let model = meshed.as_ref().unwrap_or(model);
     let mut phi = vec![0.0; model.layout.n_rows];
     constraints::residual(model, &Motions::at_rest(&model.layout, q), t, &mut phi);
     let scaled = phi.iter().zip(row_scales(model)).map(|(phi, scale)| (phi / scale).abs());

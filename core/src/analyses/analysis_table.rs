@@ -83,6 +83,8 @@ macro_rules! analyses {
                 subject: &Subject<'_>,
                 start: &StartState,
             ) -> Result<(), Outcome> {
+                let own = subject.meshed(start);
+                let subject = &own.as_ref().map_or(*subject, |own| Subject { prepared: own, ..*subject });
                 match self {
                     $(Self::$Name(options) => options.begins(subject, start)),+
                 }
@@ -98,6 +100,8 @@ macro_rules! analyses {
                 start: &StartState,
                 observer: Observer<'_>,
             ) -> Result<Record, Box<Unfinished>> {
+                let own = subject.meshed(start);
+                let subject = &own.as_ref().map_or(*subject, |own| Subject { prepared: own, ..*subject });
                 match self {
                     $(Self::$Name(options) => Analysis::run(options, subject, start, observer)),+
                 }

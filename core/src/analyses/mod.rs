@@ -20,6 +20,7 @@ pub mod kinematics;
 pub mod limits;
 pub mod linearization;
 pub mod measures;
+mod meshing;
 mod mobility;
 pub mod options;
 mod quantities;
@@ -46,6 +47,7 @@ pub use analysis_table::{declarations, is_motion, kind_of, option_families, AnyA
 pub use dependence::Dependent;
 pub use event_options::{EventOption, DIRECTIONS};
 pub use friction_range::friction_range;
+pub use meshing::meshed;
 pub use mobility::{mobility, Mobility};
 pub use results::NoResult;
 pub use sequence::{check, run_after, start_of};

@@ -81,6 +81,10 @@ macro_rules! constraints {
             pub fn curve_mut(&mut self) -> Option<&mut CurveOn<S>> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::curve_mut(e),)+)+ }
             }
+            /// The constant of the last equation that the start may change.
+            pub fn phase_mut(&mut self) -> Option<&mut S> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::phase_mut(e),)+)+ }
+            }
             /// Whether the columns of translation are -I for body i and +I for body j.
             pub fn constant_columns(&self) -> bool {
                 match self { $($($(#[$on])* Self::$Name(_) => <$Name as Joint>::CONSTANT_COLUMNS,)+)+ }
@@ -118,6 +122,10 @@ macro_rules! constraints {
             /// The constant modulo which the last equation is taken, if there is one.
             pub fn modulus(&self) -> Option<f64> {
                 match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::modulus(e),)+)+ }
+            }
+            /// The length by whose multiples the start may change the phase.
+            pub fn pitch(&self) -> Option<f64> {
+                match self { $($($(#[$on])* Self::$Name(e) => <$Name as Joint>::pitch(e),)+)+ }
             }
             /// A field with an impossible value, and the reason.
             pub fn fault(&self) -> Option<(&'static str, String)> {

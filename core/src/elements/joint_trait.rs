@@ -276,6 +276,20 @@ pub trait Joint: Element {
         None
     }
 
+    /// The constant of the last equation that the start may change, m: wheels may be mounted at any phase.
+    #[inline]
+    fn phase_mut<S>(e: &mut Self::Over<S>) -> Option<&mut S> {
+        let _ = e;
+        None
+    }
+
+    /// The length by whose multiples the start may change this constant, m. None if any change is possible.
+    #[inline]
+    fn pitch(e: &Self::Over<f64>) -> Option<f64> {
+        let _ = e;
+        None
+    }
+
     /// The symbols of the element in a drawing. A varying law is NaN here.
     #[inline]
     fn symbols(e: &Self::Over<f64>) -> Vec<SceneSymbol> {

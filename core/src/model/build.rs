@@ -42,6 +42,7 @@ pub fn build(
         functions: definition.functions.clone(),
         doubts: Vec::new(),
         modes: Vec::new(),
+        phases: Vec::new(),
     };
     for (group, entries) in [
         (Group::Joints, &definition.joints),

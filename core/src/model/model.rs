@@ -77,11 +77,15 @@ impl<S: Real> Model<S> {
                 own: (formula.own(), formula.curve().map(|on| on.curve.kind()).unwrap_or_default()),
                 constant_columns: formula.constant_columns() && !depends.any(),
             });
+            let mut element = formula.map(value);
+            for (_, phase) in blueprint.phases.iter().filter(|(of, _)| of == name) {
+                element.phase_mut().into_iter().for_each(|x| *x += S::constant(*phase));
+            }
             constraints.push(ConstraintItem {
                 name: name.clone(),
                 group: *group,
                 bodies,
-                element: formula.map(value),
+                element,
                 law: depends.any().then(|| {
                     let owner = SwitchOwner::Constraint(constraints.len());
                     Box::new(formula.map(&mut |tape| Switch::number(tape, owner, &mut switches)))

@@ -44,6 +44,13 @@ impl Model {
 }
 
 impl Model {
+    /// The model in which the phases of meshed wheels are changed, by the names of the joints, m.
+    pub fn with_phases(&self, changes: Vec<(String, f64)>) -> Self {
+        let mut blueprint = Blueprint::clone(&self.blueprint);
+        blueprint.phases.extend(changes);
+        Self::new(&Arc::new(blueprint), &self.parameters)
+    }
+
     /// The model with forces in these modes.
     pub fn in_modes(&self, modes: &[ForceMode]) -> Self {
         let mut blueprint = Blueprint { modes: modes.to_vec(), ..(*self.blueprint).clone() };

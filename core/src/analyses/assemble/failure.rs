@@ -187,7 +187,7 @@ fn asked<'a>(model: &Model, set: impl Iterator<Item = &'a Target>) -> String {
 }
 
 /// A length in m, written with three decimals in a suitable unit.
-fn length(x: f64) -> String {
+pub(super) fn length(x: f64) -> String {
     let units = [("m", 1.0, 0.1), ("mm", 1e3, 1e-4), ("µm", 1e6, 1e-7), ("nm", 1e9, 1e-10)];
     match units.into_iter().find(|(.., least)| x >= *least) {
         Some((unit, factor, _)) => format!("{:.3} {unit}", x * factor),

@@ -35,6 +35,7 @@ mod slider_placement;
 mod slot_placement;
 mod target;
 mod targets;
+mod trains;
 mod unset;
 mod velocities;
 mod wheel_placement;
@@ -58,13 +59,15 @@ pub use unset::{Choice, Unset, ValueSource};
 
 use super::closing::Halt;
 use super::curves;
+use super::meshing::{meshed, MESHED};
 use super::mobility::mobility_until;
 use super::required;
 use super::State;
 use crate::elements::QuantityKind;
-use crate::model::Model;
+use crate::model::{row_scales, ConstraintItem, Model};
 use attempt::{close_from, given, internal, Closed, MOST_TRIES};
 use placements::Placements;
+use std::ops::Range;
 use target::{of_bodies, of_quantities};
 
 /// Assembles a mechanism.
@@ -131,10 +134,19 @@ impl Complete {
 }
 
 fn complete(model: &Model, request: &Request, stop: Halt<'_>) -> Result<Complete, Box<Failure>> {
+    let given = meshed_as_given(model, request);
+    let model = given.as_ref().unwrap_or(model);
     let asked = asked(model, request);
     let extended = holding(model, request);
     let mut closing = Closing::new(&extended, request.t, stop);
-    let Closed { mut q, iterations, mut warnings } = close(model, request, &asked, &mut closing)?;
+    let closed = close(model, request, &asked, &mut closing);
+    let Closed { mut q, iterations, mut warnings } = closed
+        .or_else(|failure| trains::close(&closing, request, &asked).unwrap_or(Err(failure)))?;
+    let found = meshed(model, request.t, &q);
+    let (model, extended) = match &found {
+        Some(meshed) => (meshed, holding(meshed, request)),
+        None => (model, extended),
+    };
     if request.state.is_none() {
         warnings.extend(angle_winding::relax(model, &asked, &mut q));
     }
@@ -169,6 +181,19 @@ fn complete(model: &Model, request: &Request, stop: Halt<'_>) -> Result<Complete
     let v = rates::consistent(model, request, &q, stop)?;
     let state = State { t: request.t, q, v, z: states(model, request) };
     Ok(Complete { state, report, asked, extended })
+}
+
+/// The model with the phases of a given state in which all joints but those of meshed wheels are closed.
+fn meshed_as_given(model: &Model, request: &Request) -> Option<Model> {
+    let State { t, q, .. } = request.state.as_ref()?;
+    let meshed = meshed(model, *t, q)?;
+    let phi = Closing::new(&meshed, *t, &|| false).phi(q);
+    let scales = row_scales(&meshed);
+    let is_open = |item: &ConstraintItem, rows: Range<usize>| {
+        !item.driven && rows.into_iter().any(|row| phi[row].abs() > MESHED * scales[row])
+    };
+    let mut all = meshed.constraints.iter().zip(&meshed.layout.constraints);
+    (!all.any(|(item, slots)| is_open(item, slots.rows.clone()))).then_some(meshed)
 }
 
 /// The first-order states: the set value if there is one, otherwise the guess, the given state, or zero.

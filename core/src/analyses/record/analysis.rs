@@ -4,7 +4,9 @@ use super::outcome::Outcome;
 use super::result::{Record, Unfinished};
 use super::start_state::StartState;
 use crate::analyses::dynamics::{Act, Prepared};
+use crate::analyses::meshing::meshed;
 use crate::analyses::options::Declared;
+use crate::analyses::State;
 use crate::integrate::Flow;
 use crate::math::Listed;
 use crate::model::{build, Definition, Model, Problem, Value};
@@ -68,6 +70,12 @@ impl<'a> Subject<'a> {
         self.prepared.model()
     }
 
+    /// The mechanism with the phases of meshed wheels at a start, if they differ.
+    pub fn meshed(&self, start: &StartState) -> Option<Prepared<Arc<Model>>> {
+        let State { t, q, .. } = &start.state;
+        meshed(self.model(), *t, q).map(|model| Prepared::new(Arc::new(model)))
+    }
+
     /// The model without the drivers that were released before a start.
     pub fn released(&self, start: &StartState) -> Arc<Model> {
         match start.released.is_empty() {
@@ -93,7 +101,7 @@ impl<'a> Subject<'a> {
         let values: Vec<_> = model.blueprint.parameters.iter().cloned().zip(values).list();
         let built = build(definition, &values)?;
         let built = if model.allow_redundancy { built.allowing_redundancy() } else { built };
-        Ok(Arc::new(built))
+        Ok(Arc::new(built.with_phases(model.blueprint.phases.clone())))
     }
 }
 

@@ -67,6 +67,10 @@ impl Joint for Belt {
         }
     }
 
+    fn phase_mut<S>(e: &mut Belt<S>) -> Option<&mut S> {
+        Some(&mut e.offset)
+    }
+
     fn requires<S: Real>(e: &Belt<S>, at: &At<'_, S>) -> Vec<Required<S>> {
         centres(measure::apart(at, &e.i, &e.j), None)
     }

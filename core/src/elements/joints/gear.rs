@@ -21,7 +21,7 @@ use crate::elements::{
     ResultQuantity, SceneSymbol,
 };
 use crate::math::{Listed, Real, Wrench};
-use std::f64::consts::FRAC_PI_2;
+use std::f64::consts::{FRAC_PI_2, PI};
 
 element! {
     /// Gear pair: the pitch circles of two wheels roll on each other. Φ = r_i (angle_i - θ) + σ r_j
@@ -99,6 +99,14 @@ impl Joint for Gear {
 
     fn modulus(e: &Gear) -> Option<f64> {
         Some(whole_turn(sum(e).1))
+    }
+
+    fn phase_mut<S>(e: &mut Gear<S>) -> Option<&mut S> {
+        Some(&mut e.offset)
+    }
+
+    fn pitch(e: &Gear) -> Option<f64> {
+        e.module.map(|module| PI * module)
     }
 
     fn symbols(e: &Gear) -> Vec<SceneSymbol> {
