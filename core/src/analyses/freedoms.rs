@@ -19,6 +19,17 @@ pub(super) fn freedoms(
     q: &[f64],
     counts: impl Fn(&ConstraintItem) -> bool,
 ) -> Option<Vec<Vec<f64>>> {
+    nearly_free(model, t, q, NEARLY, &counts)
+}
+
+/// The freedoms with this largest remainder of a row that counts as dependent.
+pub(super) fn nearly_free(
+    model: &Model,
+    t: f64,
+    q: &[f64],
+    tolerance: f64,
+    counts: &dyn Fn(&ConstraintItem) -> bool,
+) -> Option<Vec<Vec<f64>>> {
     let (n, layout) = (model.layout.n_q, &model.layout);
     if n > MOST || layout.n_rows > MOST {
         return None;
@@ -44,7 +55,7 @@ pub(super) fn freedoms(
     (0..m).for_each(|i| (0..n).for_each(|j| transposed[j * m + i] = full[i * n + j]));
     let mut found = match m {
         0 => (0..n).map(|k| (0..n).map(|j| f64::from(u8::from(j == k))).list()).list(),
-        _ => rank(&transposed, m, NEARLY).left_null,
+        _ => rank(&transposed, m, tolerance).left_null,
     };
     found.iter_mut().for_each(|w: &mut Vec<f64>| {
         w.iter_mut().zip(&scales).for_each(|(w, scale)| *w *= scale);

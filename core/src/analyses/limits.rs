@@ -9,7 +9,7 @@ use super::curves::Ranges;
 use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Point, Reason};
 use super::options::{name, options};
 use super::record::{Analysis, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished};
-use super::State;
+use super::{second_order, State};
 use crate::elements::QuantityKind;
 use crate::integrate::Flow;
 use crate::math::Listed;
@@ -60,7 +60,8 @@ impl Analysis for Options {
         };
         let driven = subject.driven_by(start, &over, false)?;
         let at = State { t: driven.variable.start, ..start.state.clone() };
-        let found = limits(&driven.model, &at, observer.look);
+        let own = second_order::acting(&driven.model, at.t, &at.q);
+        let found = limits(own.as_ref().unwrap_or(&driven.model), &at, observer.look);
         let found = found.map_err(|failure| Outcome::from(failure.reason))?;
         let value = |bound: &Option<Bound>| bound.as_ref().map(|bound| bound.value);
         let findings = json!({

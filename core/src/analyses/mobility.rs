@@ -8,6 +8,7 @@
 
 use super::closing::{Closing, Halt};
 use super::dependence::{self, Dependent, MOST_DENSE};
+use super::second_order::{self, SecondOrder};
 use crate::elements::{BodyId, Coordinate, CoordinateOf};
 use crate::equations::augmented::Augmented;
 use crate::equations::constraints;
@@ -50,6 +51,10 @@ pub struct Mobility {
     pub redundant_equations: Vec<Dependent>,
     /// The equations that depend on others only at this position.
     pub singular_equations: Vec<Dependent>,
+    /// The equations that depend on others in every position, because they hold only to second order.
+    pub second_order: Vec<Dependent>,
+    /// The coordinates, or differences of angles, that these equations keep constant.
+    pub kept: Vec<String>,
 }
 
 /// Mobility at an assembled position.
@@ -59,6 +64,24 @@ pub fn mobility(model: &Model, t: f64, q: &[f64]) -> Mobility {
 
 /// Mobility at an assembled position. The result is invalid if `stop` returned true.
 pub(super) fn mobility_until(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Mobility {
+    let mut found = plain(model, t, q, stop);
+    let implied = match found.singular_equations.is_empty() {
+        true => None,
+        false => second_order::implied(model, t, q, &found.singular_equations, stop),
+    };
+    let Some(SecondOrder { kept, mobility, .. }) = implied else { return found };
+    let is_singular =
+        |one: &Dependent| mobility.singular_equations.iter().any(|it| it.row == one.row);
+    let (singular, everywhere) = found.singular_equations.into_iter().partition(is_singular);
+    found.degrees_of_freedom = mobility.degrees_of_freedom;
+    found.rank = q.len() - mobility.degrees_of_freedom;
+    found.singular_equations = singular;
+    found.singular = mobility.singular;
+    Mobility { second_order: everywhere, kept, ..found }
+}
+
+/// Mobility without the linear constraints that equations of second order imply.
+pub(super) fn plain(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Mobility {
     let (n, m) = (model.layout.n_q, model.layout.n_rows);
     if beyond_doubt(model, t, q) {
         return Mobility { degrees_of_freedom: n - m, rank: m, ..Mobility::default() };
@@ -78,6 +101,7 @@ pub(super) fn mobility_until(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -
         singular: groups(&singular_equations),
         redundant_equations,
         singular_equations,
+        ..Mobility::default()
     }
 }
 
@@ -169,13 +193,13 @@ pub(super) fn dependent(model: &Model, t: f64, q: &[f64], row: usize) -> Vec<usi
 }
 
 /// Whether the sparse factorisation shows full rank. Its cost is linear in the size of the model.
-fn beyond_doubt(model: &Model, t: f64, q: &[f64]) -> bool {
+pub(super) fn beyond_doubt(model: &Model, t: f64, q: &[f64]) -> bool {
     if model.layout.n_rows > model.layout.n_q {
         return false;
     }
     let mut matrix = Augmented::new(model);
     let motions = Motions::at_rest(&model.layout, q);
-    matrix.set_weights(&vec![1.0; q.len()]);
+    matrix.set_weights(&column_scales(model).iter().map(|scale| 1.0 / (scale * scale)).list());
     constraints::jacobian(model, &motions, t, matrix.jacobian_mut());
     matrix.factor().is_ok() && matrix.cancellation().is_none_or(|(_, kept)| kept > BEYOND_DOUBT)
 }

@@ -30,6 +30,7 @@ pub mod record;
 mod required;
 mod results;
 mod rigid;
+mod second_order;
 mod sequence;
 mod signal_names;
 mod signal_rows;

@@ -375,6 +375,13 @@ impl Tape {
         }
     }
 
+    /// The sum of a symbol and a number.
+    pub fn shifted(symbol: Symbol, by: f64) -> Self {
+        let add = Instruction::Binary(super::operation::Binary::Add);
+        let code = vec![Instruction::Load(symbol), Instruction::Constant(by), add];
+        Self { code, operands: 2, symbols: vec![symbol], ..Self::default() }
+    }
+
     /// The law position + rate (t - t0).
     pub fn line(position: f64, rate: f64, t0: f64) -> Self {
         use super::operation::Binary::{Add, Multiply};

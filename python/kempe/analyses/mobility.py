@@ -24,6 +24,7 @@ _KINDS = {
     "dead point": "a driver cannot move the mechanism from here",
     "change point": "motions cross here, so that the branch is not determined",
     "uncertainty": "there are velocities, but no motion in their direction",
+    "second order": "so in every position; these equations keep a coordinate constant",
 }
 
 
@@ -66,7 +67,8 @@ class Redundancy:
         remove: one of ``equations``; these choices of all redundancies may be removed together.
         consistent: whether the rates that drivers prescribe satisfy the redundant equation.
         kind: "dead point", "change point" or "uncertainty" if the equation is redundant at this
-            position only; empty if it is permanently redundant.
+            position only; "second order" if it is so in every position and keeps a coordinate
+            constant; empty if it is permanently redundant.
     """
 
     joints: tuple[str, ...]

@@ -17,7 +17,7 @@ _EXAMINED = 11
 
 def redundant(motion: Motion) -> frozenset[str]:
     """The names of such joints and drivers."""
-    if motion.compiled.redundancy != "allow" or not len(np.atleast_1d(motion.t)):
+    if not len(np.atleast_1d(motion.t)):
         return frozenset()
     rows = motion._rows()
     some = np.unique(np.linspace(0, len(rows[0]) - 1, _EXAMINED).round().astype(int))

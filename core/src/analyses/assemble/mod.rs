@@ -62,6 +62,7 @@ use super::curves;
 use super::meshing::{meshed, MESHED};
 use super::mobility::mobility_until;
 use super::required;
+use super::second_order;
 use super::State;
 use crate::elements::QuantityKind;
 use crate::model::{row_scales, ConstraintItem, Model};
@@ -161,6 +162,11 @@ fn complete(model: &Model, request: &Request, stop: Halt<'_>) -> Result<Complete
     if let Some(message) = curves::beyond(model, &q) {
         return Err(Box::new(failure::off_the_curve(message)));
     }
+    let exact = second_order::corrected([model, &extended], request.t, &q, stop);
+    let exact = exact.map(|(exact, acting)| {
+        q = exact;
+        acting
+    });
     let mobility = mobility_until(model, request.t, &q, stop);
     if !mobility.redundant.is_empty() && !model.allow_redundancy {
         // drivers that agree on the position may have different rates or accelerations
@@ -178,6 +184,11 @@ fn complete(model: &Model, request: &Request, stop: Halt<'_>) -> Result<Complete
     }
     report.degrees_of_freedom = mobility.degrees_of_freedom;
     report.warnings.extend(report::singular(model, &mobility.singular));
+    report.warnings.extend(report::second_order(model, &mobility));
+    let (model, extended) = match &exact {
+        Some(acting) => (acting, holding(acting, request)),
+        None => (model, extended),
+    };
     let v = rates::consistent(model, request, &q, stop)?;
     let state = State { t: request.t, q, v, z: states(model, request) };
     Ok(Complete { state, report, asked, extended })

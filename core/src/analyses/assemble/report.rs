@@ -3,6 +3,7 @@
 use super::placement::Dyad;
 use super::placer::ON_LINE;
 use super::unset::Unset;
+use crate::analyses::Mobility;
 use crate::equations::kinematics::Motions;
 use crate::math::{each, Listed, Local, Motion, Rotation, Vec2};
 use crate::model::{listed, Doubt, Model, MOST_REPORTED};
@@ -132,6 +133,22 @@ pub(super) fn singular(model: &Model, groups: &[Vec<usize>]) -> Vec<String> {
         warnings.push(format!("{more} more groups of constraints depend on each other here"));
     }
     warnings
+}
+
+/// A remark if equations hold only to second order.
+pub(super) fn second_order(model: &Model, mobility: &Mobility) -> Option<String> {
+    let all = mobility.second_order.iter().flat_map(|one| &one.group);
+    let mut places: Vec<usize> = all.copied().list();
+    places.sort_unstable();
+    places.dedup();
+    let kept: Vec<&str> = mobility.kept.iter().map(String::as_str).list();
+    let (names, kept) = (listed(&model.names_of(&places)), listed(&kept));
+    (!places.is_empty()).then(|| {
+        format!(
+            "{names} depend on each other in every position: they keep {kept} constant, but only to second order; the \
+             mechanism moves as if this constraint were written, and the forces of these joints are not unique"
+        )
+    })
 }
 
 /// A warning for angles that look like degrees.

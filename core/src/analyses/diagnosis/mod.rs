@@ -20,6 +20,7 @@ mod remedies;
 pub use as_json::json as as_json;
 pub use four_bars::{FourBar, Grashof};
 pub use passing::SingularKind;
+pub(in crate::analyses) use passing::{forms, independent};
 pub use remedies::{remedies, JointDirection, Remedy};
 
 use super::dependence;
@@ -89,7 +90,8 @@ pub fn diagnose(model: &Model, state: &State) -> Diagnosis {
     let State { t, q, .. } = state;
     let mut mobility = mobility(model, *t, q);
     if mobility.singular_equations.is_empty() {
-        mobility.singular_equations = nearly_dependent(model, state, &mobility.redundant_equations);
+        let known = [&mobility.redundant_equations[..], &mobility.second_order].concat();
+        mobility.singular_equations = nearly_dependent(model, state, &known);
     }
     let rates = rates_of_drivers(model, *t, q);
     let described = |all: &[Dependent]| -> Vec<Redundancy> {
@@ -102,7 +104,15 @@ pub fn diagnose(model: &Model, state: &State) -> Diagnosis {
         gruebler: model.layout.n_q as i64 - model.layout.n_rows as i64,
         driven: drivers.map(|item| item.equations.len()).sum(),
         redundant: described(&mobility.redundant_equations),
-        singular: described(&mobility.singular_equations).into_iter().zip(kinds).list(),
+        singular: described(&mobility.singular_equations)
+            .into_iter()
+            .zip(kinds)
+            .chain(
+                described(&mobility.second_order)
+                    .into_iter()
+                    .map(|it| (it, SingularKind::SecondOrder)),
+            )
+            .list(),
         locked: bodies::locked(model, *t, q),
         loose: bodies::loose(model),
         undetermined: dynamics::undetermined(model, *t, q),
@@ -113,9 +123,9 @@ pub fn diagnose(model: &Model, state: &State) -> Diagnosis {
 
 /// Equations that depend on others within the error of the position. At a dead point, Newton's method finds only half
 /// of the digits.
-fn nearly_dependent(model: &Model, state: &State, redundant: &[Dependent]) -> Vec<Dependent> {
+fn nearly_dependent(model: &Model, state: &State, known: &[Dependent]) -> Vec<Dependent> {
     let mut found = dependence::at(model, state.t, &state.q, NEARLY, &|| false);
-    found.retain(|one| redundant.iter().all(|other| other.row != one.row));
+    found.retain(|one| known.iter().all(|other| other.row != one.row));
     found
 }
 

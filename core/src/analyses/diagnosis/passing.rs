@@ -26,6 +26,8 @@ pub enum SingularKind {
     ChangePoint,
     /// Velocities exist without a motion: first-order play.
     Uncertainty,
+    /// Equations hold only to second order in every position, and keep a coordinate constant.
+    SecondOrder,
 }
 
 impl fmt::Display for SingularKind {
@@ -34,6 +36,7 @@ impl fmt::Display for SingularKind {
             Self::DeadPoint => "dead point",
             Self::ChangePoint => "change point",
             Self::Uncertainty => "uncertainty",
+            Self::SecondOrder => "second order",
         })
     }
 }
@@ -80,7 +83,7 @@ fn crossing(model: &Model, t: f64, q: &[f64], equations: &[&Dependent]) -> Singu
 }
 
 /// The form B on the freedoms, row by row, for each equation.
-fn forms(
+pub(in crate::analyses) fn forms(
     model: &Model,
     t: f64,
     q: &[f64],
@@ -122,7 +125,7 @@ fn forms(
 }
 
 /// An orthonormal basis of some forms. The form of a redundant equation is zero.
-fn independent(forms: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
+pub(in crate::analyses) fn independent(forms: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
     let length = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
     let largest = forms.iter().map(|form| length(form)).fold(0.0, f64::max);
     let mut basis: Vec<Vec<f64>> = Vec::new();

@@ -8,6 +8,7 @@ use super::failure::Failure;
 use super::lane_batch::are_finite;
 use super::massless;
 use super::model_cache::ModelCache;
+use super::prepared::Prepared;
 use super::redundant_rows::{exchange, workspace_at};
 use super::run_results::Run;
 use super::shared_reaction;
@@ -40,8 +41,8 @@ impl Run {
     /// # Errors
     /// The errors of [`Prepared::accelerations`](super::Prepared::accelerations).
     pub fn accelerations(&self, model: &Model) -> Result<Accelerations, Box<Failure>> {
-        let (cache, states) = (ModelCache::default(), self.trajectory.states());
-        accelerations((model, &cache), states, self.passing, &mut |_| Flow::Continue)
+        let states = self.trajectory.states();
+        Prepared::new(model).accelerations(states, self.passing, |_| Flow::Continue)
     }
 }
 

@@ -12,12 +12,15 @@ use super::options::Options;
 use super::run_results::Run;
 use super::trajectory::States;
 use super::wide::Wide;
-use crate::analyses::State;
+use crate::analyses::{second_order, State};
 use crate::integrate::Flow;
-use crate::math::Lanes;
+use crate::math::{Lanes, Listed};
 use crate::model::Model;
 use crate::stabilize::Projection;
 use std::ops::Deref;
+
+/// Regularity of a position below which equations may hold only to second order.
+const DOUBTFUL: f64 = 1e-4;
 
 /// A model and the data that its runs share: the elimination plan, and the model over lanes once a run needs it.
 ///
@@ -77,7 +80,7 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         options: &Options,
         watch: impl FnMut(f64) -> Flow,
     ) -> Result<Run, Box<Failure>> {
-        course::run((&self.model, &self.cache), start, options, self.clock, watch, None)
+        self.run(start, options, watch, None)
     }
 
     /// Integrates the equations of motion; `act` is called at each event that
@@ -92,7 +95,20 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         watch: impl FnMut(f64) -> Flow,
         act: Act<'_>,
     ) -> Result<Run, Box<Failure>> {
-        course::run((&self.model, &self.cache), start, options, self.clock, watch, Some(act))
+        self.run(start, options, watch, Some(act))
+    }
+
+    fn run(
+        &self,
+        start: &State,
+        options: &Options,
+        watch: impl FnMut(f64) -> Flow,
+        act: Option<Act<'_>>,
+    ) -> Result<Run, Box<Failure>> {
+        let own = second_order::acting(&self.model, start.t, &start.q);
+        let own = own.map(|model| (model, ModelCache::default()));
+        let base = own.as_ref().map_or((&*self.model, &self.cache), |(model, own)| (model, own));
+        course::run(base, start, options, self.clock, watch, act)
     }
 
     /// Solves the equations of motion at states. With `passing`, also near singular positions, as in runs with
@@ -111,7 +127,17 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         passing: bool,
         mut watch: impl FnMut(f64) -> Flow,
     ) -> Result<Accelerations, Box<Failure>> {
-        accelerations((&self.model, &self.cache), states, passing, &mut watch)
+        let found = accelerations((&self.model, &self.cache), states, passing, &mut watch);
+        let first = found.as_ref().map_or(Some(&0.0), |found| found.regularity.first());
+        if first.is_none_or(|regularity| *regularity > DOUBTFUL) {
+            return found;
+        }
+        let (n, rows) = (self.model.layout.n_q, self.model.layout.n_rows);
+        let own = second_order::acting(&self.model, states.t[0], &states.q[..n]);
+        let Some(own) = own else { return found };
+        let found = accelerations((&own, &ModelCache::default()), states, passing, &mut watch)?;
+        let lam = found.lam.chunks(own.layout.n_rows).flat_map(|lam| &lam[..rows]);
+        Ok(Accelerations { lam: lam.copied().list(), ..found })
     }
 
     /// Projects states between the outputs of a run, such as states of its interpolant. The results are rows of q and
@@ -127,7 +153,14 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         states: States<'_>,
         projection: Projection,
     ) -> Result<[Vec<f64>; 2], Box<Failure>> {
-        interpolated_states::project((&self.model, &self.cache), states, projection)
+        let n = self.model.layout.n_q;
+        let first = states.t.first().map(|t| second_order::acting(&self.model, *t, &states.q[..n]));
+        match first.flatten() {
+            Some(own) => {
+                interpolated_states::project((&own, &ModelCache::default()), states, projection)
+            }
+            None => interpolated_states::project((&self.model, &self.cache), states, projection),
+        }
     }
 
     /// Kinetic and potential energy at states, J, followed by the dissipated energy and the works up to these states.

@@ -47,7 +47,7 @@ pub use points::{EquilibriumPath, PathEnd};
 pub use result::Equilibrium;
 
 use super::mobility::mobility;
-use super::State;
+use super::{second_order, State};
 use crate::equations::balance::Balance;
 use crate::integrate::Flow;
 use crate::model::Model;
@@ -67,8 +67,11 @@ pub fn equilibrium(
     options: &Options,
     mut watch: impl FnMut(usize) -> Flow,
 ) -> Result<Equilibrium, Reason> {
-    let held = holding::holding(model, start, &options.hold)?;
-    from(&held, start, options, &mut watch)
+    let own = second_order::acting(model, start.t, &start.q);
+    let held = holding::holding(own.as_ref().unwrap_or(model), start, &options.hold)?;
+    let mut found = from(&held, start, options, &mut watch)?;
+    found.lam.truncate(model.layout.n_rows);
+    Ok(found)
 }
 
 /// Checks, without computing derivatives, whether the search can begin at `start`: the position must not be singular,

@@ -11,7 +11,7 @@ use crate::analyses::record::{
     missing, Analysis, Driven, ErrorClass, Observer, Outcome, Record, StartState, Subject,
     Unfinished, Variable,
 };
-use crate::analyses::State;
+use crate::analyses::{second_order, State};
 use crate::elements::Group;
 use crate::integrate::Flow;
 use crate::math::Listed;
@@ -158,6 +158,8 @@ impl PlannedMotion<'_> {
         look: &mut dyn FnMut(f64) -> Flow,
     ) -> Result<Record, Box<Unfinished>> {
         let began = system_clock();
+        let own = second_order::acting(model, start.state.t, &start.state.q);
+        let model = own.as_ref().unwrap_or(model);
         let mut recorder = MotionRecorder::new(model, &start.state, self.rests);
         let outcome = kinematics(model, &start.state, times, |motion| {
             recorder.follow(motion);

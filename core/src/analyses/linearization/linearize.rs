@@ -17,7 +17,7 @@ use super::response::Linear;
 use super::variation::{seeded, Slopes, StatePoint, Variation, D};
 use crate::analyses::dynamics::{Accelerations, Prepared, States};
 use crate::analyses::signals::{Seen, Signal};
-use crate::analyses::State;
+use crate::analyses::{second_order, State};
 use crate::equations::kinematics::Motions;
 use crate::equations::{constraints, reactive};
 use crate::integrate::Flow;
@@ -91,6 +91,8 @@ pub fn linearize(
     inputs: &[String],
     outputs: &[String],
 ) -> Result<Linearization, Failure> {
+    let own = second_order::acting(model, state.t, &state.q);
+    let model = own.as_ref().unwrap_or(model);
     let named = |problem: Problem| Failure::Name(Box::new(problem));
     let read = |name: &String| Input::named(model, name).map_err(named);
     let inputs = inputs.iter().map(read).collect::<Result<Vec<_>, _>>()?;
@@ -113,6 +115,8 @@ pub fn linearize(
 /// # Errors
 /// [`Failure`].
 pub fn begins(model: &Model, state: &State) -> Result<(), Failure> {
+    let own = second_order::acting(model, state.t, &state.q);
+    let model = own.as_ref().unwrap_or(model);
     check_closed(model, state)?;
     Freedoms::regular(model, state.t, &state.q)?;
     solved(model, state).map(|_| ())

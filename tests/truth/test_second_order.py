@@ -1,0 +1,188 @@
+"""Mechanisms that are singular in every position, against the linear constraint."""
+
+import math
+
+import kempe as kp
+import numpy as np
+import pytest
+
+pytestmark = pytest.mark.filterwarnings("ignore::kempe.AssemblyWarning")
+
+
+class Mechanism:
+    """A mechanism whose equations hold only to second order, or with the linear constraint instead.
+
+    Attributes:
+        model: the mechanism.
+        set: coordinates of the start.
+        guess: a position beside the start.
+        over: a coordinate that moves it.
+        shared: a joint without a unique reaction.
+    """
+
+    def __init__(self, size, mass, linear):
+        redundancy = "allow" if linear else "refuse"
+        self.size, self.mass = size, mass
+        self.model = kp.Model(
+            type(self).__name__, gravity=(0.3 * size, -9.81 * size), redundancy=redundancy
+        )
+        self.build()
+        if linear:
+            terms, value = self.linear
+            self.model.coupling("linear", terms=terms, value=value)
+
+    def body(self, name, **points):
+        inertia = 0.1 * self.mass * self.size**2
+        self.model.body(name, mass=self.mass, inertia=inertia, points=points)
+
+    def bar(self, name, length, *ends):
+        self.model.bar(name, mass=self.mass, length=length * self.size, ends=ends)
+
+    def pin(self, name, i, j):
+        self.model.revolute(name, i, j)
+
+
+class Platen(Mechanism):
+    """A bar between two guides, as long as their distance."""
+
+    linear = {"beam.angle": 1}, 0.0
+    over, shared = "left.y", "J1"
+
+    def build(self):
+        s, m = self.size, self.model
+        m.ground.points(A=(0, 0), B=(3 * s, 0))
+        self.body("left", P=(0, 0))
+        self.body("right", P=(0, 0))
+        self.bar("beam", 3, "P", "Q")
+        for name, at, body in (("L", "A", "left"), ("R", "B", "right")):
+            m.translational(name, f"ground.{at}", f"{body}.P", axes=(math.pi / 2, math.pi / 2))
+        self.pin("J1", "left.P", "beam.P")
+        self.pin("J2", "right.P", "beam.Q")
+        self.set, self.guess = {"left.y": 0.5 * s}, {"beam.angle": 0.02}
+
+
+class Slots(Mechanism):
+    """A bar whose ends run in two parallel slots, as long as their distance."""
+
+    linear = {"bar.angle": 1}, math.pi / 2
+    over, shared = "bar.x", "S1"
+
+    def build(self):
+        s, m = self.size, self.model
+        m.ground.points(A=(0, 0), B=(0, 2 * s))
+        self.bar("bar", 2, "P", "Q")
+        m.pin_in_slot("S1", "ground.A", "bar.P")
+        m.pin_in_slot("S2", "ground.B", "bar.Q")
+        self.set, self.guess = {"bar.x": 0.3 * s}, {"bar.angle": 1.5}
+
+
+class Braces(Mechanism):
+    """A parallelogram with two bars in line, together as long as its cranks."""
+
+    linear = {"b2.angle": 1, "b1.angle": -1}, 0.0
+    over, shared = "c1.angle", "M"
+
+    def build(self):
+        s, m = self.size, self.model
+        m.ground.points(A=(0, 0), D=(2 * s, 0), E=(s, 0))
+        self.bar("c1", 1, "A", "B")
+        self.bar("c2", 1, "D", "C")
+        self.body("rod", B=(0, 0), C=(2 * s, 0), F=(s, 0))
+        self.bar("b1", 0.4, "E", "M")
+        self.bar("b2", 0.6, "M", "F")
+        for name, i, j in (
+            ("A", "ground", "c1"),
+            ("B", "c1", "rod"),
+            ("C", "c2", "rod"),
+            ("D", "ground", "c2"),
+            ("E", "ground", "b1"),
+            ("M", "b1", "b2"),
+            ("F", "b2", "rod"),
+        ):
+            self.pin(name, f"{i}.{name}", f"{j}.{name}")
+        self.set = {"c1.angle": 1.2}
+        self.guess = {"c2.angle": 1.2, "rod.angle": 0, "b1.angle": 1.21, "b2.angle": 1.2}
+
+
+class ScottRussell(Mechanism):
+    """Two Scott-Russell mechanisms, joined by a bar that is as long as their distance."""
+
+    linear = {"link.angle": 1}, 0.0
+    over, shared = "crank0.angle", "C0"
+
+    def build(self):
+        s, m = self.size, self.model
+        m.ground.points(O0=(0, 0), O1=(5 * s, 0))
+        self.bar("link", 5, "C0", "C1")
+        for k in range(2):
+            self.bar(f"crank{k}", 1, "O", "A")
+            self.body(f"rod{k}", A=(0, 0), B=(s, 0), C=(-s, 0))
+            self.body(f"slide{k}", B=(0, 0))
+            self.pin(f"O{k}", f"ground.O{k}", f"crank{k}.O")
+            self.pin(f"A{k}", f"crank{k}.A", f"rod{k}.A")
+            self.pin(f"B{k}", f"rod{k}.B", f"slide{k}.B")
+            m.translational(f"T{k}", f"ground.O{k}", f"slide{k}.B")
+            self.pin(f"C{k}", f"rod{k}.C", f"link.C{k}")
+        self.set = {"crank0.angle": 0.7}
+        self.guess = {"crank1.angle": 0.7, "rod0.angle": -0.7, "rod1.angle": -0.7}
+        self.guess |= {"slide0.x": 1.5 * s, "slide1.x": 6.5 * s, "link.angle": 0.01}
+
+
+def near(found, exact, unit, tolerance):
+    """Whether coordinates agree, with lengths relative to the size, angles up to whole turns."""
+    by = (np.asarray(found) - np.asarray(exact)) / unit
+    turns = np.where(unit == 1.0, 2 * math.pi * np.round(by / (2 * math.pi)), 0.0)
+    return np.abs(by - turns).max() <= tolerance
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("kind", [Platen, Slots, Braces, ScottRussell])
+def test_it_moves_as_with_the_linear_constraint(kind, size):
+    mass = 1 / size
+    one, other = kind(size, mass, False), kind(size, mass, True)
+    with pytest.warns(kp.AssemblyWarning, match="in every position"):
+        start = kp.assemble(one.model, set=one.set, guess=one.guess)
+    begin = kp.assemble(other.model, set=other.set, guess=other.guess)
+    unit = np.array([size if u == "m" else 1.0 for u in start.compiled.column_units()])
+    assert near(start.q, begin.q, unit, 1e-10)
+
+    found = kp.mobility(one.model, start)
+    assert found.degrees_of_freedom == 1
+    assert [entry.kind for entry in found.singular] == ["second order"]
+    assert not start[one.shared].unique
+
+    scale = np.abs(begin.a / unit).max()
+    assert np.abs((start.a - begin.a) / unit).max() <= 1e-8 * scale
+    for rate in (0.0, 2.0):
+        name = one.over.replace(".angle", ".omega").replace(".x", ".vx").replace(".y", ".vy")
+        speed = {name: rate * (1 if "angle" in one.over else size)}
+        mine = kp.dynamics(
+            one.model, kp.assemble(one.model, set=one.set | speed, guess=one.guess), t_end=0.3
+        )
+        its = kp.dynamics(
+            other.model,
+            kp.assemble(other.model, set=other.set | speed, guess=other.guess),
+            t_end=0.3,
+        )
+        assert near(mine.q[-1], its.q[-1], unit, 1e-7)
+        assert mine.drift.position.max() <= 1e-9 * max(size, 1)
+
+    value = start[one.over]
+    end = value + 0.2 * (1 if "angle" in one.over else size)
+    mine = kp.kinematics(one.model, start, over=one.over, range=[value, end], n=7)
+    its = kp.kinematics(other.model, begin, over=other.over, range=[value, end], n=7)
+    assert near(mine.q, its.q, unit, 1e-9)
+    eigenvalues = kp.modes(one.model, start).eigenvalues, kp.modes(other.model, begin).eigenvalues
+    assert np.abs(eigenvalues[0] - eigenvalues[1]).max() < 1e-6
+
+
+def test_bars_in_line_between_fixed_pins_have_no_motion():
+    m = kp.Model("in line")
+    m.ground.points(A=(0, 0), D=(3, 0))
+    m.bar("left", mass=1, length=1, ends=("A", "B"))
+    m.bar("right", mass=1, length=2, ends=("B", "D"))
+    for name, i, j in (("A", "ground", "left"), ("B", "left", "right"), ("D", "ground", "right")):
+        m.revolute(name, f"{i}.{name}", f"{j}.{name}")
+    flat = kp.State(m, 0, [0.5, 0, 0, 2, 0, 0], np.zeros(6))
+    (entry,) = kp.mobility(m, flat).singular
+    assert entry.kind == "uncertainty"
