@@ -48,6 +48,10 @@ def sweep(  # noqa: PLR0917 - typer uses the annotations of options and argument
         list[str] | None,
         typer.Option("--measure", metavar="TEXT", help="A column, such as C.force.max."),
     ] = None,
+    analysis: Annotated[
+        str | None,
+        typer.Option("--analysis", metavar="NAME", help="The analysis; the last one by default."),
+    ] = None,
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", help="Folder for results; default out/<FILE>/sweep."),
@@ -82,6 +86,7 @@ def sweep(  # noqa: PLR0917 - typer uses the annotations of options and argument
                     case,
                     dict(map(_range, over or [])) or None,
                     measures or (),
+                    analysis=analysis,
                     workers=workers,
                     scheduler=_client(scheduler),
                     out=kept,

@@ -11,6 +11,7 @@ import numpy as np
 
 from kempe.analyses.mode_shape import ModeShape
 from kempe.base import files
+from kempe.base.arguments import explained
 from kempe.draw.frame import Frame, Picture
 from kempe.draw.oscillation import pictures as pictures_of_mode
 from kempe.draw.pixels import Pixels, format_of
@@ -50,6 +51,7 @@ class Film:
 _FILMS = {"mp4": Film((1280, 720), 30.0), "gif": Film((640, 360), 20.0)}
 
 
+@explained
 def animate(
     solution: Solution | ModeShape,
     path: Path | str,
