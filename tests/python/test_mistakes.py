@@ -2,7 +2,6 @@
 # ruff: noqa: ARG005, PLW0108 - each mistake is an act on a model
 
 import inspect
-import json
 import re
 from collections.abc import Callable
 from pathlib import Path
@@ -13,7 +12,7 @@ import pytest
 from command_line import kempe
 from house.places import ROOT
 from kempe.analyses.option import Analysis, Option
-from kempe.base.synonyms import ARGUMENTS, NAMES
+from kempe.base.synonyms import table
 from kempe.model.elements import ElementMethods
 
 FOUR_BAR = (ROOT / "examples" / "four_bar.toml").read_text("utf-8")
@@ -134,7 +133,7 @@ def test_a_word_of_another_program_is_translated(
 
 def test_synonyms_lead_to_existing_names() -> None:
     known = {*dir(kp), *dir(kp.Model)}
-    assert not {name for names in NAMES.values() for name in names} - known
+    assert not {name for names in table("names").values() for name in names} - known
     arguments = {"of", "path", "set", "value", "t", "points"}
     functions = [getattr(kp, name) for name in kp.__all__ if callable(getattr(kp, name))]
     methods = [getattr(kp.Model, name) for name in dir(kp.Model) if name[0] != "_"]
@@ -145,7 +144,7 @@ def test_synonyms_lead_to_existing_names() -> None:
             continue
     options = [*Option.__subclasses__(), *Analysis.__subclasses__()]
     arguments |= {field for option in options for field in option.shapes}
-    assert not {name for names in ARGUMENTS.values() for name in names} - arguments
+    assert not {name for names in table("arguments").values() for name in names} - arguments
 
 
 # --- values ---------------------------------------------------------------------------------------
@@ -366,46 +365,3 @@ def test_a_wrong_command_is_refused(
 def test_there_are_a_hundred_mistakes() -> None:
     each = 3 * len(METHODS) + len(OPTIONS)
     assert each + len(WORDS) + len(VALUES) + len(FILES) + len(SAME) + len(COMMANDS) >= 160
-
-
-# --- doubts ---------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize("field", ["stiffness", "damping"])
-@pytest.mark.parametrize("value", ["-1e-3", "-k", "-1e3"])
-def test_a_negative_constant_is_a_warning(field: str, value: str, tmp_path: Path) -> None:
-    old = {"stiffness": '"k"', "damping": '"c"'}[field]
-    text = FOUR_BAR.replace(f"{field} = {old}", f'{field} = "{value}"')
-    (tmp_path / "case.toml").write_text(text)
-    ran = kempe("check", "case.toml", cwd=tmp_path)
-    assert ran.returncode == 0 or field == "damping"
-    assert f"warning: forces.spring.{field} is negative" in ran.stdout
-    (tmp_path / "case.toml").write_text(FOUR_BAR)
-    plain = kempe("check", "case.toml", cwd=tmp_path).stdout
-    assert "negative" not in plain and "no gravity" not in plain
-
-
-def test_a_case_without_gravity_says_so(tmp_path: Path) -> None:
-    (tmp_path / "case.toml").write_text(FOUR_BAR.replace("gravity = [0, -9.81]", ""))
-    assert "no gravity: nothing falls" in kempe("check", "case.toml", cwd=tmp_path).stdout
-
-
-def test_a_driven_motion_does_not_settle(tmp_path: Path) -> None:
-    for name, settles in (("wiper", False), ("pendulum", True)):
-        words = ("run", ROOT / "examples" / f"{name}.toml", "--no-figures", "--json")
-        told = json.loads(kempe(*words, cwd=tmp_path).stdout)
-        found = (
-            next(iter(told["analyses"].values()))
-            if isinstance(told.get("analyses"), dict)
-            else told
-        )
-        assert bool(json.dumps(found).count('"moves"')) is settles, name
-
-
-def test_rounding_errors_are_zero_in_tables() -> None:
-    from kempe.cli.findings import _rounded
-
-    for scale in (1e-3, 1.0, 1e3):
-        assert _rounded(1.5e-32 * scale, scale) == 0.0
-        assert _rounded(-1e-12 * scale, scale) == -1e-12 * scale
-        assert _rounded(0.0, 0.0) == 0.0

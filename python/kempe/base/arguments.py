@@ -9,7 +9,7 @@ from types import FunctionType
 from typing import TYPE_CHECKING, Any, NoReturn, ParamSpec, TypeVar
 
 from kempe.base.names import few
-from kempe.base.synonyms import ARGUMENTS, NAMES, question, suggested
+from kempe.base.synonyms import question, suggested
 from kempe.errors import ModelError
 
 P = ParamSpec("P")
@@ -64,7 +64,7 @@ class Explained(type):
 
 def missing_attribute(owner: str, name: str, known: Sequence[str]) -> str:
     """The message of an ``AttributeError``, with a suggestion."""
-    names = suggested(name, known, NAMES)
+    names = suggested(name, known, "names")
     return f"{owner} has no attribute {name!r}" + (f"; {question(names)}" if names else "")
 
 
@@ -88,7 +88,7 @@ def _explain(
         unknown = [word for word in named if word not in known]
         if unknown:
             free = [word for word in known if word not in named]
-            names = suggested(unknown[0], free, ARGUMENTS)
+            names = suggested(unknown[0], free, "arguments")
             hint = question(names) if names else there_are
             message = f"{name}: unknown argument {unknown[0]!r}"
         else:
