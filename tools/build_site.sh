@@ -9,4 +9,23 @@ set -eu
 
 cd -- "$(dirname -- "$0")/.."
 export NO_MKDOCS_2_WARNING=1
-exec "${PYTHON:-.venv/bin/python}" -m mkdocs --quiet build --strict --site-dir "${1:-site}"
+PYTHON=${PYTHON:-.venv/bin/python}
+
+# needs WHAT REMEDY COMMAND…: ends with code 5 if the command fails.
+needs() {
+    what=$1
+    remedy=$2
+    shift 2
+    "$@" >/dev/null 2>&1 || {
+        printf 'build_site: %s: %s\n' "$what" "$remedy" >&2
+        exit 5
+    }
+}
+
+needs "no Python at $PYTHON" "run ./kempe --version, or set PYTHON" "$PYTHON" -c ''
+needs "the packages of the site are missing" \
+    "run $PYTHON -m pip install --require-hashes -r tools/lock/test.txt" \
+    "$PYTHON" -c 'import material, mathjax, mkdocs, mkdocstrings'
+needs "the core of kempe is not built, and pages show its results" "run ./kempe --version" \
+    "$PYTHON" -c 'import kempe._core'
+exec "$PYTHON" -m mkdocs --quiet build --strict --site-dir "${1:-site}"

@@ -250,7 +250,9 @@ __all__ = ["__version__", *_HOME]  # noqa: PLE0604
 def __getattr__(name: str) -> Any:
     """Import a public name from its module on first use (PEP 562)."""
     if name not in _HOME:
-        raise AttributeError(f"module 'kempe' has no attribute {name!r}")
+        from kempe.base.arguments import missing_attribute
+
+        raise AttributeError(missing_attribute("module 'kempe'", name, __all__))
     home = _HOME[name]
     value = (
         getattr(import_module(f"kempe.{home}"), name) if home else import_module(f"kempe.{name}")

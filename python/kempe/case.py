@@ -25,6 +25,7 @@ from kempe.analyses.record import Progress, Record, run_analysis
 from kempe.analyses.sequence import of_type, read_entries
 from kempe.analyses.start import Start, read_start
 from kempe.base import files
+from kempe.base.arguments import explained
 from kempe.base.names import entry as named
 from kempe.base.names import few, one_of
 from kempe.errors import FileError, KempeError, ModelError
@@ -326,6 +327,7 @@ def _run(
     return run(model, start, entry, progress, after)
 
 
+@explained
 def load(path: Path | str, *, parameters: Mapping[str, Number] | None = None) -> Case:
     """Read a case from a file, TOML or JSON by the suffix of its name.
 

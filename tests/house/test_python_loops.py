@@ -44,8 +44,11 @@ USERS = {
     "kempe.model.compiled",
     "kempe.model.functions",
     "kempe.model.model",
+    "kempe.results.matrices.values",
+    "kempe.results.result",
     "kempe.results.solution",
     "kempe.results.state",
+    "kempe.sweeps.result",
 }
 
 #: The root has no imports of its own: it imports each public name on first use.

@@ -334,3 +334,20 @@ def test_the_cause_of_a_failed_download_is_reported(bare: Path) -> None:
     assert "Cannot connect to proxy" in told
     assert told.endswith("The variable HTTPS_PROXY names a proxy: correct or unset it")
     assert "secret" not in told
+
+
+def test_the_site_says_what_is_missing(tmp_path: Path) -> None:
+    """In a fresh clone, with no Python, no packages, or no core."""
+    (tmp_path / "tools").mkdir()
+    shutil.copy(ROOT / "tools" / "build_site.sh", tmp_path / "tools")
+    script = tmp_path / "tools" / "build_site.sh"
+    for name, missing, remedy in (
+        ("none", None, "run ./kempe --version, or set PYTHON"),
+        ("packages", "mkdocs", "--require-hashes -r tools/lock/test.txt"),
+        ("core", "kempe._core", "the core of kempe is not built"),
+    ):
+        if missing is not None:
+            program(tmp_path, name, f'case "$*" in *{missing}*) exit 1 ;; esac')
+        ran = run([script], cwd=tmp_path, env=os.environ | {"PYTHON": str(tmp_path / name)})
+        assert ran.returncode == 5
+        assert remedy in ran.stderr and ran.stderr.count("\n") == 1, ran.stderr

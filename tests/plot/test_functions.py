@@ -120,7 +120,7 @@ def test_options_of_the_functions_are_named() -> None:
                 "legend",
             }
             assert (parameter.kind is inspect.Parameter.KEYWORD_ONLY) == is_option or (
-                name == "quantity"
+                name in {"quantity", "most"}
             ), (function, name)
 
 

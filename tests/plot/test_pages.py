@@ -52,7 +52,8 @@ def test_a_figure_of_the_flagship_can_be_read(flagship_pages: list[plot.Page], s
     assert min(text.get_fontsize() for text in figure.findobj(Text)) >= 8.0
     for axes in figure.axes:
         assert "/" in axes.get_ylabel()
-        assert axes.get_xscale() == "linear"
+        # the flagship is at rest after 2.5 of 15 s, where the key figure of reactions is compressed
+        assert axes.get_xscale() == ("function" if stem == "14_reactions" else "linear")
 
 
 @pytest.mark.parametrize("name", ["mechanism", "initial", "final"])

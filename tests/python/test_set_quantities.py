@@ -90,7 +90,7 @@ def test_drivers_that_contradict_each_other_have_their_lines(tmp_path: Path) -> 
         kp.load(path).start()
     assert str(caught.value) == (
         f"{path}: driver one and driver two contradict each other: where driver one holds, driver "
-        "two is missed by 0.15 rad; remove one of them"
+        "two would have to change by 0.15 rad; remove one of them"
     )
     assert [(p.path, p.line) for p in caught.value.problems] == [
         ("drivers.one", 20),

@@ -74,7 +74,7 @@ def test_a_seed_repeats_a_design(kind: str) -> None:
         ({"L2": ["a"]}, {}, "SI units"),
         ({"L2": {"form": 1, "to": 2}}, {}, "is none of"),
         ({"L2": {"from": -1, "to": 2, "n": 3, "scale": "log"}}, {}, "one sign"),
-        ({"L2": {"from": 1, "to": 2, "n": 1}}, {}, "at least 2"),
+        ({"L2": {"from": 1, "to": 2, "n": 1}}, {}, "from 2 to"),
         ({"L2": {"normal": [1, 0]}}, {}, "must be > 0"),
         ({"L2": {"normal": [26, 1]}}, {}, 'use design="random"'),
         ({"L2": [1, 2], "k": [1]}, {"design": "paired"}, "L2 2, k 1"),

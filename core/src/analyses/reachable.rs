@@ -22,6 +22,8 @@ use std::sync::Arc;
 
 /// Default of the number of values of each quantity.
 const VALUES: usize = 61;
+/// Largest number of values of each quantity; a region has the square of this number of positions.
+const MOST_VALUES: usize = 2_000;
 
 kind! {
     /// Two drivers or position quantities, such as `crank.angle`.
@@ -64,7 +66,10 @@ options! {
             _ if ranges.iter().any(|[first, last]| first >= last) => {
                 Some(("ranges", "the first value must be below the last one".to_string()))
             }
-            _ if options.n < 2 => Some(("n", "1; must be a whole number from 2".to_string())),
+            _ if !(2..=MOST_VALUES).contains(&options.n) => {
+                let n = options.n;
+                Some(("n", format!("{n}; must be a whole number from 2 to {MOST_VALUES}")))
+            }
             _ => None,
         }
     };

@@ -31,7 +31,8 @@ pub(super) fn parse(text: &str, faults: &mut Faults) -> Table {
     parse_document(&tokens, &mut guarded, &mut sink);
     for error in errors {
         let place = error.unexpected().or(error.context()).map_or(0..0, range);
-        faults.push(place, message(&error));
+        let message = slip(text, place.clone()).unwrap_or_else(|| message(&error));
+        faults.push(place, message);
     }
     events.builder.finish(faults)
 }
@@ -55,6 +56,19 @@ fn message(error: &ParseError) -> String {
         text.push_str(&expected.join(" or "));
     }
     text
+}
+
+/// The message of a frequent slip: a decimal comma, or entries without commas between them.
+fn slip(text: &str, place: Range<usize>) -> Option<String> {
+    let (before, found) = (text.get(..place.start)?, text.get(place.clone())?);
+    let number = |word: &str| word.parse::<f64>().is_ok();
+    let digit = |c: Option<char>| c.is_some_and(|c| c.is_ascii_digit());
+    let mut after = text[place.start..].chars();
+    if digit(before.chars().last()) && after.next() == Some(',') && digit(after.next()) {
+        return Some("a number with a comma; the decimal mark is a point".to_string());
+    }
+    let several = found.split_whitespace().count() > 1 && found.split_whitespace().all(number);
+    several.then(|| format!("'{found}': write commas between the entries"))
 }
 
 fn word(expected: &Expected) -> String {

@@ -4,7 +4,7 @@ use super::names;
 use super::report::{among, ProblemList};
 use super::tree::{Data, Node};
 use crate::elements::{CURVE_FORMS, TOLERANCES, UNITS_OF_EQUATIONS};
-use crate::expression::suggest::did_you_mean;
+use crate::expression::suggest::{did_you_mean, frame_meant};
 use crate::math::Listed;
 
 /// Reports a value of the wrong shape.
@@ -293,7 +293,8 @@ pub(super) fn word(report: &mut ProblemList, node: &Node, words: &[&str]) {
         Data::Text(text) if words.contains(&text.as_str()) => {}
         Data::Text(text) => {
             let problem = report.here(format!("unknown word '{}'", super::shown(text)));
-            let hint = did_you_mean(text, words).unwrap_or_else(|| among("it may be", words));
+            let hint = frame_meant(text, words).or_else(|| did_you_mean(text, words));
+            let hint = hint.unwrap_or_else(|| among("it may be", words));
             report.add(problem.hint(hint));
         }
         _ => wrong(report, node, &among("the word", words)),

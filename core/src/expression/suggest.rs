@@ -55,3 +55,9 @@ pub fn did_you_mean<T: AsRef<str>>(
 ) -> Option<String> {
     closest(word, candidates).map(|candidate| format!("did you mean '{candidate}'?"))
 }
+
+/// The hint for a word by which other programs name the frame of a body, where `words` name the frames of i and j.
+pub fn frame_meant(word: &str, words: &[&str]) -> Option<String> {
+    let own = words.contains(&"i") && ["local", "body", "own", "moving"].contains(&word);
+    own.then(|| "did you mean 'i' or 'j'? they are the frames of the bodies".to_string())
+}

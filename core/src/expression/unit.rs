@@ -109,6 +109,12 @@ const WORDS: &[(&[&str], &str)] = &[
     (&["gram", "gramme", "gr"], "g"),
     (&["milligram"], "mg"),
     (&["pound", "lbm"], "lb"),
+    (&["ounce"], "oz"),
+    (&["ton", "megagram"], "tonne"),
+    (&["kilopond", "kp"], "kgf"),
+    (&["pascal"], "Pa"),
+    (&["megapascal"], "MPa"),
+    (&["gigapascal"], "GPa"),
     (&["second", "sec"], "s"),
     (&["millisecond", "msec"], "ms"),
     (&["microsecond"], "us"),
@@ -148,11 +154,14 @@ pub const UNITS: &[(&str, Unit)] = &[
     ("um", unit(1.0, 1e6, 1, 0, 0)),
     ("in", unit(254.0, 1e4, 1, 0, 0)),
     ("ft", unit(3048.0, 1e4, 1, 0, 0)),
-    // mass; the pound is 0.453 592 37 kg exactly
+    // mass; the pound is 0.453 592 37 kg exactly, and the slug 1 lbf*s^2/ft
     ("kg", unit(1.0, 1.0, 0, 1, 0)),
     ("g", unit(1.0, 1e3, 0, 1, 0)),
     ("mg", unit(1.0, 1e6, 0, 1, 0)),
+    ("tonne", unit(1e3, 1.0, 0, 1, 0)),
     ("lb", unit(45_359_237.0, 1e8, 0, 1, 0)),
+    ("oz", unit(45_359_237.0, 16e8, 0, 1, 0)),
+    ("slug", unit(44_482_216_152_605.0, 3.048e12, 0, 1, 0)),
     // time
     ("s", unit(1.0, 1.0, 0, 0, 1)),
     ("ms", unit(1.0, 1e3, 0, 0, 1)),
@@ -165,12 +174,19 @@ pub const UNITS: &[(&str, Unit)] = &[
     ("deg", unit(PI / 180.0, 1.0, 0, 0, 0)),
     ("rev", unit(2.0 * PI, 1.0, 0, 0, 0)),
     ("rpm", unit(2.0 * PI, 60.0, 0, 0, -1)),
+    ("rps", unit(2.0 * PI, 1.0, 0, 0, -1)),
     // force; the pound-force is 4.448 221 615 260 5 N exactly
     ("N", unit(1.0, 1.0, 1, 1, -2)),
     ("mN", unit(1.0, 1e3, 1, 1, -2)),
     ("kN", unit(1e3, 1.0, 1, 1, -2)),
     ("MN", unit(1e6, 1.0, 1, 1, -2)),
+    ("kgf", unit(980_665.0, 1e5, 1, 1, -2)),
     ("lbf", unit(44_482_216_152_605.0, 1e13, 1, 1, -2)),
+    // pressure
+    ("Pa", unit(1.0, 1.0, -1, 1, -2)),
+    ("kPa", unit(1e3, 1.0, -1, 1, -2)),
+    ("MPa", unit(1e6, 1.0, -1, 1, -2)),
+    ("GPa", unit(1e9, 1.0, -1, 1, -2)),
     // energy
     ("J", unit(1.0, 1.0, 2, 1, -2)),
     ("mJ", unit(1.0, 1e3, 2, 1, -2)),

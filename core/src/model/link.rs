@@ -186,7 +186,10 @@ impl<'a> Linker<'a> {
             }
             _ => {
                 let message = format!("'{name}' is not one of x, y, angle");
-                let hint = did_you_mean(name, &["x", "y", "angle"], "coordinates");
+                let hint = match Coordinate::named(name) {
+                    Some(rate) => Some(of_rate(owner, &[Coordinate::ALL[rate.column()].name()])),
+                    None => did_you_mean(name, &["x", "y", "angle"], "coordinates"),
+                };
                 self.report(field, message, hint)
             }
         }
@@ -211,7 +214,10 @@ impl<'a> Linker<'a> {
                 let (owner, word) = text.rsplit_once('.').unwrap_or(("", text));
                 let message = format!("'{word}' is not a position quantity of '{owner}'");
                 let plural = format!("position quantities of {owner}");
-                let hint = did_you_mean(word, offered, &plural);
+                let hint = match self.quantities.formula(text, true) {
+                    Some(_) => Some(of_rate(owner, offered)),
+                    None => did_you_mean(word, offered, &plural),
+                };
                 self.report(field, message, hint)
             }
         }
@@ -271,6 +277,12 @@ impl<'a> Linker<'a> {
             (None, _) => self.missing(field),
         }
     }
+}
+
+/// The hint where a position is needed in place of a rate.
+fn of_rate(owner: &str, positions: &[&str]) -> String {
+    let all = positions.iter().map(|word| format!("'{owner}.{word}'")).list().join(" or ");
+    format!("a rate is given by its position: name {all}, and a law such as 2*t, whose rate is 2")
 }
 
 /// The text "did you mean …", or the list of all names.

@@ -12,6 +12,7 @@ use crate::math::Listed;
 use std::sync::Arc;
 
 use super::link::{did_you_mean, Linker};
+use crate::expression::suggest::frame_meant;
 
 impl Source for Linker<'_> {
     fn given(&mut self, field: &Field) -> bool {
@@ -231,7 +232,7 @@ impl Source for Linker<'_> {
         };
         let found = words.iter().position(|known| *known == word);
         found.or_else(|| {
-            let hint = did_you_mean(word, words, "words");
+            let hint = frame_meant(word, words).or_else(|| did_you_mean(word, words, "words"));
             self.report(field, format!("unknown word '{word}'"), hint)
         })
     }

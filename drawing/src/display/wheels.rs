@@ -15,6 +15,8 @@ pub const OVERHANG: f64 = 24.0;
 const TOOTH: [At; 4] = [[-0.38, -0.27], [-0.14, 0.25], [0.14, 0.25], [0.38, -0.27]];
 /// Distance of the back of a rack from the pitch line, in pitches.
 const BACK: f64 = 0.8;
+/// Largest number of drawn teeth of a wheel or rack; more would be finer than a line.
+const MOST_TEETH: f64 = 2_000.0;
 const TINT: f64 = 0.84;
 const TINT_OF_BODIES: f64 = 0.72;
 
@@ -56,6 +58,9 @@ pub fn toothed_line(symbol: &Symbol) -> Vec<Item> {
     let (pitch, phase, [low, high]) = (PI * own.module, own.phase, symbol.reach());
     let first = ((low - phase) / pitch).floor() as i64 - 2;
     let last = ((high - phase) / pitch).ceil() as i64 + 2;
+    if last - first > MOST_TEETH as i64 {
+        return Vec::new();
+    }
     let corner =
         |k: i64| TOOTH.map(|[x, y]| [x * pitch + phase + k as f64 * pitch, y * pitch * side]);
     let teeth: Vec<At> = (first..=last).flat_map(corner).collect();
@@ -102,6 +107,9 @@ fn teeth(symbol: &Symbol, outwards: f64) -> Vec<At> {
     let Some(own) = symbol.teeth else { return Vec::new() };
     let radius = symbol.radii()[1];
     let count = (2.0 * radius / own.module).round_ties_even();
+    if count > MOST_TEETH {
+        return circle(radius, 96);
+    }
     let pitch = PI * own.module;
     let tooth = |k: usize| {
         let middle = own.phase + TAU / count * k as f64;

@@ -11,6 +11,7 @@ import numpy as np
 from kempe import _core
 from kempe.analyses.record import AssemblyWarning, check, released
 from kempe.analyses.request_cache import encode
+from kempe.base.arguments import explained
 from kempe.base.names import one_of
 from kempe.errors import ModelError
 from kempe.model.compiled import CompiledModel
@@ -22,6 +23,7 @@ from kempe.results.state import State
 Coordinates: TypeAlias = "Mapping[str, float | str]"
 
 
+@explained
 def assemble(
     model: Model | CompiledModel,
     set: Coordinates | None = None,  # noqa: A002

@@ -10,6 +10,7 @@ import numpy as np
 from kempe.analyses.assembly import Coordinates
 from kempe.analyses.options import Configurations
 from kempe.analyses.record import Record, run_analysis
+from kempe.base.arguments import explained
 from kempe.model.model import Model, compiled_model
 from kempe.results.assembly_report import AssemblyReport
 from kempe.results.result import Result
@@ -107,6 +108,7 @@ class ConfigurationsResult(Result, Sequence[State]):
         return f"<ConfigurationsResult: {self.report()[0]}>"
 
 
+@explained
 def configurations(
     model: Model | CompiledModel,
     set: Coordinates | None = None,  # noqa: A002 - as in assemble

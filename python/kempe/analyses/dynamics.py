@@ -18,6 +18,7 @@ from kempe.analyses.record import (
     solution_of,
 )
 from kempe.analyses.request_cache import Request, encode, request
+from kempe.base.arguments import explained
 from kempe.base.arrays import Floats
 from kempe.base.names import unknown
 from kempe.errors import ModelError
@@ -35,6 +36,7 @@ class AccuracyWarning(UserWarning):
     """A result exceeds a limit of accuracy, by an error that belongs to the chosen method."""
 
 
+@explained
 def dynamics(
     model: Model | CompiledModel,
     start: State,

@@ -11,6 +11,7 @@ from kempe import _core
 from kempe.analyses.equilibrium_result import EquilibriumResult
 from kempe.analyses.options import Equilibrium
 from kempe.analyses.record import Progress, check, released, run_analysis
+from kempe.base.arguments import explained
 from kempe.base.arrays import Floats, fixed
 from kempe.errors import ModelError
 from kempe.model.compiled import CompiledModel
@@ -24,6 +25,7 @@ __all__ = ["EquilibriumResult", "PointStiffness", "equilibrium", "stiffness_at"]
 _RIGID = 1e-12
 
 
+@explained
 def equilibrium(
     model: Model | CompiledModel,
     start: State,
@@ -93,6 +95,7 @@ class PointStiffness:
         return float("inf") if abs(gives) <= _RIGID * largest or gives == 0.0 else 1.0 / gives
 
 
+@explained
 def stiffness_at(
     model: Model | CompiledModel, state: State, point: str, *, hold: Sequence[str] = ()
 ) -> PointStiffness:

@@ -7,6 +7,7 @@ from typing import Any
 
 from kempe.analyses.options import InverseDynamics, Kinematics
 from kempe.analyses.record import Progress, keep_solution, run_analysis, solution_of
+from kempe.base.arguments import explained
 from kempe.errors import SingularityError
 from kempe.model.compiled import CompiledModel
 from kempe.model.model import Model, compiled_model
@@ -20,6 +21,7 @@ POINTS = 361
 METHOD = "continuation"
 
 
+@explained
 def kinematics(
     model: Model | CompiledModel,
     start: State,
@@ -61,6 +63,7 @@ def kinematics(
     return follow(compiled_model(model), start, entry, progress)
 
 
+@explained
 def inverse_dynamics(
     model: Model | CompiledModel,
     start: State,

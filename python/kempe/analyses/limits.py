@@ -9,6 +9,7 @@ import numpy as np
 
 from kempe.analyses.options import Limits
 from kempe.analyses.record import Progress, Record, run_analysis
+from kempe.base.arguments import explained
 from kempe.base.display_units import display
 from kempe.model.model import Model, compiled_model
 from kempe.results.motion import Motion
@@ -125,6 +126,7 @@ class LimitsResult(Result):
         return f"<LimitsResult {self.report()[0]}>"
 
 
+@explained
 def limits(
     model: Model | CompiledModel,
     start: State,

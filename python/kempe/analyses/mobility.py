@@ -8,6 +8,7 @@ from math import degrees
 from typing import TYPE_CHECKING, Any
 
 from kempe.analyses.record import Record, check, run_analysis
+from kempe.base.arguments import explained
 from kempe.base.display_units import display
 from kempe.base.names import few
 from kempe.model.model import Model, compiled_model
@@ -188,6 +189,7 @@ class MobilityResult(Result):
         return f"<MobilityResult: {free} of freedom{redundant}{singular}>"
 
 
+@explained
 def mobility(model: Model | CompiledModel, state: State) -> MobilityResult:
     """Find the freedoms and redundant constraints of a mechanism at an assembled position.
 

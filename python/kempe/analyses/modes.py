@@ -12,6 +12,7 @@ from kempe.analyses.eigenmodes import Complexes, eigenmodes
 from kempe.analyses.mode_shape import ModeShape
 from kempe.analyses.options import Modes
 from kempe.analyses.record import Record, check, run_analysis
+from kempe.base.arguments import explained
 from kempe.base.arrays import Floats, fixed
 from kempe.errors import ModelError
 from kempe.model.compiled import CompiledModel
@@ -237,6 +238,7 @@ class ModesResult(Result):
         return f"<ModesResult: {count} mode{'s' * (count != 1)} at t = {self.state.t:g} s>"
 
 
+@explained
 def modes(
     model: Model | CompiledModel,
     state: State,

@@ -10,6 +10,7 @@ from dataclasses import dataclass, fields
 from typing import Any, ClassVar, TypeAlias
 
 from kempe.analyses.event import events
+from kempe.base.arguments import Explained
 from kempe.base.names import one_of
 from kempe.errors import ModelError
 from kempe.model.values import CHECKS, number, reference, tolerance
@@ -31,7 +32,7 @@ _KEYS = {"after": "from"}
 
 
 @dataclass(frozen=True, repr=False)
-class Option:
+class Option(metaclass=Explained):
     """A choice with numbers, ``{ type = "rk45", rtol = 1e-6 }`` in a file."""
 
     kind: ClassVar[str]
@@ -49,7 +50,7 @@ class Option:
         return {"type": self.kind, **_fields(self, self.shapes, path)}
 
 
-class Analysis:
+class Analysis(metaclass=Explained):
     """An entry of ``[analyses]``; each analysis is a dataclass."""
 
     name: str

@@ -9,6 +9,7 @@ import numpy as np
 
 from kempe.analyses.options import Reachable
 from kempe.analyses.record import Progress, Record, run_analysis
+from kempe.base.arguments import explained
 from kempe.base.arrays import Floats, fixed
 from kempe.model.model import Model, compiled_model
 from kempe.model.values import Pairs, Words
@@ -98,6 +99,7 @@ class ReachableResult(Result):
         return f"<ReachableResult: {self.report()[0]}>"
 
 
+@explained
 def reachable(
     model: Model | CompiledModel,
     start: State,

@@ -18,6 +18,7 @@ from types import TracebackType
 from typing import NoReturn
 
 from kempe import _core
+from kempe.base.arguments import explained
 from kempe.base.names import unknown
 from kempe.errors import ModelError
 
@@ -98,6 +99,7 @@ SI = Units()
 _current = SI
 
 
+@explained
 def units(*names: str) -> Units:
     """Choose the units of tables, figures and CSV files.
 
@@ -235,7 +237,7 @@ def _units() -> dict[str, tuple[float, Mapping[str, int]]]:
     """The units of formulas. A unit such as kN has the base N."""
     told = json.loads(_core.catalogue())["units"]
     alike = {entry["dimension"]: entry["name"] for entry in told if entry["si"] == 1.0}
-    bases: dict[str, Mapping[str, int]] = {"rpm": {"rad": 1, "s": -1}}
+    bases: dict[str, Mapping[str, int]] = {name: {"rad": 1, "s": -1} for name in ("rpm", "rps")}
     found = {}
     for entry in told:
         base = bases.get(entry["name"], {alike.get(entry["dimension"], entry["name"]): 1})

@@ -188,8 +188,23 @@ def read_case(file: Path, changes: Changes, kind: str | None = None) -> Case:
         case = parsed(text, form, "standard input", parameters)
     else:
         case = load(file, parameters=parameters)
+    _refuse_fields(case, start)
     case = case.with_start(start) if start else case
     return changes.applied(case if kind is None else changes.of_type(case, kind))
+
+
+def _refuse_fields(case: Case, start: dict[str, float | str]) -> None:
+    """Refuse a field of an element, such as ``rod.mass``, with the remedy."""
+    tree = case.model.tree()
+    for path, value in start.items():
+        name, _, field = path.rpartition(".")
+        for section in ("bodies", "joints", "drivers", "forces"):
+            if field in tree.get(section, {}).get(name, {}):
+                raise ModelError(
+                    f"--set {path}: a field of {section}.{name} cannot be set",
+                    hint=f'make it a parameter: {field} = "p" in the file, with p in [parameters], '
+                    f"then --set p={value}",
+                )
 
 
 def _standard_input() -> str:

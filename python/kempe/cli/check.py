@@ -55,6 +55,7 @@ def check(  # noqa: PLR0917 - typer distinguishes options by their annotations
 ) -> None:
     """Read a case, assemble its mechanism and show the configuration, without a simulation."""
     from kempe import mobility
+    from kempe.cli.beginnings import check_beginnings
     from kempe.cli.mechanism import show_configuration, show_mechanism
 
     with document(as_json) as found, shown_in(units):
@@ -69,6 +70,7 @@ def check(  # noqa: PLR0917 - typer distinguishes options by their annotations
         for line in freedom.report():
             console.print(Text(f"  {line}"))
         _refuse_undetermined(case, state, freedom)
+        check_beginnings(case, state)
         swept = _sweep(case, found)
     analyses = ", ".join(f"{name} ({entry['type']})" for name, entry in case.analyses.items())
     console.print()

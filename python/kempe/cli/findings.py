@@ -14,6 +14,9 @@ from kempe.cli.console import figure, heading, table
 from kempe.results.remarks import not_unique, starred, when
 from kempe.results.variable import Variable
 
+#: A value that is this part of the largest of its column is a rounding error.
+_ROUNDING = 1e-13
+
 
 def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
     """Print peaks, energy balance, settling times and cost of one analysis."""
@@ -34,7 +37,7 @@ def show_findings(console: Console, name: str, summary: dict[str, Any]) -> None:
     _show_events(console, summary["events"], of.unit)
     _show_accuracy(console, summary, of.unit)
     _show_singular(console, summary["singular"], of.unit)
-    if of.is_time:
+    if of.is_time and summary["settling"]:
         _show_settling(console, summary["settling"])
     cost = summary["statistics"]
     console.print()
@@ -154,8 +157,20 @@ def _columns(peaks: list[dict[str, Any]], at: str) -> tuple[list[str], list[list
     ]
     usual = "deg" if at == "rad" else None
     header = [_header(title, unit, usual) for title, _, unit in columns]
-    cells = [[_number(peak[key], unit, usual) for _, key, unit in columns] for peak in peaks]
+    largest = {name: max(abs(peak[name]) for peak in peaks) for name, _ in shown}
+    cells = [
+        [
+            _number(_rounded(peak[key], largest.get(key, 0.0)), unit, usual)
+            for _, key, unit in columns
+        ]
+        for peak in peaks
+    ]
     return header, cells
+
+
+def _rounded(value: float, largest: float) -> float:
+    """Zero for a rounding error of the other values of its column."""
+    return 0.0 if abs(value) < _ROUNDING * largest else value
 
 
 def _header(title: str, unit: str, usual: str | None = None) -> str:

@@ -48,6 +48,10 @@ def sweep(  # noqa: PLR0917 - typer uses the annotations of options and argument
         list[str] | None,
         typer.Option("--measure", metavar="TEXT", help="A column, such as C.force.max."),
     ] = None,
+    analysis: Annotated[
+        str | None,
+        typer.Option("--analysis", metavar="NAME", help="The analysis; the last one by default."),
+    ] = None,
     output: Annotated[
         Path | None,
         typer.Option("--output", "-o", help="Folder for results; default out/<FILE>/sweep."),
@@ -76,20 +80,17 @@ def sweep(  # noqa: PLR0917 - typer uses the annotations of options and argument
         kept = folder / "sweep.db"
         if anew:
             files.remove(kept)
-        with _anew_named(), _told(case.model.title or stem(file)) as progress:
-            try:
-                found = compute(
-                    case,
-                    dict(map(_range, over or [])) or None,
-                    measures or (),
-                    workers=workers,
-                    scheduler=_client(scheduler),
-                    out=kept,
-                    progress=progress,
-                )
-            except KeyboardInterrupt as error:
-                _keep(getattr(error, "result", None), folder)
-                raise
+        with _guarded(folder), _told(case.model.title or stem(file)) as progress:
+            found = compute(
+                case,
+                dict(map(_range, over or [])) or None,
+                measures or (),
+                analysis=analysis,
+                workers=workers,
+                scheduler=_client(scheduler),
+                out=kept,
+                progress=progress,
+            )
         _finish(found, folder, content, answers(silent=as_json))
 
 
@@ -133,12 +134,15 @@ def _range(text: str) -> tuple[str, Mapping[str, Any]]:
 
 
 @contextmanager
-def _anew_named() -> Iterator[None]:
-    """Name the option --anew where the folder contains another sweep, or a damaged one."""
+def _guarded(folder: Path) -> Iterator[None]:
+    """Keep finished rows, and name --anew where the folder has another or a damaged sweep."""
     from kempe.sweeps.storage import CHANGED, DELETE
 
     try:
         yield
+    except KeyboardInterrupt as error:
+        _keep(getattr(error, "result", None), folder)
+        raise
     except FileError as error:
         way = "--anew discards its results, and --output names another folder"
         if (error.hint or "").startswith(CHANGED):

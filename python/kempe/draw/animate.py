@@ -6,15 +6,18 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
+from typing import overload
 
 import numpy as np
 
 from kempe.analyses.mode_shape import ModeShape
 from kempe.base import files
+from kempe.base.arguments import explained
 from kempe.draw.frame import Frame, Picture
+from kempe.draw.inline import InlinePlayer
 from kempe.draw.oscillation import pictures as pictures_of_mode
 from kempe.draw.pixels import Pixels, format_of
-from kempe.draw.player import player
+from kempe.draw.player import page, player
 from kempe.draw.sampling import FRAMES_PER_SECOND, Span
 from kempe.draw.scene import playback_rate, scene
 from kempe.errors import ModelError
@@ -50,9 +53,31 @@ class Film:
 _FILMS = {"mp4": Film((1280, 720), 30.0), "gif": Film((640, 360), 20.0)}
 
 
+@overload
+def animate(
+    solution: Solution, path: None = None, *, speed: float = ..., labels: bool = ...
+) -> InlinePlayer: ...
+
+
+@overload
 def animate(
     solution: Solution | ModeShape,
     path: Path | str,
+    *,
+    fps: float | None = ...,
+    speed: float = ...,
+    size: Pixels | None = ...,
+    begin: float | None = ...,
+    end: float | None = ...,
+    labels: bool = ...,
+    progress: Progress | None = ...,
+) -> Path: ...
+
+
+@explained
+def animate(
+    solution: Solution | ModeShape,
+    path: Path | str | None = None,
     *,
     fps: float | None = None,
     speed: float = 1.0,
@@ -61,13 +86,15 @@ def animate(
     end: float | None = None,
     labels: bool = True,
     progress: Progress | None = None,
-) -> Path:
+) -> Path | InlinePlayer:
     """Write a motion as a page, a video or a GIF, chosen by the ending of the path.
+
+    Without a path, the result is the player, which a notebook shows below the cell.
 
     Args:
         solution: the motion, or a mode such as ``modes.shape(0)``. An MP4 or GIF of a mode shows
             one slow period.
-        path: ending in ``.html``, ``.mp4`` or ``.gif``.
+        path: ending in ``.html``, ``.mp4`` or ``.gif``; None for the player in a notebook.
         fps: pictures per second, 30 for MP4 and 20 for GIF by default; not used for a page.
         speed: 2 plays twice as fast. 1 is real time, except for motions shorter than 2 s or longer
             than a minute; those are slowed down or sped up by a round factor.
@@ -79,13 +106,15 @@ def animate(
         progress: called with the number of drawn pictures and the number of all pictures.
 
     Returns:
-        The path.
+        The path, or the player.
 
     Raises:
         ModelError: an unknown ending, or ``fps`` or ``speed`` is not positive or too large, the
             size is impossible, or the times are not within the motion.
         FileError: the file cannot be written, or there is no ffmpeg for an MP4.
     """
+    if path is None:
+        return inline(solution, speed=speed, labels=labels)
     kind = files.checked_path(path, "write").suffix.lstrip(".").lower()
     if kind not in FORMATS:
         raise ModelError(f"{path}: the format is unknown", hint="end it in .html, .mp4 or .gif")
@@ -102,6 +131,18 @@ def animate(
     film = Film(size or usual.size, fps or usual.fps, speed, span, labels)
     _write(kind, Path(path), film, lambda: _pictures(solution, film, progress))
     return Path(path)
+
+
+def inline(
+    solution: Solution | ModeShape, *, speed: float = 1.0, labels: bool = True
+) -> InlinePlayer:
+    """The player of a motion for a notebook."""
+    if isinstance(solution, ModeShape):
+        raise ModelError("a page cannot show a mode", hint='give a path that ends in ".gif"')
+    _refuse_wrong(speed=speed)
+    shown = scene(solution)
+    shown["playback"]["rate"] *= speed
+    return InlinePlayer(page(shown, labels=labels), solution.compiled.title or "Linkage")
 
 
 def _animate_mode(

@@ -21,6 +21,7 @@ from typing import Any
 
 from kempe._version import __version__
 from kempe.base import files
+from kempe.base.arguments import explained
 from kempe.draw.frame import frame_items
 from kempe.draw.numbers import rounded_all
 from kempe.draw.sampling import Span
@@ -29,6 +30,7 @@ from kempe.results.solution import Solution
 from kempe.results.state import State
 
 
+@explained
 def player(
     solution: Solution | State,
     path: Path | str,

@@ -11,6 +11,7 @@ from typing import Any, TypeAlias
 
 import numpy as np
 
+from kempe.base.arguments import explained
 from kempe.base.arrays import Floats
 from kempe.base.display_units import chosen_for, display
 from kempe.base.names import unknown
@@ -53,6 +54,7 @@ _MOST_EVENTS = 200
 _SHORTEST, _LONGEST = 2.0, 60.0
 
 
+@explained
 def scene(
     solution_or_state: Solution | State,
     *,

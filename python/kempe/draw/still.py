@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from kempe.base.arguments import explained
 from kempe.draw.frame import Frame
 from kempe.draw.pixels import Pixels, format_of
 from kempe.draw.scene import scene
@@ -15,6 +16,7 @@ from kempe.results.state import State
 USUAL: Pixels = (1440, 810)
 
 
+@explained
 def still(
     drawn: Solution | State,
     path: Path | str,

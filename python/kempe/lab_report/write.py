@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from kempe._version import __version__
 from kempe.base import files
+from kempe.base.arguments import explained
 from kempe.case import Case
 from kempe.errors import FileError, ModelError
 from kempe.lab_report import subject as subjects
@@ -37,6 +38,7 @@ ENDINGS = (".html", ".pdf")
 _SUBSCRIPT = re.compile(r"Φ_(\w)")
 
 
+@explained
 def write_report(
     case: Case | Solution,
     path: Path | str,

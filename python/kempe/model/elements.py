@@ -783,8 +783,9 @@ class Stop(Element):
         coordinate: The quantity, such as `crank.angle`, `crank.B.x` or `slide.displacement`.
         lower: Lower limit of the quantity [m or rad].
         upper: Upper limit of the quantity [m or rad].
-        stiffness: Force or torque at a depth of 1 m or 1 rad, as a number without a unit; N/m
-            or N*m/rad for an exponent of 1 [any].
+        stiffness: Force or torque at a depth of 1 m or 1 rad: K of K*depth^exponent, in
+            N/m^exponent or N*m/rad^exponent. It is written without a unit. For an exponent of
+            1, it is the stiffness in N/m or N*m/rad [any].
         exponent: Exponent of the depth.
         damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth [s/m
             or s/rad].
@@ -1521,8 +1522,9 @@ class ElementMethods:
             coordinate: The quantity, such as `crank.angle`, `crank.B.x` or `slide.displacement`.
             lower: Lower limit of the quantity [m or rad].
             upper: Upper limit of the quantity [m or rad].
-            stiffness: Force or torque at a depth of 1 m or 1 rad, as a number without a unit; N/m
-                or N*m/rad for an exponent of 1 [any].
+            stiffness: Force or torque at a depth of 1 m or 1 rad: K of K*depth^exponent, in
+                N/m^exponent or N*m/rad^exponent. It is written without a unit. For an exponent of
+                1, it is the stiffness in N/m or N*m/rad [any].
             exponent: Exponent of the depth.
             damping: Damping factor: the force is multiplied by 1 + damping × rate of the depth [s/m
                 or s/rad].

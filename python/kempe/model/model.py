@@ -6,10 +6,11 @@ import copy
 import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 from kempe import _core
 from kempe._upwards import CALLS
+from kempe.base.arguments import Explained, explain_methods, missing_attribute
 from kempe.base.names import few, unknown
 from kempe.errors import ModelError
 from kempe.model.body_methods import BodyMethods
@@ -42,7 +43,7 @@ SECTIONS = ("bodies", "joints", "drivers", "forces")
 NAMED = (*SECTIONS, "measures")
 
 
-class Model(BodyMethods, ElementMethods, MeasureMethods, TreeMethods):
+class Model(BodyMethods, ElementMethods, MeasureMethods, TreeMethods, metaclass=Explained):
     """A planar mechanism that is built step by step.
 
     ::
@@ -316,6 +317,11 @@ class Model(BodyMethods, ElementMethods, MeasureMethods, TreeMethods):
         """Units of the constraint equations in the order of Φ: m or rad."""
         return self.compile().row_units()
 
+    if not TYPE_CHECKING:  # a type checker refuses unknown names by itself
+
+        def __getattr__(self, name: str) -> Any:
+            raise AttributeError(missing_attribute("Model", name, dir(type(self))))
+
     def __repr__(self) -> str:
         moving = {section: dict(self._tree[section]) for section in SECTIONS}
         moving["bodies"].pop("ground", None)
@@ -324,6 +330,9 @@ class Model(BodyMethods, ElementMethods, MeasureMethods, TreeMethods):
 
     def _repr_html_(self) -> str:
         return str(CALLS["html"](self))
+
+
+explain_methods(Model)
 
 
 def compiled_model(model: Model | CompiledModel) -> CompiledModel:

@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 #: Spans of time of which the largest value is drawn.
 BINS = 200
+#: A positive value below every axis.
+_TINY = 1e-300
 #: Decades of a logarithmic axis, at least and at most.
 _FEWEST, _MOST = 3, 9
 
@@ -43,6 +45,10 @@ def draw_envelope(axes: Axes, t: Floats, y: Floats, label: str, look: Mapping[st
     """The largest values as a line, and a light band down to the least values."""
     middle, low, high = envelope(t, y)
     axes.plot(middle, high, label=label, **look)
+    if (
+        low.min(initial=0.0) >= 0.0
+    ):  # a logarithmic axis leaves out zeros, with false wedges beside them
+        low, high = np.maximum(low, _TINY), np.maximum(high, _TINY)
     if not np.array_equal(low, high):
         axes.fill_between(middle, low, high, color=look["color"], alpha=0.18, linewidth=0.0)
 

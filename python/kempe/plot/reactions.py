@@ -122,7 +122,13 @@ def _magnitude(joint: str, at: Motion) -> Floats:
     return found
 
 
-def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None = None) -> Axes:
+def all_reactions(
+    motion: Motion,
+    *,
+    ax: Axes | None = None,
+    cut: float | None = None,
+    most: int | None = None,
+) -> Axes:
     """Draw the magnitude of the force of every joint and driver that exerts a force.
 
     The legend gives the largest magnitudes with their times. A dagger marks forces that have no
@@ -132,22 +138,28 @@ def all_reactions(motion: Motion, *, ax: Axes | None = None, cut: float | None =
         motion: a solution, drawn on its interpolant, or the motion at some times.
         ax: where to; a figure of its own when None.
         cut: time after which the time axis is compressed, s, as ``transient`` finds it.
+        most: largest number of curves, those with the largest peaks; all when None.
     """
     instance(motion, Motion, "a solution or a motion")
-    curves: list[Curve] = []
-    poles: set[float] = set()
+    found: list[tuple[Curve, tuple[float, ...]]] = []
     for name in motion.compiled.constraints:
-        magnitude = partial(_magnitude, name)
         label = f"{style.short(name)}{remark(motion.constraint(name).choice)}"
-        one = curve(motion, label, magnitude, style.line(len(curves)))
+        one = curve(motion, label, partial(_magnitude, name), style.line(len(found)))
         if name in motion.compiled.joints or one.values.any():
-            times_of = unbounded_at(motion, name, ["force"])
-            curves.append(replace(one, label=f"{label}{f' {NO_BOUND}' if times_of else ''}"))
-            poles.update(times_of)
-    of = motion.variable
+            times_of = tuple(unbounded_at(motion, name, ["force"]))
+            found.append(
+                (replace(one, label=f"{label}{f' {NO_BOUND}' if times_of else ''}"), times_of)
+            )
+    of, title = motion.variable, "Reactions"
+    if most is not None and len(found) > most:
+        title = f"The {most} largest of {len(found)} reactions"
+        places = sorted(range(len(found)), key=lambda k: found[k][0].span[1], reverse=True)
+        found = [found[k] for k in sorted(places[:most])]
+    curves = [replace(one, line=style.line(k)) for k, (one, _) in enumerate(found)]
+    poles = {time for _, times_of in found for time in times_of}
     told = note(sorted(poles), of)
     below = f"{NO_BOUND} {told}" if poles else told
-    panel = Panel("|F|", "N", curves, "Reactions", "reactions", variable=of, note=below)
+    panel = Panel("|F|", "N", curves, title, "reactions", variable=of, note=below)
     unit, time = scale("N", panel.peak), TimeAxis.of(times(motion), None, of).unit
     with_peaks = [
         replace(one, label=f"{one.label}: {peak_text(one.high, unit, time)}")

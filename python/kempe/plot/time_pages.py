@@ -21,6 +21,7 @@ from kempe.plot.reactions import all_reactions, force_panel
 from kempe.plot.reactions import torque_panel as reaction_torque
 from kempe.plot.residual import residual
 from kempe.plot.still import drawn_and_left_out, largest_values
+from kempe.plot.time_axis import transient
 from kempe.plot.torques import torque_panel
 from kempe.results.fine import fine
 from kempe.results.remarks import unbounded_at, when
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 
 #: Largest number of panels on a page.
 _MOST_PANELS = 12
+#: Largest number of curves of the key figure of reactions.
+_MOST_REACTIONS = 6
 #: Largest number of lines that can be distinguished.
 _MOST_BODIES = 24
 
@@ -212,7 +215,9 @@ class TimePages:
 
         def draw() -> Figure:
             figure = style.figure(style.HEIGHT + 10.0)
-            all_reactions(self.solution, ax=figure.add_subplot(), cut=self.cut)
+            cut = transient(self.solution) if self.cut is None else self.cut
+            axes = figure.add_subplot()
+            all_reactions(self.solution, ax=axes, cut=cut, most=_MOST_REACTIONS)
             return figure
 
         return Page(0, "reactions", "reactions", draw)

@@ -21,6 +21,7 @@ from numpy.lib import format as npy
 
 from kempe import _core
 from kempe.base import files
+from kempe.base.arguments import explained
 from kempe.base.arrays import Floats
 from kempe.errors import FileError, KempeError
 from kempe.model.compiled import CompiledModel
@@ -45,6 +46,7 @@ _DENSE = ("dense_t", "dense_y", "dense_c")
 _Shape = tuple["int | str", ...]
 
 
+@explained
 def load_solution(path: Path | str) -> Solution:
     """Read a solution that ``Solution.save`` wrote.
 

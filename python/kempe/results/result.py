@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from kempe._upwards import CALLS
 from kempe.base import files
 from kempe.results.table import Column, write_columns
 
@@ -55,6 +56,9 @@ class Result(ABC):
             written.append(where / f"{name}.csv")
             write_columns(columns, written[-1])
         return written
+
+    def _repr_html_(self) -> str:
+        return str(CALLS["html"](self))
 
     def __str__(self) -> str:
         return "\n".join(self.report())

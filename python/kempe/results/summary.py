@@ -15,6 +15,7 @@ from kempe.results.settling import settling
 from kempe.results.singular import singular_positions
 
 if TYPE_CHECKING:
+    from kempe.model.compiled import CompiledModel
     from kempe.results.motion import Motion
     from kempe.results.solution import Solution
     from kempe.results.state import State
@@ -53,7 +54,9 @@ def summary(solution: Solution) -> dict[str, Any]:
         "newton_euler": solution.newton_euler.largest,
         "measures": [measure(solution, name) for name in compiled.measures],
         "events": {name: event.t.tolist() for name, event in solution.events.items()},
-        "settling": [settling_of(sampled, name) for name in compiled.bodies],
+        "settling": []
+        if _is_driven(compiled)
+        else [settling_of(sampled, name) for name in compiled.bodies],
         "statistics": {k: v for k, v in solution.statistics.items() if k != "singular"},
     }
 
@@ -190,6 +193,11 @@ def kinetic_energy(motion: Motion) -> Floats:
         total += 0.5 * info.mass * (velocity**2).sum(axis=1)
         total += 0.5 * info.inertia * body.omega**2
     return total
+
+
+def _is_driven(model: CompiledModel) -> bool:
+    """Whether drivers determine the motion, so that nothing can settle."""
+    return model.is_plain and model.n_rows == model.n_q
 
 
 def settling_of(sampled: Sampled, name: str) -> dict[str, Any]:

@@ -31,7 +31,7 @@ def fill(table: Table, plan: Plan, design: Floats, scheduler: Any, workers: int 
     """Run the variants that are left on a cluster.
 
     Raises:
-        ModelError: Dask is not installed, this is no scheduler of Dask, or the cluster was lost.
+        ModelError: Dask is not installed, there is no such scheduler, or it was lost.
     """
     with _client_of(scheduler, workers) as client:
         with _answering():

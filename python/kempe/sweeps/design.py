@@ -12,14 +12,12 @@ from kempe.base.arrays import Floats, fixed
 from kempe.base.names import one_of
 from kempe.errors import ModelError
 from kempe.model.values import refuse
-from kempe.sweeps.variables import Variable
+from kempe.sweeps.variables import MOST, Variable
 
 #: The designs; the last three place points in the unit cube.
 DESIGNS = ("grid", "paired", "random", "latin", "sobol")
 #: Designs of lists.
 _OF_LEVELS = ("grid", "paired")
-#: Largest number of variants of a sweep; their table alone has some gigabytes.
-MOST = 100_000_000
 
 
 def rows(variables: Sequence[Variable], design: str, n: int | None, seed: int | None) -> Floats:
@@ -70,7 +68,7 @@ def _levels(variable: Variable, design: str) -> Floats:
 def _size_of_grid(counts: Sequence[int]) -> int:
     count = prod(map(float, counts))
     if count > MOST:
-        refuse("variables", f"the grid has {count:.3g} variants; at most {MOST:.0e}")
+        refuse("variables", f"the grid has {count:.3g} variants; at most {MOST}")
     return int(count)
 
 
@@ -93,7 +91,8 @@ def _length(variables: Sequence[Variable], counts: Sequence[int]) -> int:
 def _count(n: int | None, design: str) -> int:
     if not isinstance(n, (int, np.integer)) or isinstance(n, bool) or not 1 <= n <= MOST:
         given = "missing" if n is None else repr(n)
-        refuse("n", f"{given}; a {design} design needs the number of variants, such as n=1000")
+        needed = f"a {design} design needs the number of variants, such as n=1000, at most {MOST}"
+        refuse("n", f"{given}; {needed}")
     if design == "sobol" and n & (n - 1):
         power = 2 ** int(np.ceil(np.log2(n)))
         raise ModelError(

@@ -9,11 +9,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from kempe.analyses.record import driven_by
-from kempe.base.names import unknown
+from kempe.base.names import few, unknown
 from kempe.errors import ModelError
 from kempe.model.catalogue import declared
 from kempe.model.measure_infos import measure_info
 from kempe.model.values import refuse
+from kempe.results.measures import STATISTICS
 from kempe.results.quantities import values_of
 from kempe.results.state import State
 from kempe.results.variable import Variable
@@ -29,6 +30,8 @@ NUMBERS: Mapping[str, Mapping[str, str]] = {
 }
 #: The numbers in place of None; any other one is NaN.
 _ABSENT = {"lower": -np.inf, "upper": np.inf, "span": np.inf}
+#: The way to measure the result of another analysis.
+_ANOTHER = 'name another analysis: analysis="NAME", or kempe sweep --analysis NAME'
 #: The force or torque of a holder or driver at rest, such as ``effort.crank.angle``.
 _EFFORT = "effort."
 _PLACED = re.compile(r"(.+?)(?:\[(-?\d+)\])?")
@@ -53,9 +56,18 @@ def unit_of(model: CompiledModel, entry: Mapping[str, Any], text: str) -> str:
     if name.startswith("effort["):
         raise ModelError(f"measures: {text!r} is unknown", hint="write effort.crank.angle")
     if kind != "equilibrium" or not ("." in name or name in model.measures):
-        raise unknown(f"number of the result of {kind}", name, known)
+        error = unknown(f"number of the result of {kind}", name, known)
+        if "." in name:
+            error.hint = f"{kind} has the numbers {few(known)}; for others, {_ANOTHER}"
+        raise error
     if name.startswith(_EFFORT):
         return _unit_of_effort(model, entry, name.removeprefix(_EFFORT))
+    quantity, _, last = name.rpartition(".")
+    if last in STATISTICS and quantity:
+        raise ModelError(
+            f"measures: {text!r} is a statistic of a motion, and an equilibrium is one instant",
+            hint=f"write {quantity}, or {_ANOTHER}",
+        )
     info = measure_info(model, _expression(model, name))
     if info.is_of_run:
         refuse("measures", f"{text!r} is a quantity of a whole run, which an equilibrium has not")

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from kempe._upwards import CALLS
 from kempe.base import files
 from kempe.base.arrays import Floats, fixed
 from kempe.base.display_units import units
@@ -229,6 +230,9 @@ class SweepResult:
     def __setstate__(self, state: dict[str, Any]) -> None:
         views = {name: MappingProxyType(state[name]) for name in ("units", "reasons")}
         self.__dict__.update(state | views)
+
+    def _repr_html_(self) -> str:
+        return str(CALLS["html"](self))
 
     def __repr__(self) -> str:
         names = ", ".join(variable.name for variable in self.variables)

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from kempe.base.arguments import explained
 from kempe.base.arrays import Floats
 from kempe.model.values import refuse
 from kempe.sweeps import design as designs
@@ -21,7 +22,11 @@ from kempe.sweeps.variables import Values
 if TYPE_CHECKING:
     from kempe.case import Case
 
+#: Largest number of threads or processes.
+_MOST = 1024
 
+
+@explained
 def sweep(
     case: Case,
     variables: Mapping[str, Values] | None = None,
@@ -97,6 +102,6 @@ def _workers(workers: int | None) -> int:
     if workers is None:
         affinity = getattr(os, "sched_getaffinity", None)
         return len(affinity(0)) if affinity else (os.cpu_count() or 1)
-    if not isinstance(workers, int) or isinstance(workers, bool) or workers < 1:
-        refuse("workers", f"{workers!r}; must be a whole number, at least 1")
+    if not isinstance(workers, int) or isinstance(workers, bool) or not 1 <= workers <= _MOST:
+        refuse("workers", f"{workers!r}; must be a whole number from 1 to {_MOST}")
     return workers

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from kempe.base.arguments import explained
 from kempe.base.arrays import Floats
 from kempe.errors import ModelError
 from kempe.model.values import mapping, numbers
@@ -61,6 +62,7 @@ class Tolerances:
         )
 
 
+@explained
 def tolerances(
     case: Case,
     deviations: Mapping[str, float],

@@ -24,6 +24,8 @@ _FORMS = (
     "a list of numbers, {'from': 1, 'to': 2, 'n': 11}, {'normal': [mean, deviation]} or "
     "{'uniform': [least, most]}"
 )
+#: Largest number of variants of a sweep; a table of ten columns then has 0.8 GB.
+MOST = 10_000_000
 #: Least distance from the ends of the unit interval for values of a normal distribution.
 _EDGE = 2.0**-54
 
@@ -121,8 +123,8 @@ def _range(name: str, given: Mapping[str, Any], path: str) -> Variable:
         refuse(path, f"a logarithmic range from {first:g} to {last:g}; both must have one sign")
     if count is None:
         return Variable(name, None, (first, last), scale)
-    if not isinstance(count, int) or isinstance(count, bool) or count < 2:
-        refuse(f"{path}.n", f"{count!r}; must be a whole number, at least 2")
+    if not isinstance(count, int) or isinstance(count, bool) or not 2 <= count <= MOST:
+        refuse(f"{path}.n", f"{count!r}; must be a whole number from 2 to {MOST}")
     spaced = np.geomspace if scale == "log" else np.linspace
     return Variable(name, tuple(spaced(first, last, count).tolist()), (first, last), scale)
 

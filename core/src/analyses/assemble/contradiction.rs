@@ -254,7 +254,7 @@ fn failure(model: &Model, request: &Request, found: &Contradiction) -> Failure {
     let (of, per) = [("", ""), ("the rate of ", "/s"), ("the acceleration of ", "/s²")][*order];
     let missed_by = trimmed(*by, 3);
     let message = format!(
-        "{others} and {last} contradict each other: where {others} {hold}, {of}{last} is missed by {missed_by} {unit}{per}"
+        "{others} and {last} contradict each other: where {others} {hold}, {of}{last} would have to change by {missed_by} {unit}{per}"
     );
     let hint = match driven.is_empty() {
         true => format!("remove {last}: the joints leave it no freedom"),

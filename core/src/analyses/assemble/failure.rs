@@ -170,7 +170,7 @@ fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
         format!("{around} cannot close: {set}the joints stay open by {gap} in all, most at joint {name}")
     } else {
         let (missed, unit) = (trimmed(missed, 3), open.kind.unit());
-        format!("{around} cannot close: {set}{name} is missed by {missed} {unit}")
+        format!("{around} cannot close: {set}{name} would have to change by {missed} {unit}")
     };
     let gap = if open.kind == QuantityKind::Length { open.total } else { 0.0 };
     let hint = "give a guess nearer to the position meant, change what is set, or change lengths";

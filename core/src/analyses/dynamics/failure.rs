@@ -152,8 +152,9 @@ impl Failure {
                     "the joints come apart at t = {t:.6} s: constraint {name} is open by {gap} {unit}, more \
                      than {most} {unit}"
                 );
-                let hint = "use stabilization projection, a smaller tolerance or step, or greater gains; a start \
-                            must meet the constraints; check the size of the forces";
+                let hint = "use stabilization projection, or a smaller tolerance or step; with Baumgarte, smaller gains \
+                            where beta times the step exceeds 1, else greater ones; a start must meet the \
+                            constraints; check the size of the forces";
                 return Reason::Integration { t, message, hint }.into();
             }
             Breakdown::NotFinite => return Self::undefined(model, t, q),

@@ -4,6 +4,8 @@ use crate::analyses::options::{count, flag, interval, name, number, options, pos
 
 /// Default number of values over a range: one value for each degree of a full turn.
 pub(super) const POINTS: usize = 361;
+/// Largest number of values or times of one motion.
+pub(super) const MOST_OUTPUTS: usize = 1_000_000;
 
 /// Declares an analysis of a driven motion.
 macro_rules! driven_motion {
@@ -33,7 +35,10 @@ macro_rules! driven_motion {
                     (Some(_), None, _) => ("range", "missing; over needs it: range = [first, last]"),
                     (None, Some(_), _) => ("over", "missing; range needs it: over = \"crank.angle\""),
                     (None, None, None) => ("t_end", "missing; give t_end, or over and range"),
-                    _ if options.n < 2 => ("n", "1; must be a whole number from 2"),
+                    _ if !(2..=MOST_OUTPUTS).contains(&options.n) => {
+                        let message = format!("{}; must be a whole number from 2 to {MOST_OUTPUTS}", options.n);
+                        return Some(("n", message));
+                    }
                     _ => return $fault(options),
                 };
                 Some((key, message.to_string()))

@@ -3,7 +3,7 @@
 use super::failure::Reason;
 use super::kinematics;
 use super::motion::Motion;
-use super::options::{InverseOptions, Options, POINTS};
+use super::options::{InverseOptions, Options, MOST_OUTPUTS, POINTS};
 use super::over::{over, Over};
 use super::works::MotionRecorder;
 use crate::analyses::dynamics::{system_clock, Prepared, Run, Setting, Statistics};
@@ -19,8 +19,6 @@ use crate::model::{Model, Problem};
 use crate::stabilize::Projection;
 use std::sync::Arc;
 
-/// Largest number of outputs over time.
-const MOST_OUTPUTS: f64 = 1e6;
 /// Part of an output step that counts as a rounding error at the end of the motion.
 const ROUNDING: f64 = 1e-12;
 
@@ -224,7 +222,7 @@ impl Options {
             let message = format!("{end} s lies before {begin} s, where the motion starts");
             return Some(Problem::at(&["t_end"], message).hint("t_end is a time, not a duration"));
         }
-        let step = self.output_step.filter(|step| end - begin > MOST_OUTPUTS * step)?;
+        let step = self.output_step.filter(|step| end - begin > MOST_OUTPUTS as f64 * step)?;
         let message = format!("{step} s; must be at least 1e-6 of the time of the motion");
         Some(Problem::at(&["output_step"], message))
     }

@@ -34,7 +34,8 @@ element! {
         lower: optional_number [m|rad],
         /// Upper limit of the quantity.
         upper: optional_number [m|rad],
-        /// Force or torque at a depth of 1 m or 1 rad, as a number without a unit; N/m or N*m/rad for an exponent of 1.
+        /// Force or torque at a depth of 1 m or 1 rad: K of K*depth^exponent, in N/m^exponent or N*m/rad^exponent.
+        /// It is written without a unit. For an exponent of 1, it is the stiffness in N/m or N*m/rad.
         stiffness: optional_number [any],
         /// Exponent of the depth.
         exponent: number = 1.0,

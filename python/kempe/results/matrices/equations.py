@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from kempe import _core
+from kempe.base.arguments import explained
 from kempe.model.model import Model, compiled_model
 from kempe.results.matrices.writing import named
 
@@ -106,6 +107,7 @@ class Equations:
         return f"\\begin{{{environment}}}\n{body}\n\\end{{{environment}}}"
 
 
+@explained
 def equations(model: Model | CompiledModel) -> list[Equations]:
     """The equations of all joints and drivers of a model, in the order of Φ.
 

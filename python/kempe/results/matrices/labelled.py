@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 
+from kempe.base.arguments import explained
 from kempe.base.arrays import Floats
 from kempe.base.display_units import chosen_for, display, units
 from kempe.base.html import block, table
@@ -155,6 +156,7 @@ class Labelled:
         return f"<Labelled {self.name}: {size}, {NAMES[self.name][1]}>"
 
 
+@explained
 def show(
     model: Model | CompiledModel,
     state: State,

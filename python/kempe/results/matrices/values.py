@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe import _core
+from kempe._upwards import CALLS
 from kempe.base.arrays import Floats, fixed
 from kempe.model.values import Number, numbers
 
@@ -45,6 +46,9 @@ class Matrices:
 
     def __repr__(self) -> str:
         return f"<Matrices: {len(self.columns)} coordinates, {len(self.rows)} equations>"
+
+    def _repr_html_(self) -> str:
+        return str(CALLS["html"](self))
 
     @property
     def rank(self) -> int:

@@ -11,6 +11,7 @@ import numpy as np
 
 from kempe.analyses.dynamics import AccuracyWarning, simulate
 from kempe.base import files
+from kempe.base.arguments import explained
 from kempe.base.names import one_of
 from kempe.case import Case
 from kempe.errors import IntegrationError, ModelError, SingularityError
@@ -56,6 +57,7 @@ class Study(Outcomes):
         return f"<Study of {self.title!r}, {self.analysis}: {len(self.outcomes)} variants>"
 
 
+@explained
 def study(
     case: Case,
     analysis: str | None = None,

@@ -1,0 +1,97 @@
+"""Wrong arguments of public functions: messages with a suggestion, in place of Python's."""
+
+from __future__ import annotations
+
+import functools
+import inspect
+from collections.abc import Callable, Mapping, Sequence
+from types import FunctionType
+from typing import TYPE_CHECKING, Any, NoReturn, ParamSpec, TypeVar
+
+from kempe.base.names import few
+from kempe.base.synonyms import question, suggested
+from kempe.errors import ModelError
+
+P = ParamSpec("P")
+R = TypeVar("R")
+_MARK = "_arguments_are_explained"
+
+
+class ArgumentError(ModelError, TypeError):
+    """A call with an unknown, missing or superfluous argument. It is also a ``TypeError``."""
+
+
+def explained(function: Callable[P, R]) -> Callable[P, R]:
+    """A function whose wrong calls raise ``ArgumentError`` with a suggestion."""
+
+    @functools.wraps(function)
+    def call(*given: P.args, **named: P.kwargs) -> R:
+        try:
+            return function(*given, **named)
+        except TypeError as error:
+            _explain(function, function.__name__, given, named, error)
+
+    setattr(call, _MARK, True)
+    return call
+
+
+def explain_methods(kind: type) -> None:
+    """Explain wrong calls of the public methods of a class, also of inherited ones."""
+    for name in dir(kind):
+        method = inspect.getattr_static(kind, name)
+        public = not name.startswith("_") and isinstance(method, FunctionType)
+        if public and not hasattr(method, _MARK):
+            setattr(kind, name, explained(method))
+
+
+class Explained(type):
+    """The class of classes whose wrong calls raise ``ArgumentError`` with a suggestion."""
+
+    if not TYPE_CHECKING:  # a type checker sees the arguments of the class
+
+        def __call__(cls, *given: Any, **named: Any) -> Any:  # noqa: D102
+            try:
+                return super().__call__(*given, **named)
+            except TypeError as error:
+                _explain(cls.__init__, cls.__name__, (None, *given), named, error)
+
+    @property
+    def __signature__(cls) -> inspect.Signature:
+        """The arguments of the class, for ``help`` and notebooks."""
+        whole = inspect.signature(cls.__init__)  # type: ignore[misc]
+        return whole.replace(parameters=list(whole.parameters.values())[1:])
+
+
+def missing_attribute(owner: str, name: str, known: Sequence[str]) -> str:
+    """The message of an ``AttributeError``, with a suggestion."""
+    names = suggested(name, known, "names")
+    return f"{owner} has no attribute {name!r}" + (f"; {question(names)}" if names else "")
+
+
+def _explain(
+    function: Callable[..., Any],
+    name: str,
+    given: Sequence[Any],
+    named: Mapping[str, Any],
+    error: TypeError,
+) -> NoReturn:
+    """Raise an error for a call that does not fit; otherwise the error of the function itself."""
+    signature = inspect.signature(function)
+    try:
+        signature.bind(*given, **named)
+    except TypeError as fault:
+        if isinstance(error, ModelError):
+            raise error from None
+        kinds = (inspect.Parameter.POSITIONAL_OR_KEYWORD, inspect.Parameter.KEYWORD_ONLY)
+        known = [n for n, p in signature.parameters.items() if p.kind in kinds and n != "self"]
+        there_are = f"the arguments are {few(known, 30)}"
+        unknown = [word for word in named if word not in known]
+        if unknown:
+            free = [word for word in known if word not in named]
+            names = suggested(unknown[0], free, "arguments")
+            hint = question(names) if names else there_are
+            message = f"{name}: unknown argument {unknown[0]!r}"
+        else:
+            message, hint = f"{name}: {fault}", there_are
+        raise ArgumentError(message, name=name, hint=hint) from None
+    raise error
