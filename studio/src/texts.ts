@@ -157,7 +157,8 @@ export const texts = {
       `With this length of ${body} the bodies beside it cannot keep theirs; they were changed.`,
     noMirror: (body: string) =>
       `${body} cannot be mirrored: it must be placed by points, without shapes, outlines and curves.`,
-    invalidName: (name: string) => `“${name}” cannot be a name: a name has letters, digits and _ and is used once.`,
+    invalidName: (name: string) =>
+      `“${name}” cannot be a name: a name has letters, digits and _ and is used once; that of a parameter has letters from a to z.`,
   },
   place: {
     first: (label: string, placing: string | null) =>
@@ -246,6 +247,9 @@ export const texts = {
     first: "Click the first of two points of the picture whose distance you know; arrow keys and space do so, too.",
     second: "Click the second point.",
     distance: (unit: string) => `Their distance / ${unit}`,
+    move: "Move",
+    moveHint: "Drag the picture on the sheet; esc ends this",
+    angle: "Rotation",
     apply: "Apply",
     remove: "Remove the picture",
   },

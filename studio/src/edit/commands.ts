@@ -21,15 +21,17 @@ import { swapped } from "./swapping";
 const RESERVED = ["t", "pi", "deg", "ground", "energy", "drift"];
 
 /** Whether an entry may have this name. */
-export function isName(name: string): boolean {
+export function isName(name: string, group = "bodies"): boolean {
   const taken = groupOf(tree.value, name) ?? entry(tree.value, "parameters", name);
-  return /^[A-Za-z_]\w{0,40}$/.test(name) && !RESERVED.includes(name) && !taken;
+  const allowed = group === "parameters" ? /^[A-Za-z_]\w{0,40}$/ : /^[\p{L}_][\p{L}\p{M}\p{N}_]{0,40}$/u;
+  return allowed.test(name) && !RESERVED.includes(name) && !taken;
 }
 
 /** Rename an entry and all that mentions it; false if the name cannot be used. */
-export async function rename(group: string, name: string, next: string): Promise<boolean> {
+export async function rename(group: string, name: string, given: string): Promise<boolean> {
+  const next = given.normalize("NFC");
   if (name === next) return true;
-  if (!isName(next)) {
+  if (!isName(next, group)) {
     announce("problem", texts.edit.invalidName(next));
     return false;
   }

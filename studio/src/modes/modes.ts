@@ -1,6 +1,6 @@
 // Changing between the modes.
 import { effect } from "@preact/signals";
-import { scaling } from "../store/backdrop";
+import { scaling, shifting } from "../store/backdrop";
 import { note } from "../store/note";
 import { goHome, report, showPresent } from "../store/session";
 import { loads, type Mode, mode, panel, tool } from "../store/state";
@@ -10,11 +10,12 @@ import * as living from "./live";
 import { configurations, move } from "./move";
 import { place, restart } from "./place";
 import * as reading from "./read";
-import { endScaling, scale } from "./scaling";
+import { endScaling, scale, shift } from "./scaling";
 import { beginHere } from "./starting";
 
 export function handler(): Handler {
   if (mode.value === "edit" && scaling.value) return scale;
+  if (mode.value === "edit" && shifting.value) return shift;
   if (mode.value === "edit") return tool.value ? place : edit;
   return { move, live: living.live, read: reading.read }[mode.value];
 }

@@ -14,6 +14,7 @@ import { drawing, finish, restart } from "../modes/place";
 import * as reading from "../modes/read";
 import { awaitsClick, endScaling } from "../modes/scaling";
 import type { Point } from "../plane/points";
+import { scaling, shifting } from "../store/backdrop";
 import { redo, undo } from "../store/document";
 import { note } from "../store/note";
 import { fit, pan, typedLength, view, zoom } from "../store/sheet";
@@ -67,7 +68,7 @@ function copySelection(): void {
 
 function plain(event: KeyboardEvent): (() => void) | null {
   const { key } = event;
-  if (tool.value && drawing() && /^[\d.]$/.test(key)) return () => typeLength(key);
+  if (tool.value && drawing() && /^[\d.,]$/.test(key)) return () => typeLength(key);
   const number = ["1", "2", "3", "4"].indexOf(key);
   if (number >= 0) return () => enter(MODES[number]!);
   const actions: Record<string, () => void> = {
@@ -124,7 +125,7 @@ function typeLength(key: string): void {
 function stopAll(): void {
   living.letGo();
   note.value = null;
-  if (awaitsClick()) endScaling();
+  if (scaling.value || shifting.value) endScaling();
   if (tool.value) restart(drawing() ? tool.value : null);
   else selection.value = null;
   message.value = null;
