@@ -55,7 +55,23 @@ export async function copy(name: string): Promise<void> {
   if (found) await paste(name, found);
 }
 
-export async function paste(name: string, body: Tree): Promise<void> {
+let copied: { name: string; body: Tree } | null = null;
+
+/** Remember a body for pasting. */
+export function takeCopy(name: string): void {
+  const body = entry(tree.value, "bodies", name);
+  if (body) copied = { name, body };
+}
+
+export function canPaste(): boolean {
+  return copied !== null;
+}
+
+export function pasteCopied(): void {
+  if (copied) void paste(copied.name, copied.body);
+}
+
+async function paste(name: string, body: Tree): Promise<void> {
   const step = 10 * snapStep(view);
   const shifted = mapped(body, ["through", "at"], ([x, y]) => [tidy(x + step), tidy(y - step)]);
   const fresh = freeName(tree.value, name.replace(/\d+$/, ""));

@@ -27,12 +27,17 @@ export function enter(next: Mode): void {
   mode.value = next;
   if (next === "edit") void goHome();
   panel.value = next === "read" ? "results" : "properties";
-  if (next === "live") void (before === "read" ? goHome() : Promise.resolve()).then(living.play);
+  if (next === "live") void (before === "read" ? goHome() : Promise.resolve()).then(still() ? undefined : living.play);
   if (next === "read") {
     if (reading.course.value) reading.show(reading.time.value);
     else if (reading.found.value) void reading.showPlace(reading.place.value);
     else void (before === "move" ? beginHere() : Promise.resolve()).then(() => reading.run()).catch(report);
   }
+}
+
+/** Whether the user wants no motion that was not asked for: then *Live* waits for Play. */
+function still(): boolean {
+  return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 
 function leave(before: Mode): void {

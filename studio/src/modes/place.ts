@@ -340,3 +340,14 @@ export function restart(next: Tool | null = tool.value): void {
 export function drawing(): boolean {
   return places.length > 0 && tool.value?.placing !== null;
 }
+
+/** Add the first driver of the catalogue to a coordinate. */
+export async function driveBy(all: readonly Tool[], motion: Motion): Promise<void> {
+  const active = all.find(({ group, references }) => group === "drivers" && references[0]?.shape === "coordinate");
+  if (!active) return;
+  restart(null);
+  [chosen, now] = [{ [active.references[0]!.name]: motion.name }, [motion]];
+  const added = addElement(active, chosen, scaleNow(active), tree.value);
+  restart(null);
+  await apply(active, added);
+}

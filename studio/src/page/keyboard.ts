@@ -1,8 +1,6 @@
 // The keyboard. A control that has the focus keeps the keys that it needs.
 
-import { entry } from "../catalogue/tree";
-import type { Tree } from "../core/protocol";
-import { paste, remove } from "../edit/commands";
+import { canPaste, pasteCopied, remove, takeCopy } from "../edit/commands";
 import { openFile, saveFile } from "../give/files";
 import { ghost } from "../guide/guide";
 import { clickCursor, moveCursor } from "../modes/cursor";
@@ -18,9 +16,7 @@ import { scaling, shifting } from "../store/backdrop";
 import { redo, undo } from "../store/document";
 import { note } from "../store/note";
 import { fit, pan, typedLength, view, zoom } from "../store/sheet";
-import { dialog, MODES, mechanism, message, mode, selection, tool, tree } from "../store/state";
-
-let copied: { name: string; body: Tree } | null = null;
+import { dialog, MODES, mechanism, message, mode, selection, tool } from "../store/state";
 
 export function listenToKeys(): void {
   document.addEventListener("keydown", (event) => {
@@ -50,20 +46,16 @@ function withControl(event: KeyboardEvent): (() => void) | null {
     s: () => void saveFile(event.shiftKey),
     o: () => void openFile(),
     c: copySelection,
-    v: () => {
-      if (copied) void paste(copied.name, copied.body);
-    },
+    v: pasteCopied,
   };
   const key = event.key.toLowerCase();
   if (key === "c" && selection.value?.group !== "bodies") return null;
-  if (key === "v" && !copied) return null;
+  if (key === "v" && !canPaste()) return null;
   return actions[key] ?? null;
 }
 
 function copySelection(): void {
-  const chosen = selection.value;
-  const body = chosen && entry(tree.value, "bodies", chosen.name);
-  if (body) copied = { name: chosen.name, body };
+  if (selection.value) takeCopy(selection.value.name);
 }
 
 function plain(event: KeyboardEvent): (() => void) | null {
