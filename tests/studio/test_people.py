@@ -37,6 +37,16 @@ def test_decimal_commas_are_understood_where_a_number_is_typed(studio: Opener) -
     assert one.tree()["gravity"] == [0, -9.5]
 
 
+def test_numbers_are_written_as_people_write_them(studio: Opener) -> None:
+    one = studio()
+    for text in ("1e300", "2.5e-7", "0.25", "1200000"):
+        typed(one, "k", text)
+        found = next(line for line in one.toml().splitlines() if line.startswith("k = "))
+        assert float(found.split()[2]) == float(text)
+        assert len(found.split()[2]) <= len(text)
+        assert one.page.get_by_label("k", exact=True).input_value() == found.split()[2]
+
+
 def test_names_have_letters_of_any_script(studio: Opener) -> None:
     one = studio()
     one.page.locator(".contents button").filter(has_text="crank").first.click()

@@ -35,7 +35,7 @@ export function enter(next: Mode): void {
   }
 }
 
-/** Whether the user wants no motion that was not asked for: then *Live* waits for Play. */
+/** Whether the system requests reduced motion: then *Live* waits for Play. */
 function still(): boolean {
   return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
