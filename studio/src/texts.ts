@@ -1,43 +1,9 @@
-// All English texts of the studio and its worker, and with playerTexts.ts those of the player. Names of types, their
+// All English texts of the studio and its worker, with drawingTexts.ts, and with playerTexts.ts those of the player. Names of types, their
 // fields and their descriptions come from the catalogue. Each bundle contains only the parts that it imports.
+import { drawingTexts } from "./drawingTexts";
 import { ARROWS_ON, forces, ON_ALL } from "./playerTexts";
 
 export * from "./playerTexts";
-
-const things: Record<string, string> = {
-  body: "a body, or empty ground",
-  curve: "a body with a curve",
-  coordinate: "a body or a joint that moves",
-};
-
-/** What the clicks of a tool choose, in the order of its references. */
-const roles: Record<string, readonly string[]> = {
-  revolute: ["the first of two points to pin", "the point of the other body"],
-  translational: ["the guide: a body, or the ground", "the body that slides along it"],
-  pin_in_slot: ["the body with the slot, or the ground", "the pin, a point of another body"],
-  gear: ["the first wheel", "the second wheel"],
-  belt: ["the first wheel", "the second wheel"],
-  rack: ["the rack: a body, or the ground", "the pinion"],
-  rolling: ["the line: a body, or the ground", "the wheel that rolls on it"],
-  point_on_curve: ["the point that follows a curve", "the body with the curve"],
-  roller_on_curve: ["the centre of the roller", "the body with the curve"],
-  flat_on_curve: ["a point of the flat face", "the body with the curve"],
-  contact: ["the point that touches", "the body with the curve"],
-  coordinate_driver: ["the body or joint that is driven"],
-  generalized_force: ["the body or joint on which it acts"],
-  stop: ["the body or joint that is stopped"],
-  torque: ["the body that it turns"],
-  motor: ["the rotor"],
-  force: ["the point where it acts"],
-  friction: ["the joint"],
-  coupling: ["the first body or joint that moves", "the second one"],
-};
-/** Of elements between two points or bodies. */
-const ENDS = ["its first end", "its second end"];
-
-/** What the click for a reference chooses; `k` is its number among `n`. */
-const role = (type: string, k: number, n: number, shape: string) =>
-  roles[type]?.[k] ?? (n === 2 ? ENDS[k]! : (things[shape] ?? `a ${shape}`));
 
 const variable = (name: string) => (name === "t" ? "the time" : name);
 
@@ -57,6 +23,7 @@ export const coreTexts = {
 export const studioPage = { title: NAME, noScript: "The studio needs JavaScript." } as const;
 
 export const texts = {
+  ...drawingTexts,
   name: NAME,
   starting: "The core starts …",
   failed: "The core could not start. This page needs a browser with WebAssembly and DecompressionStream.",
@@ -90,32 +57,6 @@ export const texts = {
     gallery: "Examples to start from",
     share: "A link that holds the whole model",
   },
-  /** Words for types whose names in the file are no plain words, and the start of the names of new entries. */
-  labels: {
-    coordinate_driver: "Driver",
-    spring_damper: "Spring, damper",
-    translational: "Slide",
-    generalized_force: "Effort",
-    constraint: "Formula",
-  } as Record<string, string>,
-  machines: {
-    slider: "A block on a straight guide of the ground or of a body; a point at its place is pinned to it",
-    cylinder: "A barrel and its rod between two points, with a driver of its length",
-  },
-  stems: {
-    slider: "block",
-    cylinder: "barrel",
-    coordinate_driver: "driver",
-    spring_damper: "spring",
-    torsion_spring: "spring",
-    translational: "slide",
-    pin_in_slot: "slot",
-    generalized_force: "effort",
-    point_on_curve: "follower",
-    roller_on_curve: "roller",
-    flat_on_curve: "flat",
-    point_mass: "mass",
-  } as Record<string, string>,
   groups: { bodies: "Bodies", joints: "Joints", drivers: "Drivers", forces: "Forces" },
   palette: { title: "Insert", select: "Select and drag" },
   tabs: { insert: "Insert", properties: "Properties", text: "Text", results: "Results" },
@@ -136,57 +77,6 @@ export const texts = {
     length: (unit: string) => `Length / ${unit}`,
     finish: "Finish",
     stop: "Cancel",
-  },
-  edit: {
-    fixed: (body: string, point: string) =>
-      `${body}.${point} does not follow: a length or a formula of the text determines it.`,
-    changes: (names: string) => `A drag changes ${names}.`,
-    instead: "Instead:",
-    meets: (point: string) => `Pinned to ${point} when you let go; hold alt to leave it free.`,
-    locked: (body: string, point: string) =>
-      `${body}.${point} cannot be dragged: joints, drivers and contacts determine its place, and no number of ${body} moves it.`,
-    heldPoint: (body: string, point: string) =>
-      `${body}.${point} is kept while drawing: see the properties of ${body}.`,
-    place: (body: string) => `Place ${body} by its points`,
-    noLength: (unit: string) =>
-      `A length is greater than 0: a number in ${unit}, a number with its unit, or a formula.`,
-    lengthHint: (unit: string) =>
-      `A number in ${unit}, a number with its unit such as 800 mm, or a formula in m such as 0.5*2`,
-    noNotation: "This is not a value in the notation of the file.",
-    notKept: (body: string) =>
-      `With this length of ${body} the bodies beside it cannot keep theirs; they were changed.`,
-    noMirror: (body: string) =>
-      `${body} cannot be mirrored: it must be placed by points, without shapes, outlines and curves.`,
-    invalidName: (name: string) => `“${name}” cannot be a name: a name has letters, digits and _ and is used once.`,
-  },
-  place: {
-    first: (label: string, placing: string | null) =>
-      placing === "fixed"
-        ? `${label}: click where the fixed point is.`
-        : placing === "one"
-          ? `${label}: click where it is.`
-          : placing === "slider"
-            ? `${label}: click where the block is: a point that it carries, its guide, or the ground.`
-            : `${label}: click its first point. An existing point is joined by a pin.`,
-    next: (label: string, placing: string | null) =>
-      placing === "many"
-        ? `${label}: click the next point; double click or enter finishes.`
-        : placing === "slider"
-          ? `${label}: click the direction of the guide.`
-          : `${label}: click its second point, or type a length.`,
-    choose: (label: string, type: string, k: number, n: number, shape: string) =>
-      `${label}: click ${role(type, k, n, shape)}.`,
-    wanted: (shape: string, type: string, k: number, n: number) =>
-      `There is no ${shape === "coordinate" ? "moving part" : shape} here. Click ${role(type, k, n, shape)}.`,
-    role,
-    same: (body: string, wanted: string) => `This is ${body} again. Click ${wanted}, on another body.`,
-    notGround: (wanted: string) => `The ground does not move. Click ${wanted}.`,
-    swap: "Swap the two sides",
-    addCurve: (body: string) => `Add a curve to ${body}`,
-    held: (owner: string) =>
-      `${owner} cannot be driven here: the joints and drivers leave it no freedom. Click another body or joint.`,
-    added: (label: string, name: string) => `${label} “${name}” added.`,
-    incomplete: (label: string, name: string, problem: string) => `${label} “${name}” added. Problem: ${problem}`,
   },
   properties: {
     case: "Mechanism",
@@ -246,6 +136,9 @@ export const texts = {
     first: "Click the first of two points of the picture whose distance you know; arrow keys and space do so, too.",
     second: "Click the second point.",
     distance: (unit: string) => `Their distance / ${unit}`,
+    move: "Move",
+    moveHint: "Drag the picture on the sheet; esc ends this",
+    angle: "Rotation",
     apply: "Apply",
     remove: "Remove the picture",
   },
@@ -414,6 +307,7 @@ export const texts = {
       ["alt", "place and drag freely, without snapping and pins"],
       ["+ − 0", "zoom in, out, show everything"],
       ["space", "play, pause; with a tool or to scale a picture, click at the place that the arrow keys move"],
+      ["right click, long press", "what is possible at this place"],
       ["wheel, two fingers", "zoom; drag the empty sheet to move it"],
     ] as [string, string][],
   },

@@ -2,6 +2,7 @@
 
 use crate::convert::Fields;
 use crate::fault::Fault;
+use kempe::case::digits;
 use serde_json::{json, Value};
 use toml_edit::{Array, DocumentMut, InlineTable, Item, Key, Table, TableLike};
 
@@ -101,7 +102,7 @@ fn written(value: &Value) -> Result<toml_edit::Value, Fault> {
         Value::Bool(flag) => (*flag).into(),
         Value::Number(x) => match x.as_i64() {
             Some(whole) => whole.into(),
-            None => x.as_f64().unwrap_or_default().into(),
+            None => number(x.as_f64().unwrap_or_default()),
         },
         Value::String(text) => text.as_str().into(),
         Value::Array(list) => {
@@ -116,6 +117,11 @@ fn written(value: &Value) -> Result<toml_edit::Value, Fault> {
             found.into()
         }
     })
+}
+
+/// A number as kempe writes it, with an exponent where this is shorter.
+fn number(x: f64) -> toml_edit::Value {
+    digits(x).parse().unwrap_or_else(|_| x.into())
 }
 
 /// Renames an entry, in its own place and in all references.

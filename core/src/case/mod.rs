@@ -59,6 +59,7 @@ pub use names::RESERVED;
 pub use schema::schema;
 pub use tree::{MOST_DEPTH, MOST_VALUES};
 pub use write::write;
+pub use write_value::digits;
 
 use crate::model::Value;
 

@@ -29,7 +29,7 @@ pub(super) fn quoted(text: &str) -> String {
 
 /// A number with the fewest digits that yield the same bits. It has an exponent if this is shorter for a large or
 /// small number, or if the digits alone would be read as an integer beyond 2^53.
-fn digits(x: f64) -> String {
+pub fn digits(x: f64) -> String {
     let plain = format!("{x}");
     let size = x.abs();
     if !x.is_finite() || size == 0.0 || (1e-3..1e4).contains(&size) {

@@ -31,7 +31,7 @@ export function mentions(value: Value | undefined, name: string): boolean {
 
 /** The first words of dotted names in a text: "crank" of "crank.angle". */
 function words(text: string): string[] {
-  return [...text.matchAll(/(?<![\w.])[A-Za-z_]\w*/g)].map(([word]) => word);
+  return [...text.matchAll(/(?<![\p{L}\p{N}_.])[\p{L}_][\p{L}\p{M}\p{N}_]*/gu)].map(([word]) => word);
 }
 
 /** A name that no entry has: the stem and the least free number. */

@@ -21,15 +21,17 @@ import { swapped } from "./swapping";
 const RESERVED = ["t", "pi", "deg", "ground", "energy", "drift"];
 
 /** Whether an entry may have this name. */
-export function isName(name: string): boolean {
+export function isName(name: string, group = "bodies"): boolean {
   const taken = groupOf(tree.value, name) ?? entry(tree.value, "parameters", name);
-  return /^[A-Za-z_]\w{0,40}$/.test(name) && !RESERVED.includes(name) && !taken;
+  const allowed = group === "parameters" ? /^[A-Za-z_]\w{0,40}$/ : /^[\p{L}_][\p{L}\p{M}\p{N}_]{0,40}$/u;
+  return allowed.test(name) && !RESERVED.includes(name) && !taken;
 }
 
 /** Rename an entry and all that mentions it; false if the name cannot be used. */
-export async function rename(group: string, name: string, next: string): Promise<boolean> {
+export async function rename(group: string, name: string, given: string): Promise<boolean> {
+  const next = given.normalize("NFC");
   if (name === next) return true;
-  if (!isName(next)) {
+  if (!isName(next, group)) {
     announce("problem", texts.edit.invalidName(next));
     return false;
   }
@@ -53,7 +55,23 @@ export async function copy(name: string): Promise<void> {
   if (found) await paste(name, found);
 }
 
-export async function paste(name: string, body: Tree): Promise<void> {
+let copied: { name: string; body: Tree } | null = null;
+
+/** Remember a body for pasting. */
+export function takeCopy(name: string): void {
+  const body = entry(tree.value, "bodies", name);
+  if (body) copied = { name, body };
+}
+
+export function canPaste(): boolean {
+  return copied !== null;
+}
+
+export function pasteCopied(): void {
+  if (copied) void paste(copied.name, copied.body);
+}
+
+async function paste(name: string, body: Tree): Promise<void> {
   const step = 10 * snapStep(view);
   const shifted = mapped(body, ["through", "at"], ([x, y]) => [tidy(x + step), tidy(y - step)]);
   const fresh = freeName(tree.value, name.replace(/\d+$/, ""));

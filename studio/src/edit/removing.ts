@@ -56,7 +56,7 @@ function distinct(changes: Change[]): Change[] {
 /** Give an entry another name, there and wherever it is mentioned. */
 export function renamed(tree: Tree | null, group: string, name: string, next: string): Change[] {
   const changes: Change[] = [];
-  const word = new RegExp(`(?<![\\w.])${literal(name)}(?!\\w)`, "g");
+  const word = new RegExp(`(?<![\\p{L}\\p{N}_.])${literal(name)}(?![\\p{L}\\p{N}_])`, "gu");
   const replaced = (value: Value): Value => {
     if (Array.isArray(value)) return value.map(replaced);
     return typeof value === "string" ? value.replace(word, next) : value;

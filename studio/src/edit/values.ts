@@ -18,6 +18,7 @@ function notation(value: Value): string {
     );
     return inner.length ? `{ ${inner.join(", ")} }` : "{}";
   }
+  if (typeof value === "number") return String(value).replace("e+", "e");
   return typeof value === "string" ? JSON.stringify(value) : String(value);
 }
 
@@ -49,23 +50,30 @@ export function isNotation(text: string, list: boolean): boolean {
   return (list ? /^\s*(\{|\[\s*[[{])/ : /^\s*[[{"']/).test(text);
 }
 
+/** A number with a decimal comma and perhaps a unit. With three digits after it, the comma may separate thousands. */
+const COMMA = /^([-+]?\d*),(\d+)(?=\s*[^\d\s,.()*/^+-]*$)/;
+
 /** The value of a typed text: a number if it is one, otherwise a formula; undefined if it is empty. */
 export function typed(text: string): Value | undefined {
-  const trimmed = text.trim().replace("−", "-");
-  if (!trimmed) return undefined;
+  const given = text.trim().replace("−", "-");
+  if (!given) return undefined;
+  const [, whole, decimals] = COMMA.exec(given) ?? [];
+  const isDecimal = decimals !== undefined && (decimals.length !== 3 || /^[-+]?0?$/.test(whole!));
+  const trimmed = isDecimal ? given.replace(COMMA, "$1.$2").replace(/^([-+]?)\./, "$10.") : given;
   const number = Number(trimmed);
   return Number.isFinite(number) && /^[-+.\d]/.test(trimmed) && !/^[-+]?0x/i.test(trimmed) ? number : trimmed;
 }
 
-/** The values of a typed list, "a, b" or "[a, b]"; commas within brackets do not separate. */
+/** The values of a typed list, "a, b", "[a, b]" or "a; b"; separators within brackets do not separate. */
 export function typedList(text: string): Value[] | undefined {
   const inner = text.trim().replace(/^\[(.*)\]$/s, "$1");
   if (!inner.trim()) return undefined;
   const parts: string[] = [];
+  const separator = inner.includes(";") ? ";" : ",";
   let depth = 0;
   let part = "";
   for (const letter of inner) {
-    if (letter === "," && depth === 0) {
+    if (letter === separator && depth === 0) {
       parts.push(part);
       part = "";
       continue;

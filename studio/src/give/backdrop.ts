@@ -23,9 +23,7 @@ export function openBackdrop(): void {
       URL.revokeObjectURL(image.src);
     }
     const pixels = SHARE * Math.min(view.width / image.width, view.height / image.height);
-    const [x, y] = view.toPlane([view.width / 2, view.height / 2]);
-    const scale = pixels / view.scale;
-    const corner: [number, number] = [x - (scale * image.width) / 2, y + (scale * image.height) / 2];
-    backdrop.value = { image, corner, scale, opacity: OPACITY };
+    const center = view.toPlane([view.width / 2, view.height / 2]);
+    backdrop.value = { image, center, angle: 0, scale: pixels / view.scale, opacity: OPACITY };
   });
 }

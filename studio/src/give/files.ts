@@ -69,7 +69,7 @@ export async function saveFile(elsewhere = false): Promise<void> {
   });
 }
 
-/** Do something with a picked file. A dialog that the user has closed is no error. */
+/** Do something with a picked file. A dialog that the user has closed is not an error. */
 async function picked(work: () => Promise<void>): Promise<void> {
   await work().catch((error: Error) => {
     if (error.name !== "AbortError") report(error);

@@ -75,7 +75,9 @@ export const edit: Handler = {
       meets: [],
     };
     drag = { draft: new Draft(), began: spot.at, places, still, all, placements: poses.value, ...rest };
-    if (places.length === 1) drag.ready = begin(drag).catch(report);
+    const plain = !moved(tree.value, places[0]!.hits, poses.value, bodiesNow(), places[0]!.at).fixed.length;
+    if (isLarge() && plain) drag.known = true;
+    else if (places.length === 1) drag.ready = begin(drag).catch(report);
     return true;
   },
   drag(spot) {
@@ -103,7 +105,7 @@ export const edit: Handler = {
     const key = hits.map(({ body, point }) => `${body.name}.${point}`).join();
     if (!note.value?.actions?.length) note.value = null;
     over = { key, locked: key === over.key && over.locked };
-    if (!spot || !key || !catalogue.value.bodies.length) return;
+    if (!spot || !key || isLarge()) return;
     void placeUnder(hits).then((found) => {
       if (drag || over.key !== key || mode.value !== "edit" || tool.value || !found) return;
       const [names, locked] = [nameOf(naturalOf(found).filter(({ numeral }) => numeral)), lockOf(found)];
@@ -128,6 +130,11 @@ function ownOf(body: Body, spot: Spot, all: PointHit[]): PointHit[] {
   );
   if (!shifted.length) return own;
   return own.sort((a, b) => distance(a.at, spot.at) - distance(b.at, spot.at)).slice(0, 1);
+}
+
+/** Whether trials of numbers take long; then they are made only where a drag needs them. */
+function isLarge(): boolean {
+  return bodiesNow().length > 40;
 }
 
 function bodiesNow(): readonly Body[] {

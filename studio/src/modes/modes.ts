@@ -1,6 +1,6 @@
 // Changing between the modes.
 import { effect } from "@preact/signals";
-import { scaling } from "../store/backdrop";
+import { scaling, shifting } from "../store/backdrop";
 import { note } from "../store/note";
 import { goHome, report, showPresent } from "../store/session";
 import { loads, type Mode, mode, panel, tool } from "../store/state";
@@ -10,11 +10,12 @@ import * as living from "./live";
 import { configurations, move } from "./move";
 import { place, restart } from "./place";
 import * as reading from "./read";
-import { endScaling, scale } from "./scaling";
+import { endScaling, scale, shift } from "./scaling";
 import { beginHere } from "./starting";
 
 export function handler(): Handler {
   if (mode.value === "edit" && scaling.value) return scale;
+  if (mode.value === "edit" && shifting.value) return shift;
   if (mode.value === "edit") return tool.value ? place : edit;
   return { move, live: living.live, read: reading.read }[mode.value];
 }
@@ -26,12 +27,17 @@ export function enter(next: Mode): void {
   mode.value = next;
   if (next === "edit") void goHome();
   panel.value = next === "read" ? "results" : "properties";
-  if (next === "live") void (before === "read" ? goHome() : Promise.resolve()).then(living.play);
+  if (next === "live") void (before === "read" ? goHome() : Promise.resolve()).then(still() ? undefined : living.play);
   if (next === "read") {
     if (reading.course.value) reading.show(reading.time.value);
     else if (reading.found.value) void reading.showPlace(reading.place.value);
     else void (before === "move" ? beginHere() : Promise.resolve()).then(() => reading.run()).catch(report);
   }
+}
+
+/** Whether the system requests reduced motion: then *Live* waits for Play. */
+function still(): boolean {
+  return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 
 function leave(before: Mode): void {

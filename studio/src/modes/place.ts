@@ -76,6 +76,7 @@ export const place: Handler = {
       preview.value = note.value = null;
       return;
     }
+    last = spot.at;
     const { at, kind } = snapHere(spot);
     const line = places.length ? [...places.map((one) => one.at), at] : guideAt(active, spot, at);
     if (!refused || distance(refused, spot.px) > NEW) {
@@ -92,6 +93,8 @@ export const place: Handler = {
   cursor: () => "crosshair",
 };
 
+/** The last place of the pointer, in the plane. */
+let last: Point | null = null;
 /** The place of the pointer where the last click was refused; the reason stays until the pointer has moved. */
 let refused: Point | null = null;
 const NEW = 25;
@@ -158,10 +161,15 @@ async function clickPlace(active: Tool, spot: Spot): Promise<void> {
   else announce("info", prompt(active));
 }
 
-/** Make the body from the places that are chosen. */
+/** Make the body from the places that are chosen. After a typed length, the next place is toward the pointer. */
 export async function finish(): Promise<void> {
   const active = tool.value;
-  if (active) await queue(active, () => make(active));
+  const from = places.at(-1);
+  if (active?.placing && from && typedLength.value.trim()) {
+    const [x, y] = last ?? [from.at[0] + 1, from.at[1]];
+    const toward: Point = x === from.at[0] && y === from.at[1] ? [x + 1, y] : [x, y];
+    await queue(active, () => clickPlace(active, { px: view.toScreen(toward), at: toward, touch: false, free: false }));
+  } else if (active) await queue(active, () => make(active));
 }
 
 async function make(active: Tool): Promise<void> {
@@ -331,4 +339,15 @@ export function restart(next: Tool | null = tool.value): void {
 /** Whether a line is in progress; its length may then be typed. */
 export function drawing(): boolean {
   return places.length > 0 && tool.value?.placing !== null;
+}
+
+/** Add the first driver of the catalogue to a coordinate. */
+export async function driveBy(all: readonly Tool[], motion: Motion): Promise<void> {
+  const active = all.find(({ group, references }) => group === "drivers" && references[0]?.shape === "coordinate");
+  if (!active) return;
+  restart(null);
+  [chosen, now] = [{ [active.references[0]!.name]: motion.name }, [motion]];
+  const added = addElement(active, chosen, scaleNow(active), tree.value);
+  restart(null);
+  await apply(active, added);
 }

@@ -6,17 +6,21 @@ import type { Handler, Spot } from "./handler";
 
 /** A press with less motion than this is a click, px. */
 const STILL = 5;
+/** A finger that rests for this time opens the menu, ms. */
+const LONG = 550;
 
 export function listenToPointer(
   canvas: HTMLCanvasElement,
   view: View,
   handler: () => Handler,
   changed: () => void,
+  menu: (spot: Spot) => void,
 ): void {
   const fingers = new Map<number, Point>();
   let began: Point = [0, 0];
   let still = true;
   let taken: Handler | null = null;
+  let long: ReturnType<typeof setTimeout> | undefined;
   const place = (event: MouseEvent) => placeOn(canvas, event);
   const spot = (event: PointerEvent | MouseEvent): Spot => {
     const px = place(event);
@@ -38,6 +42,14 @@ export function listenToPointer(
     }
     [began, still] = [place(event), true];
     if (event.button === 0 && handler().down?.(spot(event))) taken = handler();
+    if (event.pointerType === "touch") {
+      long = setTimeout(() => {
+        if (!still || fingers.size !== 1) return;
+        drop();
+        fingers.clear();
+        menu(spot(event));
+      }, LONG);
+    }
   });
   canvas.addEventListener("pointermove", (event) => {
     const before = fingers.get(event.pointerId);
@@ -47,6 +59,7 @@ export function listenToPointer(
       return;
     }
     if (distance(began, place(event)) > STILL) still = false;
+    if (!still) clearTimeout(long);
     const spread = spreadOf(fingers);
     fingers.set(event.pointerId, place(event));
     if (fingers.size === 1 && taken) {
@@ -57,7 +70,15 @@ export function listenToPointer(
     view.follow(spread, spreadOf(fingers));
     changed();
   });
+  canvas.addEventListener("contextmenu", (event) => {
+    event.preventDefault();
+    clearTimeout(long);
+    drop();
+    fingers.clear();
+    menu(spot(event));
+  });
   canvas.addEventListener("pointerup", (event) => {
+    clearTimeout(long);
     if (!fingers.delete(event.pointerId)) return;
     const one = taken;
     taken = null;

@@ -5,7 +5,7 @@ import { placeIn } from "../plane/instants";
 import { plainly } from "../store/blame";
 import { note } from "../store/note";
 import { report, Superseded, send, showPresent } from "../store/session";
-import { fitWith, view } from "../store/sheet";
+import { fitWith, preview, view } from "../store/sheet";
 import { announce, mechanism, mode, openings, pose, poses, selection } from "../store/state";
 import { texts } from "../texts";
 import { Frames } from "./frames";
@@ -161,7 +161,9 @@ function showEnd(stops: Stops, swings: boolean): void {
   const action = stops.low && stops.high ? { action: { label: texts.read.swing, run: again } } : {};
   announce("problem", words, action);
   const at = pinOf(words, poses.value);
-  if (at) note.value = { at: view.toScreen(at), text: words, kind: "wrong" };
+  if (!at) return;
+  note.value = { at: view.toScreen(at), text: words, kind: "wrong" };
+  preview.value = { line: [], mark: { at, kind: "point" } };
 }
 
 /** The analysis that the page has added to a drawn case. */
@@ -221,7 +223,7 @@ export function show(at: number): void {
 
 export async function play(): Promise<void> {
   if (!course.value) return;
-  note.value = null;
+  note.value = preview.value = null;
   if (time.value >= span.value[1]) show(span.value[0]);
   await frames.play((ms) => {
     if (mode.value !== "read") return false;

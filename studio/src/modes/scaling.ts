@@ -1,7 +1,8 @@
 // Scaling the picture behind the drawing: two clicks, then their distance.
-import { backdrop, scaling } from "../store/backdrop";
+import type { Point } from "../plane/points";
+import { backdrop, scaling, shifting } from "../store/backdrop";
 import { preview } from "../store/sheet";
-import { announce } from "../store/state";
+import { announce, message } from "../store/state";
 import { texts } from "../texts";
 import type { Handler } from "./handler";
 
@@ -24,6 +25,7 @@ export const scale: Handler = {
     scaling.value = [...points, at];
     preview.value = { line: scaling.value, mark: { at, kind: "free" } };
     if (points.length === 0) announce("info", texts.picture.second);
+    else endMessage();
   },
   hover(spot) {
     if (!awaitsClick()) return;
@@ -35,8 +37,34 @@ export const scale: Handler = {
 
 export function endScaling(): void {
   scaling.value = null;
+  shifting.value = false;
   preview.value = null;
+  endMessage();
 }
+
+/** Remove the message about the clicks, which are done. */
+function endMessage(): void {
+  const { first, second } = texts.picture;
+  if ([first, second].some((one) => one === message.value?.text)) message.value = null;
+}
+
+let from: Point | null = null;
+
+/** Drags move the picture. */
+export const shift: Handler = {
+  down({ at }) {
+    from = at;
+    return true;
+  },
+  drag({ at }) {
+    const found = backdrop.value;
+    if (!found || !from) return;
+    const [x, y] = found.center;
+    backdrop.value = { ...found, center: [x + at[0] - from[0], y + at[1] - from[1]] };
+    from = at;
+  },
+  cursor: () => "move",
+};
 
 export function removeBackdrop(): void {
   endScaling();

@@ -1,8 +1,6 @@
 // The keyboard. A control that has the focus keeps the keys that it needs.
 
-import { entry } from "../catalogue/tree";
-import type { Tree } from "../core/protocol";
-import { paste, remove } from "../edit/commands";
+import { canPaste, pasteCopied, remove, takeCopy } from "../edit/commands";
 import { openFile, saveFile } from "../give/files";
 import { ghost } from "../guide/guide";
 import { clickCursor, moveCursor } from "../modes/cursor";
@@ -14,12 +12,11 @@ import { drawing, finish, restart } from "../modes/place";
 import * as reading from "../modes/read";
 import { awaitsClick, endScaling } from "../modes/scaling";
 import type { Point } from "../plane/points";
+import { scaling, shifting } from "../store/backdrop";
 import { redo, undo } from "../store/document";
 import { note } from "../store/note";
 import { fit, pan, typedLength, view, zoom } from "../store/sheet";
-import { dialog, MODES, mechanism, message, mode, selection, tool, tree } from "../store/state";
-
-let copied: { name: string; body: Tree } | null = null;
+import { dialog, MODES, mechanism, message, mode, selection, tool } from "../store/state";
 
 export function listenToKeys(): void {
   document.addEventListener("keydown", (event) => {
@@ -49,25 +46,21 @@ function withControl(event: KeyboardEvent): (() => void) | null {
     s: () => void saveFile(event.shiftKey),
     o: () => void openFile(),
     c: copySelection,
-    v: () => {
-      if (copied) void paste(copied.name, copied.body);
-    },
+    v: pasteCopied,
   };
   const key = event.key.toLowerCase();
   if (key === "c" && selection.value?.group !== "bodies") return null;
-  if (key === "v" && !copied) return null;
+  if (key === "v" && !canPaste()) return null;
   return actions[key] ?? null;
 }
 
 function copySelection(): void {
-  const chosen = selection.value;
-  const body = chosen && entry(tree.value, "bodies", chosen.name);
-  if (body) copied = { name: chosen.name, body };
+  if (selection.value) takeCopy(selection.value.name);
 }
 
 function plain(event: KeyboardEvent): (() => void) | null {
   const { key } = event;
-  if (tool.value && drawing() && /^[\d.]$/.test(key)) return () => typeLength(key);
+  if (tool.value && drawing() && /^[\d.,]$/.test(key)) return () => typeLength(key);
   const number = ["1", "2", "3", "4"].indexOf(key);
   if (number >= 0) return () => enter(MODES[number]!);
   const actions: Record<string, () => void> = {
@@ -124,7 +117,7 @@ function typeLength(key: string): void {
 function stopAll(): void {
   living.letGo();
   note.value = null;
-  if (awaitsClick()) endScaling();
+  if (scaling.value || shifting.value) endScaling();
   if (tool.value) restart(drawing() ? tool.value : null);
   else selection.value = null;
   message.value = null;

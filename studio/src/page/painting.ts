@@ -94,12 +94,13 @@ function sized({ largest, ...vectors }: Shown): Vectors {
 function paintBackdrop(context: CanvasRenderingContext2D): void {
   const found = backdrop.value;
   if (!found) return;
-  const { image, corner, opacity } = found;
-  const [x, y] = view.toScreen(corner);
-  const scale = found.scale * view.scale;
+  const { image, center, angle, opacity } = found;
+  const [width, height] = [image.width, image.height].map((one) => one * found.scale * view.scale) as Point;
   context.save();
   context.globalAlpha = opacity;
-  context.drawImage(image, x, y, scale * image.width, scale * image.height);
+  context.translate(...view.toScreen(center));
+  context.rotate(-angle);
+  context.drawImage(image, -width / 2, -height / 2, width, height);
   context.restore();
 }
 

@@ -3,7 +3,7 @@ import { useEffect, useRef, useState } from "preact/hooks";
 import { lengthMeant, meantValue } from "../edit/meaning";
 import { openBackdrop } from "../give/backdrop";
 import { beginScaling, endScaling, removeBackdrop } from "../modes/scaling";
-import { backdrop, scaleTo, scaling } from "../store/backdrop";
+import { backdrop, type Backdrop as Picture, scaleTo, scaling, shifting } from "../store/backdrop";
 import { report } from "../store/session";
 import { units } from "../store/state";
 import { texts } from "../texts";
@@ -19,25 +19,54 @@ export function Backdrop() {
         {found ? (
           <>
             <Button label={words.scale} onClick={beginScaling} />
+            <Button
+              label={words.move}
+              hint={words.moveHint}
+              pressed={shifting.value}
+              onClick={() => (shifting.value = !shifting.value)}
+            />
             <Button label={words.remove} icon="close" onClick={removeBackdrop} />
           </>
         ) : null}
       </div>
       {found ? (
-        <label class="slider">
-          <span>{words.opacity}</span>
-          <input
-            type="range"
-            min={0}
-            max={1}
-            step="any"
-            value={found.opacity}
-            onInput={(event) => (backdrop.value = { ...found, opacity: Number(event.currentTarget.value) })}
+        <>
+          <Slider label={words.opacity} most={1} of={found.opacity} keep={(opacity) => ({ ...found, opacity })} />
+          <Slider
+            label={words.angle}
+            least={-180}
+            most={180}
+            of={(found.angle * 180) / Math.PI}
+            keep={(degrees) => ({ ...found, angle: (degrees * Math.PI) / 180 })}
           />
-        </label>
+        </>
       ) : null}
       {scaling.value?.length === 2 ? <Distance /> : null}
     </Section>
+  );
+}
+
+interface SliderProps {
+  label: string;
+  least?: number;
+  most: number;
+  of: number;
+  keep(value: number): Picture;
+}
+
+function Slider({ label, least = 0, most, of, keep }: SliderProps) {
+  return (
+    <label class="slider">
+      <span>{label}</span>
+      <input
+        type="range"
+        min={least}
+        max={most}
+        step={most / 100}
+        value={of}
+        onInput={(event) => (backdrop.value = keep(Number(event.currentTarget.value)))}
+      />
+    </label>
   );
 }
 

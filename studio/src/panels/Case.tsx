@@ -51,7 +51,7 @@ function Parameters() {
   const rows = Object.entries(entries(tree.value, "parameters") as unknown as Tree);
   const add = () => {
     const name = adding.trim();
-    if (!isName(name)) return announce("problem", texts.edit.invalidName(name));
+    if (!isName(name, "parameters")) return announce("problem", texts.edit.invalidName(name));
     setAdding("");
     put(["parameters", name], 1);
   };

@@ -1,5 +1,6 @@
 // The panel of read mode: runs, plots, arrows, files.
 import { useState } from "preact/hooks";
+import { typed } from "../edit/values";
 import { savePlots } from "../give/plots";
 import { openStored, saveCsv, saveNpz } from "../give/results";
 import { OVER } from "../modes/over";
@@ -159,7 +160,8 @@ function RunBar() {
       class="buttons runbar"
       onSubmit={(event) => {
         event.preventDefault();
-        void run(free && Number(end) > 0 ? Number(end) : undefined);
+        const until = Number(typed(end));
+        void run(free && until > 0 ? until : undefined);
       }}
     >
       <label class="choice">

@@ -16,7 +16,7 @@ export function Ready() {
   useEffect(() => {
     let last = true;
     const keep = (all: Readiness[]) => last && setFound(all);
-    if (mechanism.value) {
+    if ((mechanism.value?.bodies.length ?? 0) > 1) {
       send("readiness", {}, "readiness").then(
         ({ ok }) => keep(ok),
         () => keep([]),

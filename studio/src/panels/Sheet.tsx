@@ -6,6 +6,7 @@ import { cleared, palette, sharpen } from "../draw/surface";
 import { cancelGif, making, saveGif } from "../give/gif";
 import { saveDrawing, saveDrawingSvg } from "../give/pictures";
 import { readLength } from "../modes/length";
+import { openMenu } from "../modes/menu";
 import { handler } from "../modes/modes";
 import { drawing, finish, restart } from "../modes/place";
 import { listenToPointer } from "../modes/pointer";
@@ -16,6 +17,7 @@ import { fit, preview, typedLength, view, viewChanged, zoom } from "../store/she
 import { items, mode, shown, snapping, title, tool, units } from "../store/state";
 import { texts } from "../texts";
 import { Guide } from "./Guide";
+import { Menu } from "./Menu";
 import { Note } from "./Note";
 import { Button, Check } from "./parts";
 
@@ -75,6 +77,7 @@ export function Sheet() {
         />
         <Guide />
         <Note />
+        <Menu />
       </div>
     </section>
   );
@@ -138,7 +141,7 @@ function connect(canvas: HTMLCanvasElement): () => void {
     follow();
     paint();
   });
-  listenToPointer(canvas, view, handler, viewChanged);
+  listenToPointer(canvas, view, handler, viewChanged, (spot) => void openMenu(spot).catch(report));
   const observer = new ResizeObserver(() => {
     const { width, height } = canvas.getBoundingClientRect();
     view.resize(width, height);

@@ -1,17 +1,22 @@
-// A picture behind the drawing. It is not a part of the case.
-import { signal } from "@preact/signals";
+// A picture behind the drawing. It is not a part of the text, but belongs to the opened case.
+import { effect, signal } from "@preact/signals";
 import { distance, type Point } from "../plane/points";
+import { openings } from "./state";
 
 export interface Backdrop {
   image: HTMLImageElement;
-  /** Its upper left corner, m. */
-  corner: Point;
+  /** Its middle, m, about which it is turned. */
+  center: Point;
+  /** rad, counter-clockwise. */
+  angle: number;
   /** Metres of one of its pixels. */
   scale: number;
   opacity: number;
 }
 
 export const backdrop = signal<Backdrop | null>(null);
+/** Whether drags move the picture. */
+export const shifting = signal(false);
 /** The clicked points while the picture is scaled; otherwise null. */
 export const scaling = signal<Point[] | null>(null);
 
@@ -22,6 +27,18 @@ export function scaleTo(length: number): void {
   scaling.value = null;
   if (!found || !a || !b || !(distance(a, b) > 0) || !(length > 0)) return;
   const factor = length / distance(a, b);
-  const corner = found.corner.map((value, k) => a[k]! + factor * (value - a[k]!)) as Point;
-  backdrop.value = { ...found, corner, scale: factor * found.scale };
+  const center = found.center.map((value, k) => a[k]! + factor * (value - a[k]!)) as Point;
+  backdrop.value = { ...found, center, scale: factor * found.scale };
 }
+
+/** The pictures of other cases, which undo may bring back. */
+const others = new Map<number, Backdrop | null>();
+let shown = openings.peek();
+
+effect(() => {
+  if (openings.value === shown) return;
+  others.set(shown, backdrop.peek());
+  shown = openings.value;
+  backdrop.value = others.get(shown) ?? null;
+  shifting.value = false;
+});
