@@ -63,7 +63,7 @@ def run(start: kp.State) -> SimpleNamespace:
 def sol(start: kp.State, monkeypatch: pytest.MonkeyPatch) -> kp.Solution:
     """A solution with two states."""
     monkeypatch.setattr(Motion, "action", lambda self, *_: np.zeros((*self.t.shape, 3)))
-    known = Motion._rows  # the core knows no states of the spring
+    known = Motion._rows  # in the core the spring has no states
     monkeypatch.setattr(
         Motion, "_rows", lambda self: (*known(self)[:3], np.zeros((*self.t.shape, 0)))
     )

@@ -3,6 +3,7 @@
 use crate::errors::{raise, Failure, Kind};
 use kempe::analyses::State;
 use kempe::case::{self, Format};
+use kempe::math::Wrench;
 use kempe::model::{Model, Value};
 use numpy::ndarray::{Array2, Dimension};
 use numpy::{IntoPyArray, PyArray, PyArray2, PyArrayMethods, PyReadonlyArray1, PyReadonlyArray2};
@@ -88,4 +89,9 @@ pub fn table<'py>(
 pub fn frozen<D: Dimension>(array: Bound<'_, PyArray<f64, D>>) -> Bound<'_, PyArray<f64, D>> {
     array.try_readwrite().map(|guard| guard.make_nonwriteable()).ok();
     array
+}
+
+/// Writes force and torque into a row.
+pub fn write(of: Wrench, out: &mut [f64]) {
+    out.copy_from_slice(&[of.force.x, of.force.y, of.torque]);
 }

@@ -1,6 +1,6 @@
 //! States in rows, and what follows from them.
 
-use crate::convert::{refuse, rows, table, Row, Rows};
+use crate::convert::{refuse, rows, table, write, Row, Rows};
 use crate::guard::guard;
 use crate::measures::measure_at;
 use crate::model::{stretches, PyModel, WrittenMode};
@@ -174,12 +174,11 @@ impl PyStates {
             let active = &self.model.get().active;
             let model = &**active.prepared.model();
             // wheels mesh as at the first state
-            let first = self.t.first().map(|t| meshed(model, *t, &self.q[..model.layout.n_q]));
-            let meshed = first.flatten();
+            let n = model.layout.n_q;
+            let meshed = self.t.first().and_then(|t| meshed(model, *t, &self.q[..n]));
             let model = meshed.as_ref().unwrap_or(model);
             let (m, count) = (model.layout.n_rows, self.t.len());
-            let (mut phi, mut rate) = (vec![0.0; count * m], vec![0.0; count * m]);
-            let mut gamma = vec![0.0; m];
+            let [mut phi, mut rate, mut gamma] = [count * m, count * m, m].map(|n| vec![0.0; n]);
             self.visit(|k, motions, Acting { t, .. }| {
                 let row = k * m..(k + 1) * m;
                 let (phi, rate) = (&mut phi[row.clone()], &mut rate[row]);
@@ -398,8 +397,4 @@ impl PyStates {
             measure_at(py, self.model.get(), text, self.rows(), solved)
         })
     }
-}
-
-fn write(of: Wrench, out: &mut [f64]) {
-    out.copy_from_slice(&[of.force.x, of.force.y, of.torque]);
 }

@@ -25,7 +25,7 @@ pub type PreparedModel = Prepared<Arc<Model>>;
 /// What is read at times.
 #[derive(Default)]
 pub struct ReadRows {
-    /// The values of each measure that was asked for.
+    /// The values of each requested measure.
     pub values: Vec<Vec<f64>>,
     /// The norm of all multipliers and the regularity at each time; empty if they were not computed.
     pub sizes: Vec<f64>,
@@ -33,7 +33,7 @@ pub struct ReadRows {
 }
 
 /// A phase of a run.
-struct Phase {
+struct ReadPhase {
     prepared: Arc<PreparedModel>,
     /// Its first time, s.
     begins: f64,
@@ -43,7 +43,7 @@ struct Phase {
 
 /// A run whose measures are evaluated.
 pub struct Readings<'a> {
-    phases: Vec<Phase>,
+    phases: Vec<ReadPhase>,
     pub run: &'a Run,
     /// Whether the extreme values of each measure are required.
     pub wanted: Vec<bool>,
@@ -75,7 +75,7 @@ impl<'a> Readings<'a> {
             };
             let begins = run.trajectory.t.get(*first).copied().ok_or(Missing::Single)?;
             let measures = measures.iter().map(|of| of.in_phase(prepared.model())).list();
-            phases.push(Phase { prepared, begins, measures });
+            phases.push(ReadPhase { prepared, begins, measures });
         }
         Ok(Self { phases, run, wanted, solved: OnceCell::new() })
     }
@@ -108,7 +108,7 @@ impl<'a> Readings<'a> {
         if let Some(known) = self.solved.get() {
             return Ok(known);
         }
-        let of = |(k, phase): (usize, &Phase)| {
+        let of = |(k, phase): (usize, &ReadPhase)| {
             let states = self.run.states_of(k);
             phase.prepared.accelerations(states, self.run.passing, |_| Flow::Continue)
         };
@@ -188,7 +188,7 @@ impl<'a> Readings<'a> {
     }
 }
 
-impl Phase {
+impl ReadPhase {
     fn values(
         &self,
         measure: usize,
