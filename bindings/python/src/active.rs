@@ -1,6 +1,7 @@
 //! The model that solves the equations in a phase, and the multipliers of the whole model.
 
 use kempe::analyses::dynamics::{Prepared, Setting};
+use kempe::analyses::meshed;
 use kempe::elements::Group;
 use kempe::model::Model;
 use std::sync::Arc;
@@ -54,6 +55,13 @@ impl Active {
             n_multipliers: model.n_multipliers(),
             prepared: Arc::new(Prepared::new(Arc::new(active))),
         }
+    }
+
+    /// The model in which wheels mesh as in the first of some states.
+    pub fn meshed(&self, t: &[f64], q: &[f64]) -> Arc<Model> {
+        let model = self.prepared.model();
+        let first = t.first().and_then(|t| meshed(model, *t, &q[..model.layout.n_q]));
+        first.map_or_else(|| Arc::clone(model), Arc::new)
     }
 
     /// The number of rows of the whole model.

@@ -7,7 +7,6 @@ use crate::model::{stretches, PyModel, WrittenMode};
 use crate::names::{constraint, force, frame_named, one_of, unknown};
 use crate::respond::{energies, missing, responses, Table};
 use kempe::analyses::dynamics::{self as core, friction_modes};
-use kempe::analyses::meshed;
 use kempe::elements::{BodyId, Mode};
 use kempe::equations::actions::{self, each_action};
 use kempe::equations::constraints;
@@ -172,11 +171,7 @@ impl PyStates {
     fn residual<'py>(&self, py: Python<'py>) -> PyResult<[Table<'py>; 2]> {
         guard("States.residual", || {
             let active = &self.model.get().active;
-            let model = &**active.prepared.model();
-            // wheels mesh as at the first state
-            let n = model.layout.n_q;
-            let meshed = self.t.first().and_then(|t| meshed(model, *t, &self.q[..n]));
-            let model = meshed.as_ref().unwrap_or(model);
+            let model = &*active.meshed(&self.t, &self.q);
             let (m, count) = (model.layout.n_rows, self.t.len());
             let [mut phi, mut rate, mut gamma] = [count * m, count * m, m].map(|n| vec![0.0; n]);
             self.visit(|k, motions, Acting { t, .. }| {
