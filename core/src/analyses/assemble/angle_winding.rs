@@ -22,8 +22,22 @@ use std::f64::consts::{PI, TAU};
 /// Largest scaled residual of a position after whole turns.
 const CLOSED: f64 = 1e-9;
 
+/// Chooses the whole turns of the bodies at a closed position. Returns warnings.
+pub(super) fn choose(
+    model: &Model,
+    closing: &Closing<'_>,
+    request: &Request,
+    targets: &Targets,
+    q: &mut Vec<f64>,
+) -> Vec<String> {
+    if !request.from_guess {
+        settle(closing, request, targets, q);
+    }
+    relax(model, targets, q)
+}
+
 /// Shifts free angles of `q` by whole turns. Returns a warning for each spring that remains beyond half a turn.
-pub fn relax(model: &Model, targets: &Targets, q: &mut [f64]) -> Vec<String> {
+fn relax(model: &Model, targets: &Targets, q: &mut [f64]) -> Vec<String> {
     let group = turning_together(model);
     let mut fixed = vec![false; group.len()];
     fixed[group[0]] = true;
@@ -65,12 +79,7 @@ pub fn relax(model: &Model, targets: &Targets, q: &mut [f64]) -> Vec<String> {
 
 /// Turns bodies of a closed position by whole turns: guessed angles to within half a turn of their guesses, and other
 /// angles to within half a turn of a neighbour. Without guesses, angles within half a turn of zero remain.
-pub(super) fn settle(
-    closing: &Closing<'_>,
-    request: &Request,
-    targets: &Targets,
-    q: &mut Vec<f64>,
-) {
+fn settle(closing: &Closing<'_>, request: &Request, targets: &Targets, q: &mut Vec<f64>) {
     let model = closing.model();
     let group = turning_together(model);
     let mut members = vec![Vec::new(); group.len()];

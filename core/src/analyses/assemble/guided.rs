@@ -22,7 +22,7 @@ use std::f64::consts::TAU;
 /// Largest scaled distance from the guesses that counts as zero.
 const MET: f64 = 1e-9;
 /// Part by which another assembly must be nearer.
-const NEARER: f64 = 1e-6;
+const NEARER: f64 = 1e-5;
 
 /// The assembly nearest to the guesses of positions. None without such guesses, or if the mechanism does not close.
 /// `unguessed` are the targets without the guesses.

@@ -154,11 +154,8 @@ fn complete(model: &Model, request: &Request, stop: Halt<'_>) -> Result<Complete
         None => (model, extended),
     };
     if request.state.is_none() {
-        if !request.from_guess {
-            let closing = Closing::new(&extended, request.t, stop);
-            angle_winding::settle(&closing, request, &asked, &mut q);
-        }
-        warnings.extend(angle_winding::relax(model, &asked, &mut q));
+        let closing = Closing::new(&extended, request.t, stop);
+        warnings.extend(angle_winding::choose(model, &closing, request, &asked, &mut q));
     }
     warnings.extend(report::degrees(model, &request.doubts));
     let mut report = Report { iterations, warnings, ..Report::default() };
