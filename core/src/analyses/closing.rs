@@ -123,6 +123,12 @@ impl<'a> Closing<'a> {
         q.iter().zip(&step).map(|(q, step)| q + step).list()
     }
 
+    /// The norm of Φ at `q`, scaled.
+    pub fn left(&self, q: &[f64]) -> f64 {
+        let scaled = self.phi(q).into_iter().zip(&self.scales);
+        scaled.map(|(phi, scale)| (phi / scale).powi(2)).sum::<f64>().sqrt()
+    }
+
     /// aᵀ W b, dimensionless: lengths are relative to the size of the mechanism.
     pub fn product(&self, a: &[f64], b: &[f64]) -> f64 {
         a.iter().zip(b).zip(&self.weights).map(|((a, b), w)| a * w * b).sum()

@@ -5,6 +5,7 @@
 //! shows which ones. A row that is dependent only at a limit of the motion, such as a dead point, is not a
 //! contradiction. Dependence is therefore also checked at a neighbouring position.
 
+use super::culprits::OpenGroup;
 use super::failure::{freed, Failure, Fault};
 use super::holding::SET;
 use super::openings::Openings;
@@ -112,7 +113,13 @@ pub(super) fn of_positions(
 
 /// Joints that contradict each other: their equations depend on each other at every position, but their values do not
 /// agree.
-pub(super) fn of_joints(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Option<Failure> {
+pub(super) fn of_joints(
+    model: &Model,
+    t: f64,
+    starts: &[Vec<f64>],
+    stop: Halt<'_>,
+) -> Option<Failure> {
+    let q = starts.first()?;
     if model.layout.n_rows > MOST_ROWS || q.len() != model.layout.n_q {
         return None;
     }
@@ -126,7 +133,12 @@ pub(super) fn of_joints(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Opt
             parts.fold((0.0, 0.0), |(sum, size), (a, b)| (sum + a, f64::max(size, b)));
         f64::abs(sum) > AGREE * size && there.iter().any(|other| other.group == one.group)
     };
-    let one = here.iter().find(contradicts)?;
+    // a wrong length elsewhere opens sound joints too
+    let alone = |one: &&Dependent| {
+        let found = OpenGroup::among(model, t, starts, &one.group, stop);
+        found.is_some_and(|found| found.constraints.len() == one.group.len())
+    };
+    let one = here.iter().filter(contradicts).find(alone)?;
     let name = |k: &usize| model.constraints[*k].name.as_str();
     let names = listed(&one.group.iter().map(name).list());
     let open = Openings::of(model, &phi, one.group.iter().copied())?;

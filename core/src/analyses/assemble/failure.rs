@@ -1,5 +1,6 @@
 //! Failures of assembly, in terms of the mechanism.
 
+use super::culprits::OpenGroup;
 use super::openings::Openings;
 use super::placement::DyadGap;
 use super::request::Request;
@@ -53,17 +54,23 @@ impl fmt::Display for Failure {
     }
 }
 
-/// Failure of a loop that does not close. `q` is the position with the smallest gap that was found.
+/// Failure of a loop that does not close. `starts` are positions with small gaps, and the placements from which they
+/// were reached.
 pub(super) fn open(
     model: &Model,
     request: &Request,
     closing: &Closing<'_>,
-    q: &[f64],
-    gap: Option<&DyadGap>,
+    starts: &[Vec<f64>],
+    gaps: &[DyadGap],
 ) -> Failure {
-    match gap {
+    let all = (0..model.constraints.len()).list();
+    let found = OpenGroup::among(model, request.t, starts, &all, closing.stop());
+    let OpenGroup { constraints, q } =
+        found.unwrap_or_else(|| OpenGroup { constraints: all, q: starts[0].clone() });
+    // a placement may miss a sound dyad, because of its other choices
+    match gaps.iter().find(|gap| constraints.contains(&gap.joint)) {
         Some(gap) => dyad_open(model, request, gap),
-        None => stays_open(model, request, &closing.phi(q)),
+        None => stays_open(model, request, &closing.phi(&q), &constraints),
     }
 }
 
@@ -141,7 +148,8 @@ fn dyad_open(model: &Model, request: &Request, gap: &DyadGap) -> Failure {
             ),
         )
     };
-    let loop_ = loop_through(model, gap.joint).unwrap_or_else(|| format!("{a}-{b}"));
+    let all = (0..model.constraints.len()).list();
+    let loop_ = loop_through(model, gap.joint, &all).unwrap_or_else(|| format!("{a}-{b}"));
     let set = asked(model, of_motion(&request.set));
     let change = if set.is_empty() { String::new() } else { ", or change what is set".to_string() };
     Failure {
@@ -154,13 +162,13 @@ fn dyad_open(model: &Model, request: &Request, gap: &DyadGap) -> Failure {
     }
 }
 
-fn stays_open(model: &Model, request: &Request, phi: &[f64]) -> Failure {
-    let open = Openings::of(model, phi, 0..model.constraints.len()).expect("a joint that is open");
+fn stays_open(model: &Model, request: &Request, phi: &[f64], group: &[usize]) -> Failure {
+    let open = Openings::of(model, phi, group.iter().copied()).expect("a joint that is open");
     let (worst, missed) = open.worst;
     let name = model.constraints[worst].name.clone();
     // if a driver or a set coordinate has the largest error, the constraints contradict each other
     let joint = model.constraints[worst].group == Group::Joints;
-    let around = match loop_through(model, worst).filter(|_| joint) {
+    let around = match loop_through(model, worst, group).filter(|_| joint) {
         Some(loop_) => format!("the loop {loop_}"),
         None => "the mechanism".to_string(),
     };
@@ -198,11 +206,12 @@ pub(super) fn length(x: f64) -> String {
 /// Largest number of joints of a loop that a message names.
 const MOST_IN_LOOP: usize = 20;
 
-/// Names of the joints around the shortest loop through a joint, starting with the first in the file.
-pub(super) fn loop_through(model: &Model, joint: usize) -> Option<String> {
+/// Names of the joints around the shortest loop through a joint, of constraints in `group`, starting with the first in
+/// the file.
+fn loop_through(model: &Model, joint: usize, group: &[usize]) -> Option<String> {
     let [from, to] = ends(&model.constraints[joint]);
     let mut neighbours: Vec<Vec<(usize, usize)>> = vec![Vec::new(); model.bodies.len()];
-    for (k, item) in model.constraints.iter().enumerate() {
+    for (k, item) in group.iter().map(|k| (*k, &model.constraints[*k])) {
         let [i, j] = ends(item);
         if k != joint && item.group != Group::Drivers && i != j {
             neighbours[i].push((k, j));

@@ -12,6 +12,7 @@ mod attempt;
 mod by_equation;
 mod contact_placement;
 mod contradiction;
+mod culprits;
 mod dyad;
 mod dyad_placement;
 mod equation_placement;
@@ -65,11 +66,15 @@ use super::second_order;
 use super::second_order::mobility_until;
 use super::State;
 use crate::elements::QuantityKind;
+use crate::math::Listed;
 use crate::model::{row_scales, ConstraintItem, Model};
 use attempt::{close_from, given, internal, Closed, MOST_TRIES};
 use placements::Placements;
 use std::ops::Range;
 use target::{of_bodies, of_quantities};
+
+/// Part by which the gap of one placement must be smaller than that of another.
+const SAME_GAP: f64 = 1e-2;
 
 /// Assembles a mechanism.
 ///
@@ -137,7 +142,7 @@ impl Complete {
 fn complete(model: &Model, request: &Request, stop: Halt<'_>) -> Result<Complete, Box<Failure>> {
     let given = meshed_as_given(model, request);
     let model = given.as_ref().unwrap_or(model);
-    let asked = asked(model, request);
+    let asked = asked(model, request, &request.guess);
     let extended = holding(model, request);
     let mut closing = Closing::new(&extended, request.t, stop);
     let closed = close(model, request, &asked, &mut closing);
@@ -149,7 +154,8 @@ fn complete(model: &Model, request: &Request, stop: Halt<'_>) -> Result<Complete
         None => (model, extended),
     };
     if request.state.is_none() {
-        warnings.extend(angle_winding::relax(model, &asked, &mut q));
+        let closing = Closing::new(&extended, request.t, stop);
+        warnings.extend(angle_winding::choose(model, &closing, request, &asked, &mut q));
     }
     warnings.extend(report::degrees(model, &request.doubts));
     let mut report = Report { iterations, warnings, ..Report::default() };
@@ -220,14 +226,14 @@ fn states(model: &Model, request: &Request) -> Vec<f64> {
     z
 }
 
-/// The targets: drivers and `set` are hard; drawn poses, `guess` and a given state are soft.
-fn asked(model: &Model, request: &Request) -> Targets {
+/// The targets: drivers and `set` are hard; drawn poses, guesses and a given state are soft.
+fn asked(model: &Model, request: &Request, guess: &[Target]) -> Targets {
     let mut asked = Targets::of(model, request.t);
     if let Some(state) = &request.state {
         asked.approach(model, &state.q);
         asked.turn[1..].fill(true);
     }
-    for target in of_bodies(&request.guess) {
+    for target in of_bodies(guess) {
         asked.soft[target.body.0][target.coordinate.column()] = Some(target.value);
         asked.turn[target.body.0] |= target.coordinate.column() == 2;
     }
@@ -235,7 +241,7 @@ fn asked(model: &Model, request: &Request) -> Targets {
         asked.hard[target.body.0][target.coordinate.column()] = Some(target.value);
         asked.turn[target.body.0] |= target.coordinate.column() == 2;
     }
-    for target in of_quantities(&request.set).chain(of_quantities(&request.guess)) {
+    for target in of_quantities(&request.set).chain(of_quantities(guess)) {
         let turned = target.of.kind() == QuantityKind::Angle;
         target.of.bodies().iter().for_each(|body| asked.turn[body.0] |= turned);
     }
@@ -256,9 +262,10 @@ fn close(
     if request.from_guess {
         let q = given(model, asked).unwrap_or_else(|| open_placement(model, asked));
         let outcome = close_from(closing, &internal, q, Vec::new());
-        return outcome.map_err(|q| Box::new(unclosed(request, closing, &q, None)));
+        return outcome.map_err(|q| Box::new(unclosed(request, closing, &[q], &[])));
     }
-    if let Some(found) = guided::close(model, request, asked, &internal, closing) {
+    let unguessed = self::asked(model, request, &[]);
+    if let Some(found) = guided::close(model, request, [asked, &unguessed], &internal, closing) {
         return Ok(found);
     }
     if let Some(found) =
@@ -266,30 +273,69 @@ fn close(
     {
         return Ok(found);
     }
-    // the first placement, and the position that Newton's method reached from it
-    let mut first: Option<(Placement, Vec<f64>)> = None;
-    for placement in Placements::new(closing.model(), asked).take(MOST_TRIES) {
-        let warnings = report::folded(model, &placement.dyads);
-        match close_from(closing, &internal, placement.q.clone(), warnings) {
+    let mut missed = Vec::new();
+    let without = (unguessed != *asked).then_some(&unguessed);
+    for targets in without.into_iter().chain([asked]) {
+        match close_placed(model, targets, &internal, closing) {
             Ok(found) => return Ok(found),
-            Err(q) => _ = first.get_or_insert((placement, q)),
+            Err(nearest) => missed.extend(nearest),
+        }
+    }
+    // a guess may cause a gap of its own
+    if matches!(&missed[..], [free, guessed] if guessed.left < (1.0 - SAME_GAP) * free.left) {
+        missed.reverse();
+    }
+    let gaps = missed.iter().flat_map(|missed| missed.placement.gaps.clone()).list();
+    let starts = missed.into_iter().flat_map(|missed| [missed.q, missed.placement.q]).list();
+    Err(Box::new(unclosed(request, closing, &starts, &gaps)))
+}
+
+/// A placement from which the mechanism does not close.
+struct Missed {
+    placement: Placement,
+    /// The position that Newton's method reached, and the scaled gap that is left there.
+    q: Vec<f64>,
+    left: f64,
+}
+
+/// The position from the first placement from which the mechanism closes; otherwise the placement with the fewest gaps.
+fn close_placed(
+    model: &Model,
+    targets: &Targets,
+    internal: &[(usize, f64)],
+    closing: &mut Closing<'_>,
+) -> Result<Closed, Option<Missed>> {
+    let mut best: Option<Missed> = None;
+    for placement in Placements::new(closing.model(), targets).take(MOST_TRIES) {
+        let warnings = report::folded(model, &placement.dyads);
+        let q = match close_from(closing, internal, placement.q.clone(), warnings) {
+            Ok(found) => return Ok(found),
+            Err(q) => q,
+        };
+        if best.as_ref().is_none_or(|best| placement.gaps.len() < best.placement.gaps.len()) {
+            best = Some(Missed { left: closing.left(&q), q, placement });
         }
         if closing.stopped() {
             break;
         }
     }
-    let (gap, q) = first.map_or((None, Vec::new()), |(p, q)| (p.gaps.into_iter().next(), q));
-    Err(Box::new(unclosed(request, closing, &q, gap.as_ref())))
+    Err(best)
 }
 
-/// The reason that the mechanism does not close. `q` is the position with the smallest gap that was found.
-fn unclosed(request: &Request, closing: &Closing<'_>, q: &[f64], gap: Option<&DyadGap>) -> Failure {
-    let model = closing.model();
+/// The reason that the mechanism does not close. `starts` are positions with small gaps, and the placements from which
+/// they were reached.
+fn unclosed(
+    request: &Request,
+    closing: &Closing<'_>,
+    starts: &[Vec<f64>],
+    gaps: &[DyadGap],
+) -> Failure {
+    let (model, q) = (closing.model(), &starts[0]);
     let undefined = failure::undefined(model, request.t, q);
     undefined
         .or_else(|| contradiction::of_positions(model, request, q, closing.stop()))
-        .or_else(|| contradiction::of_joints(model, request.t, q, closing.stop()))
-        .unwrap_or_else(|| failure::open(model, request, closing, q, gap))
+        .or_else(|| contradiction::of_joints(model, request.t, starts, closing.stop()))
+        .unwrap_or_else(|| failure::open(model, request, closing, starts, gaps))
 }
 
 /// Writes the assembly mode into the report.

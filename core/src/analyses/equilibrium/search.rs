@@ -16,6 +16,9 @@ use crate::solve::{is_positive, solve_dense, Eigen};
 const NONE: f64 = 1e-14;
 /// Residual force below which Newton steps only reduce rounding errors.
 const SMALL: f64 = 1e-9;
+/// Scaled displacement whose force counts as a single force, so that [`SMALL`] is above the rounding errors of the
+/// coordinates.
+const DISPLACEMENT: f64 = 1e-5;
 /// Longest and first step of a scaled coordinate.
 const LONGEST: f64 = 0.5;
 const FIRST: f64 = 0.2;
@@ -249,13 +252,15 @@ impl<'s, 'a> RestSearch<'s, 'a> {
     }
 }
 
-/// The force along the freedoms, relative to the largest single force.
+/// The force along the freedoms, relative to the largest single force. Without loads, all forces are rounding errors of
+/// the coordinates; the force is then relative to that of a small displacement.
 pub(super) fn relative(local: &LocalForces, place: &StaticState) -> f64 {
     let size = dot(&local.gradient, &local.gradient).sqrt();
+    let stiffest = local.stiffness.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
     if size == 0.0 {
         0.0
     } else {
-        size / place.scale.max(f64::MIN_POSITIVE)
+        size / place.scale.max(DISPLACEMENT * stiffest).max(f64::MIN_POSITIVE)
     }
 }
 

@@ -65,3 +65,46 @@ fn a_von_mises_truss_snaps_through() {
         assert_eq!(last, 1.5 * top);
     }
 }
+
+/// Without its load, all forces of a chain of springs are rounding errors. With the load, the spring of each joint balances
+/// the moment of the load about this joint.
+#[test]
+fn a_path_begins_without_loads() {
+    let mut random = Random::new(12);
+    for _ in 0..20 {
+        let n = 2 + (3.5 * (1.0 + random.next())) as usize;
+        let [length, k, mass] = [0; 3].map(|_| 10.0_f64.powf(3.0 * random.next()));
+        let free: Vec<f64> = (0..n).map(|_| 0.5 * random.next()).collect();
+        let mut text =
+            "[parameters]\nload = 0\n[bodies.ground]\npoints = { B = [0, 0] }\n".to_string();
+        let (mut guess, mut angle) = (Vec::new(), 0.0);
+        for (i, free) in free.iter().enumerate() {
+            let before = if i == 0 { "ground".to_string() } else { format!("b{}", i - 1) };
+            text += &format!(
+                "[bodies.b{i}]\ntype = 'bar'\nmass = {mass}\nlength = {length}\nends = ['A', 'B']\n\
+                 [joints.j{i}]\ntype = 'revolute'\ni = '{before}.B'\nj = 'b{i}.A'\n\
+                 [forces.s{i}]\ntype = 'torsion_spring'\ni = '{before}'\nj = 'b{i}'\nstiffness = {k}\nfree_angle = {free}\n"
+            );
+            angle += free;
+            guess.push((format!("b{i}.angle"), format!("{}", angle + 1e-3 * random.next())));
+        }
+        text +=
+            &format!("[forces.load]\ntype = 'force'\nj = 'b{}.B'\nforce = [0, '-load']\n", n - 1);
+        let m = model(&text);
+        let guess: Vec<(&str, &str)> =
+            guess.iter().map(|(a, b)| (a.as_str(), b.as_str())).collect();
+        let (state, _) = start(&m, &[], &guess);
+        let most = 0.2 * k / (length * n as f64);
+        let found = follow(&m, &state, &over("load", [0.0, most]));
+        assert_eq!(found.end, PathEnd::Last, "{length} {k} {mass}");
+        for (load, at) in found.values.iter().zip(&found.points) {
+            let angles: Vec<f64> =
+                (0..n).map(|i| at.state.q[column(&m, &format!("b{i}"), 2)]).collect();
+            for i in 0..n {
+                let arm: f64 = angles[i..].iter().map(|a| length * a.cos()).sum();
+                let before = if i == 0 { 0.0 } else { angles[i - 1] };
+                close("moment", k * (angles[i] - before - free[i]), -load * arm, 1e-10 * k);
+            }
+        }
+    }
+}
