@@ -59,10 +59,10 @@ pub struct Mobility {
 /// Mobility without the linear constraints that equations of second order imply.
 pub(super) fn plain(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Mobility {
     let (n, m) = (model.layout.n_q, model.layout.n_rows);
-    if beyond_doubt(model, t, q) {
+    let here = dependent_equations(model, t, q, stop);
+    if here.is_empty() {
         return Mobility { degrees_of_freedom: n - m, rank: m, ..Mobility::default() };
     }
-    let here = dependence::at(model, t, q, RANK_TOLERANCE, stop);
     let rank = m - here.len();
     let [redundant_equations, singular_equations] = judge(model, t, q, here, stop);
     let groups = |equations: &[Dependent]| {
@@ -78,6 +78,20 @@ pub(super) fn plain(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Mobilit
         redundant_equations,
         singular_equations,
         ..Mobility::default()
+    }
+}
+
+/// The equations that depend on others at a position, redundant or only there. The result is invalid if `stop`
+/// returned true.
+pub(super) fn dependent_equations(
+    model: &Model,
+    t: f64,
+    q: &[f64],
+    stop: Halt<'_>,
+) -> Vec<Dependent> {
+    match beyond_doubt(model, t, q) {
+        true => Vec::new(),
+        false => dependence::at(model, t, q, RANK_TOLERANCE, stop),
     }
 }
 

@@ -154,8 +154,17 @@ macro_rules! forces {
             pub fn threshold(&self, at: &Situation<'_, S>) -> S {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::threshold(e, at),)+ }
             }
-            /// The largest effort of sticking friction.
-            pub fn limit(&self, at: &Situation<'_, S>) -> S {
+            /// The effort that depends on a reaction, and its derivatives with respect to the reaction.
+            pub fn effort(&self, at: &Situation<'_, S>) -> (S, Wrench<S>) {
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::effort(e, at),)+ }
+            }
+            /// The wrenches of such an effort.
+            pub fn put_effort(&self, at: &Situation<'_, S>, effort: S, out: &mut dyn Wrenches<S>) {
+                let put = |part: usize, body: usize, wrench: Wrench<S>| out.put(part, body, wrench);
+                match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::put_effort(e, at, effort, put),)+ }
+            }
+            /// The largest effort of sticking friction, and its derivatives with respect to the reaction.
+            pub fn limit(&self, at: &Situation<'_, S>) -> (S, Wrench<S>) {
                 match self { $($(#[$on])* Self::$Name(e) => <$Name as Force>::limit(e, at),)+ }
             }
             /// The side at which a contact or stop touches.

@@ -209,6 +209,25 @@ pub trait Force: Element {
         None
     }
 
+    /// For a force that depends on a [reaction](Force::reaction): the part of its action that does, as one effort, and
+    /// its derivatives with respect to [`Situation::reaction`].
+    #[inline]
+    fn effort<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> (S, Wrench<S>) {
+        let _ = (e, at);
+        (S::zero(), Wrench::zero())
+    }
+
+    /// Puts the wrenches of an [effort](Force::effort) into `out`, in proportion to it.
+    #[inline]
+    fn put_effort<S: Real>(
+        e: &Self::Over<S>,
+        at: &Situation<'_, S>,
+        effort: S,
+        out: impl Wrenches<S>,
+    ) {
+        let _ = (e, at, effort, out);
+    }
+
     /// Number of switches of an element. A switch is a function of the situation at whose zeros the action is not
     /// smooth.
     #[inline]
@@ -266,11 +285,11 @@ pub trait Force: Element {
         None
     }
 
-    /// The largest effort of sticking friction.
+    /// The largest effort of sticking friction, and its derivatives with respect to [`Situation::reaction`].
     #[inline]
-    fn limit<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> S {
+    fn limit<S: Real>(e: &Self::Over<S>, at: &Situation<'_, S>) -> (S, Wrench<S>) {
         let _ = (e, at);
-        S::zero()
+        (S::zero(), Wrench::zero())
     }
 
     /// The side at which a contact or stop touches: -1 for a lower limit, +1 for an upper limit.

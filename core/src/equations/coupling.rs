@@ -2,7 +2,7 @@
 
 use super::constraints::{linearize_one, store};
 use super::kinematics::Motions;
-use super::reaction_slopes::rows_of;
+use super::reactive::rows_of;
 use crate::elements::derive::{seeded, ByThree};
 use crate::elements::{BodyId, Mode};
 use crate::math::{Dual, Lift, Listed, Ordered, Pose, Real, Twist, Vec2};

@@ -209,7 +209,7 @@ fn following<S: Real>(
         let reaction = reaction(model, k, motions, acting.lam, acting.t);
         let own = &acting.z[model.layout.states[k].clone()];
         let element = at_state(model, &model.forces[k], motions, acting);
-        element.limit(&Situation { reaction, z: own, ..at })
+        element.limit(&Situation { reaction, z: own, ..at }).0
     };
     let most = limit(leader);
     let part = multiplier(model, leader, acting) * limit(k) / most;
@@ -241,7 +241,7 @@ pub fn reserve(model: &Model, k: usize, motions: &Motions, acting: Acting<'_, f6
     let element = at_state(model, item, motions, acting);
     let at = reported(model, k, motions, acting);
     match (item.mode, element.behaviour()) {
-        (Mode::Holds(_), Some(Behaviour::Sticks)) => element.limit(&at) - at.multiplier.abs(),
+        (Mode::Holds(_), Some(Behaviour::Sticks)) => element.limit(&at).0 - at.multiplier.abs(),
         (Mode::Holds(side), _) => side * at.multiplier,
         _ => f64::INFINITY,
     }
@@ -296,6 +296,22 @@ fn seen<S: Real>(
     let own = &lam[model.layout.constraints[joint].rows.clone()];
     reactions::reaction(model, joint, *body, Frame::Global, motions, t, own)
         .unwrap_or_else(Wrench::zero)
+}
+
+/// Adds an effort of force `k`, which depends on a reaction, to Q, and its power to `powers`.
+pub(super) fn add_effort<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    (acting, effort): (Acting<'_, S>, S),
+    out: &mut [S],
+    powers: &mut Powers<S>,
+) {
+    let at = situation(model, k, motions, acting);
+    let element = at_state(model, &model.forces[k], motions, acting);
+    let nature = |part: usize| element.parts()[part].nature;
+    let sum = &mut Sum { model, motions, acting, out, powers };
+    element.put_effort(&at, effort, &mut Add { sum, at: &at, nature });
 }
 
 /// Calls `visit` with the part, body and value of every wrench of force `k`.

@@ -28,7 +28,6 @@ pub mod motion;
 pub mod newton_euler;
 mod plan;
 mod powers;
-pub mod reaction_slopes;
 pub mod reactions;
 pub mod reactive;
 pub mod refine;

@@ -14,9 +14,8 @@ use super::gains::Gains;
 use super::kinematics::Motions;
 use super::plan::Plan;
 use super::powers::Powers;
-use super::reaction_slopes::by_multiplier;
 use super::roles::{self, Roles};
-use super::{mass, reactions, reactive, refine, Compiled};
+use super::{mass, reactive, refine, Compiled};
 use crate::math::Real;
 use crate::model::Model;
 use crate::solve::Breakdown;
@@ -48,7 +47,7 @@ pub struct Workspace<S = f64> {
     offset: Vec<S>,
     /// Vectors for solutions with a modified matrix.
     pub(super) memory: refine::Memory<S>,
-    /// Whether one elimination is not sufficient, because redundant rows are damped or forces depend on reactions.
+    /// Whether one elimination is not sufficient, because redundant rows are damped.
     modified: bool,
     /// Whether forces depend on reactions.
     depends: bool,
@@ -104,7 +103,7 @@ impl<S: Real> Workspace<S> {
             z: vec![S::zero(); model.layout.n_z],
             roles,
             matrix,
-            modified: redundant || depends,
+            modified: redundant,
             depends,
             reactive,
             compiled,
@@ -121,7 +120,7 @@ impl<S: Real> Workspace<S> {
     /// Whether one elimination solves the equations at almost all states, with corrections if bodies are light.
     #[inline(always)]
     pub fn solves_directly(&self) -> bool {
-        !self.modified
+        !self.modified && !self.depends
     }
 
     /// Whether the equations of another variant of the model, over any scalar, have the same structure.
@@ -133,7 +132,7 @@ impl<S: Real> Workspace<S> {
     /// Declares that no rows are damped, so that one elimination solves the equations unless forces depend on
     /// reactions.
     pub(super) fn set_direct(&mut self) {
-        self.modified = self.depends;
+        self.modified = false;
     }
 
     /// Sets a constant `term`, shape (n_rows), which is subtracted from γ at every state.
@@ -166,10 +165,8 @@ impl<S: Real> Workspace<S> {
     #[inline]
     pub fn react(&mut self, model: &Model<S>, t: S, state: [&[S]; 3]) -> Result<(), Breakdown> {
         self.place(model, state);
-        match self.reactive.is_empty() {
-            true => self.respond(model, t, Gains::default()),
-            false => self.solve_and_refine(model, t, Gains::default()),
-        }
+        self.respond_without(model, t, Gains::default())?;
+        self.add_reactive(model, t)
     }
 
     /// Sets coordinates, rates and first-order states, shapes (n_q), (n_q) and (n_z).
@@ -193,9 +190,20 @@ impl<S: Real> Workspace<S> {
     /// As [`accelerate`](Self::accelerate).
     #[inline(always)]
     pub fn respond(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
-        if self.solves_directly() {
+        self.respond_without(model, t, gains)?;
+        match self.depends {
+            true => self.add_reactive(model, t),
+            false => Ok(()),
+        }
+    }
+
+    /// As [`respond`](Self::respond), without forces and loads that depend on reactions.
+    #[inline(always)]
+    fn respond_without(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
+        if !self.modified {
             match self.solve_directly(model, t, gains) {
-                Ok(()) if self.matrix.is_light() => return self.correct(model),
+                // friction that sticks keeps bodies at rest for long, where rounding errors would add up
+                Ok(()) if self.matrix.is_light() || self.depends => return self.correct(model),
                 Err(Breakdown::Row(_)) if self.matrix.near_singular() != NearSingular::Ignore => {}
                 outcome => return outcome,
             }
@@ -215,13 +223,24 @@ impl<S: Real> Workspace<S> {
     /// joint is added to the matrix when it is evaluated.
     #[inline(always)]
     fn solve_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
-        let Self { motions, z, compiled, roles, matrix, solution, powers, offset, memory, .. } =
-            self;
-        let light = matrix.is_light();
+        let Self {
+            motions,
+            z,
+            compiled,
+            roles,
+            matrix,
+            solution,
+            powers,
+            offset,
+            memory,
+            depends,
+            ..
+        } = self;
+        let (light, corrects) = (matrix.is_light(), matrix.is_light() || *depends);
         let (plan, saddle) = matrix.parts_mut();
         let stabilized = Stabilized::new(gains);
         let inertias = &compiled.light.inertias[..];
-        let [f, kept] = memory.right_side(if light { [self.n_q, self.n_rows] } else { [0; 2] });
+        let [f, kept] = memory.right_side(if corrects { [self.n_q, self.n_rows] } else { [0; 2] });
         let kept = Cell::from_mut(kept).as_slice_of_cells();
         let at =
             roles::At { model, compiled, plan, inertias, motions, t, stabilized, offset, kept };
@@ -230,9 +249,11 @@ impl<S: Real> Workspace<S> {
         let acting = Acting { z, lam: None, t };
         forces::generalized(model, compiled, motions, acting, x, powers);
         roles::put_others(roles, at, saddle, right);
-        if light {
+        if corrects {
             f.copy_from_slice(&x[..self.n_q]);
             kept.iter().zip(&*right).for_each(|(kept, right)| kept.set(*right));
+        }
+        if light {
             augmented::weigh_internals(&compiled.light.internals, saddle);
         }
         roles::condense(roles, at, saddle, (x, right));
@@ -241,47 +262,62 @@ impl<S: Real> Workspace<S> {
         saddle.finish(&plan.pattern, solution)
     }
 
-    /// Corrects the direct solution for light bodies and coordinates.
+    /// Corrects the direct solution for light bodies and coordinates, and for friction.
     #[inline(never)] // rare
     fn correct(&mut self, model: &Model<S>) -> Result<(), Breakdown> {
         let Self { motions, matrix, solution, memory, .. } = self;
         refine::correct_direct((model, motions, matrix), solution, memory)
     }
 
-    /// Solves with the whole matrix. Its factors may be those of a modified matrix. Iterates forces that depend on
-    /// reactions.
+    /// Solves with the whole matrix. Its factors may be those of a modified matrix.
     #[inline(never)] // rare; inlined, it would take registers from the common path
     fn solve_and_refine(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
-        let Self {
-            motions, z, compiled, matrix, solution, powers, offset, reactive, memory, ..
-        } = self;
-        let padded = self.n_unknowns;
-        let mut right = vec![S::zero(); model.layout.n_rows];
-        constraints::linearize(model, motions, t, gains, &mut right, matrix.jacobian_mut());
+        let Self { motions, z, compiled, matrix, solution, powers, offset, memory, .. } = self;
+        let n = self.n_q;
+        let mut x = vec![S::zero(); n + model.layout.n_rows];
+        let (q, right) = x.split_at_mut(n);
+        constraints::linearize(model, motions, t, gains, right, matrix.jacobian_mut());
         right.iter_mut().zip(offset).for_each(|(right, offset)| *right -= *offset);
         matrix.set_mass(compiled, motions);
         matrix.factor()?;
-        let (solution, powers) = ((&mut solution[..], padded), powers);
-        let force = 0.0;
-        let mut at = ForGiven {
-            model,
-            compiled,
-            motions,
-            matrix,
-            z,
-            t,
-            right,
-            solution,
-            powers,
-            force,
-            memory,
+        forces::generalized(model, compiled, motions, Acting { z, lam: None, t }, q, powers);
+        let outcome = refine::solve(model, motions, matrix, &mut x, memory);
+        solution[..n].copy_from_slice(&x[..n]);
+        solution[self.n_unknowns..][..self.n_rows].copy_from_slice(&x[n..]);
+        outcome
+    }
+
+    /// Adds the forces and loads that depend on reactions to the solution without them.
+    #[inline(never)] // as above
+    fn add_reactive(&mut self, model: &Model<S>, t: S) -> Result<(), Breakdown> {
+        let Some(&row) = self.reactive.first() else { return Ok(()) };
+        let Self { motions, z, matrix, solution, powers, reactive, memory, .. } = self;
+        let (n, padded) = (self.n_q, self.n_unknowns);
+        let modified = self.modified || matrix.is_light() || matrix.regularised();
+        let acting = Acting { z, lam: None, t };
+        let sources = reactive::Sources::new(model, motions, acting, |direction| {
+            let mut response = vec![S::zero(); solution.len()];
+            if modified {
+                let mut x = [direction, &vec![S::zero(); model.layout.n_rows]].concat();
+                refine::solve(model, motions, matrix, &mut x, memory)?;
+                response[..n].copy_from_slice(&x[..n]);
+                response[padded..][..x.len() - n].copy_from_slice(&x[n..]);
+            } else {
+                response[..n].copy_from_slice(direction);
+                matrix.solve(&mut response);
+            }
+            Ok(response)
+        })?;
+        let mut unused = vec![S::zero(); n];
+        mass::add_times(model, motions, &solution[..n], &mut unused);
+        let force = reactive::largest(unused.iter().copied());
+        let put = |k: usize, effort: S| {
+            forces::add_effort(model, k, motions, (acting, effort), &mut unused, powers);
         };
-        let mut lam = at.respond(None)?;
-        if let Some(&row) = reactive.first() {
-            let found = reactive::solve(reactive, &mut lam, &mut at)?;
-            return if found { Ok(()) } else { Err(Breakdown::Reaction(row)) };
+        match sources.add((reactive, padded, force), solution, put) {
+            true => Ok(()),
+            false => Err(Breakdown::Reaction(row)),
         }
-        Ok(())
     }
 
     /// Computes ż at the state that was [placed](Self::place) into `out`, shape (n_z).
@@ -326,67 +362,5 @@ impl<S: Real> Workspace<S> {
             }
         }
         powers
-    }
-}
-
-/// The equations of motion at a state, with forces that depend on given multipliers.
-struct ForGiven<'a, S> {
-    model: &'a Model<S>,
-    compiled: &'a Compiled<S>,
-    motions: &'a Motions<S>,
-    matrix: &'a Augmented<S>,
-    z: &'a [S],
-    t: S,
-    /// γ̂.
-    right: Vec<S>,
-    /// (q̈, λ), and the index at which λ begins.
-    solution: (&'a mut [S], usize),
-    powers: &'a mut Powers<S>,
-    /// The largest generalized force.
-    force: f64,
-    memory: &'a mut refine::Memory<S>,
-}
-
-impl<S: Real> ForGiven<'_, S> {
-    /// Solves the equations with forces at the multipliers `lam`. Returns λ, shape (n_rows).
-    fn respond(&mut self, lam: Option<&[S]>) -> Result<Vec<S>, Breakdown> {
-        let (model, n) = (self.model, self.model.layout.n_q);
-        let mut x = vec![S::zero(); n];
-        x.extend_from_slice(&self.right);
-        let acting = Acting { z: self.z, lam, t: self.t };
-        let q = &mut x[..n];
-        forces::generalized(model, self.compiled, self.motions, acting, q, self.powers);
-        if let Some(lam) = lam {
-            reactions::add_loads(model, self.motions, self.t, lam, q);
-        }
-        self.force = reactive::largest(q);
-        let outcome = refine::solve(model, self.motions, self.matrix, &mut x, self.memory);
-        let (solution, padded) = &mut self.solution;
-        solution[..n].copy_from_slice(&x[..n]);
-        solution[*padded..*padded + model.layout.n_rows].copy_from_slice(&x[n..]);
-        outcome.map(|()| x.split_off(n))
-    }
-}
-
-impl<S: Real> reactive::Response<S> for ForGiven<'_, S> {
-    type Error = Breakdown;
-
-    #[inline]
-    fn multipliers(&mut self, lam: &[S]) -> Result<Vec<S>, Breakdown> {
-        self.respond(Some(lam))
-    }
-
-    #[inline]
-    fn largest_force(&self) -> f64 {
-        self.force
-    }
-
-    fn slopes(&mut self, lam: &[S], row: usize) -> Result<Vec<S>, Breakdown> {
-        let (model, n) = (self.model, self.model.layout.n_q);
-        let acting = Acting { z: self.z, lam: Some(lam), t: self.t };
-        let mut x = by_multiplier(model, self.motions, acting, row);
-        x.resize(n + model.layout.n_rows, S::zero());
-        refine::solve(model, self.motions, self.matrix, &mut x, self.memory)?;
-        Ok(x.split_off(n))
     }
 }

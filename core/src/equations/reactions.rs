@@ -51,6 +51,26 @@ pub fn reaction<S: Real>(
     Some(reduced(on_body, &motions[body.0].pose, at, frame))
 }
 
+/// The reactions of joint `k` on its body j at its joint point, in the global frame, for a unit multiplier of each of its
+/// rows, without loads.
+pub(super) fn units<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    t: S,
+) -> Vec<Wrench<S>> {
+    let Some(body) = model.constraints[k].bodies.get(1) else { return Vec::new() };
+    let rows = model.layout.constraints[k].rows.len();
+    let mut columns = OfRows::new(rows, [S::zero(); 3]);
+    constraints::columns_by_body(model, k, motions, t, *body, columns.all());
+    let at = attached(model, k, *body, motions, t);
+    let unit = |[x, y, angle]: &[S; 3]| {
+        let w = -Wrench { force: Vec2::new(*x, *y), torque: *angle };
+        reduced(w, &motions[body.0].pose, at, Frame::Global)
+    };
+    columns.all().iter().map(unit).list()
+}
+
 /// The bodies on which constraint `k` acts, each once: those of the element, i and j first, then those of its laws.
 ///
 /// Coordinates in a law are measured relative to ground, on which the opposite force acts.
@@ -110,10 +130,22 @@ pub(super) fn loaded<S: Real>(model: &Model<S>) -> impl Iterator<Item = usize> +
 pub fn add_loads<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, lam: &[S], q: &mut [S]) {
     for k in loaded(model) {
         let own = &lam[model.layout.constraints[k].rows.clone()];
-        each_load(model, k, motions, t, own, |body, w| {
-            model.layout.bodies[body.0].add([w.force.x, w.force.y, w.torque], q);
-        });
+        add_load(model, k, motions, t, own, q);
     }
+}
+
+/// Adds the load of joint `k` for the multipliers `lam` of its rows to Q, shape (n_q).
+pub(super) fn add_load<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    t: S,
+    lam: &[S],
+    q: &mut [S],
+) {
+    each_load(model, k, motions, t, lam, |body, w| {
+        model.layout.bodies[body.0].add([w.force.x, w.force.y, w.torque], q);
+    });
 }
 
 /// Adds the derivatives of the loads of all joints with respect to the multiplier of one row, shape (n_q).

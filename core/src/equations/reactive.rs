@@ -7,24 +7,28 @@
 //! [ Φ_q  0   ] [ λ ] = [ γ    ]
 //! ```
 //!
-//! Q depends only on the multipliers u of the joints whose reactions the forces use. The linear equations with Q(u)
-//! have new multipliers u′(u). Newton's method solves u′(u) = u with the matrix I - ∂u′/∂u, which has one row for
-//! each of the few multipliers u; its columns are exact.
+//! Each of these forces has one effort along one direction dₖ, so that Q(λ) = Q₀ + Σ dₖ eₖ(λ) with the efforts eₖ. The equations are
+//! solved once without these forces, and once for each direction, with the same factors: λ = λ₀ + S e. Newton's method
+//! then solves e = e(λ₀ + S e) with the matrix I - ∂e/∂λ S, which has one row for each effort.
 //!
 //! There may be several solutions or none. The solution of the motion is the one that follows continuously from the
-//! solution u₀ without these forces, as a factor f on the forces grows from 0 to 1: u = (1 - f) u₀ + f u′(u), because
-//! u′ is linear in Q. The determinant of I - f ∂u′/∂u is 1 at f = 0. If it becomes zero before f = 1, the forces
-//! exceed the reactions that balance them: a friction paradox (Painlevé 1895). Newton's method begins at u₀ with f =
-//! 1. Only if it fails, f grows in steps. The result does not depend on earlier evaluations.
+//! solution without these forces, as a factor f on the forces grows from 0 to 1. The determinant of I - f ∂e/∂λ S is 1 at
+//! f = 0. If it becomes zero before f = 1, the forces exceed the reactions that balance them: a friction paradox
+//! (Painlevé 1895). Newton's method begins at λ₀ with f = 1. Only if it fails, f grows in steps. The result does not
+//! depend on earlier evaluations.
 
-use super::reaction_slopes::rows_of;
+use super::forces::{self, Acting};
+use super::kinematics::Motions;
+use super::powers::Powers;
 use super::reactions;
-use crate::math::{Largest, Listed, Real};
+use crate::elements::{ForceElement, Mode, Situation};
+use crate::math::{Largest, Listed, Real, Wrench};
 use crate::model::Model;
+use std::borrow::Cow;
 
 /// Largest number of iterations for one factor of the forces.
 const MOST: usize = 12;
-/// Accepted change of the multipliers, relative to the largest of the solved multipliers.
+/// Accepted change of the multipliers, relative to the largest of the multipliers on which the efforts depend.
 const ACCEPTED: f64 = 1e-12;
 /// Accepted change of the multipliers, relative to the largest multiplier of the mechanism, if the change no longer
 /// decreases.
@@ -52,112 +56,281 @@ pub fn rows<S: Real>(model: &Model<S>) -> Vec<usize> {
     rows
 }
 
-/// The linear equations, with forces at given multipliers.
-pub(super) trait Response<S> {
-    /// The reason why the linear equations have no solution.
-    type Error;
-    /// All multipliers, shape (n_rows), with Q at the multipliers `lam`.
-    fn multipliers(&mut self, lam: &[S]) -> Result<Vec<S>, Self::Error>;
-    /// The largest generalized force at the last multipliers.
-    fn largest_force(&self) -> f64;
-    /// The derivatives of all multipliers with respect to the multiplier of one row in Q, shape (n_rows).
-    fn slopes(&mut self, lam: &[S], row: usize) -> Result<Vec<S>, Self::Error>;
+/// The rows of the multipliers on which force `k` depends. A friction force that follows another one also depends on the
+/// multiplier and on the limit of the other force.
+pub fn rows_of<S>(model: &Model<S>, k: usize) -> Vec<usize> {
+    let item = &model.forces[k];
+    let seen = |k: usize| model.forces[k].reaction.map(|joint| joint.0);
+    let rows = |joint: usize| model.layout.constraints[joint].rows.clone();
+    let mut all: Vec<usize> = seen(k).into_iter().flat_map(rows).list();
+    if let Mode::Follows { leader, .. } = item.mode {
+        seen(leader).into_iter().flat_map(rows).append_to(&mut all);
+        all.extend(model.forces[leader].held_row);
+    }
+    all.sort_unstable();
+    all.dedup();
+    all
 }
 
-/// Solves u′(u) = u for the multipliers in `rows`. `lam`, shape (n_rows), contains the multipliers without these
-/// forces, and on return the solution.
-///
-/// Returns whether there is a solution that follows continuously from the multipliers without these forces.
-///
-/// # Errors
-/// The errors of the linear equations.
-pub(super) fn solve<S: Real, R: Response<S>>(
-    rows: &[usize],
-    lam: &mut [S],
-    response: &mut R,
-) -> Result<bool, R::Error> {
-    let free = lam.to_vec();
-    let mut path = Path { rows, free: &free, response };
-    if path.newton(lam, S::one())? {
-        return Ok(true);
-    }
-    if !free.iter().all(|x| x.is_finite()) {
-        return Ok(true); // the solution is not finite either
-    }
-    lam.copy_from_slice(&free);
-    let (mut factor, mut step) = (0.0, FIRST);
-    while factor < 1.0 {
-        let next = f64::min(factor + step, 1.0);
-        let mut trial = lam.to_vec();
-        if path.newton(&mut trial, S::constant(next))? {
-            lam.copy_from_slice(&trial);
-            (factor, step) = (next, 2.0 * step);
-        } else if step < LEAST {
-            return Ok(false);
-        } else {
-            step *= 0.25;
+/// A force in a situation without its reaction, and the reaction as a function of the multipliers.
+struct Bearing<'m, S: Clone> {
+    force: usize,
+    element: Cow<'m, ForceElement<S>>,
+    at: Situation<'m, S>,
+    /// The first row of the joint, and the reaction for a unit multiplier of each of its rows.
+    first: usize,
+    units: Vec<Wrench<S>>,
+}
+
+/// An effort with its derivatives with respect to a reaction.
+type Sloped<S> = (S, Wrench<S>);
+
+impl<'m, S: Real> Bearing<'m, S> {
+    fn new(model: &'m Model<S>, k: usize, motions: &'m Motions<S>, acting: Acting<'m, S>) -> Self {
+        let item = &model.forces[k];
+        let joint = item.reaction.expect("it depends on a reaction").0;
+        Self {
+            force: k,
+            element: forces::at_state(model, item, motions, acting),
+            at: forces::situation(model, k, motions, acting),
+            first: model.layout.constraints[joint].rows.start,
+            units: reactions::units(model, joint, motions, acting.t),
         }
     }
-    Ok(true)
+
+    /// The value of `of` with the reaction for these multipliers. Passes its derivatives with respect to multipliers,
+    /// times `factor`, to `slope`.
+    fn value(
+        &self,
+        of: impl Fn(&ForceElement<S>, &Situation<'_, S>) -> Sloped<S>,
+        lam: &[S],
+        factor: S,
+        slope: &mut impl FnMut(usize, S),
+    ) -> S {
+        let mut reaction = Wrench::zero();
+        for (unit, lam) in self.units.iter().zip(&lam[self.first..]) {
+            let own = Wrench { force: unit.force.scale(*lam), torque: unit.torque * *lam };
+            reaction = reaction + own;
+        }
+        let (value, by) = of(&self.element, &Situation { reaction, ..self.at });
+        for (row, unit) in self.units.iter().enumerate() {
+            let of_row = by.force.dot(unit.force) + by.torque * unit.torque;
+            slope(self.first + row, factor * of_row);
+        }
+        value
+    }
+}
+
+/// The law of an effort. Bearings are given by their indices.
+enum Effort {
+    Slides(usize),
+    /// Friction at rest that takes the same part of its limit as the friction that holds with the multiplier of `row`.
+    Follows {
+        own: usize,
+        leader: usize,
+        row: usize,
+        sense: f64,
+    },
+    /// The load of a joint, in proportion to the magnitude of the multiplier of this row.
+    Load(usize),
+}
+
+/// A force or the load of a joint, which depends on multipliers.
+struct Source<S> {
+    effort: Effort,
+    /// (q̈, λ) for an effort of 1, in the layout of the matrix.
+    response: Vec<S>,
+}
+
+/// All forces and loads that depend on multipliers, at a state.
+pub(super) struct Sources<'m, S: Clone> {
+    bearings: Vec<Bearing<'m, S>>,
+    all: Vec<Source<S>>,
+}
+
+impl<'m, S: Real> Sources<'m, S> {
+    /// `respond` solves the equations for given generalized forces, shape (n_q), without other terms.
+    ///
+    /// # Errors
+    /// Those of `respond`.
+    pub fn new<E>(
+        model: &'m Model<S>,
+        motions: &'m Motions<S>,
+        acting: Acting<'m, S>,
+        mut respond: impl FnMut(&[S]) -> Result<Vec<S>, E>,
+    ) -> Result<Self, E> {
+        let depends = |k: &usize| model.forces[*k].reaction.is_some();
+        let own = (0..model.forces.len()).filter(depends);
+        let bearings: Vec<_> = own.map(|k| Bearing::new(model, k, motions, acting)).list();
+        let place = |k: usize| bearings.iter().position(|of| of.force == k);
+        let mut all = Vec::new();
+        let mut direction = vec![S::zero(); model.layout.n_q];
+        for (own, Bearing { force, .. }) in bearings.iter().enumerate() {
+            let effort = match model.forces[*force].mode {
+                Mode::Holds(_) | Mode::Idle => continue,
+                Mode::Follows { leader, sense } => {
+                    let row = model.forces[leader].held_row;
+                    let Some((leader, row)) = place(leader).zip(row) else { continue };
+                    Effort::Follows { own, leader, row, sense }
+                }
+                _ => Effort::Slides(own),
+            };
+            direction.fill(S::zero());
+            let none = &mut Powers::zero();
+            forces::add_effort(model, *force, motions, (acting, S::one()), &mut direction, none);
+            all.push(Source { effort, response: respond(&direction)? });
+        }
+        for joint in reactions::loaded(model) {
+            direction.fill(S::zero());
+            let rows = model.layout.constraints[joint].rows.clone();
+            let unit = vec![S::one(); rows.len()];
+            reactions::add_load(model, joint, motions, acting.t, &unit, &mut direction);
+            all.push(Source { effort: Effort::Load(rows.start), response: respond(&direction)? });
+        }
+        Ok(Self { bearings, all })
+    }
+
+    /// The effort of a source. Passes its derivatives with respect to multipliers to `slope`.
+    fn effort(&self, effort: &Effort, lam: &[S], mut slope: impl FnMut(usize, S)) -> S {
+        let one = S::one();
+        match *effort {
+            Effort::Slides(own) => {
+                self.bearings[own].value(ForceElement::effort, lam, one, &mut slope)
+            }
+            Effort::Load(row) => {
+                slope(row, S::select(lam[row], one, -one));
+                lam[row].abs()
+            }
+            Effort::Follows { own, leader, row, sense } => {
+                let [own, leader] = [&self.bearings[own], &self.bearings[leader]];
+                let most = leader.value(ForceElement::limit, lam, one, &mut |_, _| {});
+                let per_limit = S::select(most, -S::constant(sense) / most, S::zero());
+                let part = per_limit * lam[row];
+                let limit = own.value(ForceElement::limit, lam, part, &mut slope);
+                leader.value(
+                    ForceElement::limit,
+                    lam,
+                    S::select(most, -part * limit / most, S::zero()),
+                    &mut slope,
+                );
+                slope(row, per_limit * limit);
+                part * limit
+            }
+        }
+    }
+
+    /// Adds all efforts to a solution without them, and the powers of forces to `powers`. `first` is the index at which
+    /// the multipliers begin, `rows` are the rows on which efforts depend, and `force` is a large force of the state.
+    ///
+    /// Returns whether there is a solution that follows continuously from the one without these forces.
+    pub fn add(
+        &self,
+        (rows, first, force): (&[usize], usize, f64),
+        solution: &mut [S],
+        mut put: impl FnMut(usize, S),
+    ) -> bool {
+        let mut efforts = vec![S::zero(); self.all.len()];
+        let path = Path { sources: self, rows, free: &solution[first..], first, force };
+        let found = path.solve(&mut efforts);
+        for (Source { effort, response }, e) in self.all.iter().zip(&efforts) {
+            solution.iter_mut().zip(response).for_each(|(x, one)| *x = x.plus_product(*e, *one));
+            if let Effort::Slides(own) | Effort::Follows { own, .. } = effort {
+                put(self.bearings[*own].force, *e);
+            }
+        }
+        found
+    }
 }
 
 /// The solutions for all factors of the forces.
-struct Path<'a, S, R> {
+struct Path<'a, S: Clone> {
+    sources: &'a Sources<'a, S>,
     rows: &'a [usize],
     /// The multipliers without the forces.
     free: &'a [S],
-    response: &'a mut R,
+    first: usize,
+    /// A force that is large compared with rounding errors of the loads.
+    force: f64,
 }
 
-impl<S: Real, R: Response<S>> Path<'_, S, R> {
-    fn of(&self, lam: &[S]) -> Vec<S> {
-        self.rows.iter().map(|row| lam[*row]).list()
+impl<S: Real> Path<'_, S> {
+    fn solve(&self, efforts: &mut Vec<S>) -> bool {
+        // without a finite start, the solution is not finite either
+        if self.newton(efforts, S::one()) || !self.free.iter().all(|x| x.is_finite()) {
+            return true;
+        }
+        efforts.fill(S::zero());
+        let (mut factor, mut step) = (0.0, FIRST);
+        while factor < 1.0 {
+            let next = f64::min(factor + step, 1.0);
+            let mut trial = efforts.clone();
+            if self.newton(&mut trial, S::constant(next)) {
+                *efforts = trial;
+                (factor, step) = (next, 2.0 * step);
+            } else if step < LEAST {
+                return false;
+            } else {
+                step *= 0.25;
+            }
+        }
+        true
     }
 
-    /// Newton's method from `lam`. Returns whether it converged with positive determinants.
-    fn newton(&mut self, lam: &mut [S], factor: S) -> Result<bool, R::Error> {
-        let free = self.of(self.free);
+    /// Adds the multipliers for these efforts to `lam`.
+    fn add_multipliers(&self, efforts: &[S], lam: &mut [S]) {
+        for (Source { response, .. }, e) in self.sources.all.iter().zip(efforts) {
+            let of_effort = &response[self.first..];
+            lam.iter_mut().zip(of_effort).for_each(|(lam, one)| *lam = lam.plus_product(*e, *one));
+        }
+    }
+
+    /// Newton's method from `efforts`. Returns whether it converged with positive determinants.
+    fn newton(&self, efforts: &mut [S], factor: S) -> bool {
+        let all = &self.sources.all;
         let mut last = f64::INFINITY;
+        let mut columns = vec![vec![S::zero(); all.len()]; all.len()];
+        let (mut lam, mut change) = (self.free.to_vec(), self.free.to_vec());
         for _ in 0..MOST {
-            let found = self.response.multipliers(lam)?;
-            let own = self.of(&found).into_iter().zip(&free).zip(self.of(lam));
-            let gap: Vec<S> =
-                own.map(|((new, free), old)| *free + factor * (new - *free) - old).list();
-            let (size, left) = (largest(&self.of(&found)), largest(&gap));
-            let noise = NOISE * self.response.largest_force().max(largest(&found));
-            if size <= noise {
-                return Ok(true);
+            lam.copy_from_slice(self.free);
+            self.add_multipliers(efforts, &mut lam);
+            let mut gap = Vec::with_capacity(all.len());
+            for (k, source) in all.iter().enumerate() {
+                columns.iter_mut().for_each(|column| column[k] = S::zero());
+                columns[k][k] = S::one();
+                let effort = self.sources.effort(&source.effort, &lam, |row, slope| {
+                    for (column, other) in columns.iter_mut().zip(all) {
+                        column[k] -= factor * slope * other.response[self.first + row];
+                    }
+                });
+                gap.push(factor * effort - efforts[k]);
             }
-            let columns = self.columns(lam, factor)?;
-            let Some(step) = eliminate(columns, gap) else { return Ok(false) };
-            let rounding = noise.max(ROUNDING * largest(&found));
-            if left <= ACCEPTED * size || (left >= last && left <= rounding) {
-                return Ok(true);
+            change.fill(S::zero());
+            self.add_multipliers(&gap, &mut change);
+            let of_rows = |x: &[S]| largest(self.rows.iter().map(|row| x[*row]));
+            let (size, left, most) =
+                (of_rows(&lam), of_rows(&change), largest(lam.iter().copied()));
+            let noise = NOISE * self.force.max(most);
+            if size <= noise {
+                return true;
+            }
+            let Some(step) = eliminate(&mut columns, gap) else { return false };
+            efforts.iter_mut().zip(step).for_each(|(effort, step)| *effort += step);
+            let rounding = noise.max(ROUNDING * most);
+            // the next change, because Newton's method squares the error
+            let next = left * (left / last.min(size)).powi(2);
+            if left.min(next) <= ACCEPTED * size || (left >= last && left <= rounding) {
+                return true;
             }
             last = left;
-            step.into_iter().zip(self.rows).for_each(|(step, row)| lam[*row] += step);
         }
-        Ok(false)
-    }
-
-    /// I - f ∂u′/∂u, by columns.
-    fn columns(&mut self, lam: &[S], factor: S) -> Result<Vec<Vec<S>>, R::Error> {
-        let mut columns = Vec::with_capacity(self.rows.len());
-        for (k, row) in self.rows.iter().enumerate() {
-            let slopes = self.response.slopes(lam, *row)?;
-            let mut column: Vec<S> =
-                self.of(&slopes).into_iter().map(|slope| -(factor * slope)).list();
-            column[k] += S::one();
-            columns.push(column);
-        }
-        Ok(columns)
+        false
     }
 }
 
 /// Solves A x = b, where A is given by its columns. None if the determinant of A is not positive.
 ///
 /// Rows are not exchanged. If A is far from the unit matrix, the factor of the forces takes smaller steps.
-fn eliminate<S: Real>(mut columns: Vec<Vec<S>>, mut b: Vec<S>) -> Option<Vec<S>> {
+fn eliminate<S: Real>(columns: &mut [Vec<S>], mut b: Vec<S>) -> Option<Vec<S>> {
     let n = b.len();
     let mut determinant = S::one();
     for k in 0..n {
@@ -179,8 +352,8 @@ fn eliminate<S: Real>(mut columns: Vec<Vec<S>>, mut b: Vec<S>) -> Option<Vec<S>>
 }
 
 /// Largest magnitude over all entries and lanes. NaN if an entry is NaN.
-pub(super) fn largest<S: Real>(x: &[S]) -> f64 {
+pub(super) fn largest<S: Real>(x: impl Iterator<Item = S>) -> f64 {
     let mut largest = Largest::new();
-    x.iter().for_each(|x| largest.add(*x));
+    x.for_each(|x| largest.add(x));
     largest.get()
 }

@@ -15,8 +15,8 @@ use crate::solve::Breakdown;
 use std::ops::Range;
 
 /// Number of corrections for redundant rows, each of which reduces the error by ten digits, and near singular
-/// positions, where each multiplies the error by ε² / (σ² + ε²). Light bodies and coordinates need at least as many, to
-/// know by which factor a correction reduces the error.
+/// positions, where each multiplies the error by ε² / (σ² + ε²). Without them, one correction is the least: the first
+/// solution is a correction of zero, so the ratio of the two shows by which factor a correction reduces the error.
 const FEWEST: usize = 2;
 /// Largest number of corrections for light bodies and coordinates.
 const MOST: usize = 10;
@@ -83,14 +83,14 @@ pub fn solve<S: Real>(
     solution[at..].copy_from_slice(&b[n..]);
     matrix.solve(&mut solution);
     let (f, right) = b.split_at(n);
-    let outcome = correct((model, motions, matrix), [f, right], &mut solution, memory);
+    let outcome = correct((model, motions, matrix), [f, right], FEWEST, &mut solution, memory);
     x[..n].copy_from_slice(&solution[..n]);
     x[n..].copy_from_slice(&solution[at..]);
     (memory.b, memory.solution) = (b, solution);
     outcome
 }
 
-/// [`correct`] for b of [`Memory::right_side`].
+/// [`correct`] for b of [`Memory::right_side`], without redundant rows.
 pub(super) fn correct_direct<S: Real>(
     at: At<'_, S>,
     solution: &mut [S],
@@ -98,19 +98,20 @@ pub(super) fn correct_direct<S: Real>(
 ) -> Result<(), Breakdown> {
     let b = std::mem::take(&mut memory.b);
     let (f, right) = b.split_at(at.0.layout.n_q);
-    let outcome = correct(at, [f, right], solution, memory);
+    let outcome = correct(at, [f, right], 1, solution, memory);
     memory.b = b;
     outcome
 }
 
 /// Corrects a solution of K x = b with the factors of the matrix. The `solution` has the layout of the matrix, b the
-/// shapes (n_q), (n_rows).
+/// shapes (n_q), (n_rows). At least the `fewest` corrections are made.
 ///
 /// # Errors
 /// A load on a coordinate without mass or inertia that no joint supports.
 pub(super) fn correct<S: Real>(
     of: At<'_, S>,
     b: [&[S]; 2],
+    fewest: usize,
     solution: &mut [S],
     memory: &mut Memory<S>,
 ) -> Result<(), Breakdown> {
@@ -140,7 +141,7 @@ pub(super) fn correct<S: Real>(
         let stays = change.is_nan() || last <= 1.0 && change > 0.5 * last;
         let settled = stays || change * change <= ROUNDING * last.min(1.0);
         last = change;
-        if corrections >= FEWEST && (settled || !settles) {
+        if corrections >= fewest && (settled || !settles) {
             break;
         }
     }

@@ -11,7 +11,7 @@ pub fn static_ratio(model: &Model, k: usize, motions: &Motions, acting: Acting<'
     let at = Situation { mode: Mode::Slides(1.0), ..situation(model, k, motions, acting) };
     let mut slides = [0.0; 3];
     element.results(&at, &mut slides);
-    let ratio = element.limit(&at) / slides[0].abs();
+    let ratio = element.limit(&at).0 / slides[0].abs();
     if ratio.is_finite() {
         ratio
     } else {

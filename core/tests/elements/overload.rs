@@ -43,9 +43,21 @@ impl Force for Overload {
         out[0] = excess(e, at);
     }
 
-    fn action<S: Real>(e: &Overload<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
-        let torque = at.choose(0, excess(e, at), e.torque, S::zero());
-        out.put(0, 0, Wrench::torque(-torque));
-        out.put(0, 1, Wrench::torque(torque));
+    fn effort<S: Real>(e: &Overload<S>, at: &Situation<'_, S>) -> (S, Wrench<S>) {
+        (at.choose(0, excess(e, at), e.torque, S::zero()), Wrench::zero())
+    }
+
+    fn put_effort<S: Real>(
+        _: &Overload<S>,
+        _: &Situation<'_, S>,
+        effort: S,
+        mut out: impl Wrenches<S>,
+    ) {
+        out.put(0, 0, Wrench::torque(-effort));
+        out.put(0, 1, Wrench::torque(effort));
+    }
+
+    fn action<S: Real>(e: &Overload<S>, at: &Situation<'_, S>, out: impl Wrenches<S>) {
+        Self::put_effort(e, at, Self::effort(e, at).0, out);
     }
 }

@@ -31,12 +31,27 @@ impl Force for Rubbing {
         Some(e.joint)
     }
 
-    fn action<S: Real>(e: &Rubbing<S>, at: &Situation<'_, S>, mut out: impl Wrenches<S>) {
-        let squared = at.reaction.force.dot(at.reaction.force);
+    fn effort<S: Real>(e: &Rubbing<S>, at: &Situation<'_, S>) -> (S, Wrench<S>) {
+        let force = at.reaction.force;
+        let squared = force.dot(force);
         let load = S::select(squared, squared.sqrt(), S::zero());
         let rate = at.j().twist.omega - at.i().twist.omega;
-        let torque = -e.arm * load * (rate / e.speed).tanh();
-        out.put(0, 0, Wrench::torque(-torque));
-        out.put(0, 1, Wrench::torque(torque));
+        let per_load = -e.arm * (rate / e.speed).tanh();
+        let slope = force.scale(S::select(squared, per_load / load, S::zero()));
+        (per_load * load, Wrench { force: slope, torque: S::zero() })
+    }
+
+    fn put_effort<S: Real>(
+        _: &Rubbing<S>,
+        _: &Situation<'_, S>,
+        effort: S,
+        mut out: impl Wrenches<S>,
+    ) {
+        out.put(0, 0, Wrench::torque(-effort));
+        out.put(0, 1, Wrench::torque(effort));
+    }
+
+    fn action<S: Real>(e: &Rubbing<S>, at: &Situation<'_, S>, out: impl Wrenches<S>) {
+        Self::put_effort(e, at, Self::effort(e, at).0, out);
     }
 }

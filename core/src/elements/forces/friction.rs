@@ -78,19 +78,27 @@ impl<S: Real> Friction<S> {
         self.times_radius(self.joint.rate(at.i(), at.j()))
     }
 
-    /// The load, N.
-    fn normal(&self, at: &Situation<'_, S>) -> S {
+    /// The load, N, and its derivatives with respect to the reaction.
+    fn normal(&self, at: &Situation<'_, S>) -> (S, Wrench<S>) {
+        let zero = S::zero();
         if let Some(load) = self.load {
-            return S::select(load, load, S::zero());
+            return (S::select(load, load, zero), Wrench::zero());
         }
         let Wrench { force, torque } = at.reaction;
         let squared = force.dot(force);
-        let force = S::select(squared, squared.sqrt(), S::zero());
+        let size = S::select(squared, squared.sqrt(), zero);
+        let along = force.scale(S::select(squared, S::one() / size, zero));
         if !self.joint.holds_angle {
-            return force;
+            return (size, Wrench { force: along, torque: zero });
         }
-        let of_torque = S::constant(2.0) * torque.abs() / self.guide;
-        force.max(S::select(self.guide, of_torque, S::zero()))
+        let per_torque = S::select(self.guide, S::constant(2.0) / self.guide, zero);
+        let of_torque = per_torque * torque.abs();
+        let more = of_torque - size;
+        let slope = Wrench {
+            force: along.scale(S::select(more, zero, S::one())),
+            torque: S::select(more, S::select(torque, per_torque, -per_torque), zero),
+        };
+        (size.max(of_torque), slope)
     }
 
     /// μ at a speed.
@@ -119,9 +127,8 @@ impl<S: Real> Friction<S> {
         if at.mode.holds() {
             return [-at.multiplier, S::zero()];
         }
-        let speed = self.speed(at);
-        let dry = self.normal(at) * self.coefficient(speed) * self.sense(speed, at.mode);
-        [-self.times_radius(dry), -self.times_radius(self.viscous * speed)]
+        let viscous = -self.times_radius(self.viscous * self.speed(at));
+        [<Friction as Force>::effort(self, at).0, viscous]
     }
 
     /// Adds an effort on body j, and the opposite effort on body i.
@@ -159,6 +166,21 @@ impl Force for Friction {
         e.load.is_none().then_some(e.joint.joint)
     }
 
+    fn effort<S: Real>(e: &Friction<S>, at: &Situation<'_, S>) -> (S, Wrench<S>) {
+        let speed = e.speed(at);
+        let per_load = -e.times_radius(e.coefficient(speed) * e.sense(speed, at.mode));
+        times(e.normal(at), per_load)
+    }
+
+    fn put_effort<S: Real>(
+        e: &Friction<S>,
+        at: &Situation<'_, S>,
+        effort: S,
+        mut out: impl Wrenches<S>,
+    ) {
+        e.put(DRY, effort, at, &mut out);
+    }
+
     fn arms<S: Real>(e: &Friction<S>, at: &Situation<'_, S>) -> Option<[Vec2<S>; 2]> {
         Some(e.arms_of_bodies(at))
     }
@@ -179,7 +201,7 @@ impl Force for Friction {
     fn results<S: Real>(e: &Friction<S>, at: &Situation<'_, S>, out: &mut [S]) {
         let [dry, viscous] = e.efforts(at);
         let sticks = if at.mode.holds() { S::one() } else { S::zero() };
-        out.copy_from_slice(&[dry + viscous, e.normal(at), sticks]);
+        out.copy_from_slice(&[dry + viscous, e.normal(at).0, sticks]);
     }
 
     fn behaviour<S: Real>(e: &Friction<S>) -> Option<Behaviour<S>> {
@@ -190,8 +212,8 @@ impl Force for Friction {
         e.speed(at)
     }
 
-    fn limit<S: Real>(e: &Friction<S>, at: &Situation<'_, S>) -> S {
-        e.times_radius(e.r#static.unwrap_or(e.kinetic) * e.normal(at))
+    fn limit<S: Real>(e: &Friction<S>, at: &Situation<'_, S>) -> (S, Wrench<S>) {
+        times(e.normal(at), e.times_radius(e.r#static.unwrap_or(e.kinetic)))
     }
 
     fn holding(e: &Friction<Tape>, _: f64, value: f64) -> Option<Constraint<Tape>> {
@@ -226,6 +248,11 @@ impl Force for Friction {
             .or_else(|| positive("velocity", e.velocity))
             .or_else(|| negative("load", e.load.unwrap_or(0.0)))
     }
+}
+
+/// A load with its derivatives, times a factor.
+fn times<S: Real>((load, slope): (S, Wrench<S>), factor: S) -> (S, Wrench<S>) {
+    (factor * load, Wrench { force: slope.force.scale(factor), torque: factor * slope.torque })
 }
 
 fn must(be: &str) -> String {

@@ -7,7 +7,7 @@
 use super::super::model_cache::ModelCache;
 use super::super::redundant_rows::workspace_at;
 use super::place::{drivers_rest, largest, mode_of, StateAt, STILL};
-use crate::analyses::mobility;
+use crate::analyses::mobility::{self, mobility};
 use crate::elements::{Behaviour, Mode};
 use crate::equations::constraints;
 use crate::equations::forces::{self, Acting};
@@ -30,8 +30,7 @@ pub(super) fn independent(
     let all: Vec<ForceMode> = candidates.iter().map(holds).list();
     let [q, ..] = place.state(model);
     let phase = model.in_modes(&all);
-    let found = mobility(&phase, place.t, q);
-    if found.redundant.is_empty() && found.singular.is_empty() {
+    if mobility::dependent_equations(&phase, place.t, q, &|| false).is_empty() {
         let row = |own: &ForceMode| phase.forces[own.force].held_row.expect("it holds");
         let with_value =
             |own: &ForceMode| ForceMode { value: value_of(&phase, place, row(own)), ..*own };
@@ -43,18 +42,14 @@ pub(super) fn independent(
         let mut tried = held.clone();
         tried.push(own);
         let phase = model.in_modes(&tried);
-        let found = mobility(&phase, place.t, q);
+        let found = mobility::dependent_equations(&phase, place.t, q, &|| false);
         let row = phase.forces[own.force].held_row.expect("it holds");
         let last = phase.layout.owner(row).0;
-        let group = found.redundant.iter().chain(&found.singular).find(|of| of.contains(&last));
-        match group {
-            None => {
-                let value = value_of(&phase, place, row);
-                held.push(ForceMode { value, ..own });
-            }
-            Some(_) => {
-                others.push(dependent(model, place, &held, (own.force, mode_of(free, own.force))))
-            }
+        if found.iter().any(|of| of.group.contains(&last)) {
+            others.push(dependent(model, place, &held, (own.force, mode_of(free, own.force))));
+        } else {
+            let value = value_of(&phase, place, row);
+            held.push(ForceMode { value, ..own });
         }
     }
     held.extend(others);
