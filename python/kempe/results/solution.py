@@ -28,7 +28,7 @@ from kempe.results.runs import REACHED, STATUS, PartialRun, StoredRun
 from kempe.results.saving import save
 from kempe.results.state import State
 from kempe.results.summary import summary
-from kempe.results.table import Extent, dataframe, write_csv
+from kempe.results.table import Extent, dataframe, dataset, write_csv
 from kempe.results.variable import TIME, Variable
 
 if TYPE_CHECKING:
@@ -304,7 +304,11 @@ class Solution(Motion):
         return Energy(found)
 
     def to_dataframe(
-        self, *, frames: Sequence[Frame] = ("global",), points: Sequence[str] | bool = ()
+        self,
+        *,
+        frames: Sequence[Frame] = ("global",),
+        points: Sequence[str] | bool = (),
+        index: bool = False,
     ) -> pandas.DataFrame:
         """A pandas data frame with a column for each quantity, such as ``rocker.angle``.
 
@@ -313,11 +317,26 @@ class Solution(Motion):
         Args:
             frames: frames of the reactions, as in ``to_csv``.
             points: points whose paths are columns, as in ``to_csv``.
+            index: whether the time or driven quantity is the index instead of the first column.
 
         Raises:
             ModelError: pandas is not installed, or there is no such frame or point.
         """
-        return dataframe(self, Extent(frames, points))
+        found = dataframe(self, Extent(frames, points))
+        return found.set_index(self.variable.name) if index else found
+
+    def to_xarray(
+        self, *, frames: Sequence[Frame] = ("global",), points: Sequence[str] | bool = ()
+    ) -> Any:
+        """An xarray ``Dataset`` over the time or driven quantity; see ``to_dataframe``.
+
+        Each variable has the attributes of its column: ``units``, and ``choice`` and ``condition``
+        where the value has one.
+
+        Raises:
+            ModelError: xarray is not installed, or there is no such frame or point.
+        """
+        return dataset(self, Extent(frames, points))
 
     def to_csv(
         self,

@@ -197,7 +197,8 @@ def kinetic_energy(motion: Motion) -> Floats:
 
 def _is_driven(model: CompiledModel) -> bool:
     """Whether drivers determine the motion, so that nothing can settle."""
-    return model.is_plain and model.n_rows == model.n_q
+    plain = model.redundancy == "refuse" and not model.released
+    return plain and model.n_rows == model.n_q
 
 
 def settling_of(sampled: Sampled, name: str) -> dict[str, Any]:

@@ -6,7 +6,7 @@ import io
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -159,6 +159,24 @@ def dataframe(solution: Solution, extent: Extent | None = None) -> pandas.DataFr
     frame.attrs["choices"] = {column.name: column.choice for column in table if column.choice}
     frame.attrs["conditions"] = {one.name: one.condition for one in table if one.condition}
     return frame
+
+
+def dataset(solution: Solution, extent: Extent | None = None) -> Any:
+    """The columns as an xarray dataset over the first one."""
+    try:
+        import xarray
+    except ImportError as error:
+        raise ModelError(
+            "to_xarray needs xarray, which is not installed", hint="pip install 'kempe[xarray]'"
+        ) from error
+    first, *others = columns(solution, extent)
+
+    def variable(one: Column) -> tuple[str, Floats, dict[str, str]]:
+        known = {"units": one.unit, "choice": one.choice, "condition": one.condition}
+        return first.name, one.values, {key: text for key, text in known.items() if text}
+
+    found = {one.name: variable(one) for one in others}
+    return xarray.Dataset(found, {first.name: variable(first)}, {"title": solution.compiled.title})
 
 
 def write_csv(solution: Solution, path: Path | str, extent: Extent | None = None) -> None:
