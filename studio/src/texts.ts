@@ -1,6 +1,7 @@
 // All English texts of the studio and its worker, with drawingTexts.ts, and with playerTexts.ts those of the player. Names of types, their
 // fields and their descriptions come from the catalogue. Each bundle contains only the parts that it imports.
-import { drawingTexts } from "./drawingTexts";
+import { coreTexts } from "./coreTexts";
+import { atPlace, edit, labels, machines, place, stems } from "./drawingTexts";
 import { ARROWS_ON, forces, ON_ALL } from "./playerTexts";
 
 export * from "./playerTexts";
@@ -9,21 +10,16 @@ const variable = (name: string) => (name === "t" ? "the time" : name);
 
 const NAME = "kempe studio";
 
-/** Of the worker, and of the page about the worker. */
-export const coreTexts = {
-  trapped: "The core stopped and was started again. The text is unchanged.",
-  tooLarge: "The text has more than 2 MB. It was not opened; use kempe run.",
-  replaced: "Another text was opened before this one was read.",
-  tooLong: "The computation took too long and was ended. The text is unchanged.",
-  notConnected: "The core is not connected.",
-  notReady: "The core is not ready.",
-} as const;
-
 /** Of studio/index.html, which the build puts in. */
 export const studioPage = { title: NAME, noScript: "The studio needs JavaScript." } as const;
 
 export const texts = {
-  ...drawingTexts,
+  atPlace,
+  edit,
+  labels,
+  machines,
+  place,
+  stems,
   name: NAME,
   starting: "The core starts …",
   failed: "The core could not start. This page needs a browser with WebAssembly and DecompressionStream.",

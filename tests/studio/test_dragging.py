@@ -88,7 +88,10 @@ def test_a_drag_along_a_length_changes_this_length_only(studio: Opener) -> None:
     text = one.toml()
     before = one.tree()
     angle = math.radians(70)
-    now = flagship(one, "crank.B", (30 * math.cos(angle), -30 * math.sin(angle)))
+    # a hand does not move along a line: 3 px aside
+    aside = (3 * math.sin(angle), 3 * math.cos(angle))
+    along = (30 * math.cos(angle), -30 * math.sin(angle))
+    now = flagship(one, "crank.B", (along[0] + aside[0], along[1] + aside[1]))
     assert "L1 = " in note(one)
     scale = math.dist(one.screen(0, 0), one.screen(1, 0))
     assert now["L1"] == pytest.approx(10 + 30 / scale, abs=2 / scale)

@@ -174,7 +174,7 @@ def test_a_file_is_written_in_its_place(fresh: Opener) -> None:
     one.settle()
     assert one.call("window.written['mechanism.toml']") == one.toml()
     assert "Saved in mechanism.toml" in one.message()
-    text = draw_a_bar(one)  # New begins without the file
+    draw_a_bar(one)  # New begins without the file
     one.call("() => { window.closes = true }")
     one.page.keyboard.press("Control+s")
     one.settle()
@@ -184,7 +184,7 @@ def test_a_file_is_written_in_its_place(fresh: Opener) -> None:
     one.page.keyboard.press("Control+s")
     one.settle()
     assert one.call("window.asked") == 3  # the file is known then
-    assert one.call("window.written['bar.toml']") == text
+    assert one.call("window.written['bar.toml']") == one.toml()
     one.call(
         "text => { window.written['mine.toml'] = text }",
         Path(PAGE.parents[2] / "examples" / "pendulum.toml").read_text(),

@@ -1,6 +1,6 @@
 // The worker holds the core and answers one request after the other.
 import { XzReadableStream } from "xz-decompress";
-import { coreTexts } from "../texts";
+import { coreTexts } from "../coreTexts";
 import { type Core, instantiate } from "./memory";
 import { unpacked } from "./unpack";
 

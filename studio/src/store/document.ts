@@ -22,6 +22,8 @@ export interface Step {
 
 /** Texts kept for undoing; a text is at most 2 MB. */
 const MOST = 200;
+/** The letters of all texts for undoing. */
+const MOST_LETTERS = 2e7;
 /** Changes typed within this time are one step of the history, ms. */
 const PAUSE = 900;
 
@@ -90,7 +92,14 @@ export async function type(given: string): Promise<void> {
 }
 
 function remember(before: string): void {
-  past.value = [...past.value.slice(1 - MOST), present(before)];
+  const steps = [...past.value.slice(1 - MOST), present(before)];
+  let size = 0;
+  let first = steps.length;
+  while (first > 0 && size < MOST_LETTERS) {
+    first -= 1;
+    size += steps[first]!.text.length;
+  }
+  past.value = steps.slice(first);
   future.value = [];
 }
 

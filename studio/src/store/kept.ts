@@ -26,6 +26,8 @@ interface Kept {
 
 /** Pages of other addresses are other work. */
 const KEY = `kempe.work ${location.pathname}`;
+/** The history is stored up to this number of letters. */
+const MOST = 500_000;
 /** Work is stored at most so often, ms. */
 const PAUSE = 200;
 
@@ -52,13 +54,22 @@ function changeOf(step: Step, base: string): Delta {
   return change;
 }
 
-/** The steps of a list, each as a change of the one after it, the last one of the present text. */
+/** The newest steps of a list, each as a change of the one after it, the last one of the present text. */
 function packed(steps: Step[]): Kept["past"] {
-  return steps.map((step, k) => ({
-    change: changeOf(step, steps[k + 1]?.text ?? text.value),
-    file: step.file.name,
-    opening: step.opening,
-  }));
+  const found: Kept["past"] = [];
+  let base = text.value;
+  let size = 0;
+  for (const step of [...steps].reverse()) {
+    // texts that differ everywhere are not compared
+    size += Math.abs(step.text.length - base.length);
+    if (size > MOST) break;
+    const change = changeOf(step, base);
+    size += change[2].length;
+    if (size > MOST) break;
+    found.push({ change, file: step.file.name, opening: step.opening });
+    base = step.text;
+  }
+  return found.reverse();
 }
 
 function unpacked(steps: Kept["past"], present: string): Step[] {
@@ -70,30 +81,30 @@ function unpacked(steps: Kept["past"], present: string): Step[] {
   return found.reverse();
 }
 
-/** Store the work. If it is too much for the browser, older steps of the history are left out. */
+/** Store the work. If it is too much for the browser, the history is left out. */
 function store(): void {
   if (!text.value) return;
   const { center, moved } = view;
   const zoom = view.scale / view.fitted();
-  for (let n = past.value.length; n >= 0; n = n > 0 ? n >> 1 : -1) {
-    const kept: Kept = {
-      tab,
-      source,
-      text: text.value,
-      file: file.value.name,
-      opening: openings.value,
-      past: packed(past.value.slice(past.value.length - n)),
-      future: n > 0 || !past.value.length ? packed(future.value) : [],
-      mode: mode.value,
-      view: moved ? { center, zoom } : null,
-      units: units.value,
-      held: [...held.value],
-    };
+  const kept: Kept = {
+    tab,
+    source,
+    text: text.value,
+    file: file.value.name,
+    opening: openings.value,
+    past: packed(past.value),
+    future: packed(future.value),
+    mode: mode.value,
+    view: moved ? { center, zoom } : null,
+    units: units.value,
+    held: [...held.value],
+  };
+  for (const part of [kept, { ...kept, past: [], future: [] }]) {
     try {
-      sessionStorage.setItem(KEY, JSON.stringify(kept));
+      sessionStorage.setItem(KEY, JSON.stringify(part));
       return;
     } catch {
-      // With fewer steps it may fit; a browser may have no storage at all.
+      // A browser may have no storage at all.
     }
   }
 }

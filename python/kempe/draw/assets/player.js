@@ -391,113 +391,7 @@ function nameOf(title2, what) {
   return `${words.join("_").slice(0, 40)}${what}`;
 }
 
-// src/drawingTexts.ts
-var things = {
-  body: "a body, or empty ground",
-  curve: "a body with a curve",
-  coordinate: "a body or a joint that moves"
-};
-var roles = {
-  revolute: ["the first of two points to pin", "the point of the other body"],
-  translational: ["the guide: a body, or the ground", "the body that slides along it"],
-  pin_in_slot: ["the body with the slot, or the ground", "the pin, a point of another body"],
-  gear: ["the first wheel", "the second wheel"],
-  belt: ["the first wheel", "the second wheel"],
-  rack: ["the rack: a body, or the ground", "the pinion"],
-  rolling: ["the line: a body, or the ground", "the wheel that rolls on it"],
-  point_on_curve: ["the point that follows a curve", "the body with the curve"],
-  roller_on_curve: ["the centre of the roller", "the body with the curve"],
-  flat_on_curve: ["a point of the flat face", "the body with the curve"],
-  contact: ["the point that touches", "the body with the curve"],
-  coordinate_driver: ["the body or joint that is driven"],
-  generalized_force: ["the body or joint on which it acts"],
-  stop: ["the body or joint that is stopped"],
-  torque: ["the body that it turns"],
-  motor: ["the rotor"],
-  force: ["the point where it acts"],
-  friction: ["the joint"],
-  coupling: ["the first body or joint that moves", "the second one"]
-};
-var ENDS = ["its first end", "its second end"];
-var role = (type, k, n, shape) => roles[type]?.[k] ?? (n === 2 ? ENDS[k] : things[shape] ?? `a ${shape}`);
-var drawingTexts = {
-  edit: {
-    fixed: (body, point) => `${body}.${point} does not follow: a length or a formula of the text determines it.`,
-    changes: (names) => `A drag changes ${names}.`,
-    instead: "Instead:",
-    meets: (point) => `Pinned to ${point} when you let go; hold alt to leave it free.`,
-    locked: (body, point) => `${body}.${point} cannot be dragged: joints, drivers and contacts determine its place, and no number of ${body} moves it.`,
-    heldPoint: (body, point) => `${body}.${point} is kept while drawing: see the properties of ${body}.`,
-    place: (body) => `Place ${body} by its points`,
-    noLength: (unit) => `A length is greater than 0: a number in ${unit}, a number with its unit, or a formula.`,
-    lengthHint: (unit) => `A number in ${unit}, a number with its unit such as 800 mm, or a formula in m such as 0.5*2`,
-    noNotation: "This is not a value in the notation of the file.",
-    notKept: (body) => `With this length of ${body} the bodies beside it cannot keep theirs; they were changed.`,
-    noMirror: (body) => `${body} cannot be mirrored: it must be placed by points, without shapes, outlines and curves.`,
-    invalidName: (name) => `“${name}” cannot be a name: a name has letters, digits and _ and is used once; that of a parameter has letters from a to z.`
-  },
-  place: {
-    first: (label, placing) => placing === "fixed" ? `${label}: click where the fixed point is.` : placing === "one" ? `${label}: click where it is.` : placing === "slider" ? `${label}: click where the block is: a point that it carries, its guide, or the ground.` : `${label}: click its first point. An existing point is joined by a pin.`,
-    next: (label, placing) => placing === "many" ? `${label}: click the next point; double click or enter finishes.` : placing === "slider" ? `${label}: click the direction of the guide.` : `${label}: click its second point, or type a length.`,
-    choose: (label, type, k, n, shape) => `${label}: click ${role(type, k, n, shape)}.`,
-    wanted: (shape, type, k, n) => `There is no ${shape === "coordinate" ? "moving part" : shape} here. Click ${role(type, k, n, shape)}.`,
-    role,
-    same: (body, wanted) => `This is ${body} again. Click ${wanted}, on another body.`,
-    notGround: (wanted) => `The ground does not move. Click ${wanted}.`,
-    swap: "Swap the two sides",
-    addCurve: (body) => `Add a curve to ${body}`,
-    held: (owner) => `${owner} cannot be driven here: the joints and drivers leave it no freedom. Click another body or joint.`,
-    added: (label, name) => `${label} “${name}” added.`,
-    incomplete: (label, name, problem) => `${label} “${name}” added. Problem: ${problem}`
-  },
-  machines: {
-    slider: "A block on a straight guide of the ground or of a body; a point at its place is pinned to it",
-    cylinder: "A barrel and its rod between two points, with a driver of its length"
-  },
-  /** Words for types whose names in the file are not plain words, and the start of the names of new entries. */
-  labels: {
-    coordinate_driver: "Driver",
-    spring_damper: "Spring, damper",
-    translational: "Slide",
-    generalized_force: "Effort",
-    constraint: "Formula"
-  },
-  stems: {
-    slider: "block",
-    cylinder: "barrel",
-    coordinate_driver: "driver",
-    spring_damper: "spring",
-    torsion_spring: "spring",
-    translational: "slide",
-    pin_in_slot: "slot",
-    generalized_force: "effort",
-    point_on_curve: "follower",
-    roller_on_curve: "roller",
-    flat_on_curve: "flat",
-    point_mass: "mass"
-  },
-  atPlace: {
-    sheet: "Empty sheet",
-    groundPoint: "Fixed point here",
-    pointHere: "Add a point here",
-    properties: "Properties",
-    drive: "Drive it",
-    fixed: "Nothing here can move.",
-    pin: "Pin here",
-    alone: "Only one body has a point here.",
-    pinned: "The bodies are pinned here.",
-    keep: "Keep this point while drawing, or release it",
-    copy: "Copy",
-    paste: "Paste",
-    nothing: "Nothing was copied.",
-    one: "There is only one ground.",
-    ground: "The ground cannot be deleted."
-  }
-};
-
 // src/playerTexts.ts
-var ARROWS_ON = "Arrows on";
-var ON_ALL = "all bodies";
 var forces = (condition) => `forces ${condition}`;
 var playerTexts = {
   linkage: "Linkage",
@@ -540,330 +434,6 @@ var playerTexts = {
   acting: { reactions: (part) => `Reaction ${part}`, forces: (part) => `Element ${part}` },
   parts: { force: "force", force_x: "force x", force_y: "force y", torque: "torque" },
   channels: { coordinates: "Coordinate", states: "State", energy: "Energy", accuracy: "Residual |Φ|" }
-};
-
-// src/texts.ts
-var variable = (name) => name === "t" ? "the time" : name;
-var NAME = "kempe studio";
-var coreTexts = {
-  trapped: "The core stopped and was started again. The text is unchanged.",
-  tooLarge: "The text has more than 2 MB. It was not opened; use kempe run.",
-  replaced: "Another text was opened before this one was read.",
-  tooLong: "The computation took too long and was ended. The text is unchanged.",
-  notConnected: "The core is not connected.",
-  notReady: "The core is not ready."
-};
-var texts = {
-  ...drawingTexts,
-  name: NAME,
-  starting: "The core starts …",
-  failed: "The core could not start. This page needs a browser with WebAssembly and DecompressionStream.",
-  core: coreTexts,
-  modesName: "Mode",
-  modes: { edit: "Edit", move: "Move", live: "Live", read: "Read" },
-  modeHints: {
-    edit: "Draw and change the geometry (1)",
-    move: "Drag the mechanism; every length is kept (2)",
-    live: "Let it move under its forces (3)",
-    read: "Run an analysis and read its results (4)"
-  },
-  playback: { play: "Play", pause: "Pause", speed: "Speed", time: "Time" },
-  files: {
-    csv: "CSV",
-    npz: "NPZ",
-    png: "PNG",
-    svg: "SVG",
-    gif: "GIF",
-    saved: (name) => `Saved in ${name}.`,
-    copied: (name) => `This tab is a copy of another open tab. Changes here do not change the other one; the file of this one is ${name}.`
-  },
-  untitled: "Untitled mechanism",
-  menu: { new: "New", open: "Open", save: "Save", gallery: "Gallery", share: "Share", undo: "Undo", redo: "Redo" },
-  menuHints: {
-    open: "Open a case file (ctrl O)",
-    save: "Save the case as TOML (ctrl S; in another file: ctrl shift S)",
-    undo: "Undo (ctrl Z)",
-    redo: "Redo (ctrl shift Z)",
-    gallery: "Examples to start from",
-    share: "A link that holds the whole model"
-  },
-  groups: { bodies: "Bodies", joints: "Joints", drivers: "Drivers", forces: "Forces" },
-  palette: { title: "Insert", select: "Select and drag" },
-  tabs: { insert: "Insert", properties: "Properties", text: "Text", results: "Results" },
-  sheet: {
-    shown: { names: "Names", numbers: "Numbers", grid: "Grid", traces: "Paths" },
-    label: (name) => `Drawing of ${name}`,
-    zoomIn: "Zoom in (+)",
-    zoomOut: "Zoom out (−)",
-    fit: "Fit",
-    fitHint: "Show everything (0)",
-    snap: "Snap",
-    snapHint: "Snap to the grid and to multiples of 15°; hold alt to place freely",
-    pngHint: "Save the drawing as PNG",
-    svgHint: "Save the drawing as SVG",
-    gifHint: "Save the motion as a GIF, at the speed of the playback",
-    gifProgress: (percent) => `GIF ${percent} % ×`,
-    gifCancel: "Cancel the GIF",
-    length: (unit) => `Length / ${unit}`,
-    finish: "Finish",
-    stop: "Cancel"
-  },
-  properties: {
-    case: "Mechanism",
-    title: "Title",
-    gravity: "Gravity",
-    parameters: "Parameters",
-    addParameter: "Add a parameter",
-    parameterName: "Name of the parameter",
-    elements: "Contents",
-    nothing: "An empty sheet. Choose a body among the tools and click two places, or open an example.",
-    analyses: "Analyses",
-    addAnalysis: "Add an analysis",
-    startSet: "Prescribed at the start",
-    startName: "Coordinate or rate to prescribe at the start",
-    startValue: "Its value",
-    addStart: "Prescribe at the start",
-    startExamples: ["crank.angle", "70*deg"],
-    name: "Name",
-    point: "Point",
-    position: "Position",
-    remove: "Delete",
-    removeHint: "Delete (del)",
-    addPoint: "Add a point",
-    addPointHint: "A point beside the middle; drag it to its place. Read draws its path",
-    addCurve: "Add a curve",
-    addCurveHint: "A circle around the body, or a line on the ground; type its form in “curves”",
-    copy: "Duplicate",
-    mirror: "Mirror",
-    mirrorHint: "Mirror at the vertical line through its middle",
-    required: "required",
-    back: "All contents",
-    length: "Length now",
-    bodyLength: "length",
-    results: "Now",
-    held: "Kept while drawing",
-    lengths: "lengths",
-    angle: "angle",
-    absent: "–"
-  },
-  measures: {
-    title: "Measures",
-    add: "Measure a quantity, such as C.force",
-    numbers: (peak, mean, final) => `peak ${peak}, mean ${mean}, last ${final}`
-  },
-  outline: {
-    open: "Outline from SVG …",
-    hint: "The paths of a file become the outline; a unit of the file is a millimetre unless its width has a unit",
-    unreadable: (file) => `${file} has no path that can be read. Convert its shapes to paths and apply their transforms.`
-  },
-  picture: {
-    title: "Picture behind the drawing",
-    open: "Open a picture …",
-    unreadable: (file) => `${file} is not a picture that the browser can show.`,
-    opacity: "Opacity",
-    scale: "Scale by two points",
-    first: "Click the first of two points of the picture whose distance you know; arrow keys and space do so, too.",
-    second: "Click the second point.",
-    distance: (unit) => `Their distance / ${unit}`,
-    move: "Move",
-    moveHint: "Drag the picture on the sheet; esc ends this",
-    angle: "Rotation",
-    apply: "Apply",
-    remove: "Remove the picture"
-  },
-  editor: {
-    label: "Text of the case in TOML",
-    problems: (n) => `${n} ${n === 1 ? "problem" : "problems"}`
-  },
-  status: {
-    freedom: (n) => `${n} ${n === 1 ? "degree" : "degrees"} of freedom`,
-    redundant: (n) => `${n} redundant ${n === 1 ? "equation" : "equations"}`,
-    singular: "singular position",
-    open: "does not close",
-    at: (line, column) => column ? `line ${line}, column ${column}` : `line ${line}`,
-    warnings: (n) => `${n} ${n === 1 ? "warning" : "warnings"}`,
-    bodies: (n) => `${n} moving ${n === 1 ? "body" : "bodies"}`,
-    dismiss: "Dismiss",
-    undo: "Undo the last change"
-  },
-  move: {
-    hint: "Drag a point or a body. Every length is kept.",
-    speeds: "Speeds of the drivers",
-    speedHint: "A number with its unit, such as 10 rpm or 30 mm/s, or a formula",
-    configurations: "Assembly modes",
-    find: "Find all assembly modes",
-    only: "This is the only configuration with the present free coordinates.",
-    complete: "All modes were found.",
-    partial: "There may be more modes.",
-    mode: (k) => `Mode ${k}`,
-    locked: "Held during a drag",
-    reset: "Back to the start",
-    play: "Play the drivers",
-    mobility: "Mobility",
-    moreLoops: (n) => `… and ${n} more loops of four bars`,
-    count: (n, complete) => complete ? String(n) : `at least ${n}`,
-    freedom: "Degrees of freedom",
-    redundant: "Redundant equations",
-    gruebler: "Grübler count",
-    rank: "Rank of the constraints",
-    fourBar: (pins, kind, turning) => `${pins}: ${kind}${turning ? `; turns fully: ${turning}` : ""}`
-  },
-  live: {
-    energies: { kinetic: "Kinetic", potential: "Potential", dissipated: "Dissipated", work: "Work of drivers" },
-    step: "One step (1/60 s)",
-    restart: "Back to the start",
-    hint: "Pull at a body with the mouse, or at the selected one with the arrow keys.",
-    pulled: (body) => `The arrow keys pull at ${body}; esc lets go.`,
-    energy: "Energy",
-    balance: "Relative error of the balance",
-    residual: "Residual of the joints",
-    parameters: "Parameters",
-    event: (names) => `Event: ${names}`
-  },
-  read: {
-    arrows: { reactions: "Reactions", force: "Forces", velocities: "Velocities", accelerations: "Accelerations" },
-    run: "Run",
-    running: "Running …",
-    analysis: "Analysis",
-    defaults: "from this pose",
-    on: (body) => `on ${body}`,
-    end: "End / s",
-    over: "over a quantity",
-    quantityOver: "Quantity on the axis",
-    ends: ["from", "to"],
-    noRange: "The range is not complete. Write its first and its last value.",
-    forces,
-    overNote: (name, condition) => `Rates are derivatives by ${name}. Forces, torques and powers are those ${condition}.`,
-    notUnique: (names) => `* Not unique: of the possible reactions of redundant joints, the smallest are shown (minimum norm): ${names.join(", ")}.`,
-    done: (count, name, end) => `${count} states up to ${name} = ${end}`,
-    begun: (names) => `The motion begins here: the law of ${names} was changed. Undo restores it.`,
-    stops: (owner, value, reason) => `${owner} stops at ${value}: ${reason}.`,
-    swings: (text) => `${text} It swings between its ends now; undo restores the former law.`,
-    swing: "Swing between the ends",
-    singular: (time, names) => `A dead point${time ? ` at ${time}` : ""}: ${names} do not determine how the mechanism goes on.`,
-    undetermined: "The motion ends here: in this position it is not determined how the mechanism goes on.",
-    none: "Run an analysis to read its results.",
-    found: "The result is beside the drawing.",
-    findings: "Result",
-    nothing: "The result has no values.",
-    position: "Position",
-    drawn: (name) => `Drawn: ${name}`,
-    plots: "Plots",
-    addPlot: "Add plot",
-    others: "Measures and angles",
-    addQuantity: "Add a quantity …",
-    compare: "Compare …",
-    compareHint: "Open a stored run (solution.npz of kempe run, or NPZ of this page); its curves are dashed",
-    compared: (file, n) => `${n} quantities of ${file} are compared.`,
-    notCompared: (file) => `${file} is not a stored run of a mechanism with these bodies.`,
-    stored: "stored",
-    otherAxis: (own, present, positions) => `The stored run is over ${variable(own)}, the plots are over ${variable(present)}. ${positions ? "Only its positions are drawn." : `It is not drawn. A run over ${variable(own)} can be compared.`}`,
-    endComparison: (file) => `End the comparison with ${file}`,
-    csvHint: "Save the plotted curves as CSV, in SI units and rad",
-    npzHint: "Save times, poses and plotted quantities for NumPy",
-    pngHint: "Save the plots as PNG",
-    svgHint: "Save the plots as SVG",
-    plotOf: (names) => `Plot of ${names}; + and − stretch it, 0 shows all of it`,
-    log: "log",
-    logHint: "Logarithmic axis",
-    onBody: ARROWS_ON,
-    onAll: ON_ALL,
-    peak: "peak"
-  },
-  units: {
-    title: "Units of the display",
-    length: "Lengths",
-    lengthHint: "Unit of typed lengths, readings, plots and tables; with m, small values are written in mm",
-    degrees: "° and rpm"
-  },
-  gallery: { title: "Examples", close: "Close", open: "Open" },
-  ready: {
-    title: "What can be computed",
-    yes: "ready",
-    add: (label) => `add a ${label.toLowerCase()}`,
-    text: "show the text",
-    notSingle: (freedom) => freedom === 0 ? "nothing can move; limits need a degree of freedom" : `${freedom} degrees of freedom are left; limits need drivers for all but one`,
-    names: {
-      assembly: "Assembly",
-      dynamics: "Dynamics",
-      kinematics: "Kinematics",
-      inverse_dynamics: "Inverse dynamics",
-      equilibrium: "Equilibrium",
-      modes: "Modes",
-      limits: "Limits"
-    }
-  },
-  share: {
-    title: "Share",
-    text: "The link holds the whole model, compressed. Nothing is sent to anyone until you send the link.",
-    length: (n, most) => `${n} of at most ${most} characters`,
-    tooLong: (n, most) => `The model needs ${n} characters; a link has at most ${most}. Save the file and send it instead.`,
-    copy: "Copy the link",
-    copied: "The link was copied.",
-    damaged: "The link is damaged or too long; it was not opened.",
-    pageTitle: "As a page",
-    page: "One file with this mechanism and the whole studio, for a lecture, a disk or any web server. It needs no network.",
-    savePage: "Save as a page"
-  },
-  help: {
-    title: "Keys and help",
-    licences: "Licences of the software in this page",
-    keys: [
-      ["1 2 3 4", "edit, move, live, read"],
-      ["ctrl Z, ctrl shift Z", "undo, redo"],
-      ["ctrl S, ctrl shift S, ctrl O", "save, save in another file, open"],
-      ["ctrl C, ctrl V", "copy and paste the selected body"],
-      ["del", "delete the selection"],
-      ["esc", "end the tool, clear the selection; in Live, let go"],
-      ["enter", "finish a body with several points"],
-      ["digits", "length of the line that is being drawn"],
-      [
-        "arrow keys",
-        "move the selected point; with a tool, the place of the next click; in Move, the body; in Live, pull at it"
-      ],
-      ["shift arrow keys", "move the sheet"],
-      ["alt", "place and drag freely, without snapping and pins"],
-      ["+ − 0", "zoom in, out, show everything"],
-      ["space", "play, pause; with a tool or to scale a picture, click at the place that the arrow keys move"],
-      ["right click, long press", "what is possible at this place"],
-      ["wheel, two fingers", "zoom; drag the empty sheet to move it"]
-    ]
-  },
-  hints: {
-    dismiss: "Hide this hint",
-    all: {
-      edit: "Drag a point to change the geometry; everything that is pinned there follows.",
-      move: "Drag the mechanism; arrow keys push the selected body.",
-      live: "Hold a body with the mouse, or press the arrow keys, to pull at it; space pauses.",
-      read: "The slider below the drawing shows any time of the run; curves follow.",
-      two: "Type digits after the first click for an exact length; begin at a point to pin the bar there.",
-      many: "Click all points of the body; enter or a double click finishes it.",
-      one: "Click where the mass is; on a point it is pinned there.",
-      fixed: "Each click makes a fixed point; a body that begins there is pinned to ground.",
-      reference: "The line below the drawing names what to click next; esc begins again."
-    }
-  },
-  guide: {
-    title: "A first four-bar linkage",
-    begin: "Build a four-bar step by step",
-    replaces: "It begins on an empty sheet. Undo brings back what you have drawn.",
-    skip: "Skip",
-    leave: "Leave",
-    end: "Done",
-    count: (k, n) => `${k}/${n}`,
-    mode: (name) => `Switch to “${name}”.`,
-    tool: (label, step) => `Choose the tool “${label}”: follow the dashed frame.${step === "driver" ? " It turns the crank." : ""}`,
-    steps: {
-      ground: "Click two fixed points. They hold the linkage.",
-      crank: "Draw the crank: click a fixed point, then its free end. The bar is pinned where it begins.",
-      coupler: "Draw the coupler: from the end of the crank to a new point.",
-      rocker: "Draw the rocker: from the end of the coupler to the other fixed point. The loop closes.",
-      driver: "Click the crank. The driver turns it ten times in each minute; the parameter of its speed can be changed.",
-      move: "Drag the end of the crank around. Every length is kept.",
-      live: "The driver turns the crank. Pull at a bar and watch the energy.",
-      read: "The analysis is done: paths on the sheet, curves at the side. Tick “Reactions” for the forces in the pins."
-    }
-  }
 };
 
 // src/draw/loop.ts
@@ -1010,8 +580,8 @@ var Controls = class {
     });
   }
   changeSpeed(places) {
-    const place = SPEEDS.indexOf(this.clock.speed) + places;
-    this.clock.speed = SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, place))];
+    const place2 = SPEEDS.indexOf(this.clock.speed) + places;
+    this.clock.speed = SPEEDS[Math.min(SPEEDS.length - 1, Math.max(0, place2))];
     this.speed.value = String(this.clock.speed);
   }
   repeat() {
@@ -1212,8 +782,8 @@ function isShown(item, shown) {
   return item.role === "number" ? shown.numbers : shown.names;
 }
 function tinted(colours2, { colour, tint }) {
-  const [role2, number] = colour.split(" ");
-  const full = role2 === "body" ? colours2.body(Number(number)) : colours2.named[role2];
+  const [role, number] = colour.split(" ");
+  const full = role === "body" ? colours2.body(Number(number)) : colours2.named[role];
   return tint ? `color-mix(in srgb, ${colours2.named.panel} ${100 * tint}%, ${full})` : full;
 }
 function shapeOf(item, points) {
@@ -1250,8 +820,8 @@ function paintText(context, view, item, [x, y], angle, colours2) {
   context.textAlign = "center";
   context.textBaseline = "middle";
   const text = shortened(item.text);
-  const place = [x + item.offset[0] * UNIT, y - item.offset[1] * UNIT];
-  const [cx, cy] = item.turned ? place : inside(context, text, place, view);
+  const place2 = [x + item.offset[0] * UNIT, y - item.offset[1] * UNIT];
+  const [cx, cy] = item.turned ? place2 : inside(context, text, place2, view);
   context.translate(cx, cy);
   if (item.turned) context.rotate(-readableAngle(angle));
   rimmed(context, text, [0, 0], tinted(colours2, item), colours2.named.panel);
@@ -1486,24 +1056,24 @@ var Motion = class {
     return t - this.t[low] < this.t[high] - t ? low : high;
   }
   at(t) {
-    const place = this.place(t);
+    const place2 = this.place(t);
     const { poses, rates, accelerations, reactions } = this.scene.frames;
-    const bodies = poses[place.low].map((_, body) => body);
+    const bodies = poses[place2.low].map((_, body) => body);
     return {
       t,
-      poses: [GROUND, ...bodies.map((body) => hermite(poses, rates, body, place))],
-      rates: [GROUND, ...bodies.map((body) => hermite(rates, accelerations, body, place))],
-      accelerations: [GROUND, ...bodies.map((body) => linear(accelerations, body, place))],
-      forces: reactions[place.low].map((_, joint) => linear(reactions, joint, place)),
-      place
+      poses: [GROUND, ...bodies.map((body) => hermite(poses, rates, body, place2))],
+      rates: [GROUND, ...bodies.map((body) => hermite(rates, accelerations, body, place2))],
+      accelerations: [GROUND, ...bodies.map((body) => linear(accelerations, body, place2))],
+      forces: reactions[place2.low].map((_, joint) => linear(reactions, joint, place2)),
+      place: place2
     };
   }
   /** Everything at frame k. */
   frame(k) {
     const { poses, rates, accelerations, reactions } = this.scene.frames;
     const [pose, rate, acceleration2] = [poses, rates, accelerations].map((all) => [GROUND, ...all[k]]);
-    const place = { low: k, high: k, share: 0 };
-    return { t: this.t[k], poses: pose, rates: rate, accelerations: acceleration2, forces: reactions[k], place };
+    const place2 = { low: k, high: k, share: 0 };
+    return { t: this.t[k], poses: pose, rates: rate, accelerations: acceleration2, forces: reactions[k], place: place2 };
   }
   /** Value at t of a curve: `values` at the frames and their `slopes`. */
   value({ values, slopes }, t) {
@@ -1523,13 +1093,13 @@ var Motion = class {
   /** The path of a point of a body, in pieces of about the length `piece` where it is smooth. */
   path(body, point, piece) {
     const { poses, rates } = this.scene.frames;
-    const at = (place) => placed(hermite(poses, rates, body - 1, place), point);
+    const at = (place2) => placed(hermite(poses, rates, body - 1, place2), point);
     const path = [at({ low: 0, high: 0, h: 0, share: 0 })];
     for (let high = 1; high < poses.length; high += 1) {
-      const place = { low: high - 1, high, h: this.t[high] - this.t[high - 1] };
-      const [[x0, y0], [x1, y1]] = [path[path.length - 1], at({ ...place, share: 1 })];
+      const place2 = { low: high - 1, high, h: this.t[high] - this.t[high - 1] };
+      const [[x0, y0], [x1, y1]] = [path[path.length - 1], at({ ...place2, share: 1 })];
       const count = this.smooth ? Math.min(8, Math.ceil(Math.hypot(x1 - x0, y1 - y0) / piece)) : 1;
-      for (let k = 1; k < count; k += 1) path.push(at({ ...place, share: k / count }));
+      for (let k = 1; k < count; k += 1) path.push(at({ ...place2, share: k / count }));
       path.push([x1, y1]);
     }
     return path;
@@ -2114,27 +1684,27 @@ function shownValues(curve) {
 var PIECE = 4;
 var MOST_PIECES = 16;
 var MOST_ON_A_PIXEL = 4;
-function lineOf(curve, [from, to], width, place) {
+function lineOf(curve, [from, to], width, place2) {
   const { t } = curve;
   const [first, last] = [placeIn(t, from).low, placeIn(t, to).high];
   const dense = last - first > MOST_ON_A_PIXEL * width;
-  return broken(dense ? thinned(curve, first, last, place) : filled(curve, first, last, width, place));
+  return broken(dense ? thinned(curve, first, last, place2) : filled(curve, first, last, width, place2));
 }
-function filled(curve, first, last, width, place) {
+function filled(curve, first, last, width, place2) {
   const { t, values } = curve;
   const apart = width / Math.max(1, last - first);
   const pieces = curve.smooth ? Math.min(MOST_PIECES, Math.ceil(apart / PIECE)) : 1;
   const points = [];
   for (let k = first; k <= last; k += 1) {
-    points.push(place(t[k], curve.shown(values[k])));
+    points.push(place2(t[k], curve.shown(values[k])));
     for (let piece = 1; piece < pieces && k < last; piece += 1) {
       const at = t[k] + piece / pieces * (t[k + 1] - t[k]);
-      points.push(place(at, curve.at(at)));
+      points.push(place2(at, curve.at(at)));
     }
   }
   return points;
 }
-function thinned(curve, first, last, place) {
+function thinned(curve, first, last, place2) {
   const points = [];
   let column = [];
   const flush = () => {
@@ -2144,7 +1714,7 @@ function thinned(curve, first, last, place) {
     column = [];
   };
   for (let k = first; k <= last; k += 1) {
-    const at = place(curve.t[k], curve.shown(curve.values[k]));
+    const at = place2(curve.t[k], curve.shown(curve.values[k]));
     if (!at || column[0] && Math.floor(at[0]) !== Math.floor(column[0][0])) flush();
     if (at) column.push(at);
     else points.push(null);
@@ -2328,9 +1898,9 @@ var Plot = class {
   }
   paintDots(context, t, colours2) {
     for (const curve of this.at(t)) {
-      const place = this.place(t, this.shown(curve, t));
-      if (!place) continue;
-      const dot = circle(place, curve.stored ? 3 : 4);
+      const place2 = this.place(t, this.shown(curve, t));
+      if (!place2) continue;
+      const dot = circle(place2, curve.stored ? 3 : 4);
       context.fillStyle = colourOf(curve.number, colours2);
       context.fill(dot);
       context.strokeStyle = colours2.named.panel;
@@ -2340,8 +1910,8 @@ var Plot = class {
   /** The curve nearest to the pointer at t. */
   nearest(t, [, y]) {
     const away = (curve) => {
-      const place = this.place(t, this.shown(curve, t));
-      return place ? Math.abs(place[1] - y) : Number.POSITIVE_INFINITY;
+      const place2 = this.place(t, this.shown(curve, t));
+      return place2 ? Math.abs(place2[1] - y) : Number.POSITIVE_INFINITY;
     };
     const [first, ...others] = this.at(t);
     return first ? others.reduce((best, curve) => away(curve) < away(best) ? curve : best, first) : null;
