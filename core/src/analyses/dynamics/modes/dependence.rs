@@ -7,7 +7,8 @@
 use super::super::model_cache::ModelCache;
 use super::super::redundant_rows::workspace_at;
 use super::place::{drivers_rest, largest, mode_of, StateAt, STILL};
-use crate::analyses::mobility::{self, mobility};
+use crate::analyses::mobility::dependent_equations;
+use crate::analyses::second_order::mobility;
 use crate::elements::{Behaviour, Mode};
 use crate::equations::constraints;
 use crate::equations::forces::{self, Acting};
@@ -30,7 +31,7 @@ pub(super) fn independent(
     let all: Vec<ForceMode> = candidates.iter().map(holds).list();
     let [q, ..] = place.state(model);
     let phase = model.in_modes(&all);
-    if mobility::dependent_equations(&phase, place.t, q, &|| false).is_empty() {
+    if dependent_equations(&phase, place.t, q, &|| false).is_empty() {
         let row = |own: &ForceMode| phase.forces[own.force].held_row.expect("it holds");
         let with_value =
             |own: &ForceMode| ForceMode { value: value_of(&phase, place, row(own)), ..*own };
@@ -42,7 +43,7 @@ pub(super) fn independent(
         let mut tried = held.clone();
         tried.push(own);
         let phase = model.in_modes(&tried);
-        let found = mobility::dependent_equations(&phase, place.t, q, &|| false);
+        let found = dependent_equations(&phase, place.t, q, &|| false);
         let row = phase.forces[own.force].held_row.expect("it holds");
         let last = phase.layout.owner(row).0;
         if found.iter().any(|of| of.group.contains(&last)) {
