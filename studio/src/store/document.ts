@@ -103,8 +103,16 @@ function remember(before: string): void {
   future.value = [];
 }
 
+/** The work of earlier changes. Each change is made to the text with those before. */
+let changing: Promise<boolean> = Promise.resolve(true);
+
 /** Change the text through the core, as one step of the history; returns whether it succeeded. */
-export async function change(changes: Change[]): Promise<boolean> {
+export function change(changes: Change[]): Promise<boolean> {
+  changing = changing.then(() => changeNow(changes));
+  return changing;
+}
+
+async function changeNow(changes: Change[]): Promise<boolean> {
   if (!changes.length) return false;
   message.value = null;
   try {
