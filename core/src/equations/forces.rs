@@ -298,22 +298,6 @@ fn seen<S: Real>(
         .unwrap_or_else(Wrench::zero)
 }
 
-/// Adds an effort of force `k`, which depends on a reaction, to Q, and its power to `powers`.
-pub(super) fn add_effort<S: Real>(
-    model: &Model<S>,
-    k: usize,
-    motions: &Motions<S>,
-    (acting, effort): (Acting<'_, S>, S),
-    out: &mut [S],
-    powers: &mut Powers<S>,
-) {
-    let at = situation(model, k, motions, acting);
-    let element = at_state(model, &model.forces[k], motions, acting);
-    let nature = |part: usize| element.parts()[part].nature;
-    let sum = &mut Sum { model, motions, acting, out, powers };
-    element.put_effort(&at, effort, &mut Add { sum, at: &at, nature });
-}
-
 /// Calls `visit` with the part, body and value of every wrench of force `k`.
 #[inline]
 pub fn each_wrench<S: Real>(

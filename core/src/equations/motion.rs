@@ -308,13 +308,10 @@ impl<S: Real> Workspace<S> {
             }
             Ok(response)
         })?;
-        let mut unused = vec![S::zero(); n];
-        mass::add_times(model, motions, &solution[..n], &mut unused);
-        let force = reactive::largest(unused.iter().copied());
-        let put = |k: usize, effort: S| {
-            forces::add_effort(model, k, motions, (acting, effort), &mut unused, powers);
-        };
-        match sources.add((reactive, padded, force), solution, put) {
+        let mut inertial = vec![S::zero(); n];
+        mass::add_times(model, motions, &solution[..n], &mut inertial);
+        let force = reactive::largest(inertial.iter().copied());
+        match sources.add((reactive, padded, force), solution, powers) {
             true => Ok(()),
             false => Err(Breakdown::Reaction(row)),
         }

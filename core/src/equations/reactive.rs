@@ -74,9 +74,12 @@ pub fn rows_of<S>(model: &Model<S>, k: usize) -> Vec<usize> {
 
 /// A force in a situation without its reaction, and the reaction as a function of the multipliers.
 struct Bearing<'m, S: Clone> {
+    model: &'m Model<S>,
     force: usize,
     element: Cow<'m, ForceElement<S>>,
     at: Situation<'m, S>,
+    /// The effort without the reaction, which the equations without these forces contain already.
+    base: S,
     /// The first row of the joint, and the reaction for a unit multiplier of each of its rows.
     first: usize,
     units: Vec<Wrench<S>>,
@@ -89,13 +92,26 @@ impl<'m, S: Real> Bearing<'m, S> {
     fn new(model: &'m Model<S>, k: usize, motions: &'m Motions<S>, acting: Acting<'m, S>) -> Self {
         let item = &model.forces[k];
         let joint = item.reaction.expect("it depends on a reaction").0;
+        let element = forces::at_state(model, item, motions, acting);
+        let at = forces::situation(model, k, motions, acting);
         Self {
+            model,
             force: k,
-            element: forces::at_state(model, item, motions, acting),
-            at: forces::situation(model, k, motions, acting),
+            base: element.effort(&at).0,
+            element,
+            at,
             first: model.layout.constraints[joint].rows.start,
             units: reactions::units(model, joint, motions, acting.t),
         }
+    }
+
+    /// Adds an effort to Q, and its power to `powers`.
+    fn add(&self, effort: S, q: &mut [S], powers: &mut Powers<S>) {
+        let Self { model, element, at, .. } = self;
+        element.put_effort(at, effort, &mut |part: usize, body: usize, w: Wrench<S>| {
+            powers.add(element.parts()[part].nature, || w.power(at.body(body).twist));
+            model.layout.bodies[at.bodies[body].0].add([w.force.x, w.force.y, w.torque], q);
+        });
     }
 
     /// The value of `of` with the reaction for these multipliers. Passes its derivatives with respect to multipliers,
@@ -165,8 +181,8 @@ impl<'m, S: Real> Sources<'m, S> {
         let place = |k: usize| bearings.iter().position(|of| of.force == k);
         let mut all = Vec::new();
         let mut direction = vec![S::zero(); model.layout.n_q];
-        for (own, Bearing { force, .. }) in bearings.iter().enumerate() {
-            let effort = match model.forces[*force].mode {
+        for (own, bearing) in bearings.iter().enumerate() {
+            let effort = match model.forces[bearing.force].mode {
                 Mode::Holds(_) | Mode::Idle => continue,
                 Mode::Follows { leader, sense } => {
                     let row = model.forces[leader].held_row;
@@ -176,8 +192,7 @@ impl<'m, S: Real> Sources<'m, S> {
                 _ => Effort::Slides(own),
             };
             direction.fill(S::zero());
-            let none = &mut Powers::zero();
-            forces::add_effort(model, *force, motions, (acting, S::one()), &mut direction, none);
+            bearing.add(S::one(), &mut direction, &mut Powers::zero());
             all.push(Source { effort, response: respond(&direction)? });
         }
         for joint in reactions::loaded(model) {
@@ -195,7 +210,8 @@ impl<'m, S: Real> Sources<'m, S> {
         let one = S::one();
         match *effort {
             Effort::Slides(own) => {
-                self.bearings[own].value(ForceElement::effort, lam, one, &mut slope)
+                let own = &self.bearings[own];
+                own.value(ForceElement::effort, lam, one, &mut slope) - own.base
             }
             Effort::Load(row) => {
                 slope(row, S::select(lam[row], one, -one));
@@ -227,7 +243,7 @@ impl<'m, S: Real> Sources<'m, S> {
         &self,
         (rows, first, force): (&[usize], usize, f64),
         solution: &mut [S],
-        mut put: impl FnMut(usize, S),
+        powers: &mut Powers<S>,
     ) -> bool {
         let mut efforts = vec![S::zero(); self.all.len()];
         let path = Path { sources: self, rows, free: &solution[first..], first, force };
@@ -235,7 +251,8 @@ impl<'m, S: Real> Sources<'m, S> {
         for (Source { effort, response }, e) in self.all.iter().zip(&efforts) {
             solution.iter_mut().zip(response).for_each(|(x, one)| *x = x.plus_product(*e, *one));
             if let Effort::Slides(own) | Effort::Follows { own, .. } = effort {
-                put(self.bearings[*own].force, *e);
+                let bearing = &self.bearings[*own];
+                bearing.add(*e, &mut vec![S::zero(); bearing.model.layout.n_q], powers);
             }
         }
         found
