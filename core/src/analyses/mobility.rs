@@ -8,7 +8,6 @@
 
 use super::closing::{Closing, Halt};
 use super::dependence::{self, Dependent, MOST_DENSE};
-use super::second_order::{self, SecondOrder};
 use crate::elements::{BodyId, Coordinate, CoordinateOf};
 use crate::equations::augmented::Augmented;
 use crate::equations::constraints;
@@ -55,29 +54,6 @@ pub struct Mobility {
     pub second_order: Vec<Dependent>,
     /// The coordinates, or differences of angles, that these equations keep constant.
     pub kept: Vec<String>,
-}
-
-/// Mobility at an assembled position.
-pub fn mobility(model: &Model, t: f64, q: &[f64]) -> Mobility {
-    mobility_until(model, t, q, &|| false)
-}
-
-/// Mobility at an assembled position. The result is invalid if `stop` returned true.
-pub(super) fn mobility_until(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Mobility {
-    let mut found = plain(model, t, q, stop);
-    let implied = match found.singular_equations.is_empty() {
-        true => None,
-        false => second_order::implied(model, t, q, &found.singular_equations, stop),
-    };
-    let Some(SecondOrder { kept, mobility, .. }) = implied else { return found };
-    let is_singular =
-        |one: &Dependent| mobility.singular_equations.iter().any(|it| it.row == one.row);
-    let (singular, everywhere) = found.singular_equations.into_iter().partition(is_singular);
-    found.degrees_of_freedom = mobility.degrees_of_freedom;
-    found.rank = q.len() - mobility.degrees_of_freedom;
-    found.singular_equations = singular;
-    found.singular = mobility.singular;
-    Mobility { second_order: everywhere, kept, ..found }
 }
 
 /// Mobility without the linear constraints that equations of second order imply.

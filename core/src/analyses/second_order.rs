@@ -9,9 +9,9 @@
 
 use super::closing::{Closing, Halt};
 use super::dependence::{self, Dependent};
-use super::diagnosis::{forms, independent};
 use super::freedoms::{freedoms, nearly_free};
 use super::mobility::{beyond_doubt, plain, Mobility};
+use super::second_forms::{forms, independent};
 use crate::elements::{holding, BodyId, Coordinate, CoordinateOf, Group};
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;
@@ -36,18 +36,41 @@ struct Kept {
 
 /// A model with the linear constraints that its second-order equations imply.
 #[derive(Clone, Debug)]
-pub(super) struct SecondOrder {
+struct SecondOrder {
     /// The model with these constraints, which follow all others.
-    pub model: Model,
+    model: Model,
     /// The coordinates and angles that they keep, as texts.
-    pub kept: Vec<String>,
+    kept: Vec<String>,
     /// The mobility of the extended model.
-    pub mobility: Mobility,
+    mobility: Mobility,
+}
+
+/// Mobility at an assembled position.
+pub fn mobility(model: &Model, t: f64, q: &[f64]) -> Mobility {
+    mobility_until(model, t, q, &|| false)
+}
+
+/// Mobility at an assembled position. The result is invalid if `stop` returned true.
+pub(super) fn mobility_until(model: &Model, t: f64, q: &[f64], stop: Halt<'_>) -> Mobility {
+    let mut found = plain(model, t, q, stop);
+    let implied = match found.singular_equations.is_empty() {
+        true => None,
+        false => implied(model, t, q, &found.singular_equations, stop),
+    };
+    let Some(SecondOrder { kept, mobility, .. }) = implied else { return found };
+    let is_singular =
+        |one: &Dependent| mobility.singular_equations.iter().any(|it| it.row == one.row);
+    let (singular, everywhere) = found.singular_equations.into_iter().partition(is_singular);
+    found.degrees_of_freedom = mobility.degrees_of_freedom;
+    found.rank = q.len() - mobility.degrees_of_freedom;
+    found.singular_equations = singular;
+    found.singular = mobility.singular;
+    Mobility { second_order: everywhere, kept, ..found }
 }
 
 /// The implied linear constraints at a position where equations of joints depend on each other. None if the forms are
 /// not squares of linear forms, or if no motion is left.
-pub(super) fn implied(
+fn implied(
     model: &Model,
     t: f64,
     q: &[f64],

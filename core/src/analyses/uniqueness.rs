@@ -4,7 +4,8 @@
 //! in a null vector has no unique reaction: its values belong to the λ of least norm.
 
 use super::dependence;
-use super::mobility::{beyond_doubt, mobility, Mobility};
+use super::mobility::{beyond_doubt, Mobility};
+use super::second_order::mobility;
 use crate::math::Listed;
 use crate::model::Model;
 use crate::solve::RANK_TOLERANCE;

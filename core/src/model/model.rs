@@ -7,7 +7,7 @@ use super::layout::{StateLayout, Touched};
 use super::modes;
 use super::switch::{Switch, SwitchOwner};
 use super::variable::Dependence;
-use crate::elements::{BodyId, Group, Mode};
+use crate::elements::{BodyId, Constraint, Group, Mode};
 use crate::expression::{Tape, Values};
 use crate::math::{Lift, Listed, Real, Vec2};
 use std::sync::Arc;
@@ -77,15 +77,11 @@ impl<S: Real> Model<S> {
                 own: (formula.own(), formula.curve().map(|on| on.curve.kind()).unwrap_or_default()),
                 constant_columns: formula.constant_columns() && !depends.any(),
             });
-            let mut element = formula.map(value);
-            for (_, phase) in blueprint.phases.iter().filter(|(of, _)| of == name) {
-                element.phase_mut().into_iter().for_each(|x| *x += S::constant(*phase));
-            }
             constraints.push(ConstraintItem {
                 name: name.clone(),
                 group: *group,
                 bodies,
-                element,
+                element: with_phase(name, formula.map(value), blueprint),
                 law: depends.any().then(|| {
                     let owner = SwitchOwner::Constraint(constraints.len());
                     Box::new(formula.map(&mut |tape| Switch::number(tape, owner, &mut switches)))
@@ -132,6 +128,18 @@ impl<S: Real> Model<S> {
         let parameters: Vec<T> = self.parameters.iter().map(|p| T::lift(*p)).list();
         Model::new(&self.blueprint, &parameters)
     }
+}
+
+/// A constraint with its change of phase.
+fn with_phase<S: Real>(
+    name: &str,
+    mut element: Constraint<S>,
+    blueprint: &Blueprint,
+) -> Constraint<S> {
+    for (_, phase) in blueprint.phases.iter().filter(|(of, _)| of == name) {
+        element.phase_mut().into_iter().for_each(|x| *x += S::constant(*phase));
+    }
+    element
 }
 
 /// Adds the switches of curves to the list.

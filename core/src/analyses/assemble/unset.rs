@@ -11,7 +11,7 @@ use super::target::{of_bodies, of_motion, of_quantities, of_rates, CoordinateTar
 use super::targets::Targets;
 use crate::analyses::closing::Halt;
 use crate::analyses::freedoms::freedoms;
-use crate::analyses::mobility::mobility_until;
+use crate::analyses::second_order::mobility_until;
 use crate::elements::Coordinate;
 use crate::math::{Listed, Ordered};
 use crate::model::{column_scales, size, Model};

@@ -1,7 +1,7 @@
 //! Positions without duplicates, and without positions in which a freedom is left.
 
 use crate::analyses::kinematics::same;
-use crate::analyses::mobility::mobility;
+use crate::analyses::second_order::mobility;
 use crate::model::Model;
 
 /// Largest difference between two positions that count as equal. Near a dead point, Newton's method finds only half

@@ -20,13 +20,13 @@ mod remedies;
 pub use as_json::json as as_json;
 pub use four_bars::{FourBar, Grashof};
 pub use passing::SingularKind;
-pub(in crate::analyses) use passing::{forms, independent};
 pub use remedies::{remedies, JointDirection, Remedy};
 
 use super::dependence;
 use super::freedoms::NEARLY;
-use super::mobility::{mobility, Mobility};
+use super::mobility::Mobility;
 use super::options::{name, options};
+use super::second_order::mobility;
 use super::{dynamics, Dependent, State};
 use crate::equations::constraints;
 use crate::equations::kinematics::Motions;

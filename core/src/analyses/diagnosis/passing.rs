@@ -7,15 +7,11 @@
 
 use crate::analyses::freedoms;
 use crate::analyses::mobility::Mobility;
+use crate::analyses::second_forms::{forms, independent, ZERO};
 use crate::analyses::Dependent;
-use crate::equations::constraints;
-use crate::equations::kinematics::Motions;
 use crate::math::Listed;
 use crate::model::Model;
 use std::fmt;
-
-/// Entries below this fraction of the largest entry of a form count as zero.
-const ZERO: f64 = 1e-7;
 
 /// The kind of a singular position.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -80,67 +76,6 @@ fn crossing(model: &Model, t: f64, q: &[f64], equations: &[&Dependent]) -> Singu
         true => SingularKind::Uncertainty,
         false => SingularKind::ChangePoint,
     }
-}
-
-/// The form B on the freedoms, row by row, for each equation.
-pub(in crate::analyses) fn forms(
-    model: &Model,
-    t: f64,
-    q: &[f64],
-    equations: &[&Dependent],
-    freedoms: &[Vec<f64>],
-) -> Vec<Vec<f64>> {
-    let (m, f) = (model.layout.n_rows, freedoms.len());
-    let gamma = |v: &[f64]| {
-        let (mut phi, mut rate, mut gamma) = (vec![0.0; m], vec![0.0; m], vec![0.0; m]);
-        let motions = Motions::at(&model.layout, q, v);
-        constraints::velocity_terms(model, &motions, t, &mut phi, &mut rate, &mut gamma);
-        gamma
-    };
-    let rest = gamma(&vec![0.0; q.len()]);
-    // the part of -γ that is quadratic in the velocities
-    let quadratic = |v: Vec<f64>| -> Vec<f64> {
-        let back: Vec<f64> = v.iter().map(|x| -x).list();
-        let (one, other) = (gamma(&v), gamma(&back));
-        (0..m).map(|k| rest[k] - 0.5 * (one[k] + other[k])).list()
-    };
-    let mut found = vec![vec![0.0; f * f]; equations.len()];
-    let alone: Vec<Vec<f64>> = freedoms.iter().map(|w| quadratic(w.clone())).list();
-    for a in 0..f {
-        for b in 0..=a {
-            let sum = freedoms[a].iter().zip(&freedoms[b]).map(|(x, y)| x + y).list();
-            let both =
-                if a == b { alone[a].iter().map(|x| 4.0 * x).list() } else { quadratic(sum) };
-            for (form, equation) in found.iter_mut().zip(equations) {
-                let terms = equation
-                    .factors
-                    .iter()
-                    .map(|(k, y)| 0.5 * y * (both[*k] - alone[a][*k] - alone[b][*k]));
-                let value: f64 = terms.sum();
-                (form[a * f + b], form[b * f + a]) = (value, value);
-            }
-        }
-    }
-    found
-}
-
-/// An orthonormal basis of some forms. The form of a redundant equation is zero.
-pub(in crate::analyses) fn independent(forms: Vec<Vec<f64>>) -> Vec<Vec<f64>> {
-    let length = |x: &[f64]| x.iter().map(|x| x * x).sum::<f64>().sqrt();
-    let largest = forms.iter().map(|form| length(form)).fold(0.0, f64::max);
-    let mut basis: Vec<Vec<f64>> = Vec::new();
-    for mut form in forms {
-        for earlier in &basis {
-            let part: f64 = form.iter().zip(earlier).map(|(x, y)| x * y).sum();
-            form.iter_mut().zip(earlier).for_each(|(x, y)| *x -= part * y);
-        }
-        let size = length(&form);
-        if size > ZERO * largest && size > 0.0 {
-            form.iter_mut().for_each(|x| *x /= size);
-            basis.push(form);
-        }
-    }
-    basis
 }
 
 /// The smallest and the largest eigenvalue of a symmetric matrix, by Jacobi rotations.

@@ -8,9 +8,7 @@ use super::failure::Failure;
 use super::lane_batch::are_finite;
 use super::massless;
 use super::model_cache::ModelCache;
-use super::prepared::Prepared;
 use super::redundant_rows::{exchange, workspace_at};
-use super::run_results::Run;
 use super::shared_reaction;
 use super::trajectory::States;
 use super::undecided_contacts;
@@ -33,17 +31,6 @@ pub struct Accelerations {
     /// Regularity of each position: the square root of the fraction of its magnitude that the worst pivot keeps. Near
     /// a singular position it is proportional to the distance.
     pub regularity: Vec<f64>,
-}
-
-impl Run {
-    /// Accelerations and multipliers at the reported states, without stabilization.
-    ///
-    /// # Errors
-    /// The errors of [`Prepared::accelerations`](super::Prepared::accelerations).
-    pub fn accelerations(&self, model: &Model) -> Result<Accelerations, Box<Failure>> {
-        let states = self.trajectory.states();
-        Prepared::new(model).accelerations(states, self.passing, |_| Flow::Continue)
-    }
 }
 
 /// See [`Prepared::accelerations`](super::Prepared::accelerations).

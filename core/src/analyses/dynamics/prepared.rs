@@ -175,3 +175,14 @@ impl<M: Deref<Target = Model>> Prepared<M> {
         energies((&self.model, &self.cache), states, works)
     }
 }
+
+impl Run {
+    /// Accelerations and multipliers at the reported states, without stabilization.
+    ///
+    /// # Errors
+    /// The errors of [`Prepared::accelerations`](Prepared::accelerations).
+    pub fn accelerations(&self, model: &Model) -> Result<Accelerations, Box<Failure>> {
+        let states = self.trajectory.states();
+        Prepared::new(model).accelerations(states, self.passing, |_| Flow::Continue)
+    }
+}

@@ -1,7 +1,7 @@
 //! Reasons for which no equilibrium was found, in terms of the mechanism.
 
 use crate::analyses::linearization::coordinate as named;
-use crate::analyses::mobility::mobility;
+use crate::analyses::second_order::mobility;
 use crate::elements::QuantityKind;
 use crate::math::Listed;
 use crate::model::{Model, Problem};

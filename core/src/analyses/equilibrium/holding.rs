@@ -2,7 +2,7 @@
 
 use super::failure::Reason;
 use crate::analyses::assemble::position;
-use crate::analyses::mobility::mobility;
+use crate::analyses::second_order::mobility;
 use crate::analyses::State;
 use crate::elements::Followed;
 use crate::equations::constraints;

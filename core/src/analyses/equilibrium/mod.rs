@@ -46,7 +46,7 @@ pub use path::path;
 pub use points::{EquilibriumPath, PathEnd};
 pub use result::Equilibrium;
 
-use super::mobility::mobility;
+use super::second_order::mobility;
 use super::{second_order, State};
 use crate::equations::balance::Balance;
 use crate::integrate::Flow;

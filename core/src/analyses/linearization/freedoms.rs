@@ -7,7 +7,8 @@
 
 use super::failure::Failure;
 use super::least_norm::LeastNorm;
-use crate::analyses::mobility::{mobility, Mobility};
+use crate::analyses::mobility::Mobility;
+use crate::analyses::second_order::mobility;
 use crate::math::{Listed, Ordered};
 use crate::model::Model;
 
