@@ -82,7 +82,7 @@ def test_each_friction_agrees_with_its_reaction(
 
 @pytest.mark.alone
 def test_the_time_of_an_evaluation() -> None:
-    """Friction in all four joints takes six times as long as none; it took 200 times."""
+    """Friction in all four joints takes about six times as long as none."""
 
     def cost(kinetic: float | None) -> float:
         counts = run((1.0, 1.0, 1.0), True, kinetic).statistics
