@@ -304,8 +304,8 @@ fn close_placed(
     targets: &Targets,
     internal: &[(usize, f64)],
     closing: &mut Closing<'_>,
-) -> Result<Closed, Option<Missed>> {
-    let mut best: Option<Missed> = None;
+) -> Result<Closed, Option<Box<Missed>>> {
+    let mut best: Option<Box<Missed>> = None;
     for placement in Placements::new(closing.model(), targets).take(MOST_TRIES) {
         let warnings = report::folded(model, &placement.dyads);
         let q = match close_from(closing, internal, placement.q.clone(), warnings) {
@@ -313,7 +313,7 @@ fn close_placed(
             Err(q) => q,
         };
         if best.as_ref().is_none_or(|best| placement.gaps.len() < best.placement.gaps.len()) {
-            best = Some(Missed { left: closing.left(&q), q, placement });
+            best = Some(Box::new(Missed { left: closing.left(&q), q, placement }));
         }
         if closing.stopped() {
             break;
