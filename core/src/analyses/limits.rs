@@ -1,9 +1,9 @@
 //! Limits of motion: how far a driven value can increase and decrease from a position, or whether it turns fully.
 //!
 //! The motion is followed in both directions by the continuation of `kinematics`. It ends at a dead point, which is
-//! located exactly, at a stop or contact with restitution, or at the end of a curve. An angle turns fully if it meets no limit before the mechanism returns
-//! to its start, after one or several turns. A length is unlimited if it exceeds [`FARTHEST`] times the size of the
-//! mechanism.
+//! located exactly, at a stop or contact with restitution, or at the end of a curve. An angle turns fully if it meets
+//! no limit before the mechanism returns to its start, after one or several turns. A length is unlimited if it exceeds
+//! [`FARTHEST`] times the size of the mechanism.
 
 use super::curves::Ranges;
 use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Point, Reason};

@@ -1,4 +1,5 @@
-//! The declarations of elements, bodies, options, functions and units as JSON: for the generated files, palettes and docs.
+//! The declarations of elements, bodies, options, functions and units as JSON: for the generated files, palettes and
+//! docs.
 
 use crate::analyses::options::Declaration;
 use crate::analyses::{declarations, option_families};

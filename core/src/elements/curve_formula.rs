@@ -1,7 +1,7 @@
 //! A curve whose components are formulas in u and the parameters.
 //!
-//! The formulas are evaluated over series in u whose coefficients are the [base](crate::math::OverBase) of the scalar. The
-//! derivatives that the scalar adds follow from the higher derivatives by u.
+//! The formulas are evaluated over series in u whose coefficients are the [base](crate::math::OverBase) of the scalar.
+//! The derivatives that the scalar adds follow from the higher derivatives by u.
 
 use super::quantity_kind::QuantityKind;
 use crate::expression::{switch_places, Knots, Symbol, Tape, Values};

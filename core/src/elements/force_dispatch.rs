@@ -1,5 +1,5 @@
-//! Dispatch from a force of a model to the physics of its type: an enum over all types, and pools of elements by type. The
-//! macro is called once, in `mod.rs`.
+//! Dispatch from a force of a model to the physics of its type: an enum over all types, and pools of elements by type.
+//! The macro is called once, in `mod.rs`.
 
 macro_rules! forces {
     ($($(#[$on:meta])* $Name:ident),+ $(,)?) => {

@@ -214,7 +214,8 @@ pub trait Joint: Element {
     }
 
     /// Wrenches that the multipliers `lam` of the joint cause in addition to -Φ_qᵀ λ, such as the radial force of
-    /// gear teeth. They are proportional to |lam[0]|. Each is passed to `out` with the index of its body in [`Joint::bodies`], about the origin of the
+    /// gear teeth. They are proportional to the magnitude of the first multiplier. Each is passed to `out` with the
+    /// index of its body in [`Joint::bodies`], about the origin of the
     /// frame of this body. The wrenches do no work in any motion that the other joints permit, so that they change
     /// only the reactions of these joints.
     #[inline]

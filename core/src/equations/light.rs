@@ -21,9 +21,9 @@ use crate::model::{Body, ConstraintItem, Model, Slots, Weighed};
 
 /// Mass, relative to the bodies between which a body lies, below which the body is light.
 const LIGHT: f64 = 1e-2;
-/// Mass, relative to the same bodies, with which a light body counts in the pivot tests. The pivots of its joints are then
-/// about so small a fraction of their terms. A smaller mass would make them look like those of singular positions, a
-/// larger one would make the ridge near singular positions too small.
+/// Mass, relative to the same bodies, with which a light body counts in the pivot tests. The pivots of its joints are
+/// then about so small a fraction of their terms. A smaller mass would make them look like those of singular positions,
+/// a larger one would make the ridge near singular positions too small.
 pub(super) const COUNTED: f64 = 2e-2;
 /// Mass, relative to the same bodies, below which a body counts as massless. Its elimination would lose all digits.
 const MASSLESS: f64 = 1e-14;

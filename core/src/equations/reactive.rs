@@ -7,9 +7,9 @@
 //! [ Φ_q  0   ] [ λ ] = [ γ    ]
 //! ```
 //!
-//! Each of these forces has one effort along one direction dₖ, so that Q(λ) = Q₀ + Σ dₖ eₖ(λ) with the efforts eₖ. The equations are
-//! solved once without these forces, and once for each direction, with the same factors: λ = λ₀ + S e. Newton's method
-//! then solves e = e(λ₀ + S e) with the matrix I - ∂e/∂λ S, which has one row for each effort.
+//! Each of these forces has one effort along one direction dₖ, so that Q(λ) = Q₀ + Σ dₖ eₖ(λ) with the efforts eₖ. The
+//! equations are solved once without these forces, and once for each direction, with the same factors: λ = λ₀ + S e.
+//! Newton's method then solves e = e(λ₀ + S e) with the matrix I - ∂e/∂λ S, which has one row for each effort.
 //!
 //! There may be several solutions or none. The solution of the motion is the one that follows continuously from the
 //! solution without these forces, as a factor f on the forces grows from 0 to 1. The determinant of I - f ∂e/∂λ S is 1 at

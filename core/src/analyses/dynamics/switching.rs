@@ -1,8 +1,8 @@
 //! Switches during a run. The piece of each switch is constant during a step, and steps end where a piece ends.
 //!
 //! Switches that depend on time alone are listed in a [`Schedule`]. The functions of the other switches are scanned
-//! with their bounds on the interpolant of each step (`integrate::scan`). Where a switch leaves its piece, the step is taken again up
-//! to this time with the old piece, and the next step begins with the new piece.
+//! with their bounds on the interpolant of each step (`integrate::scan`). Where a switch leaves its piece, the step is
+//! taken again up to this time with the old piece, and the next step begins with the new piece.
 //!
 //! A switch that changes back at once holds the motion between two pieces (`sliding`). If the accelerations of both
 //! pieces are equal, the switch is released: its law then selects the piece at each evaluation, until it has kept one

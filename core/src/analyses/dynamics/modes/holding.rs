@@ -23,7 +23,8 @@ const USED_UP: f64 = 1e-6;
 
 /// Height of a flight, as a fraction of the mechanism's size or in rad, below which a contact without losses rests.
 const LOW: f64 = 1e-10;
-/// Rate of a gap, as a fraction of the mechanism's size per second or in rad/s, below which the next flight is so low that rounding errors of the gap matter.
+/// Rate of a gap, as a fraction of the mechanism's size per second or in rad/s, below which the next flight is so low
+/// that rounding errors of the gap matter.
 const SLOW: f64 = 2e-7;
 /// Largest number of forces for which all combinations are tried.
 const MOST_TRIED: usize = 5;
