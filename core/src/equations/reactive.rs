@@ -73,7 +73,7 @@ pub fn rows_of<S>(model: &Model<S>, k: usize) -> Vec<usize> {
 }
 
 /// A force in a situation without its reaction, and the reaction as a function of the multipliers.
-struct Bearing<'m, S: Clone> {
+struct LoadedBearing<'m, S: Clone> {
     model: &'m Model<S>,
     force: usize,
     element: Cow<'m, ForceElement<S>>,
@@ -88,7 +88,7 @@ struct Bearing<'m, S: Clone> {
 /// An effort with its derivatives with respect to a reaction.
 type Sloped<S> = (S, Wrench<S>);
 
-impl<'m, S: Real> Bearing<'m, S> {
+impl<'m, S: Real> LoadedBearing<'m, S> {
     fn new(model: &'m Model<S>, k: usize, motions: &'m Motions<S>, acting: Acting<'m, S>) -> Self {
         let item = &model.forces[k];
         let joint = item.reaction.expect("it depends on a reaction").0;
@@ -160,7 +160,7 @@ struct Source<S> {
 
 /// All forces and loads that depend on multipliers, at a state.
 pub(super) struct Sources<'m, S: Clone> {
-    bearings: Vec<Bearing<'m, S>>,
+    bearings: Vec<LoadedBearing<'m, S>>,
     all: Vec<Source<S>>,
 }
 
@@ -177,7 +177,7 @@ impl<'m, S: Real> Sources<'m, S> {
     ) -> Result<Self, E> {
         let depends = |k: &usize| model.forces[*k].reaction.is_some();
         let own = (0..model.forces.len()).filter(depends);
-        let bearings: Vec<_> = own.map(|k| Bearing::new(model, k, motions, acting)).list();
+        let bearings: Vec<_> = own.map(|k| LoadedBearing::new(model, k, motions, acting)).list();
         let place = |k: usize| bearings.iter().position(|of| of.force == k);
         let mut all = Vec::new();
         let mut direction = vec![S::zero(); model.layout.n_q];

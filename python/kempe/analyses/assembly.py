@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping
 from typing import TypeAlias
 
@@ -13,6 +12,7 @@ from kempe.analyses.record import AssemblyWarning, check, released
 from kempe.analyses.request_cache import encode
 from kempe.base.arguments import explained
 from kempe.base.names import one_of
+from kempe.base.warn import warn
 from kempe.errors import ModelError
 from kempe.model.compiled import CompiledModel
 from kempe.model.model import Model, Redundancy, compiled_model
@@ -74,7 +74,7 @@ def assemble(
     )
     report = AssemblyReport.from_json(text)
     for warning in report.warnings:
-        warnings.warn(warning, AssemblyWarning, stacklevel=2)
+        warn(warning, AssemblyWarning)
     return State(compiled, t_found, q_found, v_found, report, z=z_found)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, Literal
@@ -21,6 +20,7 @@ from kempe.analyses.request_cache import Request, encode, request
 from kempe.base.arguments import explained
 from kempe.base.arrays import Floats
 from kempe.base.names import unknown
+from kempe.base.warn import warn
 from kempe.errors import ModelError
 from kempe.model.compiled import CompiledModel
 from kempe.model.functions import FunctionWarning
@@ -127,7 +127,7 @@ def _simulate(
     try:
         with model.run() as remembered:
             for remark in remembered:
-                warnings.warn(remark, FunctionWarning, stacklevel=3)
+                warn(remark, FunctionWarning)
             record = run_analysis(
                 model, start, entry, progress, after=after, text=text, t_end=t_end, acting=acting
             )
@@ -138,11 +138,11 @@ def _simulate(
     run = record.run
     assert run is not None
     for doubt in run.doubts:
-        warnings.warn(doubt, AccuracyWarning, stacklevel=3)
+        warn(doubt, AccuracyWarning)
     declared = any(any(info.events) for info in model.constraints.values())
     if declared or run.events:
         for warning in [*warnings_of(solution), *true_at_start(solution, entry)]:
-            warnings.warn(warning, EventWarning, stacklevel=3)
+            warn(warning, EventWarning)
     return solution
 
 

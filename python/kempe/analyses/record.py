@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, TypeAlias
@@ -12,6 +11,7 @@ from kempe import _core
 from kempe.analyses.option import core_options
 from kempe.analyses.request_cache import encode
 from kempe.base.arrays import Floats
+from kempe.base.warn import warn
 from kempe.errors import ModelError
 from kempe.model.compiled import CompiledModel
 from kempe.results.solution import Solution
@@ -108,7 +108,7 @@ def run_analysis(
         raise
     for remark in found.remarks:
         told = remark if after is None else f"{after}: {remark}"
-        warnings.warn(told, AssemblyWarning, stacklevel=4)
+        warn(told, AssemblyWarning)
     return _record(model, start, entry, before, found)
 
 

@@ -23,7 +23,7 @@ _known: WeakKeyDictionary[Solution, Motion] = WeakKeyDictionary()
 def fine(motion: Motion) -> Motion:
     """The motion of a solution, including instants between its outputs.
 
-    The instants are the boundaries of the integrator's steps and 1 to 31 instants in each step, at
+    The instants are the boundaries of the integrator's steps and 3 to 31 instants in each step, at
     most 50 000 in total. They do not depend on the output times.
 
     Args:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Iterable, Iterator, Sequence
 from math import radians
 
 from kempe.analyses.record import AssemblyWarning
 from kempe.base.names import few
+from kempe.base.warn import warn
 from kempe.sweeps.plan import Plan
 from kempe.sweeps.variables import Variable
 
@@ -21,11 +21,10 @@ def warn_of_degrees(plan: Plan, variables: Sequence[Variable]) -> None:
         found = [x for x in _written(variable) if abs(x) >= _LEAST and _is_short(x)]
         if found and _is_angle(plan, variable.name):
             told, looks = few([f"{x:g}" for x in found], 3), "look" if found[1:] else "looks"
-            warnings.warn(
+            warn(
                 f"variables.{variable.name}: {told} {looks} like degrees, but values of a sweep "
                 f"are in rad; {found[0]:g} degrees are {radians(found[0]):.6g}",
                 AssemblyWarning,
-                stacklevel=4,
             )
 
 

@@ -135,8 +135,9 @@ impl<'a> Continuation<'a> {
         let left = goal - self.point.t;
         let pace = self.solver.norm(&self.point.v);
         let most = if pace > 0.0 { LONGEST / pace } else { f64::INFINITY };
-        let mut h = left.signum() * self.length.min(most).min(left.abs());
         let scale = most.min(left.abs());
+        // the last step may have been as short as a rounding error, because it ended at an output
+        let mut h = left.signum() * self.length.max(BY_LENGTH * scale).min(scale);
         let mut lost = None;
         while h.abs() >= SHORTEST * scale {
             // the last step ends at the goal exactly

@@ -2,14 +2,14 @@
 
 use crate::math::{Listed, Ordered};
 /// Smallest and largest number of instants in a step of the integrator.
-const LEAST: usize = 2;
+const LEAST: usize = 4;
 const MOST: usize = 32;
 const WISHED: usize = 3000;
 /// Largest total number of values in the arrays of a motion at these instants, and largest number of instants.
 const MOST_NUMBERS: usize = 6_000_000;
 const MOST_INSTANTS: usize = 50_000;
 
-/// The boundaries of the integrator's steps and 1 to 31 instants in each step. There are fewer if they would exceed
+/// The boundaries of the integrator's steps and 3 to 31 instants in each step. There are fewer if they would exceed
 /// 50 000 in total; with more than 100 000 steps, some boundaries are omitted.
 ///
 /// The instants do not depend on the output times, with one exception: a time with two outputs, before and after a
@@ -71,7 +71,7 @@ mod tests {
         assert_eq!(instants(&[0.0, 1.0, 3.0], &[0.0, 3.0], 10).len(), 2 * MOST + 1);
         let many: Vec<f64> = (0..=2000).map(f64::from).collect();
         let found = instants(&many, &[0.0, 2000.0], 10);
-        assert_eq!((found.len(), found[1], found[2]), (LEAST * 2000 + 1, 0.5, 1.0));
+        assert_eq!((found.len(), found[1], found[4]), (LEAST * 2000 + 1, 0.25, 1.0));
     }
 
     #[test]
