@@ -37,13 +37,13 @@ def with_states(model: CompiledModel) -> CompiledModel:
 def run(start: kp.State) -> SimpleNamespace:
     """The attributes of a run with two steps; the interpolant of z is linear."""
     n, m = start.compiled.n_q, start.compiled.n_rows
-    rows = np.zeros((3, n))
-    y = np.hstack([rows, rows, Z, np.zeros((3, 3))])
+    rows, rest = np.tile(start.q, (3, 1)), np.zeros((3, n))
+    y = np.hstack([rows, rest, Z, np.zeros((3, 3))])
     c = np.diff(y, axis=0)[:, :, None] / 0.5
     return SimpleNamespace(
         t=T,
         q=rows,
-        v=rows,
+        v=rest,
         z=Z,
         dense_t=T,
         dense_y=y[:-1],

@@ -136,7 +136,9 @@ def test_a_missing_page_is_an_error(carried: Path) -> None:
         page.choose(None)
 
 
-@pytest.mark.parametrize("damage", [b"", b"\x1f\x8b", b"<html>", gzip.compress(b"<html>", mtime=0)[:-9]])
+@pytest.mark.parametrize(
+    "damage", [b"", b"\x1f\x8b", b"<html>", gzip.compress(b"<html>", mtime=0)[:-9]]
+)
 def test_a_damaged_page_is_an_error(carried: Path, damage: bytes) -> None:
     carried.write_bytes(damage)
     with pytest.raises(FileError, match=r"page\.html\.gz is damaged"):
