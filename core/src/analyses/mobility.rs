@@ -32,7 +32,7 @@ const HOLDS: f64 = 1e-11;
 const MISMATCH: f64 = 10.0;
 /// Largest number of bodies whose angles are tried to reach a neighbouring position, and of excursions without the
 /// dependent equations.
-const EXCURSIONS: usize = 6;
+pub(super) const EXCURSIONS: usize = 6;
 
 /// The mobility of a mechanism at a position.
 #[derive(Clone, Debug, Default, PartialEq)]

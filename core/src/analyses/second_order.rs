@@ -10,7 +10,7 @@
 use super::closing::{Closing, Halt};
 use super::dependence::{self, Dependent};
 use super::freedoms::{freedoms, nearly_free};
-use super::mobility::{beyond_doubt, plain, Mobility};
+use super::mobility::{beyond_doubt, neighbour, plain, Mobility, EXCURSIONS};
 use super::second_forms::{forms, independent};
 use crate::elements::{holding, BodyId, Coordinate, CoordinateOf, Group};
 use crate::equations::constraints;
@@ -89,11 +89,29 @@ fn implied(
     let mobility = plain(&extended, t, q, stop);
     let redundant = mobility.redundant_equations.len();
     let follows = mobility.singular_equations.len() + of_joints.len() == singular.len();
-    (follows && redundant >= of_joints.len()).then(|| SecondOrder {
+    if !follows || is_passed([model, &extended], t, q, singular.len(), stop) {
+        return None;
+    }
+    (redundant >= of_joints.len()).then(|| SecondOrder {
         kept: kept.iter().map(|kept| kept.name(model)).list(),
         model: extended,
         mobility,
     })
+}
+
+/// Whether fewer than `here` equations restrict the motion beside a position, on the motion that the extended model
+/// permits. The equations then hold to second order at this position only, as at the change point of a parallelogram
+/// with three cranks.
+fn is_passed(
+    [model, extended]: [&Model; 2],
+    t: f64,
+    q: &[f64],
+    here: usize,
+    stop: Halt<'_>,
+) -> bool {
+    (0..=EXCURSIONS)
+        .filter_map(|held| neighbour(extended, t, q, held, stop))
+        .any(|near| plain(model, t, &near, stop).singular_equations.len() < here)
 }
 
 /// The model with the linear constraints that its equations of second order imply at a position, if there are any.
