@@ -53,7 +53,7 @@ DIFFICULT = (
 LONG = {322, 1357, 1478, 1959, 4653, 5899}
 
 
-#: Refused without need: friction in two joints comes to rest in one instant, and is called a paradox.
+#: Refused without need: friction in two joints comes to rest in one instant, called a paradox.
 OPEN = {1745}
 
 
