@@ -7,6 +7,7 @@ use crate::model::{stretches, PyModel, WrittenMode};
 use crate::names::{constraint, force, frame_named, one_of, unknown};
 use crate::respond::{energies, missing, responses, Table};
 use kempe::analyses::dynamics::{self as core, friction_modes};
+use kempe::analyses::NotUnique;
 use kempe::elements::{BodyId, Mode};
 use kempe::equations::actions::{self, each_action};
 use kempe::equations::constraints;
@@ -372,16 +373,21 @@ impl PyStates {
         })
     }
 
-    /// The names of the joints and drivers without a unique reaction at one of the states.
-    fn not_unique(&self) -> PyResult<Vec<String>> {
+    /// The names of the joints and drivers without a unique reaction at one of the states: of redundant equations, and
+    /// of equations that hold to second order only.
+    fn not_unique(&self) -> PyResult<[Vec<String>; 2]> {
         guard("States.not_unique", || {
             let active = &**self.model.get().active.prepared.model();
             let n = active.layout.n_q;
             let at = |(k, t): (usize, &f64)| {
                 kempe::analyses::not_unique(active, *t, &self.q[k * n..(k + 1) * n])
             };
-            let found: BTreeSet<usize> = self.t.iter().enumerate().flat_map(at).collect();
-            Ok(found.into_iter().map(|k| active.constraints[k].name.clone()).collect())
+            let found: Vec<NotUnique> = self.t.iter().enumerate().map(at).collect();
+            let names = |of: fn(&NotUnique) -> &Vec<usize>| {
+                let all: BTreeSet<usize> = found.iter().flat_map(of).copied().collect();
+                all.into_iter().map(|k| active.constraints[k].name.clone()).collect()
+            };
+            Ok([names(|one| &one.redundant), names(|one| &one.second_order)])
         })
     }
 

@@ -136,12 +136,10 @@ impl Ran {
     /// The names of the joints and drivers without a unique reaction.
     fn not_unique(&self, run: &Run) -> Vec<&str> {
         let (model, track) = (&self.model, &run.trajectory);
-        let Some(last) = track.t.len().checked_sub(1).filter(|_| model.allow_redundancy) else {
-            return Vec::new();
-        };
+        let Some(last) = track.t.len().checked_sub(1) else { return Vec::new() };
         let n = model.layout.n_q;
         let some: BTreeSet<usize> = (0..EXAMINED).map(|k| k * last / (EXAMINED - 1)).collect();
-        let at = |k: usize| not_unique(model, track.t[k], &track.q[n * k..n * (k + 1)]);
+        let at = |k: usize| not_unique(model, track.t[k], &track.q[n * k..n * (k + 1)]).all();
         let found: BTreeSet<usize> = some.into_iter().flat_map(at).collect();
         found.into_iter().map(|k| &model.constraints[k].name[..]).collect()
     }

@@ -55,4 +55,4 @@ pub use results::NoResult;
 pub use second_order::mobility;
 pub use sequence::{check, run_after, start_of};
 pub use state::State;
-pub use uniqueness::not_unique;
+pub use uniqueness::{not_unique, NotUnique};

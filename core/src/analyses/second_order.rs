@@ -285,10 +285,11 @@ fn extended(model: &Model, q: &[f64], kept: &[Kept]) -> Model {
     let mut blueprint = model.blueprint.as_ref().clone();
     let added = kept.iter().map(|kept| {
         let constraint = holding(kept.of.into(), kept.law(model, q));
-        (format!("{} (kept)", kept.name(model)), Group::Joints, constraint)
+        (kept.name(model), Group::Joints, constraint)
     });
     let all = blueprint.constraints.iter().cloned().chain(added).list();
     blueprint.constraints = all.into();
+    blueprint.implied = kept.len();
     blueprint.allow_redundancy = true;
     Model::new(&Arc::new(blueprint), &model.parameters)
 }

@@ -205,8 +205,15 @@ impl<'m, S: Real> Sources<'m, S> {
         Ok(Self { bearings, all })
     }
 
-    /// The effort of a source. Passes its derivatives with respect to multipliers to `slope`.
-    fn effort(&self, effort: &Effort, lam: &[S], mut slope: impl FnMut(usize, S)) -> S {
+    /// The effort of a source. Passes its derivatives with respect to multipliers to `slope`; those of limits of
+    /// friction at rest only if `limits` is true.
+    fn effort(
+        &self,
+        effort: &Effort,
+        lam: &[S],
+        limits: bool,
+        mut slope: impl FnMut(usize, S),
+    ) -> S {
         let one = S::one();
         match *effort {
             Effort::Slides(own) => {
@@ -222,13 +229,10 @@ impl<'m, S: Real> Sources<'m, S> {
                 let most = leader.value(ForceElement::limit, lam, one, &mut |_, _| {});
                 let per_limit = S::select(most, -S::constant(sense) / most, S::zero());
                 let part = per_limit * lam[row];
-                let limit = own.value(ForceElement::limit, lam, part, &mut slope);
-                leader.value(
-                    ForceElement::limit,
-                    lam,
-                    S::select(most, -part * limit / most, S::zero()),
-                    &mut slope,
-                );
+                let mut of_limit = |row, by| if limits { slope(row, by) };
+                let limit = own.value(ForceElement::limit, lam, part, &mut of_limit);
+                let per_most = S::select(most, -part * limit / most, S::zero());
+                leader.value(ForceElement::limit, lam, per_most, &mut of_limit);
                 slope(row, per_limit * limit);
                 part * limit
             }
@@ -273,15 +277,24 @@ struct Path<'a, S: Clone> {
 impl<S: Real> Path<'_, S> {
     fn solve(&self, efforts: &mut Vec<S>) -> bool {
         // without a finite start, the solution is not finite either
-        if self.newton(efforts, S::one()) || !self.free.iter().all(|x| x.is_finite()) {
+        if self.newton(efforts, S::one(), true) || !self.free.iter().all(|x| x.is_finite()) {
             return true;
+        }
+        efforts.fill(S::zero());
+        let follows = |of: &Source<S>| matches!(of.effort, Effort::Follows { .. });
+        if self.sources.all.iter().any(follows) {
+            // the reaction without the friction that follows may be far too large
+            self.newton(efforts, S::one(), false);
+            if self.newton(efforts, S::one(), true) {
+                return true;
+            }
         }
         efforts.fill(S::zero());
         let (mut factor, mut step) = (0.0, FIRST);
         while factor < 1.0 {
             let next = f64::min(factor + step, 1.0);
             let mut trial = efforts.clone();
-            if self.newton(&mut trial, S::constant(next)) {
+            if self.newton(&mut trial, S::constant(next), true) {
                 *efforts = trial;
                 (factor, step) = (next, 2.0 * step);
             } else if step < LEAST {
@@ -302,7 +315,7 @@ impl<S: Real> Path<'_, S> {
     }
 
     /// Newton's method from `efforts`. Returns whether it converged with positive determinants.
-    fn newton(&self, efforts: &mut [S], factor: S) -> bool {
+    fn newton(&self, efforts: &mut [S], factor: S, limits: bool) -> bool {
         let all = &self.sources.all;
         let mut last = f64::INFINITY;
         let mut columns = vec![vec![S::zero(); all.len()]; all.len()];
@@ -314,7 +327,7 @@ impl<S: Real> Path<'_, S> {
             for (k, source) in all.iter().enumerate() {
                 columns.iter_mut().for_each(|column| column[k] = S::zero());
                 columns[k][k] = S::one();
-                let effort = self.sources.effort(&source.effort, &lam, |row, slope| {
+                let effort = self.sources.effort(&source.effort, &lam, limits, |row, slope| {
                     for (column, other) in columns.iter_mut().zip(all) {
                         column[k] -= factor * slope * other.response[self.first + row];
                     }

@@ -43,6 +43,8 @@ pub struct Blueprint {
     pub forces: Arc<Vec<LinkedForce>>,
     /// The modes of forces in a phase of a run. Forces that hold have the last constraints, in this order.
     pub modes: Vec<ForceMode>,
+    /// Number of the last constraints that equations of second order imply.
+    pub implied: usize,
     /// Changes of the phases of meshed wheels, by the names of the joints, m.
     pub phases: Vec<(String, f64)>,
     /// Laws that the host computes.

@@ -42,6 +42,7 @@ pub fn build(
         functions: definition.functions.clone(),
         doubts: Vec::new(),
         modes: Vec::new(),
+        implied: 0,
         phases: Vec::new(),
     };
     for (group, entries) in [

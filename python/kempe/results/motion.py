@@ -19,7 +19,7 @@ from kempe.results import friction_at_rest, quantities
 from kempe.results.newton_euler import NewtonEuler, newton_euler
 from kempe.results.phases import Phases
 from kempe.results.redundant import redundant
-from kempe.results.remarks import MIDDLE, MINIMUM_NORM, together
+from kempe.results.remarks import LEFT_OUT, MIDDLE, MINIMUM_NORM, together
 from kempe.results.variable import TIME, Variable
 from kempe.results.views.body import BodyView
 from kempe.results.views.constraint import ConstraintView
@@ -178,11 +178,13 @@ class Motion:
     def choices(self) -> Mapping[str, str]:
         """Joints and drivers without a unique reaction, and which of the possible ones is given.
 
-        It is "minimum norm", "middle of friction at rest" or both; see ``ConstraintView.unique``.
+        It is "minimum norm", "second-order load left out", "middle of friction at rest" or several
+        of them; see ``ConstraintView.unique``.
         """
-        shared, held = redundant(self), friction_at_rest.joints(self)
-        own = {MINIMUM_NORM: shared, MIDDLE: held}
-        names = (name for name in self.compiled.constraints if name in shared | held)
+        shared, kept = redundant(self)
+        own = {MINIMUM_NORM: shared, LEFT_OUT: kept, MIDDLE: friction_at_rest.joints(self)}
+        found = frozenset().union(*own.values())
+        names = (name for name in self.compiled.constraints if name in found)
         return MappingProxyType(
             {name: together(one for one, of in own.items() if name in of) for name in names}
         )

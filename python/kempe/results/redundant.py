@@ -1,4 +1,4 @@
-"""Joints and drivers that redundant constraints leave without a unique reaction."""
+"""Joints and drivers whose equations depend on each other, so that reactions are not unique."""
 
 from __future__ import annotations
 
@@ -15,11 +15,12 @@ if TYPE_CHECKING:
 _EXAMINED = 11
 
 
-def redundant(motion: Motion) -> frozenset[str]:
-    """The names of such joints and drivers."""
+def redundant(motion: Motion) -> tuple[frozenset[str], frozenset[str]]:
+    """Their names: of redundant equations, and of equations that hold to second order only."""
     if not len(np.atleast_1d(motion.t)):
-        return frozenset()
+        return frozenset(), frozenset()
     rows = motion._rows()
     some = np.unique(np.linspace(0, len(rows[0]) - 1, _EXAMINED).round().astype(int))
     states = _core.States(motion.compiled.core, *(of[some] for of in rows))
-    return frozenset(states.not_unique())
+    shared, kept = states.not_unique()
+    return frozenset(shared), frozenset(kept)

@@ -1,7 +1,8 @@
 """Remarks beside values of reactions: that they are not unique, or that they have no bound.
 
 Redundant constraints do not determine the reactions of the joints that take part; the values are
-then the smallest ones that carry the loads. Friction that drivers hold at rest may carry any part
+then the smallest ones that carry the loads. Joints that keep a coordinate only to second order
+would need infinite forces for a load along it, which their values leave out. Friction that drivers hold at rest may carry any part
 of the load up to its limit; the values are then the middle of their interval. A run can also pass a
 singular position beside which a reaction has no bound. Tables, files and figures state this beside
 the values, and so they do for measures and other results that read such a joint or driver.
@@ -30,10 +31,13 @@ if TYPE_CHECKING:
 
 #: The remarks at values that are not unique: which of the possible values is given.
 MINIMUM_NORM = "minimum norm"
+LEFT_OUT = "second-order load left out"
 MIDDLE = "middle of friction at rest"
 #: What they mean, behind "not unique".
 _MEANING = {
     MINIMUM_NORM: f"of the smallest multipliers ({MINIMUM_NORM})",
+    LEFT_OUT: "the load along a coordinate kept only to second order is left out: it would need "
+    "infinite forces",
     MIDDLE: "friction at rest may have any value in an interval, whose middle is given",
 }
 #: Times closer than this fraction of the motion belong to one position.
@@ -83,7 +87,7 @@ def choice_of(motion: Motion, *names: str) -> str:
 def together(choices: Iterable[str]) -> str:
     """Choices in one text, each once."""
     joined = " and ".join(choices)
-    return " and ".join(one for one in (MINIMUM_NORM, MIDDLE) if one in joined)
+    return " and ".join(one for one in _MEANING if one in joined)
 
 
 def by_choice(choices: Mapping[str, str]) -> Iterator[tuple[str, str, list[str]]]:

@@ -13,7 +13,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.results.extrema import passes_singular
-from kempe.results.remarks import MIDDLE, MINIMUM_NORM, choice_of, remark_of_variants, together
+from kempe.results.remarks import (
+    LEFT_OUT,
+    MIDDLE,
+    MINIMUM_NORM,
+    choice_of,
+    remark_of_variants,
+    together,
+)
 from kempe.sweeps.numbers import read_at
 
 if TYPE_CHECKING:
@@ -23,7 +30,7 @@ if TYPE_CHECKING:
     from kempe.sweeps.result import SweepResult
 
 #: The bits of a mark: the choices of values that are not unique, and values without bound.
-_BIT = {MINIMUM_NORM: 1, MIDDLE: 4}
+_BIT = {MINIMUM_NORM: 1, MIDDLE: 4, LEFT_OUT: 8}
 NO_BOUND = 2
 #: The statistic that singular positions before the end of a run do not affect.
 _AT_THE_END = "final"

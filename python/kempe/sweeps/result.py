@@ -87,7 +87,8 @@ class SweepResult:
     def remarks(self) -> Mapping[str, str]:
         """The remarks on measures, by their texts; a measure without a remark is not in it.
 
-        A remark is ``minimum norm`` if redundant constraints leave a reaction open, ``middle of
+        A remark is ``minimum norm`` if redundant constraints leave a reaction open,
+        ``second-order load left out`` if joints keep a coordinate only to second order, ``middle of
         friction at rest`` if drivers hold friction at rest, and ``without
         bound in 2 of 16 variants`` if so many of the variants that succeeded are in ``unbounded``;
         or both, with a comma. Remarks have no unit. Their source is ``Measure.choice`` and

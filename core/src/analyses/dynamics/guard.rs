@@ -64,6 +64,8 @@ pub(super) struct Guard {
     reactions: ReactionBalance,
     /// The examined states, each with its time and regularity.
     examined: Vec<(f64, f64, Balances)>,
+    /// The balance without the efforts that equations of second order imply, with the coordinates that they keep.
+    left_out: Worst,
     /// The largest regularity.
     regularity: f64,
     joints: Worst,
@@ -118,6 +120,7 @@ impl Guard {
             change: Worst::default(),
             reactions: ReactionBalance::default(),
             examined: Vec::new(),
+            left_out: Worst::default(),
             regularity: 0.0,
             joints: Worst::default(),
             contacts: Worst::default(),
@@ -190,9 +193,31 @@ impl Guard {
             let acting = Acting { z, lam: Some(&lam[k * m..(k + 1) * m]), t };
             let at = newton_euler::balances(model, &motions, &a[k * n..(k + 1) * n], acting);
             self.reactions.add(&at);
+            self.look_at_implied(model, &motions, &a[k * n..(k + 1) * n], acting);
             self.regularity = self.regularity.max(regularity[k]);
             self.examined.push((t, regularity[k], at));
         }
+    }
+
+    /// Reported reactions do not contain the efforts of implied constraints.
+    fn look_at_implied(
+        &mut self,
+        model: &Model,
+        motions: &Motions,
+        a: &[f64],
+        acting: Acting<'_, f64>,
+    ) {
+        let implied = model.constraints.len() - model.blueprint.implied..model.constraints.len();
+        if implied.is_empty() {
+            return;
+        }
+        let rows = model.layout.constraints[implied.start].rows.start;
+        let mut lam = acting.lam.unwrap_or_default().to_vec();
+        lam[rows..].fill(0.0);
+        let reported =
+            newton_euler::balances(model, motions, a, Acting { lam: Some(&lam), ..acting });
+        let names = || model.names_of(implied.clone().collect::<Vec<_>>().iter()).join(", ");
+        self.left_out.see(self.reactions.largest(&reported), acting.t, names);
     }
 
     /// The verdict on a run that ended. `name` gives the body or joint of a row of the balances.
@@ -217,6 +242,15 @@ impl Guard {
                  largest force, more than force_limit = {force:.1e}"
             );
             beyond(t, message, UNBALANCED, false)?;
+        }
+        if self.left_out.value > force {
+            let Worst { value, t, name } = &self.left_out;
+            let message = format!(
+                "the reactions leave out the load along {name}, {value:.1e} of the largest force at t = {t:.6} s: \
+                 joints that keep {name} only to second order would need infinite forces for it. To include it, add a \
+                 coupling that keeps {name}, with redundancy = \"allow\""
+            );
+            beyond(*t, message, "", true)?;
         }
         if self.joints.value > 1.0 {
             let Worst { t, name, .. } = &self.joints;

@@ -12,7 +12,7 @@ pub(super) fn check(model: &Model, t: f64, q: &[f64]) -> Result<(), Box<Failure>
     if !model.allow_redundancy || model.forces.iter().all(|item| item.reaction.is_none()) {
         return Ok(());
     }
-    let shared = not_unique(model, t, q);
+    let shared = not_unique(model, t, q).all();
     for item in &model.forces {
         let Some(joint) = item.reaction.map(|joint| joint.0).filter(|k| shared.contains(k)) else {
             continue;

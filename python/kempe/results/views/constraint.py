@@ -87,6 +87,9 @@ class ConstraintView(Generic[S]):
         minimum norm. Accepted redundant constraints (``redundancy="allow"``) are examined at the
         outputs; in a long motion, at eleven of them.
 
+        Joints that keep a coordinate only to second order would need infinite forces for a load
+        along it. The values leave this load out, so that ``newton_euler`` has it as a residual.
+
         While drivers hold friction at rest, it may carry any part of the load up to its limit. The
         values are then those without friction; ``interval`` gives the range.
         """

@@ -37,7 +37,8 @@ class Reaction:
         torque: torque about the point, counter-clockwise, (n_t,), N·m.
         choice: empty if the values are unique. ``minimum norm`` where redundant constraints leave
             them open: they then follow from the smallest multipliers that carry the loads.
-            ``middle of friction at rest`` where drivers hold friction at rest.
+            ``second-order load left out`` where the joint keeps a coordinate only to second order,
+            and ``middle of friction at rest`` where drivers hold friction at rest.
     """
 
     joint: str
