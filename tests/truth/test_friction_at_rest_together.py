@@ -10,7 +10,6 @@ import kempe as kp
 import numpy as np
 import pytest
 from scipy.optimize import brentq
-
 from sizes import count
 
 GRAVITY = 9.81
@@ -34,7 +33,10 @@ class Crank:
         joints = sorted(draw.choice(["A", "B", "C", "slide"], draw.integers(2, 5), replace=False))
         radius = {"slide": 0.0}
         self.friction = {
-            name: (draw.uniform(0.1, 0.35), radius.get(name, self.unit * draw.uniform(0.1, 0.3)))
+            name: (
+                draw.uniform(0.1, 0.35),
+                radius.get(name, self.unit * 10.0 ** draw.uniform(-2.5, -0.5)),
+            )
             for name in joints
         }
         crank, rod = self.lengths
@@ -130,8 +132,7 @@ def test_friction_at_rest_carries_the_same_part_in_all_joints(seed):
     assert abs(left) <= 1e-9 * weight
     sol = kp.dynamics(model, rest, t_end=0.01 * math.sqrt(crank.unit / GRAVITY))
     for name in crank.friction:
-        (kind,) = {"force" if name == "slide" else "torque"}
-        found = sol[f"rub_{name}.{kind}"]
+        found = sol[f"rub_{name}.{'force' if name == 'slide' else 'torque'}"]
         unit = weight * (1.0 if name == "slide" else crank.unit)
         assert np.abs(found - wanted[name]).max() <= 1e-9 * unit, (name, found[0], wanted[name])
     assert np.abs(sol["block.vx"]).max() <= 1e-9 * math.sqrt(crank.unit * GRAVITY)

@@ -1,12 +1,15 @@
 """Mechanisms that are singular in every position, against the linear constraint."""
 
 import math
+import warnings
 
 import kempe as kp
 import numpy as np
 import pytest
 
-pytestmark = pytest.mark.filterwarnings("ignore::kempe.AssemblyWarning")
+pytestmark = pytest.mark.filterwarnings(
+    "ignore::kempe.AssemblyWarning", "ignore:the reactions leave out the load::"
+)
 
 
 class Mechanism:
@@ -186,3 +189,35 @@ def test_bars_in_line_between_fixed_pins_have_no_motion():
     flat = kp.State(m, 0, [0.5, 0, 0, 2, 0, 0], np.zeros(6))
     (entry,) = kp.mobility(m, flat).singular
     assert entry.kind == "uncertainty"
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("moment", [0.0, 2.0])
+def test_a_load_that_is_kept_to_second_order_is_told(size, moment):
+    """A torque on the platen's bar would need infinite forces."""
+    mass = 1 / size
+
+    def run(linear):
+        made = Platen(size, mass, linear)
+        made.model.torque("twist", "beam", torque=moment)
+        start = kp.assemble(made.model, set=made.set, guess={} if linear else made.guess)
+        return start, kp.dynamics(made.model, start, t_end=0.1)
+
+    with warnings.catch_warnings(record=True) as heard:
+        warnings.simplefilter("always", kp.AccuracyWarning)
+        start, sol = run(linear=False)
+    texts = [str(one.message) for one in heard if issubclass(one.category, kp.AccuracyWarning)]
+    told = ["leave out the load along beam.angle" in text for text in texts]
+    assert told == ([True] if moment else [])
+    assert sol["beam.ay"][0] == pytest.approx(-9.81 * size, rel=1e-9)
+    left = sol.newton_euler.moment[:, sol.newton_euler.bodies.index("beam")]
+    assert np.abs(left - moment).max() <= 1e-9 * (moment or mass * size**2)
+    over = kp.kinematics(start.model, start, over="left.y", range=[0.5 * size, 0.7 * size], n=5)
+    for motion in (start, sol, over):
+        assert "second-order load left out" in motion["J1"].choice
+    # the remedy of the warning
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", kp.AccuracyWarning)
+        _, sol = run(linear=True)
+    assert sol.newton_euler.largest < 1e-9
+    assert sol["J1"].choice == "minimum norm"
