@@ -154,6 +154,7 @@ fn rate_of(model: &Model, coordinate: &Followed) -> Option<Signal> {
         Followed::Quantity(of) => Some(match signal(model, &of.name)? {
             Signal::Point { body, s, axis, .. } => Signal::Point { body, s, axis, order: 1 },
             Signal::Measured { id, k, .. } => Signal::Measured { id, k, order: 1 },
+            Signal::Column { column, .. } => Signal::Column { order: 1, column },
             other => other,
         }),
     }

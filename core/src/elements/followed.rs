@@ -139,7 +139,15 @@ impl<S> From<CoordinateOf> for Followed<S> {
     }
 }
 
+/// The name of the place of a joint on its curve.
+pub const PLACE: &str = "u";
+
 impl<S> Followed<S> {
+    /// Whether it is the place of a joint on its curve, an internal coordinate. No force acts along it on the bodies.
+    pub fn is_place(&self) -> bool {
+        matches!(self, Self::Quantity(of) if of.word == PLACE)
+    }
+
     /// Bodies i and j. The effort acts on j, and the opposite effort on i.
     pub fn bodies(&self) -> [BodyId; 2] {
         match self {

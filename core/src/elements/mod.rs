@@ -127,7 +127,7 @@ pub use declare::{Element, Table};
 use dispatch::{constraints, declared};
 use drivers::*;
 pub use field::{Default, Field, Shape, TOLERANCES, UNITS_OF_EQUATIONS};
-pub use followed::{Acted, BodyId, Coordinate, CoordinateOf, Followed, JointId, QuantityOf};
+pub use followed::{Acted, BodyId, Coordinate, CoordinateOf, Followed, JointId, QuantityOf, PLACE};
 pub use foot::{rim, Rim};
 use force_dispatch::forces;
 pub use force_trait::{Force, Held, Nature, OwnPowers, OwnState, Part, Situation, Wrenches};

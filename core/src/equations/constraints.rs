@@ -13,7 +13,7 @@ use crate::elements::derive::{
 use crate::elements::{At, BodyId, Constraint, Coordinate, Joint, Linearized, Moving};
 use crate::expression::Tape;
 use crate::math::{Jet, Listed, Motion, Pose, Real, Twist};
-use crate::model::{Block, ConstraintItem, Model, Slots};
+use crate::model::{Block, Model, Slots};
 
 /// Φ(q, t), shape (m).
 pub fn residual<S: Real>(model: &Model<S>, motions: &Motions<S>, t: S, out: &mut [S]) {
@@ -244,7 +244,7 @@ pub(super) fn linearize_one<S: Real>(
         Some(law) => {
             law_terms(model, law, motions, &at, [residual, rate, gamma]);
             for (block, rows) in slots.blocks.iter().zip(columns.chunks_exact_mut(m)) {
-                law_columns((model, item, law), motions, &at, block, rows);
+                law_columns((model, k, law), motions, &at, block, rows);
             }
             ByBlock::Blocks(columns)
         }
@@ -284,10 +284,12 @@ fn law_terms<S: Real>(
 ) {
     let coordinate =
         |body: BodyId, c: Coordinate| -> Jet<S> { c.of(&moving(&motions[body.0]), &Twist::zero()) };
+    let [own, rates] = motions.internals();
+    let jet = |(u, rate): (&S, &S)| Jet::new(*u, *rate, S::zero());
+    let internals = own.iter().zip(rates).map(jet).list();
     let residual = |at: &At<'_, Jet<S>>, phi: &mut [Jet<S>]| {
-        let (parameters, pieces) = (&model.parameters, &motions.pieces);
-        let values =
-            Laws { parameters, t: at.t, coordinate, own: [&[]; 2], z: &[], pieces, function: None };
+        let (parameters, pieces, own) = (&model.parameters, &motions.pieces, [&internals[..], &[]]);
+        let values = Laws { parameters, t: at.t, coordinate, own, z: &[], pieces, function: None };
         law.map(&mut |tape| tape.evaluate(&values)).residual(at, phi);
     };
     terms(at, &residual, out);
@@ -295,7 +297,7 @@ fn law_terms<S: Real>(
 
 /// Derivatives of a constraint with a law with respect to the coordinates of one owner.
 fn law_columns<S: Real>(
-    (model, item, law): (&Model<S>, &ConstraintItem<S>, &Constraint<Tape>),
+    (model, k, law): (&Model<S>, usize, &Constraint<Tape>),
     motions: &Motions<S>,
     at: &Moving<'_, S>,
     block: &Block,
@@ -306,14 +308,15 @@ fn law_columns<S: Real>(
         let pose = if Some(body) == block.body { seeded(pose) } else { pose.lift() };
         c.of(&pose, &Twist::zero())
     };
+    let internals = motions.seeded_internals(block.columns, block.body.is_none());
     let residual = |at: &At<'_, ByThree<S>>, phi: &mut [ByThree<S>]| {
-        let (parameters, pieces) = (&model.parameters, &motions.pieces);
-        let values =
-            Laws { parameters, t: at.t, coordinate, own: [&[]; 2], z: &[], pieces, function: None };
+        let (parameters, pieces, own) = (&model.parameters, &motions.pieces, [&internals[..], &[]]);
+        let values = Laws { parameters, t: at.t, coordinate, own, z: &[], pieces, function: None };
         law.map(&mut |tape| tape.evaluate(&values)).residual(at, phi);
     };
-    let varies = |b: usize| Some(item.bodies[b]) == block.body;
-    columns_of(at, &varies, block.body.is_none(), &residual, rows);
+    let varies = |b: usize| Some(model.constraints[k].bodies[b]) == block.body;
+    let own_varies = block.body.is_none() && block.columns == model.layout.constraints[k].own;
+    columns_of(at, &varies, own_varies, &residual, rows);
 }
 
 /// Derivatives of constraint `k` with respect to the coordinates of one body, one row for each equation, in `rows`.

@@ -171,7 +171,7 @@ fn changes(
             motions.body_mut(body.0).pose = seeded(&pose);
         }
         None => {
-            let (own, _) = motions.own_mut(slots.own);
+            let (own, _) = motions.own_mut(seed.columns);
             own.iter_mut().enumerate().for_each(|(c, u)| *u = Dual::variable(u.value, c));
         }
     }

@@ -1,6 +1,7 @@
 //! Poses and twists of all bodies, and internal coordinates of elements, from q and q̇.
 
-use crate::math::{Listed, Motion, Pose, Real, Rotation, Twist};
+use crate::elements::derive::ByThree;
+use crate::math::{Lift, Listed, Motion, Pose, Real, Rotation, Twist};
 use crate::model::{Columns, Model, StateLayout};
 use std::ops::Deref;
 
@@ -100,6 +101,15 @@ impl<S: Real> Motions<S> {
     #[inline]
     pub fn internals(&self) -> [&[S]; 2] {
         [&self.own, &self.own_rates]
+    }
+
+    /// The internal coordinates of all elements. Those of `columns` are seeds if they vary.
+    pub(super) fn seeded_internals(&self, columns: Columns, vary: bool) -> Vec<ByThree<S>> {
+        let seed = |(k, u): (usize, &S)| match (self.first_own + k).checked_sub(columns.first) {
+            Some(c) if vary && c < columns.count => ByThree::variable(*u, c),
+            _ => ByThree::lift(*u),
+        };
+        self.own.iter().enumerate().map(seed).list()
     }
 
     /// Internal coordinates of an element and their rates.

@@ -1,10 +1,10 @@
 //! The values that laws may use: parameters, time, the motion of the bodies, and first-order states.
 
 use super::kinematics::Motions;
-use crate::elements::{BodyId, Coordinate};
-use crate::expression::Values;
+use crate::elements::{BodyId, Coordinate, Followed};
+use crate::expression::{Tape, Values};
 use crate::math::{Lift, Motion, Real};
-use crate::model::Variable;
+use crate::model::{Model, Variable};
 
 /// Parameters over `S`. Time, coordinates and states over a scalar `T` that contains `S`.
 pub struct Laws<'a, S, T, F> {
@@ -69,4 +69,18 @@ pub fn held<'a, S: Real>(
     t: S,
 ) -> Laws<'a, S, S, impl Fn(BodyId, Coordinate) -> S + 'a> {
     Laws { pieces: &motions.pieces, own: motions.internals(), ..at(parameters, motions, z, t) }
+}
+
+/// The value of a position quantity at a position of the mechanism.
+pub fn position(model: &Model, of: &Followed<Tape>, t: f64, q: &[f64]) -> f64 {
+    match of {
+        Followed::Coordinate(of) => {
+            q[model.layout.bodies[of.body.0].first + of.coordinate.column()]
+        }
+        Followed::Quantity(of) => {
+            let motions = Motions::at_rest(&model.layout, q);
+            let values = held(&model.parameters, &motions, &[], t);
+            of.value.evaluate(&values)
+        }
+    }
 }

@@ -40,7 +40,7 @@ pub mod tangent;
 pub use compiled::Compiled;
 pub use gains::Gains;
 pub use inertia::Inertia;
-pub use laws::{at, held, Laws};
+pub use laws::{at, held, position, Laws};
 pub use motion::Workspace;
 pub use plan::Plan;
 pub use powers::Powers;

@@ -229,7 +229,11 @@ impl<'m, S: Real> Sources<'m, S> {
                 let most = leader.value(ForceElement::limit, lam, one, &mut |_, _| {});
                 let per_limit = S::select(most, -S::constant(sense) / most, S::zero());
                 let part = per_limit * lam[row];
-                let mut of_limit = |row, by| if limits { slope(row, by) };
+                let mut of_limit = |row, by| {
+                    if limits {
+                        slope(row, by)
+                    }
+                };
                 let limit = own.value(ForceElement::limit, lam, part, &mut of_limit);
                 let per_most = S::select(most, -part * limit / most, S::zero());
                 leader.value(ForceElement::limit, lam, per_most, &mut of_limit);

@@ -86,6 +86,8 @@ pub(super) struct Touched {
     pub bodies: Vec<BodyId>,
     /// Number and kind of its internal coordinates.
     pub own: (usize, QuantityKind),
+    /// The internal coordinates of other constraints that occur in its laws, each once.
+    pub internals: Vec<usize>,
     /// Whether its columns of translation are -I for body i and +I for body j.
     pub constant_columns: bool,
 }
@@ -95,7 +97,8 @@ pub(super) struct Touched {
 pub struct Slots {
     /// Rows of Φ.
     pub rows: Range<usize>,
-    /// Blocks of Φ_q: bodies i and j first, then bodies that occur only in a law, then the internal coordinates.
+    /// Blocks of Φ_q: bodies i and j first, then bodies that occur only in a law, then its internal coordinates,
+    /// then internal coordinates that occur in a law.
     pub blocks: Vec<Block>,
     /// Columns of the internal coordinates.
     pub own: Columns,
@@ -172,7 +175,7 @@ impl StateLayout {
     }
 
     fn slots(&mut self, touched: &Touched) -> Slots {
-        let Touched { equations, bodies, own, constant_columns } = touched;
+        let Touched { equations, bodies, own, internals, constant_columns } = touched;
         let rows = self.n_rows..self.n_rows + equations;
         self.n_rows = rows.end;
         let (i, j) = (bodies.first(), bodies.get(1));
@@ -195,7 +198,20 @@ impl StateLayout {
             self.kinds.extend(std::iter::repeat_n(kind, count));
             blocks.push(self.block(self.owners.len() - 1, None, 0.0, *equations));
         }
+        for place in internals {
+            let owner = self.owner_of_internal(*place);
+            if blocks.iter().all(|block| block.owner != owner) {
+                blocks.push(self.block(owner, None, 0.0, *equations));
+            }
+        }
         Slots { rows, blocks, own: columns }
+    }
+
+    /// The owner of an internal coordinate, by its index among those of all joints.
+    fn owner_of_internal(&self, place: usize) -> usize {
+        let first: usize = self.bodies.iter().map(|body| body.count).sum();
+        let has = |columns: &Columns| columns.range().contains(&(first + place));
+        self.owners.iter().position(has).expect("a joint before this constraint owns it")
     }
 
     #[inline]

@@ -75,6 +75,7 @@ impl<S: Real> Model<S> {
                 equations: equations.len(),
                 bodies: bodies.iter().chain(&depends.bodies).copied().list(),
                 own: (formula.own(), formula.curve().map(|on| on.curve.kind()).unwrap_or_default()),
+                internals: depends.internals.clone(),
                 constant_columns: formula.constant_columns() && !depends.any(),
             });
             constraints.push(ConstraintItem {

@@ -19,6 +19,16 @@ pub(super) struct NameIndex {
     pub forces: HashMap<String, usize>,
 }
 
+impl NameIndex {
+    /// The index of an internal coordinate, such as `cam.u`, among those of all joints.
+    pub fn place_on_curve(&self, name: &str) -> Option<usize> {
+        match self.internals.get(name)? {
+            Variable::Internal { place, rate: false } => Some(*place),
+            _ => None,
+        }
+    }
+}
+
 /// The first index of each name.
 pub(super) fn places<'n>(names: impl Iterator<Item = &'n String>) -> HashMap<String, usize> {
     let mut places = HashMap::new();

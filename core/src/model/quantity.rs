@@ -9,7 +9,9 @@ use super::items::Body;
 use super::link::Linker;
 use super::quantity_owner::{place, FormulaModel, QuantityOwner};
 use super::scope::{Quantities, Scope};
-use crate::elements::{BodyId, Constraint, Followed, ForceElement, Group, Measured, PointOn};
+use crate::elements::{
+    BodyId, Constraint, Followed, ForceElement, Group, Measured, PointOn, PLACE,
+};
 use crate::expression::Tape;
 use crate::math::Listed;
 use std::cell::Cell;
@@ -82,6 +84,9 @@ impl Quantities for Elements<'_> {
 
     fn followed(&self, name: &str) -> Option<Followed<Tape>> {
         let (owner, word) = name.rsplit_once('.')?;
+        if let Some(place) = self.scope.places.place_on_curve(name) {
+            return self.owner(owner)?.on_curve(name, place);
+        }
         let owner = self.owner(owner).filter(QuantityOwner::has_formulas)?;
         let (k, order) = place(owner.measured(), word)?;
         if order > 0 {
@@ -105,8 +110,9 @@ impl Quantities for Elements<'_> {
     }
 
     fn offered(&self, owner: &str) -> Option<Vec<&'static str>> {
-        let names = self.owner(owner)?.measured().iter().map(|of| of.names[0]);
-        Some(names.list())
+        let found = self.owner(owner)?;
+        let place = found.on_curve(owner, 0).map(|_| PLACE);
+        Some(found.measured().iter().map(|of| of.names[0]).chain(place).list())
     }
 
     fn names(&self, rates: bool) -> Vec<String> {
@@ -129,6 +135,9 @@ impl Quantities for Elements<'_> {
 /// Largest number of elements and points that suggestions consider.
 const MOST_SUGGESTED: usize = 200;
 
+/// The name of the rate of a place on a curve.
+const PLACE_RATE: &str = "u_rate";
+
 /// A quantity of a point or element of a linked model.
 pub enum Offered {
     /// A position quantity or its rate (whether it is a rate), and its SI unit.
@@ -144,7 +153,16 @@ pub fn quantity_of(blueprint: &Blueprint, owner: &str, word: &str) -> Option<Off
         turns: blueprint.bodies.iter().map(|body| body.turns).list(),
     };
     let name = format!("{owner}.{word}");
-    let owner = linked(blueprint, owner)?;
+    let (joint, owner) = (owner, linked(blueprint, owner)?);
+    if matches!(word, PLACE | PLACE_RATE) {
+        let before = blueprint.constraints.iter().take_while(|(known, ..)| known != joint);
+        let place = before.map(|(.., element)| element.own()).sum();
+        if let Some(of) = owner.on_curve(&format!("{joint}.{PLACE}"), place) {
+            let order = usize::from(word == PLACE_RATE);
+            let unit = of.kind().unit_of_rate(order);
+            return Some(Offered::Position(of, order == 1, unit));
+        }
+    }
     Some(match place(owner.measured(), word) {
         Some((k, order @ 0..=1)) if owner.has_formulas() => {
             let unit = owner.measured()[k].kind.unit_of_rate(order);

@@ -3,7 +3,7 @@
 use super::variable::Variable;
 use crate::elements::{
     At, Attachment, BodyId, Constraint, Coordinate, CoordinateOf, Followed, ForceElement, Measured,
-    PointOn, QuantityOf,
+    PointOn, QuantityOf, PLACE,
 };
 use crate::expression::{Symbol, Tape, Values};
 use crate::math::{Listed, Local, Pose, Real, Twist};
@@ -84,6 +84,26 @@ impl<S: Real> QuantityOwner<S> {
                 at(element.points().map_or(Local::zero(), |points| points[body]))
             }
         }
+    }
+}
+
+impl QuantityOwner<Tape> {
+    /// The place of a joint on its curve, its only internal coordinate, by its index among those of all joints.
+    pub fn on_curve(&self, name: &str, place: usize) -> Option<Followed<Tape>> {
+        let Self::Constraint(element) = self else { return None };
+        let curve = element.curve().filter(|_| element.own() == 1)?;
+        let bodies = element.bodies();
+        let variable = Variable::Internal { place, rate: false };
+        let zero = || Tape::from(0.0);
+        let origin = Attachment { s: Local { x: zero(), y: zero() }, axis: zero() };
+        Some(Followed::Quantity(Box::new(QuantityOf {
+            name: name.to_string(),
+            word: PLACE,
+            kind: curve.curve.kind(),
+            bodies: [bodies[0], bodies[1]],
+            ends: [0, 1].map(|_| origin.clone()),
+            value: Tape::shifted(Symbol::Variable(variable.index()), 0.0),
+        })))
     }
 }
 

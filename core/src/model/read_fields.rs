@@ -4,8 +4,8 @@ use super::definition::Value;
 use super::scope::Reach;
 use super::unit_check::ANY_UNIT;
 use crate::elements::{
-    types_that_rub, Acted, Bearing, BodyId, CurveOn, Default, Field, Followed, JointId, PointOn,
-    QuantityKind, Source,
+    types_that_rub, Acted, Bearing, BodyId, CurveOn, Default, Field, Followed, Group, JointId,
+    PointOn, QuantityKind, Source,
 };
 use crate::expression::Tape;
 use crate::math::Listed;
@@ -66,7 +66,13 @@ impl Source for Linker<'_> {
 
     fn coordinate(&mut self, field: &Field) -> Option<Followed<Tape>> {
         let text = self.text(field)?;
-        self.position(field, text)
+        let found = self.position(field, text)?;
+        if found.is_place() && self.group == Group::Forces {
+            let message = format!("no force acts along '{text}', which is a place on a curve");
+            let hint = "give a coordinate of the body that moves on the curve";
+            return self.report(field, message, Some(hint.to_string()));
+        }
+        Some(found)
     }
 
     fn acted(&mut self, field: &Field) -> Option<Acted<Tape>> {

@@ -36,7 +36,7 @@ pub struct Scope {
     pub units: RefCell<Vec<(usize, String)>>,
     /// Angles read so far that look like degrees.
     pub doubts: RefCell<Vec<Doubt>>,
-    places: NameIndex,
+    pub(super) places: NameIndex,
 }
 
 /// The first-order states of a force entry.

@@ -46,5 +46,5 @@ fn is_of_its_bodies(item: &ConstraintItem) -> bool {
     if let Some(law) = &item.law {
         law.map(&mut |tape| depends.add(tape));
     }
-    depends.bodies.iter().all(|body| item.bodies.contains(body))
+    depends.internals.is_empty() && depends.bodies.iter().all(|body| item.bodies.contains(body))
 }

@@ -8,8 +8,7 @@ use super::target::{of_rates, Target};
 use super::velocities;
 use crate::analyses::closing::Halt;
 use crate::elements::Followed;
-use crate::equations::at;
-use crate::equations::kinematics::Motions;
+use crate::equations::position;
 use crate::expression::Tape;
 use crate::math::Listed;
 use crate::model::Model;
@@ -55,14 +54,7 @@ fn holding<'a>(
     q: &[f64],
     targets: impl Iterator<Item = &'a Target>,
 ) -> Model {
-    let motions = Motions::at_rest(&model.layout, q);
-    let position = |of: &Followed<Tape>| match of {
-        Followed::Coordinate(of) => {
-            q[model.layout.bodies[of.body.0].first + of.coordinate.column()]
-        }
-        Followed::Quantity(of) => of.value.evaluate(&at(&model.parameters, &motions, &[], t)),
-    };
-    let line = |of: &Followed<Tape>, rate: f64| Tape::line(position(of), rate, t);
+    let line = |of: &Followed<Tape>, rate: f64| Tape::line(position(model, of, t, q), rate, t);
     let held: Vec<_> = targets.filter_map(|target| held(model, target, line)).list();
     Model::new(&Arc::new(model.blueprint.holding(&held)), &model.parameters)
 }

@@ -4,9 +4,8 @@ use super::found::Positions;
 use crate::analyses::assemble::{following, place, wind, Targets};
 use crate::analyses::closing::{Closing, Halt};
 use crate::analyses::kinematics::circuit;
-use crate::elements::{holding, Followed, Group, QuantityKind};
-use crate::equations::at;
-use crate::equations::kinematics::Motions;
+use crate::elements::{holding, Group, QuantityKind};
+use crate::equations::position;
 use crate::expression::Tape;
 use crate::math::Listed;
 use crate::model::Model;
@@ -96,19 +95,12 @@ fn drivers(model: &Model) -> Vec<usize> {
 /// The model in which the value of one driver grows with t and the other drivers keep their values; also whether this
 /// value is an angle.
 fn moving(model: &Model, t: f64, q: &[f64], driver: usize) -> (Model, bool) {
-    let motions = Motions::at_rest(&model.layout, q);
-    let value = |of: &Followed<Tape>| match of {
-        Followed::Coordinate(of) => {
-            q[model.layout.bodies[of.body.0].first + of.coordinate.column()]
-        }
-        Followed::Quantity(of) => of.value.evaluate(&at(&model.parameters, &motions, &[], t)),
-    };
     let mut blueprint = (*model.blueprint).clone();
     for (k, (_, _, constraint)) in Arc::make_mut(&mut blueprint.constraints).iter_mut().enumerate()
     {
         let Some(of) = constraint.drives().cloned() else { continue };
         let rate = if k == driver { 1.0 } else { 0.0 };
-        let now = value(&of);
+        let now = position(model, &of, t, q);
         *constraint = holding(of, Tape::line(now, rate, t));
     }
     let turns = model.constraints[driver]

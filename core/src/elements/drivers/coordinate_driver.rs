@@ -2,7 +2,9 @@
 //!
 //! Φ = c - value(t). c is a coordinate x, y or φ of a body, measured from ground, or a position quantity of a point
 //! or of an element: the angle of a revolute joint, the displacement of a slide. The effort -λ acts between the two
-//! bodies of the quantity. The law may use t and the positions of other bodies.
+//! bodies of the quantity. The law may use t and the positions of other bodies. If c is the place u of a joint on its
+//! curve, the row of u in the equations of motion is λ + Φ_uᵀ λ_joint = 0: the reaction of the joint then has a part
+//! along the curve, which does the work of the driver.
 
 use crate::elements::{
     element, At, Attachment, BodyId, Equation, Fixes, Followed, Joint, QuantityKind, SceneSymbol,
@@ -14,7 +16,7 @@ element! {
     /// (Haug 3.5.1, 3.5.2). The driving force or torque is -λ on body j of the quantity and +λ on
     /// body i. The coordinates of a body are measured from ground.
     CoordinateDriver, "coordinate_driver" {
-        /// Driven quantity: `body.x`, `body.y`, `body.angle`, `body.point.x`, `joint.angle`, `joint.displacement` and so on.
+        /// Driven quantity: `body.x`, `body.y`, `body.angle`, `body.point.x`, `joint.angle`, `joint.displacement`, the place `joint.u` on a curve, and so on.
         coordinate: coordinate,
         /// Value of the quantity, m or rad; may use `t` and the positions of other bodies.
         value: law [m|rad],
@@ -55,6 +57,7 @@ impl Joint for CoordinateDriver {
     fn fixes<S: Clone>(e: &CoordinateDriver<S>) -> Vec<Fixes<S>> {
         match &e.coordinate {
             Followed::Coordinate(of) => vec![Fixes::Coordinate(*of, e.value.clone())],
+            of if of.is_place() => Vec::new(),
             Followed::Quantity(of) if of.kind == QuantityKind::Angle => vec![Fixes::Turn],
             Followed::Quantity(_) => Vec::new(),
         }

@@ -36,11 +36,16 @@ pub fn of_constraint(
         let coordinate = |body: BodyId, c: Coordinate| {
             find(body).map_or(Symbolic::zero(), |(_, coordinates)| coordinates.of(c))
         };
+        let seen = internals(element);
+        let own = internal(record, element.own() + seen.len());
+        let mut places = vec![t; seen.last().map_or(0, |last| last + 1)];
+        let symbols = own[element.own()..].iter();
+        seen.iter().zip(symbols).for_each(|(place, symbol)| places[*place] = *symbol);
         let values = Laws {
             parameters: &parameters,
             t,
             coordinate,
-            own: [&[]; 2],
+            own: [&places, &[]],
             z: &[],
             pieces: &[],
             function: None,
@@ -53,14 +58,22 @@ pub fn of_constraint(
         let pose = |body: BodyId| {
             find(body).map_or(Pose::identity(), |(_, coordinates)| coordinates.pose())
         };
-        let own = internal(record, element.own());
         if let Some(on) = over.curve_mut() {
             on.curve = curve(record, written("curve").as_deref(), own[0]);
         }
-        let phi = residual(&over, pose, &own, t);
+        let phi = residual(&over, pose, &own[..element.own()], t);
         let columns: Vec<&Coordinates> = bodies.iter().map(|(_, body)| body).list();
         print(record, &phi, (&columns, &own), form)
     })
+}
+
+/// The internal coordinates of other joints on which a constraint depends, ascending.
+fn internals(element: &Constraint<Tape>) -> Vec<usize> {
+    let mut depends = Dependence::default();
+    element.map(&mut |tape| depends.add(tape));
+    depends.internals.sort_unstable();
+    depends.internals.dedup();
+    depends.internals
 }
 
 /// The moving bodies on which a constraint and its laws depend, each once.
