@@ -17,7 +17,7 @@
 use super::inertia::{self, Inertia};
 use crate::elements::QuantityKind;
 use crate::math::{each, Listed, Ordered, Real};
-use crate::model::{Body, ConstraintItem, Model, Slots, Weighed};
+use crate::model::{Block, Body, ConstraintItem, Model, Slots, Weighed};
 
 /// Mass, relative to the bodies between which a body lies, below which the body is light.
 const LIGHT: f64 = 1e-2;
@@ -102,7 +102,8 @@ impl Internal {
 /// The internal coordinates of all elements.
 fn internals<S: Real>(model: &Model<S>, all: &Bodies) -> Vec<Internal> {
     let of_element = |(item, slots): (&ConstraintItem<S>, &Slots)| {
-        let block = slots.blocks.iter().find(|block| block.body.is_none())?;
+        let own = |block: &&Block| slots.own.count > 0 && block.columns == slots.own;
+        let block = slots.blocks.iter().find(own)?;
         let touched = |of: &[f64]| {
             let own = mean(item.bodies.iter().map(|body| of[body.0]));
             FLOOR * own.or_else(|| mean(of.iter().copied())).unwrap_or(1.0)

@@ -3,6 +3,7 @@
 use super::Model;
 use crate::elements::Fixes;
 use crate::math::{Listed, Real};
+use std::f64::consts::TAU;
 
 /// The size of a mechanism, m: the largest of the distances of points and curves from the origins of their frames,
 /// and of the distances between two points fixed by a joint. 1 m if there are no such distances.
@@ -35,10 +36,19 @@ pub fn usual_energy(model: &Model) -> f64 {
     (heaviest * size * (model.gravity.norm() + size)).max(f64::MIN_POSITIVE)
 }
 
-/// Scale of each coordinate, shape (n_q): the size for lengths, 1 for angles.
+/// Scale of each coordinate, shape (n_q): the size for lengths, 1 for angles, and the range of the curve over 2π for
+/// the place of a joint on its curve, whatever its unit.
 pub fn column_scales<S: Real>(model: &Model<S>) -> Vec<f64> {
     let size = size(model);
-    model.layout.lengths().into_iter().map(|length| if length { size } else { 1.0 }).list()
+    let lengths = model.layout.lengths().into_iter();
+    let mut scales = lengths.map(|length| if length { size } else { 1.0 }).list();
+    for (item, slots) in model.constraints.iter().zip(&model.layout.constraints) {
+        let Some(on) = item.element.curve().filter(|_| slots.own.count > 0) else { continue };
+        let [from, to] = on.curve.range();
+        let scale = (to - from).largest_magnitude() / TAU;
+        scales[slots.own.first] = if scale > 0.0 { scale } else { size };
+    }
+    scales
 }
 
 /// Scale of each row of Φ, shape (n_rows): the size for lengths, 1 for angles.

@@ -438,7 +438,7 @@ class CoordinateDriver(Element):
 
     Attributes:
         coordinate: Driven quantity: `body.x`, `body.y`, `body.angle`, `body.point.x`,
-            `joint.angle`, `joint.displacement` and so on.
+            `joint.angle`, `joint.displacement`, the place `joint.u` on a curve, and so on.
         value: Value of the quantity, m or rad; may use `t` and the positions of other bodies [m
             or rad].
         release: Condition on any quantities. Once it has become true, the driver no longer
@@ -1203,7 +1203,7 @@ class ElementMethods:
         Args:
             name: its name in the model.
             coordinate: Driven quantity: `body.x`, `body.y`, `body.angle`, `body.point.x`,
-                `joint.angle`, `joint.displacement` and so on.
+                `joint.angle`, `joint.displacement`, the place `joint.u` on a curve, and so on.
             value: Value of the quantity, m or rad; may use `t` and the positions of other bodies [m
                 or rad].
             release: Condition on any quantities. Once it has become true, the driver no longer

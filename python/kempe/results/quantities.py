@@ -260,7 +260,7 @@ def _driving(motion: Motion, info: ConstraintInfo) -> dict[str, Quantity]:
     def power() -> Any:
         return scalar(effort() * named(motion, f"{owner}.{_rate_name(motion, owner, name)}").read())
 
-    unit = "N*m" if info.equations[0][1] == "rad" else "N"
+    unit = "N" if info.equations[0][1] == "m" else "N*m"
     return {"effort": Quantity(unit, effort), "power": Quantity("W", power)}
 
 
@@ -270,7 +270,9 @@ def _rate_name(motion: Motion, owner: str, position: str) -> str:
     element = compiled.constraints.get(owner) or compiled.forces.get(owner)
     of_body = dict(zip(COORDINATES, RATES, strict=True))
     measured = element.measured if element is not None else ()
-    return {**of_body, **{of.names[0]: of.names[1] for of in measured}}[position]
+    own = getattr(element, "coordinates", ())
+    names = {of.names[0]: of.names[1] for of in measured} | {of: f"{of}_rate" for of, _ in own}
+    return {**of_body, **names}[position]
 
 
 def of_force(motion: Motion, info: ForceInfo) -> Family:

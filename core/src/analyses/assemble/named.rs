@@ -185,6 +185,12 @@ pub(super) fn named(
 /// # Errors
 /// There is no quantity with this name, or it is not a position of a moving body.
 pub fn position(model: &Model, name: &str) -> Result<Followed<Tape>, Problem> {
+    let (owner, word) = name.rsplit_once('.').unwrap_or_default();
+    if let Some(Offered::Position(of, false, _)) = quantity_of(&model.blueprint, owner, word) {
+        if of.is_place() {
+            return Ok(of);
+        }
+    }
     let mut problems = Vec::new();
     let found = named(&NamedTargets::of(model), name, &[name.to_string()], &mut problems);
     let target = found.map(|found| found.with(0.0)).filter(|target| !target.is_rate());
