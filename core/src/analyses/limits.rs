@@ -5,8 +5,7 @@
 //! no limit before the mechanism returns to its start, after one or several turns. A length is unlimited if it exceeds
 //! [`FARTHEST`] times the size of the mechanism.
 
-use super::curves::Ranges;
-use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Point, Reason};
+use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Reason};
 use super::options::{name, options};
 use super::record::{Analysis, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished};
 use super::{second_order, State};
@@ -16,7 +15,6 @@ use crate::math::Listed;
 use crate::model::{size, Model};
 use serde_json::json;
 use std::f64::consts::TAU;
-use std::sync::Arc;
 
 /// Number of turns after which an angle without a limit counts as unlimited, even if the mechanism never returns to
 /// its start.
@@ -159,7 +157,7 @@ pub fn limits(
     let (driven, kind) = driven(model);
     let kind = kind.unwrap_or_default();
     let mut found = Limits { kind, ..Limits::default() };
-    let mut walk = Walk { model, start, kind, curves: Ranges::of(model), watch: &mut watch };
+    let mut walk = Walk { model, start, kind, watch: &mut watch };
     let (down, mut path) = walk.towards(-1.0)?;
     path.reverse();
     let described = |end: &DirectionEnd| {
@@ -211,7 +209,6 @@ struct Walk<'a, W> {
     model: &'a Model,
     start: &'a State,
     kind: QuantityKind,
-    curves: Ranges,
     watch: &'a mut W,
 }
 
@@ -229,14 +226,9 @@ impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
         for turn in 1..=turns {
             let goal = self.start.t + way * length * turn as f64;
             while motion.point().t != goal {
-                let before = Arc::clone(motion.point());
                 if let Err(reason) = motion.step(goal) {
                     let Reason::Limit(limit) = reason else { return Err(reason.into()) };
                     let bound = bound(*limit);
-                    path.push((bound.value, bound.q.clone()));
-                    return Ok((DirectionEnd::At(bound), path));
-                }
-                if let Some(bound) = self.end_of_curve(&mut motion, before) {
                     path.push((bound.value, bound.q.clone()));
                     return Ok((DirectionEnd::At(bound), path));
                 }
@@ -251,18 +243,6 @@ impl<W: FnMut(f64) -> Flow> Walk<'_, W> {
             }
         }
         Ok((DirectionEnd::Never, path))
-    }
-
-    /// The end of a curve that a contact left in the last step.
-    fn end_of_curve(&self, motion: &mut Continuation<'_>, before: Arc<Point>) -> Option<Bound> {
-        let Self { model, curves, .. } = self;
-        let (name, _) = curves.beyond(model, &motion.point().q)?;
-        motion.back(before, |_, q| curves.beyond(model, q).is_none());
-        let Point { t, q, .. } = &**motion.point();
-        let value = written(*t, Some(self.kind));
-        let (driven, _) = driven(model);
-        let reason = format!("{driven} cannot pass {value}: {name} is at the end of its curve");
-        Some(Bound { value: *t, q: q.clone(), reason })
     }
 }
 

@@ -6,7 +6,7 @@ use crate::analyses::options::{not_negative, OptionKind, Reader};
 use crate::elements::{Default, Shape, TOLERANCES};
 use crate::integrate::Atol;
 use crate::math::Listed;
-use crate::model::{size, Model, Value};
+use crate::model::{column_scales, size, Model, Value};
 
 /// An absolute tolerance as written.
 #[derive(Clone, Debug, PartialEq)]
@@ -30,25 +30,20 @@ impl AbsoluteTolerance {
     }
 }
 
-/// The kind of each component of (q, v, z), as an index into [`TOLERANCES`].
-fn kinds(model: &Model) -> impl Iterator<Item = usize> {
-    let of_q = model.layout.lengths().into_iter().map(|length| usize::from(!length));
-    let of_q: Vec<usize> = of_q.list();
-    let states = std::iter::repeat_n(2, model.layout.n_z);
-    of_q.clone().into_iter().chain(of_q).chain(states)
-}
-
-/// The scale of each kind: the size of the mechanism for lengths, 1 for angles and first-order states.
-fn scales(model: &Model) -> [f64; 3] {
-    [size(model), 1.0, 1.0]
+/// The kind of each component of (q, v, z), as an index into [`TOLERANCES`], and its scale. The tolerance of a place on
+/// a curve is that of lengths, in proportion to its scale.
+fn components(model: &Model) -> Vec<(usize, f64)> {
+    let lengths = model.layout.lengths().into_iter().map(|length| usize::from(!length));
+    let of_q: Vec<(usize, f64)> = lengths.zip(column_scales(model)).list();
+    let states = std::iter::repeat_n((2, 1.0), model.layout.n_z);
+    of_q.clone().into_iter().chain(of_q).chain(states).list()
 }
 
 /// The tolerance with one number for each component of (q, v, z), as most methods need it.
 pub(super) fn for_model(model: &Model, atol: &Atol) -> Atol {
     match atol {
         Atol::Scaled(part) => {
-            let scales = scales(model);
-            Atol::Each(kinds(model).map(|kind| part * scales[kind]).list())
+            Atol::Each(components(model).into_iter().map(|(_, scale)| part * scale).list())
         }
         given => given.clone(),
     }
@@ -86,7 +81,8 @@ impl OptionKind for absolute_tolerance {
             }
             Some(all)
         })?;
-        let scales = scales(model);
-        Some(AbsoluteTolerance::ByKind(kinds(model).map(|k| (own[k], scales[k])).list()))
+        let units = [size(model), 1.0, 1.0];
+        let one = |(k, scale): (usize, f64)| (own[k].map(|own| own * (scale / units[k])), scale);
+        Some(AbsoluteTolerance::ByKind(components(model).into_iter().map(one).list()))
     }
 }

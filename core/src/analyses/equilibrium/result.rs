@@ -3,6 +3,7 @@
 use super::failure::Reason;
 use super::search::{relative, zero};
 use super::statics::{StaticState, Statics};
+use crate::analyses::curves;
 use crate::analyses::linearization::coordinate;
 use crate::analyses::rigid::RigidContacts;
 use crate::analyses::State;
@@ -46,7 +47,7 @@ impl Equilibrium {
         holders: usize,
     ) -> Result<Self, Reason> {
         let model = statics.model;
-        not_beyond_a_stop(model, statics.t, place)?;
+        is_within(model, statics.t, place)?;
         let local = statics.local(place)?;
         let scaled = Eigen::of(&local.stiffness, local.gradient.len()).values;
         let limit = zero(&local.stiffness, place.scale);
@@ -77,17 +78,21 @@ impl Equilibrium {
     }
 }
 
-/// Rejects a position beyond a stop or contact with restitution, which exerts no force there.
-fn not_beyond_a_stop(model: &Model, t: f64, place: &StaticState) -> Result<(), Reason> {
-    match RigidContacts::of(model).beyond(model, t, &place.q) {
-        None => Ok(()),
-        Some((name, _)) => {
-            let message =
-                "the mechanism would come to rest beyond it, where restitution gives no force";
-            let problem = Problem::at(&["forces", &name], message);
-            Err(Reason::Option(vec![problem.hint("give it a stiffness in place of restitution")]))
-        }
+/// Rejects a position beyond a stop or contact with restitution, which exerts no force there, or beyond the end of a
+/// curve.
+fn is_within(model: &Model, t: f64, place: &StaticState) -> Result<(), Reason> {
+    let refused = |problem: Problem, hint: &str| Err(Reason::Option(vec![problem.hint(hint)]));
+    if let Some((name, _)) = RigidContacts::of(model).beyond(model, t, &place.q) {
+        let message =
+            "the mechanism would come to rest beyond it, where restitution gives no force";
+        let problem = Problem::at(&["forces", &name], message);
+        return refused(problem, "give it a stiffness in place of restitution");
     }
+    if let Some((name, message)) = curves::beyond(model, &place.q) {
+        let problem = Problem::at(&["joints", &name], message);
+        return refused(problem, "extend the range of the curve, or add a stop before its end");
+    }
+    Ok(())
 }
 
 /// The efforts of the drivers whose rows come before `own`.

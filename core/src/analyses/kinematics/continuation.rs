@@ -10,6 +10,7 @@ use super::failure::{self, Failure, Reason};
 use super::passage;
 use super::quintic::Quintic;
 use super::solution::{Point, Solver};
+use crate::analyses::curves::Ranges;
 use crate::analyses::rigid::RigidContacts;
 use crate::analyses::second_order::mobility;
 use crate::analyses::State;
@@ -53,6 +54,8 @@ pub(in crate::analyses) struct Continuation<'a> {
     rejected: usize,
     /// Stops and contacts that the motion must not pass.
     contacts: RigidContacts,
+    /// Curves that contacts must not leave.
+    curves: Ranges,
 }
 
 impl<'a> Continuation<'a> {
@@ -82,6 +85,7 @@ impl<'a> Continuation<'a> {
                 orientation: None,
                 rejected: 0,
                 contacts,
+                curves: Ranges::of(model),
             }),
             None => Err(Reason::singular_start(model, *t, q, &freedom).into()),
         }
@@ -97,22 +101,27 @@ impl<'a> Continuation<'a> {
         self.rejected
     }
 
-    /// Takes a step, at most to `goal`. The motion ends at a limit, which is then the current point if it is a stop
-    /// or contact.
+    /// Takes a step, at most to `goal`. The motion ends at a limit, which is then the current point unless it is a dead
+    /// point.
     pub fn step(&mut self, goal: f64) -> Result<(), Reason> {
         let from = Arc::clone(&self.point);
         self.advance(goal)?;
         let model = self.solver.model;
-        let Some((name, _)) = self.contacts.beyond(model, self.point.t, &self.point.q) else {
-            return Ok(());
-        };
-        let contacts = std::mem::take(&mut self.contacts);
-        self.back(from, |t, q| contacts.allow(model, t, q));
-        Err(Reason::Limit(Box::new(Limit::of_contact(model, &self.point, name))))
+        let Point { t, q, .. } = &*self.point;
+        let touched =
+            self.contacts.beyond(model, *t, q).map(|(name, _)| format!("{name} is reached"));
+        let left = self.curves.beyond(model, q);
+        let ended = left.map(|(name, _)| format!("{name} is at the end of its curve"));
+        let Some(reached) = touched.or(ended) else { return Ok(()) };
+        let (contacts, curves) = (self.contacts.clone(), self.curves.clone());
+        let inside =
+            |t, q: &[f64]| contacts.allow(model, t, q) && curves.beyond(model, q).is_none();
+        self.back(from, inside);
+        Err(Reason::Limit(Box::new(Limit::of_barrier(model, &self.point, reached))))
     }
 
     /// Goes back, within the last step from a point, to the last position that is `inside`, by bisection.
-    pub fn back(&mut self, from: Arc<Point>, inside: impl Fn(f64, &[f64]) -> bool) {
+    fn back(&mut self, from: Arc<Point>, inside: impl Fn(f64, &[f64]) -> bool) {
         let mut outside = std::mem::replace(&mut self.point, from);
         (self.before, self.orientation, self.length) = (None, None, f64::INFINITY);
         loop {

@@ -3,10 +3,10 @@
 use super::solution::Point;
 use crate::analyses::assemble::trimmed;
 use crate::elements::{At, Attachment, BodyId, Coordinate, Fixes, Followed, Group, QuantityKind};
-use crate::equations::at;
+use crate::equations::held;
 use crate::equations::kinematics::Motions;
 use crate::math::{Listed, Local, Rotation, Vec2};
-use crate::model::{column_scales, ConstraintItem, Model};
+use crate::model::{column_scales, ConstraintItem, Dependence, Model};
 use std::fmt;
 
 /// Largest sine of the angle between two bodies in line, and largest cosine between a body and a slide at right
@@ -36,8 +36,8 @@ pub struct Limit {
     pub in_line: Option<[String; 2]>,
     /// A body and a slide at right angles to each other, if any.
     pub across: Option<[String; 2]>,
-    /// The stop or contact with restitution that is reached, if it is not a dead point.
-    pub stop: Option<String>,
+    /// What is reached if it is not a dead point: a stop, a contact with restitution, or the end of a curve.
+    pub reached: Option<String>,
 }
 
 impl Limit {
@@ -55,23 +55,23 @@ impl Limit {
             kind,
             in_line: moving.in_line(),
             across: moving.across(),
-            stop: None,
+            reached: None,
             q,
         }
     }
 
-    /// The limit at which the motion through a position reaches a stop or contact.
-    pub(super) fn of_contact(model: &Model, from: &Point, stop: String) -> Self {
+    /// The limit at which the motion through a position reaches something.
+    pub(super) fn of_barrier(model: &Model, from: &Point, reached: String) -> Self {
         let limit = Self::new(model, from.t, from.q.clone(), &from.v);
-        Self { in_line: None, across: None, stop: Some(stop), ..limit }
+        Self { in_line: None, across: None, reached: Some(reached), ..limit }
     }
 }
 
 impl fmt::Display for Limit {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "{} cannot pass {}: ", self.driven, written(self.value, self.kind))?;
-        if let Some(stop) = &self.stop {
-            return write!(f, "{stop} is reached");
+        if let Some(reached) = &self.reached {
+            return f.write_str(reached);
         }
         write!(f, "dead point")?;
         match (&self.in_line, &self.across) {
@@ -98,10 +98,16 @@ pub(in crate::analyses) fn written(value: f64, kind: Option<QuantityKind>) -> St
     }
 }
 
-/// The driver of a model, or the joint with a law of time.
+/// The driver of a model that moves, or another one, or the joint with a law of time.
 fn driver(model: &Model) -> Option<&ConstraintItem> {
     let items = model.constraints.iter().filter(|item| item.driven);
-    items.max_by_key(|item| item.group == Group::Drivers)
+    items.max_by_key(|item| {
+        let mut depends = Dependence::default();
+        if let Some(law) = &item.law {
+            law.map(&mut |tape| depends.add(tape));
+        }
+        (item.group == Group::Drivers, depends.time)
+    })
 }
 
 /// Name and kind of the driven value: `crank` for the angle of this body, otherwise `slide.displacement`. A joint with
@@ -126,7 +132,7 @@ pub(in crate::analyses) fn driven(model: &Model) -> (String, Option<QuantityKind
 
 /// The driven value at a position.
 fn value(model: &Model, item: &ConstraintItem, motions: &Motions, t: f64) -> f64 {
-    let values = at(&model.parameters, motions, &[], t);
+    let values = held(&model.parameters, motions, &[], t);
     let element = match &item.law {
         Some(law) => law.map(&mut |tape| tape.evaluate(&values)),
         None => item.element.clone(),
