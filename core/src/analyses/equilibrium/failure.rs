@@ -1,6 +1,6 @@
 //! Reasons for which no equilibrium was found, in terms of the mechanism.
 
-use crate::analyses::linearization::coordinate as named;
+use crate::analyses::linearization::{coordinate as named, Freedoms};
 use crate::analyses::second_order::mobility;
 use crate::elements::QuantityKind;
 use crate::math::Listed;
@@ -89,16 +89,16 @@ impl Reason {
     }
 
     /// The reason for a search that moved the coordinates by `moved`, shape (n_q), and left the forces `missing`.
-    /// `far` is true if the motion is very large, `largest` is the largest single force, and `own` contains the
-    /// independent coordinates.
+    /// `far` is true if the motion is very large, `largest` is the largest single force, and `own` are the freedoms.
     pub(super) fn of_search(
         model: &Model,
         (moved, far): (&[f64], bool),
         (missing, largest): (&[f64], f64),
-        own: &[usize],
+        own: &Freedoms,
     ) -> Self {
-        let most = own.iter().max_by(|a, b| moved[**a].abs().total_cmp(&moved[**b].abs()));
-        let Some(&column) = most else {
+        let along = own.coordinates.iter().zip(own.reduce(missing));
+        let most = along.max_by(|(a, _), (b, _)| moved[**a].abs().total_cmp(&moved[**b].abs()));
+        let Some((&column, missing_along)) = most else {
             return Self::Lost { relative: 0.0, coordinate: String::new() };
         };
         let coordinate = named(model, column);
@@ -108,7 +108,7 @@ impl Reason {
                 coordinate,
                 moved: moved[column].abs(),
                 kind: model.layout.kinds[column],
-                force: -missing[column],
+                force: -missing_along,
             },
             false => Self::Lost { relative: left / largest, coordinate },
         }

@@ -89,7 +89,7 @@ impl<'s, 'a> RestSearch<'s, 'a> {
             );
             return Err(Reason::Singular { name, message });
         }
-        let own = self.statics.freedoms(&place)?.coordinates;
+        let own = self.statics.freedoms(&place)?;
         let moved: Vec<f64> = place.q.iter().zip(&first.q).map(|(b, a)| b - a).list();
         let left = (place.missing.as_slice(), place.scale);
         let way = (moved.as_slice(), self.far(&first, &place));

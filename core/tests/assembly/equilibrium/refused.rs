@@ -55,10 +55,9 @@ fn a_coordinate_is_held_once() {
 /// The parameter of a curve from formulas has no unit, so that the effort along it is an energy. It cannot be held.
 #[test]
 fn a_bead_slides_down_a_wire_without_end() {
-    for (curve, measured, unit, effort) in [
-        ("{ x = 'u/1000', y = '-u/1000', range = [-1000, 1000] }", QuantityKind::Pure, "", " J "),
-        ("{ line = [[-1, 1], [1, -1]] }", QuantityKind::Length, " m", " N "),
-    ] {
+    for curve in
+        ["{ x = 'u/1000', y = '-u/1000', range = [-1000, 1000] }", "{ line = [[-1, 1], [1, -1]] }"]
+    {
         let m = model(&format!(
             "gravity = [0, -9.81]\n[bodies.ground]\ncurves = {{ wire = {curve} }}\n[bodies.bead]\n\
              type = 'point_mass'\nmass = 2\n[joints.wire]\ntype = 'point_on_curve'\ni = 'bead.P'\n\
@@ -69,14 +68,10 @@ fn a_bead_slides_down_a_wire_without_end() {
         let Reason::Endless { coordinate, kind, moved, force } = &reason else {
             panic!("{reason}")
         };
-        if measured == QuantityKind::Pure {
-            assert_eq!(coordinate, "wire.u");
-            assert!((force / (2.0 * 9.81 / 1000.0) - 1.0).abs() < 1e-5, "{force}");
-        }
-        assert_eq!(*kind, measured);
-        assert!(reason.to_string().ends_with(&format!(" by {moved:.3}{unit}")), "{reason}");
-        let hold = coordinate == "bead.x";
+        assert_eq!((coordinate.as_str(), *kind), ("bead.x", QuantityKind::Length));
+        assert!((force / (2.0 * 9.81) - 1.0).abs() < 1e-5, "{force}"); // the path has tan = 1
+        assert!(reason.to_string().ends_with(&format!(" by {moved:.3} m")), "{reason}");
         let hint = Outcome::from(reason).hint.unwrap_or_default();
-        assert!(hint.contains(effort) && hint.contains("hold = ") == hold, "{hint}");
+        assert!(hint.contains(" N ") && hint.contains("hold = "), "{hint}");
     }
 }
