@@ -7,7 +7,9 @@
 
 use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Reason};
 use super::options::{name, options};
-use super::record::{Analysis, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished};
+use super::record::{
+    Analysis, Fact, Number, Numbers, Observer, Outcome, Record, StartState, Subject, Unfinished,
+};
 use super::{second_order, State};
 use crate::elements::QuantityKind;
 use crate::integrate::Flow;
@@ -37,13 +39,28 @@ options! {
 }
 
 impl Analysis for Options {
-    const NUMBERS: &'static [(&'static str, &'static str)] = &[
-        ("lower", "over"),
-        ("upper", "over"),
-        ("span", "over"),
-        ("start", "over"),
-        ("turns", ""),
-        ("turns_fully", ""),
+    const NUMBERS: &'static [Number] = &[
+        Number { name: "lower", unit: "over", read: |of| Numbers::one(ends_of(of)[0]) },
+        Number { name: "upper", unit: "over", read: |of| Numbers::one(ends_of(of)[1]) },
+        Number {
+            name: "span",
+            unit: "over",
+            read: |of| {
+                let [lower, upper] = ends_of(of);
+                Numbers::one(upper - lower)
+            },
+        },
+        Number { name: "start", unit: "over", read: |of| Numbers::found(&of.findings["start"]) },
+        Number { name: "turns", unit: "", read: |of| Numbers::found(&of.findings["turns"]) },
+        Number {
+            name: "turns_fully",
+            unit: "",
+            read: |of| {
+                let is_angle = of.findings["unit"] == QuantityKind::Angle.unit();
+                let is_free = ends_of(of).iter().all(|end| end.is_infinite());
+                Numbers::one(f64::from(is_angle && is_free))
+            },
+        },
     ];
 
     fn run(
@@ -77,6 +94,12 @@ impl Analysis for Options {
         );
         Ok(Record { driven: Some(driven), ..record.facts(facts).positions(ends) })
     }
+}
+
+/// The least and the largest value of a record; infinite without a limit.
+fn ends_of(record: &Record) -> [f64; 2] {
+    let end = |name: &str, none: f64| record.findings[name].as_f64().unwrap_or(none);
+    [end("lower", f64::NEG_INFINITY), end("upper", f64::INFINITY)]
 }
 
 /// Both limits with their reasons, or the description of a motion without limits.

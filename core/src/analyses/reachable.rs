@@ -8,7 +8,9 @@
 use super::assemble::position;
 use super::kinematics::{driving, kinematics, DrivenQuantity, Reason};
 use super::options::{count, intervals, kind, name, options};
-use super::record::{Analysis, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished};
+use super::record::{
+    Analysis, Fact, Number, Numbers, Observer, Outcome, Record, StartState, Subject, Unfinished,
+};
 use super::State;
 use crate::elements::{BodyId, Group};
 use crate::equations::kinematics::Motions;
@@ -83,7 +85,10 @@ fn place(model: &Model, of: &str) -> Option<(BodyId, Local)> {
 }
 
 impl Analysis for Options {
-    const NUMBERS: &'static [(&'static str, &'static str)] = &[("area", "m^2"), ("complete", "")];
+    const NUMBERS: &'static [Number] = &[
+        Number { name: "area", unit: "m^2", read: |of| Numbers::found(&of.findings["area"]) },
+        Number { name: "complete", unit: "", read: |of| Numbers::found(&of.findings["complete"]) },
+    ];
 
     fn run(
         &self,

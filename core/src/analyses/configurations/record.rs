@@ -4,14 +4,18 @@ use super::options::Options;
 use super::{configurations, Failure};
 use crate::analyses::assemble::Request;
 use crate::analyses::record::{
-    Analysis, ErrorClass, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished,
+    Analysis, ErrorClass, Fact, Number, Numbers, Observer, Outcome, Record, StartState, Subject,
+    Unfinished,
 };
 use crate::analyses::State;
 use crate::math::Listed;
 use serde_json::{json, Value};
 
 impl Analysis for Options {
-    const NUMBERS: &'static [(&'static str, &'static str)] = &[("count", ""), ("complete", "")];
+    const NUMBERS: &'static [Number] = &[
+        Number { name: "count", unit: "", read: |of| Numbers::found(&of.findings["reports"]) },
+        Number { name: "complete", unit: "", read: |of| Numbers::found(&of.findings["complete"]) },
+    ];
 
     fn run(
         &self,

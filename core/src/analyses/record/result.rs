@@ -1,6 +1,7 @@
 //! The record of an analysis.
 
 use super::fact::Fact;
+use super::numbers::Numbers;
 use super::outcome::Outcome;
 use super::start_state::StartState;
 use crate::analyses::dynamics::{Accelerations, Run};
@@ -68,6 +69,16 @@ impl Record {
         self
     }
 
+    /// The numbers of a table; empty without it.
+    pub fn table(&self, name: &str) -> &[f64] {
+        self.numbers.iter().find(|table| table.name == name).map_or(&[], |table| &table.values)
+    }
+
+    /// The numbers of a table as a list.
+    pub fn listed(&self, name: &str) -> Numbers {
+        Numbers::list(self.table(name).iter().copied())
+    }
+
     /// Adds facts for readers.
     pub fn facts(mut self, facts: impl IntoIterator<Item = Fact>) -> Self {
         self.facts.extend(facts);
@@ -79,6 +90,17 @@ impl Record {
         self.positions.extend(positions);
         self
     }
+}
+
+/// A number of a result, or several, that sweeps read by name.
+#[derive(Clone, Copy, Debug)]
+pub struct Number {
+    /// Its name.
+    pub name: &'static str,
+    /// Its SI unit; "over" stands for the unit of the quantity `over`.
+    pub unit: &'static str,
+    /// Reads it in a record of the analysis.
+    pub read: fn(&Record) -> Numbers,
 }
 
 /// Rows of numbers.

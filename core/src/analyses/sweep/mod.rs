@@ -1,9 +1,9 @@
-//! Sweeps: runs of one mechanism with many values of its parameters and start, and the statistics of measures of each
-//! run.
+//! Sweeps: an analysis of one mechanism with many values of its parameters and start, and the numbers of each result.
 //!
-//! A variant is equivalent to a single run of the changed case: its model is built from the linked blueprint,
-//! assembled from the start of the case, run, and measured. Variants share no state. Their numbers therefore do not
-//! depend on the order, and the caller may compute variants on any number of threads.
+//! A variant is equivalent to a single run of the changed case: its model is built from the linked blueprint, assembled
+//! from the start of the case, and run through the analyses that lead to the swept one. The numbers of a motion are
+//! statistics of measures; those of any other result are stated by its analysis. Variants share no state. Their numbers
+//! therefore do not depend on the order, and the caller may compute variants on any number of threads.
 
 mod faults;
 mod fine;
@@ -11,37 +11,50 @@ mod kept;
 mod readings;
 mod series;
 mod statistic;
+mod variant;
 
 pub use faults::{measure_fault, variable_fault};
 pub use statistic::Statistic;
 
-use super::assemble::{self, state_until, Request};
-use super::dynamics::{self, side_by_side, Options, Prepared, Reason, Run, Variant};
+use super::analysis_table::{declarations, kind_of, AnyAnalysis};
+use super::dynamics::{self, can_stick, side_by_side, Variant};
 use super::measures::Measure;
-use super::State;
+use super::record::{self, parts, ErrorClass, Record};
 use crate::integrate::Flow;
 use crate::math::Listed;
-use crate::model::{Model, Value};
+use crate::model::{Definition, Entry, Model, Value};
 use fine::Between;
 use readings::{Missing, PreparedModel, Readings};
 use series::Series;
 use std::sync::Arc;
+use variant::Ready;
 
 /// A case whose variants are run.
 #[derive(Clone, Debug)]
 pub struct Sweep {
     /// The model.
     pub model: Arc<Model>,
+    /// Its definition, in which analyses drive other quantities.
+    pub definition: Arc<Definition>,
     /// Coordinates and rates that are prescribed at the start, as written in the case.
     pub set: Vec<(String, Value)>,
     /// Guesses of coordinates and rates at the start, as written in the case.
     pub guess: Vec<(String, Value)>,
-    /// The fields of the analysis `dynamics`, as written.
-    pub analysis: Vec<(String, Value)>,
+    /// The analyses of the case. The last one is swept.
+    pub analyses: Vec<Entry>,
     /// Expressions of quantities, such as `C.force`. They must not use energies or checks of a run.
     pub measures: Vec<String>,
-    /// The numbers of a result row: statistics, each with the index of its measure.
-    pub wanted: Vec<(usize, Statistic)>,
+    /// The numbers of a result row.
+    pub wanted: Vec<Wanted>,
+}
+
+/// A number of a result row.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Wanted {
+    /// A statistic of the measure with this index.
+    Statistic(usize, Statistic),
+    /// A number of a result that is not a motion, such as `lower`, `frequency[0]` or `rocker.angle`.
+    Number(String),
 }
 
 /// The result of a variant.
@@ -61,20 +74,30 @@ pub enum Outcome {
 /// The parameters and the entries of `set` that a variant changes.
 pub type VariantRow = (Vec<(String, f64)>, Vec<(String, f64)>);
 
-/// A variant before its run.
-struct Ready {
-    model: Arc<Model>,
-    state: State,
-    options: Options,
-    /// The options without output that no statistic needs.
-    kept: Options,
-}
-
 impl Sweep {
-    /// Whether this module can compute variants of a model. The model must not have redundant joints or functions of
-    /// the caller.
-    pub fn serves(model: &Model) -> bool {
-        !model.allow_redundancy && model.blueprint.functions.is_none()
+    /// Whether this module can compute variants of a model. The model must not have functions of the caller, or
+    /// redundant joints if quantities are read.
+    pub fn serves(model: &Model, reads_quantities: bool) -> bool {
+        !(model.allow_redundancy && reads_quantities) && model.blueprint.functions.is_none()
+    }
+
+    /// Whether a quantity is read, and not only numbers that the analysis declares.
+    fn reads_quantities(&self) -> bool {
+        let kind = self.analyses.last().map_or("", |entry| kind_of(&entry.fields));
+        let declared = declarations().iter().find(|declared| declared.table.name == kind);
+        let known = |text: &str| {
+            let name = parts(text).0;
+            declared.is_some_and(|declared| declared.numbers.iter().any(|(one, _)| *one == name))
+        };
+        self.wanted.iter().any(|one| !matches!(one, Wanted::Number(text) if known(text)))
+    }
+
+    /// The statistics in a result row.
+    fn statistics(&self) -> impl Iterator<Item = (usize, Statistic)> + '_ {
+        self.wanted.iter().filter_map(|one| match one {
+            Wanted::Statistic(of, statistic) => Some((*of, *statistic)),
+            Wanted::Number(_) => None,
+        })
     }
 
     /// Runs variants, each with its own values of some parameters and of some entries of `set`. Where it is faster,
@@ -83,62 +106,32 @@ impl Sweep {
     /// `stop` is called from time to time and stops the work if it returns true.
     pub fn variants(&self, rows: &[VariantRow], stop: &(dyn Fn() -> bool + Sync)) -> Vec<Outcome> {
         let ready: Vec<_> = rows.iter().map(|row| self.ready(row, stop)).list();
-        let prepared = ready.iter().map(|ready| ready.as_ref().ok());
-        let prepared: Vec<_> = prepared
-            .map(|ready| ready.map(|of| Arc::new(Prepared::new(Arc::clone(&of.model)))))
-            .list();
-        let together = self.together(&ready, &prepared, stop);
-        let runs = ready.iter().zip(&prepared).zip(together);
-        let outcomes = runs.map(|((ready, prepared), run)| match (ready, prepared) {
-            (Ok(ready), Some(prepared)) => self.outcome(ready, prepared, run, stop),
-            (Err(outcome), _) => outcome.clone(),
-            (Ok(_), None) => Outcome::Single,
+        let together = self.together(&ready, stop);
+        let outcomes = ready.iter().zip(together).map(|(ready, run)| match ready {
+            Ok(ready) => self.outcome(ready, run, stop),
+            Err(outcome) => outcome.clone(),
         });
         outcomes.list()
     }
 
-    /// A variant before its run.
-    fn ready(
-        &self,
-        (parameters, start): &VariantRow,
-        stop: &dyn Fn() -> bool,
-    ) -> Result<Ready, Outcome> {
-        if stop() {
-            return Err(Outcome::Stopped);
-        }
-        if !Self::serves(&self.model) {
-            return Err(Outcome::Single);
-        }
-        let model = self.model.with_values(parameters).map_err(|_| Outcome::Single)?;
-        let request = self.request(&model, start).ok_or(Outcome::Single)?;
-        let state = match state_until(&model, &request, stop) {
-            Ok(state) => state,
-            Err(_) if stop() => return Err(Outcome::Stopped),
-            Err(failure) => return Err(Outcome::Failed(failure.message)),
-        };
-        let options = dynamics::read(&model, &self.analysis, &[]).map_err(|_| Outcome::Single)?;
-        if options.backward(state.t, &["t_end"]).is_some() {
-            return Err(Outcome::Single);
-        }
-        let wanted: Vec<Statistic> = self.wanted.iter().map(|(_, statistic)| *statistic).list();
-        let kept = kept::kept(&options, &wanted, options.t_start.unwrap_or(state.t));
-        Ok(Ready { model: Arc::new(model), state, options, kept })
-    }
-
     /// The runs that are integrated side by side; None for the other variants.
-    fn together<'r>(
+    fn together(
         &self,
-        ready: &'r [Result<Ready, Outcome>],
-        prepared: &'r [Option<Arc<PreparedModel>>],
+        ready: &[Result<Ready, Outcome>],
         stop: &dyn Fn() -> bool,
     ) -> Vec<Option<dynamics::RunOutcome>> {
         let mut runs: Vec<_> = ready.iter().map(|_| None).list();
-        let all = ready.iter().zip(prepared).enumerate();
-        let (places, variants): (Vec<_>, Vec<_>) = all
-            .filter_map(|(place, (ready, prepared))| {
-                let (Ok(ready), Some(prepared)) = (ready, prepared) else { return None };
-                let variant = Variant { prepared, start: &ready.state, options: &ready.kept };
-                variant.serves().then_some((place, variant))
+        let (places, variants): (Vec<_>, Vec<_>) = ready
+            .iter()
+            .enumerate()
+            .filter_map(|(place, ready)| {
+                let Ready { prepared, start, kept: AnyAnalysis::Dynamics(options), after, .. } =
+                    ready.as_ref().ok()?
+                else {
+                    return None;
+                };
+                let variant = Variant { prepared, start: &start.state, options };
+                (!after && variant.serves()).then_some((place, variant))
             })
             .unzip();
         let watch = || if stop() { Flow::Stop } else { Flow::Continue };
@@ -153,61 +146,77 @@ impl Sweep {
     fn outcome(
         &self,
         ready: &Ready,
-        prepared: &Arc<PreparedModel>,
         run: Option<dynamics::RunOutcome>,
         stop: &dyn Fn() -> bool,
     ) -> Outcome {
-        let watch = |_| if stop() { Flow::Stop } else { Flow::Continue };
-        let Ready { state, options, kept, .. } = ready;
-        let run = match run.unwrap_or_else(|| prepared.dynamics(state, kept, watch)) {
+        let found = match run {
+            Some(Ok(run)) => Ok(Record::of_motion(run, &ready.start, String::new())),
+            Some(Err(failure)) => Err(failure.reason.into()),
+            None => self.run(ready, &ready.kept, stop),
+        };
+        let found = match found {
             // the run is repeated with all outputs, because its failure may occur at one of them
-            Err(_) if kept != options => prepared.dynamics(state, options, watch),
-            run => run,
+            Err(_) if ready.kept != ready.analysis => self.run(ready, &ready.analysis, stop),
+            found => found,
         };
-        let run = match run {
-            _ if stop() => return Outcome::Stopped,
-            Ok(run) => run,
-            Err(failure) => return failed(&failure.reason),
-        };
-        match self.numbers(prepared, &run) {
-            Ok(values) => Outcome::Values(values),
-            Err(Missing::Failed(reason)) => failed(&reason),
-            Err(Missing::Single) => Outcome::Single,
+        match found {
+            _ if stop() => Outcome::Stopped,
+            Ok(record) => self.numbers(ready, record).map_or_else(Outcome::from, Outcome::Values),
+            Err(reason) => reason.into(),
         }
     }
 
-    fn numbers(&self, prepared: &Arc<PreparedModel>, run: &Run) -> Result<Vec<f64>, Missing> {
+    /// The numbers of a result.
+    fn numbers(&self, ready: &Ready, record: Record) -> Result<Vec<f64>, Missing> {
+        let is_dynamics = matches!(ready.analysis, AnyAnalysis::Dynamics(_));
+        if !is_dynamics && self.reads_quantities() && can_stick(ready.prepared.model()) {
+            return Err(Missing::Single);
+        }
+        let Record { motion: Some(run), driven, responses, .. } = record else {
+            let subject = self.subject(ready);
+            let number = |one: &Wanted| match one {
+                Wanted::Number(text) => ready.analysis.number(&subject, &record, text),
+                Wanted::Statistic(..) => Ok(f64::NAN),
+            };
+            let found: Result<_, record::Outcome> = self.wanted.iter().map(number).collect();
+            return found.map_err(|reason| Missing::Failed(reason.message));
+        };
+        let rests = driven.as_ref().is_some_and(|driven| driven.variable.rests);
+        let whole = driven.map(|driven| Arc::new(PreparedModel::new(driven.model)));
+        let whole = whole.as_ref().unwrap_or(&ready.prepared);
+        self.of_motion(Readings::new(whole, &run, rests)?.solved_by(responses))
+    }
+
+    /// The statistics of a motion.
+    fn of_motion(&self, readings: Readings<'_>) -> Result<Vec<f64>, Missing> {
         let measures = self.measures.iter().enumerate().map(|(k, text)| {
             // measures are read for each variant, because the position of a point may depend on a parameter
-            let measure = Measure::read(prepared.model(), text).map_err(|_| Missing::Single)?;
-            let is_extreme = |(of, one): &(usize, Statistic)| *of == k && one.is_extreme();
-            Ok((measure, self.wanted.iter().any(is_extreme)))
+            let measure = Measure::read(readings.model(), text).map_err(|_| Missing::Single)?;
+            Ok((measure, self.statistics().any(|(of, one)| of == k && one.is_extreme())))
         });
-        let measures = measures.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
-        let readings = Readings::new(prepared, run, measures)?;
-        let between = Between::new(readings);
+        let (measures, wanted) = measures.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
+        let between = Between::new(readings.of(measures, wanted));
         let series = (0..self.measures.len()).map(|k| Series::new(&between, k));
         let series = series.collect::<Result<Vec<_>, _>>()?;
-        self.wanted.iter().map(|(of, statistic)| series[*of].statistic(*statistic)).collect()
-    }
-
-    /// The request for the assembly; None if an entry is faulty.
-    fn request(&self, model: &Model, start: &[(String, f64)]) -> Option<Request> {
-        let mut set = self.set.clone();
-        for (name, x) in start {
-            let (_, value) = set.iter_mut().find(|(known, _)| known == name)?;
-            *value = Value::Number(*x);
-        }
-        let set = assemble::targets(model, "set", &set).ok()?;
-        let guess = assemble::targets(model, "guess", &self.guess).ok()?;
-        Some(Request { set, guess, ..Request::default() })
+        self.statistics().map(|(of, statistic)| series[of].statistic(statistic)).collect()
     }
 }
 
-fn failed(reason: &Reason) -> Outcome {
-    match reason {
-        // a fault of the options, which a single run reports
-        Reason::Option { .. } => Outcome::Single,
-        _ => Outcome::Failed(reason.to_string()),
+impl From<record::Outcome> for Outcome {
+    fn from(reason: record::Outcome) -> Self {
+        match reason.class {
+            // which a single run raises
+            ErrorClass::Internal => Self::Single,
+            _ => Self::Failed(reason.message),
+        }
+    }
+}
+
+impl From<Missing> for Outcome {
+    fn from(missing: Missing) -> Self {
+        match missing {
+            Missing::Failed(reason) => Self::Failed(reason),
+            Missing::Single => Self::Single,
+        }
     }
 }
