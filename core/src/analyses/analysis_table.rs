@@ -31,7 +31,7 @@ fn number<A: Analysis>(
 ) -> Result<f64, Outcome> {
     let (name, _) = parts(text);
     let found = match A::NUMBERS.iter().find(|number| number.name == name) {
-        Some(number) => (number.read)(record),
+        Some(number) => (number.read)(record, name),
         None => options.quantity(subject, record, name)?,
     };
     found.at(text).map_err(|message| Outcome::new(ErrorClass::Model, message))

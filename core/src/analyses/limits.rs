@@ -40,27 +40,19 @@ options! {
 
 impl Analysis for Options {
     const NUMBERS: &'static [Number] = &[
-        Number { name: "lower", unit: "over", read: |of| Numbers::one(ends_of(of)[0]) },
-        Number { name: "upper", unit: "over", read: |of| Numbers::one(ends_of(of)[1]) },
-        Number {
-            name: "span",
-            unit: "over",
-            read: |of| {
-                let [lower, upper] = ends_of(of);
-                Numbers::one(upper - lower)
-            },
-        },
-        Number { name: "start", unit: "over", read: |of| Numbers::found(&of.findings["start"]) },
-        Number { name: "turns", unit: "", read: |of| Numbers::found(&of.findings["turns"]) },
-        Number {
-            name: "turns_fully",
-            unit: "",
-            read: |of| {
-                let is_angle = of.findings["unit"] == QuantityKind::Angle.unit();
-                let is_free = ends_of(of).iter().all(|end| end.is_infinite());
-                Numbers::one(f64::from(is_angle && is_free))
-            },
-        },
+        Number::new("lower", "over", |of, _| Numbers::one(ends_of(of)[0])),
+        Number::new("upper", "over", |of, _| Numbers::one(ends_of(of)[1])),
+        Number::new("span", "over", |of, _| {
+            let [lower, upper] = ends_of(of);
+            Numbers::one(upper - lower)
+        }),
+        Number::finding("start", "over"),
+        Number::finding("turns", ""),
+        Number::new("turns_fully", "", |of, _| {
+            let is_angle = of.findings["unit"] == QuantityKind::Angle.unit();
+            let is_free = ends_of(of).iter().all(|end| end.is_infinite());
+            Numbers::one(f64::from(is_angle && is_free))
+        }),
     ];
 
     fn run(

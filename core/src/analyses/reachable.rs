@@ -9,7 +9,7 @@ use super::assemble::position;
 use super::kinematics::{driving, kinematics, DrivenQuantity, Reason};
 use super::options::{count, intervals, kind, name, options};
 use super::record::{
-    Analysis, Fact, Number, Numbers, Observer, Outcome, Record, StartState, Subject, Unfinished,
+    Analysis, Fact, Number, Observer, Outcome, Record, StartState, Subject, Unfinished,
 };
 use super::State;
 use crate::elements::{BodyId, Group};
@@ -85,10 +85,8 @@ fn place(model: &Model, of: &str) -> Option<(BodyId, Local)> {
 }
 
 impl Analysis for Options {
-    const NUMBERS: &'static [Number] = &[
-        Number { name: "area", unit: "m^2", read: |of| Numbers::found(&of.findings["area"]) },
-        Number { name: "complete", unit: "", read: |of| Numbers::found(&of.findings["complete"]) },
-    ];
+    const NUMBERS: &'static [Number] =
+        &[Number::finding("area", "m^2"), Number::finding("complete", "")];
 
     fn run(
         &self,

@@ -13,8 +13,8 @@ use serde_json::{json, Value};
 
 impl Analysis for Options {
     const NUMBERS: &'static [Number] = &[
-        Number { name: "count", unit: "", read: |of| Numbers::found(&of.findings["reports"]) },
-        Number { name: "complete", unit: "", read: |of| Numbers::found(&of.findings["complete"]) },
+        Number::new("count", "", |of, _| Numbers::found(&of.findings["reports"])),
+        Number::finding("complete", ""),
     ];
 
     fn run(

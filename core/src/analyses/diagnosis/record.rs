@@ -2,32 +2,20 @@
 
 use super::{as_json, diagnose, Diagnosis, Options, Redundancy};
 use crate::analyses::record::{
-    Analysis, Fact, Number, Numbers, Observer, Record, StartState, Subject, Unfinished,
+    Analysis, Fact, Number, Observer, Record, StartState, Subject, Unfinished,
 };
 
 impl Analysis for Options {
     const NUMBERS: &'static [Number] = &[
-        Number {
-            name: "degrees_of_freedom",
-            unit: "",
-            read: |of| Numbers::found(&of.findings["degrees_of_freedom"]),
-        },
-        Number { name: "gruebler", unit: "", read: |of| Numbers::found(&of.findings["gruebler"]) },
-        Number { name: "rank", unit: "", read: |of| Numbers::found(&of.findings["rank"]) },
-        Number { name: "driven", unit: "", read: |of| Numbers::found(&of.findings["driven"]) },
-        Number {
-            name: "redundant",
-            unit: "",
-            read: |of| Numbers::found(&of.findings["redundant"]),
-        },
-        Number { name: "singular", unit: "", read: |of| Numbers::found(&of.findings["singular"]) },
-        Number { name: "locked", unit: "", read: |of| Numbers::found(&of.findings["locked"]) },
-        Number { name: "loose", unit: "", read: |of| Numbers::found(&of.findings["loose"]) },
-        Number {
-            name: "undetermined",
-            unit: "",
-            read: |of| Numbers::found(&of.findings["undetermined"]),
-        },
+        Number::finding("degrees_of_freedom", ""),
+        Number::finding("gruebler", ""),
+        Number::finding("rank", ""),
+        Number::finding("driven", ""),
+        Number::finding("redundant", ""),
+        Number::finding("singular", ""),
+        Number::finding("locked", ""),
+        Number::finding("loose", ""),
+        Number::finding("undetermined", ""),
     ];
 
     fn run(

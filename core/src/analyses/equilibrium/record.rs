@@ -19,40 +19,24 @@ use serde_json::{json, Value};
 
 impl Analysis for Options {
     const NUMBERS: &'static [Number] = &[
-        Number { name: "stable", unit: "", read: |of| along(of, |point| point["stable"].clone()) },
-        Number {
-            name: "eigenvalues",
-            unit: "",
-            read: |of| {
-                let own = |point: &Value| Numbers::list(numbers(&point["eigenvalues"]));
-                Numbers::along(&points(of).iter().map(own).list(), is_path(of))
-            },
-        },
-        Number {
-            name: "residual",
-            unit: "",
-            read: |of| {
-                let all = points(of).iter().filter_map(|point| point["residual"].as_f64());
-                Numbers::one(all.fold(0.0, f64::max))
-            },
-        },
-        Number { name: "steps", unit: "", read: |of| Numbers::found(&points(of)[0]["steps"]) },
-        Number { name: "relaxed", unit: "", read: |of| Numbers::found(&points(of)[0]["relaxed"]) },
-        Number {
-            name: "complete",
-            unit: "",
-            read: |of| {
-                let end = of.findings["end"].as_str();
-                Numbers::one(f64::from(end.is_none_or(|end| matches!(end, "last" | "first"))))
-            },
-        },
-        Number {
-            name: "values",
-            unit: "",
-            read: |of| Numbers::list(numbers(&of.findings["values"])),
-        },
-        Number { name: "folds", unit: "", read: |of| values_at(of, "folds") },
-        Number { name: "branches", unit: "", read: |of| values_at(of, "branches") },
+        Number::new("stable", "", |of, _| along(of, |point| point["stable"].clone())),
+        Number::new("eigenvalues", "", |of, _| {
+            let own = |point: &Value| Numbers::list(numbers(&point["eigenvalues"]));
+            Numbers::along(&points(of).iter().map(own).list(), is_path(of))
+        }),
+        Number::new("residual", "", |of, _| {
+            let all = points(of).iter().filter_map(|point| point["residual"].as_f64());
+            Numbers::one(all.fold(0.0, f64::max))
+        }),
+        Number::new("steps", "", |of, _| Numbers::found(&points(of)[0]["steps"])),
+        Number::new("relaxed", "", |of, _| Numbers::found(&points(of)[0]["relaxed"])),
+        Number::new("complete", "", |of, _| {
+            let end = of.findings["end"].as_str();
+            Numbers::one(f64::from(end.is_none_or(|end| matches!(end, "last" | "first"))))
+        }),
+        Number::new("values", "", |of, _| Numbers::list(numbers(&of.findings["values"]))),
+        Number::new("folds", "", |of, _| values_at(of, "folds")),
+        Number::new("branches", "", |of, _| values_at(of, "branches")),
     ];
 
     fn quantity(

@@ -17,26 +17,20 @@ const AT_REST: f64 = 1e-6;
 
 impl Analysis for Options {
     const NUMBERS: &'static [Number] = &[
-        Number { name: "frequency", unit: "Hz", read: |of| of.listed("frequency") },
-        Number { name: "damping", unit: "", read: |of| of.listed("damping_ratio") },
-        Number { name: "omega", unit: "rad/s", read: |of| of.listed("omega") },
-        Number {
-            name: "eigenvalues",
-            unit: "1/s",
-            read: |of| {
-                let rows = of.table("eigenvalues").chunks(2);
-                Numbers::complex(rows.map(|s| Complex::new(s[0], s[1])).list())
-            },
-        },
-        Number { name: "stable", unit: "", read: |of| Numbers::found(&of.findings["stable"]) },
-        Number {
-            name: "is_equilibrium",
-            unit: "",
-            read: |of| Numbers::found(&of.findings["is_equilibrium"]),
-        },
-        Number { name: "values", unit: "", read: |of| of.listed("values") },
-        Number { name: "rates", unit: "", read: |of| of.listed("rates") },
-        Number { name: "acceleration", unit: "", read: |of| of.listed("acceleration") },
+        Number::listed("frequency", "Hz"),
+        Number::new("damping", "", |of, _| {
+            Numbers::list(of.table("damping_ratio").iter().copied())
+        }),
+        Number::listed("omega", "rad/s"),
+        Number::new("eigenvalues", "1/s", |of, _| {
+            let rows = of.table("eigenvalues").chunks(2);
+            Numbers::complex(rows.map(|s| Complex::new(s[0], s[1])).list())
+        }),
+        Number::finding("stable", ""),
+        Number::finding("is_equilibrium", ""),
+        Number::listed("values", ""),
+        Number::listed("rates", ""),
+        Number::listed("acceleration", ""),
     ];
 
     fn begins(&self, subject: &Subject<'_>, start: &StartState) -> Result<(), Outcome> {

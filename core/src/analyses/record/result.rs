@@ -74,11 +74,6 @@ impl Record {
         self.numbers.iter().find(|table| table.name == name).map_or(&[], |table| &table.values)
     }
 
-    /// The numbers of a table as a list.
-    pub fn listed(&self, name: &str) -> Numbers {
-        Numbers::list(self.table(name).iter().copied())
-    }
-
     /// Adds facts for readers.
     pub fn facts(mut self, facts: impl IntoIterator<Item = Fact>) -> Self {
         self.facts.extend(facts);
@@ -99,8 +94,29 @@ pub struct Number {
     pub name: &'static str,
     /// Its SI unit; "over" stands for the unit of the quantity `over`.
     pub unit: &'static str,
-    /// Reads it in a record of the analysis.
-    pub read: fn(&Record) -> Numbers,
+    /// Reads the number of this name in a record of the analysis.
+    pub read: fn(&Record, &str) -> Numbers,
+}
+
+impl Number {
+    /// A finding of this name.
+    pub const fn finding(name: &'static str, unit: &'static str) -> Self {
+        Self { name, unit, read: |of, name| Numbers::found(&of.findings[name]) }
+    }
+
+    /// The table of this name.
+    pub const fn listed(name: &'static str, unit: &'static str) -> Self {
+        Self { name, unit, read: |of, name| Numbers::list(of.table(name).iter().copied()) }
+    }
+
+    /// Numbers that a function reads.
+    pub const fn new(
+        name: &'static str,
+        unit: &'static str,
+        read: fn(&Record, &str) -> Numbers,
+    ) -> Self {
+        Self { name, unit, read }
+    }
 }
 
 /// Rows of numbers.

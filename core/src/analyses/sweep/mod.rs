@@ -21,7 +21,7 @@ use super::dynamics::{self, can_stick, side_by_side, Variant};
 use super::measures::Measure;
 use super::record::{self, parts, ErrorClass, Record};
 use crate::integrate::Flow;
-use crate::math::Listed;
+use crate::math::{each, Listed};
 use crate::model::{Definition, Entry, Model, Value};
 use fine::Between;
 use readings::{Missing, PreparedModel, Readings};
@@ -106,40 +106,20 @@ impl Sweep {
     /// `stop` is called from time to time and stops the work if it returns true.
     pub fn variants(&self, rows: &[VariantRow], stop: &(dyn Fn() -> bool + Sync)) -> Vec<Outcome> {
         let ready: Vec<_> = rows.iter().map(|row| self.ready(row, stop)).list();
-        let together = self.together(&ready, stop);
-        let outcomes = ready.iter().zip(together).map(|(ready, run)| match ready {
-            Ok(ready) => self.outcome(ready, run, stop),
-            Err(outcome) => outcome.clone(),
-        });
-        outcomes.list()
-    }
-
-    /// The runs that are integrated side by side; None for the other variants.
-    fn together(
-        &self,
-        ready: &[Result<Ready, Outcome>],
-        stop: &dyn Fn() -> bool,
-    ) -> Vec<Option<dynamics::RunOutcome>> {
-        let mut runs: Vec<_> = ready.iter().map(|_| None).list();
-        let (places, variants): (Vec<_>, Vec<_>) = ready
-            .iter()
-            .enumerate()
-            .filter_map(|(place, ready)| {
-                let Ready { prepared, start, kept: AnyAnalysis::Dynamics(options), after, .. } =
-                    ready.as_ref().ok()?
-                else {
-                    return None;
-                };
-                let variant = Variant { prepared, start: &start.state, options };
-                (!after && variant.serves()).then_some((place, variant))
-            })
-            .unzip();
+        let mut outcomes: Vec<_> = ready.iter().map(|ready| ready.as_ref().err().cloned()).list();
+        let (places, variants): (Vec<_>, Vec<_>) =
+            ready.iter().enumerate().filter_map(beside).unzip();
         let watch = || if stop() { Flow::Stop } else { Flow::Continue };
-        let (outcomes, _) = side_by_side(&variants, &watch);
-        for (place, run) in places.into_iter().zip(outcomes) {
-            runs[place] = Some(run);
-        }
-        runs
+        side_by_side(&variants, &watch, &mut |k, run| {
+            let of = ready[places[k]].as_ref().ok();
+            outcomes[places[k]] = of.map(|ready| self.outcome(ready, Some(run), stop));
+        });
+        let left =
+            outcomes.into_iter().zip(&ready).map(|(outcome, ready)| match (outcome, ready) {
+                (None, Ok(ready)) => self.outcome(ready, None, stop),
+                (outcome, _) => outcome.unwrap_or(Outcome::Single),
+            });
+        left.list()
     }
 
     /// The outcome of a variant. The variant is run here if `run` is None.
@@ -181,10 +161,12 @@ impl Sweep {
             let found: Result<_, record::Outcome> = self.wanted.iter().map(number).collect();
             return found.map_err(|reason| Missing::Failed(reason.message));
         };
+        // with all outputs, the run needs no others
+        let grid = ready.grid.filter(|_| run.trajectory.t.len() == 2);
         let rests = driven.as_ref().is_some_and(|driven| driven.variable.rests);
         let whole = driven.map(|driven| Arc::new(PreparedModel::new(driven.model)));
         let whole = whole.as_ref().unwrap_or(&ready.prepared);
-        self.of_motion(Readings::new(whole, &run, rests)?.solved_by(responses))
+        self.of_motion(Readings::new(whole, &run, rests, grid)?.solved_by(responses))
     }
 
     /// The statistics of a motion.
@@ -192,7 +174,8 @@ impl Sweep {
         let measures = self.measures.iter().enumerate().map(|(k, text)| {
             // measures are read for each variant, because the position of a point may depend on a parameter
             let measure = Measure::read(readings.model(), text).map_err(|_| Missing::Single)?;
-            Ok((measure, self.statistics().any(|(of, one)| of == k && one.is_extreme())))
+            let own = self.statistics().filter(|(of, _)| *of == k).map(|(_, one)| one.extremes());
+            Ok((measure, own.fold([false; 2], |all, own| each([0, 1], |k| all[k] || own[k]))))
         });
         let (measures, wanted) = measures.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
         let between = Between::new(readings.of(measures, wanted));
@@ -200,6 +183,17 @@ impl Sweep {
         let series = series.collect::<Result<Vec<_>, _>>()?;
         self.statistics().map(|(of, statistic)| series[of].statistic(statistic)).collect()
     }
+}
+
+/// A run that can be integrated beside others, with the index of its variant.
+fn beside((place, ready): (usize, &Result<Ready, Outcome>)) -> Option<(usize, Variant<'_>)> {
+    let Ready { prepared, start, kept: AnyAnalysis::Dynamics(options), after, .. } =
+        ready.as_ref().ok()?
+    else {
+        return None;
+    };
+    let variant = Variant { prepared, start: &start.state, options };
+    (!after && variant.serves()).then_some((place, variant))
 }
 
 impl From<record::Outcome> for Outcome {

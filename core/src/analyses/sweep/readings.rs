@@ -45,8 +45,10 @@ struct ReadPhase {
 pub struct Readings<'a> {
     phases: Vec<ReadPhase>,
     pub run: &'a Run,
-    /// Whether the extreme values of each measure are required.
-    pub wanted: Vec<bool>,
+    /// Whether the largest and the least value of each measure are required.
+    pub wanted: Vec<[bool; 2]>,
+    /// The first output and the time between outputs, if the run has left them out.
+    grid: Option<(f64, f64)>,
     /// Whether the mechanism is at rest at each value of the quantity that replaces the time.
     rests: bool,
     /// Accelerations and multipliers at the outputs of each phase.
@@ -58,7 +60,12 @@ impl<'a> Readings<'a> {
     ///
     /// # Errors
     /// [`Missing::Single`] if drivers hold friction at rest in a phase, because such forces have a mark.
-    pub fn new(whole: &Arc<PreparedModel>, run: &'a Run, rests: bool) -> Result<Self, Missing> {
+    pub fn new(
+        whole: &Arc<PreparedModel>,
+        run: &'a Run,
+        rests: bool,
+        grid: Option<(f64, f64)>,
+    ) -> Result<Self, Missing> {
         let mut phases = Vec::new();
         for (k, first) in run.phases.iter().enumerate() {
             let prepared = match run.settings.get(k).filter(|setting| !setting.is_plain()) {
@@ -74,7 +81,7 @@ impl<'a> Readings<'a> {
             let begins = run.trajectory.t.get(*first).copied().ok_or(Missing::Single)?;
             phases.push(ReadPhase { prepared, begins, measures: Vec::new() });
         }
-        Ok(Self { phases, run, wanted: Vec::new(), rests, solved: OnceCell::new() })
+        Ok(Self { phases, run, wanted: Vec::new(), grid, rests, solved: OnceCell::new() })
     }
 
     /// The same readings with the accelerations and multipliers at the outputs, if they are known.
@@ -86,7 +93,7 @@ impl<'a> Readings<'a> {
     }
 
     /// The readings of measures, and whether the extreme values of each are required.
-    pub fn of(mut self, measures: Vec<Measure>, wanted: Vec<bool>) -> Self {
+    pub fn of(mut self, measures: Vec<Measure>, wanted: Vec<[bool; 2]>) -> Self {
         for phase in &mut self.phases {
             let own = phase.prepared.model();
             phase.measures = measures.iter().map(|of| of.in_phase(own)).list();
@@ -197,6 +204,22 @@ impl<'a> Readings<'a> {
             rows.regularity = regularity;
         }
         rows.values.iter().flatten().all(|x| x.is_finite()).then_some(rows)
+    }
+
+    /// The outputs beside a time that the run has left out.
+    pub fn left_out(&self, t: f64) -> Vec<f64> {
+        let (Some((first, step)), Some(last)) = (self.grid, self.run.trajectory.t.last()) else {
+            return Vec::new();
+        };
+        let way = (last - first).signum() * step;
+        let before = ((t - first) / way).floor();
+        let beside = [before, before + 1.0].map(|k| first + k * way);
+        beside.into_iter().filter(|t| (first - t) * (last - t) < 0.0).list()
+    }
+
+    /// Whether the run has one phase, so that its motion is smooth.
+    pub fn is_smooth(&self) -> bool {
+        self.phases.len() == 1
     }
 
     /// Whether there are at least as many instants as ends of steps.

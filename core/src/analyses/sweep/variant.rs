@@ -4,6 +4,7 @@ use super::kept::kept;
 use super::readings::PreparedModel;
 use super::{Outcome, Statistic, Sweep, VariantRow};
 use crate::analyses::assemble::{self, state_until, Request};
+use crate::analyses::dynamics::Variant;
 use crate::analyses::record::{self, Observer, Record, StartState, Subject};
 use crate::analyses::{chain, fields_of, run_after, AnyAnalysis};
 use crate::integrate::Flow;
@@ -20,6 +21,8 @@ pub(super) struct Ready {
     pub analysis: AnyAnalysis,
     /// The analysis without output that no statistic needs.
     pub kept: AnyAnalysis,
+    /// The first output and the time between outputs, if the outputs are left out.
+    pub grid: Option<(f64, f64)>,
 }
 
 impl Sweep {
@@ -62,8 +65,14 @@ impl Sweep {
         };
         let places = chain(&self.analyses, self.analyses.len() - 1);
         let first = read(places[0])?;
-        let mut ready =
-            Ready { prepared, start, after: false, kept: first.clone(), analysis: first };
+        let mut ready = Ready {
+            prepared,
+            start,
+            after: false,
+            kept: first.clone(),
+            analysis: first,
+            grid: None,
+        };
         for place in &places[1..] {
             let found = self.run(&ready, &ready.analysis, stop);
             if stop() {
@@ -79,7 +88,13 @@ impl Sweep {
             }
             let wanted: Vec<Statistic> = self.statistics().map(|(_, statistic)| statistic).list();
             let begin = options.t_start.unwrap_or(ready.start.state.t);
-            ready.kept = AnyAnalysis::Dynamics(kept(options, &wanted, begin));
+            let last = kept(options, &wanted, begin, true);
+            let (prepared, start) = (&ready.prepared, &ready.start.state);
+            let steady = !ready.after && Variant { prepared, start, options: &last }.serves();
+            // without phases and events, each output lies on the interpolant
+            ready.grid = options.output_step.filter(|_| steady).map(|step| (begin, step));
+            let last = if steady { last } else { kept(options, &wanted, begin, false) };
+            ready.kept = AnyAnalysis::Dynamics(last);
         }
         Ok(ready)
     }
