@@ -8,7 +8,8 @@
 use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Reason};
 use super::options::{name, options};
 use super::record::{
-    Analysis, Fact, Number, Numbers, Observer, Outcome, Record, StartState, Subject, Unfinished,
+    Analysis, Fact, NamedNumber, NumberList, Observer, Outcome, Record, StartState, Subject,
+    Unfinished,
 };
 use super::{second_order, State};
 use crate::elements::QuantityKind;
@@ -18,7 +19,7 @@ use crate::model::{size, Model};
 use serde_json::json;
 use std::f64::consts::TAU;
 
-/// Number of turns after which an angle without a limit counts as unlimited, even if the mechanism never returns to
+/// NamedNumber of turns after which an angle without a limit counts as unlimited, even if the mechanism never returns to
 /// its start.
 pub const MOST_TURNS: usize = 24;
 /// Length, in sizes of the mechanism, beyond which a length counts as unlimited.
@@ -39,19 +40,19 @@ options! {
 }
 
 impl Analysis for Options {
-    const NUMBERS: &'static [Number] = &[
-        Number::new("lower", "over", |of, _| Numbers::one(ends_of(of)[0])),
-        Number::new("upper", "over", |of, _| Numbers::one(ends_of(of)[1])),
-        Number::new("span", "over", |of, _| {
+    const NUMBERS: &'static [NamedNumber] = &[
+        NamedNumber::new("lower", "over", |of, _| NumberList::one(ends_of(of)[0])),
+        NamedNumber::new("upper", "over", |of, _| NumberList::one(ends_of(of)[1])),
+        NamedNumber::new("span", "over", |of, _| {
             let [lower, upper] = ends_of(of);
-            Numbers::one(upper - lower)
+            NumberList::one(upper - lower)
         }),
-        Number::finding("start", "over"),
-        Number::finding("turns", ""),
-        Number::new("turns_fully", "", |of, _| {
+        NamedNumber::finding("start", "over"),
+        NamedNumber::finding("turns", ""),
+        NamedNumber::new("turns_fully", "", |of, _| {
             let is_angle = of.findings["unit"] == QuantityKind::Angle.unit();
             let is_free = ends_of(of).iter().all(|end| end.is_infinite());
-            Numbers::one(f64::from(is_angle && is_free))
+            NumberList::one(f64::from(is_angle && is_free))
         }),
     ];
 
@@ -131,7 +132,7 @@ pub struct Limits {
     pub kind: QuantityKind,
     /// Descriptions of the lower and the upper end, or of the motion without ends.
     pub reasons: Vec<String>,
-    /// Number of turns after which the mechanism returns to its start, if it turns fully.
+    /// NamedNumber of turns after which the mechanism returns to its start, if it turns fully.
     pub turns: Option<usize>,
     /// Values along the motion, ascending, with the positions of shape (n_q); both ends are included.
     pub path: Vec<(f64, Vec<f64>)>,

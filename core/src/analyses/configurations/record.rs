@@ -4,17 +4,17 @@ use super::options::Options;
 use super::{configurations, Failure};
 use crate::analyses::assemble::Request;
 use crate::analyses::record::{
-    Analysis, ErrorClass, Fact, Number, Numbers, Observer, Outcome, Record, StartState, Subject,
-    Unfinished,
+    Analysis, ErrorClass, Fact, NamedNumber, NumberList, Observer, Outcome, Record, StartState,
+    Subject, Unfinished,
 };
 use crate::analyses::State;
 use crate::math::Listed;
 use serde_json::{json, Value};
 
 impl Analysis for Options {
-    const NUMBERS: &'static [Number] = &[
-        Number::new("count", "", |of, _| Numbers::found(&of.findings["reports"])),
-        Number::finding("complete", ""),
+    const NUMBERS: &'static [NamedNumber] = &[
+        NamedNumber::new("count", "", |of, _| NumberList::found(&of.findings["reports"])),
+        NamedNumber::finding("complete", ""),
     ];
 
     fn run(

@@ -2,20 +2,20 @@
 
 use super::{as_json, diagnose, Diagnosis, Options, Redundancy};
 use crate::analyses::record::{
-    Analysis, Fact, Number, Observer, Record, StartState, Subject, Unfinished,
+    Analysis, Fact, NamedNumber, Observer, Record, StartState, Subject, Unfinished,
 };
 
 impl Analysis for Options {
-    const NUMBERS: &'static [Number] = &[
-        Number::finding("degrees_of_freedom", ""),
-        Number::finding("gruebler", ""),
-        Number::finding("rank", ""),
-        Number::finding("driven", ""),
-        Number::finding("redundant", ""),
-        Number::finding("singular", ""),
-        Number::finding("locked", ""),
-        Number::finding("loose", ""),
-        Number::finding("undetermined", ""),
+    const NUMBERS: &'static [NamedNumber] = &[
+        NamedNumber::finding("degrees_of_freedom", ""),
+        NamedNumber::finding("gruebler", ""),
+        NamedNumber::finding("rank", ""),
+        NamedNumber::finding("driven", ""),
+        NamedNumber::finding("redundant", ""),
+        NamedNumber::finding("singular", ""),
+        NamedNumber::finding("locked", ""),
+        NamedNumber::finding("loose", ""),
+        NamedNumber::finding("undetermined", ""),
     ];
 
     fn run(

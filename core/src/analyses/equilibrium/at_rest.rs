@@ -3,7 +3,7 @@
 use super::options::Options;
 use crate::analyses::dynamics::{friction_modes, States};
 use crate::analyses::measures::Measure;
-use crate::analyses::record::{ErrorClass, Numbers, Outcome, Record, Subject};
+use crate::analyses::record::{ErrorClass, NumberList, Outcome, Record, Subject};
 use crate::math::Listed;
 use crate::model::Value as Entry;
 use serde_json::Value;
@@ -43,7 +43,7 @@ pub(super) fn at_rest(
     subject: &Subject<'_>,
     record: &Record,
     name: &str,
-) -> Result<Numbers, Outcome> {
+) -> Result<NumberList, Outcome> {
     let declared = subject.definition.measures.iter().find(|(known, _)| known == name);
     let text = match declared {
         Some((_, Entry::Text(text))) => text,
@@ -72,5 +72,5 @@ pub(super) fn at_rest(
         found.is_finite().then_some(found).ok_or_else(|| Outcome::new(ErrorClass::Model, message()))
     };
     let values = points(record).iter().enumerate().map(value).collect::<Result<Vec<_>, _>>()?;
-    Ok(Numbers::list(values))
+    Ok(NumberList::list(values))
 }

@@ -8,7 +8,7 @@ use super::result::Equilibrium;
 use super::{begins, equilibrium, path};
 use crate::analyses::readings::find;
 use crate::analyses::record::{
-    effort_unit, Analysis, ErrorClass, Fact, Number, Numbers, Observer, Outcome, Record,
+    effort_unit, Analysis, ErrorClass, Fact, NamedNumber, NumberList, Observer, Outcome, Record,
     StartState, Subject, Unfinished,
 };
 use crate::analyses::State;
@@ -18,25 +18,25 @@ use crate::model::Model;
 use serde_json::{json, Value};
 
 impl Analysis for Options {
-    const NUMBERS: &'static [Number] = &[
-        Number::new("stable", "", |of, _| along(of, |point| point["stable"].clone())),
-        Number::new("eigenvalues", "", |of, _| {
-            let own = |point: &Value| Numbers::list(numbers(&point["eigenvalues"]));
-            Numbers::along(&points(of).iter().map(own).list(), is_path(of))
+    const NUMBERS: &'static [NamedNumber] = &[
+        NamedNumber::new("stable", "", |of, _| along(of, |point| point["stable"].clone())),
+        NamedNumber::new("eigenvalues", "", |of, _| {
+            let own = |point: &Value| NumberList::list(numbers(&point["eigenvalues"]));
+            NumberList::along(&points(of).iter().map(own).list(), is_path(of))
         }),
-        Number::new("residual", "", |of, _| {
+        NamedNumber::new("residual", "", |of, _| {
             let all = points(of).iter().filter_map(|point| point["residual"].as_f64());
-            Numbers::one(all.fold(0.0, f64::max))
+            NumberList::one(all.fold(0.0, f64::max))
         }),
-        Number::new("steps", "", |of, _| Numbers::found(&points(of)[0]["steps"])),
-        Number::new("relaxed", "", |of, _| Numbers::found(&points(of)[0]["relaxed"])),
-        Number::new("complete", "", |of, _| {
+        NamedNumber::new("steps", "", |of, _| NumberList::found(&points(of)[0]["steps"])),
+        NamedNumber::new("relaxed", "", |of, _| NumberList::found(&points(of)[0]["relaxed"])),
+        NamedNumber::new("complete", "", |of, _| {
             let end = of.findings["end"].as_str();
-            Numbers::one(f64::from(end.is_none_or(|end| matches!(end, "last" | "first"))))
+            NumberList::one(f64::from(end.is_none_or(|end| matches!(end, "last" | "first"))))
         }),
-        Number::new("values", "", |of, _| Numbers::list(numbers(&of.findings["values"]))),
-        Number::new("folds", "", |of, _| values_at(of, "folds")),
-        Number::new("branches", "", |of, _| values_at(of, "branches")),
+        NamedNumber::new("values", "", |of, _| NumberList::list(numbers(&of.findings["values"]))),
+        NamedNumber::new("folds", "", |of, _| values_at(of, "folds")),
+        NamedNumber::new("branches", "", |of, _| values_at(of, "branches")),
     ];
 
     fn quantity(
@@ -44,7 +44,7 @@ impl Analysis for Options {
         subject: &Subject<'_>,
         record: &Record,
         name: &str,
-    ) -> Result<Numbers, Outcome> {
+    ) -> Result<NumberList, Outcome> {
         match name.strip_prefix(EFFORT) {
             Some(name) => Ok(along(record, |point| effort(point, &self.hold, name))),
             None => at_rest(self, subject, record, name),
@@ -82,15 +82,15 @@ impl Analysis for Options {
 }
 
 /// A finding of all points of a path, or of the only point.
-fn along(record: &Record, read: impl Fn(&Value) -> Value) -> Numbers {
-    let all = points(record).iter().map(|point| Numbers::found(&read(point))).list();
-    Numbers::along(&all, is_path(record))
+fn along(record: &Record, read: impl Fn(&Value) -> Value) -> NumberList {
+    let all = points(record).iter().map(|point| NumberList::found(&read(point))).list();
+    NumberList::along(&all, is_path(record))
 }
 
 /// The values of the parameter at some points of a path.
-fn values_at(record: &Record, places: &str) -> Numbers {
+fn values_at(record: &Record, places: &str) -> NumberList {
     let values = numbers(&record.findings["values"]);
-    Numbers::list(numbers(&record.findings[places]).iter().map(|k| values[*k as usize]))
+    NumberList::list(numbers(&record.findings[places]).iter().map(|k| values[*k as usize]))
 }
 
 /// The stability, the stiffness and the efforts of an equilibrium.

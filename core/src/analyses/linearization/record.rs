@@ -5,8 +5,8 @@ use super::failure::{coordinate, Failure};
 use super::linearize::{begins, linearize};
 use super::options::Options;
 use crate::analyses::record::{
-    Analysis, ErrorClass, Fact, Number, Numbers, Observer, Outcome, Record, StartState, Subject,
-    Unfinished,
+    Analysis, ErrorClass, Fact, NamedNumber, NumberList, Observer, Outcome, Record, StartState,
+    Subject, Unfinished,
 };
 use crate::math::{each, Complex, Listed};
 use serde_json::json;
@@ -16,21 +16,21 @@ use std::f64::consts::TAU;
 const AT_REST: f64 = 1e-6;
 
 impl Analysis for Options {
-    const NUMBERS: &'static [Number] = &[
-        Number::listed("frequency", "Hz"),
-        Number::new("damping", "", |of, _| {
-            Numbers::list(of.table("damping_ratio").iter().copied())
+    const NUMBERS: &'static [NamedNumber] = &[
+        NamedNumber::listed("frequency", "Hz"),
+        NamedNumber::new("damping", "", |of, _| {
+            NumberList::list(of.table("damping_ratio").iter().copied())
         }),
-        Number::listed("omega", "rad/s"),
-        Number::new("eigenvalues", "1/s", |of, _| {
+        NamedNumber::listed("omega", "rad/s"),
+        NamedNumber::new("eigenvalues", "1/s", |of, _| {
             let rows = of.table("eigenvalues").chunks(2);
-            Numbers::complex(rows.map(|s| Complex::new(s[0], s[1])).list())
+            NumberList::complex(rows.map(|s| Complex::new(s[0], s[1])).list())
         }),
-        Number::finding("stable", ""),
-        Number::finding("is_equilibrium", ""),
-        Number::listed("values", ""),
-        Number::listed("rates", ""),
-        Number::listed("acceleration", ""),
+        NamedNumber::finding("stable", ""),
+        NamedNumber::finding("is_equilibrium", ""),
+        NamedNumber::listed("values", ""),
+        NamedNumber::listed("rates", ""),
+        NamedNumber::listed("acceleration", ""),
     ];
 
     fn begins(&self, subject: &Subject<'_>, start: &StartState) -> Result<(), Outcome> {

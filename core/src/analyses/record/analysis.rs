@@ -1,8 +1,8 @@
 //! The trait of analyses.
 
-use super::numbers::Numbers;
+use super::numbers::NumberList;
 use super::outcome::{ErrorClass, Outcome};
-use super::result::{Number, Record, Unfinished};
+use super::result::{NamedNumber, Record, Unfinished};
 use super::start_state::StartState;
 use crate::analyses::dynamics::{Act, Prepared};
 use crate::analyses::meshing::meshed;
@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// An analysis: its options, which the macro `options!` declares, and its computation.
 pub trait Analysis: Declared {
     /// The numbers of its result that sweeps read. Results that are motions have none: their quantities are numbers.
-    const NUMBERS: &'static [Number] = &[];
+    const NUMBERS: &'static [NamedNumber] = &[];
     /// Whether its result is a motion.
     const MOTION: bool = false;
 
@@ -37,7 +37,7 @@ pub trait Analysis: Declared {
     ///
     /// # Errors
     /// There is none of this name, or it has no value.
-    fn quantity(&self, _: &Subject<'_>, _: &Record, name: &str) -> Result<Numbers, Outcome> {
+    fn quantity(&self, _: &Subject<'_>, _: &Record, name: &str) -> Result<NumberList, Outcome> {
         Err(Outcome::new(ErrorClass::Model, format!("there is no number '{name}'")))
     }
 

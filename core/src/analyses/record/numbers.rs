@@ -5,13 +5,13 @@ use serde_json::Value;
 
 /// One number, or rows of numbers.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Numbers {
+pub struct NumberList {
     values: Vec<Complex>,
     /// The number of rows; None for one number.
     rows: Option<usize>,
 }
 
-impl Numbers {
+impl NumberList {
     /// One number.
     pub fn one(x: f64) -> Self {
         Self { values: vec![Complex::new(x, 0.0)], rows: None }
@@ -93,21 +93,25 @@ mod tests {
 
     #[test]
     fn a_place_counts_from_either_end() {
-        let three = Numbers::list([1.0, 2.0, 3.0]);
+        let three = NumberList::list([1.0, 2.0, 3.0]);
         assert_eq!([three.at("x[0]"), three.at("x[-1]")], [Ok(1.0), Ok(3.0)]);
         assert_eq!(three.at("x[3]").unwrap_err(), "x[3]: the result has 3 values of x");
         assert_eq!(three.at("x[-4]").unwrap_err(), "x[-4]: the result has 3 values of x");
         let vague = "x has 3 values; name one of them, such as x[0]";
         assert_eq!(three.at("x").unwrap_err(), vague);
-        assert_eq!(Numbers::list([5.0]).at("x"), Ok(5.0));
-        assert_eq!(Numbers::one(5.0).at("x[0]").unwrap_err(), "x[0]: the result has 0 values of x");
+        assert_eq!(NumberList::list([5.0]).at("x"), Ok(5.0));
+        assert_eq!(
+            NumberList::one(5.0).at("x[0]").unwrap_err(),
+            "x[0]: the result has 0 values of x"
+        );
     }
 
     #[test]
     fn rows_and_complex_numbers_are_not_one_number() {
-        let rows = Numbers::along(&[Numbers::list([1.0, 2.0]), Numbers::list([3.0, 4.0])], true);
+        let rows =
+            NumberList::along(&[NumberList::list([1.0, 2.0]), NumberList::list([3.0, 4.0])], true);
         assert_eq!(rows.at("x[1]").unwrap_err(), "x[1] is not one real number");
-        let s = Numbers::complex(vec![Complex::new(1.0, 2.0), Complex::new(3.0, 0.0)]);
+        let s = NumberList::complex(vec![Complex::new(1.0, 2.0), Complex::new(3.0, 0.0)]);
         assert_eq!(s.at("s[0]").unwrap_err(), "s[0] is not one real number");
         assert_eq!(s.at("s[1]"), Ok(3.0));
     }

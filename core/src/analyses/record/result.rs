@@ -1,7 +1,7 @@
 //! The record of an analysis.
 
 use super::fact::Fact;
-use super::numbers::Numbers;
+use super::numbers::NumberList;
 use super::outcome::Outcome;
 use super::start_state::StartState;
 use crate::analyses::dynamics::{Accelerations, Run};
@@ -89,31 +89,31 @@ impl Record {
 
 /// A number of a result, or several, that sweeps read by name.
 #[derive(Clone, Copy, Debug)]
-pub struct Number {
+pub struct NamedNumber {
     /// Its name.
     pub name: &'static str,
     /// Its SI unit; "over" stands for the unit of the quantity `over`.
     pub unit: &'static str,
     /// Reads the number of this name in a record of the analysis.
-    pub read: fn(&Record, &str) -> Numbers,
+    pub read: fn(&Record, &str) -> NumberList,
 }
 
-impl Number {
+impl NamedNumber {
     /// A finding of this name.
     pub const fn finding(name: &'static str, unit: &'static str) -> Self {
-        Self { name, unit, read: |of, name| Numbers::found(&of.findings[name]) }
+        Self { name, unit, read: |of, name| NumberList::found(&of.findings[name]) }
     }
 
     /// The table of this name.
     pub const fn listed(name: &'static str, unit: &'static str) -> Self {
-        Self { name, unit, read: |of, name| Numbers::list(of.table(name).iter().copied()) }
+        Self { name, unit, read: |of, name| NumberList::list(of.table(name).iter().copied()) }
     }
 
-    /// Numbers that a function reads.
+    /// NumberList that a function reads.
     pub const fn new(
         name: &'static str,
         unit: &'static str,
-        read: fn(&Record, &str) -> Numbers,
+        read: fn(&Record, &str) -> NumberList,
     ) -> Self {
         Self { name, unit, read }
     }

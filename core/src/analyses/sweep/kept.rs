@@ -1,6 +1,6 @@
 //! The output that a run stores for the requested statistics. The choice of the output does not change the steps.
 
-use super::Statistic;
+use super::statistic::Statistic;
 use crate::analyses::dynamics::Options;
 
 /// The options of a run from `t0` that stores only the output that the statistics need.

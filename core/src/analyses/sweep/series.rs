@@ -2,7 +2,7 @@
 
 use super::fine::{Between, Fine};
 use super::readings::{Missing, Readings};
-use super::Statistic;
+use super::statistic::Statistic;
 use crate::analyses::statistics::{
     changes, extreme, mean, root_mean_square, settling, Extreme, Maxima, Samples, Settling,
 };

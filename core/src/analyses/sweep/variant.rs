@@ -2,7 +2,8 @@
 
 use super::kept::kept;
 use super::readings::PreparedModel;
-use super::{Outcome, Statistic, Sweep, VariantRow};
+use super::request::{Outcome, Sweep, VariantRow};
+use super::statistic::Statistic;
 use crate::analyses::assemble::{self, state_until, Request};
 use crate::analyses::dynamics::Variant;
 use crate::analyses::record::{self, Observer, Record, StartState, Subject};
