@@ -234,6 +234,9 @@ class Record:
     """The other findings, as JSON."""
     remarks: list[str]
 
+    def number(self, text: str) -> float:
+        """A number of a result that is not a motion, such as ``frequency[0]``."""
+
 def run_analysis(
     model: Model,
     options: str,

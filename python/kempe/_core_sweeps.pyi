@@ -74,16 +74,16 @@ def settling(
 ) -> tuple[bool, float | None]:
     """Whether a quantity changes, and its settling time, s; None if it does not settle."""
 
-def sweeps(model: Model, wanted: list[str]) -> bool:
-    """Whether ``sweep`` serves a model and statistics."""
+def sweeps(model: Model, statistics: list[str], reads: bool) -> bool:
+    """Whether ``sweep`` serves a model and statistics; ``reads``: whether it reads quantities."""
 
 def sweep(
     model: Model,
     start: str,
     guess: str,
-    analysis: str,
+    analyses: str,
     measures: list[str],
-    wanted: list[tuple[int, str]],
+    wanted: list[tuple[int | None, str]],
     parameters: list[str],
     coordinates: list[str],
     rows: _F,
@@ -94,16 +94,16 @@ def sweep(
     Args:
         model: the model of the case.
         start, guess: coordinates and rates at the start, JSON as in a file.
-        analysis: the entry of the analysis ``dynamics``, as JSON.
+        analyses: the analyses by name, JSON as in a file; the last one is swept.
         measures: expressions of quantities, none of a whole run.
-        wanted: statistics, each of a measure by its place.
+        wanted: statistics, each of a measure by its place; without a place numbers of a result.
         parameters, coordinates: names of the columns of ``rows``; coordinates are entries of
             ``start``.
         rows: values, (n, columns).
         workers: number of threads.
 
     Returns:
-        The statistics, (n, n_wanted); the reasons of rows that failed; the rows that a single run
+        The numbers, (n, n_wanted); the reasons of rows that failed; the rows that a single run
         decides.
     """
 

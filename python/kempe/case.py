@@ -206,6 +206,12 @@ class Case:
             progress: called repeatedly with the time reached, s.
             start: the assembled mechanism; assembled here when None.
         """
+        return ((name, found) for name, found, _ in self.found(progress, start))
+
+    def found(
+        self, progress: Progress | None = None, start: State | None = None
+    ) -> Iterator[tuple[str, Solution | Result, Callable[[str], float]]]:
+        """As ``each``, with the function that reads a number of a result; not of a solution."""
         compiled = self.model.compile()
         contained = json.dumps(self.model.with_points(self._with_rest(self.model.shown())))
         model = compiled.in_case(contained)
@@ -214,8 +220,9 @@ class Case:
         entries, ends = json.loads(text).get("analyses", {}), list[State]()
         for (name, entry), before in zip(entries.items(), after, strict=True):
             at = begin if before is None else ends[before]
-            solution = _run(model, at, entry, progress, None if before is None else name)
-            yield name, solution
+            after_name = None if before is None else name
+            solution, number = _run(model, at, entry, progress, after_name)
+            yield name, solution, number
             ends.append(solution.final)
 
     def with_parameters(self, parameters: Mapping[str, Number]) -> Case:
@@ -318,13 +325,18 @@ def _run(
     entry: Mapping[str, Any],
     progress: Progress | None,
     after: str | None,
-) -> Solution | Result:
+) -> tuple[Solution | Result, Callable[[str], float]]:
     """Run an analysis of a case; ``after`` is its name if it starts at the end of another one."""
     kind = entry["type"]
     if kind in _RESULTS:
-        return _RESULTS[kind](run_analysis(model, start, entry, progress, after=after))
+        record = run_analysis(model, start, entry, progress, after=after)
+        return _RESULTS[kind](record), record.number
     run = simulate if kind == Dynamics.kind else follow
-    return run(model, start, entry, progress, after)
+    return run(model, start, entry, progress, after), _no_number
+
+
+def _no_number(text: str) -> float:
+    raise ModelError(f"{text}: a motion has no such number", hint="read a quantity of the solution")
 
 
 @explained

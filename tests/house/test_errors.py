@@ -31,7 +31,8 @@ WORKS, FOURS, POSES = np.zeros((1, 3)), np.zeros((0, 4)), np.zeros((1, 3, 3))
 AT_ONCE = _core.States(MODEL, TIMES, ROW, ROW, STATES, ROW, LAM)
 OPTIONS = '{"type": "dynamics", "t_end": 0.01}'
 AT = (T, Q, V, Z)
-RUN = _core.run_analysis(MODEL, OPTIONS, AT, [], None).run
+RECORD = _core.run_analysis(MODEL, OPTIONS, AT, [], None)
+RUN = RECORD.run
 assert RUN is not None
 
 CALLS: dict[str, Callable[[], object]] = {
@@ -61,6 +62,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "line_at": lambda: _core.line_at(MODEL, "C", "rocker"),
     "transmitting": lambda: _core.transmitting(MODEL),
     "compliance": lambda: _core.compliance(MODEL, T, Q, V, Z, "rocker.C", ["crank.angle"]),
+    "Record.number": lambda: RECORD.number("count"),
     "Run.responses": RUN.responses,
     "Run.energies": RUN.energies,
     "measure": lambda: _core.measure(MODEL, "C.force"),
@@ -77,7 +79,7 @@ CALLS: dict[str, Callable[[], object]] = {
     "root_mean_square": lambda: _core.root_mean_square(TIMES, TIMES),
     "row_norms": lambda: _core.row_norms(ROW),
     "settling": lambda: _core.settling(TIMES, TIMES),
-    "sweeps": lambda: _core.sweeps(MODEL, ["max"]),
+    "sweeps": lambda: _core.sweeps(MODEL, ["max"], True),
     "sweep": lambda: _core.sweep(
         MODEL, "{}", "{}", '{"type": "dynamics", "t_end": 1}', [], [], [], [], np.zeros((0, 0)), 1
     ),

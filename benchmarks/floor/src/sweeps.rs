@@ -3,7 +3,7 @@
 use crate::evaluations::{assembled, FLAGSHIP};
 use crate::runs::timed;
 use crate::turns::medians;
-use kempe::analyses::sweep::{Outcome, Statistic, Sweep, VariantRow};
+use kempe::analyses::sweep::{Outcome, Statistic, Sweep, VariantRow, Wanted};
 use kempe::case::{read, Format};
 use kempe_floor::chain::Chain;
 use kempe_floor::dormand_prince::integrate;
@@ -22,15 +22,17 @@ pub fn measure(repeat: usize) -> Value {
     let (model, start) = assembled(FLAGSHIP);
     let y: [f64; N_Y] = [start.q.as_slice(), &start.v].concat().try_into().expect("three bodies");
     let (case, _) = read(FLAGSHIP, Format::Toml).expect("the flagship");
-    let fields = &case.analyses[0].fields;
-    let plain = fields.iter().filter(|(name, _)| name == "t_end" || name == "output_step");
+    let mut analyses = case.analyses.clone();
+    analyses.truncate(1);
+    analyses[0].fields.retain(|(name, _)| ["type", "t_end", "output_step"].contains(&&name[..]));
     let sweep = Sweep {
         model: Arc::new(model),
+        definition: Arc::new(case.definition.clone()),
         set: case.start.set.clone(),
         guess: case.start.guess.clone(),
-        analysis: plain.cloned().collect(),
+        analyses,
         measures: vec!["rocker.angle".into()],
-        wanted: vec![(0, Statistic::Final)],
+        wanted: vec![Wanted::Statistic(0, Statistic::Final)],
     };
     let stiffness = |k: usize| STIFFNESS * (0.5 + 1.5 * k as f64 / VARIANTS as f64);
     let row = |k: usize| (vec![("k".to_string(), stiffness(k))], Vec::new());

@@ -13,24 +13,27 @@ use kempe::analyses::record::{
 };
 use kempe::analyses::{run_after, AnyAnalysis, State};
 use kempe::case::{self, Case, Format};
-use kempe::model::{Definition, Model, Value};
+use kempe::model::{Definition, Entry, Model, Value};
 use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use std::sync::{Arc, Mutex, PoisonError};
 
 /// What an analysis found.
-#[pyclass(name = "Record", module = "kempe._core", frozen, get_all)]
+#[pyclass(name = "Record", module = "kempe._core", frozen)]
 pub struct PyRecord {
     /// The motion, if the result is one.
+    #[pyo3(get)]
     run: Option<Py<PyRun>>,
     /// The mechanism in which a quantity replaces the time.
+    #[pyo3(get)]
     driven: Option<Written>,
     /// Other numbers by name, (n, width).
+    #[pyo3(get)]
     numbers: Py<PyDict>,
-    /// The other findings, as JSON.
-    findings: String,
-    /// Remarks that a user must see.
-    remarks: Vec<String>,
+    /// The record without its motion, and the analysis and the model to which it belongs.
+    record: Record,
+    analysis: AnyAnalysis,
+    model: Py<PyModel>,
 }
 
 /// A mechanism in which a quantity replaces the time: its model, its case as JSON, the quantity, its unit, its value
@@ -43,26 +46,54 @@ type At<'py> = (f64, Row<'py>, Row<'py>, Row<'py>);
 impl PyRecord {
     fn new(
         py: Python<'_>,
-        model: &Bound<'_, PyModel>,
-        record: Record,
+        (model, analysis): (&Bound<'_, PyModel>, &AnyAnalysis),
+        mut record: Record,
         message: &str,
     ) -> PyResult<Self> {
-        let driven = record.driven.map(|driven| write(py, driven)).transpose()?;
+        let (driven, responses) = (record.driven.take(), record.responses.take());
+        let driven = driven.map(|driven| write(py, driven)).transpose()?;
         let own = driven.as_ref().map_or(model, |(driven, ..)| driven.bind(py));
         let run = record
             .motion
-            .map(|motion| Py::new(py, PyRun::new(py, own, motion, record.responses, message)?));
+            .take()
+            .map(|motion| Py::new(py, PyRun::new(py, own, motion, responses, message)?));
         let numbers = PyDict::new(py);
-        for of in record.numbers {
+        for of in &record.numbers {
             let [count, width] = of.shape;
-            numbers.set_item(of.name, table(py, of.values, (count, width))?)?;
+            numbers.set_item(of.name, table(py, of.values.clone(), (count, width))?)?;
         }
         Ok(Self {
             run: run.transpose()?,
             driven,
             numbers: numbers.unbind(),
-            findings: record.findings.to_string(),
-            remarks: record.remarks,
+            record,
+            analysis: analysis.clone(),
+            model: model.clone().unbind(),
+        })
+    }
+}
+
+#[pymethods]
+impl PyRecord {
+    /// The other findings, as JSON.
+    #[getter]
+    fn findings(&self) -> String {
+        self.record.findings.to_string()
+    }
+
+    /// Remarks that a user must see.
+    #[getter]
+    fn remarks(&self) -> Vec<String> {
+        self.record.remarks.clone()
+    }
+
+    /// A number of a result that is not a motion, such as `lower`, `frequency[0]` or `rocker.angle`.
+    fn number(&self, py: Python<'_>, text: &str) -> PyResult<f64> {
+        guard("Record.number", || {
+            let PyModel { definition, prepared, .. } = self.model.get();
+            let subject = Subject { definition, prepared };
+            let found = self.analysis.number(&subject, &self.record, text);
+            found.map_err(|outcome| Failure::from(outcome).raise(py))
         })
     }
 }
@@ -120,8 +151,9 @@ pub fn run_analysis(
         let (t, q, v, z) = at;
         let analysis = read(py, core, options, t_end)?;
         let start = StartState { state: state(py, &core.model, t, [&q, &v, &z])?, released };
+        let of = (model, &analysis);
         let work = Work {
-            analysis,
+            analysis: analysis.clone(),
             definition: Arc::clone(&core.definition),
             prepared: Arc::clone(&core.prepared),
             start,
@@ -135,14 +167,14 @@ pub fn run_analysis(
         match (outcome, error) {
             (Ok(record), None) => {
                 let message = record.message.clone();
-                PyRecord::new(py, model, record, &message)
+                PyRecord::new(py, of, record, &message)
             }
-            (Ok(record), Some(error)) => partial(py, model, Some(record), "interrupted", error),
-            (Err(failed), Some(error)) => partial(py, model, failed.record, "interrupted", error),
+            (Ok(record), Some(error)) => partial(py, of, Some(record), "interrupted", error),
+            (Err(failed), Some(error)) => partial(py, of, failed.record, "interrupted", error),
             (Err(failed), None) => {
                 let message = failed.outcome.message.clone();
                 let error = Failure::from(failed.outcome).raise(py);
-                partial(py, model, failed.record, &message, error)
+                partial(py, of, failed.record, &message, error)
             }
         }
     })
@@ -151,13 +183,13 @@ pub fn run_analysis(
 /// Raises an error that contains the record so far, if this is a motion.
 fn partial(
     py: Python<'_>,
-    model: &Bound<'_, PyModel>,
+    of: (&Bound<'_, PyModel>, &AnyAnalysis),
     record: Option<Record>,
     message: &str,
     error: PyErr,
 ) -> PyResult<PyRecord> {
     if let Some(record) = record.filter(|record| record.motion.is_some()) {
-        error.value(py).setattr("record", PyRecord::new(py, model, record, message)?)?;
+        error.value(py).setattr("record", PyRecord::new(py, of, record, message)?)?;
     }
     Err(error)
 }
@@ -271,11 +303,17 @@ fn read(py: Python<'_>, model: &PyModel, text: &str, t_end: Option<f64>) -> PyRe
 }
 
 /// The fields of an entry of `analyses` that is given as JSON.
-pub fn fields(py: Python<'_>, text: &str) -> PyResult<Vec<(String, Value)>> {
-    let written = format!("{{\"kempe\": 1, \"analyses\": {{\"analysis\": {text}}}}}");
+fn fields(py: Python<'_>, text: &str) -> PyResult<Vec<(String, Value)>> {
+    let all = entries(py, &format!("{{\"analysis\": {text}}}"))?;
+    Ok(all.into_iter().next().map(|entry| entry.fields).unwrap_or_default())
+}
+
+/// Entries of `analyses` that are given as JSON.
+pub fn entries(py: Python<'_>, text: &str) -> PyResult<Vec<Entry>> {
+    let written = format!("{{\"kempe\": 1, \"analyses\": {text}}}");
     let (case, _) = case::read(&written, Format::Json).map_err(|mut found| {
         found.iter_mut().for_each(|d| drop(d.path.drain(..d.path.len().min(2))));
         raise(py, Kind::Model, &found, None)
     })?;
-    Ok(case.analyses.into_iter().next().map(|entry| entry.fields).unwrap_or_default())
+    Ok(case.analyses)
 }

@@ -5,8 +5,8 @@ use crate::convert::{refuse, table, tree, Rows};
 use crate::guard::{caught, guard, Caught};
 use crate::model::PyModel;
 use crate::respond::Table;
-use crate::run_analysis::fields;
-use kempe::analyses::sweep::{Outcome, Statistic, Sweep, VariantRow};
+use crate::run_analysis::entries;
+use kempe::analyses::sweep::{Outcome, Statistic, Sweep, VariantRow, Wanted};
 use kempe::math::Lanes;
 use numpy::{IntoPyArray, PyArray1};
 use pyo3::prelude::*;
@@ -25,38 +25,42 @@ const STACK: usize = 8 << 20;
 /// Rows of numbers, the reasons of the rows that failed, and the rows that need a single run.
 type Swept<'py> = (Table<'py>, Vec<(usize, String)>, Bound<'py, PyArray1<u64>>);
 
-/// Whether `sweep` supports a model, measures and statistics.
+/// Whether `sweep` supports a model and statistics; `reads` states whether the sweep reads quantities.
 #[pyfunction]
-#[pyo3(signature = (model, wanted))]
-pub fn sweeps(model: &PyModel, wanted: Vec<String>) -> PyResult<bool> {
+#[pyo3(signature = (model, statistics, reads))]
+pub fn sweeps(model: &PyModel, statistics: Vec<String>, reads: bool) -> PyResult<bool> {
     guard("sweeps", || {
-        let known = wanted.iter().all(|name| Statistic::named(name).is_some());
-        Ok(known && Sweep::serves(&model.model))
+        let known = statistics.iter().all(|name| Statistic::named(name).is_some());
+        Ok(known && Sweep::serves(&model.model, reads))
     })
 }
 
-/// Runs variants of a case, one per row, and returns statistics of measures. `start`, `guess` and `analysis` are JSON
-/// in the format of a file; `parameters` and `coordinates` are the names of the columns.
+/// Runs variants of a case, one per row, and returns numbers of the result of the last analysis: statistics of measures
+/// with their indices, or numbers by name. `start`, `guess` and `analyses` are JSON in the format of a file;
+/// `parameters` and `coordinates` are the names of the columns.
 #[pyfunction]
-#[pyo3(signature = (model, start, guess, analysis, measures, wanted, parameters, coordinates, rows, workers))]
+#[pyo3(signature = (model, start, guess, analyses, measures, wanted, parameters, coordinates, rows, workers))]
 #[allow(clippy::too_many_arguments)] // the arguments of Python
 pub fn sweep<'py>(
     py: Python<'py>,
     model: &PyModel,
     start: &str,
     guess: &str,
-    analysis: &str,
+    analyses: &str,
     measures: Vec<String>,
-    wanted: Vec<(usize, String)>,
+    wanted: Vec<(Option<usize>, String)>,
     parameters: Vec<String>,
     coordinates: Vec<String>,
     rows: Rows<'py>,
     workers: usize,
 ) -> PyResult<Swept<'py>> {
     guard("sweep", || {
-        let wanted = wanted.iter().map(|(of, name)| match Statistic::named(name) {
-            Some(statistic) if *of < measures.len() => Ok((*of, statistic)),
-            _ => Err(refuse(py, "wanted", format!("there is no '{name}' of measure {of}"))),
+        let wanted = wanted.into_iter().map(|(of, name)| match (of, Statistic::named(&name)) {
+            (None, _) => Ok(Wanted::Number(name)),
+            (Some(of), Some(statistic)) if of < measures.len() => {
+                Ok(Wanted::Statistic(of, statistic))
+            }
+            _ => Err(refuse(py, "wanted", format!("there is no '{name}' of this measure"))),
         });
         let wanted = wanted.collect::<PyResult<Vec<_>>>()?;
         let (count, width) = rows.as_array().dim();
@@ -66,9 +70,10 @@ pub fn sweep<'py>(
         let numbers = wanted.len();
         let sweep = Sweep {
             model: Arc::clone(&model.model),
+            definition: Arc::clone(&model.definition),
             set: tree(py, start)?,
             guess: tree(py, guess)?,
-            analysis: fields(py, analysis)?,
+            analyses: entries(py, analyses)?,
             measures,
             wanted,
         };

@@ -9,13 +9,32 @@ use super::limits;
 use super::linearization;
 use super::options::{Declaration, Declared, Family, Member};
 use super::reachable;
-use super::record::{Analysis, Observer, Outcome, Record, StartState, Subject, Unfinished};
+use super::record::{
+    parts, Analysis, ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished,
+};
+use crate::math::Listed;
 use crate::model::{Model, Problem, Value};
 use std::sync::LazyLock;
 
 /// The declaration of an analysis.
 fn declaration<A: Analysis>() -> Declaration {
-    Declaration { numbers: A::NUMBERS, motion: A::MOTION, ..A::declaration() }
+    let numbers = A::NUMBERS.iter().map(|number| (number.name, number.unit)).list();
+    Declaration { numbers, motion: A::MOTION, ..A::declaration() }
+}
+
+/// A number of a record of an analysis; see [`AnyAnalysis::number`].
+fn number<A: Analysis>(
+    options: &A,
+    subject: &Subject<'_>,
+    record: &Record,
+    text: &str,
+) -> Result<f64, Outcome> {
+    let (name, _) = parts(text);
+    let found = match A::NUMBERS.iter().find(|number| number.name == name) {
+        Some(number) => (number.read)(record, name),
+        None => options.quantity(subject, record, name)?,
+    };
+    found.at(text).map_err(|message| Outcome::new(ErrorClass::Model, message))
 }
 
 /// Lists the analyses.
@@ -87,6 +106,21 @@ macro_rules! analyses {
                 let subject = &own.as_ref().map_or(*subject, |own| Subject { prepared: own, ..*subject });
                 match self {
                     $(Self::$Name(options) => options.begins(subject, start)),+
+                }
+            }
+
+            /// A number of a record of the analysis, such as `lower`, `frequency[0]` or `rocker.angle`.
+            ///
+            /// # Errors
+            /// There is none of this name or place, or it has no value.
+            pub fn number(
+                &self,
+                subject: &Subject<'_>,
+                record: &Record,
+                text: &str,
+            ) -> Result<f64, Outcome> {
+                match self {
+                    $(Self::$Name(options) => number(options, subject, record, text)),+
                 }
             }
 

@@ -7,7 +7,10 @@
 
 use super::kinematics::{driven, same, written, Continuation, Failure, Limit, Reason};
 use super::options::{name, options};
-use super::record::{Analysis, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished};
+use super::record::{
+    Analysis, Fact, NamedNumber, NumberList, Observer, Outcome, Record, StartState, Subject,
+    Unfinished,
+};
 use super::{second_order, State};
 use crate::elements::QuantityKind;
 use crate::integrate::Flow;
@@ -16,7 +19,7 @@ use crate::model::{size, Model};
 use serde_json::json;
 use std::f64::consts::TAU;
 
-/// Number of turns after which an angle without a limit counts as unlimited, even if the mechanism never returns to
+/// NamedNumber of turns after which an angle without a limit counts as unlimited, even if the mechanism never returns to
 /// its start.
 pub const MOST_TURNS: usize = 24;
 /// Length, in sizes of the mechanism, beyond which a length counts as unlimited.
@@ -37,13 +40,20 @@ options! {
 }
 
 impl Analysis for Options {
-    const NUMBERS: &'static [(&'static str, &'static str)] = &[
-        ("lower", "over"),
-        ("upper", "over"),
-        ("span", "over"),
-        ("start", "over"),
-        ("turns", ""),
-        ("turns_fully", ""),
+    const NUMBERS: &'static [NamedNumber] = &[
+        NamedNumber::new("lower", "over", |of, _| NumberList::one(ends_of(of)[0])),
+        NamedNumber::new("upper", "over", |of, _| NumberList::one(ends_of(of)[1])),
+        NamedNumber::new("span", "over", |of, _| {
+            let [lower, upper] = ends_of(of);
+            NumberList::one(upper - lower)
+        }),
+        NamedNumber::finding("start", "over"),
+        NamedNumber::finding("turns", ""),
+        NamedNumber::new("turns_fully", "", |of, _| {
+            let is_angle = of.findings["unit"] == QuantityKind::Angle.unit();
+            let is_free = ends_of(of).iter().all(|end| end.is_infinite());
+            NumberList::one(f64::from(is_angle && is_free))
+        }),
     ];
 
     fn run(
@@ -77,6 +87,12 @@ impl Analysis for Options {
         );
         Ok(Record { driven: Some(driven), ..record.facts(facts).positions(ends) })
     }
+}
+
+/// The least and the largest value of a record; infinite without a limit.
+fn ends_of(record: &Record) -> [f64; 2] {
+    let end = |name: &str, none: f64| record.findings[name].as_f64().unwrap_or(none);
+    [end("lower", f64::NEG_INFINITY), end("upper", f64::INFINITY)]
 }
 
 /// Both limits with their reasons, or the description of a motion without limits.
@@ -116,7 +132,7 @@ pub struct Limits {
     pub kind: QuantityKind,
     /// Descriptions of the lower and the upper end, or of the motion without ends.
     pub reasons: Vec<String>,
-    /// Number of turns after which the mechanism returns to its start, if it turns fully.
+    /// NamedNumber of turns after which the mechanism returns to its start, if it turns fully.
     pub turns: Option<usize>,
     /// Values along the motion, ascending, with the positions of shape (n_q); both ends are included.
     pub path: Vec<(f64, Vec<f64>)>,

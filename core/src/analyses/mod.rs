@@ -53,6 +53,6 @@ pub use meshing::meshed;
 pub use mobility::Mobility;
 pub use results::NoResult;
 pub use second_order::mobility;
-pub use sequence::{check, run_after, start_of};
+pub use sequence::{chain, check, fields_of, run_after, start_of};
 pub use state::State;
 pub use uniqueness::{not_unique, NotUnique};

@@ -8,7 +8,9 @@
 use super::assemble::position;
 use super::kinematics::{driving, kinematics, DrivenQuantity, Reason};
 use super::options::{count, intervals, kind, name, options};
-use super::record::{Analysis, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished};
+use super::record::{
+    Analysis, Fact, NamedNumber, Observer, Outcome, Record, StartState, Subject, Unfinished,
+};
 use super::State;
 use crate::elements::{BodyId, Group};
 use crate::equations::kinematics::Motions;
@@ -49,7 +51,7 @@ options! {
         /// First and last value of each of them, in SI units and rad.
         ranges: intervals
     ) {
-        /// Number of values of each quantity, including both ends.
+        /// NamedNumber of values of each quantity, including both ends.
         n: count = VALUES,
         /// State at which the analysis starts: "start", or the name of an earlier analysis to use
         /// its final state. If absent, the final state of the previous analysis.
@@ -83,7 +85,8 @@ fn place(model: &Model, of: &str) -> Option<(BodyId, Local)> {
 }
 
 impl Analysis for Options {
-    const NUMBERS: &'static [(&'static str, &'static str)] = &[("area", "m^2"), ("complete", "")];
+    const NUMBERS: &'static [NamedNumber] =
+        &[NamedNumber::finding("area", "m^2"), NamedNumber::finding("complete", "")];
 
     fn run(
         &self,

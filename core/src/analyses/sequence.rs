@@ -1,11 +1,14 @@
 //! The analyses of a case in their order: where each starts, and the checks that need no run.
 
-use super::analysis_table::AnyAnalysis;
+use super::analysis_table::{declarations, kind_of, AnyAnalysis};
 use super::assemble::{assemble_until, Request};
 use super::conditions::Condition;
 use super::record::{ErrorClass, Observer, Outcome, Record, StartState, Subject, Unfinished};
 use crate::math::Listed;
 use crate::model::{Entry, Model, Problem, Value};
+
+/// The option that holds coordinates. An analysis without it holds those of the start.
+const HELD: &str = "set";
 
 /// The index of the analysis at whose end an analysis starts: the one that `from` names, or the one before it. None at
 /// the start of the case.
@@ -14,6 +17,28 @@ pub fn start_of(analyses: &[Entry], place: usize) -> Option<usize> {
         Some(Value::Text(name)) => analyses[..place].iter().rposition(|entry| entry.name == *name),
         _ => place.checked_sub(1),
     }
+}
+
+/// The analyses that lead to an analysis, in order: each starts at the end of the one before it.
+pub fn chain(analyses: &[Entry], place: usize) -> Vec<usize> {
+    let mut found = vec![place];
+    while let Some(before) = start_of(analyses, found[found.len() - 1]) {
+        found.push(before);
+    }
+    found.reverse();
+    found
+}
+
+/// The fields of an analysis. One that can hold coordinates holds those of the start, `set`, if it names none.
+pub fn fields_of(entry: &Entry, set: &[(String, Value)]) -> Vec<(String, Value)> {
+    let kind = kind_of(&entry.fields);
+    let declared = declarations().iter().find(|declared| declared.table.name == kind);
+    let holds = declared.is_some_and(|d| d.table.fields.iter().any(|f| f.name == HELD));
+    let mut fields = entry.fields.clone();
+    if holds && entry.get(HELD).is_none() && !set.is_empty() {
+        fields.push((HELD.to_string(), Value::Table(set.to_vec())));
+    }
+    fields
 }
 
 /// Runs an analysis from the end of another one. If joints have drifted there, it starts in the nearest state that

@@ -3,11 +3,8 @@
 use super::Case;
 use crate::analyses::assemble::assemble_until;
 use crate::analyses::record::{Observer, Outcome, Record, StartState, Subject, Unfinished};
-use crate::analyses::{declarations, kind_of, run_after, start_of, AnyAnalysis};
+use crate::analyses::{fields_of, run_after, start_of, AnyAnalysis};
 use crate::model::{Model, Value};
-
-/// The option that holds coordinates. An analysis without it holds those of the start.
-const HELD: &str = "set";
 
 impl Case {
     /// The assembled mechanism at the start.
@@ -22,15 +19,7 @@ impl Case {
 
     /// The fields of an analysis. One that can hold coordinates holds those of the start if it names none.
     pub fn fields(&self, place: usize) -> Vec<(String, Value)> {
-        let entry = &self.analyses[place];
-        let kind = kind_of(&entry.fields);
-        let declared = declarations().iter().find(|declared| declared.table.name == kind);
-        let holds = declared.is_some_and(|d| d.table.fields.iter().any(|f| f.name == HELD));
-        let mut fields = entry.fields.clone();
-        if holds && entry.get(HELD).is_none() && !self.start.set.is_empty() {
-            fields.push((HELD.to_string(), Value::Table(self.start.set.clone())));
-        }
-        fields
+        fields_of(&self.analyses[place], &self.start.set)
     }
 
     /// Runs an analysis after the analyses at whose ends it starts. Its remarks contain the remarks and doubts of these,

@@ -88,6 +88,8 @@ pub struct LaneEnd<'a> {
     pub dy: &'a [Block],
     pub projected: bool,
     pub evaluations: usize,
+    /// The stages, and the state before the projection, if the steps keep them for interpolants.
+    pub stages: Option<[&'a [Block]; 2]>,
 }
 
 /// An explicit method that works on lanes.
@@ -233,6 +235,8 @@ struct Times {
 /// Takes steps of up to four integrations side by side.
 #[derive(Default)]
 pub struct LaneSteps {
+    /// Whether the steps have interpolants.
+    keeps_stages: bool,
     y: Vec<Block>,
     y_new: Vec<Block>,
     argument: Vec<Block>,
@@ -244,6 +248,11 @@ pub struct LaneSteps {
 }
 
 impl LaneSteps {
+    /// Steps with or without the stages that interpolants need.
+    pub fn new(keeps_stages: bool) -> Self {
+        Self { keeps_stages, ..Self::default() }
+    }
+
     /// Takes one trial step of each stepper. A lane without a trial is reported as [`Taken::Alone`].
     pub fn step(
         &mut self,
@@ -276,8 +285,9 @@ impl LaneSteps {
             match (&mut steppers[lane], projected[lane]) {
                 (Some(stepper), Some(projected)) => {
                     let evaluations = evaluations + usize::from(projected || !last_in_error);
-                    let end =
-                        LaneEnd { lane, y: &self.y_new, dy: &self.dy, projected, evaluations };
+                    let Self { y_new: y, dy, k, argument, .. } = &*self;
+                    let stages = self.keeps_stages.then_some([&k[..], &argument[..]]);
+                    let end = LaneEnd { lane, y, dy, projected, evaluations, stages };
                     stepper.accept(norms[lane], end);
                 }
                 _ => taken[lane] = Taken::Alone,
@@ -347,8 +357,11 @@ impl LaneSteps {
         accepted: Mask,
         system: &mut dyn LaneOde,
     ) -> [Option<bool>; WIDTH] {
-        let Self { y_new, k, dy, registers, .. } = self;
+        let Self { y_new, k, dy, registers, argument, keeps_stages, .. } = self;
         let t = Lanes::new(times.t_new);
+        if *keeps_stages {
+            argument.copy_from_slice(y_new);
+        }
         registers.put(y_new);
         let mut projected = system.project(t, &mut registers.y, accepted);
         y_new.iter_mut().zip(&registers.y).for_each(|(to, y)| *to = y.to_array());

@@ -5,7 +5,7 @@ use super::explicit_work::{Accepted, InterpolantLevel, Work};
 use super::hermite_birkhoff::HermiteBirkhoff;
 use super::lane_steps::{LaneEnd, LaneMethod, LaneStart, OverLanes, SideBySide};
 use super::runge_kutta::RungeKutta;
-use super::stages::{chord, row_mut, Block};
+use super::stages::{chord, row, row_mut, Block};
 use super::step_acceptance::last_row;
 use std::marker::PhantomData;
 
@@ -50,7 +50,11 @@ impl<P: RungeKutta> SideBySide for ExplicitStepper<P> {
         false
     }
 
-    fn accept(&mut self, norm: f64, LaneEnd { lane, y, dy, projected, evaluations }: LaneEnd<'_>) {
+    fn accept(
+        &mut self,
+        norm: f64,
+        LaneEnd { lane, y, dy, projected, evaluations, stages }: LaneEnd<'_>,
+    ) {
         let Some(mut size) = self.size.take() else { return };
         let Some(proposal) = self.proposal(&size) else { return };
         self.resize(&mut size, proposal, norm);
@@ -59,8 +63,23 @@ impl<P: RungeKutta> SideBySide for ExplicitStepper<P> {
         self.counts.steps += 1;
         self.counts.evaluations += evaluations;
         let t = proposal.t_new;
-        let Work { width, k, y: begin, y_new, hermite_birkhoff, .. } = &mut self.work;
+        let Work { width, k, y: begin, y_new, trial, hermite_birkhoff, .. } = &mut self.work;
         take(y, lane, y_new);
+        if let Some([stages, before]) = stages {
+            let count = P::STAGES - usize::from(!P::LAST_IN_ERROR);
+            for stage in 1..count {
+                take(row(stages, y.len(), stage), lane, row_mut(k, *width, stage));
+            }
+            take(before, lane, trial);
+            if projected {
+                chord(trial, y_new, t - self.t, row_mut(k, *width, P::STAGES + P::EXTRA));
+            }
+            take(dy, lane, row_mut(k, *width, last_row::<P>(projected)));
+            let accepted = Accepted { t, projected, interpolant: InterpolantLevel::Plain };
+            self.measure(accepted);
+            self.accepted = Some(accepted);
+            return;
+        }
         take(dy, lane, row_mut(k, *width, last_row::<P>(projected)));
         // the interpolant has no stages; it uses these rows
         take(dy, lane, row_mut(k, *width, 1));

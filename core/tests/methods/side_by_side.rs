@@ -48,13 +48,16 @@ fn ways(t_end: f64) -> Vec<Options> {
         Options {
             method: Scheme::Rk45(Rk45::new(1e-6, 1e-9)),
             stabilization: Stabilization::Baumgarte(gains),
-            ..base
+            ..base.clone()
         },
+        Options { dense_output: true, ..base.clone() },
+        Options { method: Scheme::Rk45(Rk45::new(1e-6, 1e-9)), dense_output: true, ..base },
     ]
 }
 
 fn same(beside: &Run, alone: &Run) {
     assert_eq!(beside.trajectory, alone.trajectory);
+    assert_eq!(beside.dense, alone.dense);
     assert_eq!(beside.choice, alone.choice);
     assert_eq!(beside.passed, alone.passed);
     assert_eq!(beside.settings, alone.settings);
@@ -81,9 +84,12 @@ fn compare(made: &[Made], way: &Options) -> Trials {
         .map(|(((_, start), prepared), options)| Variant { prepared, start, options })
         .filter(Variant::serves)
         .collect();
-    let (outcomes, trials) = side_by_side(&all, &|| Flow::Continue);
+    let mut outcomes = Vec::new();
+    let trials =
+        side_by_side(&all, &|| Flow::Continue, &mut |place, run| outcomes.push((place, run)));
     assert_eq!(outcomes.len(), all.len());
-    for (variant, outcome) in all.iter().zip(outcomes) {
+    for (place, outcome) in outcomes {
+        let variant = &all[place];
         let alone =
             dynamics(variant.prepared.model(), variant.start, variant.options, |_| Flow::Continue);
         match (outcome, alone) {

@@ -7,7 +7,6 @@ from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from kempe.analyses.record import Record
 from kempe.base.arrays import Floats, fixed
@@ -19,8 +18,6 @@ from kempe.results.result import Result
 from kempe.results.state import State
 from kempe.results.table import Column, column
 
-#: Largest asymmetry of a stiffness that has a potential, relative to its largest entry.
-_SYMMETRIC = 1e-9
 #: Largest number of lines of one kind in a report.
 _MOST = 20
 #: Ends of a path.
@@ -85,11 +82,11 @@ class EquilibriumResult(Result):
         self.branches: Floats = fixed(self.values[list(self.branch_points)])
         f = len(self.coordinates)
         stiffness = np.array([point["stiffness"] for point in points]).reshape(len(points), f, f)
-        pairs = zip(points, stiffness, strict=True)
-        values, stable = zip(*(_stability(*pair) for pair in pairs), strict=True)
+        eigenvalues = np.array([point["eigenvalues"] for point in points]).reshape(len(points), f)
         self.stiffness: Floats = fixed(self._of(stiffness))
-        self.eigenvalues: Floats = fixed(self._of(np.array(values).reshape(len(points), f)))
-        self.stable: Any = np.array(stable) if self.over else bool(stable[0])
+        self.eigenvalues: Floats = fixed(self._of(eigenvalues))
+        stable = np.array([point["stable"] for point in points])
+        self.stable: Any = stable if self.over else bool(stable[0])
         self.effort: Mapping[str, Any] = self._efforts(points)
         self.residual = max(float(point["residual"]) for point in points)
         self.steps, self.relaxed = int(points[0]["steps"]), int(points[0]["relaxed"])
@@ -259,17 +256,6 @@ def _state(model: CompiledModel, t: float, point: Mapping[str, Any]) -> State:
     lam[: len(point["lam"])] = point["lam"]
     vars(state)["_dynamics"] = fixed(np.zeros(len(q))), fixed(lam)
     return state
-
-
-def _stability(point: Mapping[str, Any], stiffness: Floats) -> tuple[NDArray[Any], bool]:
-    """Eigenvalues, ascending, and whether all are positive."""
-    values = np.array(point["eigenvalues"], dtype=float)
-    skew = np.abs(stiffness - stiffness.T).max(initial=0.0)
-    if skew <= _SYMMETRIC * np.abs(stiffness).max(initial=0.0):
-        return values, bool(point["stable"])
-    # forces without a potential: the real parts decide about divergence
-    values = np.sort(np.linalg.eigvals(stiffness).real)
-    return values, bool((values > 0.0).all())
 
 
 def _per(unit: str) -> str:

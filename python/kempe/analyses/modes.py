@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from functools import cached_property
 from typing import Any, ClassVar
 
 import numpy as np
 
-from kempe.analyses.eigenmodes import Complexes, eigenmodes
+from kempe.analyses.eigenmodes import Complexes, vectors_of
 from kempe.analyses.mode_shape import ModeShape
 from kempe.analyses.options import Modes
 from kempe.analyses.record import Record, check, run_analysis
@@ -23,8 +22,6 @@ from kempe.results.table import Column
 
 #: Largest number of modes that a report lists.
 MOST_LISTED = 20
-#: Rate or acceleration of a coordinate, beside |s| or |s|², that counts as an equilibrium.
-_AT_REST = 1e-6
 
 
 class ModesResult(Result):
@@ -50,6 +47,12 @@ class ModesResult(Result):
         basis: motion of all coordinates with each independent coordinate, (f, n_q).
         eigenvalues: (n_modes,), 1/s, ascending by magnitude. Of two conjugate eigenvalues, only the
             one with the positive imaginary part is listed; a real eigenvalue is a mode by itself.
+        omega: |s| of each mode, rad/s.
+        frequency: Im s / 2π of each mode, Hz; 0 for a real eigenvalue.
+        damping: damping ratio -Re s / |s| of each mode; negative where it grows, 0 for s = 0.
+        stable: whether all modes decay.
+        is_equilibrium: whether the mechanism stays at the state: it neither moves nor accelerates.
+            Rates and accelerations count as zero up to 1e-6 rad or m times the largest |s| or |s|².
         shapes: (n_modes, n_q): the change of all coordinates in each mode; the largest number of
             each mode is 1. Complex, because the coordinates of a damped mode have phases.
     """
@@ -60,7 +63,6 @@ class ModesResult(Result):
         findings, found = record.findings, record.numbers
         self.state = state = record.at_start
         self.inputs, self.outputs = tuple(findings["inputs"]), tuple(findings["outputs"])
-        n = findings["n"]
         self.coordinates: tuple[str, ...] = tuple(findings["coordinates"])
         model, columns = state.compiled, findings["columns"]
         rates, own = model.rate_names(), model.state_names()
@@ -74,57 +76,22 @@ class ModesResult(Result):
         )
         self.A, self.B, self.C, self.D = (fixed(found[name]) for name in ("A", "B", "C", "D"))
         self.values, self.basis = fixed(found["values"].ravel()), fixed(found["basis"])
-        self.acceleration = fixed(found["acceleration"].ravel()[columns])
-        self.rates = fixed(state.v[columns])
-        values, vectors = eigenmodes(
-            self.mass_matrix, self.damping_matrix, self.stiffness_matrix, self.A
+        self.rates, self.acceleration, self.frequency, self.omega, self.damping = (
+            fixed(found[name].ravel())
+            for name in ("rates", "acceleration", "frequency", "omega", "damping_ratio")
         )
-        self.eigenvalues: Complexes = values[:n]
-        self.shapes: Complexes = _scaled(vectors[:n] @ self.basis)
+        self.stable: bool = findings["stable"]
+        self.is_equilibrium: bool = findings["is_equilibrium"]
+        self._moves: bool = findings["moves"]
+        self.eigenvalues: Complexes = found["eigenvalues"] @ np.array([1, 1j])
+        matrices = self.mass_matrix, self.damping_matrix, self.stiffness_matrix, self.A
+        self.shapes: Complexes = _scaled(vectors_of(self.eigenvalues, *matrices) @ self.basis)
         self.eigenvalues.flags.writeable = self.shapes.flags.writeable = False
 
     @property
     def final(self) -> State:
         """The state."""
         return self.state
-
-    @cached_property
-    def omega(self) -> Floats:
-        """|s| of each mode, rad/s."""
-        return fixed(np.abs(self.eigenvalues))
-
-    @cached_property
-    def frequency(self) -> Floats:
-        """Im s / 2π of each mode, Hz; 0 for a real eigenvalue."""
-        return fixed(self.eigenvalues.imag / (2.0 * np.pi))
-
-    @cached_property
-    def damping(self) -> Floats:
-        """Damping ratio -Re s / |s| of each mode; negative where it grows, 0 for s = 0."""
-        size = np.where(self.omega > 0.0, self.omega, 1.0)
-        return fixed(-self.eigenvalues.real / size + 0.0)
-
-    @property
-    def stable(self) -> bool:
-        """Whether all modes decay."""
-        return bool((self.eigenvalues.real < 0.0).all())
-
-    @property
-    def is_equilibrium(self) -> bool:
-        """Whether the mechanism stays at the state: it neither moves nor accelerates.
-
-        Rates and accelerations count as zero up to 1e-6 rad or m times the largest |s| or |s|².
-        """
-        return not self._moves and self._size(self.acceleration, 2) <= _AT_REST
-
-    @property
-    def _moves(self) -> bool:
-        return self._size(self.rates, 1) > _AT_REST
-
-    def _size(self, rates: Floats, order: int) -> float:
-        """The largest rate of an order, over that power of the largest |s|."""
-        fastest = float(self.omega.max(initial=0.0)) ** order
-        return float(np.abs(rates).max(initial=0.0)) / (fastest or 1.0)
 
     def shape(self, k: int, amplitude: float | None = None) -> ModeShape:
         """A mode as a motion that can be drawn and animated.

@@ -45,6 +45,7 @@ class Record:
         run: the motion; None if the result is not one.
         numbers: other numbers by name, (n, width).
         findings: the other findings by name.
+        number: a number of a result that is not a motion by its name, as sweeps read it.
     """
 
     entry: Mapping[str, Any]
@@ -55,6 +56,7 @@ class Record:
     run: _core.Run | None
     numbers: Mapping[str, Floats]
     findings: Mapping[str, Any]
+    number: Callable[[str], float]
 
     @property
     def at_start(self) -> State:
@@ -125,7 +127,8 @@ def _record(
     elif found.run is None:
         model = model.variant(([], list(before), []))
     findings = {} if found.run is not None else json.loads(found.findings)
-    return Record(entry, start, model, variable, value, found.run, found.numbers, findings)
+    read = found.number
+    return Record(entry, start, model, variable, value, found.run, found.numbers, findings, read)
 
 
 def solution_of(record: Record, method: str) -> Solution:

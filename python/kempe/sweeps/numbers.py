@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -15,21 +15,16 @@ from kempe.model.catalogue import declared
 from kempe.model.measure_infos import measure_info
 from kempe.model.values import refuse
 from kempe.results.measures import STATISTICS
-from kempe.results.quantities import values_of
 from kempe.results.state import State
 from kempe.results.variable import Variable
 
 if TYPE_CHECKING:
     from kempe.model.compiled import CompiledModel
 
-#: Attributes that are lists, of which the number of entries counts.
-_COUNTED = ("redundant", "singular", "locked", "loose", "undetermined")
 #: The numbers of each type of analysis with their SI units; "over" is the unit of the quantity.
 NUMBERS: Mapping[str, Mapping[str, str]] = {
     kind: dict(analysis.get("numbers", ())) for kind, analysis in declared("analyses").items()
 }
-#: The numbers in place of None; any other one is NaN.
-_ABSENT = {"lower": -np.inf, "upper": np.inf, "span": np.inf}
 #: The way to measure the result of another analysis.
 _ANOTHER = 'name another analysis: analysis="NAME", or kempe sweep --analysis NAME'
 #: The force or torque of a holder or driver at rest, such as ``effort.crank.angle``.
@@ -79,6 +74,11 @@ def over_of(model: CompiledModel, entry: Mapping[str, Any]) -> Variable:
     return driven_model(model, entry.get("over"))[1]
 
 
+def reads_quantities(kind: str, texts: Iterable[str]) -> bool:
+    """Whether some texts are not numbers that the result of a type of analysis has."""
+    return any(_parts(text)[0] not in NUMBERS[kind] for text in texts)
+
+
 def driven_model(model: CompiledModel, over: str | None) -> tuple[CompiledModel, Variable]:
     """The model in which a quantity is driven, and this quantity; by default the only driver.
 
@@ -87,44 +87,6 @@ def driven_model(model: CompiledModel, over: str | None) -> tuple[CompiledModel,
     """
     rest = (np.zeros(model.n_q), np.zeros(model.n_q))  # names and units need no position
     return driven_by(model, over, State(model, 0.0, *rest, z=np.zeros(model.n_z)))[:2]
-
-
-def number(found: Any, text: str) -> float:
-    """A number of a result; of limits without an end, an infinite one.
-
-    Raises:
-        KempeError: it has no value.
-    """
-    name, place = _parts(text)
-    value = _value(found, name)
-    if value is None:
-        return float(_ABSENT.get(name, np.nan))
-    values = np.asarray(value)
-    if values.ndim and place is None and values.size != 1:
-        raise ModelError(f"{name} has {len(values)} values; name one of them, such as {name}[0]")
-    if place is not None:
-        count = len(values) if values.ndim else 0
-        if not -count <= place < count:
-            raise ModelError(f"{text}: the result has {count} values of {name}")
-        values = values[place]
-    real = np.real_if_close(values)
-    if real.size != 1 or np.iscomplexobj(real):
-        raise ModelError(f"{text} is not one real number")
-    return float(real.item())
-
-
-def _value(found: Any, name: str) -> Any:
-    """A number, or numbers, of a result."""
-    if name in NUMBERS[found.kind]:
-        if name == "count":
-            return len(found)
-        value = getattr(found, name)
-        return len(value) if name in _COUNTED else value
-    if name.startswith(_EFFORT):
-        return found.effort[name.removeprefix(_EFFORT)]
-    texts = (_expression(state.compiled, name) for state in found.states)
-    pairs = zip(found.states, texts, strict=True)
-    return [float(values_of(s, measure_info(s.compiled, text))[0]) for s, text in pairs]
 
 
 def read_at(found: Any, text: str) -> tuple[State, tuple[str, ...]] | None:

@@ -19,15 +19,15 @@ from numpy.typing import NDArray
 
 from kempe import _core
 from kempe._version import __version__
-from kempe.analyses.option import core_options
 from kempe.analyses.request_cache import encode
 from kempe.base.arrays import Floats
 from kempe.base.names import one_of
 from kempe.errors import InternalError, KempeError, ModelError
 from kempe.model.measure_infos import measure_info, parameter_unit
 from kempe.model.values import numbers
+from kempe.sweeps.numbers import reads_quantities
 from kempe.sweeps.reasons import origin_of, reason
-from kempe.sweeps.wanted import Wanted
+from kempe.sweeps.wanted import Number, Wanted
 
 if TYPE_CHECKING:
     from kempe.case import Case
@@ -113,23 +113,26 @@ class Plan:
         Raises:
             KempeError: it fails.
         """
-        for name, found in self.variant(row).each():
-            if name == self.analysis:
-                return found
-        raise ModelError(f"the case has no analysis {self.analysis}")  # pragma: no cover
+        return self._run(row)[0]
+
+    def _run(self, row: Floats) -> tuple[Solution | Result, Number]:
+        """The result, and the function that reads its numbers."""
+        *_, (_, found, number) = self.variant(row).found()
+        return found, number
 
     @cached_property
     def is_native(self) -> bool:
         """Whether the core runs the variants on its threads.
 
-        The core runs simulations from the start of the case. Any other analysis, a frequency, and a
-        measure of a whole run are computed by single runs, one after the other.
+        A frequency, a measure of a whole run, functions in Python, and measures of redundant joints
+        are computed by single runs, one after the other.
         """
-        entry = self.case.analyses[self.analysis]
-        first = next(iter(self.case.analyses)) == self.analysis or entry.get("from") == "start"
-        if entry["type"] != "dynamics" or not first or any(one.of_run for one in self.wanted):
+        if any(one.of_run for one in self.wanted):
             return False
-        return _core.sweeps(self.case.model.compile().core, [one.statistic for one in self.wanted])
+        kind = self.case.analyses[self.analysis]["type"]
+        statistics = [one.statistic for one in self.wanted if one.statistic]
+        reads = reads_quantities(kind, [one.text for one in self.wanted])
+        return _core.sweeps(self.case.model.compile().core, statistics, reads)
 
     def unit_of(self, name: str) -> str:
         """The SI unit of a variable; empty for a parameter that is written without one."""
@@ -167,17 +170,20 @@ class Plan:
     @cached_property
     def _request(
         self,
-    ) -> tuple[_core.Model, str, str, str, list[str], list[tuple[int, str]]]:
+    ) -> tuple[_core.Model, str, str, str, list[str], list[tuple[int | None, str]]]:
         """The arguments of the core that all rows share."""
         start = self.case.with_start({name: 0.0 for name in self.names if "." in name})
         tree = start.tree().get("start", {})
-        measures = list(dict.fromkeys(one.expression for one in self.wanted))
-        wanted = [(measures.index(one.expression), one.statistic) for one in self.wanted]
+        measures = list(dict.fromkeys(one.expression for one in self.wanted if one.statistic))
+        wanted: list[tuple[int | None, str]] = [
+            (measures.index(one.expression), one.statistic) if one.statistic else (None, one.text)
+            for one in self.wanted
+        ]
         return (
             self.case.model.compile().core,
             encode(numbers(tree.get("set"), "set")),
             encode(numbers(tree.get("guess"), "guess")),
-            encode(core_options(self.case.analyses[self.analysis])),
+            encode(self.case.analyses),
             measures,
             wanted,
         )
@@ -200,8 +206,8 @@ class Plan:
             try:
                 with warnings.catch_warnings():
                     warnings.simplefilter("ignore")
-                    found = self.run(values)
-                    read = [one.read(found) for one in self.wanted]
+                    found, number = self._run(values)
+                    read = [one.read(found, number) for one in self.wanted]
                 block.values[row], block.marks[row] = zip(*read, strict=True)
             except InternalError:
                 raise

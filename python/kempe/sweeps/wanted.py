@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from kempe.base.names import unknown
 from kempe.errors import ModelError
@@ -14,13 +14,15 @@ from kempe.model.values import refuse, texts
 from kempe.results.measures import STATISTICS, Measure
 from kempe.results.solution import Solution
 from kempe.results.variable import TIME
-from kempe.sweeps.numbers import driven_model, number, unit_of
+from kempe.sweeps.numbers import driven_model, unit_of
 from kempe.sweeps.remarked import mark_of_measure, mark_of_number
 
 if TYPE_CHECKING:
     from kempe.model.compiled import CompiledModel
     from kempe.results.result import Result
 
+#: Reads a number of a result that is not a motion, by its text.
+Number: TypeAlias = "Callable[[str], float]"
 #: Every statistic of a measure, by the last part of a text such as ``pin.max``.
 ALL = (*STATISTICS, "t_max", "t_min")
 #: Analyses whose results are motions.
@@ -45,8 +47,8 @@ class Wanted:
     unit: str = ""
     of_run: bool = False
 
-    def read(self, found: Solution | Result) -> tuple[float, int]:
-        """The number in the result of a single run, and its mark.
+    def read(self, found: Solution | Result, number: Number) -> tuple[float, int]:
+        """The number in the result of a single run, and its mark; ``number`` reads the result.
 
         Raises:
             KempeError: it has no value.
@@ -55,7 +57,7 @@ class Wanted:
             measure = Measure(found, self._info(found.compiled))
             value = float(getattr(measure, self.statistic))
             return value, mark_of_measure(measure, found, self.statistic)
-        return number(found, self.text), mark_of_number(found, self.text)
+        return number(self.text), mark_of_number(found, self.text)
 
     def _info(self, model: CompiledModel) -> MeasureInfo:
         return measure_info(model, self.expression)

@@ -4,14 +4,18 @@ use super::options::Options;
 use super::{configurations, Failure};
 use crate::analyses::assemble::Request;
 use crate::analyses::record::{
-    Analysis, ErrorClass, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished,
+    Analysis, ErrorClass, Fact, NamedNumber, NumberList, Observer, Outcome, Record, StartState,
+    Subject, Unfinished,
 };
 use crate::analyses::State;
 use crate::math::Listed;
 use serde_json::{json, Value};
 
 impl Analysis for Options {
-    const NUMBERS: &'static [(&'static str, &'static str)] = &[("count", ""), ("complete", "")];
+    const NUMBERS: &'static [NamedNumber] = &[
+        NamedNumber::new("count", "", |of, _| NumberList::found(&of.findings["reports"])),
+        NamedNumber::finding("complete", ""),
+    ];
 
     fn run(
         &self,

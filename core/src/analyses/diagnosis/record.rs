@@ -1,19 +1,21 @@
 //! The diagnosis as an analysis.
 
 use super::{as_json, diagnose, Diagnosis, Options, Redundancy};
-use crate::analyses::record::{Analysis, Fact, Observer, Record, StartState, Subject, Unfinished};
+use crate::analyses::record::{
+    Analysis, Fact, NamedNumber, Observer, Record, StartState, Subject, Unfinished,
+};
 
 impl Analysis for Options {
-    const NUMBERS: &'static [(&'static str, &'static str)] = &[
-        ("degrees_of_freedom", ""),
-        ("gruebler", ""),
-        ("rank", ""),
-        ("driven", ""),
-        ("redundant", ""),
-        ("singular", ""),
-        ("locked", ""),
-        ("loose", ""),
-        ("undetermined", ""),
+    const NUMBERS: &'static [NamedNumber] = &[
+        NamedNumber::finding("degrees_of_freedom", ""),
+        NamedNumber::finding("gruebler", ""),
+        NamedNumber::finding("rank", ""),
+        NamedNumber::finding("driven", ""),
+        NamedNumber::finding("redundant", ""),
+        NamedNumber::finding("singular", ""),
+        NamedNumber::finding("locked", ""),
+        NamedNumber::finding("loose", ""),
+        NamedNumber::finding("undetermined", ""),
     ];
 
     fn run(

@@ -92,7 +92,7 @@ pub use energies::ENERGIES;
 pub use failure::{Failure, Reason};
 pub(in crate::analyses) use massless::undetermined;
 pub use methods::{Auto, Scheme};
-pub use modes::friction_modes;
+pub use modes::{can_stick, friction_modes};
 pub use options::{most_steps, read, Options, Output, Singularity};
 pub use prepared::Prepared;
 pub use run_results::{EventStates, Passed, Run, Statistics};

@@ -16,6 +16,8 @@ use crate::solve::Breakdown;
 
 /// Number of reported states for which memory is reserved in each step. Tables grow beyond it.
 const IN_A_STEP: usize = 4;
+/// Number of steps for which memory is reserved in a run without reported states between its ends.
+const UNREPORTED_STEPS: usize = 512;
 
 /// Number of steps without a reported state after which the joints are checked, if the error control chooses the
 /// steps. Joints then open over many steps, and each check costs two fifths of the instructions of an evaluation.
@@ -42,12 +44,13 @@ pub(super) fn tables(
     t0: f64,
 ) -> (Trajectory, Option<PiecewiseInterpolant>) {
     let layout = &model.layout;
-    let states = (grid_steps(options, t0) + 2.0) as usize;
+    let grid = grid_steps(options, t0);
+    let states = (grid + 2.0) as usize;
+    let steps = if grid > 0.0 && grid < 1.0 { UNREPORTED_STEPS } else { states / IN_A_STEP };
     // use the highest degree of the methods for all steps from the start
     let several = matches!(options.method, Scheme::Auto(_) | Scheme::Dop853(_));
     let degree = if several { HIGHEST } else { 0 };
-    let dense =
-        || PiecewiseInterpolant::with_room(layout.n_y(), degree, HIGHEST, states / IN_A_STEP, t0);
+    let dense = || PiecewiseInterpolant::with_room(layout.n_y(), degree, HIGHEST, steps, t0);
     (Trajectory::with_room(layout, states), options.dense_output.then(dense))
 }
 

@@ -19,7 +19,7 @@ use super::setting::Setting;
 use super::stabilizations::Stabilization;
 use crate::analyses::State;
 use crate::integrate::{Flow, LaneSteps, Steppers, Taken};
-use crate::math::{Lanes, Listed};
+use crate::math::Lanes;
 use crate::model::{usual_energy, Model};
 use std::sync::Arc;
 
@@ -40,10 +40,9 @@ pub type RunOutcome = Result<Run, Box<Failure>>;
 
 impl Variant<'_> {
     /// Whether the run can take its steps side by side with others: by an explicit method with error control, without
-    /// events, switches, tests of works, outputs between start and end, or an interpolant.
+    /// events, switches, tests of works, or outputs between start and end.
     pub fn serves(&self) -> bool {
-        let Options { method, stabilization, events, stop, dense_output, output_step, .. } =
-            self.options;
+        let Options { method, stabilization, events, stop, output_step, .. } = self.options;
         let model: &Model = self.prepared.model();
         let explicit = matches!(method, Scheme::Auto(_) | Scheme::Dop853(_) | Scheme::Rk45(_));
         let span = (self.options.t_end - self.start.t).abs();
@@ -52,7 +51,6 @@ impl Variant<'_> {
             && *stabilization != Stabilization::BaumgarteFromStep
             && events.is_empty()
             && stop.is_none()
-            && !dense_output
             && output_step.is_some_and(|h| h > span)
             && Setting::of(self.options).is_plain()
             && model.switches.is_empty()
@@ -150,21 +148,23 @@ pub struct Trials {
 }
 
 /// Integrates variants of one model, which differ in the [values of parameters](Model::with_values). All variants
-/// must [be suitable](Variant::serves). `watch` may stop all runs.
+/// must [be suitable](Variant::serves). `watch` may stop all runs. `done` receives each result with the index of its
+/// variant once it is complete, so that few interpolants exist at a time.
 pub fn side_by_side(
     variants: &[Variant<'_>],
     watch: &dyn Fn() -> Flow,
-) -> (Vec<RunOutcome>, Trials) {
+    done: &mut dyn FnMut(usize, RunOutcome),
+) -> Trials {
     let mut trials = Trials::default();
-    let mut outcomes: Vec<Option<RunOutcome>> = variants.iter().map(|_| None).list();
     let mut waiting = variants.iter().enumerate();
     let mut lanes: [Option<Underway<'_>>; WIDTH] = Default::default();
-    let (mut steps, mut motion) = (LaneSteps::default(), None);
+    let keeps_stages = variants.iter().any(|variant| variant.options.dense_output);
+    let (mut steps, mut motion) = (LaneSteps::new(keeps_stages), None);
     // whether the runs in the lanes differ from the runs in the model over lanes
     let mut stale = false;
     loop {
         for lane in lanes.iter_mut().filter(|lane| lane.is_none()) {
-            *lane = next(&mut waiting, &mut outcomes);
+            *lane = next(&mut waiting, done);
             stale |= lane.is_some();
         }
         if lanes.iter().all(Option::is_none) {
@@ -184,23 +184,25 @@ pub fn side_by_side(
             };
             if !matches!(goes_on, Ok(true)) {
                 let place = run.place;
-                outcomes[place] = lane.take().map(|run| run.end(goes_on.map(|_| ())));
+                if let Some(run) = lane.take() {
+                    done(place, run.end(goes_on.map(|_| ())));
+                }
                 stale = true;
             }
         }
     }
-    (outcomes.into_iter().flatten().list(), trials)
+    trials
 }
 
 /// Begins the next run that does not end at once.
 fn next<'v, 'a: 'v>(
     waiting: &mut impl Iterator<Item = (usize, &'v Variant<'a>)>,
-    outcomes: &mut [Option<RunOutcome>],
+    done: &mut dyn FnMut(usize, RunOutcome),
 ) -> Option<Underway<'a>> {
     waiting.find_map(|(place, variant)| match Underway::begin(place, variant) {
         Ok(run) => Some(run),
         Err(outcome) => {
-            outcomes[place] = Some(*outcome);
+            done(place, *outcome);
             None
         }
     })

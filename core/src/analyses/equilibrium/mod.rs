@@ -20,9 +20,10 @@
 //! | `result` | an equilibrium position with its stability and efforts |
 //! | `parameter`, `spot`, `stride`, `turning`, `points`, `path` | paths over a parameter: derivatives, tangents, steps, folds |
 //! | `compliance` | the compliance at a point |
-//! | `record` | the analysis and its record |
+//! | `record`, `at_rest` | the analysis and its record; quantities at the points of a record |
 //! | `options`, `failure` | options, and reasons for a failed search |
 
+mod at_rest;
 mod compliance;
 mod failure;
 mod holding;

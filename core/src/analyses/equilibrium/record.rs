@@ -1,5 +1,6 @@
 //! Equilibrium as an analysis.
 
+use super::at_rest::{at_rest, effort, is_path, numbers, points, EFFORT};
 use super::failure::Reason;
 use super::options::Options;
 use super::points::{EquilibriumPath, PathEnd};
@@ -7,8 +8,8 @@ use super::result::Equilibrium;
 use super::{begins, equilibrium, path};
 use crate::analyses::readings::find;
 use crate::analyses::record::{
-    effort_unit, Analysis, ErrorClass, Fact, Observer, Outcome, Record, StartState, Subject,
-    Unfinished,
+    effort_unit, Analysis, ErrorClass, Fact, NamedNumber, NumberList, Observer, Outcome, Record,
+    StartState, Subject, Unfinished,
 };
 use crate::analyses::State;
 use crate::elements::Coordinate;
@@ -17,17 +18,38 @@ use crate::model::Model;
 use serde_json::{json, Value};
 
 impl Analysis for Options {
-    const NUMBERS: &'static [(&'static str, &'static str)] = &[
-        ("stable", ""),
-        ("eigenvalues", ""),
-        ("residual", ""),
-        ("steps", ""),
-        ("relaxed", ""),
-        ("complete", ""),
-        ("values", ""),
-        ("folds", ""),
-        ("branches", ""),
+    const NUMBERS: &'static [NamedNumber] = &[
+        NamedNumber::new("stable", "", |of, _| along(of, |point| point["stable"].clone())),
+        NamedNumber::new("eigenvalues", "", |of, _| {
+            let own = |point: &Value| NumberList::list(numbers(&point["eigenvalues"]));
+            NumberList::along(&points(of).iter().map(own).list(), is_path(of))
+        }),
+        NamedNumber::new("residual", "", |of, _| {
+            let all = points(of).iter().filter_map(|point| point["residual"].as_f64());
+            NumberList::one(all.fold(0.0, f64::max))
+        }),
+        NamedNumber::new("steps", "", |of, _| NumberList::found(&points(of)[0]["steps"])),
+        NamedNumber::new("relaxed", "", |of, _| NumberList::found(&points(of)[0]["relaxed"])),
+        NamedNumber::new("complete", "", |of, _| {
+            let end = of.findings["end"].as_str();
+            NumberList::one(f64::from(end.is_none_or(|end| matches!(end, "last" | "first"))))
+        }),
+        NamedNumber::new("values", "", |of, _| NumberList::list(numbers(&of.findings["values"]))),
+        NamedNumber::new("folds", "", |of, _| values_at(of, "folds")),
+        NamedNumber::new("branches", "", |of, _| values_at(of, "branches")),
     ];
+
+    fn quantity(
+        &self,
+        subject: &Subject<'_>,
+        record: &Record,
+        name: &str,
+    ) -> Result<NumberList, Outcome> {
+        match name.strip_prefix(EFFORT) {
+            Some(name) => Ok(along(record, |point| effort(point, &self.hold, name))),
+            None => at_rest(self, subject, record, name),
+        }
+    }
 
     fn begins(&self, subject: &Subject<'_>, start: &StartState) -> Result<(), Outcome> {
         Ok(begins(&subject.released(start), &start.state)?)
@@ -52,15 +74,30 @@ impl Analysis for Options {
         let found = path(&model, &start.state, self, look)?;
         let last = found.points.last().map(|point| point.state.clone());
         let last = last.unwrap_or_else(|| start.state.clone());
-        let record = Record::new(points(&found), start.at(last));
-        Ok(record.facts(facts_of_path(&model, over, &found)).positions(along(&model, over, &found)))
+        let record = Record::new(path_found(&found), start.at(last));
+        Ok(record
+            .facts(facts_of_path(&model, over, &found))
+            .positions(on_path(&model, over, &found)))
     }
+}
+
+/// A finding of all points of a path, or of the only point.
+fn along(record: &Record, read: impl Fn(&Value) -> Value) -> NumberList {
+    let all = points(record).iter().map(|point| NumberList::found(&read(point))).list();
+    NumberList::along(&all, is_path(record))
+}
+
+/// The values of the parameter at some points of a path.
+fn values_at(record: &Record, places: &str) -> NumberList {
+    let values = numbers(&record.findings["values"]);
+    NumberList::list(numbers(&record.findings[places]).iter().map(|k| values[*k as usize]))
 }
 
 /// The stability, the stiffness and the efforts of an equilibrium.
 fn facts(model: &Model, hold: &[String], found: &Equilibrium) -> Vec<Fact> {
-    let Equilibrium { coordinates, eigenvalues, .. } = found;
-    let stability = match (eigenvalues.first(), found.stable) {
+    let coordinates = &found.coordinates;
+    let (eigenvalues, stable) = found.stability();
+    let stability = match (eigenvalues.first(), stable) {
         (None, _) => "held: no freedom is left",
         (Some(_), true) => "stable",
         (Some(0.0), false) => "indifferent: it can move without any force",
@@ -125,13 +162,13 @@ fn value_on_path(model: &Model, over: &str, name: &str, value: f64) -> Fact {
 }
 
 /// The positions of a path, each with the value of the parameter.
-fn along(model: &Model, over: &str, found: &EquilibriumPath) -> Vec<(Fact, State)> {
+fn on_path(model: &Model, over: &str, found: &EquilibriumPath) -> Vec<(Fact, State)> {
     let all = found.values.iter().zip(&found.points);
     all.map(|(value, point)| (value_on_path(model, over, "", *value), point.state.clone())).list()
 }
 
 /// A path of equilibria.
-fn points(found: &EquilibriumPath) -> Value {
+fn path_found(found: &EquilibriumPath) -> Value {
     let (end, why) = match &found.end {
         PathEnd::Last => ("last", String::new()),
         PathEnd::First => ("first", String::new()),
@@ -146,10 +183,11 @@ fn points(found: &EquilibriumPath) -> Value {
 }
 
 fn point(found: &Equilibrium) -> Value {
+    let (eigenvalues, stable) = found.stability();
     json!({
         "q": found.state.q, "z": found.state.z, "lam": found.lam, "holders": found.holders,
         "efforts": found.efforts, "coordinates": found.coordinates, "stiffness": found.stiffness,
-        "eigenvalues": found.eigenvalues, "stable": found.stable, "residual": found.residual,
+        "eigenvalues": eigenvalues, "stable": stable, "residual": found.residual,
         "steps": found.steps, "relaxed": found.relaxed
     })
 }

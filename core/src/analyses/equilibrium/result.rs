@@ -9,7 +9,10 @@ use crate::analyses::rigid::RigidContacts;
 use crate::analyses::State;
 use crate::math::{Listed, Ordered};
 use crate::model::{Model, Problem};
-use crate::solve::Eigen;
+use crate::solve::{eigenvalues as of_matrix, Eigen};
+
+/// Largest asymmetry of a stiffness that has a potential, relative to its largest entry.
+const SYMMETRIC: f64 = 1e-9;
 
 /// An equilibrium position.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +43,21 @@ pub struct Equilibrium {
 }
 
 impl Equilibrium {
+    /// The eigenvalues that decide about the stability, ascending, and whether all are positive. Forces without a
+    /// potential have an asymmetric stiffness: the real parts of its eigenvalues decide about divergence.
+    pub fn stability(&self) -> (Vec<f64>, bool) {
+        let (f, k) = (self.coordinates.len(), &self.stiffness);
+        let largest = k.iter().fold(0.0, |most: f64, x| most.max(x.abs()));
+        let skew = |place: usize| (k[place] - k[place % f * f + place / f]).abs();
+        if (0..f * f).all(|place| skew(place) <= SYMMETRIC * largest) {
+            return (self.eigenvalues.clone(), self.stable);
+        }
+        let mut parts: Vec<f64> = of_matrix(k, f).into_iter().map(|s| s.re).list();
+        parts.sort_by(f64::total_cmp);
+        let stable = parts.iter().all(|x| *x > 0.0);
+        (parts, stable)
+    }
+
     /// The result at a closed position of a model whose last `holders` rows belong to holders.
     pub(super) fn at(
         statics: &Statics<'_>,

@@ -5,23 +5,32 @@ use super::failure::{coordinate, Failure};
 use super::linearize::{begins, linearize};
 use super::options::Options;
 use crate::analyses::record::{
-    Analysis, ErrorClass, Fact, Observer, Outcome, Record, StartState, Subject, Unfinished,
+    Analysis, ErrorClass, Fact, NamedNumber, NumberList, Observer, Outcome, Record, StartState,
+    Subject, Unfinished,
 };
-use crate::math::{Complex, Listed};
+use crate::math::{each, Complex, Listed};
 use serde_json::json;
 use std::f64::consts::TAU;
 
+/// Rate or acceleration of a coordinate, beside |s| or |s|², that counts as an equilibrium.
+const AT_REST: f64 = 1e-6;
+
 impl Analysis for Options {
-    const NUMBERS: &'static [(&'static str, &'static str)] = &[
-        ("frequency", "Hz"),
-        ("damping", ""),
-        ("omega", "rad/s"),
-        ("eigenvalues", "1/s"),
-        ("stable", ""),
-        ("is_equilibrium", ""),
-        ("values", ""),
-        ("rates", ""),
-        ("acceleration", ""),
+    const NUMBERS: &'static [NamedNumber] = &[
+        NamedNumber::listed("frequency", "Hz"),
+        NamedNumber::new("damping", "", |of, _| {
+            NumberList::list(of.table("damping_ratio").iter().copied())
+        }),
+        NamedNumber::listed("omega", "rad/s"),
+        NamedNumber::new("eigenvalues", "1/s", |of, _| {
+            let rows = of.table("eigenvalues").chunks(2);
+            NumberList::complex(rows.map(|s| Complex::new(s[0], s[1])).list())
+        }),
+        NamedNumber::finding("stable", ""),
+        NamedNumber::finding("is_equilibrium", ""),
+        NamedNumber::listed("values", ""),
+        NamedNumber::listed("rates", ""),
+        NamedNumber::listed("acceleration", ""),
     ];
 
     fn begins(&self, subject: &Subject<'_>, start: &StartState) -> Result<(), Outcome> {
@@ -40,15 +49,36 @@ impl Analysis for Options {
         let (f, n_q) = (found.coordinates.len(), model.layout.n_q);
         let n = 2 * f + found.states.len();
         let names = found.coordinates.iter().map(|column| coordinate(&model, *column));
-        let findings = json!({
+        let mut findings = json!({
             "coordinates": names.list(), "columns": found.coordinates,
             "states": found.states, "inputs": self.inputs, "outputs": self.outputs, "n": self.n,
         });
-        let facts: Vec<Fact> =
-            eigenvalues(&found).into_iter().enumerate().flat_map(|(k, s)| mode(k + 1, s)).list();
+        let mut modes = eigenvalues(&found);
+        let facts: Vec<Fact> = modes.iter().enumerate().flat_map(|(k, s)| mode(k + 1, *s)).list();
+        modes.truncate(self.n.unwrap_or(modes.len()));
+        let own = |of: &[f64]| -> Vec<f64> { found.coordinates.iter().map(|k| of[*k]).list() };
+        let motion = [own(&start.state.v), own(&found.acceleration)];
+        let fastest = modes.iter().map(|s| size(*s)).fold(0.0, f64::max);
+        let [moves, accelerates] = each([0, 1], |order| {
+            let largest = motion[order].iter().map(|x| x.abs()).fold(0.0, f64::max);
+            let scale = fastest.powi(order as i32 + 1);
+            largest / if scale > 0.0 { scale } else { 1.0 } > AT_REST
+        });
+        findings["moves"] = json!(moves);
+        findings["is_equilibrium"] = json!(!moves && !accelerates);
+        findings["stable"] = json!(modes.iter().all(|s| s.re < 0.0));
         let [inputs, outputs] = [&self.inputs, &self.outputs].map(Vec::len);
+        let [rates, acceleration] = motion;
+        let of_modes = |read: fn(Complex) -> f64| modes.iter().map(|s| read(*s)).list();
+        let count = modes.len();
+        let pairs = modes.iter().flat_map(|s| [s.re, s.im]).list();
         Ok(Record::new(findings, start.clone())
             .facts(facts)
+            .with("eigenvalues", [count, 2], pairs)
+            .with("frequency", [count, 1], of_modes(|s| s.im / TAU))
+            .with("omega", [count, 1], of_modes(size))
+            .with("damping_ratio", [count, 1], of_modes(ratio))
+            .with("rates", [1, f], rates)
             .positions([start.examined()])
             .with("basis", [f, n_q], found.basis.concat())
             .with("mass", [f, f], found.mass)
@@ -58,18 +88,27 @@ impl Analysis for Options {
             .with("B", [n, inputs], found.b)
             .with("C", [outputs, n], found.c)
             .with("D", [outputs, inputs], found.d)
-            .with("acceleration", [1, n_q], found.acceleration)
+            .with("acceleration", [1, f], acceleration)
             .with("values", [1, outputs], found.values))
     }
 }
 
+/// |s|.
+fn size(s: Complex) -> f64 {
+    s.re.hypot(s.im)
+}
+
+/// The damping ratio -Re s / |s|; 0 for s = 0.
+fn ratio(s: Complex) -> f64 {
+    let size = size(s);
+    0.0 - s.re / if size > 0.0 { size } else { 1.0 }
+}
+
 /// The frequency and the damping ratio of a mode with the eigenvalue s, or how it decays or grows.
 fn mode(number: usize, s: Complex) -> Vec<Fact> {
-    let size = s.re.hypot(s.im);
     if s.im > 0.0 {
         let frequency = Fact::new(format!("mode {number}: frequency"), s.im / TAU).unit("Hz");
-        let ratio = 0.0 - s.re / size;
-        return vec![frequency, Fact::new(format!("mode {number}: damping ratio"), ratio)];
+        return vec![frequency, Fact::new(format!("mode {number}: damping ratio"), ratio(s))];
     }
     match s.re {
         0.0 => vec![Fact::new(format!("mode {number}"), "it moves freely")],

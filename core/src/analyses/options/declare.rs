@@ -15,7 +15,7 @@ pub struct Declaration {
     /// Options that exclude others, each with the options that must not be given with it.
     pub excludes: &'static [(&'static str, &'static [&'static str])],
     /// The numbers of the result of an analysis that sweeps read, with their units; otherwise empty.
-    pub numbers: &'static [(&'static str, &'static str)],
+    pub numbers: Vec<(&'static str, &'static str)>,
     /// Whether it is an analysis whose result is a motion.
     pub motion: bool,
 }
@@ -32,7 +32,7 @@ impl Declaration {
                 field.doc += &format!(" Not together with {}.", others.join(" and "));
             }
         }
-        Self { class, table, excludes, numbers: &[], motion: false }
+        Self { class, table, excludes, numbers: Vec::new(), motion: false }
     }
 }
 

@@ -1,7 +1,8 @@
 //! The trait of analyses.
 
-use super::outcome::Outcome;
-use super::result::{Record, Unfinished};
+use super::numbers::NumberList;
+use super::outcome::{ErrorClass, Outcome};
+use super::result::{NamedNumber, Record, Unfinished};
 use super::start_state::StartState;
 use crate::analyses::dynamics::{Act, Prepared};
 use crate::analyses::meshing::meshed;
@@ -14,9 +15,8 @@ use std::sync::Arc;
 
 /// An analysis: its options, which the macro `options!` declares, and its computation.
 pub trait Analysis: Declared {
-    /// The numbers of its result that sweeps read, with their SI units; "over" stands for the unit of the quantity
-    /// `over`. Results that are motions have none: their quantities are numbers.
-    const NUMBERS: &'static [(&'static str, &'static str)] = &[];
+    /// The numbers of its result that sweeps read. Results that are motions have none: their quantities are numbers.
+    const NUMBERS: &'static [NamedNumber] = &[];
     /// Whether its result is a motion.
     const MOTION: bool = false;
 
@@ -31,6 +31,14 @@ pub trait Analysis: Declared {
     /// Whether it changes parameters, so that its start may not meet the constraints.
     fn changes_parameters(&self) -> bool {
         false
+    }
+
+    /// A number of its result, or numbers along a path, that is not in [`NUMBERS`](Self::NUMBERS): a quantity at rest.
+    ///
+    /// # Errors
+    /// There is none of this name, or it has no value.
+    fn quantity(&self, _: &Subject<'_>, _: &Record, name: &str) -> Result<NumberList, Outcome> {
+        Err(Outcome::new(ErrorClass::Model, format!("there is no number '{name}'")))
     }
 
     /// Checks whether the analysis can begin. Without checks of its own, it runs until it first calls an observer.

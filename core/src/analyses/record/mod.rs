@@ -9,12 +9,14 @@
 //! | `analysis` | the trait of analyses, their subject, and who watches them |
 //! | `result` | the record, and the quantity that replaces the time |
 //! | `fact` | a named value of a result, for readers |
+//! | `numbers` | one number or several, of which a text names one |
 //! | `outcome` | the reason for which an analysis fails, with advice |
 //! | `motion` | the record of forward dynamics |
 
 mod analysis;
 mod fact;
 mod motion;
+mod numbers;
 mod outcome;
 mod result;
 mod start_state;
@@ -22,6 +24,7 @@ mod start_state;
 pub use analysis::{Analysis, EventActions, Observer, Subject};
 pub use fact::{effort_unit, Fact};
 pub use motion::missing;
+pub use numbers::{parts, NumberList};
 pub use outcome::{ErrorClass, Outcome};
-pub use result::{rate_unit, Driven, NumberTable, Record, Unfinished, Variable};
+pub use result::{rate_unit, Driven, NamedNumber, NumberTable, Record, Unfinished, Variable};
 pub use start_state::StartState;

@@ -1,6 +1,7 @@
 //! The record of an analysis.
 
 use super::fact::Fact;
+use super::numbers::NumberList;
 use super::outcome::Outcome;
 use super::start_state::StartState;
 use crate::analyses::dynamics::{Accelerations, Run};
@@ -68,6 +69,11 @@ impl Record {
         self
     }
 
+    /// The numbers of a table; empty without it.
+    pub fn table(&self, name: &str) -> &[f64] {
+        self.numbers.iter().find(|table| table.name == name).map_or(&[], |table| &table.values)
+    }
+
     /// Adds facts for readers.
     pub fn facts(mut self, facts: impl IntoIterator<Item = Fact>) -> Self {
         self.facts.extend(facts);
@@ -78,6 +84,38 @@ impl Record {
     pub fn positions(mut self, positions: impl IntoIterator<Item = (Fact, State)>) -> Self {
         self.positions.extend(positions);
         self
+    }
+}
+
+/// A number of a result, or several, that sweeps read by name.
+#[derive(Clone, Copy, Debug)]
+pub struct NamedNumber {
+    /// Its name.
+    pub name: &'static str,
+    /// Its SI unit; "over" stands for the unit of the quantity `over`.
+    pub unit: &'static str,
+    /// Reads the number of this name in a record of the analysis.
+    pub read: fn(&Record, &str) -> NumberList,
+}
+
+impl NamedNumber {
+    /// A finding of this name.
+    pub const fn finding(name: &'static str, unit: &'static str) -> Self {
+        Self { name, unit, read: |of, name| NumberList::found(&of.findings[name]) }
+    }
+
+    /// The table of this name.
+    pub const fn listed(name: &'static str, unit: &'static str) -> Self {
+        Self { name, unit, read: |of, name| NumberList::list(of.table(name).iter().copied()) }
+    }
+
+    /// NumberList that a function reads.
+    pub const fn new(
+        name: &'static str,
+        unit: &'static str,
+        read: fn(&Record, &str) -> NumberList,
+    ) -> Self {
+        Self { name, unit, read }
     }
 }
 

@@ -15,7 +15,7 @@ pub use instants::instants;
 pub use maxima::Maxima;
 pub use means::{mean, root_mean_square, row_norms};
 pub use settling::{settling, Settling};
-pub use singular_instants::SingularInstants;
+pub use singular_instants::{SingularInstants, EXAMINED};
 
 /// Returns a quantity at some times. None if it has no value at one of them.
 pub type Read<'a> = &'a mut dyn FnMut(&[f64]) -> Option<Vec<f64>>;

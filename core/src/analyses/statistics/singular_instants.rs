@@ -12,7 +12,7 @@ use super::Read;
 use crate::math::{each, Listed, Ordered};
 
 /// Regularity below which a local minimum is examined.
-const EXAMINED: f64 = 0.05;
+pub const EXAMINED: f64 = 0.05;
 /// Largest regularity of a singular position. Beside one, factors have a ridge, which leaves 1e-5.
 const SINGULAR: f64 = 1e-4;
 /// Regularity up to which errors of states may hide a value.

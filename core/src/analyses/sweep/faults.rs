@@ -1,6 +1,6 @@
 //! Faults of the variables and measures of a sweep that can be found with the model.
 
-use super::Statistic;
+use super::statistic::Statistic;
 use crate::analyses::assemble;
 use crate::analyses::measures::Measure;
 use crate::expression::suggest::did_you_mean;

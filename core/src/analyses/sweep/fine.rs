@@ -1,14 +1,19 @@
 //! The measures of a run at closely spaced instants.
 
 use super::readings::{Missing, Readings};
-use crate::analyses::statistics::{changes, instants, Maxima, SingularInstants};
-use crate::math::Listed;
+use crate::analyses::statistics::{changes, instants, Maxima, SingularInstants, EXAMINED};
+use crate::math::{Listed, Ordered};
 use std::cell::OnceCell;
 
 /// Number of instants that are read together, so that their states, accelerations and multipliers fit into the
 /// processor cache. It is a multiple of the number of lanes, so that the grouping of states does not depend on the
 /// blocks.
 const BLOCK: usize = 1024;
+
+/// Number of instants in each step that are read first. The others are read where a first look is not enough.
+const IN_A_STEP: usize = 2;
+/// Largest change between two of them, as a multiple of the changes nearby.
+const SLACK: f64 = 3.0;
 
 /// The readings of a run at its outputs and at closely spaced instants.
 pub struct Between<'a> {
@@ -50,17 +55,20 @@ impl Fine {
         let Some(dense) = dense else { return Ok(None) };
         let layout = &readings.model().layout;
         let t = instants(&dense.t, outputs, 4 * layout.n_q + layout.n_rows + 1);
-        let mut values = vec![Vec::new(); readings.wanted.len()];
         let wanted: Vec<usize> =
-            (0..readings.wanted.len()).filter(|measure| readings.wanted[*measure]).list();
-        let [mut sizes, mut regularity] = [(); 2].map(|()| Vec::with_capacity(t.len()));
-        for block in blocks(&t, readings.run.projection.is_some()) {
-            // if multipliers are missing at an instant, a single run uses its outputs only
-            let rows = readings.at(block, true, &wanted).ok_or(Missing::Single)?;
-            sizes.extend(rows.sizes);
-            regularity.extend(rows.regularity);
-            wanted.iter().zip(rows.values).for_each(|(measure, of)| values[*measure].extend(of));
-        }
+            (0..readings.wanted.len()).filter(|k| readings.wanted[*k] != [false; 2]).list();
+        let steps = dense.t.len().max(2) - 1;
+        let every = if readings.is_smooth() { (t.len() / steps).div_ceil(IN_A_STEP) } else { 1 };
+        let mut some = Sampled { places: Vec::new(), columns: vec![Vec::new(); 2 + wanted.len()] };
+        let last = t.len() - 1;
+        some.read(readings, (&t, &wanted), (0..last).step_by(every.max(1)).chain([last]).list())?;
+        let between = some.between(wanted.iter().map(|k| readings.wanted[*k]));
+        some.read(readings, (&t, &wanted), between)?;
+        let t: Vec<f64> = some.places.iter().map(|k| t[*k]).list();
+        let mut columns = some.columns.into_iter();
+        let [sizes, regularity] = [(); 2].map(|()| columns.next().unwrap_or_default());
+        let mut values = vec![Vec::new(); readings.wanted.len()];
+        wanted.iter().zip(columns).for_each(|(measure, of)| values[*measure] = of);
         let mut read = |t: &[f64]| readings.at(t, true, &[]).map(|rows| rows.regularity);
         let found = SingularInstants::find(&t, &regularity, &mut read);
         let select = |values: Vec<f64>| match values.is_empty() {
@@ -73,6 +81,70 @@ impl Fine {
         let near = singular(readings, (&t, &sizes), &found, resolved);
         Ok(Some(Self { t, values, near, resolved }))
     }
+}
+
+/// Rows at some instants: the norm of all multipliers, the regularity and the measures.
+struct Sampled {
+    /// The indices of the instants, ascending.
+    places: Vec<usize>,
+    columns: Vec<Vec<f64>>,
+}
+
+impl Sampled {
+    /// Adds rows at other instants.
+    fn read(
+        &mut self,
+        readings: &Readings<'_>,
+        (t, wanted): (&[f64], &[usize]),
+        places: Vec<usize>,
+    ) -> Result<(), Missing> {
+        let times: Vec<f64> = places.iter().map(|k| t[*k]).list();
+        for block in blocks(&times, readings.run.projection.is_some()) {
+            // if multipliers are missing at an instant, a single run uses its outputs only
+            let rows = readings.at(block, true, wanted).ok_or(Missing::Single)?;
+            let found = [rows.sizes, rows.regularity].into_iter().chain(rows.values);
+            self.columns.iter_mut().zip(found).for_each(|(to, of)| to.extend(of));
+        }
+        self.places.extend(places);
+        let mut order: Vec<usize> = (0..self.places.len()).list();
+        order.order_by_key(|k| self.places[*k]);
+        self.places = order.iter().map(|k| self.places[*k]).list();
+        for column in &mut self.columns {
+            *column = order.iter().map(|k| column[*k]).list();
+        }
+        Ok(())
+    }
+
+    /// The instants that were left out where a measure may exceed its extreme values, the multipliers their largest
+    /// norm, or the position may be singular.
+    fn between(&self, wanted: impl Iterator<Item = [bool; 2]>) -> Vec<usize> {
+        let (sizes, regularity) = (&self.columns[0][..], &self.columns[1][..]);
+        let mut searched = vec![(1.0, sizes, most(1.0, sizes)), (-1.0, regularity, -EXAMINED)];
+        for (column, signs) in self.columns[2..].iter().zip(wanted) {
+            for (sign, _) in [1.0, -1.0].into_iter().zip(signs).filter(|(_, is)| *is) {
+                searched.push((sign, column, most(sign, column)));
+            }
+        }
+        let looked = |k: &usize| {
+            searched.iter().any(|(sign, column, level)| may_reach(*sign, column, *k, *level))
+        };
+        let ends = (1..self.places.len()).filter(looked);
+        ends.flat_map(|k| self.places[k - 1] + 1..self.places[k]).list()
+    }
+}
+
+/// The largest signed value.
+fn most(sign: f64, column: &[f64]) -> f64 {
+    column.iter().fold(f64::NEG_INFINITY, |most, x| most.max(sign * x))
+}
+
+/// Whether a signed column may reach a level between samples k - 1 and k: whether it does so if it changes there by
+/// [`SLACK`] times its largest change from sample to sample nearby.
+fn may_reach(sign: f64, column: &[f64], k: usize, level: f64) -> bool {
+    let near = &column[k.saturating_sub(2)..(k + 2).min(column.len())];
+    let changes = near.windows(2).map(|pair| (pair[1] - pair[0]).abs());
+    let change = changes.fold(0.0, f64::max);
+    (sign * column[k - 1]).max(sign * column[k]) + SLACK * change >= level
 }
 
 /// Splits the instants into blocks. Projected states stay in one block, because their tolerance depends on the

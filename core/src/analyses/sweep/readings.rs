@@ -1,6 +1,6 @@
 //! A run at its outputs and between them, each state with the model of its phase.
 
-use crate::analyses::dynamics::{Accelerations, Prepared, Reason, Run, States};
+use crate::analyses::dynamics::{Accelerations, Prepared, Run, States};
 use crate::analyses::measures::Measure;
 use crate::analyses::statistics::row_norms;
 use crate::elements::Mode;
@@ -13,8 +13,8 @@ use std::sync::Arc;
 /// The reason why a statistic is missing.
 #[derive(Debug)]
 pub enum Missing {
-    /// A reported state has no accelerations.
-    Failed(Reason),
+    /// A number has no value, for this reason.
+    Failed(String),
     /// A single run of the case is needed.
     Single,
 }
@@ -45,21 +45,26 @@ struct ReadPhase {
 pub struct Readings<'a> {
     phases: Vec<ReadPhase>,
     pub run: &'a Run,
-    /// Whether the extreme values of each measure are required.
-    pub wanted: Vec<bool>,
+    /// Whether the largest and the least value of each measure are required.
+    pub wanted: Vec<[bool; 2]>,
+    /// The first output and the time between outputs, if the run has left them out.
+    grid: Option<(f64, f64)>,
+    /// Whether the mechanism is at rest at each value of the quantity that replaces the time.
+    rests: bool,
     /// Accelerations and multipliers at the outputs of each phase.
     solved: OnceCell<Vec<Accelerations>>,
 }
 
 impl<'a> Readings<'a> {
-    /// The readings of a run of a model.
+    /// The readings of a run of a model, `rests` if the mechanism is at rest at each value over which it runs.
     ///
     /// # Errors
     /// [`Missing::Single`] if drivers hold friction at rest in a phase, because such forces have a mark.
     pub fn new(
         whole: &Arc<PreparedModel>,
         run: &'a Run,
-        (measures, wanted): (Vec<Measure>, Vec<bool>),
+        rests: bool,
+        grid: Option<(f64, f64)>,
     ) -> Result<Self, Missing> {
         let mut phases = Vec::new();
         for (k, first) in run.phases.iter().enumerate() {
@@ -74,10 +79,26 @@ impl<'a> Readings<'a> {
                 }
             };
             let begins = run.trajectory.t.get(*first).copied().ok_or(Missing::Single)?;
-            let measures = measures.iter().map(|of| of.in_phase(prepared.model())).list();
-            phases.push(ReadPhase { prepared, begins, measures });
+            phases.push(ReadPhase { prepared, begins, measures: Vec::new() });
         }
-        Ok(Self { phases, run, wanted, solved: OnceCell::new() })
+        Ok(Self { phases, run, wanted: Vec::new(), grid, rests, solved: OnceCell::new() })
+    }
+
+    /// The same readings with the accelerations and multipliers at the outputs, if they are known.
+    pub fn solved_by(self, known: Option<Accelerations>) -> Self {
+        match known.filter(|_| self.phases.len() == 1) {
+            Some(known) => Self { solved: vec![known].into(), ..self },
+            None => self,
+        }
+    }
+
+    /// The readings of measures, and whether the extreme values of each are required.
+    pub fn of(mut self, measures: Vec<Measure>, wanted: Vec<[bool; 2]>) -> Self {
+        for phase in &mut self.phases {
+            let own = phase.prepared.model();
+            phase.measures = measures.iter().map(|of| of.in_phase(own)).list();
+        }
+        Self { wanted, ..self }
     }
 
     /// The model at the start.
@@ -113,7 +134,7 @@ impl<'a> Readings<'a> {
             phase.prepared.accelerations(states, self.run.passing, |_| Flow::Continue)
         };
         let found = self.phases.iter().enumerate().map(of).collect::<Result<Vec<_>, _>>();
-        let found = found.map_err(|failure| Missing::Failed(failure.reason))?;
+        let found = found.map_err(|failure| Missing::Failed(failure.reason.to_string()))?;
         Ok(self.solved.get_or_init(|| found))
     }
 
@@ -168,6 +189,9 @@ impl<'a> Readings<'a> {
         if let Some(projection) = self.run.projection {
             let states = States { t: times, q: &q, v: &v, z: &z };
             [q, v] = phase.prepared.project(states, projection).ok()?;
+            if self.rests {
+                v.fill(0.0);
+            }
         }
         let (states, mut rows) = (States { t: times, q: &q, v: &v, z: &z }, ReadRows::default());
         let passing = self.run.projection.is_some();
@@ -180,6 +204,22 @@ impl<'a> Readings<'a> {
             rows.regularity = regularity;
         }
         rows.values.iter().flatten().all(|x| x.is_finite()).then_some(rows)
+    }
+
+    /// The outputs beside a time that the run has left out.
+    pub fn left_out(&self, t: f64) -> Vec<f64> {
+        let (Some((first, step)), Some(last)) = (self.grid, self.run.trajectory.t.last()) else {
+            return Vec::new();
+        };
+        let way = (last - first).signum() * step;
+        let before = ((t - first) / way).floor();
+        let beside = [before, before + 1.0].map(|k| first + k * way);
+        beside.into_iter().filter(|t| (first - t) * (last - t) < 0.0).list()
+    }
+
+    /// Whether the run has one phase, so that its motion is smooth.
+    pub fn is_smooth(&self) -> bool {
+        self.phases.len() == 1
     }
 
     /// Whether there are at least as many instants as ends of steps.

@@ -2,7 +2,7 @@
 
 use super::fine::{Between, Fine};
 use super::readings::{Missing, Readings};
-use super::Statistic;
+use super::statistic::Statistic;
 use crate::analyses::statistics::{
     changes, extreme, mean, root_mean_square, settling, Extreme, Maxima, Samples, Settling,
 };
@@ -82,6 +82,11 @@ impl<'a> Series<'a> {
         let samples = Samples { t, values: &values };
         let known = (&near.near[..], &near.near_t[..]);
         let found = Maxima::search((t, &values), known, *resolved, &mut read);
+        let beside: Vec<f64> = found.t.iter().flat_map(|t| self.readings.left_out(*t)).list();
+        let values = self.read(&beside).ok_or(Missing::Single)?;
+        let t = [outputs.t, &beside].concat();
+        let values = [outputs.values, &signed(&values)].concat();
+        let outputs = Samples { t: &t, values: &values };
         match found.near.is_empty() {
             true => Ok(extreme(sign, outputs, Some((samples, &found)))),
             // a single run of the case continues the quantity across the singular positions

@@ -42,9 +42,15 @@ impl Statistic {
         Self::ALL.iter().find(|(known, _)| *known == name).map(|(_, found)| *found)
     }
 
+    /// Whether it depends on the largest value, and on the least value.
+    pub fn extremes(self) -> [bool; 2] {
+        let of = |ones: [Self; 3]| ones.contains(&self);
+        [of([Self::Max, Self::TimeOfMax, Self::Peak]), of([Self::Min, Self::TimeOfMin, Self::Peak])]
+    }
+
     /// Whether it is an extreme value or its time.
     pub fn is_extreme(self) -> bool {
-        matches!(self, Self::Max | Self::Min | Self::Peak | Self::TimeOfMax | Self::TimeOfMin)
+        self.extremes() != [false; 2]
     }
 
     /// Whether it depends on values between the outputs.

@@ -9,6 +9,16 @@ use super::place::{drivers_rest, with_modes, StateAt, STILL};
 use crate::elements::{Behaviour, Mode};
 use crate::model::{DriverSet, ForceMode, Model};
 
+/// Whether friction of a model may be at rest, so that its modes depend on the state.
+pub fn can_stick(model: &Model) -> bool {
+    with_modes(model).any(|k| sticks(model, k))
+}
+
+fn sticks(model: &Model, force: usize) -> bool {
+    let item = &model.forces[force];
+    item.mode == Mode::Open && matches!(item.element.behaviour(), Some(Behaviour::Sticks))
+}
+
 /// The modes of friction at states with the times `t`, for each state; empty where all friction moves.
 ///
 /// # Errors
@@ -18,11 +28,7 @@ pub fn friction_modes(
     [t, q, v, z]: [&[f64]; 4],
 ) -> Result<Vec<Vec<ForceMode>>, Box<Failure>> {
     let (n, n_z) = (model.layout.n_q, model.layout.n_z);
-    let sticks = |k: &usize| {
-        let item = &model.forces[*k];
-        item.mode == Mode::Open && matches!(item.element.behaviour(), Some(Behaviour::Sticks))
-    };
-    let all: Vec<usize> = with_modes(model).filter(sticks).collect();
+    let all: Vec<usize> = with_modes(model).filter(|k| sticks(model, *k)).collect();
     if all.is_empty() {
         return Ok(vec![Vec::new(); t.len()]);
     }

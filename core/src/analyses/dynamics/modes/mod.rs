@@ -16,7 +16,7 @@ mod impacts;
 mod mode_events;
 mod place;
 
-pub use at_rest::friction_modes;
+pub use at_rest::{can_stick, friction_modes};
 pub(super) use mode_events::{watched_mode, ModeFunction, COLLAPSE, GRAZE};
 pub(super) use place::{has_mode, is_contact, unit as gap_unit, StateAt};
 
