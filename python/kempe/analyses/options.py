@@ -527,6 +527,8 @@ class Modes(Analysis):
         inputs: Parameters of forces, or position quantities such as `crank.angle` for their
             generalized force.
         outputs: Quantities.
+        lock_friction: Whether friction that sticks at the state locks its joint. Otherwise
+            small motions slide.
         after: State about which the motions are small: "start", or the name of an earlier
             analysis to use its final state. If absent, the final state of the previous
             analysis.
@@ -536,6 +538,7 @@ class Modes(Analysis):
     n: int | None = None
     inputs: Words | None = None
     outputs: Words | None = None
+    lock_friction: bool = False
     after: str | None = None
     name: str = "modes"
     kind: ClassVar[str] = "modes"
@@ -543,6 +546,7 @@ class Modes(Analysis):
         "n": "count",
         "inputs": "quantities",
         "outputs": "quantities",
+        "lock_friction": "flag",
         "after": "name",
     }
 
