@@ -339,7 +339,8 @@ class Dynamics(Analysis):
             to use its final state. If absent, the final state of the previous analysis.
         events: Events by name, each with its condition. A comparison is an event where it
             becomes true. An expression is an event at each of its zeros. A table has more
-            fields: `{ condition = "C.force - 900", direction = "rising", stop = true }`.
+            fields: `{ condition = "C.force - 900", direction = "rising", stop = true }`. `stop
+            = 3` ends the run at the third event.
         stop: Condition at which the run ends.
         release: Drivers that are released in this analysis and in analyses that start from it.
         parameters: Values of parameters that replace those of the model in this analysis.
