@@ -66,6 +66,14 @@ TESTS = {
         "tests/study",
     ),
     "sweeps/studies": ("tests/study",),
+    "sweeps": ("tests/sweeps",),
+    "design": (
+        "tests/python/test_design_kinematics.py",
+        "tests/python/test_design_dynamics.py",
+        "tests/python/test_design_example.py",
+        "tests/python/test_pin_loads.py",
+        "tests/python/test_motor.py",
+    ),
 }
 #: A mutant is killed if its tests take this many times as long as before, and some seconds.
 _PATIENCE, _GRACE = 4.0, 20.0

@@ -133,6 +133,7 @@ if TYPE_CHECKING:
     from kempe.errors import RedundancyError as RedundancyError
     from kempe.errors import SingularityError as SingularityError
     from kempe.lab_report import write_report as write_report
+    from kempe.model.doubts import ModelWarning as ModelWarning
     from kempe.model.functions import FunctionWarning as FunctionWarning
     from kempe.model.functions import Sampled as Sampled
     from kempe.model.model import Model as Model
@@ -193,6 +194,7 @@ _HOME = {
     "MobilityResult": "analyses.mobility",
     "Model": "model.model",
     "ModelError": "errors",
+    "ModelWarning": "model.doubts",
     "Modes": "analyses.options",
     "ModesResult": "analyses.modes",
     "Motion": "results.motion",

@@ -1,8 +1,10 @@
 """Doubts about valid cases, and numbers that are zero or have no meaning."""
 
 import json
+import re
 from pathlib import Path
 
+import kempe as kp
 import pytest
 from command_line import kempe
 from house.places import ROOT
@@ -15,18 +17,33 @@ FOUR_BAR = (ROOT / "examples" / "four_bar.toml").read_text("utf-8")
 def test_a_negative_constant_is_a_warning(field: str, value: str, tmp_path: Path) -> None:
     old = {"stiffness": '"k"', "damping": '"c"'}[field]
     text = FOUR_BAR.replace(f"{field} = {old}", f'{field} = "{value}"')
+    text = re.sub("t_end = .*", "t_end = 0.01", text)
     (tmp_path / "case.toml").write_text(text)
-    ran = kempe("check", "case.toml", cwd=tmp_path)
-    assert ran.returncode == 0 or field == "damping"
-    assert f"warning: forces.spring.{field} is negative" in ran.stdout
+    commands: list[tuple[str, ...]] = [
+        ("check",),
+        ("run", "--no-figures"),
+        ("show",),
+        ("sweep", "--over", "L1=10:11:2", "--measure", "crank.omega.max"),
+    ]
+    for command, *options in commands:
+        ran = kempe(command, "case.toml", *options, cwd=tmp_path)
+        assert ran.returncode == 0 or field == "damping", ran.stderr
+        told = f"warning: forces.spring.{field} is negative"
+        assert ran.stderr.count(told) == 1, (command, ran.stderr)
+    with pytest.warns(kp.ModelWarning, match=f"spring.{field} is negative") as warned:
+        state = kp.load(tmp_path / "case.toml").start()
+        kp.modes(state.model, state)
+    assert len(warned) == 1
     (tmp_path / "case.toml").write_text(FOUR_BAR)
-    plain = kempe("check", "case.toml", cwd=tmp_path).stdout
-    assert "negative" not in plain and "no gravity" not in plain
+    plain = kempe("check", "case.toml", cwd=tmp_path)
+    assert "negative" not in plain.stderr and "no gravity" not in plain.stdout
 
 
 def test_a_case_without_gravity_says_so(tmp_path: Path) -> None:
     (tmp_path / "case.toml").write_text(FOUR_BAR.replace("gravity = [0, -9.81]", ""))
-    assert "no gravity: nothing falls" in kempe("check", "case.toml", cwd=tmp_path).stdout
+    told = "no gravity: nothing falls"
+    assert told in kempe("check", "case.toml", cwd=tmp_path).stdout
+    assert told in str(kp.load(tmp_path / "case.toml").start())
 
 
 def test_a_driven_motion_does_not_settle(tmp_path: Path) -> None:

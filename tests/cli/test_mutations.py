@@ -140,6 +140,7 @@ def test_the_text_that_is_mutated_is_the_flagship(tmp_path: Path) -> None:
 
 
 @pytest.mark.filterwarnings("ignore::kempe.AssemblyWarning")
+@pytest.mark.filterwarnings("ignore::kempe.ModelWarning")
 def test_every_mutant_runs_or_is_refused(tmp_path: Path) -> None:
     refused, placed, unplaced = 0, 0, []
     for path in ALL:

@@ -85,7 +85,7 @@ def test_bounds_hold_everything(four_bar: kp.Solution) -> None:
 
 def test_frames_follow_time(four_bar: kp.Solution) -> None:
     assert len(kp.scene(four_bar)["frames"]["t"]) == 241  # slow motion of one second
-    assert len(kp.scene(moving(t_end=30))["frames"]["t"]) == 1200
+    assert 1200 <= len(kp.scene(moving(t_end=30))["frames"]["t"]) < 1210
     assert kp.scene(four_bar.final)["frames"]["t"] == [1.0]
     with pytest.raises(kp.ModelError, match="frames=0"):
         kp.scene(four_bar, frames=0)

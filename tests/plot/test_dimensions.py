@@ -160,9 +160,26 @@ def test_the_distance_of_two_pins_on_ground_is_measured() -> None:
 
 @pytest.mark.parametrize(("count", "shown"), [(7, 7), (8, 0)])
 def test_more_than_seven_lengths_are_left_out(count: int, shown: int) -> None:
-    made = bars(*((0.4 * k, 1.0, 0.5, 1.5) for k in range(count)))
+    made = bars(*((0.4 * k, 1.0, 0.5 + 0.01 * k, 1.5) for k in range(count)))
     made.add_dimensions()
     assert len([item for item in made.finish() if item["kind"] == "text"]) == shown
+
+
+@pytest.mark.parametrize(("gap", "shown"), [(0.6, ["0.5 m"] * 6), (0.1, ["6 × 0.5 m"])])
+def test_one_line_stands_for_equal_lengths_without_room(gap: float, shown: list[str]) -> None:
+    made = bars(*((0.3 + gap * k, 1.0, 0.5, 1.5) for k in range(6)))
+    made.add_dimensions()
+    texts = [item["text"] for item in made.finish() if item["kind"] == "text"]
+    assert texts == shown
+
+
+@pytest.mark.parametrize("x", [0.02, 1.0, 3.9])
+def test_the_text_beside_a_short_length_stays_in_the_view(x: float) -> None:
+    made = bars((x, 1.5, 0.05, 0.0))
+    made.add_dimensions()
+    (text,) = drawn(made, "length 50 mm")["text"]
+    half = measured("50 mm", 8.0)[0] / 2.0
+    assert half <= text[0, 0] <= SIZE[0] - half
 
 
 #: The centres of the corners, 1.6 and 1.05 lengths of 30 points from the edges.

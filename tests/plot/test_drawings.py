@@ -162,7 +162,7 @@ def test_pictures_of_frames_and_figures_agree(name: str, request: pytest.Fixture
 def test_lengths_are_those_of_the_mechanism(six_bar: kp.Solution, squeezer: kp.Solution) -> None:
     texts = {text.get_text() for text in plot.mechanism(six_bar).texts}
     assert {"0.1 m", "0.3 m", "0.28 m", "0.2 m", "g = 9.81 m/s²"} <= texts
-    assert {"7 mm", "28 mm", "20 mm"} <= {t.get_text() for t in plot.mechanism(squeezer).texts}
+    assert {"7 mm", "28 mm", "2 × 20 mm"} <= {t.get_text() for t in plot.mechanism(squeezer).texts}
 
 
 def test_names_of_one_place_are_joined(squeezer: kp.Solution, crank: kp.Solution) -> None:

@@ -163,6 +163,7 @@ def test_a_line_is_the_array_of_the_solution(
             axes = draw(flagship, body, quantity)
             line = axes.lines[0]
             divisor = 1e3 if "10³" in axes.get_ylabel() else 1.0
+            divisor = np.pi / 180.0 if quantity == "angle" else divisor
             t = line.get_xdata()
             assert (t[0], t[-1]) == (0.0, 15.0)
             expected = getattr(flagship(t).body(body), quantity) / divisor
@@ -174,8 +175,8 @@ def test_all_three_quantities_share_a_panel(flagship: kp.Solution) -> None:
     twin = next(other for other in axes.figure.axes if other is not axes)
     motion = flagship(lines(axes)["y"].get_xdata())
     np.testing.assert_array_equal(lines(axes)["y"].get_ydata(), motion["rocker"].y)
-    np.testing.assert_array_equal(twin.lines[0].get_ydata(), motion["rocker"].angle)
-    assert twin.get_ylabel() == "φ / rad"
+    np.testing.assert_allclose(twin.lines[0].get_ydata(), np.degrees(motion["rocker"].angle))
+    assert twin.get_ylabel() == "φ / °"
     legend = axes.get_legend()
     assert legend is not None
     assert [text.get_text() for text in legend.get_texts()] == ["x", "y", "φ"]

@@ -1,7 +1,7 @@
 """Pages of panels: places in mm, ranges, units, legend and note, by hand from the rules of a page.
 
-A page is 160 mm wide. Axes have 19 mm to their left, 4 mm to their right (16 mm with an axis in
-degrees), 7 mm above them with a title and 2.5 mm without, and 11 mm for times below.
+A page is 160 mm wide. Axes have 19 mm to their left, 4 mm to their right, 7 mm above them with a
+title and 2.5 mm without, and 11 mm for times below.
 """
 
 import numpy as np
@@ -22,7 +22,7 @@ T = np.linspace(0.0, 1.0, 5)
 def panel(low: float, high: float, *, title: str = "", unit: str = "N", lines: int = 1) -> Panel:
     values = np.linspace(low, high, 5)
     curves = [Curve(f"c{k}", values / (1.0 + k)) for k in range(lines)]
-    return Panel("F", unit, curves, title, degrees=unit == "rad")
+    return Panel("F", unit, curves, title)
 
 
 def drawn(sheet: Sheet, cut: float | None = None, fixed: dict[str, Scale] | None = None) -> Figure:
@@ -76,15 +76,6 @@ def test_a_panel_that_is_alone_is_high() -> None:
     assert boxes(figure) == [(19, 11, 137, 57)]
     two = drawn(Sheet([panel(0, 1), panel(0, 1)], 2))
     assert boxes(two) == [(19, 11, 57, 26), (99, 11, 57, 26)]
-
-
-def test_an_axis_in_degrees_has_room() -> None:
-    figure = drawn(Sheet([panel(0, 1, unit="rad"), panel(0, 1)], 1))
-    assert boxes(figure) == [(19, 39.5, 125, 26), (19, 11, 125, 26)]
-    (degrees,) = figure.axes[0].child_axes
-    x, _ = degrees.yaxis.label.get_position()
-    assert (x - 1.0) * 125.0 == pytest.approx(11.5)
-    assert not figure.axes[1].child_axes
 
 
 def test_one_legend_is_above_all_panels() -> None:

@@ -1,4 +1,4 @@
-"""The key figures: bands without false wedges, and at most six reactions that can be read."""
+"""The key figures: bands without false wedges, six reactions at most, paths and efforts."""
 
 import kempe as kp
 import numpy as np
@@ -57,3 +57,36 @@ def test_the_key_figure_is_compressed_after_the_action() -> None:
     (axes,) = figure.axes  # type: ignore[attr-defined]
     assert axes.get_xscale() == "function"
     assert "compressed after 2.5 s" in axes.get_xlabel()
+
+
+@pytest.mark.parametrize(
+    ("example", "design"),
+    [
+        ("jansen_leg", ["path_foot.F", "effort_motor"]),
+        ("crane_trolley", ["effort_drive"]),  # the trolley moves on a line
+        ("geneva_drive", ["effort_motor"]),
+        ("four_bar", []),  # without a driver
+    ],
+)
+def test_runs_with_drivers_have_paths_and_efforts(example: str, design: list[str]) -> None:
+    sol = kp.load(ROOT / "examples" / f"{example}.toml").run()[0]
+    assert isinstance(sol, kp.Solution)
+    key = [page.about for page in kp.plot.pages(sol) if page.key]
+    assert [name for name in key if not name.startswith("measure_")] == [
+        *("mechanism", "residual", "energy", "reactions", "motion"),
+        *design,
+    ]
+
+
+@pytest.mark.parametrize("mass", [1e-3, 1.0, 1e3])
+def test_a_rounding_error_among_reactions_is_written_as_zero(mass: float) -> None:
+    """Only the pin of the pendulum carries; the other one holds a ring without weight or motion."""
+    m = kp.Model("pair", gravity=(0, -9.81))
+    m.bar("rod", mass=mass, length=1.0, ends=("A", "B"))
+    m.bar("other", mass=1e-14 * mass, length=1.0, ends=("A", "B"))
+    for name, x in (("rod", 0.0), ("other", 3.0)):
+        m.ground.points(**{f"O_{name}": (x, 0.0)})
+        m.revolute(f"pin_{name}", f"ground.O_{name}", f"{name}.A")
+    axes = kp.plot.all_reactions(kp.dynamics(m, kp.assemble(m), t_end=1.0))
+    labels = [str(line.get_label()) for line in axes.get_lines()]
+    assert labels[1] in ("pin_other: 0 N", "pin_other: 0 kN", "pin_other: 0 mN")

@@ -30,3 +30,25 @@ def test_names_of_events_that_are_close_share_a_label(size: float, apart: float)
     texts = [label.get_text() for label in labels]
     assert texts == (["first", "second"] if apart > 0.1 else ["first, second"])
     assert len([line for line in axes.lines if np.ptp(line.get_xdata()) == 0]) == 2
+
+
+@pytest.mark.parametrize("t", [0.1, 0.5, 1.0])
+@pytest.mark.parametrize("high", [False, True])
+def test_a_name_covers_no_curve_and_stays_in_the_axes(t: float, high: bool) -> None:
+    """A curve that is high at the event, or low, and has a peak to the right of it."""
+    m = kp.Model("ball")
+    m.point_mass("ball", mass=1.0)
+    start = kp.assemble(m, set={"ball.vx": 1.0})
+    sol = kp.dynamics(m, start, t_end=1.0, events={"passing": f"ball.x - {t - 1e-9}"})
+    figure = Figure(figsize=(6.3, 3.0))
+    axes = figure.subplots()
+    x = np.linspace(0.0, 1.0, 1001)
+    y = np.exp(-(((x - t - 0.03) / 0.02) ** 2)) if high else np.where(x > t, 1.0, 0.9)
+    axes.plot(x, y)
+    axes.set_xlim(0.0, 1.0)
+    mark_events(figure, sol)
+    figure.draw_without_rendering()
+    (label,) = [child for child in axes.get_children() if isinstance(child, Annotation)]
+    box, inside = label.get_window_extent(), axes.get_window_extent()
+    assert inside.x0 <= box.x0 and box.x1 <= inside.x1 + 1.0 and inside.y0 <= box.y0
+    assert not any(box.contains(*at) for at in axes.transData.transform(np.column_stack([x, y])))

@@ -28,7 +28,10 @@ from plot.conftest import ROOT
         ("m/s", 0.03, "F / (mm/s)"),
         ("m/s²", 5e3, "F / (10³ m/s²)"),
         ("rad/s²", 0.01, "F / (10⁻³ rad/s²)"),
-        ("rad", 0.0, "F / rad"),
+        ("rad", 0.0, "F / °"),
+        ("rad", 1e-3, "F / (10⁻³ °)"),
+        ("rad", 30.0, "F / °"),
+        ("rad", 1e-6, "F / (10⁻⁶ °)"),
     ],
 )
 def test_a_unit_keeps_the_numbers_short(unit: str, peak: float, label: str) -> None:

@@ -102,6 +102,7 @@ CHANGES: dict[str, tuple[Callable[[Arrays], Arrays], str]] = {
     "statistics a list": (about(lambda a: a.update(statistics=[])), "it has no statistics"),
     "no steps": (about(lambda a: a["statistics"].pop("steps")), "its statistics have None steps"),
     "half a step": (about(lambda a: a["statistics"].update(steps=0.5)), "have 0.5 steps"),
+    "minus one step": (about(lambda a: a["statistics"].update(steps=-1)), "have -1 steps"),
 }
 
 

@@ -67,7 +67,7 @@ def test_a_misspelt_argument_of_an_element_is_suggested(element: str) -> None:
     wrong = f"{field}s_" if len(field) < 3 else field[:-1] + "_" + field[-1]
     with pytest.raises(kp.ModelError) as caught:
         getattr(pendulum(), element)("new", **{wrong: 3})
-    checked(str(caught.value), element, repr(wrong))
+    checked(str(caught.value), element, repr(wrong), f"did you mean {field!r}")
 
 
 @pytest.mark.parametrize("element", METHODS)
@@ -115,6 +115,7 @@ WORDS: list[tuple[str, Callable[[kp.Model], object], str, str]] = [
     ("step", lambda m: kp.RK4(dt=0.1), "'dt'", "'step'"),  # type: ignore[call-arg]
     ("gain", lambda m: kp.Baumgarte(gain=3), "'gain'", "'alpha' or 'beta'"),  # type: ignore[call-arg]
     ("rate", lambda m: kp.assemble(m, {"rod.angle": 0.1}, rate={}), "'rate'", "'set'"),  # type: ignore[call-arg]
+    ("parameter", lambda m: m.parameter("k", 2), "'parameter'", "kp.Model(parameters={'k': 2})"),  # type: ignore[attr-defined]
     ("missing", lambda m: m.revolute("B", "ground.O"), "revolute: missing", "'j'"),  # type: ignore[call-arg]
     ("many", lambda m: m.bar("r", 1, 2, 3, 4, 5), "bar: too many", "the arguments are"),  # type: ignore[call-arg]
 ]
@@ -172,9 +173,19 @@ VALUES: list[tuple[str, Callable[[kp.Model], object], tuple[str, ...]]] = [
         ("bodies.r.mass",),
     ),
     (
+        "unit as a factor",
+        lambda m: m.bar("r", mass="2*kg", length=1, ends=("A", "B")) and m.compile(),
+        ("bodies.r.mass", "'kg'", "'2 kg'"),
+    ),
+    (
+        "tonne",
+        lambda m: m.bar("r", mass="2*t", length=1, ends=("A", "B")) and m.compile(),
+        ("bodies.r.mass", "the time t", "'2 tonne'"),
+    ),
+    (
         "name",
         lambda m: m.torque("T", j="rod", torque="foo*2") and m.compile(),
-        ("'foo'", "forces.T"),
+        ("'foo'", "forces.T", "declare it in the parameters"),
     ),
     ("formula", lambda m: m.torque("T", j="rod", torque="2*(3") and m.compile(), ("forces.T",)),
     (
@@ -207,7 +218,8 @@ VALUES: list[tuple[str, Callable[[kp.Model], object], tuple[str, ...]]] = [
     ("result", lambda m: kp.dynamics(m, start(m), t_end=1)["rod.omgea"], ("omgea", "omega")),
     ("joint", lambda m: kp.dynamics(m, start(m), t_end=1)["Q"], ("'Q'",)),
     ("time", lambda m: kp.dynamics(m, start(m), t_end=1)(2.0), ("t = 2 s", "outside")),
-    ("units", lambda m: kp.units("milimeter"), ("milimeter",)),
+    ("units", lambda m: kp.units("milimeter"), ("milimeter", "write 'mm'")),
+    ("units", lambda m: kp.units("Degrees"), ("Degrees", "write 'deg'")),
     ("contradiction", lambda m: kp.assemble(_twice(m)), ("D", "E", "would have to change by")),
 ]
 
@@ -279,6 +291,7 @@ SAME = {
         'type = "reachable"\nof = "coupler.C"\nover = ["crank.angle", "rocker.omega"]\n'
         "ranges = [[0, 1], [0, 1]]"
     ),
+    "modes with a length as input": 'type = "modes"\ninputs = ["L1"]',
     "a force without a value": 'type = "dynamics"\nt_end = 1\n[forces.F]\ntype = "torque"\nj = "rocker"\ntorque = "1/t"',  # noqa: E501
 }
 
@@ -314,6 +327,11 @@ COMMANDS: list[tuple[tuple[str, ...], int, tuple[str, ...]]] = [
         ("C.force", "statistic"),
     ),
     (("sweep", "case.toml", "--over", "k=1:2:3", "--measure", "C.foo.max"), 2, ("foo",)),
+    (
+        ("sweep", "case.toml", "--over", "k=1:2:3", "--measure", "max(C.force)"),
+        2,
+        ("write C.force.max",),
+    ),
     (("sweep", "case.toml", "--over", "k=1:2:3"), 2, ("measures",)),
     (
         ("sweep", "case.toml", "--over", "k=1:2:3", "--measure", "C.force.max", "--analysis", "x"),

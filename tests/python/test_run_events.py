@@ -332,7 +332,7 @@ def test_events_are_marked_in_figures_and_in_the_player() -> None:
     sol = dropped(events={"low": "ball.y < 1"})
     page = next(page for page in kp.plot.pages(sol) if page.name == "motion")
     figure = page.figure()
-    marks = [line for axes in figure.axes for line in axes.lines if line.get_linewidth() == 0.5]
+    marks = [line for axes in figure.axes for line in axes.lines if line.get_linewidth() == 0.4]
     assert len(marks) == len(figure.axes)
     assert all(abs(line.get_xdata()[0] - sol.events["low"].t[0]) < 1e-12 for line in marks)
     assert [text.get_text() for axes in figure.axes for text in axes.texts].count("low") == 1

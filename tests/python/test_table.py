@@ -231,3 +231,18 @@ def test_without_pandas_the_remedy_is_named(
     monkeypatch.setitem(sys.modules, "pandas", None)
     with pytest.raises(kp.ModelError, match="pip install pandas"):
         sol.to_dataframe()
+
+
+def test_a_motion_over_a_quantity_has_it_once_and_all_that_follow() -> None:
+    case = kp.load(ROOT / "examples" / "four_bar.toml")
+    ends = ["70 deg", "90 deg"]
+    found = kp.kinematics(case.model, case.start(), over="crank.angle", range=ends, n=5)
+    names = [column.name for column in table.columns(found)]
+    assert names[0] == "crank.angle" and names.count("crank.angle") == 1
+    assert {"coupler.x", "rocker.angle", "rocker.omega"} <= set(names)
+
+
+def test_a_column_is_unique_if_nothing_was_chosen() -> None:
+    values = np.zeros(2)
+    assert table.Column("a", "N", values).unique
+    assert not table.Column("a", "N", values, "minimum norm").unique

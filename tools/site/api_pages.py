@@ -151,6 +151,7 @@ PAGES = {
             "kempe.AssemblyWarning",
             "kempe.EventWarning",
             "kempe.FunctionWarning",
+            "kempe.ModelWarning",
         ),
     ),
 }

@@ -20,8 +20,8 @@ pub struct EventOption {
     pub condition: String,
     /// The changes of sign of an expression that are events.
     pub direction: Direction,
-    /// Whether the run ends at the event.
-    pub stop: bool,
+    /// The run ends when the event occurs this number of times.
+    pub stop: Option<usize>,
     /// Whether the caller changes the state or parameters at the event.
     pub acts: bool,
 }
@@ -33,10 +33,18 @@ impl EventOption {
             name: name.into(),
             condition: condition.into(),
             direction: Direction::Any,
-            stop: false,
+            stop: None,
             acts: false,
         }
     }
+}
+
+/// The values of the field `stop` of an event.
+pub const STOPS: &str = "must be true, false, or the number of the event that ends the run, from 1";
+
+/// Whether the field `stop` of an event may have this number.
+pub fn is_count(number: f64) -> bool {
+    (1.0..=1e9).contains(&number) && number.fract() == 0.0
 }
 
 /// Words for the directions of an expression.
@@ -138,7 +146,12 @@ fn event(reader: &mut Reader<'_>, name: &str, stops: bool) -> Option<EventOption
                                such as crank.angle - 270*deg";
                 return inner.refuse("direction", message);
             }
-            let stop = matches!(inner.get("stop"), Some(Written::Flag(true)));
+            let stop = match inner.get("stop") {
+                None | Some(Written::Flag(false)) => None,
+                Some(Written::Flag(true)) => Some(1),
+                Some(Written::Number(count)) if is_count(*count) => Some(*count as usize),
+                _ => return inner.refuse("stop", STOPS),
+            };
             Some(EventOption { direction: *direction, stop, ..EventOption::new(name, text) })
         }),
         _ => reader.refuse(name, "must be a condition or a table with one"),

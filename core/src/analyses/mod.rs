@@ -47,7 +47,7 @@ mod uniqueness;
 
 pub use analysis_table::{declarations, is_motion, kind_of, option_families, AnyAnalysis};
 pub use dependence::Dependent;
-pub use event_options::{EventOption, DIRECTIONS};
+pub use event_options::{is_count, EventOption, DIRECTIONS, STOPS};
 pub use friction_range::friction_range;
 pub use meshing::meshed;
 pub use mobility::Mobility;

@@ -49,7 +49,8 @@ pub fn find(model: &Model, name: &str) -> Result<Readable, Problem> {
             let problem = Problem::new(format!("there is no quantity '{name}'"));
             let known: Vec<&str> = known.iter().map(String::as_str).list();
             let near = did_you_mean(name, &known, "quantities");
-            Err(problem.maybe_hint(near))
+            let any = || known.first().map(|name| format!("write the name of one, such as {name}"));
+            Err(problem.maybe_hint(near.or_else(any)))
         }
     }
 }

@@ -4,7 +4,7 @@ use super::names;
 use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
 use super::values::{word, wrong};
-use crate::analyses::DIRECTIONS;
+use crate::analyses::{is_count, DIRECTIONS, STOPS};
 
 /// The fields of an event.
 pub(super) const FIELDS: [&str; 3] = ["condition", "direction", "stop"];
@@ -35,8 +35,9 @@ fn event(report: &mut ProblemList, table: &Table) {
     for (key, node) in &table.entries {
         report.within(key, |report| match (key.as_str(), &node.data) {
             ("condition", Data::Text(_)) | ("stop", Data::Flag(_)) => {}
+            ("stop", Data::Number(count)) if is_count(*count) => {}
             ("condition", _) => wrong(report, node, "a condition \"crank.angle > 270*deg\""),
-            ("stop", _) => wrong(report, node, "true or false"),
+            ("stop", _) => wrong(report, node, STOPS.trim_start_matches("must be ")),
             ("direction", _) => word(report, node, &DIRECTIONS.map(|(word, _)| word)),
             _ => {
                 let message = format!("unknown field '{}' of an event", super::shown(key));

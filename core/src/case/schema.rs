@@ -346,8 +346,8 @@ fn event() -> Value {
         "condition": { "type": "string", "description": "A comparison, or an expression that becomes zero." },
         "direction": { "enum": DIRECTIONS.map(|(word, _)| word), "description": "Zeros of an expression that count." },
         "stop": {
-            "type": "boolean",
-            "description": "Whether the run ends there."
+            "anyOf": [{ "type": "boolean" }, { "type": "integer", "minimum": 1, "maximum": 1_000_000_000 }],
+            "description": "Whether the run ends there, or the number of the event that ends it."
         },
     });
     let table = closed(object(properties), json!({ "required": ["condition"] }));

@@ -9,6 +9,7 @@ use super::switch::Piecewise;
 use super::table::Table;
 use super::tape::{FormulaValues, Instruction};
 use super::tree::{Node, NodeKind};
+use super::unit::Unit;
 use super::{ExpressionError, Names, Symbol, Tape, MAX_OPERANDS};
 use crate::math::{Listed, Real};
 use std::ops::Range;
@@ -227,15 +228,21 @@ fn too_many_operands(span: &Range<usize>) -> ExpressionError {
 
 fn unknown<N: Names + ?Sized>(name: &str, span: Range<usize>, names: &N) -> ExpressionError {
     if name == "t" {
-        return ExpressionError::new(span, "the time t has no meaning here");
+        let hint = "use t in laws of drivers and forces; a mass in tonnes is written '2 tonne'";
+        return ExpressionError::new(span, "the time t has no meaning here").hint(hint.to_string());
     }
     let known = names.known();
     let hint = match name.to_ascii_lowercase().as_str() {
         "inf" | "infinity" | "nan" => Some("a number must be finite".to_string()),
         "time" if names.resolve("t") == Some(Symbol::Time) => Some("the time is 't'".to_string()),
         _ => coordinates(name, &known)
+            .or_else(|| {
+                Unit::parse(name).ok().filter(|_| name.len() > 1)?;
+                Some(format!("'{name}' is a unit; write it after a number, such as '2 {name}'"))
+            })
             .or_else(|| did_you_mean(name, known.iter().map(String::as_str).chain(["pi", "deg"])))
-            .or_else(|| coordinates(name.rsplit_once('.')?.0, &known)),
+            .or_else(|| coordinates(name.rsplit_once('.')?.0, &known))
+            .or_else(|| (!name.contains('.')).then(|| "declare it in the parameters".to_string())),
     };
     ExpressionError::new(span, format!("unknown name '{name}'")).hint(hint)
 }

@@ -334,7 +334,7 @@ fn unknown(name: &str, span: Range<usize>) -> ExpressionError {
         return ExpressionError::new(span, "a unit is missing here");
     }
     let hint = match name {
-        "t" => Some("t is the time; write the mass in kg".to_string()),
+        "t" => Some("t is the time; a tonne is 'tonne'".to_string()),
         "Hz" | "kHz" => Some("write rpm, rev/s or rad/s: Hz does not say which".to_string()),
         _ => meant(name)
             .map(|unit| format!("write '{unit}'"))

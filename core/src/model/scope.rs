@@ -335,7 +335,7 @@ impl Scope {
         let state = Visible { scope, reach: Reach::State, law, suggests: false, ambiguous };
         let wide = e.compile(&state);
         let hint = match reach {
-            Reach::Parameters => "only laws of drivers and forces may use t and the state",
+            Reach::Parameters => "only laws of drivers and forces may use t and the state; a mass in tonnes is written '2 tonne'",
             Reach::Curve => "a curve is fixed in its body: its formulas may use u and the parameters",
             Reach::Positions if wide.iter().any(uses_internals) => {
                 "laws of forces, conditions and measures may use u and u_rate of a joint on a curve"

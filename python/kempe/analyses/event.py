@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 
 from kempe.base.names import one_of
 from kempe.errors import ModelError
-from kempe.model.values import flag, mapping, reference
+from kempe.model.values import mapping, reference
 
 if TYPE_CHECKING:
     from kempe.results.state import State
@@ -20,6 +20,7 @@ Action: TypeAlias = "Callable[[State], State | Mapping[str, float] | None]"
 Events: TypeAlias = "Mapping[str, str | Event | Mapping[str, Any]]"
 
 _FORM = "{'hit': 'rocker.angle > 270*deg'}"
+_STOPS = "must be True, False, or the number of the event that ends the run, from 1"
 _FIELDS = ("condition", "direction", "stop")
 
 
@@ -32,7 +33,8 @@ class Event:
             event whenever it becomes true, but no event if it is true at the start. An expression
             such as ``"rocker.angle - 270*deg"`` has an event at each zero.
         direction: the zeros of an expression that are events: "rising", "falling" or "both".
-        stop: whether the run ends at the first event.
+        stop: whether the run ends at the first event, or the number of the event that ends it, such
+            as 3 for the third.
         action: a function that is called with the state at the event. It returns None to change
             nothing, a mapping of parameters to their new values, or a state at the same time with
             other positions or velocities. The run continues with them. Only in ``kp.dynamics``.
@@ -40,7 +42,7 @@ class Event:
 
     condition: str
     direction: Direction = "both"
-    stop: bool = False
+    stop: bool | int = False
     action: Action | None = None
 
     def tree(self, path: str) -> str | dict[str, Any]:
@@ -62,9 +64,20 @@ class Event:
         direction = one_of(f"{path}.direction", self.direction, get_args(Direction))
         if direction != "both":
             found["direction"] = direction
-        if flag(self.stop, f"{path}.stop"):
-            found["stop"] = True
+        if self.stop is not False:
+            found["stop"] = _stop(self.stop, f"{path}.stop")
         return found if len(found) > 1 else str(found["condition"])
+
+
+def _stop(value: object, path: str) -> bool | int:
+    """True, or a number of events from 1.
+
+    Raises:
+        ModelError: another value.
+    """
+    if value is True or (isinstance(value, int) and value >= 1):
+        return value
+    raise ModelError(f"{path}: {value!r}; {_STOPS}", name=path)
 
 
 def events(value: object, path: str) -> dict[str, str | dict[str, Any]]:

@@ -35,6 +35,7 @@ class ModesResult(Result):
     Attributes:
         state: the state.
         coordinates: names of the independent coordinates, (f).
+        locked: names of friction elements that lock their joints, with ``lock_friction``.
         state_names: names of the components of x, (n): coordinates, their rates, z.
         inputs, outputs: names of the components of w and y.
         mass_matrix, damping_matrix, stiffness_matrix: M, C and K of the independent coordinates,
@@ -63,6 +64,7 @@ class ModesResult(Result):
         findings, found = record.findings, record.numbers
         self.state = state = record.at_start
         self.inputs, self.outputs = tuple(findings["inputs"]), tuple(findings["outputs"])
+        self.locked: tuple[str, ...] = tuple(findings["locked"])
         self.coordinates: tuple[str, ...] = tuple(findings["coordinates"])
         model, columns = state.compiled, findings["columns"]
         rates, own = model.rate_names(), model.state_names()
@@ -144,9 +146,13 @@ class ModesResult(Result):
         """The modes in lines."""
         count = len(self.coordinates)
         many = f"{count} independent coordinate{'s' * (count != 1)}"
+        locked = [f"locked by friction: {_few(self.locked)}"] if self.locked else []
         if not len(self.A):
-            return ["no independent coordinate: joints and drivers hold all coordinates"]
-        lines = [f"{many}: {_few(self.coordinates)}"]
+            return [
+                "no independent coordinate: joints and drivers hold all coordinates",
+                *locked,
+            ]
+        lines = [f"{many}: {_few(self.coordinates)}", *locked]
         if not self.is_equilibrium:
             lines.append(self._off_balance())
         lines += [self._line(k) for k in range(min(len(self.eigenvalues), MOST_LISTED))]
@@ -213,6 +219,7 @@ def modes(
     n: int | None = None,
     inputs: Sequence[str] = (),
     outputs: Sequence[str] = (),
+    lock_friction: bool = False,
 ) -> ModesResult:
     """Frequencies, damping and shapes of small motions about a state, and its state space.
 
@@ -227,13 +234,16 @@ def modes(
             is their generalized force.
         outputs: any quantities, such as ``"rocker.angle"`` or ``"C.fx"``.
 
+        lock_friction: whether friction that sticks at the state locks its joint; otherwise small
+            motions slide.
+
     Raises:
         SingularityError: the position is singular, no mass moves with a coordinate, or the motion
             of a massless body is not determined.
         AssemblyError: the state does not satisfy the constraints.
         ModelError: an unknown input or output, or a parameter that changes the geometry.
     """
-    entry = Modes(n, inputs, outputs).tree()
+    entry = Modes(n, inputs, outputs, lock_friction).tree()
     compiled = compiled_model(model)
     check(compiled, state, "state")
     return ModesResult(run_analysis(compiled, state, entry))

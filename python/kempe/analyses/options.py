@@ -339,7 +339,8 @@ class Dynamics(Analysis):
             to use its final state. If absent, the final state of the previous analysis.
         events: Events by name, each with its condition. A comparison is an event where it
             becomes true. An expression is an event at each of its zeros. A table has more
-            fields: `{ condition = "C.force - 900", direction = "rising", stop = true }`.
+            fields: `{ condition = "C.force - 900", direction = "rising", stop = true }`. `stop
+            = 3` ends the run at the third event.
         stop: Condition at which the run ends.
         release: Drivers that are released in this analysis and in analyses that start from it.
         parameters: Values of parameters that replace those of the model in this analysis.
@@ -527,6 +528,8 @@ class Modes(Analysis):
         inputs: Parameters of forces, or position quantities such as `crank.angle` for their
             generalized force.
         outputs: Quantities.
+        lock_friction: Whether friction that sticks at the state locks its joint. Otherwise
+            small motions slide.
         after: State about which the motions are small: "start", or the name of an earlier
             analysis to use its final state. If absent, the final state of the previous
             analysis.
@@ -536,6 +539,7 @@ class Modes(Analysis):
     n: int | None = None
     inputs: Words | None = None
     outputs: Words | None = None
+    lock_friction: bool = False
     after: str | None = None
     name: str = "modes"
     kind: ClassVar[str] = "modes"
@@ -543,6 +547,7 @@ class Modes(Analysis):
         "n": "count",
         "inputs": "quantities",
         "outputs": "quantities",
+        "lock_friction": "flag",
         "after": "name",
     }
 

@@ -64,6 +64,9 @@ class Explained(type):
 
 def missing_attribute(owner: str, name: str, known: Sequence[str]) -> str:
     """The message of an ``AttributeError``, with a suggestion."""
+    if name.removeprefix("add_").removeprefix("set_") in {"parameter", "parameters"}:
+        hint = "give parameters to kp.Model(parameters={'k': 2}); m.with_parameters changes values"
+        return f"{owner} has no attribute {name!r}: {hint}"
     names = suggested(name, known, "names")
     return f"{owner} has no attribute {name!r}" + (f"; {question(names)}" if names else "")
 

@@ -12,6 +12,7 @@ import re
 from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from functools import cache
 from itertools import product
 from types import TracebackType
@@ -19,7 +20,7 @@ from typing import NoReturn
 
 from kempe import _core
 from kempe.base.arguments import explained
-from kempe.base.names import unknown
+from kempe.base.names import UnknownNameError, unknown
 from kempe.errors import ModelError
 
 #: The SI unit of each combination of base units. A torque has the unit N*m, an energy the unit J.
@@ -43,6 +44,12 @@ _QUANTITIES: Mapping[str, str] = {
 #: Units of velocity and acceleration that follow from those of length and angle.
 _FOLLOWING = {"m": ("m/s", "m/s^2"), "rad": ("rad/s", "rad/s^2")}
 _FACTOR = re.compile(r"([*/]?)\s*([A-Za-zµ°]+)(?:\^(-?\d))?\s*")
+#: Full names of units, in the singular.
+_FULL = {
+    **{"metre": "m", "millimetre": "mm", "centimetre": "cm", "kilometre": "km", "inch": "in"},
+    **{"degree": "deg", "radian": "rad", "second": "s", "minute": "min", "hour": "h"},
+    **{"kilogram": "kg", "newton": "N", "joule": "J", "watt": "W", "ampere": "A", "volt": "V"},
+}
 _SPELLINGS = {"°": "deg", "µ": "u", "·": "*", "²": "^2", "Ω": "Ohm"}
 _SYMBOLS = {"deg": "°", "um": "µm", "us": "µs", "*": "·", "^2": "²", "Ohm": "Ω"}
 
@@ -228,6 +235,10 @@ def _known(name: str) -> tuple[float, Mapping[str, int]]:
     """Factor to SI and powers of the units that quantities are written with."""
     table = _units()
     if name not in table:
+        spelt = get_close_matches(name.lower().rstrip("s"), _FULL, n=1, cutoff=0.8)
+        if spelt:
+            hint = f"write {_FULL[spelt[0]]!r}"
+            raise UnknownNameError(f"unknown unit {name!r}", name=name, hint=hint)
         raise unknown("unit", name, table)
     return table[name]
 

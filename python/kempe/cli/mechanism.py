@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.text import Text
 
 from kempe.cli.console import figure, heading, table
-from kempe.cli.doubts import negative_constants
+from kempe.model.doubts import NO_GRAVITY
 
 if TYPE_CHECKING:
     from kempe.model.values import Number
@@ -39,11 +39,8 @@ def show_mechanism(console: Console, state: State) -> None:
             heading(console, title)
             rows = [(e.name, e.type, e.i, e.j) for e in elements.values()]
             table(console, ("name", "type", "body i", "body j"), rows, left=4)
-    doubts = (
-        [] if any(model.gravity) else ["no gravity: nothing falls; gravity = [0, -9.81] adds it"]
-    )
-    for doubt in [*doubts, *negative_constants(model)]:
-        console.print(Text(f"  {doubt}", style="yellow"))
+    if not any(model.gravity):
+        console.print(Text(f"  {NO_GRAVITY}", style="yellow"))
     free = state.matrices().degrees_of_freedom
     console.print()
     counts = f"{model.n_q} coordinates, {model.n_rows} constraint equations"

@@ -21,6 +21,12 @@ MOST_FRAMES = 1200
 #: A mechanism with many bodies has fewer frames, so that a scene has only a few megabytes.
 _MOST_NUMBERS = 600_000
 _FEWEST_FRAMES = 60
+#: Error of accelerations and multipliers between frames, as a fraction of the largest value, above
+#: which there are more frames; shortest interval, as a fraction of the motion; most frames added,
+#: as a fraction of the frames.
+_VISIBLE, _SHORTEST, _MORE = 0.02, 1e-4, 3.0
+#: Values below this fraction of the natural scale are rounding errors.
+_NOTHING = 1e-9
 #: Largest error of interpolated points for which the player may interpolate, as a fraction of the
 #: size of the drawing.
 _INVISIBLE = 1e-3
@@ -39,6 +45,7 @@ def sampled(
     """The motion at the frames, in the order of time.
 
     The frames are evenly spaced if the solution has an interpolant; otherwise they are outputs.
+    If their number is not given, there are more where forces change fast, such as at impacts.
 
     Args:
         drawn: a solution, or a state, which is one frame.
@@ -78,6 +85,31 @@ def sampled(
         _ = motion.lam
     except KempeError:  # a solution may end in a position in which reactions have no answer
         return _at_outputs(drawn, count, (begin, end))
+    return motion if frames else _refined(drawn, motion, _affordable(numbers_per_frame))
+
+
+def _refined(solution: Solution, motion: Motion, affordable: int) -> Motion:
+    """The motion with additional frames where values between the frames are not accurate."""
+    most = min(round((1.0 + _MORE) * len(motion.t)), affordable)
+    shortest = _SHORTEST * (motion.t[-1] - motion.t[0])
+    t = motion.t
+    for event in (float(x) for one in solution.events.values() for x in one.t):
+        if t[0] < event < t[-1] and len(t) < most and np.abs(t - event).min() > shortest:
+            t = np.sort(np.append(t, rounded(event) or 0.0))
+    motion = motion if len(t) == len(motion.t) else solution(t)
+    while len(motion.t) > 2:
+        t = motion.t
+        middle = np.array([rounded(x) for x in ((t[:-1] + t[1:]) / 2.0).tolist()])
+        try:
+            error = _errors(motion, solution(middle))
+        except KempeError:  # reactions half-way are undefined
+            return motion
+        wide = np.diff(t) > 2.0 * shortest
+        worst = np.argsort(-np.where(wide, error, 0.0))[: max(0, most - len(t))]
+        worst = worst[wide[worst] & (error[worst] > _VISIBLE)]
+        if not len(worst):
+            break
+        motion = solution(np.sort(np.concatenate([t, middle[worst]])))
     return motion
 
 
@@ -92,10 +124,13 @@ def undetermined(drawn: Solution | State) -> str:
 
 
 def _count(duration: float, numbers_per_frame: int) -> int:
-    affordable = max(_FEWEST_FRAMES, _MOST_NUMBERS // max(1, numbers_per_frame))
     # A mechanism may be so fast that it is watched in slow motion, hence the lower bound.
     wished = max(4 * FRAMES_PER_SECOND, math.ceil(duration * FRAMES_PER_SECOND)) + 1
-    return min(wished, MOST_FRAMES, affordable)
+    return min(wished, MOST_FRAMES, _affordable(numbers_per_frame))
+
+
+def _affordable(numbers_per_frame: int) -> int:
+    return max(_FEWEST_FRAMES, _MOST_NUMBERS // max(1, numbers_per_frame))
 
 
 class _Outputs(Motion):
@@ -153,40 +188,63 @@ def accuracy(drawn: Solution | State, motion: Motion) -> float | None:
     """The largest error of accelerations and multipliers between two frames.
 
     The page interpolates them by cubic polynomials with central differences as slopes. Columns of
-    one unit are compared with their largest value.
+    one unit are compared with their largest value. Where frames are closest, values may jump.
 
     Returns:
-        The largest error half-way between frames, as a fraction of the largest value; None if the
-        solution has no interpolant, or its reactions are undefined half-way.
+        The largest error half-way between frames that are not the closest possible, as a fraction
+        of the largest value; None if the solution has no interpolant, or its reactions are
+        undefined half-way.
     """
     if isinstance(drawn, State) or isinstance(motion, _Outputs) or len(motion.t) < 3:
         return None
+    t = motion.t
     try:
-        middle = drawn((motion.t[:-1] + motion.t[1:]) / 2.0)
-        a, rows = (motion.a, middle.a), (motion.lam, middle.lam)
+        error = _errors(motion, drawn((t[:-1] + t[1:]) / 2.0))
     except KempeError:
         return None
+    wide = np.diff(t) > 2.0 * _SHORTEST * (t[-1] - t[0])
+    return float(error.max(initial=0.0, where=wide))
+
+
+def _errors(motion: Motion, middle: Motion) -> Floats:
+    """The largest error of accelerations and multipliers in each interval, as a fraction.
+
+    Columns of one unit are compared with their largest value, and ignored if they are rounding
+    errors of the other units: of rates, or of forces with the size of the mechanism as arm.
+    """
     turning = np.array([name.endswith(".angle") for name in motion.compiled.column_names()], bool)
-    units = np.array(motion.compiled.row_units())
-    # those of forces with modes follow the rows of the model
-    lam = (rows[0][:, : units.size], rows[1][:, : units.size])
-    groups = [(a, turning), (a, ~turning), *((lam, units == unit) for unit in set(units))]
-    return max(
-        _error_half_way(motion.t, frames[:, of_one_unit], exact[:, of_one_unit])
-        for (frames, exact), of_one_unit in groups
-    )
+    rows = np.array([unit == "rad" for unit in motion.compiled.row_units()], bool)
+    size = _largest(motion.q[:, ~turning]) or 1.0
+    spin = _largest(motion.v[:, turning]) ** 2
+    # multipliers of forces with modes follow those of the rows
+    lam, exact_lam = motion.lam[:, : rows.size], middle.lam[:, : rows.size]
+    alpha, a = (_largest(motion.a[:, of]) for of in (turning, ~turning))
+    torque, force = (_largest(lam[:, of]) for of in (rows, ~rows))
+    found = [np.zeros(len(motion.t) - 1)]
+    for values, exact, of, largest, natural in (
+        (motion.a, middle.a, turning, alpha, max(spin, a / size)),
+        (motion.a, middle.a, ~turning, a, max(spin, alpha) * size),
+        (lam, exact_lam, rows, torque, force * size),
+        (lam, exact_lam, ~rows, force, torque / size),
+    ):
+        if largest > _NOTHING * natural:
+            error = _error_half_way(motion.t, values[:, of], exact[:, of])
+            found.append(error / max(largest, _largest(exact[:, of])))
+    return np.asarray(np.max(found, axis=0))
 
 
-def _error_half_way(t: Floats, frames: Floats, exact: Floats) -> float:
-    """The largest error as a fraction of the largest value, for columns of one unit."""
-    largest = float(np.abs(frames).max(initial=0.0))
+def _largest(values: Floats) -> float:
+    return float(np.abs(values).max(initial=0.0))
+
+
+def _error_half_way(t: Floats, frames: Floats, exact: Floats) -> Floats:
+    """The largest error in each interval."""
     h = np.diff(t)[:, None]
     inner = (frames[2:] - frames[:-2]) / (h[1:] + h[:-1])
     ends = np.diff(frames, axis=0) / h
     slopes = np.concatenate([ends[:1], inner, ends[-1:]])
-    middle = _half_way(frames, slopes, h)
-    error = float(np.abs(middle - exact).max(initial=0.0))
-    return error / largest if largest > 0.0 else 0.0
+    error: Floats = np.abs(_half_way(frames, slopes, h) - exact).max(axis=1, initial=0.0)
+    return error
 
 
 def _half_way(values: Floats, slopes: Floats, h: Floats) -> Floats:

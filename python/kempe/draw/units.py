@@ -14,13 +14,14 @@ _PREFIXES = {9: "G", 6: "M", 3: "k", 0: "", -3: "m", -6: "µ", -9: "n"}
 _CUSTOM = {
     "s": (0, -3, -6, -9),
     "m": (0, -3, -6, -9),
-    "rad": (0, -3),
     "m/s": (0, -3, -6),
     "m/s²": (0, -3, -6),
     "N": (9, 6, 3, 0, -3, -6),
     "N·m": (9, 6, 3, 0, -3, -6),
     "J": (9, 6, 3, 0, -3, -6),
 }
+#: Angles are in degrees, as in tables, with a power of ten only outside of this range.
+_DEGREE, _WRITTEN = math.pi / 180.0, (0.2, 1e6)
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 #: Below this value, in SI units, a quantity is a rounding error and is shown as zero.
@@ -39,6 +40,11 @@ class Scale:
     divisor: float
     unit: str
 
+    def written(self, value: float) -> str:
+        """A value in SI units as text, such as ``-12.3 kN`` or ``30°``, with a true minus sign."""
+        number = f"{value / self.divisor:.4g}".replace("-", "\N{MINUS SIGN}")
+        return f"{number}{'' if self.unit == '°' else ' '}{self.unit}"
+
     def axis(self, symbol: str) -> str:
         """The label of an axis, such as ``F / kN``."""
         return axis_label(symbol, [self.unit])
@@ -53,6 +59,8 @@ def axis_label(symbol: str, units: Sequence[str]) -> str:
 def scale(unit: str, peak: float) -> Scale:
     """The chosen display unit, or the scale with one to four digits before the point.
 
+    Angles are in degrees, unless their unit was chosen.
+
     Args:
         unit: SI unit of the values.
         peak: largest magnitude in SI units.
@@ -60,6 +68,9 @@ def scale(unit: str, peak: float) -> Scale:
     chosen = chosen_for(unit)
     if chosen is not None:
         return Scale(chosen.divisor, chosen.symbol)
+    if unit == "rad":
+        power = _power(peak / _DEGREE) if not _WRITTEN[0] <= peak / _DEGREE < _WRITTEN[1] else 0
+        return Scale(_DEGREE * 10.0**power, f"{power_of_ten(power)} °" if power else "°")
     power = _power(peak)
     if not power:
         return Scale(1.0, unit)

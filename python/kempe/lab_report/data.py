@@ -14,6 +14,7 @@ from kempe.lab_report.figures import drawn
 from kempe.lab_report.printed import ROUNDING, number, text
 from kempe.lab_report.subject import Subject
 from kempe.model.catalogue import about, declared
+from kempe.model.doubts import NO_GRAVITY
 from kempe.model.model import Model
 from kempe.plot.drawing_pages import of_configuration, of_mechanism
 
@@ -53,7 +54,11 @@ def data(subject: Subject) -> Section:
     return Section(
         "Data",
         [
-            Paragraph(f"Acceleration of free fall: [{gravity}] {unit} in x and y of ground."),
+            Paragraph(
+                f"Acceleration of free fall: [{gravity}] {unit} in x and y of ground."
+                if any(model.gravity)
+                else f"{NO_GRAVITY.capitalize()}."
+            ),
             _parameters(subject),
             _bodies(subject),
             Points(list(_forms(subject))),

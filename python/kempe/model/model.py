@@ -12,9 +12,11 @@ from kempe import _core
 from kempe._upwards import CALLS
 from kempe.base.arguments import Explained, explain_methods, missing_attribute
 from kempe.base.names import few, unknown
+from kempe.base.warn import warn
 from kempe.errors import ModelError
 from kempe.model.body_methods import BodyMethods
 from kempe.model.compiled import BodyInfo, CompiledModel, ConstraintInfo, ForceInfo
+from kempe.model.doubts import ModelWarning, doubts
 from kempe.model.elements import E, ElementMethods
 from kempe.model.functions import Functions
 from kempe.model.ground import Ground, with_ground
@@ -221,7 +223,22 @@ class Model(BodyMethods, ElementMethods, MeasureMethods, TreeMethods, metaclass=
             given = (functions.described(), functions.state) if functions.laws else ()
             core = source.model(json.dumps(overrides, allow_nan=False), *given)
             self._compiled = CompiledModel(core, self.text(), self, functions)
+            for doubt in doubts(self._tree["forces"], self._constant):
+                warn(doubt, ModelWarning)
         return self._compiled
+
+    def _constant(self, given: Any) -> float | None:
+        """The number of a field; None if it has none, or varies."""
+        if not isinstance(given, str):
+            return float(given) if isinstance(given, int | float) else None
+        parameters, name = self.compile().parameters, "value_of_the_field"
+        if given in parameters:
+            return parameters[given]
+        try:
+            formula = Model(parameters={**parameters, name: given})
+            return formula.compile().parameters[name]
+        except ModelError:  # a formula in the position or the time
+            return None
 
     @property
     def title(self) -> str:

@@ -5,24 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-import numpy as np
-
-from kempe.base.display_units import chosen_for
 from kempe.base.names import one_of
 from kempe.model.compiled import ACCELERATIONS, COORDINATES, RATES
 from kempe.model.values import instance
 from kempe.plot import style
 from kempe.plot.curves import draw
 from kempe.plot.panel import Curve, Panel, curve, times
-from kempe.plot.ticks import set_ticks
 from kempe.plot.time_axis import TimeAxis, show_time
 from kempe.results.motion import Motion
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.axes._secondary_axes import SecondaryAxis
     from matplotlib.lines import Line2D
-    from numpy.typing import ArrayLike
 
     from kempe.base.arrays import Floats
     from kempe.model.compiled import BodyInfo
@@ -120,7 +114,6 @@ def body_panel(motion: Motion, body: str, quantity: str, index_base: int) -> Pan
         [_curve(motion, body, quantity, line)],
         title,
         f"{title} {symbol}",
-        degrees=quantity == "angle" and chosen_for("rad") is None,
         turning_points=quantity in COORDINATES,
         variable=motion.variable,
     )
@@ -153,31 +146,10 @@ def _draw(
         if len(names) == 1:
             panel = body_panel(motion, body, names[0], index_base)
             draw(axes, times(motion), panel, cut=cut)
-            add_degrees(axes, panel)
         else:
             title = body_title(info, index_base)
             _draw_all(axes, motion, body, names[: info.count or None], title=title, cut=cut)
         return axes
-
-
-def add_degrees(axes: Axes, panel: Panel) -> SecondaryAxis | None:
-    """Add an axis in degrees to the right, if the panel requests it."""
-    if not panel.degrees:
-        return None
-    rad = 1e-3 if "mrad" in axes.get_ylabel() else 1.0
-
-    def to_degrees(angle: ArrayLike) -> Floats:
-        return np.degrees(np.multiply(angle, rad))
-
-    def from_degrees(angle: ArrayLike) -> Floats:
-        return np.radians(np.divide(angle, rad))
-
-    degrees = axes.secondary_yaxis("right", functions=(to_degrees, from_degrees))
-    degrees.spines["right"].set_visible(True)
-    degrees.set_ylabel("φ / °")
-    degrees.set_ylim(*to_degrees(axes.get_ylim()))
-    set_ticks(degrees.yaxis)
-    return degrees
 
 
 def _draw_all(

@@ -71,12 +71,15 @@ def title(curve: CouplerCurve) -> str:
     unit = scale("m", curve.length)
     told = [f"length {curve.length / unit.divisor:.4g} {unit.unit}"]
     if curve.area is not None:
-        told.append(f"area {_area(curve.area, unit)}")
+        told.append(f"area {_area(curve, unit)}")
     if len(curve.cusps):
         told.append(f"{len(curve.cusps)} cusp{'s' if len(curve.cusps) > 1 else ''}")
     return f"Path of {style.short(curve.point, 40)}: {', '.join(told)}"
 
 
-def _area(area: float, unit: Scale) -> str:
+def _area(curve: CouplerCurve, unit: Scale) -> str:
+    area = curve.area or 0.0
+    if abs(area) < 1e-9 * curve.length**2:  # a rounding error of a line that runs back on itself
+        area = 0.0
     number = f"{area / unit.divisor**2:.4g}".replace("-", "−")
     return f"{number} {unit.unit}²"

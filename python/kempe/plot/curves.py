@@ -14,7 +14,7 @@ from kempe.plot.legend import above_or_beside
 from kempe.plot.panel import CONSTANT, Curve, Panel
 from kempe.plot.peaks import ROOM, add_peaks, chosen_peaks
 from kempe.plot.remarked import titled
-from kempe.plot.ticks import set_ticks
+from kempe.plot.ticks import DEGREES, STEPS, set_ticks
 from kempe.plot.time_axis import TimeAxis, show_time
 from kempe.results.fine import jumps
 
@@ -51,7 +51,7 @@ def draw(
     _limit(axes, span or panel.span, unit.divisor, [side for _, side, _ in marks], span is not None)
     axes.set_ylabel(unit.axis(panel.symbol))
     finish(axes, time, panel)
-    set_ticks(axes.yaxis)
+    set_ticks(axes.yaxis, DEGREES if unit.unit == "°" else STEPS)
     add_peaks(axes, marks, unit, time.unit)
 
 

@@ -1,4 +1,4 @@
-"""The figures of design on pages: of motions that drivers determine."""
+"""The figures of design on pages: of motions with drivers."""
 
 from __future__ import annotations
 
@@ -37,16 +37,25 @@ _SAME = 1e-12
 def families(solution: Solution, index_base: int, most: int | None) -> Iterator[list[Page]]:
     """The pages of a driven motion; none for others. Forces are drawn only if they are unique.
 
+    A run with drivers has efforts, and paths of bodies that no joint holds to ground alone; a
+    motion that drivers determine has all pages.
+
     Args:
         solution: the solution.
         index_base: number of the first body.
         most: largest number of figures of one kind; no limit when None.
     """
-    if solution.statistics.get("method") != _DRIVEN or len(solution.t) < 2:
-        return
     model = solution.compiled
-    points = [name for name in free_points(model) if _moves(solution, name)]
+    if not model.drivers or len(solution.t) < 2:
+        return
+    determined = solution.statistics.get("method") == _DRIVEN
+    points = [name for name in free_points(model, guided=determined) if _moves(solution, name)]
     yield _pages("path", points, partial(coupler_curve, solution), _SQUARE, key=True)[:most]
+    drives = [name for name in model.drivers if f"{name}.effort" in solution]
+    if _has_forces(solution):
+        yield _pages("effort", drives, partial(effort, solution), key=True)[:most]
+    if not determined:
+        return
     joints = transmitting(model)
     angles = partial(transmission_angle, solution)
     yield _pages("transmission", joints, angles, key=True)[:most]
@@ -58,17 +67,29 @@ def families(solution: Solution, index_base: int, most: int | None) -> Iterator[
         _page("instant_centres", lambda ax: centres(solution, t, ax=ax), 120.0),
     ]
     if _has_forces(solution):
-        drives = [name for name in model.drivers if f"{name}.effort" in solution]
-        yield _pages("effort", drives, partial(effort, solution), key=True)[:most]
         yield _pages("duty", drives, partial(torque_speed, solution), 90.0)[:most]
         yield _loads(solution)[:most]
         yield [_page("shaking_force", lambda ax: shaking_force(solution, ax=ax), _SQUARE)]
 
 
-def free_points(model: CompiledModel) -> list[str]:
-    """Named points of moving bodies that are not at a joint, such as "coupler.P"."""
+def free_points(model: CompiledModel, *, guided: bool = True) -> list[str]:
+    """Named points of moving bodies that are not at a joint, such as "coupler.P".
+
+    Args:
+        model: the model.
+        guided: whether to include bodies that one joint on ground leaves one freedom: all their
+            points move on circles or on lines.
+    """
     found = []
+    held = {
+        name
+        for joint in model.joints.values()
+        if "ground" in (joint.i, joint.j) and joint.rows.stop - joint.rows.start == 2
+        for name in (joint.i, joint.j)
+    }
     for body, info in model.bodies.items():
+        if not guided and body in held:
+            continue
         joined = [
             place
             for joint in model.joints.values()

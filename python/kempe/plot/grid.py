@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 from kempe.base.arrays import Floats
 from kempe.draw.units import Scale, scale
 from kempe.plot import style
-from kempe.plot.body_motion import add_degrees
 from kempe.plot.curves import draw
 from kempe.plot.panel import Panel
 
@@ -19,9 +18,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-#: Lengths on a page, mm: beside the axes for numbers and labels, of an axis in degrees to the
-#: right, above a panel, below it with and without the time, of a line of the note.
-_LEFT, _RIGHT, _DEGREES = 19.0, 4.0, 16.0
+#: Lengths on a page, mm: beside the axes for numbers and labels, above a panel, below it
+#: with and without the time, of a line of the note.
+_LEFT, _RIGHT = 19.0, 4.0
 _TITLE, _TIME, _GAP, _LINE = 7.0, 11.0, 2.5, 4.0
 #: Height of axes, of those that are alone, and of a legend above all panels, mm.
 _HIGH, _ALONE, _LEGEND = 26.0, 57.0, 5.0
@@ -132,14 +131,13 @@ class _Drawing:
         """Draw the rows from the top down; ``top`` is left free above them, mm."""
         self.axes: list[Axes] = []
         columns = max(map(len, rows), default=1)
-        right = _DEGREES if any(panel.degrees for row in rows for panel in row) else _RIGHT
         below = self.height - top
         for k, row in enumerate(rows):
             below -= _row_height(rows, k)
             bottom = below + (_TIME if _timed(rows, k) else 0.0)
             width = style.WIDTH / (columns if len(row) == columns else 1)
             for c, panel in enumerate(row):
-                box = (c * width + _LEFT, bottom, width - _LEFT - right, _high(rows))
+                box = (c * width + _LEFT, bottom, width - _LEFT - _RIGHT, _high(rows))
                 self._draw_panel(panel, box, timed=_timed(rows, k))
 
     def _draw_panel(
@@ -154,9 +152,6 @@ class _Drawing:
             chosen=self.scales[panel.unit],
             span=self.spans.get(panel.unit),
         )
-        degrees = add_degrees(axes, panel)
-        if degrees is not None:
-            degrees.yaxis.set_label_coords(1.0 + 11.5 / box[2], 0.5, axes.transAxes)
         if not timed:
             axes.set_xlabel("")
             axes.tick_params(labelbottom=False)

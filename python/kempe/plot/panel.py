@@ -60,7 +60,6 @@ class Panel:
         note: a small line below the title.
         name: its name in a sentence on the page.
         legend: whether to draw a legend above the panel to the right.
-        degrees: whether an axis to the right gives an angle in degrees.
         turning_points: whether extreme values at the first and the last time stay unmarked.
         variable: the quantity on the horizontal axis.
     """
@@ -71,7 +70,6 @@ class Panel:
     title: str = ""
     name: str = ""
     legend: bool = False
-    degrees: bool = False
     turning_points: bool = False
     variable: Variable = TIME
     note: str = ""

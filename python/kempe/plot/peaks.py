@@ -62,9 +62,7 @@ def chosen_peaks(curves: Sequence[Curve], *, turning_points: bool) -> list[Mark]
 
 def peak_text(extreme: Extreme, unit: Scale, time: Scale) -> str:
     """Such as ``−12.3 kN at 0.42 s``."""
-    value = f"{extreme.value / unit.divisor:.4g}".replace("-", "−")
-    at = f"{extreme.t / time.divisor:.4g}".replace("-", "−")
-    return f"{value} {unit.unit} at {at}{'' if time.unit == '°' else ' '}{time.unit}"
+    return f"{unit.written(extreme.value)} at {time.written(extreme.t)}"
 
 
 def add_peaks(axes: Axes, marks: Sequence[Mark], unit: Scale, time: Scale) -> None:

@@ -9,14 +9,16 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.base.names import one_of
-from kempe.draw.units import scale
+from kempe.draw.units import Scale, scale
 from kempe.model.values import instance
 from kempe.plot import style
 from kempe.plot.curves import draw
 from kempe.plot.panel import Curve, Panel, curve, times
 from kempe.plot.peaks import peak_text
 from kempe.plot.remarked import NO_BOUND, note
+from kempe.plot.still import NOTHING
 from kempe.plot.time_axis import TimeAxis
+from kempe.results.extrema import Extreme
 from kempe.results.motion import Motion
 from kempe.results.remarks import remark, unbounded_at
 
@@ -109,6 +111,11 @@ def _remarked(panel: Panel, motion: Motion, joint: str, part: str) -> Panel:
     return replace(panel, title=title, note=below)
 
 
+def _peak(high: Extreme, most: float, unit: Scale, time: Scale) -> str:
+    """The largest value of a reaction; zero if it is a rounding error of the largest of all."""
+    return unit.written(0.0) if high.value <= NOTHING * most else peak_text(high, unit, time)
+
+
 def _beside(joint: str, body: str) -> str:
     """A title for a panel of half the width of a page."""
     longest = style.LONGEST_NAME if len(joint) + len(body) <= 18 else 8
@@ -162,7 +169,7 @@ def all_reactions(
     panel = Panel("|F|", "N", curves, title, "reactions", variable=of, note=below)
     unit, time = scale("N", panel.peak), TimeAxis.of(times(motion), None, of).unit
     with_peaks = [
-        replace(one, label=f"{one.label}: {peak_text(one.high, unit, time)}")
+        replace(one, label=f"{one.label}: {_peak(one.high, panel.peak, unit, time)}")
         if one.high is not None and len(curves) <= _MOST_PEAKS
         else one
         for one in curves

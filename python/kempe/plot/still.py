@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from kempe.results.motion import Motion
 
 #: A quantity below this fraction of the largest value of its kind in the mechanism is zero.
-_NOTHING = 1e-9
+NOTHING = 1e-9
 
 
 def largest_values(motion: Motion) -> dict[str, float]:
@@ -64,13 +64,12 @@ def drawn_and_left_out(
     still, flat = list[Panel](), list[Panel]()
     for panel in panels:
         twin = next((other for other in kept if _same(panel, other)), None)
-        if panel.peak <= _NOTHING * largest.get(panel.unit, 0.0):
+        if panel.peak <= NOTHING * largest.get(panel.unit, 0.0):
             zero.append(panel.name)
             flat.append(panel)
         elif all(_is_constant(curve.values) for curve in panel.curves):
             unit = fixed.get(panel.unit) or scale(panel.unit, panel.peak)
-            value = f"{sum(panel.span) / 2.0 / unit.divisor:.4g}".replace("-", "−")
-            constant.append(f"{panel.name} = {value} {unit.unit}")
+            constant.append(f"{panel.name} = {unit.written(sum(panel.span) / 2.0)}")
             still.append(panel)
         elif twin is not None:
             equal.append(f"{panel.name} (equal to {twin.name})")
@@ -92,6 +91,6 @@ def _is_constant(values: Floats) -> bool:
 def _same(one: Panel, other: Panel) -> bool:
     if one.unit != other.unit or len(one.curves) != len(other.curves):
         return False
-    room = _NOTHING * max(one.peak, other.peak)
+    room = NOTHING * max(one.peak, other.peak)
     pairs = zip(one.curves, other.curves, strict=True)
     return all(bool(np.abs(a.values - b.values).max(initial=0.0) <= room) for a, b in pairs)

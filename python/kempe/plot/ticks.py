@@ -18,6 +18,8 @@ _MOST, _BESIDE, _ABOVE = 6, 10.0, 5.0
 STEPS = (1, 2, 2.5, 5, 10)
 #: Steps of angles in degrees, such as 30, 45, 60 and 90.
 DEGREES = (1, 1.5, 3, 4.5, 6, 9, 10)
+#: The same over more than a turn, such as 90, 180 and 360.
+_TURNS = (1, 1.8, 3.6, 9, 10)
 
 
 def set_ticks(axis: Axis, steps: Sequence[float] = STEPS) -> None:
@@ -26,6 +28,8 @@ def set_ticks(axis: Axis, steps: Sequence[float] = STEPS) -> None:
 
     low, high = sorted(axis.get_view_interval())
     length = _length(axis)
+    if steps is DEGREES and high - low > 400.0:
+        steps = _TURNS
     chosen: list[float] = []
     for count in range(_MOST, 1, -1):
         ticks = MaxNLocator(count, steps=steps).tick_values(low, high)

@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe.base.arrays import Floats
-from kempe.base.display_units import display
 from kempe.draw.units import Scale, scale
 from kempe.plot.ticks import DEGREES, STEPS, labels, set_ticks
 from kempe.results.settling import settling
@@ -54,11 +53,8 @@ class TimeAxis:
         first, last = float(np.min(t)), float(np.max(t))
         inside = cut is not None and first < cut < last
         most = max(abs(first), abs(last))
-        if variable.unit == "rad":
-            angle = display("rad", "deg")
-            unit = Scale(angle.divisor, angle.symbol)
-        else:  # never thousands of seconds
-            unit = scale(variable.unit, min(most, 1.0) if variable.is_time else most)
+        # never thousands of seconds
+        unit = scale(variable.unit, min(most, 1.0) if variable.is_time else most)
         return cls(first, last, unit, cut if inside else None, variable)
 
 

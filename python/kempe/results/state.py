@@ -10,6 +10,7 @@ from kempe.base.arrays import Floats
 from kempe.base.display_units import display, heading
 from kempe.base.names import few
 from kempe.model.compiled import CompiledModel
+from kempe.model.doubts import NO_GRAVITY
 from kempe.model.model import Model
 from kempe.model.values import Number, mapping
 from kempe.results.assembly_report import AssemblyReport
@@ -167,6 +168,8 @@ class State(Motion):
             shown = display(unit)
             lines.append(f"{name} = {value / shown.divisor:.6g} {shown.unit}")
         report = [] if self.report is None else [str(self.report)]
+        if report and not any(self.compiled.gravity):
+            report.append(NO_GRAVITY)
         of, shown = self.variable, display(self.variable.unit)
         lines = [
             f"{of.name} = {self.t / shown.divisor:g} {shown.unit}",

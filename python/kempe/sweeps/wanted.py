@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -93,9 +94,16 @@ def read_wanted(
     return found
 
 
+#: A statistic as a function, such as ``max(C.force)``.
+_CALLED = re.compile(rf"({'|'.join(ALL)})(?:\s*\(|\s)\s*([^()]+?)\s*\)?")
+
+
 def _statistic(model: CompiledModel, text: str, of_t: str) -> Wanted:
     """A statistic of a measure over a variable with the unit ``of_t``."""
     name, _, statistic = text.rpartition(".")
+    if called := _CALLED.fullmatch(text):
+        hint = f"write {called[2]}.{called[1]}"
+        raise ModelError(f"measures: {text!r} is not QUANTITY.STATISTIC", name=text, hint=hint)
     if statistic not in ALL:
         raise unknown(f"statistic in measures ({text!r})", statistic, ALL)
     info = model.measures.get(name) or measure_info(model, name)

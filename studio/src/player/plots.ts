@@ -6,7 +6,7 @@ import type { Plot } from "../plot/plot";
 import { TimeSpan } from "../plot/timespan";
 import { Card, type Templates } from "./card";
 import type { Motion } from "./motion";
-import { type Quantity, quantities } from "./quantities";
+import { drivenMotion, type Quantity, quantities } from "./quantities";
 import type { Scene } from "./scene";
 
 const MOST = 6;
@@ -23,14 +23,14 @@ export class Plots {
   cards: Card[] = [];
   readonly all: Quantity[];
   private looked: number | null = null;
-  private units: Units = { degrees: false, length: "m" };
+  private units: Units = { degrees: true, length: "m" };
   private readonly span: TimeSpan;
   private readonly watch: ResizeObserver;
 
   constructor(
     private readonly list: HTMLElement,
     private readonly templates: Templates,
-    scene: Scene,
+    private readonly scene: Scene,
     private readonly motion: Motion,
     private readonly calls: Calls,
   ) {
@@ -42,7 +42,7 @@ export class Plots {
     });
   }
 
-  /** Add a plot of the first quantity that no other shows. */
+  /** Add a plot: first the motion of a driven body, if any, and then the first quantity that no other shows. */
   add(): void {
     if (this.cards.length >= MOST || !this.all.length) return;
     const shown = new Set(this.cards.map(({ quantity }) => Number(quantity.value)));
@@ -54,7 +54,7 @@ export class Plots {
     this.list.append(card.element);
     this.watch.observe(card.canvas);
     seekable(card.canvas, this.seeking(card.plot));
-    card.choose(Math.max(0, next), 0);
+    card.choose(...(this.cards.length === 1 ? drivenMotion(this.scene, this.all) : ([Math.max(0, next), 0] as const)));
     this.update();
   }
 

@@ -163,6 +163,25 @@ function ofChannel({ name, of, quantity, unit, values }: Channel, number: number
   return { subject: of || name, key: of ? quantity : "", unit, number, sample: (k) => values[k]! };
 }
 
+/** The places in the lists of the angle, or else of a coordinate, of the driven body that moves; otherwise of all angles. */
+export function drivenMotion({ symbols, bodies }: Scene, all: readonly Quantity[]): readonly [number, number] {
+  const drives = symbols.filter(({ mark }) => mark.startsWith("drive"));
+  const driven = drives.flatMap((drive) => drive.bodies.filter((body) => body > 0).map((body) => bodies[body]!.name));
+  for (const key of driven.length ? ["angle", "x", "y"] : []) {
+    const which = all.findIndex((one) => one.key === key);
+    const lists = which < 0 ? [] : choices(all[which]!);
+    const whose = lists.findIndex(
+      ({ curves }) => curves.length === 1 && driven.includes(curves[0]!.subject) && moves(curves[0]!),
+    );
+    if (whose >= 0) return [which, whose];
+  }
+  return [0, 0];
+}
+
+function moves({ values, noise }: SceneCurve): boolean {
+  return Math.max(...values) - Math.min(...values) > noise;
+}
+
 /** The choices of a quantity: all curves together, and each one alone. */
 export function choices({ curves, sets = [[texts.all, curves]] }: Quantity): { name: string; curves: SceneCurve[] }[] {
   const subjects = new Set(curves.map(({ subject }) => subject));

@@ -33,6 +33,7 @@ export interface Scene {
   /** Ground first. */
   bodies: { name: string; number: number; kind: string; points: { name: string; at: Point }[]; center: Point }[];
   joints: { name: string; bodies: [number, number]; points: [Point, Point] }[];
+  symbols: { element: string; mark: string; bodies: number[] }[];
   traces: { name: string; body: number; point: Point }[];
   variable: { name: string; unit: string; shown: string; divisor: number; condition: string };
   frames: Frames;

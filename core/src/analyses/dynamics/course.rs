@@ -41,8 +41,8 @@ pub type Act<'a> = &'a mut dyn FnMut(&str, &State, &Setting) -> Option<Change>;
 enum Effect {
     /// The event is listed, and nothing else.
     None,
-    /// The run ends.
-    Stop,
+    /// The run ends when the event occurs this number of times.
+    Stop(usize),
     /// The caller acts.
     Act,
     /// This driver no longer acts.
@@ -74,7 +74,7 @@ fn planned(model: &Model, options: &Options) -> Vec<Planned> {
         condition: event.condition.clone(),
         direction: event.direction,
         effect: match (event.stop, event.acts) {
-            (true, _) => Effect::Stop,
+            (Some(count), _) => Effect::Stop(count),
             (_, true) => Effect::Act,
             _ => Effect::None,
         },
@@ -83,7 +83,7 @@ fn planned(model: &Model, options: &Options) -> Vec<Planned> {
         name: STOP.to_string(),
         condition: condition.clone(),
         direction: Direction::Any,
-        effect: Effect::Stop,
+        effect: Effect::Stop(1),
     });
     let releases = model.constraints.iter().filter_map(|driver| {
         Some(Planned {
@@ -325,11 +325,13 @@ fn take_effect(
     (act, guard): (&mut Option<Act<'_>>, &mut Guard),
     run: &mut Run,
 ) -> Result<Flow, Box<Failure>> {
-    for event in at.fired.clone().into_iter().map(|index| &events[index]) {
+    for index in at.fired.clone() {
+        let event = &events[index];
         match &event.effect {
             Effect::None | Effect::Mode { .. } => {}
             Effect::Release(driver) => setting.released.push(driver.clone()),
-            Effect::Stop => {
+            Effect::Stop(count) if run.events[index].states.t.len() < *count => {}
+            Effect::Stop(_) => {
                 run.stopped_by = Some(event.name.clone());
                 return Ok(Flow::Stop);
             }

@@ -69,6 +69,7 @@ options! {
         /// Events by name, each with its condition. A comparison is an event where it becomes true.
         /// An expression is an event at each of its zeros. A table has more fields:
         /// `{ condition = "C.force - 900", direction = "rising", stop = true }`.
+        /// `stop = 3` ends the run at the third event.
         events: events = Vec::new(),
         /// Condition at which the run ends.
         stop: Option<condition> = None,

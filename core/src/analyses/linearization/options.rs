@@ -1,7 +1,7 @@
 //! Options of `modes`.
 
 use super::names::{output, Input};
-use crate::analyses::options::{count, kind, name, options};
+use crate::analyses::options::{count, flag, kind, name, options};
 
 kind! {
     /// Parameters of forces, or position quantities such as `crank.angle`. The input at a quantity
@@ -29,6 +29,8 @@ options! {
         inputs: inputs = Vec::new(),
         /// Quantities.
         outputs: outputs = Vec::new(),
+        /// Whether friction that sticks at the state locks its joint. Otherwise small motions slide.
+        lock_friction: flag = false,
         /// State about which the motions are small: "start", or the name of an earlier analysis to
         /// use its final state. If absent, the final state of the previous analysis.
         from: Option<name> = None,

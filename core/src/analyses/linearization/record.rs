@@ -8,9 +8,13 @@ use crate::analyses::record::{
     Analysis, ErrorClass, Fact, NamedNumber, NumberList, Observer, Outcome, Record, StartState,
     Subject, Unfinished,
 };
+use crate::analyses::{dynamics::friction_modes, State};
+use crate::elements::Mode;
 use crate::math::{each, Complex, Listed};
+use crate::model::{ForceMode, Model};
 use serde_json::json;
 use std::f64::consts::TAU;
+use std::sync::Arc;
 
 /// Rate or acceleration of a coordinate, beside |s| or |s|², that counts as an equilibrium.
 const AT_REST: f64 = 1e-6;
@@ -34,7 +38,7 @@ impl Analysis for Options {
     ];
 
     fn begins(&self, subject: &Subject<'_>, start: &StartState) -> Result<(), Outcome> {
-        Ok(begins(&subject.released(start), &start.state)?)
+        Ok(begins(&self.model(subject, start)?.0, &start.state)?)
     }
 
     fn run(
@@ -43,7 +47,7 @@ impl Analysis for Options {
         start: &StartState,
         _: Observer<'_>,
     ) -> Result<Record, Box<Unfinished>> {
-        let model = subject.released(start);
+        let (model, locked) = self.model(subject, start)?;
         let found = linearize(&model, &start.state, &self.inputs, &self.outputs);
         let found = found.map_err(|failure| self.outcome(failure))?;
         let (f, n_q) = (found.coordinates.len(), model.layout.n_q);
@@ -52,9 +56,12 @@ impl Analysis for Options {
         let mut findings = json!({
             "coordinates": names.list(), "columns": found.coordinates,
             "states": found.states, "inputs": self.inputs, "outputs": self.outputs, "n": self.n,
+            "locked": locked,
         });
+        let held = (!locked.is_empty()).then(|| Fact::new("locked by friction", locked.join(", ")));
         let mut modes = eigenvalues(&found);
-        let facts: Vec<Fact> = modes.iter().enumerate().flat_map(|(k, s)| mode(k + 1, *s)).list();
+        let named = modes.iter().enumerate().flat_map(|(k, s)| mode(k + 1, *s));
+        let facts: Vec<Fact> = held.into_iter().chain(named).list();
         modes.truncate(self.n.unwrap_or(modes.len()));
         let own = |of: &[f64]| -> Vec<f64> { found.coordinates.iter().map(|k| of[*k]).list() };
         let motion = [own(&start.state.v), own(&found.acceleration)];
@@ -120,6 +127,28 @@ fn mode(number: usize, s: Complex) -> Vec<Fact> {
 }
 
 impl Options {
+    /// The model whose motions are small, and the names of the forces that lock joints in it.
+    fn model(
+        &self,
+        subject: &Subject<'_>,
+        start: &StartState,
+    ) -> Result<(Arc<Model>, Vec<String>), Failure> {
+        let model = subject.released(start);
+        let State { t, q, v, z } = &start.state;
+        let found = match self.lock_friction {
+            true => friction_modes(&model, [&[*t], q, v, z]).map_err(Failure::Motion)?,
+            false => Vec::new(),
+        };
+        let holds = |of: &ForceMode| matches!(of.mode, Mode::Holds(_));
+        let modes: Vec<ForceMode> = found.concat().into_iter().filter(holds).list();
+        let names = modes.iter().map(|of| model.forces[of.force].name.clone()).list();
+        Ok(if modes.is_empty() {
+            (model, names)
+        } else {
+            (Arc::new(model.in_modes(&modes)), names)
+        })
+    }
+
     fn outcome(&self, failure: Failure) -> Outcome {
         match failure {
             Failure::NoDerivative(k) => {

@@ -80,7 +80,7 @@ fn names() {
         "did you mean 'crank.omega'?",
     );
     fails("A", "unknown name 'A'", "A", "did you mean 'a'?");
-    fails("L9", "unknown name 'L9'", "L9", "");
+    fails("L9", "unknown name 'L9'", "L9", "declare it in the parameters");
     let known = "known are crank.x, crank.angle, crank.omega";
     fails("crank", "unknown name 'crank'", "crank", known);
     fails("crank.velocity", "unknown name 'crank.velocity'", "crank.velocity", known);

@@ -83,7 +83,7 @@ fn wrong_units_are_refused() {
     for (text, message, hint) in [
         ("30 degs", "unknown unit 'degs'", "did you mean 'deg'?"),
         ("5 kn", "unknown unit 'kn'", "did you mean 'kN'?"),
-        ("2 t", "unknown unit 't'", "t is the time; write the mass in kg"),
+        ("2 t", "unknown unit 't'", "t is the time; a tonne is 'tonne'"),
         ("50 Hz", "unknown unit 'Hz'", "write rpm, rev/s or rad/s: Hz does not say which"),
         ("3 m*foo", "unknown unit 'foo'", ""),
         ("3 m/", "a unit is missing here", ""),

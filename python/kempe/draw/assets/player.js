@@ -2132,6 +2132,22 @@ function ofScene(scene2, motion2, group) {
 function ofChannel({ name, of, quantity: quantity2, unit, values }, number) {
   return { subject: of || name, key: of ? quantity2 : "", unit, number, sample: (k) => values[k] };
 }
+function drivenMotion({ symbols, bodies }, all) {
+  const drives = symbols.filter(({ mark }) => mark.startsWith("drive"));
+  const driven = drives.flatMap((drive) => drive.bodies.filter((body) => body > 0).map((body) => bodies[body].name));
+  for (const key of driven.length ? ["angle", "x", "y"] : []) {
+    const which = all.findIndex((one) => one.key === key);
+    const lists = which < 0 ? [] : choices(all[which]);
+    const whose = lists.findIndex(
+      ({ curves }) => curves.length === 1 && driven.includes(curves[0].subject) && moves(curves[0])
+    );
+    if (whose >= 0) return [which, whose];
+  }
+  return [0, 0];
+}
+function moves({ values, noise }) {
+  return Math.max(...values) - Math.min(...values) > noise;
+}
 function choices({ curves, sets = [[playerTexts.all, curves]] }) {
   const subjects = new Set(curves.map(({ subject }) => subject));
   const together = sets.filter(([, members]) => members.length > 1).map(([name2, members]) => ({ name: name2, curves: members }));
@@ -2244,6 +2260,7 @@ var Plots = class {
   constructor(list, templates2, scene2, motion2, calls) {
     this.list = list;
     this.templates = templates2;
+    this.scene = scene2;
     this.motion = motion2;
     this.calls = calls;
     this.span = new TimeSpan(motion2);
@@ -2255,15 +2272,16 @@ var Plots = class {
   }
   list;
   templates;
+  scene;
   motion;
   calls;
   cards = [];
   all;
   looked = null;
-  units = { degrees: false, length: "m" };
+  units = { degrees: true, length: "m" };
   span;
   watch;
-  /** Add a plot of the first quantity that no other shows. */
+  /** Add a plot: first the motion of a driven body, if any, and then the first quantity that no other shows. */
   add() {
     if (this.cards.length >= MOST || !this.all.length) return;
     const shown = new Set(this.cards.map(({ quantity: quantity2 }) => Number(quantity2.value)));
@@ -2275,7 +2293,7 @@ var Plots = class {
     this.list.append(card.element);
     this.watch.observe(card.canvas);
     seekable(card.canvas, this.seeking(card.plot));
-    card.choose(Math.max(0, next), 0);
+    card.choose(...this.cards.length === 1 ? drivenMotion(this.scene, this.all) : [Math.max(0, next), 0]);
     this.update();
   }
   seeking(plot) {
