@@ -15,7 +15,7 @@ METHODS = {
     kp.DOP853: (8, (1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-6)),
     kp.RK45: (5, (1e-10, 1e-9, 1e-8, 1e-6)),
 }
-#: Angle beside a change point, rad, within which rounding errors of positions dominate accelerations.
+#: Angle beside a change point, rad, within which rounding errors dominate accelerations.
 BESIDE = 0.02
 
 
