@@ -274,4 +274,10 @@ impl<S: Real> Augmented<S> {
     pub fn cancellations(&self) -> S {
         self.saddle.cancellations(&self.plan.pattern)
     }
+
+    /// The logarithm of the determinant of Φ_q W⁻¹ Φ_qᵀ.
+    #[inline]
+    pub fn log_determinant(&self) -> S {
+        self.saddle.log_determinant(&self.plan.pattern)
+    }
 }

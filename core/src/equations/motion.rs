@@ -51,6 +51,8 @@ pub struct Workspace<S = f64> {
     modified: bool,
     /// Whether forces depend on reactions.
     depends: bool,
+    /// Whether the solution is corrected whatever the model.
+    sharp: bool,
     /// The rows of the multipliers on which forces or loads of joints depend.
     reactive: Vec<usize>,
     pub(super) n_q: usize,
@@ -105,6 +107,7 @@ impl<S: Real> Workspace<S> {
             matrix,
             modified: redundant,
             depends,
+            sharp: false,
             reactive,
             compiled,
             solution: vec![S::zero(); n_unknowns + plan_rows],
@@ -133,6 +136,24 @@ impl<S: Real> Workspace<S> {
     /// reactions.
     pub(super) fn set_direct(&mut self) {
         self.modified = false;
+    }
+
+    /// Sets whether the solution is corrected whatever the model. Near singular positions multipliers are large, and
+    /// without a correction the accelerations contain their rounding errors.
+    #[inline(always)]
+    pub fn sharpen(&mut self, sharp: bool) {
+        self.sharp = sharp;
+    }
+
+    /// Whether the solution is corrected whatever the model.
+    pub fn is_sharp(&self) -> bool {
+        self.sharp
+    }
+
+    /// Whether the solution of one elimination is corrected.
+    #[inline(always)]
+    fn corrects(&self) -> bool {
+        self.matrix.is_light() || self.depends || self.sharp
     }
 
     /// Sets a constant `term`, shape (n_rows), which is subtracted from γ at every state.
@@ -203,7 +224,7 @@ impl<S: Real> Workspace<S> {
         if !self.modified {
             match self.solve_directly(model, t, gains) {
                 // friction that sticks keeps bodies at rest for long, where rounding errors would add up
-                Ok(()) if self.matrix.is_light() || self.depends => return self.correct(model),
+                Ok(()) if self.corrects() => return self.correct(model),
                 Err(Breakdown::Row(_)) if self.matrix.near_singular() != NearSingular::Ignore => {}
                 outcome => return outcome,
             }
@@ -223,20 +244,10 @@ impl<S: Real> Workspace<S> {
     /// joint is added to the matrix when it is evaluated.
     #[inline(always)]
     fn solve_directly(&mut self, model: &Model<S>, t: S, gains: Gains) -> Result<(), Breakdown> {
-        let Self {
-            motions,
-            z,
-            compiled,
-            roles,
-            matrix,
-            solution,
-            powers,
-            offset,
-            memory,
-            depends,
-            ..
-        } = self;
-        let (light, corrects) = (matrix.is_light(), matrix.is_light() || *depends);
+        let corrects = self.corrects();
+        let Self { motions, z, compiled, roles, matrix, solution, powers, offset, memory, .. } =
+            self;
+        let light = matrix.is_light();
         let (plan, saddle) = matrix.parts_mut();
         let stabilized = Stabilized::new(gains);
         let inertias = &compiled.light.inertias[..];

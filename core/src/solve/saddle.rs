@@ -210,6 +210,16 @@ impl<S: Real> Saddle<S> {
         S::one() / worst
     }
 
+    /// The logarithm of the determinant of S; 0 without rows.
+    pub fn log_determinant(&self, pattern: &Pattern) -> S {
+        let mut sum = S::zero();
+        for row in &pattern.program.rows {
+            let inverses = &self.factors[row.diagonal as usize..][..usize::from(row.size)];
+            sum -= inverses.iter().fold(S::one(), |product, d| product * *d).abs().ln();
+        }
+        sum
+    }
+
     /// Eliminates row by row, with `RHS` also the right side. The error is the row that depends on other rows.
     #[inline(never)] // with few pointers, most of them remain in registers
     fn eliminate<const RHS: bool>(&mut self, pattern: &Pattern, g: &mut [S]) -> Result<(), usize> {

@@ -32,10 +32,8 @@ const LINEAR: f64 = 1e-10;
 pub(super) const MARGIN: f64 = 10.0;
 /// A residual up to this multiple of the tolerance is a rounding error if Newton's iteration does not reduce it.
 const ROUNDING: f64 = 1e3;
-
 /// Fraction of the tolerance that may remain near a singular position.
 const SHARP: f64 = 1e-3;
-
 /// A larger residual never counts as a rounding error, even for large coordinates: the joint is open.
 pub(super) const CLOSED: f64 = 1e-8;
 
@@ -71,6 +69,8 @@ pub struct Projector<'a, S = f64> {
     lowering: f64,
     /// Fraction of the tolerance that may remain.
     part: f64,
+    /// Whether iterations for positions end only where rounding errors prevent a smaller residual.
+    exhausts: bool,
     /// The largest rate so far. None if the tolerance is relative to the rates of each state.
     fastest: Option<f64>,
     /// Right side, then (Δ, μ).
@@ -109,6 +109,7 @@ impl<'a, S: Real> Projector<'a, S> {
             known: Known::Nothing,
             lowering: 1.0,
             part: 1.0,
+            exhausts: false,
             fastest: None,
             correction: vec![S::zero(); unknowns],
             factorisations: 0,
@@ -137,9 +138,10 @@ impl<'a, S: Real> Projector<'a, S> {
     }
 
     /// Sets whether to project to rounding errors. Near a singular position, a residual of Φ appears in the
-    /// accelerations divided by σ³.
-    pub fn sharpen(&mut self, sharp: bool) {
-        self.part = if sharp { SHARP } else { 1.0 };
+    /// accelerations divided by σ³. If it `exhausts` the digits, the residual becomes as small as possible.
+    pub fn sharpen(&mut self, sharp: bool, exhausts: bool) {
+        self.part = if sharp || exhausts { SHARP } else { 1.0 };
+        self.exhausts = exhausts;
     }
 
     /// Projects (q, v) in place and returns whether they changed. The motions of the workspace are then those of the
@@ -241,11 +243,8 @@ impl<'a, S: Real> Projector<'a, S> {
                 *factored = true;
                 self.lowering = if level == Level::Velocity { LINEAR } else { 1.0 };
             }
-            self.correct(
-                level,
-                workspace,
-                if level == Level::Position { &mut *q } else { &mut *v },
-            );
+            let x = if level == Level::Position { &mut *q } else { &mut *v };
+            self.correct(level, workspace, x);
             if level == Level::Velocity && MARGIN * self.lowering * gap <= target {
                 return Ok(true);
             }
@@ -295,7 +294,7 @@ impl<'a, S: Real> Projector<'a, S> {
             Level::Position => {
                 let target = self.part * self.tolerance;
                 // rounding errors matter only if the tolerance is not satisfied
-                let rounding = match gap <= target {
+                let rounding = match gap <= target || self.exhausts {
                     true => 0.0,
                     false => 8.0 * f64::EPSILON * self.largest(q),
                 };

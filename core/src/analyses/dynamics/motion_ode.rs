@@ -16,6 +16,8 @@ use crate::stabilize::{Projection, Projector, StepwiseBaumgarte};
 
 /// Distance, in sizes of the mechanism or in rad, beyond which a trial state cannot belong to the motion.
 const FAR: f64 = 1e6;
+/// Relative error of a step that does not lead to another branch.
+const BRANCH: f64 = 1e-8;
 /// Part of the energy of a usual motion below which errors of works do not shorten steps.
 const LEAST: f64 = 1e-3;
 
@@ -30,6 +32,11 @@ pub(super) struct MotionOde<'a> {
     /// Whether singular positions are passed.
     pub passing: bool,
     pub passage: SingularityPassage,
+    /// The time of the last factors.
+    factored: f64,
+    /// Part of the errors of positions and rates that counts near a singular position if the constraints determine
+    /// them.
+    part: f64,
     /// An energy whose errors matter, J, if [works are tested](tests_works).
     least_energy: Option<f64>,
     /// Time and reason of the last evaluation without a solution. A shorter step may avoid it.
@@ -75,6 +82,8 @@ impl<'a> MotionOde<'a> {
             projector,
             passing,
             passage,
+            factored: f64::NAN,
+            part: (options.method.control().rtol / BRANCH).min(1.0),
             least_energy,
             paradox,
         }
@@ -123,7 +132,7 @@ impl<'a> MotionOde<'a> {
         if self.workspace.accelerate(self.model, t, [q, v, z], self.gains).is_err() {
             return Ok(()); // the first step fails
         }
-        self.passage.begin(t, &self.workspace);
+        self.passage.begin(t, &self.workspace, self.part < 1.0 && self.is_held());
         let near = self.workspace.matrix.regularised();
         match self.workspace.matrix.cancellation().filter(|_| near) {
             Some((row, _)) if self.is_redundant(t, q) => Err(Breakdown::Row(row)),
@@ -143,7 +152,7 @@ impl<'a> MotionOde<'a> {
             // a forecast needs samples of the same rows
             let solved = self.workspace.accelerate(self.model, t, [q, v, z], self.gains);
             if solved.is_ok() {
-                self.passage.begin(t, &self.workspace);
+                self.passage.begin(t, &self.workspace, self.part < 1.0 && self.is_held());
             }
         }
     }
@@ -158,6 +167,20 @@ impl<'a> MotionOde<'a> {
         dy: &mut [f64],
         placed: bool,
     ) -> Result<(), Breakdown> {
+        let close = self.passage.is_close();
+        self.workspace.sharpen(close);
+        let mut nearest = Vec::new();
+        let y = match close && !placed {
+            true => {
+                nearest.extend_from_slice(y);
+                if self.project_state(t, &mut nearest, false).is_err() {
+                    dy.fill(f64::NAN); // a shorter step may avoid it
+                    return Ok(());
+                }
+                &nearest[..]
+            }
+            false => y,
+        };
         let [q, v, z, _] = self.model.layout.split(y);
         if !placed {
             self.workspace.place(self.model, [q, v, z]);
@@ -175,12 +198,20 @@ impl<'a> MotionOde<'a> {
             }
             return self.stop_if_finite(breakdown, t, y);
         }
+        self.factored = t;
         if !self.passage.watch(self.model, &self.workspace, t, v) {
             dy.fill(f64::NAN); // a shorter step may avoid it
             return Ok(());
         }
         rates(self.model, &self.workspace, t, v, dy);
         Ok(())
+    }
+
+    /// Whether the constraints determine positions and rates, so that the motion has no freedom.
+    #[inline(always)]
+    fn is_held(&self) -> bool {
+        let layout = &self.model.layout;
+        layout.n_rows >= layout.n_q + self.workspace.matrix.omitted().len()
     }
 
     /// Whether a trial state is so far away that rounding errors make constraints dependent.
@@ -223,7 +254,7 @@ impl<'a> MotionOde<'a> {
         let Some(projector) = &mut self.projector else { return Ok(false) };
         // omitted rows may differ from the others by rounding, which must not change with the choice of rows
         let redundant = !self.workspace.matrix.omitted().is_empty();
-        projector.sharpen(redundant || self.passage.in_reach());
+        projector.sharpen(redundant || self.passage.in_reach(), self.passage.is_close());
         let [q, v, ..] = self.model.layout.split_mut(y);
         projector.project(&mut self.workspace, t, (q, v), factored)
     }
@@ -307,15 +338,20 @@ impl Manifold for MotionOde<'_> {
     /// Projects the error near a singular position, where the noise along the lost direction would otherwise reject
     /// every step. A motion without a freedom has no tangential error, so its whole error counts.
     fn project_error(&mut self, dy: &mut [f64]) -> bool {
-        let layout = &self.model.layout;
-        let free = layout.n_rows < layout.n_q + self.workspace.matrix.omitted().len();
-        let (true, Some(projector)) = (self.passage.near && free, &mut self.projector) else {
-            return false;
-        };
+        let held = self.is_held();
         let [dq, dv, ..] = self.model.layout.split_mut(dy);
-        projector.tangent(&self.workspace, dq);
-        projector.tangent(&self.workspace, dv);
-        true
+        match &mut self.projector {
+            Some(projector) if !held && self.passage.near => {
+                projector.tangent(&self.workspace, dq);
+                projector.tangent(&self.workspace, dv);
+                true
+            }
+            Some(_) if held && self.passage.is_close() => {
+                dq.iter_mut().chain(dv).for_each(|x| *x *= self.part);
+                true
+            }
+            _ => false,
+        }
     }
 }
 
@@ -325,8 +361,9 @@ impl TimesToAvoid for MotionOde<'_> {
         self.passage.near || self.passage.in_reach()
     }
 
-    fn next(&mut self, t: f64) -> Option<f64> {
-        self.passage.foresee(t, &self.workspace)
+    /// The last factors belong to an earlier time than the end of the trial if a stage failed.
+    fn next(&mut self, _: f64) -> Option<f64> {
+        self.passage.foresee(self.factored, &self.workspace)
     }
 
     fn on_accepted_end(&mut self, t: f64) {

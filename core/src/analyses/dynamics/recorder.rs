@@ -123,8 +123,10 @@ impl<'a> Recorder<'a> {
         self.one.factorisations() + Lanes::WIDTH * many
     }
 
-    /// Omits the rows that the equations of motion omit. Returns whether the run may continue.
+    /// Projects states as sharply as the equations of motion are solved, and omits the rows that they omit. Returns
+    /// whether the run may continue.
     pub fn follow(&mut self, workspace: &Workspace) -> Flow {
+        self.one.sharpen(workspace.is_sharp());
         let omitted = workspace.matrix.omitted();
         if self.one.omitted() == omitted {
             return Flow::Continue;
@@ -158,7 +160,7 @@ impl<'a> Recorder<'a> {
         if t == step.t {
             return self.report(t, step.y);
         }
-        if self.sample.as_ref().is_some_and(|sample| sample.reaches(t)) {
+        if self.one.is_sharp() || self.sample.as_ref().is_some_and(|sample| sample.reaches(t)) {
             let flow = self.flush();
             step.interpolate(t, &mut self.y);
             return if flow == Flow::Continue { self.report_alone(t) } else { flow };

@@ -24,6 +24,8 @@ pub(super) struct ReportProjection<'a, S = f64> {
     check: Option<ViolationCheck<S>>,
     /// Whether projection changed the last state.
     changed: bool,
+    /// Whether states are projected to rounding errors.
+    sharp: bool,
 }
 
 impl<'a, S: Real> ReportProjection<'a, S> {
@@ -35,7 +37,7 @@ impl<'a, S: Real> ReportProjection<'a, S> {
         };
         let projector = projector.map(Projector::for_reports);
         let check = ViolationCheck::new(model, options);
-        Self { model, workspace, projector, check, changed: false }
+        Self { model, workspace, projector, check, changed: false, sharp: false }
     }
 
     /// The rows that are omitted.
@@ -46,6 +48,17 @@ impl<'a, S: Real> ReportProjection<'a, S> {
     /// Omits exactly these rows.
     pub fn omit(&mut self, rows: &[usize]) {
         self.workspace.omit(rows);
+    }
+
+    /// Sets whether states are projected to rounding errors, as states near a singular position.
+    pub fn sharpen(&mut self, sharp: bool) {
+        self.sharp = sharp;
+        self.projector.iter_mut().for_each(|projector| projector.sharpen(sharp, sharp));
+    }
+
+    /// Whether states are projected to rounding errors.
+    pub fn is_sharp(&self) -> bool {
+        self.sharp
     }
 
     /// The joint that is open too far at y, if any.

@@ -3,7 +3,8 @@
 //! If Φ_q loses rank at t_s, a pivot of Φ_q M⁻¹ Φ_qᵀ tends to zero as (t - t_s)². Its square root falls linearly to
 //! zero, and the pivot itself is a parabola with its vertex at t_s. Both give t_s well before a step reaches it.
 
-use crate::math::{each, Ordered};
+use crate::math::Ordered;
+
 /// Largest pivot at the vertex of the parabola, as a fraction of the pivots beside it. A position with a larger pivot
 /// is regular.
 const DEEP: f64 = 0.05;
@@ -13,10 +14,13 @@ const APART: f64 = 0.01;
 /// Smallest reduction of the pivot on the way to a singular position within two steps: the square of two.
 const NEARER: f64 = 4.0;
 
+/// Distance from a passed singular position, in steps, within which a step is still close to it.
+const LEFT: f64 = 4.0;
+
 /// Largest number of stages of a trial; constant steps have no forecast.
 const MOST: usize = 64;
 
-/// A time, and the least ratio of a pivot to its largest summand.
+/// A time, and the least ratio of a pivot to its largest summand, or another number that vanishes as its square does.
 type Sample = (f64, f64);
 
 /// The samples since the start of the step.
@@ -30,6 +34,8 @@ pub(super) struct SingularityForecast {
     end: Option<Sample>,
     /// The singular position within two steps from the start of the last trial.
     position: Option<f64>,
+    /// The last singular position that was foreseen, until it lies [`LEFT`] steps behind.
+    close: Option<f64>,
 }
 
 impl SingularityForecast {
@@ -41,6 +47,11 @@ impl SingularityForecast {
     /// Whether a singular position is in reach, so that stages must be sampled.
     pub fn in_reach(&self) -> bool {
         self.position.is_some() || !self.stages.is_empty()
+    }
+
+    /// Whether a singular position was foreseen, or passed a few steps ago.
+    pub fn is_close(&self) -> bool {
+        self.in_reach() || self.close.is_some()
     }
 
     /// Whether a forecast singular position lies between the start of the current trial and `t`.
@@ -79,32 +90,26 @@ impl SingularityForecast {
         samples.dedup_by(|a, b| (a.0 - b.0).abs() < APART * step.abs());
         let reached = |t: &f64| (0.0..2.0).contains(&((t - start.0) / step));
         self.position = vanishing(&samples).filter(reached);
+        self.close = self.position.or(self.close);
         self.position
     }
 
     /// Accepts the last trial, with the sample at its end; the trial evaluated only a nearby state. Returns the time
-    /// of a singular position that the trial passed, and the slope of the square root of the pivot there.
-    pub fn accept(&mut self, end: Option<Sample>) -> Option<(f64, f64)> {
+    /// of a singular position that the trial passed.
+    pub fn accept(&mut self, end: Option<Sample>) -> Option<f64> {
         self.end = end.or(self.end);
         let mut passed = None;
         if let (Some(start), Some(end)) = (self.start, self.end) {
             let step = end.0 - start.0;
             let ahead = self.position.filter(|t| (t - end.0) * step > 0.0);
             let behind = self.position.filter(|t| (t - end.0) * step <= 0.0);
-            passed =
-                behind.filter(|t| (t - start.0) * step >= 0.0).map(|t| (t, slope(t, start, end)));
+            passed = behind.filter(|t| (t - start.0) * step >= 0.0);
             self.position = ahead;
+            self.close = self.close.filter(|t| (end.0 - t) * step <= LEFT * step * step);
         }
         self.start = self.end;
         passed
     }
-}
-
-/// Slope of the square root of the pivot from the time at which it vanishes, averaged over both sides.
-fn slope(t: f64, start: Sample, end: Sample) -> f64 {
-    0.5 * each([start, end], |(at, pivot)| pivot.sqrt() / (at - t).abs().max(f64::MIN_POSITIVE))
-        .iter()
-        .sum::<f64>()
 }
 
 /// The time at which the pivot vanishes. The samples are in the order of the motion.
@@ -116,7 +121,12 @@ fn vanishing(samples: &[Sample]) -> Option<f64> {
         return None;
     }
     let Some((t_after, after)) = samples.get(least + 1) else {
-        let (root, root_before) = (ratio.sqrt(), before.sqrt());
+        let (mut root, root_before) = (ratio.sqrt(), before.sqrt());
+        // the last sample lies behind the singular position if the line through the two before ends below zero
+        if let Some((t_first, first)) = least.checked_sub(2).map(|k| samples[k]) {
+            let slope = (root_before - first.sqrt()) / (t_before - t_first);
+            root = root.copysign(root_before + slope * (t - t_before));
+        }
         return Some(t + root * (t - t_before) / (root_before - root));
     };
     // Newton's form of the interpolation through three points

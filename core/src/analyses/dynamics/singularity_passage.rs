@@ -44,6 +44,11 @@ pub(super) struct SingularityPassage {
     /// Whether singular positions are passed at all.
     passing: bool,
     approach: SingularityForecast,
+    /// In [sharp](Self::is_sharp) runs, the logarithm of the determinant at the start, by which determinants are
+    /// divided.
+    unit: Option<f64>,
+    /// Time, and least ratio of a pivot to its largest summand, at the start of the step.
+    from: Option<(f64, f64)>,
     /// Least pivot of the undecided trial states since the last step.
     least: f64,
     residual: Vec<f64>,
@@ -73,6 +78,8 @@ impl SingularityPassage {
             singularity: options.singularity,
             passing,
             approach: SingularityForecast::default(),
+            unit: None,
+            from: None,
             least: f64::INFINITY,
             residual: Vec::new(),
             loads: Vec::new(),
@@ -104,7 +111,7 @@ impl SingularityPassage {
         let regularised = work.matrix.regularised();
         self.near |= regularised || self.approach.is_behind(t);
         let Some((row, ratio)) = work.matrix.cancellation() else { return Ok(()) };
-        self.approach.pass((t, ratio));
+        self.approach.pass((t, self.measure(work, ratio)));
         if !regularised || self.singularity == Singularity::Pass || ratio > INDISTINCT {
             return Ok(());
         }
@@ -122,9 +129,30 @@ impl SingularityPassage {
         Ok(())
     }
 
-    /// Begins the forecast at the start of a run.
-    pub fn begin(&mut self, t: f64, work: &Workspace) {
-        self.approach.begin(work.matrix.cancellation().map(|(_, ratio)| (t, ratio)));
+    /// Begins the forecast at the start of a run, which may be [sharp](Self::is_sharp).
+    pub fn begin(&mut self, t: f64, work: &Workspace, sharp: bool) {
+        self.unit = sharp.then(|| work.matrix.log_determinant());
+        self.from = work.matrix.cancellation().map(|(_, ratio)| (t, ratio));
+        self.approach.begin(self.from.map(|(t, ratio)| (t, self.measure(work, ratio))));
+    }
+
+    /// The number that vanishes at singular positions. The least pivot may be one that is small everywhere, if masses
+    /// differ much; the determinant is not.
+    fn measure(&self, work: &Workspace, ratio: f64) -> f64 {
+        self.unit.map_or(ratio, |unit| (work.matrix.log_determinant() - unit).exp())
+    }
+
+    /// Whether the run is sharp: the constraints determine its motion, and its tolerance is tighter than rates near
+    /// singular positions are known.
+    #[inline(always)]
+    pub fn is_sharp(&self) -> bool {
+        self.unit.is_some()
+    }
+
+    /// Whether a sharp run is within a few steps of a singular position.
+    #[inline(always)]
+    pub fn is_close(&self) -> bool {
+        self.is_sharp() && self.approach.is_close()
     }
 
     /// The singular position ahead, if a step as long as the last trial can reach it.
@@ -134,7 +162,7 @@ impl SingularityPassage {
             return None;
         }
         let (_, ratio) = work.matrix.cancellation()?;
-        self.approach.foresee((t, ratio))
+        self.approach.foresee((t, self.measure(work, ratio)))
     }
 
     /// Whether the trial of the last forecast is near a singular position.
@@ -145,21 +173,24 @@ impl SingularityPassage {
     /// Accepts the trial of the last forecast. The workspace belongs to the end of the trial.
     pub fn accept(&mut self, t: f64, work: &Workspace) {
         if self.passing {
-            self.accept_at(t, work.matrix.cancellation());
+            let end = work.matrix.cancellation();
+            let measured = end.map(|(_, ratio)| (t, self.measure(work, ratio)));
+            self.accept_at(t, end, measured);
         }
     }
 
-    fn accept_at(&mut self, t: f64, end: Option<(usize, f64)>) {
+    fn accept_at(&mut self, t: f64, end: Option<(usize, f64)>, measured: Option<(f64, f64)>) {
         self.least = f64::INFINITY;
-        let passed = self.approach.accept(end.map(|(_, ratio)| (t, ratio)));
-        if let (Some((at, slope)), Some((row, _))) = (passed, end) {
-            self.passed = Some((at, slope, row));
+        let from = self.from;
+        self.from = end.map(|(_, ratio)| (t, ratio)).or(from);
+        if let (Some(at), Some((row, _))) = (self.approach.accept(measured), end) {
+            self.passed = Some((at, slope(at, [from, self.from]), row));
         }
     }
 
-    /// Whether no singular position is near or in reach.
+    /// Whether no singular position is near or in reach, and the run is not sharp.
     pub fn is_clear(&self) -> bool {
-        !self.near && !self.in_reach()
+        !self.near && !self.in_reach() && !self.is_sharp()
     }
 
     /// Ends a trial if no singular position is in reach, given the loss of digits at its end; otherwise returns
@@ -175,7 +206,7 @@ impl SingularityPassage {
     /// Accepts a trial without a singular position in reach, given the loss of digits at its end.
     pub fn accept_clear(&mut self, t: f64, ratio: f64) {
         if self.passing {
-            self.accept_at(t, Some((0, ratio)));
+            self.accept_at(t, Some((0, ratio)), Some((t, ratio)));
         }
     }
 
@@ -225,4 +256,11 @@ impl SingularityPassage {
             self.residual.iter().zip(&gamma).fold(0.0, |m: f64, (r, g)| m.max((r - g).abs()));
         missed > REMAINDER * largest
     }
+}
+
+/// Slope of the square root of the pivot from the time at which it vanishes, averaged over the samples.
+fn slope(t: f64, samples: [Option<(f64, f64)>; 2]) -> f64 {
+    let of = |(at, pivot): (f64, f64)| pivot.sqrt() / (at - t).abs().max(f64::MIN_POSITIVE);
+    let known = samples.into_iter().flatten();
+    known.clone().map(of).sum::<f64>() / known.count() as f64
 }
