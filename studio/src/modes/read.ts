@@ -1,8 +1,9 @@
 // Read mode: a run of an analysis, its poses over time, its quantities.
 import { batch, computed, effect, signal } from "@preact/signals";
 import type { Found, Pose, Quantity, Ran, Requests } from "../core/protocol";
-import { placeIn } from "../plane/instants";
+import { nearest, placeIn } from "../plane/instants";
 import { plainly } from "../store/blame";
+import { diagram } from "../store/diagram";
 import { note } from "../store/note";
 import { report, Superseded, send, showPresent } from "../store/session";
 import { fitWith, preview, view } from "../store/sheet";
@@ -218,7 +219,9 @@ export function show(at: number): void {
   if (!run?.t.length) return;
   time.value = Math.min(span.value[1], Math.max(span.value[0], at));
   const base = pose.value;
-  if (base && mode.value === "read") pose.value = { ...base, t: time.value, poses: posesAt(run, time.value) };
+  // diagrams are those of an output
+  const t = diagram.value === "none" ? time.value : run.t[nearest(run.t, time.value)]!;
+  if (base && mode.value === "read") pose.value = { ...base, t, poses: posesAt(run, t) };
 }
 
 export async function play(): Promise<void> {
