@@ -234,6 +234,8 @@ export const texts = {
     begun: (names: string) => `The motion begins here: the law of ${names} was changed. Undo restores it.`,
     stops: (owner: string, value: string, reason: string) => `${owner} stops at ${value}: ${reason}.`,
     swings: (text: string) => `${text} It swings between its ends now; undo restores the former law.`,
+    shortened: (time: string) =>
+      `The drivers lead to a dead point at ${time}; the motion ends before it now. Undo restores the former end.`,
     swing: "Swing between the ends",
     singular: (time: string, names: string) =>
       `A dead point${time ? ` at ${time}` : ""}: ${names} do not determine how the mechanism goes on.`,
