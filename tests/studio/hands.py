@@ -1,6 +1,5 @@
 """Mouse and keys of a person who draws a mechanism from nothing; each click, drag and key counts."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -116,6 +115,3 @@ def run(path: Path) -> Path:
     done = kempe("run", path, "-o", folder, "-q", "--figures", "none")
     assert done.returncode == 0, done.stderr
     return folder
-
-
-Task = Callable[[Hands], None]
