@@ -1,4 +1,4 @@
-"""Mouse and keys of a person who draws a mechanism from nothing; each click, drag and key counts."""
+"""Mouse and keys of a person who draws from nothing; each click, drag and key counts."""
 
 from dataclasses import dataclass
 from pathlib import Path
