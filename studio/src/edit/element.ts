@@ -18,7 +18,7 @@ export interface Scale {
   turn: number;
   /** The distance of the second place from the line of the first one, to its left, m; 0 without a line. */
   beside: number;
-  /** The offset with which two wheels hold as they stand; 0 for other elements. */
+  /** The offset with which two wheels keep their drawn positions; 0 for other elements. */
   offset: number;
   /** Whether the chosen joint is a pin. */
   pin: boolean;

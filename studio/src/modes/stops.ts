@@ -81,7 +81,7 @@ export function pinOf(text: string, poses: readonly (readonly [number, number, n
   return first?.find((a) => second?.some((b) => distance(a, b) < 1e-6 * size)) ?? first?.[0] ?? null;
 }
 
-/** Let a driver swing between its ends; returns the time of one swing, or null if it does not stand between two ends. */
+/** Let a driver swing between its ends; returns the time of one swing, or null if it is not between two ends. */
 export async function swing({ driver, begin, low, high }: Stops): Promise<number | null> {
   if (!low || !high || !(low.value < begin && begin < high.value)) return null;
   const middle = (low.value + high.value) / 2;
