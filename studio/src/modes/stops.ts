@@ -54,8 +54,10 @@ async function endOf(over: string, begin: number, span: number): Promise<End | n
   );
   const [, of, value, degrees, reason] =
     /(\S+) cannot pass (\S+?)(°?)(?: \S+)?: (.*)/s.exec(found?.error?.message ?? "") ?? [];
-  // with several drivers, the end may be that of another one
-  return reason === undefined || of !== over ? null : { value: Number(value) * (degrees ? Math.PI / 180 : 1), reason };
+  // with several drivers, the end may be that of another one; an angle has the name of its body
+  return reason === undefined || (of !== over && `${of}.angle` !== over)
+    ? null
+    : { value: Number(value) * (degrees ? Math.PI / 180 : 1), reason };
 }
 
 /** The end that the driver reaches first, in words. */
