@@ -45,12 +45,20 @@ const made = {
 };
 
 /**
- * The core, taken apart, as base64 of xz, which is a third smaller than gzip. Its checksum is one that the worker's
- * decoder knows.
+ * The program and the core, taken apart, as base64 of xz, which is a third smaller than gzip. Its checksum is one that
+ * the decoder knows; both parts have no words of four bytes, which its usual options expect.
  */
-async function packed() {
-  const options = { preset: 9 | lzma.PRESET_EXTREME, check: lzma.CHECK_CRC32 };
-  return (await lzma.compress(pack(readFileSync(CORE)), options)).toString("base64");
+async function packed(program) {
+  const size = Buffer.alloc(4);
+  const written = Buffer.from(program);
+  size.writeUInt32LE(written.length);
+  const preset = 9 | lzma.PRESET_EXTREME;
+  const filters = [{ id: lzma.FILTER_LZMA2, options: { preset, lc: 2, lp: 0, pb: 0 } }];
+  const coder = lzma.createStream("streamEncoder", { filters, check: lzma.CHECK_CRC32 });
+  coder.end(Buffer.concat([size, written, pack(readFileSync(CORE))]));
+  const parts = [];
+  for await (const part of coder) parts.push(part);
+  return Buffer.concat(parts).toString("base64");
 }
 
 function hash(text) {
@@ -61,10 +69,11 @@ function version() {
   return /^version = "(.*)"/m.exec(readFileSync(join(ROOT, "Cargo.toml"), "utf8"))?.[1] ?? "";
 }
 
-const { script, style } = await bundle("src/main.tsx", { ...OPTIONS, format: "esm", plugins: [made] });
+const { script, style } = await bundle("src/main.tsx", { ...OPTIONS, plugins: [made] });
+const { script: boot } = await bundle("src/boot.ts", { ...OPTIONS, format: "esm" });
 const policy = [
   "default-src 'none'",
-  `script-src ${hash(script)} 'wasm-unsafe-eval'`,
+  `script-src ${hash(boot)} ${hash(script)} 'wasm-unsafe-eval'`,
   `style-src ${hash(style)}`,
   "worker-src blob:",
   "img-src data: blob:",
@@ -77,8 +86,8 @@ const parts = {
   // the checksum that tools/build_studio.sh gets from python/kempe/studio/sources.py
   sources: process.env.KEMPE_SOURCES ?? "unknown",
   style,
-  script,
-  core: await packed(),
+  boot,
+  packed: await packed(script),
   // "<" could end the element
   licences: licences(HERE, join(ROOT, "THIRD_PARTY_NOTICES.txt")).replaceAll("<", "‹").replaceAll(">", "›"),
 };

@@ -8,3 +8,6 @@ export const coreTexts = {
   notConnected: "The core is not connected.",
   notReady: "The core is not ready.",
 } as const;
+
+/** Of the whole page. */
+export const failed = "The core could not start. This page needs a browser with WebAssembly and DecompressionStream.";

@@ -2,10 +2,11 @@
 
 import { examples } from "virtual:examples";
 import { render } from "preact";
+import { failed } from "./coreTexts";
 import { EMPTY, take } from "./give/files";
 import { textOf } from "./give/link";
 import { enter } from "./modes/modes";
-import { packedCore, worker } from "./page/core";
+import { worker } from "./page/core";
 import { kempe } from "./page/interface";
 import { listenToKeys } from "./page/keyboard";
 import { Page } from "./page/Page";
@@ -63,8 +64,7 @@ async function follow(): Promise<void> {
 }
 
 async function start(): Promise<void> {
-  const packed = packedCore();
-  connect(() => worker(packed));
+  connect(worker);
   await begin();
 }
 
@@ -78,4 +78,4 @@ addEventListener("drop", (event) => {
   if (file) void take(file);
 });
 Object.defineProperty(window, "kempe", { value: Object.freeze(kempe) });
-start().catch(() => announce("problem", texts.failed));
+start().catch(() => announce("problem", failed));

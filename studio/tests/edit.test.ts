@@ -11,7 +11,7 @@ import { typed, typedList, written, writtenList } from "../src/edit/values";
 import { allPoints } from "../src/plane/hits";
 import { inFrame, placed } from "../src/plane/points";
 
-const MEASURES = { length: 1, size: 1, mass: 1, weight: 10, turn: 0, beside: 0, pin: false, degrees: true };
+const MEASURES = { length: 1, size: 1, mass: 1, weight: 10, turn: 0, offset: 0, beside: 0, pin: false, degrees: true };
 
 const field = (name: string, shape: string, unit = "", required = false) => ({
   name,

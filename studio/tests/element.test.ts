@@ -5,7 +5,7 @@ import { curveFor } from "../src/edit/curve";
 import { addElement } from "../src/edit/element";
 import { isNotation, typeMeant } from "../src/edit/values";
 
-const MEASURES = { length: 1, size: 1, mass: 1, weight: 10, turn: 0, beside: 0, pin: false, degrees: true };
+const MEASURES = { length: 1, size: 1, mass: 1, weight: 10, turn: 0, offset: 0, beside: 0, pin: false, degrees: true };
 
 const field = (name: string, shape: string | { options: string }, unit = "", required = true) => ({
   name,

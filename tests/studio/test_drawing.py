@@ -314,3 +314,33 @@ def test_keys_of_the_editor_and_its_history_are_those_of_the_case(studio: Opener
     colour = """name => getComputedStyle([...document.querySelector(".editor").shadowRoot
       .querySelectorAll(".cm-line span")].find(one => one.textContent === name)).color"""
     assert len({one.call(colour, name) for name in ("kempe", "15", "[bodies.crank]")} - {None}) == 2
+
+
+def test_what_was_typed_last_is_not_lost_by_the_next_click(studio: Opener) -> None:
+    one = studio()
+    first = one.toml()
+    one.page.locator("#tab-text").click()
+    for words in ("# a", "# b"):
+        one.page.locator(".cm-content").click()
+        one.page.keyboard.press("Control+End")
+        one.page.keyboard.type(words)
+        one.page.locator("#new").click()  # at once, before the text was taken
+        one.settle()
+        assert words not in one.toml()
+        one.page.locator("#undo").click()
+        one.settle()
+        assert one.toml().endswith(words)
+        one.page.wait_for_timeout(400)
+        assert one.toml().endswith(words)
+    one.page.locator("#undo").click()
+    one.page.locator(".cm-content").click()
+    one.page.keyboard.press("Control+End")
+    one.page.keyboard.type(
+        "# c"
+    )  # soon after an undo: a step of its own, after which nothing is redone
+    one.page.locator("#tab-main").click()
+    one.settle()
+    assert not one.page.locator("#redo").is_enabled()
+    one.page.locator("#undo").click()
+    one.settle()
+    assert one.toml() == first + "# a"

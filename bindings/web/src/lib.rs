@@ -11,6 +11,7 @@ mod drawn;
 mod editing;
 mod fault;
 mod findings;
+mod instant;
 mod live;
 mod loaded;
 mod mechanism;

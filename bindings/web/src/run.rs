@@ -3,6 +3,7 @@
 use crate::convert::{written, Fields};
 use crate::fault::Fault;
 use crate::findings;
+use crate::instant;
 use crate::loaded::Loaded;
 use crate::named;
 use kempe::analyses::dynamics::{Prepared, Run};
@@ -159,6 +160,11 @@ impl Ran {
             }
         }
         Ok(found)
+    }
+
+    /// Everything at the output with this number.
+    pub fn instant(&self, at: f64) -> Result<Value, Fault> {
+        instant::described(&self.model, self.run()?, at as usize)
     }
 
     /// The quantities and expressions that can be read from the run.

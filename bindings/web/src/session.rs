@@ -79,6 +79,7 @@ impl Session {
                 self.numbers = self.last_run()?.frames()?;
                 Ok(json!({ "numbers": self.numbers.len() }))
             }
+            "instant" => self.last_run()?.instant(fields.number("at")?),
             "values" => self.values(&fields.texts("names")?),
             other => Err(Fault::new(format!("there is no request '{other}'"))),
         }

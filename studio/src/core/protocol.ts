@@ -146,6 +146,32 @@ export interface Mobility {
   four_bars: { pins: string[]; kind: string; turning: string[] | null }[];
 }
 
+/** A force on a body at a place, with its moment about this place. */
+export interface Load {
+  name: string;
+  kind: "joint" | "driver" | "force" | "gravity";
+  body: number;
+  place: Point;
+  force: Point;
+  moment: number;
+}
+
+/** A run at one output. Bodies have their numbers, ground is 0. Null is what is not unique. */
+export interface Instant {
+  t: number;
+  bodies: {
+    pose: Triple;
+    rate: Triple;
+    acceleration: Triple | null;
+    mass: number;
+    inertia: number;
+    turns: boolean;
+    center: Point;
+  }[];
+  joints: { name: string; slides: boolean; bodies: [number, number]; points: [Point, Point]; axis: number }[];
+  loads: Load[] | null;
+}
+
 /** The static part of a scene; docs/scene.md describes all of it. */
 export interface Scene {
   bounds: [number, number, number, number];
@@ -185,6 +211,7 @@ export interface Requests {
     send: { analysis?: string; t_end?: number; output_step?: number; over?: string; range?: [string, string] };
     reply: Ran | Found;
   };
+  instant: { send: { at: number }; reply: Instant };
   frames: { send: object; reply: object };
   values: { send: { names: string[] }; reply: { units: string[] } };
   save: { send: { format: "toml" | "json" }; reply: { text: string } };

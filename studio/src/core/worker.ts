@@ -1,17 +1,15 @@
 // The worker holds the core and answers one request after the other.
-import { XzReadableStream } from "xz-decompress";
 import { coreTexts } from "../coreTexts";
 import { type Core, instantiate } from "./memory";
 import { unpacked } from "./unpack";
 
 let core: Core | null = null;
 
-type Incoming = { packed: Uint8Array<ArrayBuffer> } | { number: number; request: string };
+type Incoming = { parts: Uint8Array<ArrayBuffer> } | { number: number; request: string };
 
-/** Start the core from its module, which is taken apart and compressed as xz. */
-async function start(packed: Uint8Array<ArrayBuffer>): Promise<void> {
-  const parts = new XzReadableStream(new Blob([packed]).stream());
-  core = await instantiate(unpacked(new Uint8Array(await new Response(parts).arrayBuffer())));
+/** Start the core from its taken-apart module. */
+async function start(parts: Uint8Array<ArrayBuffer>): Promise<void> {
+  core = await instantiate(unpacked(parts));
   postMessage({ ready: true });
 }
 
@@ -22,8 +20,8 @@ function answer(number: number, request: string): void {
 }
 
 addEventListener("message", ({ data }: MessageEvent<Incoming>) => {
-  if ("packed" in data) {
-    start(data.packed).catch((fault: unknown) => postMessage({ failed: String(fault) }));
+  if ("parts" in data) {
+    start(data.parts).catch((fault: unknown) => postMessage({ failed: String(fault) }));
     return;
   }
   try {

@@ -24,6 +24,8 @@ export interface Vectors {
   kind: ArrowKind;
   unit: string;
   pixels: number;
+  /** Whether their scale is painted, too; it is if this is not given. */
+  scaled?: boolean;
   vectors: Vector[];
 }
 
@@ -65,7 +67,7 @@ export function paintArrows(
       paintArrow(context, from, to, colours.named[kind], 2.4, colours.named.panel);
       if (!whole) paintBreak(context, from, to, colours.named[kind], colours.named.panel);
     }
-    right = paintScale(context, view, vectors, right, colours);
+    if (vectors.scaled !== false) right = paintScale(context, view, vectors, right, colours);
     arrows.push(...found);
   }
   paintTexts(context, arrows, view, colours, taken);
@@ -166,10 +168,10 @@ function common(a: Box, b: Box): number {
 }
 
 /** Paint the scale of a kind: a round value and its length. Returns the place to the left of it, px. */
-function paintScale(
+export function paintScale(
   context: CanvasRenderingContext2D,
-  view: View,
-  { kind, unit, pixels }: Vectors,
+  view: Pick<View, "width" | "height">,
+  { kind, unit, pixels }: Pick<Vectors, "kind" | "unit" | "pixels">,
   right: number,
   colours: Colours,
 ): number {

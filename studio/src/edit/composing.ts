@@ -93,10 +93,9 @@ export function addMachine(
 }
 
 /** A block on a straight guide of the ground or of another body. A point of a body at its place is pinned to it. */
-function slider(parts: Parts, stem: string, place: Place, to: Point, body: Body | null, pin: Type | undefined): Added {
+function slider(parts: Parts, stem: string, place: Place, to: Point, guide: Body | null, pin: Type | undefined): Added {
   const carried = place.hits.find((hit) => !hit.body.ground);
   const block = link(parts, stem, place.at, to);
-  const guide = carried ? null : body;
   const fixed = place.hits.filter((hit) => hit.body.ground);
   const on = reference(parts, { at: place.at, hits: fixed }, guide);
   if (carried) join(parts, pin, "pin", `${carried.body.name}.${carried.point}`, `${block.name}.${block.ends[0]}`);

@@ -18,6 +18,8 @@ export interface Scale {
   turn: number;
   /** The distance of the second place from the line of the first one, to its left, m; 0 without a line. */
   beside: number;
+  /** The offset with which two wheels keep their drawn positions; 0 for other elements. */
+  offset: number;
   /** Whether the chosen joint is a pin. */
   pin: boolean;
   /** Whether the display has degrees and rpm. */
@@ -64,21 +66,33 @@ function damping(scale: Scale, unit: string): number {
   return 2 * DAMPING * Math.sqrt(stiffness(scale, unit) * inertia);
 }
 
+/** The radius of a new wheel as a share of the distance of the centres: gears touch each other, belts have room. */
+export function wheelShare(required: boolean): number {
+  return required ? 1 / 4 : 1 / 2;
+}
+
 /** Values with which a new element works, by the names of their fields. */
 const USEFUL: Record<string, (scale: Scale, field: Field) => Value | undefined> = {
   free_length: ({ length }) => digits(length, 4),
   free_angle: ({ turn }) => digits(turn, 4),
   stiffness: (scale, { unit, shape }) =>
-    shape === "triple"
-      ? unit.split(",").map((one) => digits(10 * stiffness(scale, one), 1))
-      : digits(stiffness(scale, unit), 1),
+    unit === "any"
+      ? digits(scale.weight / (scale.size / 200) ** 1.5, 1) // a contact; the weight presses in by a 200th of the size
+      : shape === "triple"
+        ? unit.split(",").map((one) => digits(10 * stiffness(scale, one), 1))
+        : digits(stiffness(scale, unit), 1),
   damping: (scale, { unit, shape }) =>
     shape === "law" || shape === "number"
       ? unit.startsWith("N")
         ? digits(damping(scale, unit), 1)
         : undefined
       : undefined,
-  radii: ({ length }, { required }) => [digits(length / (required ? 4 : 2), 4), digits(length / (required ? 4 : 2), 4)],
+  radii: ({ length }, { required }) => {
+    const radius = digits(length * wheelShare(required), 9);
+    return [radius, radius];
+  },
+  // wheels stay where they are drawn
+  offset: ({ offset }) => (offset ? digits(offset, 9) : undefined),
   radius: ({ beside, size, pin }, field) =>
     field.required ? digits(beside || size / 20, 6) : pin && isAbsent(field) ? digits(size / 50, 1) : undefined,
   kinetic: () => 0.2,

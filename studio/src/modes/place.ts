@@ -12,7 +12,7 @@ import { type Added, addBody, type Case, GROUND, type Place, pointReference } fr
 import { addCurve, swap, takesCurves } from "../edit/commands";
 import { addMachine, isMachine } from "../edit/composing";
 import type { Motion } from "../edit/driving";
-import { addElement, type Scale } from "../edit/element";
+import { addElement, type Scale, wheelShare } from "../edit/element";
 import { hasLine, hasSides } from "../edit/swapping";
 import { distance, type Point } from "../plane/points";
 import { type Snapped, snapped } from "../plane/snap";
@@ -155,7 +155,9 @@ async function clickPlace(active: Tool, spot: Spot): Promise<void> {
   if (places.some((one) => distance(one.at, at) * view.scale < 2)) return;
   places.push({ at, hits });
   if (places.length > 1) typedLength.value = "";
-  below.push(hits.length ? null : bodyUnder(spot));
+  // a block may carry a point over the body that guides it
+  const carries = active.placing === "slider" || !hits.length;
+  below.push(carries ? bodyUnder(spot, new Set(hits.map(({ body }) => body.name))) : null);
   const enough = active.placing === "many" ? 8 : active.placing === "one" || active.placing === "fixed" ? 1 : 2;
   if (places.length >= enough) await make(active);
   else announce("info", prompt(active));
@@ -267,6 +269,7 @@ function scaleNow({ type }: Tool): Scale {
     mass,
     weight: mass * (Math.hypot(...gravity) || 9.81),
     turn: second - first,
+    offset: a && b ? offsetOf(type, a, b, first, second) : 0,
     beside: a && b && line ? Math.cos(first) * (b[1] - a[1]) - Math.sin(first) * (b[0] - a[0]) : 0,
     pin: catalogue.value.joints.some((one) => one.name === joint && isPin(one)),
     degrees: units.value.degrees,
@@ -290,6 +293,18 @@ async function apply(active: Tool, { changes: all, name }: Added): Promise<void>
     );
 }
 
+/** The sum of the arcs of two wheels from the line of their centres; those of a belt are subtracted. */
+function offsetOf({ fields }: Tool["type"], a: Point, b: Point, first: number, second: number): number {
+  const radii = fields.find(({ name }) => name === "radii");
+  if (!radii || !fields.some(({ name }) => name === "offset")) return 0;
+  const line = Math.atan2(b[1] - a[1], b[0] - a[0]);
+  const belt = fields.some(({ name }) => name === "crossed");
+  const turns = belt ? first - second : first + second - 2 * line;
+  // whole turns do not matter for gears
+  const least = belt ? turns : turns - 4 * Math.PI * Math.round(turns / (4 * Math.PI));
+  return Math.abs(least) > 1e-9 ? least * distance(a, b) * wheelShare(radii.required) : 0;
+}
+
 function swapAction(name: string) {
   return { label: texts.place.swap, run: () => void swap("joints", name) };
 }
@@ -299,7 +314,7 @@ async function referenceOf(active: Tool, field: Field, spot: Spot): Promise<stri
   const shape = String(field.shape);
   const taken = new Set(Object.values(chosen).map((one) => String(one).split(".")[0]!));
   const wheel = field.doc.startsWith("Centre");
-  const found = under(spot, taken, wheel);
+  const found = under(spot, taken, wheel || active.references.length === 1);
   const pivot = wheel && found.body && !found.fresh ? pivotOf(found.body) : null;
   if (pivot) {
     const hit = points().find(({ body, point }) => body === found.body && point === pivot)!;

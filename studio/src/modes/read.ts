@@ -1,8 +1,9 @@
 // Read mode: a run of an analysis, its poses over time, its quantities.
 import { batch, computed, effect, signal } from "@preact/signals";
 import type { Found, Pose, Quantity, Ran, Requests } from "../core/protocol";
-import { placeIn } from "../plane/instants";
+import { nearest, placeIn } from "../plane/instants";
 import { plainly } from "../store/blame";
+import { diagram } from "../store/diagram";
 import { note } from "../store/note";
 import { report, Superseded, send, showPresent } from "../store/session";
 import { fitWith, preview, view } from "../store/sheet";
@@ -13,7 +14,7 @@ import { gripAt } from "./grip";
 import type { Handler } from "./handler";
 import { OVER, offer, over, rangeOfCore, TIME } from "./over";
 import { written } from "./shown";
-import { duration, hasMoved, withAnalysis } from "./starting";
+import { duration, endBefore, hasMoved, withAnalysis } from "./starting";
 import { pinOf, type Stops, stopsOf, stopText, swing } from "./stops";
 
 /** A run with its frames: t and the poses of all moving bodies, row by row. A run to lower values is reversed. */
@@ -94,13 +95,17 @@ export async function run(of?: number | string): Promise<Ran | Found | null> {
       typeof of === "string" ? { analysis: of } : of === undefined ? await requested() : await untilTime(of);
     let { ok } = await send("run", fields);
     const stops = "count" in ok && ok.error && !("over" in fields) ? await stopsOf() : null;
-    if (stops) {
-      const name = "analysis" in fields ? fields.analysis! : "";
-      // a case that was drawn swings by itself; the analysis of another case may ask for this motion
-      const turn = name === drawn ? await swing(stops) : null;
-      ({ ok } = await send("run", turn ? { analysis: name } : fields));
-      await showMotion(ok as Ran, { stops, swings: turn !== null });
-    } else await ("count" in ok ? showMotion(ok) : showFound(ok));
+    // a case that was drawn changes its motion by itself; the analysis of another case may ask for this one
+    const name = "analysis" in fields && fields.analysis === drawn ? drawn : null;
+    const turn = stops && name !== null ? await swing(stops) : null;
+    if (stops) ({ ok } = await send("run", turn && name ? { analysis: name } : fields));
+    const reached = "count" in ok && ok.error && (turn || !stops) && name ? ok.t_end : 0;
+    const ends = name !== null && (await endBefore(name, reached));
+    if (ends) ({ ok } = await send("run", { analysis: name }));
+    await ("count" in ok
+      ? showMotion(ok, stops && !ends ? { stops, swings: turn !== null } : undefined)
+      : showFound(ok));
+    if (ends && !ok.error) announce("info", texts.read.shortened(written(reached, "s")));
     return ok;
   } catch (error) {
     report(error);
@@ -218,7 +223,9 @@ export function show(at: number): void {
   if (!run?.t.length) return;
   time.value = Math.min(span.value[1], Math.max(span.value[0], at));
   const base = pose.value;
-  if (base && mode.value === "read") pose.value = { ...base, t: time.value, poses: posesAt(run, time.value) };
+  // diagrams are those of an output
+  const t = diagram.value === "none" ? time.value : run.t[nearest(run.t, time.value)]!;
+  if (base && mode.value === "read") pose.value = { ...base, t, poses: posesAt(run, t) };
 }
 
 export async function play(): Promise<void> {

@@ -15,12 +15,25 @@ export interface Under {
   body: Body | null;
 }
 
-/** With `wheel`, a moving body comes before the ground to which it is pinned. */
-export function under(spot: Spot, taken: ReadonlySet<string>, wheel = false): Under {
+/** A moving body comes before the ground unless it is pinned to it there; with `moves`, also then. */
+export function under(spot: Spot, taken: ReadonlySet<string>, moves = false): Under {
   const hits = pointsUnder(spot);
   const others = hits.filter(({ body }) => !taken.has(body.name));
-  const fresh = (wheel && others.find(({ body }) => !body.ground)) || (others[0] ?? hits[0]);
-  return { spot, hits, fresh, body: fresh?.body ?? bodyUnder(spot) };
+  const moving = others.find(({ body }) => !body.ground);
+  const prefers = moves || (moving && !isPinned(moving, hits));
+  const fresh = (prefers && moving) || (others[0] ?? hits[0]);
+  return { spot, hits, fresh, body: fresh?.body ?? bodyUnder(spot, taken) ?? bodyUnder(spot) };
+}
+
+/** Whether a pin holds a point at another one of some points. */
+function isPinned(point: PointHit, hits: readonly PointHit[]): boolean {
+  const name = ({ body, point: own }: PointHit) => `${body.name}.${own}`;
+  const others = hits.filter((hit) => hit !== point).map(name);
+  const pins = new Set(catalogue.value.joints.filter(isPin).map((type) => type.name));
+  return Object.values(entries(tree.value, "joints")).some(({ type, i, j }) => {
+    const ends = [String(i), String(j)];
+    return pins.has(String(type)) && ends.includes(name(point)) && ends.some((end) => others.includes(end));
+  });
 }
 
 /** The point about which a body turns: one that is pinned, to the ground if possible. */

@@ -28,8 +28,10 @@ export function pointsUnder(spot: Spot): PointHit[] {
   return pointsAt(spot.px, points(), view, reachOf(spot.touch));
 }
 
-export function bodyUnder(spot: Spot): Body | null {
-  return bodyAt(spot.px, mechanism.value?.bodies ?? [], poses.value, items.value, view, reachOf(spot.touch));
+/** The topmost body under the pointer, without some bodies. */
+export function bodyUnder(spot: Spot, without: ReadonlySet<string> = new Set()): Body | null {
+  const bodies = mechanism.value?.bodies ?? [];
+  return bodyAt(spot.px, bodies, poses.value, items.value, view, reachOf(spot.touch), without);
 }
 
 /** The element whose symbol is under the pointer. */

@@ -50,6 +50,18 @@ export async function withAnalysis(): Promise<boolean> {
   return change([{ path: ["analyses", freeName(tree.value, "run")], value }]);
 }
 
+/** The share of the way to a dead point that a motion goes. */
+const BEFORE = 0.95;
+
+/** Let an analysis end before the time at which it fails. */
+export function endBefore(analysis: string, reached: number): Promise<boolean> {
+  if (!(reached > 0)) return Promise.resolve(false);
+  const t_end = Number((BEFORE * reached).toPrecision(3));
+  const output_step = Number((t_end / OUTPUTS).toPrecision(6));
+  const field = (name: string, value: Value): Change => ({ path: ["analyses", analysis, name], value });
+  return change([field("t_end", t_end), field("output_step", output_step)]);
+}
+
 /** Whether a drag in *Move* has left the pose of the text. */
 export function hasMoved(): boolean {
   return pose.value?.q.some((one, k) => Math.abs(one - home.value!.q[k]!) > MOVED) ?? false;

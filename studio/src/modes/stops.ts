@@ -52,8 +52,12 @@ async function endOf(over: string, begin: number, span: number): Promise<End | n
     ({ ok }) => ok as Ran,
     () => null,
   );
-  const [, value, degrees, reason] = /cannot pass (\S+?)(°?)(?: \S+)?: (.*)/s.exec(found?.error?.message ?? "") ?? [];
-  return reason === undefined ? null : { value: Number(value) * (degrees ? Math.PI / 180 : 1), reason };
+  const [, of, value, degrees, reason] =
+    /(\S+) cannot pass (\S+?)(°?)(?: \S+)?: (.*)/s.exec(found?.error?.message ?? "") ?? [];
+  // with several drivers, the end may be that of another one; an angle has the name of its body
+  return reason === undefined || (of !== over && `${of}.angle` !== over)
+    ? null
+    : { value: Number(value) * (degrees ? Math.PI / 180 : 1), reason };
 }
 
 /** The end that the driver reaches first, in words. */
@@ -79,9 +83,9 @@ export function pinOf(text: string, poses: readonly (readonly [number, number, n
   return first?.find((a) => second?.some((b) => distance(a, b) < 1e-6 * size)) ?? first?.[0] ?? null;
 }
 
-/** Let a driver swing between its ends; returns the time of one swing, or null if it has only one end. */
+/** Let a driver swing between its ends; returns the time of one swing, or null if it is not between two ends. */
 export async function swing({ driver, begin, low, high }: Stops): Promise<number | null> {
-  if (!low || !high) return null;
+  if (!low || !high || !(low.value < begin && begin < high.value)) return null;
   const middle = (low.value + high.value) / 2;
   const reach = (SHARE * (high.value - low.value)) / 2;
   const own = speedsOf(tree.value, mechanism.value?.parameters ?? []).find((one) => one.driver === driver);

@@ -1,18 +1,15 @@
-// The core in the page: base64 of the compressed module, for workers that are made from a text.
+// The core in the page, for workers that are made from a text.
 import source from "virtual:worker";
 import type { Line } from "../core/transport";
 
-/** The compressed core, read from the page. */
-export function packedCore(): Uint8Array {
-  const text = document.getElementById("core")!.textContent ?? "";
-  return Uint8Array.from(atob(text.trim()), (letter) => letter.charCodeAt(0));
-}
+/** The taken-apart core, which boot.ts gives to the script of the program. */
+export const parts = (document.currentScript as HTMLScriptElement & { parts: Uint8Array }).parts;
 
 /** Start a worker and send it the core. */
-export function worker(packed: Uint8Array): Line {
+export function worker(): Line {
   const address = URL.createObjectURL(new Blob([source], { type: "text/javascript" }));
   const made = new Worker(address);
   URL.revokeObjectURL(address);
-  made.postMessage({ packed });
+  made.postMessage({ parts });
   return made as Line;
 }

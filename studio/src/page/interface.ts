@@ -1,6 +1,7 @@
 // window.kempe: the page for programs, as studio/README.md describes it.
 
 import type { Found, Loaded, Ran } from "../core/protocol";
+import { diagrams } from "../diagrams/shown";
 import { enter } from "../modes/modes";
 import { course, run, valuesOf } from "../modes/read";
 import type { Point } from "../plane/points";
@@ -16,6 +17,7 @@ export interface Interface {
   quantity(name: string): Promise<{ value: number; unit: string }>;
   run(of?: number | string): Promise<Ran | Found | null>;
   values(names: string[]): Promise<{ t: number[]; units: string[]; rows: number[][] }>;
+  diagrams(output?: number): Promise<object | null>;
   screen(point: Point): Promise<Point>;
   settled(): Promise<void>;
 }
@@ -44,6 +46,7 @@ export const kempe: Interface = {
     return [left + x, top + y];
   },
   settled,
+  diagrams,
   quantity: async (name) => (await send("quantity", { name })).ok,
   async values(names) {
     const { units, rows } = await valuesOf(names);

@@ -1,6 +1,8 @@
 // Paints the whole drawing from the state of the page.
 import { isPin } from "../catalogue/catalogue";
 import { entry } from "../catalogue/tree";
+import { paintCentres, paintCentrodes } from "../diagrams/painting";
+import { centres, centrodes } from "../diagrams/shown";
 import { paintArea } from "../draw/area";
 import { paintArrows, type Vectors } from "../draw/arrows";
 import { LENGTHS } from "../draw/display";
@@ -32,6 +34,8 @@ export function follow(): void {
   for (const one of [
     backdrop,
     blamed,
+    centres,
+    centrodes,
     ghost,
     viewed,
     preview,
@@ -67,6 +71,8 @@ export function paintSheet(context: CanvasRenderingContext2D, colours: Colours =
     if (!items.value.length) paintLinks(context, view, found.bodies, poses.value, colours);
     if (editing) paintHandles(context, view, loosePoints(), colours);
     names.push(...paintNotes(context, notes.value, colours));
+    if (mode.value === "read" && centrodes.value) paintCentrodes(context, view, centrodes.value, poses.value, colours);
+    if (mode.value === "read") paintCentres(context, view, centres.value, found.bodies.length, colours);
     paintArrows(context, view, vectors.value.map(sized), names, colours);
     paintGravity(context, view, found.gravity, colours);
   }

@@ -115,19 +115,29 @@ function connect(host: HTMLElement): () => void {
   parent.style.height = "100%";
   root.replaceChildren(parent);
   let timer: ReturnType<typeof setTimeout> | undefined;
+  /** Take what was typed last, before anything else changes the text. */
+  const flush = () => {
+    if (timer === undefined) return;
+    clear();
+    void type(view.state.doc.toString());
+  };
+  const clear = () => {
+    clearTimeout(timer);
+    timer = undefined;
+  };
   /** The history is that of the case; what was typed is a part of it. */
   const step = (_: EditorView, event: KeyboardEvent) => {
     const key = event.key.toLowerCase();
     if (!(event.ctrlKey || event.metaKey) || !["y", "z"].includes(key)) return false;
-    clearTimeout(timer);
+    clear();
     void type(view.state.doc.toString()).then(key === "y" || event.shiftKey ? redo : undo);
     return true;
   };
   const listener = EditorView.updateListener.of((update) => {
     if (!update.docChanged) return;
-    clearTimeout(timer);
+    clear();
     if (update.transactions.some((one) => one.isUserEvent("outside"))) return;
-    timer = setTimeout(() => void type(update.state.doc.toString()), PAUSE);
+    timer = setTimeout(flush, PAUSE);
   });
   const view = new EditorView({
     root,
@@ -160,7 +170,10 @@ function connect(host: HTMLElement): () => void {
       );
     }),
   ];
+  host.addEventListener("focusout", flush);
   return () => {
+    host.removeEventListener("focusout", flush);
+    flush();
     for (const stop of stops) stop();
     view.destroy();
   };

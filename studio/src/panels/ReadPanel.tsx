@@ -23,6 +23,7 @@ import { arrows, KINDS, type Kind, onBody } from "../page/motionOverlay";
 import { plots, stored } from "../store/plots";
 import { mechanism } from "../store/state";
 import { texts } from "../texts";
+import { Diagram } from "./Diagram";
 import { Findings } from "./Findings";
 import { Measures } from "./Measures";
 import { OverFields } from "./OverFields";
@@ -84,6 +85,7 @@ export function ReadPanel() {
             ))}
             <Add />
           </Section>
+          <Diagram />
           <Measures />
         </>
       ) : found.value ? (

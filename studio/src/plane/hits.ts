@@ -37,7 +37,7 @@ export function pointsAt(px: Point, points: readonly PointHit[], view: View, rea
   return found.filter((hit) => far(hit) < least + 1);
 }
 
-/** The topmost body under a place, without ground. */
+/** The topmost body under a place, without ground and some others. */
 export function bodyAt(
   px: Point,
   bodies: readonly Body[],
@@ -45,10 +45,11 @@ export function bodyAt(
   items: readonly Item[],
   view: View,
   reach: number,
+  without: ReadonlySet<string>,
 ): Body | null {
   let best: { body: Body; far: number } | null = null;
   bodies.forEach((body, k) => {
-    if (body.ground || !poses[k]) return;
+    if (body.ground || without.has(body.name) || !poses[k]) return;
     const far = Math.min(farFromLinks(px, body, poses[k], view), farFromItems(px, body.name, items, poses, view));
     if (far < reach && (!best || far <= best.far)) best = { body, far };
   });

@@ -17,3 +17,9 @@ export function placeIn(times: ArrayLike<number>, t: number): Between {
   const h = times[high]! - times[low]!;
   return { low, high, share: h > 0 ? Math.min(1, Math.max(0, (t - times[low]!) / h)) : 0 };
 }
+
+/** The number of the output nearest to t. */
+export function nearest(times: ArrayLike<number>, t: number): number {
+  const { low, high, share } = placeIn(times, t);
+  return share < 0.5 ? low : high;
+}

@@ -30,7 +30,8 @@ const PAUSE = 900;
 export const past = signal<Step[]>([]);
 export const future = signal<Step[]>([]);
 export const file = signal<CaseFile>({ name: "mechanism.toml" });
-let typedAt = 0;
+/** The last text that was typed, and when. */
+let typed = { text: "", at: 0 };
 
 function present(given = text.value): Step {
   return { text: given, file: file.value, opening: openings.value };
@@ -83,11 +84,11 @@ export async function take(given: string, record = true, before = text.value): P
   }
 }
 
-/** Replace the text while the user types. Quick changes are one step of the history. */
+/** Replace the text while the user types. Quick changes without others between them are one step of the history. */
 export async function type(given: string): Promise<void> {
   const now = Date.now();
-  const record = now - typedAt > PAUSE;
-  typedAt = now;
+  const record = now - typed.at > PAUSE || text.value !== typed.text || future.value.length > 0;
+  typed = { text: given, at: now };
   await take(given, record);
 }
 

@@ -272,7 +272,7 @@ function paintArrows(context, view, kinds, taken, colours2) {
       paintArrow(context, from, to, colours2.named[kind], 2.4, colours2.named.panel);
       if (!whole) paintBreak(context, from, to, colours2.named[kind], colours2.named.panel);
     }
-    right = paintScale(context, view, vectors, right, colours2);
+    if (vectors.scaled !== false) right = paintScale(context, view, vectors, right, colours2);
     arrows.push(...found);
   }
   paintTexts(context, arrows, view, colours2, taken);
