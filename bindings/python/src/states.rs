@@ -7,7 +7,7 @@ use crate::model::{stretches, PyModel, WrittenMode};
 use crate::names::{constraint, force, frame_named, one_of, unknown};
 use crate::respond::{energies, missing, responses, Table};
 use kempe::analyses::dynamics::{self as core, friction_modes};
-use kempe::analyses::NotUnique;
+use kempe::analyses::{not_unique, NotUnique};
 use kempe::elements::{BodyId, Mode};
 use kempe::equations::actions::{self, each_action};
 use kempe::equations::constraints;
@@ -379,9 +379,7 @@ impl PyStates {
         guard("States.not_unique", || {
             let active = &**self.model.get().active.prepared.model();
             let n = active.layout.n_q;
-            let at = |(k, t): (usize, &f64)| {
-                kempe::analyses::not_unique(active, *t, &self.q[k * n..(k + 1) * n])
-            };
+            let at = |(k, t): (usize, &f64)| not_unique(active, *t, &self.q[k * n..(k + 1) * n]);
             let found: Vec<NotUnique> = self.t.iter().enumerate().map(at).collect();
             let names = |of: fn(&NotUnique) -> &Vec<usize>| {
                 let all: BTreeSet<usize> = found.iter().flat_map(of).copied().collect();

@@ -59,9 +59,8 @@ impl<S: Real> Model<S> {
     pub fn new(blueprint: &Arc<Blueprint>, parameters: &[S]) -> Self {
         let reference = Reference(parameters);
         let value = &mut |tape: &Tape| tape.evaluate(&reference);
-        let mut touched = Vec::new();
+        let (mut touched, mut switches) = (Vec::new(), Vec::new());
         let mut constraints: Vec<ConstraintItem<S>> = Vec::new();
-        let mut switches = Vec::new();
         for (name, group, formula) in blueprint.constraints.iter() {
             let mut depends = Dependence::default();
             formula.map(&mut |tape| depends.add(tape));

@@ -270,9 +270,9 @@ def _rate_name(motion: Motion, owner: str, position: str) -> str:
     element = compiled.constraints.get(owner) or compiled.forces.get(owner)
     of_body = dict(zip(COORDINATES, RATES, strict=True))
     measured = element.measured if element is not None else ()
-    own = getattr(element, "coordinates", ())
-    names = {of.names[0]: of.names[1] for of in measured} | {of: f"{of}_rate" for of, _ in own}
-    return {**of_body, **names}[position]
+    own = element.coordinates if isinstance(element, ConstraintInfo) else ()
+    places = {name: f"{name}_rate" for name, _ in own}
+    return {**of_body, **{of.names[0]: of.names[1] for of in measured}, **places}[position]
 
 
 def of_force(motion: Motion, info: ForceInfo) -> Family:

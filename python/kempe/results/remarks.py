@@ -2,10 +2,11 @@
 
 Redundant constraints do not determine the reactions of the joints that take part; the values are
 then the smallest ones that carry the loads. Joints that keep a coordinate only to second order
-would need infinite forces for a load along it, which their values leave out. Friction that drivers hold at rest may carry any part
-of the load up to its limit; the values are then the middle of their interval. A run can also pass a
-singular position beside which a reaction has no bound. Tables, files and figures state this beside
-the values, and so they do for measures and other results that read such a joint or driver.
+would need infinite forces for a load along it, which their values leave out. Friction that drivers
+hold at rest may carry any part of the load up to its limit; the values are then the middle of their
+interval. A run can also pass a singular position beside which a reaction has no bound. Tables,
+files and figures state this beside the values, and so they do for measures and other results that
+read such a joint or driver.
 """
 
 from __future__ import annotations

@@ -1,12 +1,13 @@
 //! The guard at the end of a run: a result that does not satisfy its own equations is an error.
 //!
-//! It looks at up to [`EXAMINED`] reported states of each phase: at the energy balance, the joints, the gaps of rigid
+//! It looks at [some](ExaminedRows) reported states of each phase: at the energy balance, the joints, the gaps of rigid
 //! contacts, and the Newton–Euler balances of the reported forces. The limits are options of the run. Drift without
 //! projection, the energy that damped methods lose and the error of constant steps belong to the method that was chosen:
 //! they become [doubts](Run::doubts) of the result.
 
 use super::accelerations::{accelerations, Accelerations};
 use super::energies::energies;
+use super::examined_rows::{each, ExaminedRows};
 use super::failure::{equation, Failure, Reason};
 use super::methods::Scheme;
 use super::model_cache::ModelCache;
@@ -26,8 +27,6 @@ use crate::integrate::Flow;
 use crate::math::Listed;
 use crate::model::{row_scales, Model, WORKS};
 
-/// Largest number of examined states of a phase.
-const EXAMINED: usize = 64;
 /// Opening of a joint without projection, relative to the size or in rad, beyond which the result has a doubt.
 const DRIFT: f64 = 1e-4;
 /// Opening of a joint in a run that passed a singular position, beside which a gap e moves bodies by √e, or with
@@ -322,50 +321,6 @@ fn owner(model: &Model, k: usize) -> String {
     let own = model.layout.constraints.iter().position(|of| of.own.range().contains(&column));
     let name = own.map_or("a joint", |own| &model.constraints[own].name);
     format!("the place of {name} on its curve")
-}
-
-/// The times and states of a table.
-fn each<'a>(
-    model: &Model,
-    States { t, q, v, z }: States<'a>,
-) -> impl Iterator<Item = (f64, [&'a [f64]; 3])> {
-    let (n, n_z) = (model.layout.n_q, model.layout.n_z);
-    t.iter().enumerate().map(move |(k, t)| {
-        let row = k * n..(k + 1) * n;
-        (*t, [&q[row.clone()], &v[row], &z[k * n_z..(k + 1) * n_z]])
-    })
-}
-
-/// Some rows of a table of states.
-#[derive(Default)]
-struct ExaminedRows {
-    t: Vec<f64>,
-    q: Vec<f64>,
-    v: Vec<f64>,
-    z: Vec<f64>,
-    works: Vec<f64>,
-}
-
-impl ExaminedRows {
-    /// At most [`EXAMINED`] rows at equal intervals, and the last one.
-    fn some(model: &Model, states: States<'_>, works: &[f64]) -> Self {
-        let (mut rows, count) = (Self::default(), states.t.len());
-        let every = count.div_ceil(EXAMINED).max(1);
-        for (k, (t, [q, v, z])) in each(model, states).enumerate() {
-            if k % every == 0 || k + 1 == count {
-                rows.t.push(t);
-                rows.q.extend_from_slice(q);
-                rows.v.extend_from_slice(v);
-                rows.z.extend_from_slice(z);
-                rows.works.extend_from_slice(&works[WORKS * k..WORKS * (k + 1)]);
-            }
-        }
-        rows
-    }
-
-    fn states(&self) -> States<'_> {
-        States { t: &self.t, q: &self.q, v: &self.v, z: &self.z }
-    }
 }
 
 /// Ends a run: an error if it exceeds a limit, otherwise its doubts become part of it. A run that the caller stopped is

@@ -40,6 +40,7 @@ mod contact_resolution;
 mod course;
 mod energies;
 mod event_list;
+mod examined_rows;
 mod failure;
 mod guard;
 mod implicit_motion;

@@ -34,7 +34,7 @@ pub(super) fn effort(point: &Value, hold: &[String], name: &str) -> Value {
     }
     let drivers = point["efforts"].as_array().into_iter().flatten();
     let own = drivers.filter(|pair| pair[0] == name).map(|pair| pair[1].clone());
-    own.last().unwrap_or(Value::Null)
+    own.next_back().unwrap_or(Value::Null)
 }
 
 /// The values of a measure, or of an expression of quantities, at the points of a record.
