@@ -32,9 +32,8 @@ pub(super) fn effort(point: &Value, hold: &[String], name: &str) -> Value {
     if let Some(place) = hold.iter().position(|held| held == name) {
         return point["holders"][place].clone();
     }
-    let drivers = point["efforts"].as_array().into_iter().flatten();
-    let own = drivers.filter(|pair| pair[0] == name).map(|pair| pair[1].clone());
-    own.next_back().unwrap_or(Value::Null)
+    let mut drivers = point["efforts"].as_array().into_iter().flatten();
+    drivers.find(|pair| pair[0] == name).map_or(Value::Null, |pair| pair[1].clone())
 }
 
 /// The values of a measure, or of an expression of quantities, at the points of a record.
