@@ -116,7 +116,7 @@ def test_an_interruption_keeps_what_is_finished(case: kp.Case, folder: Path) -> 
 
 
 def test_an_interruption_within_a_block_arrives_at_once(folder: Path) -> None:
-    script = SCRIPT.replace("flagship(8.0)", "flagship(5000.0)")
+    script = SCRIPT.replace("flagship(8.0)", "flagship(9000.0)").replace("'n': 12", "'n': 120")
     with subprocess.Popen(
         [sys.executable, "-c", script, "s.db"], cwd=folder, stderr=subprocess.PIPE, text=True
     ) as child:

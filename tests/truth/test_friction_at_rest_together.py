@@ -21,6 +21,7 @@ class Crank:
     Attributes:
         unit, mass: its size and the masses of its bodies.
         friction: for each joint with friction, µ and the radius of the pin (0 for the slide).
+        given: the loads that do not follow from reactions.
         push: the force on the slider in the direction of x.
     """
 
@@ -35,10 +36,12 @@ class Crank:
         self.friction = {
             name: (
                 draw.uniform(0.1, 0.35),
-                radius.get(name, self.unit * 10.0 ** draw.uniform(-2.5, -0.5)),
+                radius.get(name, self.unit * 10.0 ** draw.uniform(-1.5, -0.5)),
             )
             for name in joints
         }
+        weight = self.mass.sum() * GRAVITY
+        self.given = {n: weight * draw.uniform(0.2, 2) for n in joints if draw.uniform() < 0.4}
         crank, rod = self.lengths
         at = crank * np.array([math.cos(self.angle), math.sin(self.angle)])
         self.places = at, np.array([at[0] + math.sqrt(rod**2 - at[1] ** 2), 0.0])
@@ -64,6 +67,7 @@ class Crank:
         m.force("push", "block.P", force=(self.push, 0))
         for name, (mu, radius) in self.friction.items():
             of = {"radius": radius} if radius else {}
+            of |= {"load": self.given[name]} if name in self.given else {}
             m.friction(f"rub_{name}", name, kinetic=0.5 * mu, static=mu, **of)
         return m
 
@@ -100,6 +104,7 @@ class Crank:
             x = self.statics(push, efforts, efforts["slide"])
             loads = {n: math.hypot(*x[2 * k : 2 * k + 2]) for k, n in enumerate("ABC")}
             loads["slide"] = abs(x[6])
+            loads |= self.given
             before = dict(efforts)
             for name, (mu, radius) in self.friction.items():
                 goal = sense[name] * part * mu * (radius or 1.0) * loads[name]

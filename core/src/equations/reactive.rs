@@ -40,9 +40,20 @@ const NOISE: f64 = 1e-13;
 const FIRST: f64 = 0.25;
 const LEAST: f64 = 1e-5;
 
-/// Whether forces depend on reactions. If so, the motion depends on the loads of joints.
+/// Whether forces depend on reactions, or on the multiplier of friction that they follow. If so, the motion depends on
+/// the loads of joints.
 pub fn depends<S: Real>(model: &Model<S>) -> bool {
-    model.forces.iter().any(|force| force.reaction.is_some())
+    (0..model.forces.len()).any(|k| takes_part(model, k))
+}
+
+/// Whether a force depends on multipliers, or another one follows it.
+fn takes_part<S>(model: &Model<S>, k: usize) -> bool {
+    let follows =
+        |own: Mode, leader: usize| matches!(own, Mode::Follows { leader: of, .. } if of == leader);
+    let item = &model.forces[k];
+    item.reaction.is_some()
+        || matches!(item.mode, Mode::Follows { .. })
+        || model.forces.iter().any(|other| follows(other.mode, k))
 }
 
 /// The rows of the multipliers on which forces or loads of joints depend, ascending.
@@ -80,7 +91,8 @@ struct LoadedBearing<'m, S: Clone> {
     at: Situation<'m, S>,
     /// The effort without the reaction, which the equations without these forces contain already.
     base: S,
-    /// The first row of the joint, and the reaction for a unit multiplier of each of its rows.
+    /// The first row of the joint, and the reaction for a unit multiplier of each of its rows. There are none if the
+    /// load is given.
     first: usize,
     units: Vec<Wrench<S>>,
 }
@@ -91,7 +103,7 @@ type Sloped<S> = (S, Wrench<S>);
 impl<'m, S: Real> LoadedBearing<'m, S> {
     fn new(model: &'m Model<S>, k: usize, motions: &'m Motions<S>, acting: Acting<'m, S>) -> Self {
         let item = &model.forces[k];
-        let joint = item.reaction.expect("it depends on a reaction").0;
+        let joint = item.reaction.map(|joint| joint.0);
         let element = forces::at_state(model, item, motions, acting);
         let at = forces::situation(model, k, motions, acting);
         Self {
@@ -100,8 +112,8 @@ impl<'m, S: Real> LoadedBearing<'m, S> {
             base: element.effort(&at).0,
             element,
             at,
-            first: model.layout.constraints[joint].rows.start,
-            units: reactions::units(model, joint, motions, acting.t),
+            first: joint.map_or(0, |joint| model.layout.constraints[joint].rows.start),
+            units: joint.map_or_else(Vec::new, |k| reactions::units(model, k, motions, acting.t)),
         }
     }
 
@@ -175,8 +187,7 @@ impl<'m, S: Real> Sources<'m, S> {
         acting: Acting<'m, S>,
         mut respond: impl FnMut(&[S]) -> Result<Vec<S>, E>,
     ) -> Result<Self, E> {
-        let depends = |k: &usize| model.forces[*k].reaction.is_some();
-        let own = (0..model.forces.len()).filter(depends);
+        let own = (0..model.forces.len()).filter(|k| takes_part(model, *k));
         let bearings: Vec<_> = own.map(|k| LoadedBearing::new(model, k, motions, acting)).list();
         let place = |k: usize| bearings.iter().position(|of| of.force == k);
         let mut all = Vec::new();
@@ -186,7 +197,7 @@ impl<'m, S: Real> Sources<'m, S> {
                 Mode::Holds(_) | Mode::Idle => continue,
                 Mode::Follows { leader, sense } => {
                     let row = model.forces[leader].held_row;
-                    let Some((leader, row)) = place(leader).zip(row) else { continue };
+                    let (leader, row) = place(leader).zip(row).expect("it takes part and holds");
                     Effort::Follows { own, leader, row, sense }
                 }
                 _ => Effort::Slides(own),
