@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pytest
-from studio.conftest import PAGE, opened
+from studio.conftest import PAGE
 from studio.window import Opener, Studio
 
 if TYPE_CHECKING:
@@ -67,7 +67,7 @@ def link(one: Studio) -> str:
 
 
 def with_link_of(one: Studio, size: int) -> None:
-    """Open a case whose link has a number of bytes, or at most two fewer; the dialog is open then."""
+    """Open a case whose link has this size, or at most two bytes less; the dialog is open."""
     letters = random.Random(7)
     bulk = "".join(letters.choices("abcdefghijklmnopqrstuvwxyz0123456789", k=size))
     low, high = 0, size
@@ -168,6 +168,7 @@ def test_the_frame_of_a_course_page_has_a_drawing_and_a_slider(
     course.page.wait_for_timeout(100)
     assert frame.evaluate(drawn) != before
     assert frame.evaluate("document.scrollingElement.scrollHeight <= innerHeight")
+    assert frame.evaluate("document.scrollingElement.scrollWidth <= innerWidth")
     whole = frame.locator("footer a").get_attribute("href")
     assert whole is not None and "#m=" in whole
     assert frame.evaluate("sessionStorage.length") == 0  # the work of a tab is not that of a frame
@@ -225,7 +226,11 @@ def test_the_sheet_has_title_drawing_dimensions_and_link(fresh: Opener) -> None:
     words = sheet.inner_text()
     assert "Four-bar linkage with a rotational spring-damper" in words
     rows = dict(
-        zip(sheet.locator("dt").all_inner_texts(), sheet.locator("dd").all_inner_texts(), strict=True)
+        zip(
+            sheet.locator("dt").all_inner_texts(),
+            sheet.locator("dd").all_inner_texts(),
+            strict=True,
+        )
     )
     assert rows["L2"].startswith("26")
     assert rows["crank A–B"] == "10.00 m"
