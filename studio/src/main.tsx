@@ -4,7 +4,7 @@ import { examples } from "virtual:examples";
 import { render } from "preact";
 import { failed } from "./coreTexts";
 import { EMPTY, take } from "./give/files";
-import { textOf } from "./give/link";
+import { isFramed, textOf } from "./give/link";
 import { enter } from "./modes/modes";
 import { worker } from "./page/core";
 import { kempe } from "./page/interface";
@@ -23,6 +23,8 @@ import "./style/panels.css";
 import "./style/phone.css";
 
 const FIRST = "four_bar";
+/** Whether this page is in a frame of another page. */
+const framed = isFramed(location.hash);
 
 /** The text that `kempe studio FILE` has written into the page, or null. */
 function ownText(): string | null {
@@ -38,6 +40,18 @@ function givenText(): string | null | undefined {
   }
 }
 
+function first(): string {
+  return examples.find(({ name }) => name === FIRST)?.text ?? EMPTY;
+}
+
+/** Open and run the case of a frame. Its tab has the work of other pages, which stays as it is. */
+async function beginFramed(): Promise<void> {
+  const given = givenText();
+  if (given === undefined) return announce("problem", texts.share.damaged);
+  await open(given ?? first());
+  enter("read");
+}
+
 /** Open the text of the link, the text of the page, or the first example, unless this tab has begun with it. */
 async function begin(): Promise<void> {
   const given = givenText();
@@ -47,7 +61,7 @@ async function begin(): Promise<void> {
     await show(kept.text, false);
     if (kept.source === source) enter(kept.mode);
   }
-  if (kept?.source !== source) await open(given ?? examples.find(({ name }) => name === FIRST)?.text ?? EMPTY);
+  if (kept?.source !== source) await open(given ?? first());
   begunWith(source);
   keep();
   tellApart(kept !== null);
@@ -56,6 +70,7 @@ async function begin(): Promise<void> {
 
 /** Open the text of another link. */
 async function follow(): Promise<void> {
+  if (framed || isFramed(location.hash)) return location.reload();
   const given = givenText();
   if (given) {
     await open(given);
@@ -65,17 +80,17 @@ async function follow(): Promise<void> {
 
 async function start(): Promise<void> {
   connect(worker);
-  await begin();
+  await (framed ? beginFramed() : begin());
 }
 
-render(<Page />, document.getElementById("page")!);
-listenToKeys();
+render(<Page framed={framed} />, document.getElementById("page")!);
+if (!framed) listenToKeys();
 addEventListener("hashchange", () => void follow());
 addEventListener("dragover", (event) => event.preventDefault());
 addEventListener("drop", (event) => {
   event.preventDefault();
   const file = event.dataTransfer?.files[0];
-  if (file) void take(file);
+  if (file && !framed) void take(file);
 });
 Object.defineProperty(window, "kempe", { value: Object.freeze(kempe) });
 start().catch(() => announce("problem", failed));

@@ -1,6 +1,7 @@
 import { deflateSync } from "fflate";
 import { expect, test } from "vitest";
-import { linkOf, MOST_OF_LINK, textOf } from "../src/give/link";
+import { codeOf, MOST_OF_CODE } from "../src/give/code";
+import { frameOf, isFramed, linkOf, MOST_OF_LINK, textOf, wholeLink } from "../src/give/link";
 import { MOST_OF_TEXT } from "../src/store/limits";
 
 function hashOf(bytes: Uint8Array): string {
@@ -38,4 +39,20 @@ test("a damaged, cut or overlong link is refused", () => {
   expect(() => textOf(whole.slice(0, -4))).toThrow();
   expect(() => textOf("#m=%%%")).toThrow();
   expect(() => textOf(`#m=${"A".repeat(MOST_OF_LINK)}`)).toThrow("too long");
+});
+
+test("a frame has the model, and leads back to the link", () => {
+  const link = linkOf("title = 'four bars'\n", "https://host/page?a=1&b=2");
+  const frame = frameOf(link, '"><script>');
+  expect(frame).toContain('title="&quot;&gt;&lt;script&gt;"');
+  const address = /src="([^"]*)"/.exec(frame)![1]!.replaceAll("&amp;", "&");
+  expect(isFramed(new URL(address).hash)).toBe(true);
+  expect(textOf(new URL(address).hash)).toBe("title = 'four bars'\n");
+  expect(wholeLink(address)).toBe(link);
+  expect(isFramed(new URL(link).hash)).toBe(false);
+});
+
+test("a code has a limit", () => {
+  expect(codeOf("a".repeat(MOST_OF_CODE))!.size).toBe(177 + 8);
+  expect(codeOf("a".repeat(MOST_OF_CODE + 1))).toBeNull();
 });

@@ -42,6 +42,6 @@ def test_the_player_has_only_its_own_part_of_the_texts() -> None:
     texts = (STUDIO / "src" / "texts.ts").read_text(encoding="utf-8")
     script = (ASSETS / "player.js").read_text(encoding="utf-8")
     assert "Plot over time" in script
-    for other in ("Assembly modes", "A link that holds the whole model", "needs JavaScript"):
+    for other in ("Assembly modes", "Link, QR code, course page, paper", "needs JavaScript"):
         assert other in texts
         assert other not in script

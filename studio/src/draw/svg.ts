@@ -141,7 +141,8 @@ function tidy(value: number): string {
   return String(Number(value.toFixed(2)));
 }
 
-function escaped(text: string): string {
+/** A text inside HTML or SVG. */
+export function escaped(text: string): string {
   return text.replaceAll("&", "&amp;").replaceAll("<", "&lt;").replaceAll(">", "&gt;").replaceAll('"', "&quot;");
 }
 

@@ -1,5 +1,6 @@
-// Links that hold the whole model: the text, compressed, in the part after the #.
+// Links that hold the whole model: the text, compressed, in the part after the #. Frames of other pages have links of their own.
 import { deflateSync, Inflate, strFromU8, strToU8 } from "fflate";
+import { escaped } from "../draw/svg";
 import { MOST_OF_TEXT } from "../store/limits";
 import { texts } from "../texts";
 
@@ -8,6 +9,10 @@ export const MOST_OF_LINK = 64 * 1024;
 /** The number of compressed bytes that are inflated at a time. Each can become a thousand bytes. */
 const PIECE = 512;
 const MARK = "#m=";
+/** The mark of a page in a frame: it shows only the drawing and a slider. */
+const FRAMED = "#embed";
+/** The size of a frame, px; a course page may change it. */
+const FRAME = { width: 640, height: 480 };
 
 /** The link to this page with a text. */
 export function linkOf(text: string, page = location.href): string {
@@ -16,9 +21,27 @@ export function linkOf(text: string, page = location.href): string {
 
 /** The text of a link, or null if the link has none; raises an error if it is damaged or too long. */
 export function textOf(hash: string): string | null {
-  if (!hash.startsWith(MARK)) return null;
+  const mark = [MARK, `${FRAMED}=`].find((one) => hash.startsWith(one));
+  if (!mark) return null;
   if (hash.length > MOST_OF_LINK) throw new Error(texts.share.damaged);
-  return strFromU8(inflated(decode(hash.slice(MARK.length))));
+  return strFromU8(inflated(decode(hash.slice(mark.length))));
+}
+
+/** Whether a page with this part after the # is in a frame. */
+export function isFramed(hash: string): boolean {
+  return hash === FRAMED || hash.startsWith(`${FRAMED}=`);
+}
+
+/** The link to the whole page from the link of a frame. */
+export function wholeLink(framed: string): string {
+  return framed.replace(FRAMED, MARK.slice(0, -1));
+}
+
+/** The HTML that shows a link in a frame of another page. */
+export function frameOf(link: string, title: string): string {
+  const [address, name] = [link.replace(MARK, `${FRAMED}=`), title].map(escaped);
+  const size = `width="${FRAME.width}" height="${FRAME.height}"`;
+  return `<iframe src="${address}" title="${name}" ${size} style="border: 0; max-width: 100%" loading="lazy"></iframe>`;
 }
 
 /** Inflate in pieces, and stop at the limit, so that a malicious link cannot fill the memory. */

@@ -55,10 +55,15 @@ export function savePng(name: string, { width, height }: Size, paint: Paint): vo
   canvas.toBlob((blob) => blob && download(name, blob, "image/png"), "image/png");
 }
 
-/** Offer a picture as SVG. */
-export function saveSvg(name: string, { width, height }: Size, paint: Paint): void {
+/** A picture as SVG. */
+export function svgOf({ width, height }: Size, paint: Paint): string {
   const svg = new SvgContext(document.createElement("canvas").getContext("2d")!);
   const colours = paperPalette();
   paint(svg.context, colours);
-  download(name, svg.written(Math.round(width), Math.round(height), colours.named.panel), "image/svg+xml");
+  return svg.written(Math.round(width), Math.round(height), colours.named.panel);
+}
+
+/** Offer a picture as SVG. */
+export function saveSvg(name: string, size: Size, paint: Paint): void {
+  download(name, svgOf(size, paint), "image/svg+xml");
 }

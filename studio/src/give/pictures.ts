@@ -3,10 +3,15 @@ import { paintSheet } from "../page/painting";
 import { view } from "../store/sheet";
 import { title } from "../store/state";
 import { nameOf } from "./download";
-import { savePng, saveSvg } from "./picture";
+import { savePng, saveSvg, svgOf } from "./picture";
 
 export function saveDrawingSvg(): void {
   saveSvg(nameOf(title.value, ".svg"), view, (context, colours) => paintSheet(context, colours, true));
+}
+
+/** The drawing as SVG. */
+export function drawingSvg(): string {
+  return svgOf(view, (context, colours) => paintSheet(context, colours, true));
 }
 
 export function saveDrawing(): void {

@@ -25,8 +25,6 @@ import { Button, Check } from "./parts";
 const FIRST = "first picture";
 
 export function Sheet() {
-  const canvas = useRef<HTMLCanvasElement>(null);
-  useEffect(() => connect(canvas.current!), []);
   const words = texts.sheet;
   return (
     <section class="panel sheet-panel" aria-label={words.label(title.value || texts.untitled)}>
@@ -68,19 +66,21 @@ export function Sheet() {
         <ToolBox />
       </div>
       <div class="space">
-        <canvas
-          id="sheet"
-          ref={canvas}
-          tabIndex={0}
-          role="img"
-          aria-label={words.label(title.value || texts.untitled)}
-        />
+        <Drawing />
         <Guide />
         <Note />
         <Menu />
       </div>
     </section>
   );
+}
+
+/** The canvas. A fixed one leaves the pointer to the page around it, which may scroll. */
+export function Drawing({ fixed = false }: { fixed?: boolean }) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  useEffect(() => connect(canvas.current!, fixed), []);
+  const label = texts.sheet.label(title.value || texts.untitled);
+  return <canvas id="sheet" ref={canvas} tabIndex={fixed ? -1 : 0} role="img" aria-label={label} />;
 }
 
 /** The button that saves the motion as a GIF. While the GIF is made, it shows the progress, and a click cancels. */
@@ -130,7 +130,7 @@ function ToolBox() {
 }
 
 /** Paint after each change of the drawing, at most once for each frame of the screen. */
-function connect(canvas: HTMLCanvasElement): () => void {
+function connect(canvas: HTMLCanvasElement, fixed: boolean): () => void {
   let colours = palette();
   const paint = soon(() => {
     sharpen(canvas);
@@ -141,7 +141,7 @@ function connect(canvas: HTMLCanvasElement): () => void {
     follow();
     paint();
   });
-  listenToPointer(canvas, view, handler, viewChanged, (spot) => void openMenu(spot).catch(report));
+  if (!fixed) listenToPointer(canvas, view, handler, viewChanged, (spot) => void openMenu(spot).catch(report));
   const observer = new ResizeObserver(() => {
     const { width, height } = canvas.getBoundingClientRect();
     view.resize(width, height);
