@@ -48,12 +48,10 @@ pub fn depends<S: Real>(model: &Model<S>) -> bool {
 
 /// Whether a force depends on multipliers, or another one follows it.
 fn takes_part<S>(model: &Model<S>, k: usize) -> bool {
-    let follows =
-        |own: Mode, leader: usize| matches!(own, Mode::Follows { leader: of, .. } if of == leader);
+    let follows = |mode: Mode| matches!(mode, Mode::Follows { leader, .. } if leader == k);
     let item = &model.forces[k];
-    item.reaction.is_some()
-        || matches!(item.mode, Mode::Follows { .. })
-        || model.forces.iter().any(|other| follows(other.mode, k))
+    let led = matches!(item.mode, Mode::Follows { .. });
+    item.reaction.is_some() || led || model.forces.iter().any(|other| follows(other.mode))
 }
 
 /// The rows of the multipliers on which forces or loads of joints depend, ascending.
@@ -240,11 +238,8 @@ impl<'m, S: Real> Sources<'m, S> {
                 let most = leader.value(ForceElement::limit, lam, one, &mut |_, _| {});
                 let per_limit = S::select(most, -S::constant(sense) / most, S::zero());
                 let part = per_limit * lam[row];
-                let mut of_limit = |row, by| {
-                    if limits {
-                        slope(row, by)
-                    }
-                };
+                let scale = if limits { one } else { S::zero() };
+                let mut of_limit = |row, by: S| slope(row, scale * by);
                 let limit = own.value(ForceElement::limit, lam, part, &mut of_limit);
                 let per_most = S::select(most, -part * limit / most, S::zero());
                 leader.value(ForceElement::limit, lam, per_most, &mut of_limit);
