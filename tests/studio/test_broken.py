@@ -30,7 +30,7 @@ def native(text: str, path: Path) -> list[Fault]:
     path.write_text(text, encoding="utf-8")
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore", kp.ModelWarning)  # a negative constant is no fault
+            warnings.simplefilter("ignore", kp.ModelWarning)  # those of negative constants
             kp.load(path)
     except kp.KempeError as error:
         last = str(error).splitlines()[-1]  # perhaps the number of further faults
