@@ -328,6 +328,16 @@ impl<S: Real> Workspace<S> {
         }
     }
 
+    /// Solves K x = b with the factors of the last evaluation. `x` contains b before and the solution afterwards, shape
+    /// (n_q + n_rows).
+    ///
+    /// # Errors
+    /// A load on a coordinate without mass or inertia that no joint supports.
+    pub fn solve(&mut self, model: &Model<S>, x: &mut [S]) -> Result<(), Breakdown> {
+        let Self { motions, matrix, memory, .. } = self;
+        refine::solve(model, motions, matrix, x, memory)
+    }
+
     /// Computes ż at the state that was [placed](Self::place) into `out`, shape (n_z).
     #[inline(always)]
     pub fn state_rates(&self, model: &Model<S>, t: S, out: &mut [S]) {

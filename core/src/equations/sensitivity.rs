@@ -1,0 +1,165 @@
+//! Derivatives of accelerations and multipliers with respect to parameters (direct differentiation; Haug 6.3.18
+//! differentiated).
+//!
+//! With r(a, λ; q, v, z, p) = M a + Φ_qᵀ λ - Q and s = Φ_q a - γ, the derivatives a′ and λ′ satisfy
+//! K (a′, λ′) = -(r′, s′), where r′ and s′ are the derivatives at constant a and λ, and K is the matrix of the
+//! equations of motion. r and s are evaluated over dual numbers; K and its factors belong to the motion.
+
+use super::forces::{self, Acting};
+use super::kinematics::Motions;
+use super::powers::Powers;
+use super::{constraints, mass, reactions, reactive, Compiled, Gains, Workspace};
+use crate::math::{Dual, Listed, Real};
+use crate::model::Model;
+use crate::solve::Breakdown;
+
+/// A number with its derivatives with respect to [`ABREAST`] variables.
+pub type Slope = Dual<ABREAST>;
+
+/// Number of variables whose derivatives are computed at once. Value and derivatives fill a register.
+pub const ABREAST: usize = 3;
+
+/// Largest number of corrections of a solution. Forces that depend on reactions need some.
+const MOST: usize = 60;
+/// Part of the solution below which a correction ends the iteration.
+const SETTLED: f64 = 1e-14;
+/// Part of the solution below which the last correction must be.
+const ACCURATE: f64 = 1e-9;
+
+/// The equations of motion over numbers with derivatives, and memory for their evaluation.
+#[derive(Debug)]
+pub struct Sensitivity {
+    /// The model, whose numbers have derivatives.
+    pub model: Model<Slope>,
+    /// Motion of every body at the last state, ground first.
+    pub motions: Motions<Slope>,
+    /// a, shape (n_q).
+    pub a: Vec<Slope>,
+    /// λ, shape (n_rows).
+    pub lam: Vec<Slope>,
+    /// Powers of forces and drivers.
+    pub powers: Powers<Slope>,
+    compiled: Compiled<Slope>,
+    jacobian: Vec<Slope>,
+    gamma: Vec<Slope>,
+    applied: Vec<Slope>,
+    depends: bool,
+}
+
+impl Sensitivity {
+    /// Memory for a model.
+    pub fn new(model: Model<Slope>) -> Self {
+        let (n, m, zero) = (model.layout.n_q, model.layout.n_rows, Slope::constant(0.0));
+        Self {
+            motions: Motions::new(&model.layout),
+            a: vec![zero; n],
+            lam: vec![zero; m],
+            powers: Powers::zero(),
+            compiled: Compiled::new(&model),
+            jacobian: vec![zero; model.layout.n_entries],
+            gamma: vec![zero; m],
+            applied: vec![zero; n],
+            depends: reactive::depends(&model) || reactions::loaded(&model).next().is_some(),
+            model,
+        }
+    }
+
+    /// Computes a, λ and the powers with their derivatives. `workspace` contains the solution at the values of this
+    /// state.
+    ///
+    /// # Errors
+    /// [`Breakdown`] of a correction; [`Breakdown::Reaction`] if forces depend on reactions so strongly that the
+    /// derivatives are not found.
+    pub fn respond(
+        &mut self,
+        (base, workspace): (&Model, &mut Workspace),
+        t: Slope,
+        state: [&[Slope]; 3],
+    ) -> Result<(), Breakdown> {
+        self.motions.place(&self.model.layout, state[0], state[1]);
+        self.motions.pieces.clone_from(&workspace.motions.pieces);
+        self.linearize(t);
+        self.a.iter_mut().zip(workspace.a()).for_each(|(a, x)| *a = Slope::constant(*x));
+        self.lam.iter_mut().zip(workspace.lam()).for_each(|(lam, x)| *lam = Slope::constant(*x));
+        let (mut last, mut x) = (f64::INFINITY, Vec::new());
+        for turn in 0.. {
+            let residual = self.residual(t, state[2]);
+            let (mut change, mut size) = (0.0_f64, 0.0_f64);
+            for k in 0..ABREAST {
+                x.clear();
+                x.extend(residual.iter().map(|r| -r.slope[k]));
+                workspace.solve(base, &mut x)?;
+                for (to, dx) in self.a.iter_mut().chain(&mut self.lam).zip(&x) {
+                    to.slope[k] += dx;
+                    (change, size) = (change.max(dx.abs()), size.max(to.slope[k].abs()));
+                }
+            }
+            let relative = if change == 0.0 { 0.0 } else { change / size };
+            if !self.depends || relative <= SETTLED || turn > 2 && relative >= 0.5 * last {
+                break;
+            }
+            if turn == MOST {
+                break;
+            }
+            last = relative;
+        }
+        match last.is_finite() && last > ACCURATE {
+            true => Err(Breakdown::Reaction(0)),
+            false => Ok(()),
+        }
+    }
+
+    /// Computes Φ_q and γ at the state of the motions.
+    fn linearize(&mut self, t: Slope) {
+        let Self { model, motions, jacobian, gamma, .. } = self;
+        constraints::linearize(model, motions, t, Gains::default(), gamma, jacobian);
+    }
+
+    /// (r, s) for the present a and λ, and the powers.
+    fn residual(&mut self, t: Slope, z: &[Slope]) -> Vec<Slope> {
+        let Self { model, motions, a, lam, powers, compiled, jacobian, gamma, applied, .. } = self;
+        let known = self.depends.then_some(&lam[..]);
+        let acting = Acting { z, lam: known, t };
+        forces::generalized(model, compiled, motions, acting, applied, powers);
+        if self.depends {
+            reactions::add_loads(model, motions, t, lam, applied);
+        }
+        let mut out: Vec<Slope> = applied.iter().map(|q| -*q).list();
+        mass::add_times(model, motions, a, &mut out);
+        constraints::add_transposed(model, jacobian, lam, &mut out);
+        let mut rows = vec![Slope::constant(0.0); gamma.len()];
+        constraints::times_all(model, jacobian, a, &mut rows);
+        out.extend(rows.iter().zip(&*gamma).map(|(row, gamma)| *row - *gamma));
+        out
+    }
+
+    /// Adds the powers of drivers, -λᵀ Φ_q q̇ over their rows, after [`respond`](Self::respond).
+    pub fn add_powers_of_drivers(&mut self, v: &[Slope]) {
+        let Self { model, lam, powers, jacobian, .. } = self;
+        for (k, _) in model.constraints.iter().enumerate().filter(|(_, item)| item.driven) {
+            let range = model.layout.constraints[k].rows.clone();
+            let mut rows = vec![Slope::constant(0.0); range.len()];
+            constraints::times(model, k, jacobian, v, &mut rows);
+            for (rate, lam) in rows.iter().zip(&lam[range]) {
+                powers.drivers -= *rate * *lam;
+            }
+        }
+    }
+
+    /// Φ with derivatives at positions, shape (n_rows).
+    pub fn open(&mut self, t: Slope, q: &[Slope]) -> Vec<Slope> {
+        let motions = Motions::at_rest(&self.model.layout, q);
+        let mut phi = vec![Slope::constant(0.0); self.model.layout.n_rows];
+        constraints::residual(&self.model, &motions, t, &mut phi);
+        phi
+    }
+
+    /// Φ_q v + Φ_t with derivatives, shape (n_rows).
+    pub fn opening(&self, t: Slope, q: &[Slope], v: &[Slope]) -> Vec<Slope> {
+        let motions = Motions::at(&self.model.layout, q, v);
+        let mut terms = [(); 3].map(|()| vec![Slope::constant(0.0); self.model.layout.n_rows]);
+        let [phi, rate, gamma] = &mut terms;
+        constraints::velocity_terms(&self.model, &motions, t, phi, rate, gamma);
+        std::mem::take(rate)
+    }
+}
