@@ -91,6 +91,7 @@ fn add_drawing_and_sweeps(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(statistics::settling, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::sweeps, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
+    module.add_function(wrap_pyfunction!(sweep::gradient, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::scene, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::display, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::view_around, module)?)?;

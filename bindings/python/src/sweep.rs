@@ -2,10 +2,12 @@
 
 use crate::attended::attended;
 use crate::convert::{refuse, table, tree, Rows};
+use crate::errors::{Failure, Kind};
 use crate::guard::{caught, guard, Caught};
 use crate::model::PyModel;
 use crate::respond::Table;
 use crate::run_analysis::entries;
+use kempe::analyses::slopes::Gradient;
 use kempe::analyses::sweep::{Outcome, Statistic, Sweep, VariantRow, Wanted};
 use kempe::math::Lanes;
 use numpy::{IntoPyArray, PyArray1};
@@ -55,32 +57,87 @@ pub fn sweep<'py>(
     workers: usize,
 ) -> PyResult<Swept<'py>> {
     guard("sweep", || {
-        let wanted = wanted.into_iter().map(|(of, name)| match (of, Statistic::named(&name)) {
-            (None, _) => Ok(Wanted::Number(name)),
-            (Some(of), Some(statistic)) if of < measures.len() => {
-                Ok(Wanted::Statistic(of, statistic))
-            }
-            _ => Err(refuse(py, "wanted", format!("there is no '{name}' of this measure"))),
-        });
-        let wanted = wanted.collect::<PyResult<Vec<_>>>()?;
         let (count, width) = rows.as_array().dim();
         if width != parameters.len() + coordinates.len() {
             return Err(refuse(py, "rows", format!("{width} columns do not fit the names")));
         }
         let numbers = wanted.len();
-        let sweep = Sweep {
-            model: Arc::clone(&model.model),
-            definition: Arc::clone(&model.definition),
-            set: tree(py, start)?,
-            guess: tree(py, guess)?,
-            analyses: entries(py, analyses)?,
-            measures,
-            wanted,
-        };
+        let sweep = request(py, model, [start, guess, analyses], measures, wanted)?;
         let given: Vec<f64> = rows.as_array().iter().copied().collect();
         let names = (parameters, coordinates);
         let outcomes = attended(py, move |stop| on_threads(&sweep, &names, &given, workers, stop))?;
         sorted(py, outcomes, (count, numbers))
+    })
+}
+
+/// The case whose variants are run, and what is read of each.
+fn request(
+    py: Python<'_>,
+    model: &PyModel,
+    [start, guess, analyses]: [&str; 3],
+    measures: Vec<String>,
+    wanted: Vec<(Option<usize>, String)>,
+) -> PyResult<Sweep> {
+    let wanted = wanted.into_iter().map(|(of, name)| match (of, Statistic::named(&name)) {
+        (None, _) => Ok(Wanted::Number(name)),
+        (Some(of), Some(statistic)) if of < measures.len() => Ok(Wanted::Statistic(of, statistic)),
+        _ => Err(refuse(py, "wanted", format!("there is no '{name}' of this measure"))),
+    });
+    Ok(Sweep {
+        model: Arc::clone(&model.model),
+        definition: Arc::clone(&model.definition),
+        set: tree(py, start)?,
+        guess: tree(py, guess)?,
+        analyses: entries(py, analyses)?,
+        wanted: wanted.collect::<PyResult<Vec<_>>>()?,
+        measures,
+    })
+}
+
+/// Numbers, their derivatives (a row for each number, a column for each variable), and the reasons for missing ones.
+type Derived<'py> = (Bound<'py, PyArray1<f64>>, Table<'py>, Vec<(usize, usize, String)>);
+
+/// Runs a case and returns numbers of the result of the last analysis with their derivatives by parameters and by
+/// coordinates of the start. `row` contains the values of the variables; the other arguments are those of `sweep`.
+#[pyfunction]
+#[pyo3(signature = (model, start, guess, analyses, measures, wanted, parameters, coordinates, row))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
+pub fn gradient<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    start: &str,
+    guess: &str,
+    analyses: &str,
+    measures: Vec<String>,
+    wanted: Vec<(Option<usize>, String)>,
+    parameters: Vec<String>,
+    coordinates: Vec<String>,
+    row: Vec<f64>,
+) -> PyResult<Derived<'py>> {
+    guard("gradient", || {
+        let variables = parameters.len() + coordinates.len();
+        if row.len() != variables {
+            return Err(refuse(py, "row", format!("{} numbers do not fit the names", row.len())));
+        }
+        let numbers = wanted.len();
+        let sweep = request(py, model, [start, guess, analyses], measures, wanted)?;
+        let (of_parameters, of_start) = row.split_at(parameters.len());
+        let named = |names: &[String], values: &[f64]| -> Vec<(String, f64)> {
+            names.iter().cloned().zip(values.iter().copied()).collect()
+        };
+        let row = (named(&parameters, of_parameters), named(&coordinates, of_start));
+        let found = attended(py, move |stop| caught(|| sweep.gradient(&row, stop)))?;
+        let found = found.unwrap_or_else(|panic| panic.resume());
+        let Gradient { values, jacobian, remarks } = found.map_err(|outcome| {
+            let message = match outcome {
+                Outcome::Failed(reason) => reason,
+                _ => "no derivatives are available for this mechanism".to_string(),
+            };
+            Failure::new(Kind::Integration, message).raise(py)
+        })?;
+        let remarks = remarks.into_iter().map(|one| (one.number, one.variable, one.text));
+        let table = table(py, jacobian, (numbers, variables))?;
+        Ok((values.into_pyarray(py), table, remarks.collect()))
     })
 }
 

@@ -9,9 +9,9 @@ use super::quantities::{QuantityNames, QuantityValues};
 use super::signal_names::signal;
 use super::signal_rows::{each, each_over_lanes, Rows};
 use super::signal_units::unit_of;
-use super::signals::Signal;
+use super::signals::{Seen, Signal};
 use crate::expression::{unit::Unit, Expression, ExpressionError, Inferred, Symbol, Tape};
-use crate::math::{Lanes, Listed};
+use crate::math::{Lanes, Listed, Real};
 use crate::model::{Model, Problem, Value};
 
 /// The unit of an expression whose dimension cannot be inferred.
@@ -105,6 +105,12 @@ impl Measure {
     /// The value for given values of the quantities, in the order of [`quantities`](Self::quantities).
     pub fn value(&self, model: &Model, t: f64, quantities: &[f64]) -> f64 {
         self.tape.evaluate(&QuantityValues { model, t, quantities })
+    }
+
+    /// The value at a state, over any scalar.
+    pub(super) fn value_at<S: Real>(&self, model: &Model<S>, seen: &Seen<'_, S>) -> S {
+        let quantities: Vec<S> = self.signals.iter().map(|one| one.value(model, seen)).list();
+        self.tape.evaluate(&QuantityValues { model, t: seen.t, quantities: &quantities })
     }
 }
 

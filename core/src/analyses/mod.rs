@@ -37,6 +37,7 @@ mod signal_names;
 mod signal_rows;
 mod signal_units;
 mod signals;
+pub mod slopes;
 mod so_far;
 mod state;
 pub mod statistics;

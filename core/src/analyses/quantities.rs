@@ -3,7 +3,7 @@
 use super::signal_names::{names, signal};
 use super::signals::Signal;
 use crate::expression::{Names, Symbol, Table, Values};
-use crate::math::Listed;
+use crate::math::{Listed, Real};
 use crate::model::Model;
 use std::cell::RefCell;
 use std::sync::Arc;
@@ -64,21 +64,21 @@ impl Names for QuantityNames<'_> {
 }
 
 /// The values of the names of a formula.
-pub(super) struct QuantityValues<'a> {
-    pub model: &'a Model,
-    pub t: f64,
+pub(super) struct QuantityValues<'a, S = f64> {
+    pub model: &'a Model<S>,
+    pub t: S,
     /// The values of the quantities, in the order of their variables.
-    pub quantities: &'a [f64],
+    pub quantities: &'a [S],
 }
 
-impl Values<f64> for QuantityValues<'_> {
-    fn parameter(&self, k: usize) -> f64 {
+impl<S: Real> Values<S> for QuantityValues<'_, S> {
+    fn parameter(&self, k: usize) -> S {
         self.model.parameters[k]
     }
-    fn time(&self) -> f64 {
+    fn time(&self) -> S {
         self.t
     }
-    fn variable(&self, k: usize) -> f64 {
+    fn variable(&self, k: usize) -> S {
         self.quantities[k]
     }
 }

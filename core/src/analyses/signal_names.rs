@@ -89,10 +89,11 @@ fn of_body(model: &Model, body: BodyId) -> Family {
 }
 
 fn of_point(model: &Model, body: BodyId, point: &str) -> Option<Family> {
-    let s = *model.bodies[body.0].point(point)?;
+    let mut known = model.bodies[body.0].points.iter();
+    let point = known.position(|(name, _)| name == point)?;
     let places = (0..3).flat_map(|order| (0..2).map(move |axis| (order, axis)));
     let signal = |(order, axis): (usize, usize)| {
-        (COORDINATES[order][axis].to_string(), Signal::Point { body, s, axis, order })
+        (COORDINATES[order][axis].to_string(), Signal::Point { body, point, axis, order })
     };
     Some(places.map(signal).list())
 }
@@ -152,7 +153,9 @@ fn rate_of(model: &Model, coordinate: &Followed) -> Option<Signal> {
             Some(Signal::Column { order: 1, column })
         }
         Followed::Quantity(of) => Some(match signal(model, &of.name)? {
-            Signal::Point { body, s, axis, .. } => Signal::Point { body, s, axis, order: 1 },
+            Signal::Point { body, point, axis, .. } => {
+                Signal::Point { body, point, axis, order: 1 }
+            }
             Signal::Measured { id, k, .. } => Signal::Measured { id, k, order: 1 },
             Signal::Column { column, .. } => Signal::Column { order: 1, column },
             other => other,

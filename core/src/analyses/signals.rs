@@ -78,8 +78,8 @@ pub(super) enum Signal {
     Column { order: usize, column: usize },
     /// A first-order state by its index.
     State(usize),
-    /// A component of a point, 0 or 1.
-    Point { body: BodyId, s: Local, axis: usize, order: usize },
+    /// A component, 0 or 1, of a point of a body by its index.
+    Point { body: BodyId, point: usize, axis: usize, order: usize },
     /// A position quantity of an element.
     Measured { id: ElementId, k: usize, order: usize },
     /// The reaction of a joint on its body j.
@@ -141,8 +141,8 @@ impl Signal {
             Self::Constant(x) => Bounds::constant(*x),
             Self::Column { order: order @ (0 | 1), column } => part.column(*column, *order == 1),
             Self::State(k) => part.state(*k),
-            Self::Point { body, s, axis, order: order @ (0 | 1) } => {
-                part.point(*body, *s, *axis, *order == 1)
+            Self::Point { body, point, axis, order: order @ (0 | 1) } => {
+                part.point(*body, *point, *axis, *order == 1)
             }
             Self::Measured { id, order: order @ (0 | 1), .. } => {
                 let of = |part: &StepPart<'_>| match id {
@@ -165,8 +165,8 @@ impl Signal {
             Self::Column { order: 2, column } => a[*column],
             Self::Column { order, column } => seen.state[*order][*column],
             Self::State(k) => seen.state[2][*k],
-            Self::Point { body, s, axis, order } => {
-                let s = Local { x: S::constant(s.x), y: S::constant(s.y) };
+            Self::Point { body, point, axis, order } => {
+                let s = model.bodies[body.0].points[*point].1;
                 let jet = measured::point(model, *body, s, seen.motions, a)[*axis];
                 [jet.value, jet.rate, jet.second][*order]
             }

@@ -142,7 +142,8 @@ impl<'a> StepPart<'a> {
     }
 
     /// A component of a point of a body, or of its velocity.
-    pub fn point(&self, body: BodyId, s: Local, axis: usize, rate: bool) -> Bounds {
+    pub fn point(&self, body: BodyId, point: usize, axis: usize, rate: bool) -> Bounds {
+        let s = self.model.bodies[body.0].points[point].1;
         let s = Local::new(Bounds::constant(s.x), Bounds::constant(s.y));
         let pose = self.pose(body);
         let p = match rate {

@@ -64,6 +64,13 @@ impl Sensitivity {
         }
     }
 
+    /// Sets positions and rates without solving the equations of motion; a and λ are unknown.
+    pub fn place(&mut self, q: &[Slope], v: &[Slope]) {
+        self.motions.place(&self.model.layout, q, v);
+        self.a.fill(Slope::constant(f64::NAN));
+        self.lam.fill(Slope::constant(f64::NAN));
+    }
+
     /// Computes a, λ and the powers with their derivatives. `workspace` contains the solution at the values of this
     /// state.
     ///
@@ -161,5 +168,20 @@ impl Sensitivity {
         let [phi, rate, gamma] = &mut terms;
         constraints::velocity_terms(&self.model, &motions, t, phi, rate, gamma);
         std::mem::take(rate)
+    }
+
+    /// M x + Φ_qᵀ y with derivatives at a state, shape (n_q).
+    pub fn balance_of(
+        &mut self,
+        (t, q, v): (Slope, &[Slope], &[Slope]),
+        x: &[Slope],
+        y: &[Slope],
+    ) -> Vec<Slope> {
+        self.motions.place(&self.model.layout, q, v);
+        self.linearize(t);
+        let mut out = vec![Slope::constant(0.0); x.len()];
+        mass::add_times(&self.model, &self.motions, x, &mut out);
+        constraints::add_transposed(&self.model, &self.jacobian, y, &mut out);
+        out
     }
 }

@@ -382,6 +382,19 @@ impl Tape {
         Self { code, operands: 2, symbols: vec![symbol], ..Self::default() }
     }
 
+    /// The law symbol × (t - t0).
+    pub fn growing(symbol: Symbol, t0: f64) -> Self {
+        use super::operation::Binary::{Add, Multiply};
+        let code = vec![
+            Instruction::Load(Symbol::Time),
+            Instruction::Constant(-t0),
+            Instruction::Binary(Add),
+            Instruction::Load(symbol),
+            Instruction::Binary(Multiply),
+        ];
+        Self { code, operands: 2, symbols: vec![Symbol::Time, symbol], ..Self::default() }
+    }
+
     /// The law position + rate (t - t0).
     pub fn line(position: f64, rate: f64, t0: f64) -> Self {
         use super::operation::Binary::{Add, Multiply};

@@ -60,7 +60,7 @@ fn holding<'a>(
 }
 
 /// The velocities that are given, set or guessed, before they become consistent.
-fn wanted(model: &Model, request: &Request, q: &[f64]) -> Vec<f64> {
+pub(super) fn wanted(model: &Model, request: &Request, q: &[f64]) -> Vec<f64> {
     let mut v = match &request.state {
         Some(state) => state.v.clone(),
         None => vec![0.0; q.len()],

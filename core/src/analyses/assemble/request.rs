@@ -4,6 +4,7 @@ use super::named::{named, NamedTargets};
 use super::target::Target;
 use crate::analyses::State;
 use crate::equations::at;
+use crate::expression::Tape;
 use crate::math::Listed;
 use crate::model::{Doubt, Model, Problem, Reach, Scope, Value};
 
@@ -42,6 +43,15 @@ pub fn targets(
     section: &str,
     written: &[(String, Value)],
 ) -> Result<Vec<Target>, Vec<Problem>> {
+    formulas(model, section, written).map(|all| all.into_iter().map(|(target, _)| target).list())
+}
+
+/// [`targets`] with the formulas of their values.
+pub(super) fn formulas(
+    model: &Model,
+    section: &str,
+    written: &[(String, Value)],
+) -> Result<Vec<(Target, Tape)>, Vec<Problem>> {
     let mut problems = Vec::new();
     let mut found = Vec::new();
     let names = NamedTargets::of(model);
@@ -59,7 +69,7 @@ pub fn targets(
         let Some(tape) = tape else { continue };
         let value = tape.evaluate(&at(&model.parameters, &[], &[], 0.0));
         if value.is_finite() {
-            found.push(named.with(value));
+            found.push((named.with(value), tape));
         } else {
             problems.push(Problem::at(&path, format!("becomes {value}; must be finite")));
         }

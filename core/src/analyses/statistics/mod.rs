@@ -14,7 +14,7 @@ pub use extreme::{changes, extreme, Extreme, Samples};
 pub use instants::instants;
 pub use maxima::Maxima;
 pub use means::{mean, root_mean_square, row_norms};
-pub use settling::{settling, Settling};
+pub use settling::{settling, Settling, BAND};
 pub use singular_instants::{SingularInstants, EXAMINED};
 
 /// Returns a quantity at some times. None if it has no value at one of them.

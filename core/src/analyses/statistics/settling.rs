@@ -4,7 +4,7 @@ use super::{largest, Read};
 use crate::math::Listed;
 
 /// Half width of the settling band, relative to the largest deviation from the final value.
-const BAND: f64 = 0.005;
+pub const BAND: f64 = 0.005;
 /// A motion has settled only if it stays in the band during this final fraction of the time.
 const QUIET_SHARE: f64 = 0.1;
 /// Smaller deviations are rounding errors, relative to the largest magnitude or to 1.

@@ -16,5 +16,8 @@ mod statistic;
 mod variant;
 
 pub use faults::{measure_fault, variable_fault};
+pub(super) use readings::{PreparedModel, Readings};
 pub use request::{Outcome, Sweep, VariantRow, Wanted};
+pub(super) use series::Series;
 pub use statistic::Statistic;
+pub(super) use variant::Ready;

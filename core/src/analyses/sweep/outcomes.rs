@@ -80,6 +80,14 @@ impl Sweep {
 
     /// The statistics of a motion.
     fn of_motion(&self, readings: Readings<'_>) -> Result<Vec<f64>, Missing> {
+        let between = self.between(readings)?;
+        let series = (0..self.measures.len()).map(|k| Series::new(&between, k));
+        let series = series.collect::<Result<Vec<_>, _>>()?;
+        self.statistics().map(|(of, statistic)| series[of].statistic(statistic)).collect()
+    }
+
+    /// The measures of a motion at its outputs and between them.
+    pub fn between<'a>(&self, readings: Readings<'a>) -> Result<Between<'a>, Missing> {
         let measures = self.measures.iter().enumerate().map(|(k, text)| {
             // measures are read for each variant, because the position of a point may depend on a parameter
             let measure = Measure::read(readings.model(), text).map_err(|_| Missing::Single)?;
@@ -87,10 +95,7 @@ impl Sweep {
             Ok((measure, own.fold([false; 2], |all, own| each([0, 1], |k| all[k] || own[k]))))
         });
         let (measures, wanted) = measures.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
-        let between = Between::new(readings.of(measures, wanted));
-        let series = (0..self.measures.len()).map(|k| Series::new(&between, k));
-        let series = series.collect::<Result<Vec<_>, _>>()?;
-        self.statistics().map(|(of, statistic)| series[of].statistic(statistic)).collect()
+        Ok(Between::new(readings.of(measures, wanted)))
     }
 }
 

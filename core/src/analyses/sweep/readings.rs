@@ -101,6 +101,11 @@ impl<'a> Readings<'a> {
         Self { wanted, ..self }
     }
 
+    /// A measure with the quantities of the first phase.
+    pub fn measure(&self, measure: usize) -> &Measure {
+        &self.phases[0].measures[measure]
+    }
+
     /// The model at the start.
     pub fn model(&self) -> &Model {
         self.phases[0].prepared.model()

@@ -71,7 +71,7 @@ impl Sweep {
     }
 
     /// The statistics in a result row.
-    pub(super) fn statistics(&self) -> impl Iterator<Item = (usize, Statistic)> + '_ {
+    pub fn statistics(&self) -> impl Iterator<Item = (usize, Statistic)> + '_ {
         self.wanted.iter().filter_map(|one| match one {
             Wanted::Statistic(of, statistic) => Some((*of, *statistic)),
             Wanted::Number(_) => None,

@@ -19,9 +19,12 @@ pub struct Series<'a> {
     solves: bool,
     /// The values at the outputs.
     outputs: Vec<f64>,
-    /// The largest and the least value.
-    extremes: [OnceCell<Extreme>; 2],
+    /// The largest and the least value, each with the times of other maxima that are as large.
+    extremes: [OnceCell<(Extreme, Vec<f64>)>; 2],
 }
+
+/// Maxima that differ by less than this fraction are equally large.
+const RIVAL: f64 = 1e-9;
 
 impl<'a> Series<'a> {
     pub fn new(between: &'a Between<'a>, place: usize) -> Result<Self, Missing> {
@@ -52,31 +55,37 @@ impl<'a> Series<'a> {
     }
 
     fn most(&self) -> Result<Extreme, Missing> {
-        self.known(0, 1.0)
+        Ok(self.known(0)?.0)
     }
 
     fn least(&self) -> Result<Extreme, Missing> {
-        self.known(1, -1.0)
+        Ok(self.known(1)?.0)
     }
 
-    fn known(&self, place: usize, sign: f64) -> Result<Extreme, Missing> {
-        if let Some(known) = self.extremes[place].get() {
-            return Ok(*known);
+    /// The largest value (0) or the least (1), and the times of other maxima that are as large.
+    pub fn known(&self, place: usize) -> Result<&(Extreme, Vec<f64>), Missing> {
+        if self.extremes[place].get().is_none() {
+            let found = self.extreme([1.0, -1.0][place])?;
+            return Ok(self.extremes[place].get_or_init(|| found));
         }
-        let found = self.extreme(sign)?;
-        Ok(*self.extremes[place].get_or_init(|| found))
+        self.extremes[place].get().ok_or(Missing::Single)
     }
 
-    fn extreme(&self, sign: f64) -> Result<Extreme, Missing> {
+    /// The values at the outputs.
+    pub fn outputs(&self) -> &[f64] {
+        &self.outputs
+    }
+
+    fn extreme(&self, sign: f64) -> Result<(Extreme, Vec<f64>), Missing> {
         let signed = |values: &[f64]| -> Vec<f64> { values.iter().map(|x| sign * x).list() };
         let signed_outputs = signed(&self.outputs);
         let outputs = Samples { t: &self.readings.run.trajectory.t, values: &signed_outputs };
         let Some(Fine { t, values, near, resolved }) = self.between.fine()? else {
-            return Ok(extreme(sign, outputs, None));
+            return Ok((extreme(sign, outputs, None), Vec::new()));
         };
         let values = signed(&values[self.place]);
         if !changes(&values) {
-            return Ok(extreme(sign, outputs, None));
+            return Ok((extreme(sign, outputs, None), Vec::new()));
         }
         let mut read = |t: &[f64]| Some(signed(&self.read(t)?));
         let samples = Samples { t, values: &values };
@@ -88,7 +97,13 @@ impl<'a> Series<'a> {
         let values = [outputs.values, &signed(&values)].concat();
         let outputs = Samples { t: &t, values: &values };
         match found.near.is_empty() {
-            true => Ok(extreme(sign, outputs, Some((samples, &found)))),
+            true => {
+                let most = extreme(sign, outputs, Some((samples, &found)));
+                let level = sign * most.value - RIVAL * most.value.abs();
+                let all = found.values.iter().zip(&found.t);
+                let rivals = all.filter(|(x, t)| **x >= level && **t != most.t);
+                Ok((most, rivals.map(|(_, t)| *t).list()))
+            }
             // a single run of the case continues the quantity across the singular positions
             false => Err(Missing::Single),
         }

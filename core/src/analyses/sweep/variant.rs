@@ -14,7 +14,7 @@ use crate::model::{Model, Value};
 use std::sync::Arc;
 
 /// A variant before its run.
-pub(super) struct Ready {
+pub struct Ready {
     pub prepared: Arc<PreparedModel>,
     pub start: StartState,
     /// Whether it starts at the end of another analysis.
@@ -28,7 +28,7 @@ pub(super) struct Ready {
 
 impl Sweep {
     /// A variant before its run.
-    pub(super) fn ready(
+    pub fn ready(
         &self,
         (parameters, start): &VariantRow,
         stop: &dyn Fn() -> bool,
@@ -101,12 +101,12 @@ impl Sweep {
     }
 
     /// The mechanism of a variant.
-    pub(super) fn subject<'a>(&'a self, ready: &'a Ready) -> Subject<'a> {
+    pub fn subject<'a>(&'a self, ready: &'a Ready) -> Subject<'a> {
         Subject { definition: &self.definition, prepared: &ready.prepared }
     }
 
     /// Runs an analysis of a variant.
-    pub(super) fn run(
+    pub fn run(
         &self,
         ready: &Ready,
         analysis: &AnyAnalysis,
@@ -123,7 +123,7 @@ impl Sweep {
     }
 
     /// The prescribed coordinates and rates of a variant; None if a variable is none of them.
-    fn set_of(&self, start: &[(String, f64)]) -> Option<Vec<(String, Value)>> {
+    pub fn set_of(&self, start: &[(String, f64)]) -> Option<Vec<(String, Value)>> {
         let mut set = self.set.clone();
         for (name, x) in start {
             let (_, value) = set.iter_mut().find(|(known, _)| known == name)?;
@@ -133,7 +133,7 @@ impl Sweep {
     }
 
     /// The request for the assembly; None if an entry is faulty.
-    fn request(&self, model: &Model, set: &[(String, Value)]) -> Option<Request> {
+    pub fn request(&self, model: &Model, set: &[(String, Value)]) -> Option<Request> {
         let set = assemble::targets(model, "set", set).ok()?;
         let guess = assemble::targets(model, "guess", &self.guess).ok()?;
         Some(Request { set, guess, ..Request::default() })

@@ -1,0 +1,240 @@
+//! All numbers of a request with their derivatives by all variables.
+
+use super::motion::{joined, MotionSlopes};
+use super::reader::{Course, Reader, States};
+use super::statistics::{Found, Plan, Rows, Times};
+use super::variables::parameters;
+use crate::analyses::assemble::{self, set_slopes, StartSlopes};
+use crate::analyses::dynamics::Run;
+use crate::analyses::record::Record;
+use crate::analyses::sweep::{Outcome, PreparedModel, Readings, Ready, Series, Sweep, VariantRow};
+use crate::analyses::{chain, AnyAnalysis};
+use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
+use crate::math::Listed;
+use crate::model::Model;
+use std::sync::Arc;
+
+/// Why a number has no derivative by a variable.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Remark {
+    /// The index of the number.
+    pub number: usize,
+    /// The index of the variable.
+    pub variable: usize,
+    /// The reason.
+    pub text: String,
+}
+
+/// Numbers with derivatives.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Gradient {
+    /// The numbers, in the order of the request.
+    pub values: Vec<f64>,
+    /// Their derivatives: a row for each number, a column for each variable. NaN where there is none.
+    pub jacobian: Vec<f64>,
+    /// The reasons for missing derivatives.
+    pub remarks: Vec<Remark>,
+}
+
+/// The outcome of a gradient.
+type Outcomes = Result<Gradient, Outcome>;
+
+impl Sweep {
+    /// The numbers of one variant and their derivatives by its variables: first the parameters, then the entries of
+    /// `set`.
+    ///
+    /// # Errors
+    /// The outcomes of [`variants`](Self::variants) other than values.
+    pub fn gradient(&self, row: &VariantRow, stop: &(dyn Fn() -> bool + Sync)) -> Outcomes {
+        let ready = self.ready(row, stop)?;
+        let count = row.0.len() + row.1.len();
+        match &ready.analysis {
+            AnyAnalysis::Dynamics(options) => {
+                let options =
+                    crate::analyses::dynamics::Options { dense_output: true, ..options.clone() };
+                let analysis = AnyAnalysis::Dynamics(options);
+                let record = self.run(&ready, &analysis, stop);
+                self.of_record(&ready, record.map_err(Outcome::from)?, row)
+            }
+            analysis => match self.run(&ready, analysis, stop).map_err(Outcome::from)? {
+                record if record.motion.is_some() => self.of_record(&ready, record, row),
+                _ => self.without(row, stop, count, "this analysis has no derivatives yet"),
+            },
+        }
+    }
+
+    /// The numbers without derivatives, for a reason.
+    fn without(
+        &self,
+        row: &VariantRow,
+        stop: &(dyn Fn() -> bool + Sync),
+        count: usize,
+        reason: &str,
+    ) -> Outcomes {
+        match self.variants(std::slice::from_ref(row), stop).pop() {
+            Some(Outcome::Values(values)) => {
+                let found = vec![Err(reason.to_string()); values.len()];
+                Ok(gathered(values, found, count))
+            }
+            other => Err(other.unwrap_or(Outcome::Single)),
+        }
+    }
+
+    fn of_record(&self, ready: &Ready, record: Record, row: &VariantRow) -> Outcomes {
+        let Record { motion: Some(run), driven, responses, .. } = record else {
+            return Err(Outcome::Single);
+        };
+        let is_driven = !matches!(ready.analysis, AnyAnalysis::Dynamics(_));
+        let rests = driven.as_ref().is_some_and(|driven| driven.variable.rests);
+        let whole = driven.map(|driven| Arc::new(PreparedModel::new(driven.model)));
+        let whole = whole.as_ref().unwrap_or(&ready.prepared);
+        let readings = Readings::new(whole, &run, rests, None)?.solved_by(responses);
+        let between = self.between(readings)?;
+        let series = (0..self.measures.len()).map(|k| Series::new(&between, k));
+        let series: Vec<Series<'_>> = series.collect::<Result<_, _>>()?;
+        let values: Result<Vec<f64>, _> =
+            self.statistics().map(|(of, statistic)| series[of].statistic(statistic)).collect();
+        let (values, count) = (values?, row.0.len() + row.1.len());
+        let steps = run.dense.as_ref().map_or(&run.trajectory.t[..], |dense| &dense.t);
+        let times = Times { outputs: &run.trajectory.t, steps };
+        let plans: Vec<Plan> =
+            self.statistics().map(|(of, statistic)| Plan::of(&series[of], statistic, times)).list();
+        let model: &Model = whole.model();
+        let rows = refusal(model, &run, is_driven).map_or(Ok(()), Err).and_then(|()| {
+            let blocks = self.blocks(model, row)?;
+            let states = |t: f64| state_at(whole, &run, t, rests);
+            let course = match is_driven {
+                true => Course::Driven(blocks, &states as States<'_>),
+                false => Course::Dynamics(self.along(model, ready, &run, blocks, row)?),
+            };
+            let measures = (0..self.measures.len()).map(|k| between.readings.measure(k).clone());
+            let mut reader = Reader::new(model, measures.list(), course);
+            let t = plans.iter().flat_map(|plan| plan.times(times)).list();
+            Rows::read(&mut reader, t, count)
+        });
+        let found = plans.iter().zip(self.statistics()).map(|(plan, (k, _))| match &rows {
+            Ok(rows) => plan.slopes(rows, k, times),
+            Err(reason) => Err(reason.clone()),
+        });
+        Ok(gathered(values, found.list(), count))
+    }
+
+    /// The names of the variables, in blocks.
+    fn names(row: &VariantRow) -> Vec<Vec<String>> {
+        let names: Vec<String> = row.0.iter().chain(&row.1).map(|(name, _)| name.clone()).list();
+        names.chunks(ABREAST).map(<[String]>::to_vec).list()
+    }
+
+    /// The equations of a model with derivatives, for blocks of variables.
+    fn blocks(&self, model: &Model, row: &VariantRow) -> Result<Vec<Sensitivity>, String> {
+        let of = |names: &Vec<String>| {
+            let numbers = parameters(model, names).ok_or("its parameters cannot be read")?;
+            Ok(Sensitivity::new(Model::new(&model.blueprint, &numbers)))
+        };
+        Self::names(row).iter().map(of).collect()
+    }
+
+    /// The derivatives along a run of forward dynamics.
+    fn along<'a>(
+        &self,
+        model: &'a Model,
+        ready: &Ready,
+        run: &'a Run,
+        blocks: Vec<Sensitivity>,
+        row: &VariantRow,
+    ) -> Result<MotionSlopes<'a>, String> {
+        let unread = || "the start cannot be read".to_string();
+        if chain(&self.analyses, self.analyses.len() - 1).len() > 1 {
+            return Err("its start is the end of another analysis".to_string());
+        }
+        let set = self.set_of(&row.1).ok_or_else(unread)?;
+        let start = &ready.start.state;
+        let mut request = self.request(ready.prepared.model(), &set).ok_or_else(unread)?;
+        request.t = start.t;
+        let of = |names: &Vec<String>| -> Result<StartSlopes, String> {
+            let own = ready.prepared.model();
+            let numbers = parameters(own, names).ok_or_else(unread)?;
+            let values = set_slopes(own, &set, &numbers, names).ok_or_else(unread)?;
+            assemble::slopes(own, &request, (&numbers, &values), start)
+        };
+        let starts = Self::names(row).iter().map(of).collect::<Result<Vec<_>, _>>()?;
+        let starts: Vec<Vec<Slope>> = starts.into_iter().map(joined).list();
+        let dense = run.dense.as_ref().ok_or_else(|| "the run has no interpolant".to_string())?;
+        let implicit = run.statistics.jacobians > 0;
+        let last = last_state(model, run);
+        MotionSlopes::new(model, blocks, (dense, last), &starts, implicit)
+    }
+}
+
+/// The last state of a run, with its works.
+fn last_state(model: &Model, run: &Run) -> Vec<f64> {
+    let (of, layout) = (&run.trajectory, &model.layout);
+    let row = |table: &[f64], width: usize| table[table.len() - width..].to_vec();
+    let parts = [
+        row(&of.q, layout.n_q),
+        row(&of.v, layout.n_q),
+        row(&of.z, layout.n_z),
+        row(&of.works, layout.n_works),
+    ];
+    parts.concat()
+}
+
+/// A state within a driven run.
+fn state_at(whole: &PreparedModel, run: &Run, t: f64, rests: bool) -> Option<[Vec<f64>; 3]> {
+    let layout = &whole.model().layout;
+    if let Some(k) = run.trajectory.t.iter().position(|known| *known == t) {
+        let of = &run.trajectory;
+        let row = |table: &[f64], width: usize| table[k * width..(k + 1) * width].to_vec();
+        return Some([row(&of.q, layout.n_q), row(&of.v, layout.n_q), row(&of.z, layout.n_z)]);
+    }
+    let y = run.dense.as_ref()?.at(&[t]);
+    let [q, v, z, _] = layout.split(&y);
+    let Some(projection) = run.projection else {
+        return Some([q.to_vec(), v.to_vec(), z.to_vec()]);
+    };
+    let states = crate::analyses::dynamics::States { t: &[t], q, v, z };
+    let [q, mut v] = whole.project(states, projection).ok()?;
+    if rests {
+        v.fill(0.0);
+    }
+    Some([q, v, z.to_vec()])
+}
+
+/// Why a run has no derivatives; None if it has.
+fn refusal(model: &Model, run: &Run, is_driven: bool) -> Option<String> {
+    if run.phases.len() > 1 || run.settings.iter().any(|setting| !setting.is_plain()) {
+        return Some("the motion has phases, between which its derivatives jump".to_string());
+    }
+    if run.stopped_by.is_some() {
+        return Some("an event ends the motion, and its time moves".to_string());
+    }
+    if let Some(passed) = run.passed.first() {
+        return Some(format!("the motion passes the singular position at t = {:.6} s", passed.t));
+    }
+    if !is_driven && !model.switches.is_empty() {
+        return Some("laws or forces switch, so that derivatives jump".to_string());
+    }
+    None
+}
+
+fn gathered(values: Vec<f64>, found: Vec<Found>, count: usize) -> Gradient {
+    let (mut jacobian, mut remarks) = (Vec::new(), Vec::new());
+    for (number, slopes) in found.into_iter().enumerate() {
+        let slopes = match slopes {
+            Ok(slopes) => slopes,
+            Err(text) => {
+                let of = |variable| Remark { number, variable, text: text.clone() };
+                remarks.extend((0..count).map(of));
+                vec![f64::NAN; count]
+            }
+        };
+        for (variable, x) in slopes.iter().enumerate().filter(|(_, x)| !x.is_finite()) {
+            if !remarks.iter().any(|one| (one.number, one.variable) == (number, variable)) {
+                let text = format!("the derivative is {x}");
+                remarks.push(Remark { number, variable, text });
+            }
+        }
+        jacobian.extend(slopes.iter().map(|x| if x.is_finite() { *x } else { f64::NAN }));
+    }
+    Gradient { values, jacobian, remarks }
+}

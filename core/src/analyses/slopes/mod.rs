@@ -1,0 +1,24 @@
+//! Derivatives of the numbers of an analysis with respect to parameters and start values.
+//!
+//! The derivatives are exact: they differentiate the equations, not differences of runs. A run is computed first and is
+//! not changed. Its derivatives follow along its recorded steps, three variables at once.
+//!
+//! | file | concept |
+//! |---|---|
+//! | `variables` | parameters and start values as numbers with derivatives |
+//! | `ode` | the equations of motion together with their derivatives |
+//! | `motion` | the derivatives of a motion along its steps |
+//! | `driven` | the derivatives of a motion that drivers determine |
+//! | `reader` | measures with derivatives |
+//! | `statistics` | statistics with derivatives |
+//! | `gradient` | all numbers and all variables of a request |
+
+mod driven;
+mod gradient;
+mod motion;
+mod ode;
+mod reader;
+mod statistics;
+mod variables;
+
+pub use gradient::{Gradient, Remark};

@@ -1,0 +1,132 @@
+//! The derivatives of a motion along the steps of its run.
+//!
+//! A step is repeated from its recorded start, so that the motion itself is that of the run. Where the run took
+//! implicit steps, which are too long for an explicit method, the equations and their derivatives are integrated
+//! together with an error control of their own.
+
+use super::ode::SlopeOde;
+use crate::analyses::dynamics::PiecewiseInterpolant;
+use crate::equations::sensitivity::{Sensitivity, ABREAST};
+use crate::equations::Workspace;
+use crate::integrate::{BoxedStepper, Dop853, ExplicitMethod, StepControl};
+use crate::math::Listed;
+use crate::model::Model;
+use crate::solve::Breakdown;
+
+/// Tolerances of derivatives along implicit steps.
+const CONTROLLED: f64 = 1e-10;
+/// Largest number of steps within an implicit step.
+const MOST: usize = 100_000;
+
+/// A run whose derivatives are computed at ascending times.
+pub(super) struct MotionSlopes<'a> {
+    ode: SlopeOde<'a>,
+    /// The ends of the steps, and the states at their starts.
+    steps: &'a PiecewiseInterpolant,
+    /// The state at the end of the run.
+    last: Vec<f64>,
+    /// The index of the step that begins at the present state.
+    step: usize,
+    /// The state at the start of this step, with its derivatives.
+    y: Vec<f64>,
+    stepper: BoxedStepper<SlopeOde<'a>, Breakdown>,
+}
+
+impl<'a> MotionSlopes<'a> {
+    /// Begins at the start of a run without phases; `start` contains the derivatives of its start, one block after the
+    /// other. `implicit` states whether steps of the run were implicit.
+    ///
+    /// # Errors
+    /// The reason for which there are no derivatives.
+    pub fn new(
+        model: &'a Model,
+        blocks: Vec<Sensitivity>,
+        (steps, last): (&'a PiecewiseInterpolant, Vec<f64>),
+        start: &[Vec<crate::equations::sensitivity::Slope>],
+        implicit: bool,
+    ) -> Result<Self, String> {
+        let workspace = Workspace::new(model);
+        let ode = SlopeOde::new(model, workspace, blocks);
+        let n_y = model.layout.n_y();
+        let mut y = steps.y[..n_y].to_vec();
+        y.resize(n_y * (1 + ABREAST * ode.blocks.len()), 0.0);
+        for (b, slopes) in start.iter().enumerate() {
+            let mut state = ode.state(b, &y);
+            state.iter_mut().zip(slopes).for_each(|(to, of)| to.slope = of.slope);
+            ode.put(b, &state, &mut y);
+        }
+        let span = (steps.t[0], steps.t[steps.t.len() - 1]);
+        let control = match implicit {
+            true => {
+                let control = StepControl::new(CONTROLLED, CONTROLLED);
+                StepControl { max_steps: Some(MOST), ..control }
+            }
+            false => StepControl::constant((span.1 - span.0).abs()),
+        };
+        let stepper = Dop853 { control }.start(&ode, span, &y);
+        let stepper = stepper.map_err(|_| "the run has no steps".to_string())?;
+        Ok(Self { ode, steps, last, step: 0, y, stepper })
+    }
+
+    /// The state with its derivatives at a time that is not before the last one.
+    ///
+    /// # Errors
+    /// The reason for which there are no derivatives.
+    pub fn at(&mut self, t: f64) -> Result<Vec<f64>, String> {
+        let ends = self.steps.t.len() - 1;
+        while self.step + 1 < ends && t >= self.steps.t[self.step + 1]
+            || self.step + 1 == ends && t == self.steps.t[ends]
+        {
+            let end = self.steps.t[self.step + 1];
+            let mut y = self.advance(end)?;
+            let n_y = self.ode.model.layout.n_y();
+            self.step += 1;
+            let known = match self.step < ends {
+                true => &self.steps.y[self.step * n_y..][..n_y],
+                false => &self.last[..],
+            };
+            y[..n_y].copy_from_slice(known);
+            self.project(end, &mut y)?;
+            self.y = y;
+        }
+        if self.step == ends || t == self.steps.t[self.step] {
+            return Ok(self.y.clone());
+        }
+        let mut y = self.advance(t)?;
+        self.project(t, &mut y)?;
+        Ok(y)
+    }
+
+    fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), String> {
+        self.ode.project(t, y).map_err(|_| singular(t))
+    }
+
+    /// The state at a time within the present step.
+    fn advance(&mut self, t: f64) -> Result<Vec<f64>, String> {
+        let Self { ode, stepper, .. } = self;
+        let begin = self.steps.t[self.step];
+        let failed = |_| singular(begin);
+        stepper.restart_until(begin, &self.y, t).map_err(failed)?;
+        while stepper.t() != t {
+            stepper.step(ode).map_err(failed)?;
+        }
+        Ok(stepper.y().to_vec())
+    }
+
+    /// The equations with derivatives.
+    pub fn ode(&mut self) -> &mut SlopeOde<'a> {
+        &mut self.ode
+    }
+}
+
+fn singular(t: f64) -> String {
+    format!("it has no bound: the position at t = {t:.6} s is singular, or the forces there have no derivative")
+}
+
+/// The start of each variable's block, as rows of numbers with derivatives.
+pub(super) fn joined(
+    start: crate::analyses::assemble::StartSlopes,
+) -> Vec<crate::equations::sensitivity::Slope> {
+    let [q, v, z] = start;
+    q.into_iter().chain(v).chain(z).list()
+}

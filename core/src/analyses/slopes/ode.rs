@@ -1,0 +1,125 @@
+//! The equations of motion together with their derivatives, as one system of differential equations.
+
+use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
+use crate::equations::{forces, Gains, Workspace};
+use crate::integrate::Ode;
+use crate::math::{Dual, Real};
+use crate::model::Model;
+use crate::solve::Breakdown;
+
+/// y = (state, derivatives of the state by the first variable, by the second variable, and so on). A state is
+/// (q, v, z, works).
+pub(super) struct SlopeOde<'a> {
+    pub model: &'a Model,
+    pub workspace: Workspace,
+    /// The equations with derivatives, for [`ABREAST`] variables each.
+    pub blocks: Vec<Sensitivity>,
+    n_y: usize,
+    /// The state with derivatives by the variables of one block.
+    state: Vec<Slope>,
+}
+
+impl<'a> SlopeOde<'a> {
+    pub fn new(model: &'a Model, workspace: Workspace, blocks: Vec<Sensitivity>) -> Self {
+        let n_y = model.layout.n_y();
+        Self { model, workspace, blocks, n_y, state: vec![Slope::constant(0.0); n_y] }
+    }
+
+    /// The state with derivatives by the variables of block `b`.
+    pub fn state(&self, b: usize, y: &[f64]) -> Vec<Slope> {
+        let mut state = vec![Slope::constant(0.0); self.n_y];
+        gather(self.n_y, b, y, &mut state);
+        state
+    }
+
+    /// Writes the derivatives of a state into y.
+    pub fn put(&self, b: usize, state: &[Slope], y: &mut [f64]) {
+        for (k, x) in state.iter().enumerate() {
+            for (place, slope) in x.slope.iter().enumerate() {
+                y[self.n_y * (1 + ABREAST * b + place) + k] = *slope;
+            }
+        }
+    }
+
+    /// Makes the derivatives meet the derivatives of the constraints.
+    pub fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Breakdown> {
+        let [q, v, z, _] = self.model.layout.split(&y[..self.n_y]);
+        self.workspace.accelerate(self.model, t, [q, v, z], Gains::default())?;
+        let (at, n) = (Slope::constant(t), self.model.layout.n_q);
+        for b in 0..self.blocks.len() {
+            let mut state = self.state(b, y);
+            let open = self.blocks[b].open(at, &state[..n]);
+            self.close(&open, &mut state[..n])?;
+            let (q, rest) = state.split_at_mut(n);
+            let opening = self.blocks[b].opening(at, q, &rest[..n]);
+            self.close(&opening, &mut rest[..n])?;
+            self.put(b, &state, y);
+        }
+        Ok(())
+    }
+
+    /// Changes derivatives by the least amount, in the metric of the mass, that closes derivatives of equations.
+    fn close(&mut self, open: &[Slope], x: &mut [Slope]) -> Result<(), Breakdown> {
+        for place in 0..ABREAST {
+            let mut change = vec![0.0; x.len()];
+            change.extend(open.iter().map(|open| -open.slope[place]));
+            self.workspace.solve(self.model, &mut change)?;
+            x.iter_mut().zip(&change).for_each(|(x, dx)| x.slope[place] += dx);
+        }
+        Ok(())
+    }
+}
+
+/// Reads a state with derivatives.
+fn gather(n_y: usize, b: usize, y: &[f64], state: &mut [Slope]) {
+    for (k, x) in state.iter_mut().enumerate() {
+        let mut slope = [0.0; ABREAST];
+        for (place, slope) in slope.iter_mut().enumerate() {
+            *slope = y[n_y * (1 + ABREAST * b + place) + k];
+        }
+        *x = Dual { value: y[k], slope };
+    }
+}
+
+impl Ode for SlopeOde<'_> {
+    type Stop = Breakdown;
+
+    fn len(&self) -> usize {
+        self.n_y * (1 + ABREAST * self.blocks.len())
+    }
+
+    fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Breakdown> {
+        let Self { model, workspace, blocks, n_y, state } = self;
+        let (layout, n_y, at) = (&model.layout, *n_y, Slope::constant(t));
+        let [q, v, z, _] = layout.split(&y[..n_y]);
+        workspace.accelerate(model, t, [q, v, z], Gains::default())?;
+        let powers = workspace.powers(model, v);
+        let [dq, dv, dz, works] = layout.split_mut(&mut dy[..n_y]);
+        dq.copy_from_slice(v);
+        dv.copy_from_slice(workspace.a());
+        workspace.state_rates(model, t, dz);
+        works.copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
+        let mut rates = vec![Slope::constant(0.0); n_y];
+        for (b, block) in blocks.iter_mut().enumerate() {
+            gather(n_y, b, y, state);
+            let [q, v, z, _] = layout.split(state);
+            block.respond((model, workspace), at, [q, v, z])?;
+            block.add_powers_of_drivers(v);
+            let [dq, dv, dz, works] = layout.split_mut(&mut rates);
+            dq.copy_from_slice(v);
+            dv.copy_from_slice(&block.a);
+            if !dz.is_empty() {
+                let acting = forces::Acting { z, lam: None, t: at };
+                forces::state_rates(&block.model, &block.motions, acting, dz);
+            }
+            let powers = block.powers;
+            works.copy_from_slice(&[powers.dissipated, powers.drivers, powers.applied]);
+            for (k, rate) in rates.iter().enumerate() {
+                for (place, slope) in rate.slope.iter().enumerate() {
+                    dy[n_y * (1 + ABREAST * b + place) + k] = *slope;
+                }
+            }
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,290 @@
+//! Statistics of measures with derivatives.
+
+use super::reader::{Reader, Row};
+use crate::analyses::statistics::{Extreme, BAND};
+use crate::analyses::sweep::{Series, Statistic};
+use crate::math::{Listed, Ordered};
+
+/// Distance of the times that give the second derivative at an extreme value, in steps of the run.
+const BESIDE: f64 = 1.0 / 32.0;
+/// Part of the span of a measure by which it may change within a step at the time of its extreme value.
+const FLAT: f64 = 1e-4;
+/// Derivatives of two equally large maxima that differ by less than this fraction are equal.
+const ALIKE: f64 = 1e-6;
+
+/// The derivatives of a number by each variable, or the reason for which there are none.
+pub(super) type Found = Result<Vec<f64>, String>;
+
+/// What a statistic needs.
+pub(super) enum Plan {
+    /// The value at a time that does not move, or at which the measure is stationary.
+    At(f64),
+    /// The largest or the least value, with the times of rivals.
+    Extreme(Extreme, Vec<f64>),
+    /// The time of the largest or the least value.
+    TimeOf(Extreme, Vec<f64>),
+    Mean,
+    Rms,
+    /// The settling time, the time of the largest deviation, and the last time.
+    Settling([f64; 3]),
+    /// The reason for which there is no derivative.
+    None(String),
+    Zero,
+}
+
+/// The length of the steps near a time, and the ends of the run.
+#[derive(Clone, Copy)]
+pub(super) struct Times<'a> {
+    pub outputs: &'a [f64],
+    pub steps: &'a [f64],
+}
+
+impl Times<'_> {
+    fn is_end(&self, t: f64) -> bool {
+        let last = self.outputs.len() - 1;
+        t == self.outputs[0] || t == self.outputs[last]
+    }
+
+    fn step(&self, t: f64) -> f64 {
+        let ends = self.steps.len() - 1;
+        let after = self.steps.partition_point(|end| *end <= t).clamp(1, ends.max(1));
+        match ends {
+            0 => 0.0,
+            _ => self.steps[after] - self.steps[after - 1],
+        }
+    }
+
+    /// Times around an extreme value.
+    fn beside(&self, t: f64) -> [f64; 4] {
+        let last = self.outputs.len() - 1;
+        let room = (t - self.outputs[0]).min(self.outputs[last] - t) / 2.0;
+        let d = (BESIDE * self.step(t)).min(room);
+        [t - 2.0 * d, t - d, t + d, t + 2.0 * d]
+    }
+}
+
+impl Plan {
+    /// The plan of a statistic.
+    pub fn of(series: &Series<'_>, statistic: Statistic, times: Times<'_>) -> Self {
+        let extreme = |place: usize| series.known(place).ok().cloned();
+        let missing = || Self::None("the number itself is not known".to_string());
+        let last = times.outputs[times.outputs.len() - 1];
+        match statistic {
+            Statistic::Final => Self::At(last),
+            Statistic::Mean => Self::Mean,
+            Statistic::Rms => Self::Rms,
+            Statistic::Max => {
+                extreme(0).map_or_else(missing, |(at, rivals)| Self::Extreme(at, rivals))
+            }
+            Statistic::Min => {
+                extreme(1).map_or_else(missing, |(at, rivals)| Self::Extreme(at, rivals))
+            }
+            Statistic::TimeOfMax => {
+                extreme(0).map_or_else(missing, |(at, rivals)| Self::TimeOf(at, rivals))
+            }
+            Statistic::TimeOfMin => {
+                extreme(1).map_or_else(missing, |(at, rivals)| Self::TimeOf(at, rivals))
+            }
+            Statistic::Peak => match (extreme(0), extreme(1)) {
+                (Some((most, one)), Some((least, other))) => {
+                    let (at, rivals) = if most.value.abs() >= least.value.abs() {
+                        (most, one)
+                    } else {
+                        (least, other)
+                    };
+                    Self::Extreme(at, rivals)
+                }
+                _ => missing(),
+            },
+            Statistic::Settling => {
+                match series.statistic(statistic) {
+                    Ok(t) if t.is_nan() => Self::None("the motion does not settle".to_string()),
+                    Ok(t) if t == times.outputs[0] => Self::Zero,
+                    Ok(t) => {
+                        let values = series.outputs();
+                        let end = values[values.len() - 1];
+                        let away = |k: &usize| (values[*k] - end).abs();
+                        let most = (0..values.len()).fold(0, |best, k| {
+                            if away(&k) > away(&best) {
+                                k
+                            } else {
+                                best
+                            }
+                        });
+                        Self::Settling([t, times.outputs[most], last])
+                    }
+                    Err(_) => missing(),
+                }
+            }
+        }
+    }
+
+    /// The times at which the measure is needed.
+    pub fn times(&self, times: Times<'_>) -> Vec<f64> {
+        match self {
+            Self::At(t) => vec![*t],
+            Self::Extreme(at, rivals) | Self::TimeOf(at, rivals) => {
+                let each = std::iter::once(at.t).chain(rivals.iter().copied());
+                each.flat_map(|t| [&[t], &times.beside(t)[..]].concat()).list()
+            }
+            Self::Mean | Self::Rms => times.outputs.to_vec(),
+            Self::Settling(all) => all.to_vec(),
+            Self::None(_) | Self::Zero => Vec::new(),
+        }
+    }
+
+    /// The derivatives of measure `k`, from its rows at all times.
+    pub fn slopes(&self, rows: &Rows, k: usize, times: Times<'_>) -> Found {
+        let at = |t: f64| rows.at(t);
+        match self {
+            Self::None(reason) => Err(reason.clone()),
+            Self::Zero => Ok(vec![0.0; rows.variables]),
+            Self::At(t) => Ok(at(*t).slopes[k].clone()),
+            Self::Extreme(found, rivals) => Ok(agreed(rows, k, (found.t, rivals), times)?.of_value),
+            Self::TimeOf(found, rivals) => Ok(agreed(rows, k, (found.t, rivals), times)?.of_time),
+            Self::Mean => Ok(mean(rows, k, times, &|_| 1.0)),
+            Self::Rms => {
+                let t = times.outputs;
+                let squares = t.iter().map(|t| at(*t).values[k][0].powi(2)).list();
+                let size = crate::analyses::statistics::mean(t, &squares).sqrt();
+                match size == 0.0 {
+                    true => {
+                        Err("the value is zero, where a magnitude has no derivative".to_string())
+                    }
+                    false => Ok(mean(rows, k, times, &|row| row.values[k][0] / size)),
+                }
+            }
+            Self::Settling([t, most, last]) => {
+                let [entry, peak, end] = [t, most, last].map(|t| at(*t));
+                let away = |row: &Row| (row.values[k][0] - end.values[k][0]).signum();
+                let rate = away(entry) * entry.values[k][1];
+                let of = |j: usize| {
+                    let by = |row: &Row| away(row) * (row.slopes[k][j] - end.slopes[k][j]);
+                    (BAND * by(peak) - by(entry)) / rate
+                };
+                Ok((0..rows.variables).map(of).list())
+            }
+        }
+    }
+}
+
+/// The mean over the outputs of weighted derivatives.
+fn mean(rows: &Rows, k: usize, times: Times<'_>, weight: &dyn Fn(&Row) -> f64) -> Vec<f64> {
+    let of = |j: usize| {
+        let values: Vec<f64> = times
+            .outputs
+            .iter()
+            .map(|t| {
+                let row = rows.at(*t);
+                weight(row) * row.slopes[k][j]
+            })
+            .list();
+        crate::analyses::statistics::mean(times.outputs, &values)
+    };
+    (0..rows.variables).map(of).list()
+}
+
+/// The derivatives of an extreme value and of its time.
+struct Stationary {
+    of_value: Vec<f64>,
+    of_time: Vec<f64>,
+}
+
+impl Stationary {
+    /// The derivatives of an extreme value near `t`.
+    ///
+    /// # Errors
+    /// The measure is not stationary there: it has a kink, which may move.
+    fn at(rows: &Rows, k: usize, t: f64, times: Times<'_>) -> Result<Self, String> {
+        let (row, beside) = (rows.at(t), times.beside(t));
+        let fixed = || Self { of_value: row.slopes[k].clone(), of_time: vec![0.0; rows.variables] };
+        let d = beside[2] - t;
+        let change = (row.values[k][1] * times.step(t)).abs();
+        if times.is_end(t) || d <= 0.0 || rows.span[k] == 0.0 {
+            return Ok(fixed());
+        }
+        if change > FLAT * rows.span[k] {
+            return Err(format!("the value has a kink at t = {t:.6} s, which may move"));
+        }
+        // differences of fourth order of exact derivatives
+        let difference = |of: &dyn Fn(&Row) -> f64| {
+            let [a, b, c, e] = beside.map(|t| of(rows.at(t)));
+            (8.0 * (c - b) - (e - a)) / (12.0 * d)
+        };
+        let second = difference(&|row| row.values[k][1]);
+        if second == 0.0 {
+            return Ok(fixed()); // a constant value
+        }
+        // the value is stationary at t + late
+        let late = -row.values[k][1] / second;
+        let (mut of_value, mut of_time) = (row.slopes[k].clone(), Vec::new());
+        for (j, slope) in of_value.iter_mut().enumerate() {
+            let grows = difference(&|row| row.slopes[k][j]);
+            *slope += late * grows;
+            of_time.push(-grows / second);
+        }
+        Ok(Self { of_value, of_time })
+    }
+}
+
+/// The derivatives of an extreme value that is reached at one time or more.
+///
+/// # Errors
+/// It has a kink, or the values at the times change differently, so that there is no derivative.
+fn agreed(
+    rows: &Rows,
+    k: usize,
+    (t, rivals): (f64, &[f64]),
+    times: Times<'_>,
+) -> Result<Stationary, String> {
+    let first = Stationary::at(rows, k, t, times)?;
+    let size = first.of_value.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+    for rival in rivals {
+        let other = Stationary::at(rows, k, *rival, times)?;
+        let both = first.of_value.iter().zip(&other.of_value);
+        if both.into_iter().any(|(a, b)| (a - b).abs() > ALIKE * size) {
+            return Err(format!(
+                "the value is reached at t = {t:.6} s and at t = {rival:.6} s, and changes differently there"
+            ));
+        }
+    }
+    Ok(first)
+}
+
+/// The rows of all measures at all times.
+pub(super) struct Rows {
+    rows: Vec<Row>,
+    pub variables: usize,
+    /// The largest magnitude of each measure at the times read.
+    span: Vec<f64>,
+}
+
+impl Rows {
+    /// Reads all measures at some times.
+    ///
+    /// # Errors
+    /// The reason for which there are no derivatives.
+    pub fn read(
+        reader: &mut Reader<'_>,
+        mut t: Vec<f64>,
+        variables: usize,
+    ) -> Result<Self, String> {
+        t.order_by(f64::total_cmp);
+        t.dedup();
+        let mut rows = Vec::with_capacity(t.len());
+        for t in t {
+            let mut row = reader.at(t)?;
+            row.slopes.iter_mut().for_each(|of| of.truncate(variables));
+            rows.push(row);
+        }
+        let span = (0..reader.measures.len())
+            .map(|k| rows.iter().fold(0.0_f64, |most, row| most.max(row.values[k][0].abs())));
+        let span = span.list();
+        Ok(Self { rows, variables, span })
+    }
+
+    fn at(&self, t: f64) -> &Row {
+        let place = self.rows.partition_point(|row| row.t < t);
+        &self.rows[place.min(self.rows.len() - 1)]
+    }
+}

@@ -1,0 +1,111 @@
+//! Systems of linear equations of any shape and rank, by elimination with full pivoting.
+
+/// The solution of a system that may be singular.
+#[derive(Clone, Debug, PartialEq)]
+pub struct AnyRank {
+    /// The columns that no equation determines. They are zero in each solution.
+    pub free: Vec<usize>,
+    /// For each right side: whether the equations agree.
+    pub consistent: Vec<bool>,
+}
+
+/// Solves A X = B for several right sides. `a` is row-major with `columns` columns and is overwritten. Each of `right`
+/// has one number for each row, and one for each column afterwards. A pivot below `tolerance` of the largest of its
+/// scaled matrix is zero.
+pub fn solve_any_rank(
+    a: &mut [f64],
+    columns: usize,
+    right: &mut [Vec<f64>],
+    tolerance: f64,
+) -> AnyRank {
+    let rows = a.len() / columns.max(1);
+    let largest = |x: &mut dyn Iterator<Item = f64>| x.fold(0.0_f64, |most, x| most.max(x.abs()));
+    let mut column_scale = vec![1.0; columns];
+    for row in 0..rows {
+        let own = &mut a[row * columns..(row + 1) * columns];
+        let scale = largest(&mut own.iter().copied());
+        if scale > 0.0 {
+            own.iter_mut().for_each(|x| *x /= scale);
+            right.iter_mut().for_each(|b| b[row] /= scale);
+        }
+    }
+    for column in 0..columns {
+        let scale = largest(&mut (0..rows).map(|row| a[row * columns + column]));
+        if scale > 0.0 {
+            (0..rows).for_each(|row| a[row * columns + column] /= scale);
+            column_scale[column] = scale;
+        }
+    }
+    let mut order: Vec<usize> = (0..columns).collect();
+    let sizes: Vec<f64> = right.iter().map(|b| largest(&mut b.iter().copied())).collect();
+    let mut rank = 0;
+    while rank < rows.min(columns) {
+        let mut best = (rank, rank, 0.0_f64);
+        for row in rank..rows {
+            for (column, at) in order.iter().enumerate().skip(rank) {
+                let x = a[row * columns + at].abs();
+                if x > best.2 {
+                    best = (row, column, x);
+                }
+            }
+        }
+        if best.2 <= tolerance {
+            break;
+        }
+        let (row, column, _) = best;
+        (0..columns).for_each(|k| a.swap(row * columns + k, rank * columns + k));
+        right.iter_mut().for_each(|b| b.swap(row, rank));
+        order.swap(column, rank);
+        let pivot = a[rank * columns + order[rank]];
+        for below in rank + 1..rows {
+            let factor = a[below * columns + order[rank]] / pivot;
+            if factor != 0.0 {
+                for at in &order[rank..] {
+                    a[below * columns + at] -= factor * a[rank * columns + at];
+                }
+                right.iter_mut().for_each(|b| b[below] -= factor * b[rank]);
+            }
+        }
+        rank += 1;
+    }
+    let consistent = right.iter().zip(&sizes).map(|(b, size)| {
+        let left = largest(&mut b[rank..].iter().copied());
+        left <= tolerance.sqrt() * size
+    });
+    let consistent = consistent.collect();
+    for b in right {
+        let mut x = vec![0.0; columns];
+        for k in (0..rank).rev() {
+            let known = order[k + 1..rank].iter();
+            let sum: f64 = known.map(|at| a[k * columns + at] * x[*at]).sum();
+            x[order[k]] = (b[k] - sum) / a[k * columns + order[k]];
+        }
+        x.iter_mut().zip(&column_scale).for_each(|(x, scale)| *x /= scale);
+        *b = x;
+    }
+    AnyRank { free: order[rank..].to_vec(), consistent }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_regular_system_has_its_solution() {
+        let mut a = [0.0, 2.0e9, 3.0, 1.0];
+        let mut right = vec![vec![4.0e9, 5.0], vec![0.0, 6.0]];
+        let found = solve_any_rank(&mut a, 2, &mut right, 1e-12);
+        assert_eq!(right, [[1.0, 2.0], [2.0, 0.0]]);
+        assert_eq!(found, AnyRank { free: vec![], consistent: vec![true, true] });
+    }
+
+    #[test]
+    fn dependent_rows_agree_or_not_and_columns_may_be_free() {
+        let mut a = [1.0, 1.0, 0.0, 2.0, 2.0, 0.0];
+        let mut right = vec![vec![1.0, 2.0], vec![1.0, 3.0]];
+        let found = solve_any_rank(&mut a, 3, &mut right, 1e-12);
+        assert_eq!(found.consistent, [true, false]);
+        assert_eq!(found.free.len(), 2);
+        assert_eq!(right[0][0] + right[0][1], 1.0);
+    }
+}
