@@ -334,8 +334,15 @@ impl<S: Real> Workspace<S> {
     /// # Errors
     /// A load on a coordinate without mass or inertia that no joint supports.
     pub fn solve(&mut self, model: &Model<S>, x: &mut [S]) -> Result<(), Breakdown> {
+        let direct = self.solves_directly() && !self.corrects() && !self.matrix.regularised();
         let Self { motions, matrix, memory, .. } = self;
-        refine::solve(model, motions, matrix, x, memory)
+        match direct && x.len() == matrix.plan().n_unknowns() + matrix.plan().pattern.n_rows() {
+            true => {
+                matrix.solve(x);
+                Ok(())
+            }
+            false => refine::solve(model, motions, matrix, x, memory),
+        }
     }
 
     /// Computes ż at the state that was [placed](Self::place) into `out`, shape (n_z).

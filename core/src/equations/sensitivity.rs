@@ -9,7 +9,7 @@ use super::forces::{self, Acting};
 use super::kinematics::Motions;
 use super::powers::Powers;
 use super::{constraints, mass, reactions, reactive, Compiled, Gains, Workspace};
-use crate::math::{Dual, Listed, Real};
+use crate::math::{Dual, Real};
 use crate::model::Model;
 use crate::solve::Breakdown;
 
@@ -43,6 +43,8 @@ pub struct Sensitivity {
     jacobian: Vec<Slope>,
     gamma: Vec<Slope>,
     applied: Vec<Slope>,
+    /// (r, s), shape (n_q + n_rows).
+    residual: Vec<Slope>,
     depends: bool,
 }
 
@@ -59,6 +61,7 @@ impl Sensitivity {
             jacobian: vec![zero; model.layout.n_entries],
             gamma: vec![zero; m],
             applied: vec![zero; n],
+            residual: vec![zero; n + m],
             depends: reactive::depends(&model) || reactions::loaded(&model).next().is_some(),
             model,
         }
@@ -90,11 +93,11 @@ impl Sensitivity {
         self.lam.iter_mut().zip(workspace.lam()).for_each(|(lam, x)| *lam = Slope::constant(*x));
         let (mut last, mut x) = (f64::INFINITY, Vec::new());
         for turn in 0.. {
-            let residual = self.residual(t, state[2]);
+            self.put_residual(t, state[2]);
             let (mut change, mut size) = (0.0_f64, 0.0_f64);
             for k in 0..ABREAST {
                 x.clear();
-                x.extend(residual.iter().map(|r| -r.slope[k]));
+                x.extend(self.residual.iter().map(|r| -r.slope[k]));
                 workspace.solve(base, &mut x)?;
                 for (to, dx) in self.a.iter_mut().chain(&mut self.lam).zip(&x) {
                     to.slope[k] += dx;
@@ -122,8 +125,8 @@ impl Sensitivity {
         constraints::linearize(model, motions, t, Gains::default(), gamma, jacobian);
     }
 
-    /// (r, s) for the present a and λ, and the powers.
-    fn residual(&mut self, t: Slope, z: &[Slope]) -> Vec<Slope> {
+    /// Computes (r, s) and the powers for the present a and λ.
+    fn put_residual(&mut self, t: Slope, z: &[Slope]) {
         let Self { model, motions, a, lam, powers, compiled, jacobian, gamma, applied, .. } = self;
         let known = self.depends.then_some(&lam[..]);
         let acting = Acting { z, lam: known, t };
@@ -131,13 +134,12 @@ impl Sensitivity {
         if self.depends {
             reactions::add_loads(model, motions, t, lam, applied);
         }
-        let mut out: Vec<Slope> = applied.iter().map(|q| -*q).list();
-        mass::add_times(model, motions, a, &mut out);
-        constraints::add_transposed(model, jacobian, lam, &mut out);
-        let mut rows = vec![Slope::constant(0.0); gamma.len()];
-        constraints::times_all(model, jacobian, a, &mut rows);
-        out.extend(rows.iter().zip(&*gamma).map(|(row, gamma)| *row - *gamma));
-        out
+        let (r, s) = self.residual.split_at_mut(a.len());
+        r.iter_mut().zip(&*applied).for_each(|(r, q)| *r = -*q);
+        mass::add_times(model, motions, a, r);
+        constraints::add_transposed(model, jacobian, lam, r);
+        constraints::times_all(model, jacobian, a, s);
+        s.iter_mut().zip(&*gamma).for_each(|(s, gamma)| *s -= *gamma);
     }
 
     /// Adds the powers of drivers, -λᵀ Φ_q q̇ over their rows, after [`respond`](Self::respond).
@@ -182,6 +184,18 @@ impl Sensitivity {
         let mut out = vec![Slope::constant(0.0); x.len()];
         mass::add_times(&self.model, &self.motions, x, &mut out);
         constraints::add_transposed(&self.model, &self.jacobian, y, &mut out);
+        out
+    }
+
+    /// Φ_qᵀ λ - Q and Φ with derivatives, at rest, shape (n_q + n_rows). Forces that depend on reactions are zero.
+    pub fn statics(&mut self, t: Slope, q: &[Slope], lam: &[Slope]) -> Vec<Slope> {
+        let rest = vec![Slope::constant(0.0); q.len()];
+        let mut out = self.balance_of((t, q, &rest), &rest, lam);
+        let Self { model, motions, powers, compiled, applied, .. } = self;
+        let acting = Acting { z: &[], lam: None, t };
+        forces::generalized(model, compiled, motions, acting, applied, powers);
+        out.iter_mut().zip(&*applied).for_each(|(out, q)| *out -= *q);
+        out.extend(self.open(t, q));
         out
     }
 }

@@ -1,13 +1,17 @@
 //! All numbers of a request with their derivatives by all variables.
 
+use super::at_rest::AtRest;
 use super::motion::{joined, MotionSlopes};
 use super::reader::{Course, Reader, States};
 use super::statistics::{Found, Plan, Rows, Times};
 use super::variables::parameters;
 use crate::analyses::assemble::{self, set_slopes, StartSlopes};
-use crate::analyses::dynamics::Run;
+use crate::analyses::dynamics::{Options, Run};
+use crate::analyses::measures::Measure;
 use crate::analyses::record::Record;
-use crate::analyses::sweep::{Outcome, PreparedModel, Readings, Ready, Series, Sweep, VariantRow};
+use crate::analyses::sweep::{
+    Outcome, PreparedModel, Readings, Ready, Series, Sweep, VariantRow, Wanted,
+};
 use crate::analyses::{chain, AnyAnalysis};
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
 use crate::math::Listed;
@@ -50,16 +54,25 @@ impl Sweep {
         let count = row.0.len() + row.1.len();
         match &ready.analysis {
             AnyAnalysis::Dynamics(options) => {
-                let options =
-                    crate::analyses::dynamics::Options { dense_output: true, ..options.clone() };
+                let options = Options { dense_output: true, ..options.clone() };
                 let analysis = AnyAnalysis::Dynamics(options);
                 let record = self.run(&ready, &analysis, stop);
                 self.of_record(&ready, record.map_err(Outcome::from)?, row)
             }
-            analysis => match self.run(&ready, analysis, stop).map_err(Outcome::from)? {
-                record if record.motion.is_some() => self.of_record(&ready, record, row),
-                _ => self.without(row, stop, count, "this analysis has no derivatives yet"),
-            },
+            analysis => {
+                let record = self.run(&ready, analysis, stop).map_err(Outcome::from)?;
+                if record.motion.is_some() {
+                    return self.of_record(&ready, record, row);
+                }
+                match analysis {
+                    AnyAnalysis::Equilibrium(options) if options.over.is_none() => {
+                        let values = self.without(row, stop, count, "")?.values;
+                        let found = self.of_equilibrium(&ready, options, &record, row);
+                        Ok(gathered(values, found, count))
+                    }
+                    _ => self.without(row, stop, count, "this analysis has no derivatives yet"),
+                }
+            }
         }
     }
 
@@ -134,15 +147,60 @@ impl Sweep {
         Self::names(row).iter().map(of).collect()
     }
 
-    /// The derivatives along a run of forward dynamics.
-    fn along<'a>(
+    /// The derivatives of the numbers of an equilibrium.
+    fn of_equilibrium(
         &self,
-        model: &'a Model,
         ready: &Ready,
-        run: &'a Run,
-        blocks: Vec<Sensitivity>,
+        options: &crate::analyses::equilibrium::Options,
+        record: &Record,
         row: &VariantRow,
-    ) -> Result<MotionSlopes<'a>, String> {
+    ) -> Vec<Found> {
+        let found = self.starts(ready, row).and_then(|starts| {
+            let model = self.subject(ready).released(&ready.start);
+            let lam = multipliers(record).ok_or("its multipliers are not known")?;
+            let names = Self::names(row);
+            let of = |(names, slopes): (&Vec<String>, &StartSlopes)| {
+                let (start, state) = (&ready.start.state, &record.end.state);
+                let found = AtRest::find((&model, options), names, (start, slopes), (state, &lam));
+                Ok((found?, names.len()))
+            };
+            let blocks = names.iter().zip(&starts).map(of).collect::<Result<Vec<_>, String>>()?;
+            Ok((model, blocks))
+        });
+        let (model, mut blocks) = match found {
+            Ok(found) => found,
+            Err(reason) => return vec![Err(reason); self.wanted.len()],
+        };
+        let mut read = |text: &str| -> Found {
+            let mut slopes = Vec::new();
+            for (block, count) in &mut blocks {
+                let holder = |name| options.hold.iter().position(|held| held == name);
+                let found = match text.strip_prefix("effort.").map(holder) {
+                    Some(Some(holder)) => block.effort(holder),
+                    Some(None) => return Err("it has no derivatives yet".to_string()),
+                    None => {
+                        let declared = self.definition.measures.iter().find(|(of, _)| of == text);
+                        let text = match declared {
+                            Some((_, crate::model::Value::Text(text))) => text,
+                            _ => text,
+                        };
+                        let measure = Measure::read(&model, text);
+                        block.read(&measure.map_err(|_| "it has no derivatives yet")?)
+                    }
+                };
+                slopes.extend(&found.slope[..*count]);
+            }
+            Ok(slopes)
+        };
+        let each = self.wanted.iter().map(|one| match one {
+            Wanted::Number(text) => read(text),
+            Wanted::Statistic(..) => Err("an equilibrium has no statistics".to_string()),
+        });
+        each.list()
+    }
+
+    /// The derivatives of the start of an analysis, in blocks of variables.
+    fn starts(&self, ready: &Ready, row: &VariantRow) -> Result<Vec<StartSlopes>, String> {
         let unread = || "the start cannot be read".to_string();
         if chain(&self.analyses, self.analyses.len() - 1).len() > 1 {
             return Err("its start is the end of another analysis".to_string());
@@ -157,13 +215,38 @@ impl Sweep {
             let values = set_slopes(own, &set, &numbers, names).ok_or_else(unread)?;
             assemble::slopes(own, &request, (&numbers, &values), start)
         };
-        let starts = Self::names(row).iter().map(of).collect::<Result<Vec<_>, _>>()?;
+        Self::names(row).iter().map(of).collect()
+    }
+
+    /// The derivatives along a run of forward dynamics.
+    fn along<'a>(
+        &self,
+        model: &'a Model,
+        ready: &Ready,
+        run: &'a Run,
+        blocks: Vec<Sensitivity>,
+        row: &VariantRow,
+    ) -> Result<MotionSlopes<'a>, String> {
+        let starts = self.starts(ready, row)?;
         let starts: Vec<Vec<Slope>> = starts.into_iter().map(joined).list();
         let dense = run.dense.as_ref().ok_or_else(|| "the run has no interpolant".to_string())?;
+        let AnyAnalysis::Dynamics(Options { method: scheme, .. }) = &ready.analysis else {
+            return Err("the motion is not integrated".to_string());
+        };
         let implicit = run.statistics.jacobians > 0;
         let last = last_state(model, run);
-        MotionSlopes::new(model, blocks, (dense, last), &starts, implicit)
+        MotionSlopes::new(model, blocks, (dense, last), &starts, (scheme, implicit))
     }
+}
+
+/// The multipliers of an equilibrium: those of the joints and drivers, then those of the holders.
+fn multipliers(record: &Record) -> Option<Vec<f64>> {
+    let point = record.findings["points"].as_array()?.first()?;
+    let read = |name: &str| -> Option<Vec<f64>> {
+        point[name].as_array()?.iter().map(serde_json::Value::as_f64).collect()
+    };
+    let holders = read("holders")?;
+    Some(read("lam")?.into_iter().chain(holders.iter().map(|effort| -effort)).list())
 }
 
 /// The last state of a run, with its works.

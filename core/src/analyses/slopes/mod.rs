@@ -8,11 +8,13 @@
 //! | `variables` | parameters and start values as numbers with derivatives |
 //! | `ode` | the equations of motion together with their derivatives |
 //! | `motion` | the derivatives of a motion along its steps |
+//! | `at_rest` | the derivatives of an equilibrium |
 //! | `driven` | the derivatives of a motion that drivers determine |
 //! | `reader` | measures with derivatives |
 //! | `statistics` | statistics with derivatives |
 //! | `gradient` | all numbers and all variables of a request |
 
+mod at_rest;
 mod driven;
 mod gradient;
 mod motion;

@@ -5,10 +5,11 @@
 //! together with an error control of their own.
 
 use super::ode::SlopeOde;
-use crate::analyses::dynamics::PiecewiseInterpolant;
-use crate::equations::sensitivity::{Sensitivity, ABREAST};
+use crate::analyses::assemble::StartSlopes;
+use crate::analyses::dynamics::{PiecewiseInterpolant, Scheme};
+use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
 use crate::equations::Workspace;
-use crate::integrate::{BoxedStepper, Dop853, ExplicitMethod, StepControl};
+use crate::integrate::{BoxedStepper, Dop853, ExplicitMethod, Rk4, Rk45, StepControl};
 use crate::math::Listed;
 use crate::model::Model;
 use crate::solve::Breakdown;
@@ -34,7 +35,7 @@ pub(super) struct MotionSlopes<'a> {
 
 impl<'a> MotionSlopes<'a> {
     /// Begins at the start of a run without phases; `start` contains the derivatives of its start, one block after the
-    /// other. `implicit` states whether steps of the run were implicit.
+    /// other. The steps are those of a `scheme`; `implicit` states whether some were implicit.
     ///
     /// # Errors
     /// The reason for which there are no derivatives.
@@ -42,8 +43,8 @@ impl<'a> MotionSlopes<'a> {
         model: &'a Model,
         blocks: Vec<Sensitivity>,
         (steps, last): (&'a PiecewiseInterpolant, Vec<f64>),
-        start: &[Vec<crate::equations::sensitivity::Slope>],
-        implicit: bool,
+        start: &[Vec<Slope>],
+        (scheme, implicit): (&Scheme, bool),
     ) -> Result<Self, String> {
         let workspace = Workspace::new(model);
         let ode = SlopeOde::new(model, workspace, blocks);
@@ -63,7 +64,11 @@ impl<'a> MotionSlopes<'a> {
             }
             false => StepControl::constant((span.1 - span.0).abs()),
         };
-        let stepper = Dop853 { control }.start(&ode, span, &y);
+        let stepper = match scheme {
+            Scheme::Rk45(_) => Rk45 { control }.start(&ode, span, &y),
+            Scheme::Rk4(_) => Rk4 { control }.start(&ode, span, &y),
+            _ => Dop853 { control }.start(&ode, span, &y),
+        };
         let stepper = stepper.map_err(|_| "the run has no steps".to_string())?;
         Ok(Self { ode, steps, last, step: 0, y, stepper })
     }
@@ -123,10 +128,8 @@ fn singular(t: f64) -> String {
     format!("it has no bound: the position at t = {t:.6} s is singular, or the forces there have no derivative")
 }
 
-/// The start of each variable's block, as rows of numbers with derivatives.
-pub(super) fn joined(
-    start: crate::analyses::assemble::StartSlopes,
-) -> Vec<crate::equations::sensitivity::Slope> {
+/// A start as one row: q, v and z.
+pub(super) fn joined(start: StartSlopes) -> Vec<Slope> {
     let [q, v, z] = start;
     q.into_iter().chain(v).chain(z).list()
 }
