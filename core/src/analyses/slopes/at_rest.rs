@@ -97,6 +97,12 @@ impl AtRest {
         measure.value_at(&self.over.model, &seen)
     }
 
+    /// The equilibrium as the start of a motion.
+    pub fn start(self) -> StartSlopes {
+        let rest = vec![Slope::constant(0.0); self.q.len()];
+        [self.q, rest, self.z]
+    }
+
     /// The effort of a holder.
     pub fn effort(&self, holder: usize) -> Slope {
         -self.lam[self.own + holder]

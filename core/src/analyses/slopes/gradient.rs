@@ -7,10 +7,11 @@ use super::statistics::{Found, Plan, Rows, Times};
 use super::variables::parameters;
 use crate::analyses::assemble::{self, set_slopes, StartSlopes};
 use crate::analyses::dynamics::{Options, Run};
+use crate::analyses::equilibrium::Options as EquilibriumOptions;
 use crate::analyses::measures::Measure;
 use crate::analyses::record::Record;
 use crate::analyses::sweep::{
-    Outcome, PreparedModel, Readings, Ready, Series, Sweep, VariantRow, Wanted,
+    Outcome, PreparedModel, Readings, Ready, Series, Statistic, Sweep, VariantRow, Wanted,
 };
 use crate::analyses::{chain, AnyAnalysis};
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
@@ -57,17 +58,17 @@ impl Sweep {
                 let options = Options { dense_output: true, ..options.clone() };
                 let analysis = AnyAnalysis::Dynamics(options);
                 let record = self.run(&ready, &analysis, stop);
-                self.of_record(&ready, record.map_err(Outcome::from)?, row)
+                self.of_record(&ready, record.map_err(Outcome::from)?, row, stop)
             }
             analysis => {
                 let record = self.run(&ready, analysis, stop).map_err(Outcome::from)?;
                 if record.motion.is_some() {
-                    return self.of_record(&ready, record, row);
+                    return self.of_record(&ready, record, row, stop);
                 }
                 match analysis {
                     AnyAnalysis::Equilibrium(options) if options.over.is_none() => {
                         let values = self.without(row, stop, count, "")?.values;
-                        let found = self.of_equilibrium(&ready, options, &record, row);
+                        let found = self.of_equilibrium(&ready, options, &record, row, stop);
                         Ok(gathered(values, found, count))
                     }
                     _ => self.without(row, stop, count, "this analysis has no derivatives yet"),
@@ -93,7 +94,13 @@ impl Sweep {
         }
     }
 
-    fn of_record(&self, ready: &Ready, record: Record, row: &VariantRow) -> Outcomes {
+    fn of_record(
+        &self,
+        ready: &Ready,
+        record: Record,
+        row: &VariantRow,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Outcomes {
         let Record { motion: Some(run), driven, responses, .. } = record else {
             return Err(Outcome::Single);
         };
@@ -107,7 +114,7 @@ impl Sweep {
         let series: Vec<Series<'_>> = series.collect::<Result<_, _>>()?;
         let values: Result<Vec<f64>, _> =
             self.statistics().map(|(of, statistic)| series[of].statistic(statistic)).collect();
-        let (values, count) = (values?, row.0.len() + row.1.len());
+        let (mut values, count) = (values?, row.0.len() + row.1.len());
         let steps = run.dense.as_ref().map_or(&run.trajectory.t[..], |dense| &dense.t);
         let times = Times { outputs: &run.trajectory.t, steps };
         let plans: Vec<Plan> =
@@ -118,18 +125,32 @@ impl Sweep {
             let states = |t: f64| state_at(whole, &run, t, rests);
             let course = match is_driven {
                 true => Course::Driven(blocks, &states as States<'_>),
-                false => Course::Dynamics(self.along(model, ready, &run, blocks, row)?),
+                false => Course::Dynamics(self.along((model, &run), ready, blocks, row, stop)?),
             };
             let measures = (0..self.measures.len()).map(|k| between.readings.measure(k).clone());
             let mut reader = Reader::new(model, measures.list(), course);
             let t = plans.iter().flat_map(|plan| plan.times(times)).list();
             Rows::read(&mut reader, t, count)
         });
-        let found = plans.iter().zip(self.statistics()).map(|(plan, (k, _))| match &rows {
-            Ok(rows) => plan.slopes(rows, k, times),
+        let found = plans.iter().zip(self.statistics()).map(|(plan, (k, one))| match &rows {
+            Ok(rows) => plan.slopes(rows, (k, one == Statistic::Peak), times),
             Err(reason) => Err(reason.clone()),
         });
-        Ok(gathered(values, found.list(), count))
+        let mut found = found.list();
+        // works and losses since the start are known along the steps only
+        for (number, (k, one)) in self.statistics().enumerate() {
+            let of_run = between.readings.measure(k).is_of_run();
+            match (&rows, one) {
+                _ if !of_run => {}
+                (Ok(rows), Statistic::Final) => values[number] = rows.last(k),
+                _ => {
+                    values[number] = f64::NAN;
+                    found[number] =
+                        Err("of a whole run, only final values have derivatives".into());
+                }
+            }
+        }
+        Ok(gathered(values, found, count))
     }
 
     /// The names of the variables, in blocks.
@@ -151,24 +172,14 @@ impl Sweep {
     fn of_equilibrium(
         &self,
         ready: &Ready,
-        options: &crate::analyses::equilibrium::Options,
+        options: &EquilibriumOptions,
         record: &Record,
         row: &VariantRow,
+        stop: &(dyn Fn() -> bool + Sync),
     ) -> Vec<Found> {
-        let found = self.starts(ready, row).and_then(|starts| {
-            let model = self.subject(ready).released(&ready.start);
-            let lam = multipliers(record).ok_or("its multipliers are not known")?;
-            let names = Self::names(row);
-            let of = |(names, slopes): (&Vec<String>, &StartSlopes)| {
-                let (start, state) = (&ready.start.state, &record.end.state);
-                let found = AtRest::find((&model, options), names, (start, slopes), (state, &lam));
-                Ok((found?, names.len()))
-            };
-            let blocks = names.iter().zip(&starts).map(of).collect::<Result<Vec<_>, String>>()?;
-            Ok((model, blocks))
-        });
-        let (model, mut blocks) = match found {
-            Ok(found) => found,
+        let model = self.subject(ready).released(&ready.start);
+        let mut blocks = match self.rests((ready, options, record), row, stop) {
+            Ok(blocks) => blocks,
             Err(reason) => return vec![Err(reason); self.wanted.len()],
         };
         let mut read = |text: &str| -> Found {
@@ -200,11 +211,38 @@ impl Sweep {
     }
 
     /// The derivatives of the start of an analysis, in blocks of variables.
-    fn starts(&self, ready: &Ready, row: &VariantRow) -> Result<Vec<StartSlopes>, String> {
-        let unread = || "the start cannot be read".to_string();
-        if chain(&self.analyses, self.analyses.len() - 1).len() > 1 {
-            return Err("its start is the end of another analysis".to_string());
+    fn starts(
+        &self,
+        ready: &Ready,
+        row: &VariantRow,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Vec<StartSlopes>, String> {
+        let places = chain(&self.analyses, self.analyses.len() - 1);
+        match places[..] {
+            [_] => self.assembled(ready, row),
+            [first, _] => {
+                let analyses = vec![self.analyses[first].clone()];
+                let before = Self { analyses, wanted: Vec::new(), ..self.clone() };
+                let unfinished = || "the analysis before has no derivatives".to_string();
+                let ready = before.ready(row, stop).map_err(|_| unfinished())?;
+                let AnyAnalysis::Equilibrium(options) = &ready.analysis else {
+                    return Err("its start is the end of a motion".to_string());
+                };
+                if options.over.is_some() || ready.prepared.model().driven {
+                    return Err("its start is the end of a path, or drivers move it".to_string());
+                }
+                let record = before.run(&ready, &ready.analysis, stop);
+                let record = record.map_err(|_| unfinished())?;
+                let found = before.rests((&ready, options, &record), row, stop)?;
+                Ok(found.into_iter().map(|(rest, _)| rest.start()).list())
+            }
+            _ => Err("its start is the end of several analyses".to_string()),
         }
+    }
+
+    /// The derivatives of an assembled start, in blocks of variables.
+    fn assembled(&self, ready: &Ready, row: &VariantRow) -> Result<Vec<StartSlopes>, String> {
+        let unread = || "the start cannot be read".to_string();
         let set = self.set_of(&row.1).ok_or_else(unread)?;
         let start = &ready.start.state;
         let mut request = self.request(ready.prepared.model(), &set).ok_or_else(unread)?;
@@ -218,16 +256,35 @@ impl Sweep {
         Self::names(row).iter().map(of).collect()
     }
 
+    /// The derivatives of an equilibrium, in blocks of variables, each with the number of its variables.
+    fn rests(
+        &self,
+        (ready, options, record): (&Ready, &EquilibriumOptions, &Record),
+        row: &VariantRow,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Vec<(AtRest, usize)>, String> {
+        let starts = self.starts(ready, row, stop)?;
+        let model = self.subject(ready).released(&ready.start);
+        let lam = multipliers(record).ok_or("its multipliers are not known")?;
+        let names = Self::names(row);
+        let of = |(names, slopes): (&Vec<String>, &StartSlopes)| {
+            let (start, state) = (&ready.start.state, &record.end.state);
+            let found = AtRest::find((&model, options), names, (start, slopes), (state, &lam));
+            Ok((found?, names.len()))
+        };
+        names.iter().zip(&starts).map(of).collect()
+    }
+
     /// The derivatives along a run of forward dynamics.
     fn along<'a>(
         &self,
-        model: &'a Model,
+        (model, run): (&'a Model, &'a Run),
         ready: &Ready,
-        run: &'a Run,
         blocks: Vec<Sensitivity>,
         row: &VariantRow,
+        stop: &(dyn Fn() -> bool + Sync),
     ) -> Result<MotionSlopes<'a>, String> {
-        let starts = self.starts(ready, row)?;
+        let starts = self.starts(ready, row, stop)?;
         let starts: Vec<Vec<Slope>> = starts.into_iter().map(joined).list();
         let dense = run.dense.as_ref().ok_or_else(|| "the run has no interpolant".to_string())?;
         let AnyAnalysis::Dynamics(Options { method: scheme, .. }) = &ready.analysis else {

@@ -9,6 +9,8 @@ use crate::math::{Listed, Ordered};
 const BESIDE: f64 = 1.0 / 32.0;
 /// Part of the span of a measure by which it may change within a step at the time of its extreme value.
 const FLAT: f64 = 1e-4;
+/// Values that differ by less than this fraction are equally large.
+const RIVAL: f64 = 1e-9;
 /// Derivatives of two equally large maxima that differ by less than this fraction are equal.
 const ALIKE: f64 = 1e-6;
 
@@ -86,13 +88,17 @@ impl Plan {
                 extreme(1).map_or_else(missing, |(at, rivals)| Self::TimeOf(at, rivals))
             }
             Statistic::Peak => match (extreme(0), extreme(1)) {
-                (Some((most, one)), Some((least, other))) => {
-                    let (at, rivals) = if most.value.abs() >= least.value.abs() {
-                        (most, one)
-                    } else {
-                        (least, other)
-                    };
-                    Self::Extreme(at, rivals)
+                (Some((most, mut rivals)), Some((least, others))) => {
+                    let [high, low] = [most, least].map(|one| one.value.abs());
+                    let equal = (high - low).abs() <= RIVAL * high.max(low) && most.t != least.t;
+                    match (equal, high >= low) {
+                        (true, _) => {
+                            let text = "the magnitude is reached with both signs";
+                            Self::None(text.to_string())
+                        }
+                        (false, true) => Self::Extreme(most, std::mem::take(&mut rivals)),
+                        (false, false) => Self::Extreme(least, others),
+                    }
                 }
                 _ => missing(),
             },
@@ -133,14 +139,18 @@ impl Plan {
         }
     }
 
-    /// The derivatives of measure `k`, from its rows at all times.
-    pub fn slopes(&self, rows: &Rows, k: usize, times: Times<'_>) -> Found {
+    /// The derivatives of measure `k`, or of its magnitude if it is a peak, from its rows at all times.
+    pub fn slopes(&self, rows: &Rows, (k, is_peak): (usize, bool), times: Times<'_>) -> Found {
         let at = |t: f64| rows.at(t);
         match self {
             Self::None(reason) => Err(reason.clone()),
             Self::Zero => Ok(vec![0.0; rows.variables]),
             Self::At(t) => Ok(at(*t).slopes[k].clone()),
-            Self::Extreme(found, rivals) => Ok(agreed(rows, k, (found.t, rivals), times)?.of_value),
+            Self::Extreme(found, rivals) => {
+                let slopes = agreed(rows, k, (found.t, rivals), times)?.of_value;
+                let sign = if is_peak && found.value < 0.0 { -1.0 } else { 1.0 };
+                Ok(slopes.iter().map(|slope| sign * slope).list())
+            }
             Self::TimeOf(found, rivals) => Ok(agreed(rows, k, (found.t, rivals), times)?.of_time),
             Self::Mean => Ok(mean(rows, k, times, &|_| 1.0)),
             Self::Rms => {
@@ -206,24 +216,50 @@ impl Stationary {
         if change > FLAT * rows.span[k] {
             return Err(format!("the value has a kink at t = {t:.6} s, which may move"));
         }
-        // differences of fourth order of exact derivatives
-        let difference = |of: &dyn Fn(&Row) -> f64| {
+        let sample = |of: &dyn Fn(&Row) -> f64| {
             let [a, b, c, e] = beside.map(|t| of(rows.at(t)));
-            (8.0 * (c - b) - (e - a)) / (12.0 * d)
+            Quartic::through([a, b, of(row), c, e])
         };
-        let second = difference(&|row| row.values[k][1]);
+        let rate = sample(&|row| row.values[k][1]);
+        let second = rate.slope(0.0);
         if second == 0.0 {
             return Ok(fixed()); // a constant value
         }
-        // the value is stationary at t + late
+        // the value is stationary at t + late d
         let late = -row.values[k][1] / second;
-        let (mut of_value, mut of_time) = (row.slopes[k].clone(), Vec::new());
-        for (j, slope) in of_value.iter_mut().enumerate() {
-            let grows = difference(&|row| row.slopes[k][j]);
-            *slope += late * grows;
-            of_time.push(-grows / second);
+        if late.abs() > 1.0 {
+            return Err(format!("the value has a kink near t = {t:.6} s, which may move"));
+        }
+        let second = rate.slope(late);
+        let (mut of_value, mut of_time) = (Vec::new(), Vec::new());
+        for j in 0..rows.variables {
+            let slopes = sample(&|row| row.slopes[k][j]);
+            of_value.push(slopes.value(late));
+            of_time.push(-slopes.slope(late) / second);
         }
         Ok(Self { of_value, of_time })
+    }
+}
+
+/// A polynomial through values at -2, -1, 0, 1 and 2.
+struct Quartic([f64; 5]);
+
+impl Quartic {
+    fn through([a, b, o, c, e]: [f64; 5]) -> Self {
+        let first = (8.0 * (c - b) - (e - a)) / 12.0;
+        let second = (16.0 * (b + c) - (a + e) - 30.0 * o) / 24.0;
+        let third = ((e - a) - 2.0 * (c - b)) / 12.0;
+        let fourth = ((a + e) - 4.0 * (b + c) + 6.0 * o) / 24.0;
+        Self([o, first, second, third, fourth])
+    }
+
+    fn value(&self, x: f64) -> f64 {
+        self.0.iter().rev().fold(0.0, |sum, c| sum * x + c)
+    }
+
+    fn slope(&self, x: f64) -> f64 {
+        let [_, a, b, c, d] = self.0;
+        a + x * (2.0 * b + x * (3.0 * c + x * 4.0 * d))
     }
 }
 
@@ -283,8 +319,29 @@ impl Rows {
         Ok(Self { rows, variables, span })
     }
 
+    /// The last value of measure `k`.
+    pub fn last(&self, k: usize) -> f64 {
+        self.rows.last().map_or(f64::NAN, |row| row.values[k][0])
+    }
+
     fn at(&self, t: f64) -> &Row {
         let place = self.rows.partition_point(|row| row.t < t);
         &self.rows[place.min(self.rows.len() - 1)]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_polynomial_of_fourth_degree_is_reproduced() {
+        let of = |x: f64| 1.0 + x * (2.0 - x * (3.0 + x * (0.5 - 0.25 * x)));
+        let rate = |x: f64| 2.0 - x * (6.0 + x * (1.5 - x));
+        let found = Quartic::through([-2.0, -1.0, 0.0, 1.0, 2.0].map(of));
+        for x in [-1.5, 0.0, 0.3, 0.9] {
+            assert!((found.value(x) - of(x)).abs() < 1e-14, "{x}");
+            assert!((found.slope(x) - rate(x)).abs() < 1e-14, "{x}");
+        }
     }
 }
