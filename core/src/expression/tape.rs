@@ -382,31 +382,25 @@ impl Tape {
         Self { code, operands: 2, symbols: vec![symbol], ..Self::default() }
     }
 
-    /// The law symbol × (t - t0).
-    pub fn growing(symbol: Symbol, t0: f64) -> Self {
-        use super::operation::Binary::{Add, Multiply};
-        let code = vec![
-            Instruction::Load(Symbol::Time),
-            Instruction::Constant(-t0),
-            Instruction::Binary(Add),
-            Instruction::Load(symbol),
-            Instruction::Binary(Multiply),
-        ];
-        Self { code, operands: 2, symbols: vec![Symbol::Time, symbol], ..Self::default() }
-    }
-
     /// The law position + rate (t - t0).
     pub fn line(position: f64, rate: f64, t0: f64) -> Self {
-        use super::operation::Binary::{Add, Multiply};
-        let code = vec![
-            Instruction::Load(Symbol::Time),
-            Instruction::Constant(-t0),
-            Instruction::Binary(Add),
-            Instruction::Constant(rate),
-            Instruction::Binary(Multiply),
-            Instruction::Constant(position),
-            Instruction::Binary(Add),
-        ];
-        Self { code, operands: 2, symbols: vec![Symbol::Time], ..Self::default() }
+        let mut line = Self::growing(Instruction::Constant(rate), t0);
+        let add = Instruction::Binary(super::operation::Binary::Add);
+        line.code.extend([Instruction::Constant(position), add]);
+        line
+    }
+
+    /// The law symbol × (t - t0).
+    pub fn growing_by(symbol: Symbol, t0: f64) -> Self {
+        let mut law = Self::growing(Instruction::Load(symbol), t0);
+        law.symbols.push(symbol);
+        law
+    }
+
+    fn growing(rate: Instruction, t0: f64) -> Self {
+        use super::operation::Binary::Multiply;
+        let mut law = Self::shifted(Symbol::Time, -t0);
+        law.code.extend([rate, Instruction::Binary(Multiply)]);
+        law
     }
 }

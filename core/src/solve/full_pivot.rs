@@ -19,25 +19,9 @@ pub fn solve_any_rank(
     tolerance: f64,
 ) -> AnyRank {
     let rows = a.len() / columns.max(1);
-    let largest = |x: &mut dyn Iterator<Item = f64>| x.fold(0.0_f64, |most, x| most.max(x.abs()));
-    let mut column_scale = vec![1.0; columns];
-    for row in 0..rows {
-        let own = &mut a[row * columns..(row + 1) * columns];
-        let scale = largest(&mut own.iter().copied());
-        if scale > 0.0 {
-            own.iter_mut().for_each(|x| *x /= scale);
-            right.iter_mut().for_each(|b| b[row] /= scale);
-        }
-    }
-    for column in 0..columns {
-        let scale = largest(&mut (0..rows).map(|row| a[row * columns + column]));
-        if scale > 0.0 {
-            (0..rows).for_each(|row| a[row * columns + column] /= scale);
-            column_scale[column] = scale;
-        }
-    }
+    let scales = scale(a, columns, right);
     let mut order: Vec<usize> = (0..columns).collect();
-    let sizes: Vec<f64> = right.iter().map(|b| largest(&mut b.iter().copied())).collect();
+    let sizes: Vec<f64> = right.iter().map(|b| largest(b.iter().copied())).collect();
     let mut rank = 0;
     while rank < rows.min(columns) {
         let mut best = (rank, rank, 0.0_f64);
@@ -56,23 +40,13 @@ pub fn solve_any_rank(
         (0..columns).for_each(|k| a.swap(row * columns + k, rank * columns + k));
         right.iter_mut().for_each(|b| b.swap(row, rank));
         order.swap(column, rank);
-        let pivot = a[rank * columns + order[rank]];
-        for below in rank + 1..rows {
-            let factor = a[below * columns + order[rank]] / pivot;
-            if factor != 0.0 {
-                for at in &order[rank..] {
-                    a[below * columns + at] -= factor * a[rank * columns + at];
-                }
-                right.iter_mut().for_each(|b| b[below] -= factor * b[rank]);
-            }
-        }
+        eliminate(a, columns, (rank, &order[rank..]), right);
         rank += 1;
     }
-    let consistent = right.iter().zip(&sizes).map(|(b, size)| {
-        let left = largest(&mut b[rank..].iter().copied());
-        left <= tolerance.sqrt() * size
-    });
-    let consistent = consistent.collect();
+    let agree = |(b, size): (&Vec<f64>, &f64)| {
+        largest(b[rank..].iter().copied()) <= tolerance.sqrt() * size
+    };
+    let consistent = right.iter().zip(&sizes).map(agree).collect();
     for b in right {
         let mut x = vec![0.0; columns];
         for k in (0..rank).rev() {
@@ -80,10 +54,54 @@ pub fn solve_any_rank(
             let sum: f64 = known.map(|at| a[k * columns + at] * x[*at]).sum();
             x[order[k]] = (b[k] - sum) / a[k * columns + order[k]];
         }
-        x.iter_mut().zip(&column_scale).for_each(|(x, scale)| *x /= scale);
+        x.iter_mut().zip(&scales).for_each(|(x, scale)| *x /= scale);
         *b = x;
     }
     AnyRank { free: order[rank..].to_vec(), consistent }
+}
+
+/// Divides each row and then each column by its largest magnitude. Returns the scales of the columns.
+fn scale(a: &mut [f64], columns: usize, right: &mut [Vec<f64>]) -> Vec<f64> {
+    let rows = a.len() / columns.max(1);
+    for row in 0..rows {
+        let own = &mut a[row * columns..(row + 1) * columns];
+        let scale = largest(own.iter().copied());
+        if scale > 0.0 {
+            own.iter_mut().for_each(|x| *x /= scale);
+            right.iter_mut().for_each(|b| b[row] /= scale);
+        }
+    }
+    let mut scales = vec![1.0; columns];
+    for (column, kept) in scales.iter_mut().enumerate() {
+        let scale = largest((0..rows).map(|row| a[row * columns + column]));
+        if scale > 0.0 {
+            (0..rows).for_each(|row| a[row * columns + column] /= scale);
+            *kept = scale;
+        }
+    }
+    scales
+}
+
+/// Eliminates the first of some columns from the rows below its pivot.
+fn eliminate(
+    a: &mut [f64],
+    columns: usize,
+    (pivot, left): (usize, &[usize]),
+    right: &mut [Vec<f64>],
+) {
+    for below in pivot + 1..a.len() / columns {
+        let factor = a[below * columns + left[0]] / a[pivot * columns + left[0]];
+        if factor != 0.0 {
+            for at in left {
+                a[below * columns + at] -= factor * a[pivot * columns + at];
+            }
+            right.iter_mut().for_each(|b| b[below] -= factor * b[pivot]);
+        }
+    }
+}
+
+fn largest(x: impl Iterator<Item = f64>) -> f64 {
+    x.fold(0.0_f64, |most, x| most.max(x.abs()))
 }
 
 #[cfg(test)]

@@ -51,7 +51,7 @@ pub fn slopes(
     (parameters, set): (&[Slope], &[Slope]),
     state: &State,
 ) -> Result<StartSlopes, String> {
-    let known = Known { model, request, parameters, set, t: request.t };
+    let known = StartNumbers { model, request, parameters, set, t: request.t };
     let q = known.positions(&state.q)?;
     let v = known.rates(&q, &state.v)?;
     let mut z: Vec<Slope> = state.z.iter().map(|z| Slope::constant(*z)).list();
@@ -63,7 +63,7 @@ pub fn slopes(
     Ok([q, v, z])
 }
 
-struct Known<'a> {
+struct StartNumbers<'a> {
     model: &'a Model,
     request: &'a Request,
     parameters: &'a [Slope],
@@ -71,7 +71,7 @@ struct Known<'a> {
     t: f64,
 }
 
-impl Known<'_> {
+impl StartNumbers<'_> {
     /// The model with a driver for each of some targets. The value of a target is a further parameter.
     fn holding<'t>(
         &self,
@@ -106,7 +106,7 @@ impl Known<'_> {
 
     fn rates(&self, q: &[Slope], v: &[f64]) -> Result<Vec<Slope>, String> {
         let t0 = self.t;
-        let law = |of: Symbol| Tape::growing(of, t0);
+        let law = |of: Symbol| Tape::growing_by(of, t0);
         let (model, mut over) = self.holding(of_rates(&self.request.set), law);
         let constant: Vec<Slope> = v.iter().map(|v| Slope::constant(*v)).list();
         let open = over.opening(Slope::constant(t0), q, &constant);

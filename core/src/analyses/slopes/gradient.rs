@@ -2,8 +2,8 @@
 
 use super::at_rest::AtRest;
 use super::motion::{joined, MotionSlopes};
-use super::reader::{Course, Reader, States};
-use super::statistics::{Found, Plan, Rows, Times};
+use super::reader::{Reader, StateSlopes, States};
+use super::statistics::{Found, RunTimes, SlopePlan, SlopeRows};
 use super::variables::parameters;
 use crate::analyses::assemble::{self, set_slopes, StartSlopes};
 use crate::analyses::dynamics::{Options, Run};
@@ -116,38 +116,38 @@ impl Sweep {
             self.statistics().map(|(of, statistic)| series[of].statistic(statistic)).collect();
         let (mut values, count) = (values?, row.0.len() + row.1.len());
         let steps = run.dense.as_ref().map_or(&run.trajectory.t[..], |dense| &dense.t);
-        let times = Times { outputs: &run.trajectory.t, steps };
-        let plans: Vec<Plan> =
-            self.statistics().map(|(of, statistic)| Plan::of(&series[of], statistic, times)).list();
-        let model: &Model = whole.model();
-        let rows = refusal(model, &run, is_driven).map_or(Ok(()), Err).and_then(|()| {
-            let blocks = self.blocks(model, row)?;
+        let times = RunTimes { outputs: &run.trajectory.t, steps };
+        let plans: Vec<SlopePlan> = self
+            .statistics()
+            .map(|(of, statistic)| SlopePlan::of(&series[of], statistic, times))
+            .list();
+        let rows = refusal(whole.model(), &run, is_driven).map_or(Ok(()), Err).and_then(|()| {
             let states = |t: f64| state_at(whole, &run, t, rests);
+            let (model, blocks): (&Model, _) = (whole.model(), self.blocks(whole.model(), row)?);
             let course = match is_driven {
-                true => Course::Driven(blocks, &states as States<'_>),
-                false => Course::Dynamics(self.along((model, &run), ready, blocks, row, stop)?),
+                true => StateSlopes::Driven(blocks, &states as States<'_>),
+                false => StateSlopes::Dynamics(Box::new(self.along(
+                    (model, &run),
+                    ready,
+                    blocks,
+                    row,
+                    stop,
+                )?)),
             };
             let measures = (0..self.measures.len()).map(|k| between.readings.measure(k).clone());
             let mut reader = Reader::new(model, measures.list(), course);
             let t = plans.iter().flat_map(|plan| plan.times(times)).list();
-            Rows::read(&mut reader, t, count)
+            SlopeRows::read(&mut reader, t, count)
         });
         let found = plans.iter().zip(self.statistics()).map(|(plan, (k, one))| match &rows {
             Ok(rows) => plan.slopes(rows, (k, one == Statistic::Peak), times),
             Err(reason) => Err(reason.clone()),
         });
         let mut found = found.list();
-        // works and losses since the start are known along the steps only
         for (number, (k, one)) in self.statistics().enumerate() {
-            let of_run = between.readings.measure(k).is_of_run();
-            match (&rows, one) {
-                _ if !of_run => {}
-                (Ok(rows), Statistic::Final) => values[number] = rows.last(k),
-                _ => {
-                    values[number] = f64::NAN;
-                    found[number] =
-                        Err("of a whole run, only final values have derivatives".into());
-                }
+            if between.readings.measure(k).is_of_run() {
+                let last = rows.as_ref().ok().filter(|_| one == Statistic::Final);
+                (values[number], found[number]) = of_whole_run(last, k, found[number].clone());
             }
         }
         Ok(gathered(values, found, count))
@@ -338,6 +338,16 @@ fn state_at(whole: &PreparedModel, run: &Run, t: f64, rests: bool) -> Option<[Ve
         v.fill(0.0);
     }
     Some([q, v, z.to_vec()])
+}
+
+/// The value and the derivatives of a measure of works or losses since the start, which are known along the steps
+/// only. `last` are the rows of a final value.
+fn of_whole_run(last: Option<&SlopeRows>, k: usize, found: Found) -> (f64, Found) {
+    match last {
+        Some(rows) => (rows.last(k), found),
+        None if found.is_err() => (f64::NAN, found),
+        None => (f64::NAN, Err("of a whole run, only final values have derivatives".to_string())),
+    }
 }
 
 /// Why a run has no derivatives; None if it has.

@@ -10,9 +10,9 @@ use crate::math::{Dual, Listed, Real};
 use crate::model::Model;
 
 /// How the derivatives of the states are found.
-pub(super) enum Course<'a> {
+pub(super) enum StateSlopes<'a> {
     /// Along the steps of forward dynamics.
-    Dynamics(MotionSlopes<'a>),
+    Dynamics(Box<MotionSlopes<'a>>),
     /// At each time, because drivers determine the motion.
     Driven(Vec<Sensitivity>, States<'a>),
 }
@@ -24,7 +24,7 @@ pub(super) type States<'a> = &'a dyn Fn(f64) -> Option<[Vec<f64>; 3]>;
 pub(super) struct Reader<'a> {
     pub model: &'a Model,
     pub measures: Vec<Measure>,
-    pub course: Course<'a>,
+    pub course: StateSlopes<'a>,
     workspace: Workspace,
     /// The equations with derivatives by the time.
     over_time: Sensitivity,
@@ -32,7 +32,7 @@ pub(super) struct Reader<'a> {
 
 /// The values of all measures at a time.
 #[derive(Clone, Debug)]
-pub(super) struct Row {
+pub(super) struct SlopeRow {
     pub t: f64,
     /// The derivatives by each variable, for each measure.
     pub slopes: Vec<Vec<f64>>,
@@ -41,7 +41,7 @@ pub(super) struct Row {
 }
 
 impl<'a> Reader<'a> {
-    pub fn new(model: &'a Model, measures: Vec<Measure>, course: Course<'a>) -> Self {
+    pub fn new(model: &'a Model, measures: Vec<Measure>, course: StateSlopes<'a>) -> Self {
         let over_time = Sensitivity::new(model.lift());
         Self { model, measures, course, workspace: Workspace::new(model), over_time }
     }
@@ -50,16 +50,16 @@ impl<'a> Reader<'a> {
     ///
     /// # Errors
     /// The reason for which there are no derivatives.
-    pub fn at(&mut self, t: f64) -> Result<Row, String> {
+    pub fn at(&mut self, t: f64) -> Result<SlopeRow, String> {
         let (model, layout) = (self.model, &self.model.layout);
         let failed = |_| format!("the equations of motion have no unique solution at t = {t:.6} s");
         let mut states: Vec<Vec<Slope>> = match &mut self.course {
-            Course::Dynamics(motion) => {
+            StateSlopes::Dynamics(motion) => {
                 let y = motion.at(t)?;
                 let ode = motion.ode();
                 (0..ode.blocks.len()).map(|b| ode.state(b, &y)).list()
             }
-            Course::Driven(blocks, states) => {
+            StateSlopes::Driven(blocks, states) => {
                 let [q, v, z] = states(t).ok_or("its state is not known")?;
                 let of = |block| driven::state(model, block, t, [&q, &v, &z]);
                 blocks.iter_mut().map(of).collect::<Result<_, _>>()?
@@ -73,8 +73,8 @@ impl<'a> Reader<'a> {
             solved.map_err(failed)?;
         }
         let blocks = match &mut self.course {
-            Course::Dynamics(motion) => &mut motion.ode().blocks,
-            Course::Driven(blocks, _) => blocks,
+            StateSlopes::Dynamics(motion) => &mut motion.ode().blocks,
+            StateSlopes::Driven(blocks, _) => blocks,
         };
         let mut slopes = vec![Vec::new(); self.measures.len()];
         for (block, state) in blocks.iter_mut().zip(&mut states) {
@@ -91,7 +91,7 @@ impl<'a> Reader<'a> {
             }
         }
         let values = self.over_time(t, &values, solves)?;
-        Ok(Row { t, slopes, values })
+        Ok(SlopeRow { t, slopes, values })
     }
 
     /// The measures and their derivatives by the time.

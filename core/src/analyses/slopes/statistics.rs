@@ -1,6 +1,6 @@
 //! Statistics of measures with derivatives.
 
-use super::reader::{Reader, Row};
+use super::reader::{Reader, SlopeRow};
 use crate::analyses::statistics::{Extreme, BAND};
 use crate::analyses::sweep::{Series, Statistic};
 use crate::math::{Listed, Ordered};
@@ -18,7 +18,7 @@ const ALIKE: f64 = 1e-6;
 pub(super) type Found = Result<Vec<f64>, String>;
 
 /// What a statistic needs.
-pub(super) enum Plan {
+pub(super) enum SlopePlan {
     /// The value at a time that does not move, or at which the measure is stationary.
     At(f64),
     /// The largest or the least value, with the times of rivals.
@@ -36,12 +36,12 @@ pub(super) enum Plan {
 
 /// The length of the steps near a time, and the ends of the run.
 #[derive(Clone, Copy)]
-pub(super) struct Times<'a> {
+pub(super) struct RunTimes<'a> {
     pub outputs: &'a [f64],
     pub steps: &'a [f64],
 }
 
-impl Times<'_> {
+impl RunTimes<'_> {
     fn is_end(&self, t: f64) -> bool {
         let last = self.outputs.len() - 1;
         t == self.outputs[0] || t == self.outputs[last]
@@ -56,7 +56,7 @@ impl Times<'_> {
         }
     }
 
-    /// Times around an extreme value.
+    /// RunTimes around an extreme value.
     fn beside(&self, t: f64) -> [f64; 4] {
         let last = self.outputs.len() - 1;
         let room = (t - self.outputs[0]).min(self.outputs[last] - t) / 2.0;
@@ -65,9 +65,9 @@ impl Times<'_> {
     }
 }
 
-impl Plan {
+impl SlopePlan {
     /// The plan of a statistic.
-    pub fn of(series: &Series<'_>, statistic: Statistic, times: Times<'_>) -> Self {
+    pub fn of(series: &Series<'_>, statistic: Statistic, times: RunTimes<'_>) -> Self {
         let extreme = |place: usize| series.known(place).ok().cloned();
         let missing = || Self::None("the number itself is not known".to_string());
         let last = times.outputs[times.outputs.len() - 1];
@@ -126,7 +126,7 @@ impl Plan {
     }
 
     /// The times at which the measure is needed.
-    pub fn times(&self, times: Times<'_>) -> Vec<f64> {
+    pub fn times(&self, times: RunTimes<'_>) -> Vec<f64> {
         match self {
             Self::At(t) => vec![*t],
             Self::Extreme(at, rivals) | Self::TimeOf(at, rivals) => {
@@ -140,7 +140,12 @@ impl Plan {
     }
 
     /// The derivatives of measure `k`, or of its magnitude if it is a peak, from its rows at all times.
-    pub fn slopes(&self, rows: &Rows, (k, is_peak): (usize, bool), times: Times<'_>) -> Found {
+    pub fn slopes(
+        &self,
+        rows: &SlopeRows,
+        (k, is_peak): (usize, bool),
+        times: RunTimes<'_>,
+    ) -> Found {
         let at = |t: f64| rows.at(t);
         match self {
             Self::None(reason) => Err(reason.clone()),
@@ -166,10 +171,10 @@ impl Plan {
             }
             Self::Settling([t, most, last]) => {
                 let [entry, peak, end] = [t, most, last].map(|t| at(*t));
-                let away = |row: &Row| (row.values[k][0] - end.values[k][0]).signum();
+                let away = |row: &SlopeRow| (row.values[k][0] - end.values[k][0]).signum();
                 let rate = away(entry) * entry.values[k][1];
                 let of = |j: usize| {
-                    let by = |row: &Row| away(row) * (row.slopes[k][j] - end.slopes[k][j]);
+                    let by = |row: &SlopeRow| away(row) * (row.slopes[k][j] - end.slopes[k][j]);
                     (BAND * by(peak) - by(entry)) / rate
                 };
                 Ok((0..rows.variables).map(of).list())
@@ -179,7 +184,12 @@ impl Plan {
 }
 
 /// The mean over the outputs of weighted derivatives.
-fn mean(rows: &Rows, k: usize, times: Times<'_>, weight: &dyn Fn(&Row) -> f64) -> Vec<f64> {
+fn mean(
+    rows: &SlopeRows,
+    k: usize,
+    times: RunTimes<'_>,
+    weight: &dyn Fn(&SlopeRow) -> f64,
+) -> Vec<f64> {
     let of = |j: usize| {
         let values: Vec<f64> = times
             .outputs
@@ -205,7 +215,7 @@ impl Stationary {
     ///
     /// # Errors
     /// The measure is not stationary there: it has a kink, which may move.
-    fn at(rows: &Rows, k: usize, t: f64, times: Times<'_>) -> Result<Self, String> {
+    fn at(rows: &SlopeRows, k: usize, t: f64, times: RunTimes<'_>) -> Result<Self, String> {
         let (row, beside) = (rows.at(t), times.beside(t));
         let fixed = || Self { of_value: row.slopes[k].clone(), of_time: vec![0.0; rows.variables] };
         let d = beside[2] - t;
@@ -216,7 +226,7 @@ impl Stationary {
         if change > FLAT * rows.span[k] {
             return Err(format!("the value has a kink at t = {t:.6} s, which may move"));
         }
-        let sample = |of: &dyn Fn(&Row) -> f64| {
+        let sample = |of: &dyn Fn(&SlopeRow) -> f64| {
             let [a, b, c, e] = beside.map(|t| of(rows.at(t)));
             Quartic::through([a, b, of(row), c, e])
         };
@@ -268,10 +278,10 @@ impl Quartic {
 /// # Errors
 /// It has a kink, or the values at the times change differently, so that there is no derivative.
 fn agreed(
-    rows: &Rows,
+    rows: &SlopeRows,
     k: usize,
     (t, rivals): (f64, &[f64]),
-    times: Times<'_>,
+    times: RunTimes<'_>,
 ) -> Result<Stationary, String> {
     let first = Stationary::at(rows, k, t, times)?;
     let size = first.of_value.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
@@ -288,14 +298,14 @@ fn agreed(
 }
 
 /// The rows of all measures at all times.
-pub(super) struct Rows {
-    rows: Vec<Row>,
+pub(super) struct SlopeRows {
+    rows: Vec<SlopeRow>,
     pub variables: usize,
     /// The largest magnitude of each measure at the times read.
     span: Vec<f64>,
 }
 
-impl Rows {
+impl SlopeRows {
     /// Reads all measures at some times.
     ///
     /// # Errors
@@ -324,7 +334,7 @@ impl Rows {
         self.rows.last().map_or(f64::NAN, |row| row.values[k][0])
     }
 
-    fn at(&self, t: f64) -> &Row {
+    fn at(&self, t: f64) -> &SlopeRow {
         let place = self.rows.partition_point(|row| row.t < t);
         &self.rows[place.min(self.rows.len() - 1)]
     }
