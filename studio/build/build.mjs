@@ -1,6 +1,6 @@
 // Builds dist/index.html: one file with the style, the script, the worker and the core.
 import { createHash } from "node:crypto";
-import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
@@ -19,15 +19,17 @@ const MOST = 1_012_000;
 
 const OPTIONS = { minify: !process.env.KEMPE_PLAIN, format: "iife", jsx: "automatic", jsxImportSource: "preact" };
 
-/** The examples of the repository, with the titles of their cases. */
+/** The examples of the repository by family, with the titles of their cases. */
 function examples() {
-  const folder = join(ROOT, "examples");
-  const names = readdirSync(folder).filter((name) => name.endsWith(".toml"));
-  return names.sort().map((file) => {
-    const text = readFileSync(join(folder, file), "utf8");
-    const title = /^title = "(.*)"/m.exec(text)?.[1] ?? file;
-    return { name: file.replace(/\.toml$/, ""), title, text };
-  });
+  const folders = ["examples", "examples/classics"].map((one) => join(ROOT, one));
+  const families = JSON.parse(readFileSync(join(HERE, "build", "families.json"), "utf8"));
+  return Object.entries(families).flatMap(([family, names]) =>
+    names.map((name) => {
+      const folder = folders.find((one) => existsSync(join(one, `${name}.toml`)));
+      const text = readFileSync(join(folder, `${name}.toml`), "utf8");
+      return { name, title: /^title = "(.*)"/m.exec(text)[1], family, text };
+    }),
+  );
 }
 
 /** Modules that are made here: the examples, and the worker as a text. */

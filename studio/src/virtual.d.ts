@@ -1,6 +1,6 @@
 // Modules that the build makes.
 declare module "virtual:examples" {
-  export const examples: { name: string; title: string; text: string }[];
+  export const examples: { name: string; title: string; family: string; text: string }[];
 }
 
 declare module "virtual:worker" {
