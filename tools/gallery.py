@@ -105,7 +105,9 @@ PARAGRAPHS = {
 
 def names() -> list[str]:
     """All examples that have a page of the gallery."""
-    return [name for members in FAMILIES.values() for name in members if path(name).parent == EXAMPLES]
+    return [
+        name for members in FAMILIES.values() for name in members if path(name).parent == EXAMPLES
+    ]
 
 
 def path(name: str) -> Path:

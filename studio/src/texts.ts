@@ -285,7 +285,7 @@ export const texts = {
     families: "Families",
     count: (n: number) => (n === 1 ? "1 mechanism" : `${n} mechanisms`),
   },
-  greeting: "Pull at a foot with the mouse. The gallery has more mechanisms, and New is an empty sheet.",
+  greeting: "Pull at a foot, and let it go.",
   ready: {
     title: "What can be computed",
     yes: "ready",

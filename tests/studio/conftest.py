@@ -31,7 +31,12 @@ def built() -> None:
 
 
 def opened(
-    browser: "sync_api.Browser", link: str = "", page: Path = PAGE, *, first: bool = False, **more: Any
+    browser: "sync_api.Browser",
+    link: str = "",
+    page: Path = PAGE,
+    *,
+    first: bool = False,
+    **more: Any,
 ) -> Studio:
     """The studio in a window of its own, which notes messages, errors and requests.
 

@@ -1,6 +1,5 @@
 """The gallery by mouse and keys: search, families, pictures that move, and the first visit."""
 
-import hashlib
 import itertools
 import json
 from collections.abc import Iterator
@@ -18,11 +17,19 @@ FAMILIES: dict[str, list[str]] = json.loads(
     (ROOT / "studio" / "build" / "families.json").read_text("utf-8")
 )
 NAMES = [name for members in FAMILIES.values() for name in members]
-#: The pixels of the picture of an example that are not empty, and the picture as a text.
+#: The number of pixels of the picture of an example that are not empty, and a checksum of all.
 PICTURE = """name => {
   const canvas = document.querySelector(`[data-example=${name}] canvas`);
-  const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
-  return [data.filter((one, k) => k % 4 === 3 && one > 0).length, canvas.toDataURL()];
+  const copy = new OffscreenCanvas(canvas.width, canvas.height);
+  const context = copy.getContext("2d", { willReadFrequently: true });
+  context.drawImage(canvas, 0, 0);
+  const { data } = context.getImageData(0, 0, canvas.width, canvas.height);
+  let [full, sum] = [0, 0];
+  for (const [k, one] of data.entries()) {
+    if (k % 4 === 3 && one > 0) full += 1;
+    sum = (31 * sum + one) | 0;
+  }
+  return [full, sum];
 }"""
 
 
@@ -42,12 +49,12 @@ class Gallery:
     def card(self, name: str) -> "sync_api.Locator":
         return self.one.page.locator(f"[data-example={name}]")
 
-    def picture(self, name: str) -> tuple[int, str]:
-        """The number of painted pixels, and a fingerprint of the picture."""
-        pixels, text = self.one.call(PICTURE, name)
-        return pixels, hashlib.sha256(text.encode()).hexdigest()
+    def picture(self, name: str) -> tuple[int, int]:
+        """The number of painted pixels, and a checksum of the picture."""
+        pixels, checksum = self.one.call(PICTURE, name)
+        return pixels, checksum
 
-    def drawn(self, name: str) -> str:
+    def drawn(self, name: str) -> int:
         """The picture, once it is drawn."""
         self.card(name).scroll_into_view_if_needed()
         for _ in range(500):
@@ -176,7 +183,9 @@ def test_the_gallery_fits_narrow_windows(fresh: Opener, width: int) -> None:
     one = fresh(width=width, height=700)
     gallery = Gallery(one)
     gallery.drawn(NAMES[0])
-    wide, inner = one.call("(x => [x.scrollWidth, x.clientWidth])(document.querySelector('dialog'))")
+    wide, inner = one.call(
+        "(x => [x.scrollWidth, x.clientWidth])(document.querySelector('dialog'))"
+    )
     assert wide <= inner
     cut = one.call(
         "[...document.querySelectorAll('.gallery button')]"
@@ -194,16 +203,25 @@ def positions(one: Studio, count: int) -> list[list[float]]:
     return found
 
 
-def test_the_first_visit_opens_on_a_mechanism_that_moves(browser: "sync_api.Browser", built: None) -> None:  # noqa: ARG001
+@pytest.mark.usefixtures("built")
+def test_the_first_visit_opens_on_a_mechanism_that_moves(
+    browser: "sync_api.Browser",
+) -> None:
     one = opened(browser, first=True, viewport={"width": 1280, "height": 800})
     one.wait("document.querySelector('#greeting') !== null")
     assert "Pull at a foot" in one.page.locator("#greeting").inner_text()
     seen = positions(one, 4)
     assert all(a != b for a, b in itertools.pairwise(seen))
-    # a pull at a foot slows the crank down
-    one.wait("kempe.quantity('crank.omega').then(x => x.value > 1)")
-    foot = one.page.locator("#sheet").bounding_box()
-    assert foot is not None
+    # a foot that is held slows the crank down, until it is let go
+    free = one.quantity("crank.omega")
+    at = [one.quantity(f"left_foot.F.{axis}") for axis in "xy"]
+    one.page.mouse.move(*one.screen(*at))
+    one.page.mouse.down()
+    one.page.mouse.move(*one.screen(at[0], at[1] + 0.001))
+    one.page.wait_for_timeout(1500)
+    assert abs(one.quantity("crank.omega")) < 0.5 * free
+    one.page.mouse.up()
+    one.wait(f"kempe.quantity('crank.omega').then(x => x.value > {0.7 * free})")
     one.mode("edit")
     assert one.page.locator("#greeting").count() == 0
     one.page.wait_for_timeout(400)
@@ -221,7 +239,9 @@ def test_the_first_visit_opens_on_a_mechanism_that_moves(browser: "sync_api.Brow
     one.page.context.close()
 
 
-def test_the_first_visit_by_a_link_shows_the_link(studio: Opener, browser: "sync_api.Browser") -> None:
+def test_the_first_visit_by_a_link_shows_the_link(
+    studio: Opener, browser: "sync_api.Browser"
+) -> None:
     one = studio()
     one.page.locator("#share").click()
     address = one.page.locator("#link").input_value()
@@ -233,7 +253,10 @@ def test_the_first_visit_by_a_link_shows_the_link(studio: Opener, browser: "sync
     two.page.context.close()
 
 
-def test_with_reduced_motion_the_first_visit_waits_for_play(browser: "sync_api.Browser", built: None) -> None:  # noqa: ARG001
+@pytest.mark.usefixtures("built")
+def test_with_reduced_motion_the_first_visit_waits_for_play(
+    browser: "sync_api.Browser",
+) -> None:
     one = opened(browser, first=True, reduced_motion="reduce")
     one.settle()
     assert one.page.locator("#greeting").count() == 1

@@ -1,6 +1,6 @@
 // The first visit: a mechanism moves, and one line says what to drag.
-import { computed, signal } from "@preact/signals";
-import { mode, openings } from "./state";
+import { computed, effect, signal } from "@preact/signals";
+import { mode, openings, shown } from "./state";
 
 /** The name in the storage of the browser. */
 const KEY = "kempe.visited";
@@ -18,9 +18,17 @@ export function isFirstVisit(): boolean {
   }
 }
 
-/** Show the line as long as the case is shown in *Live*. */
-export function greet(): void {
-  greeted.value = openings.value;
-}
-
+/** Whether the line is shown: as long as the case is shown in *Live*. */
 export const greets = computed(() => mode.value === "live" && greeted.value === openings.value);
+
+/** Show the line, and the drawing without names and numbers. */
+export function greet(): void {
+  const before = shown.value;
+  greeted.value = openings.value;
+  shown.value = { ...before, names: false, numbers: false };
+  const end = effect(() => {
+    if (greets.value) return;
+    shown.value = before;
+    queueMicrotask(() => end());
+  });
+}
