@@ -19,16 +19,17 @@ const MOST = 1_012_000;
 
 const OPTIONS = { minify: !process.env.KEMPE_PLAIN, format: "iife", jsx: "automatic", jsxImportSource: "preact" };
 
-/** The examples of the repository by family, with the titles of their cases. */
+/** The texts of the examples of the repository by family and name. */
 function examples() {
-  const folders = ["examples", "examples/classics"].map((one) => join(ROOT, one));
+  const examples = join(ROOT, "examples");
+  const folders = [examples, join(examples, "classics")];
   const families = JSON.parse(readFileSync(join(HERE, "build", "families.json"), "utf8"));
-  return Object.entries(families).flatMap(([family, names]) =>
-    names.map((name) => {
-      const folder = folders.find((one) => existsSync(join(one, `${name}.toml`)));
-      const text = readFileSync(join(folder, `${name}.toml`), "utf8");
-      return { name, title: /^title = "(.*)"/m.exec(text)[1], family, text };
-    }),
+  const read = (name) => {
+    const folder = folders.find((one) => existsSync(join(one, `${name}.toml`)));
+    return [name, readFileSync(join(folder, `${name}.toml`), "utf8")];
+  };
+  return Object.fromEntries(
+    Object.entries(families).map(([family, names]) => [family, Object.fromEntries(names.map(read))]),
   );
 }
 
@@ -38,7 +39,7 @@ const made = {
   setup({ onResolve, onLoad }) {
     onResolve({ filter: /^virtual:/ }, ({ path }) => ({ path, namespace: "made" }));
     onLoad({ filter: /^virtual:examples$/, namespace: "made" }, () => ({
-      contents: `export const examples = ${JSON.stringify(examples())}`,
+      contents: `export default ${JSON.stringify(examples())}`,
     }));
     onLoad({ filter: /^virtual:worker$/, namespace: "made" }, async () => ({
       contents: `export default ${JSON.stringify((await bundle("src/core/worker.ts", OPTIONS)).script)}`,

@@ -1,8 +1,8 @@
 // Puts the page together.
 
-import { examples } from "virtual:examples";
 import { render } from "preact";
 import { failed } from "./coreTexts";
+import { examples } from "./gallery/examples";
 import { EMPTY, take } from "./give/files";
 import { isFramed, textOf } from "./give/link";
 import { enter } from "./modes/modes";

@@ -32,24 +32,41 @@ interface Motion extends Pick<Course, "t" | "rows" | "width"> {
   view: View;
 }
 
-let core: Transport | null = null;
-/** The core has one text at a time. */
-let work: Promise<unknown> = Promise.resolve();
+/** A core and what waits for it: it has one text at a time. */
+interface Work {
+  core: Transport;
+  stills: (() => Promise<void>)[];
+  motions: (() => Promise<void>)[];
+  busy: boolean;
+}
 
-/** Do something with the core, after all that was asked for before. */
-function next<T>(act: (core: Transport) => Promise<T>): Promise<T> {
-  core ??= another();
-  const found = core;
-  const done = work.then(() => act(found));
-  work = done.catch(() => {});
-  return done;
+let work: Work | null = null;
+
+/** Do something with the core: pictures come before motions. */
+function next<T>(kind: "stills" | "motions", act: (core: Transport) => Promise<T>): Promise<T> {
+  work ??= { core: another(), stills: [], motions: [], busy: false };
+  const found = work;
+  return new Promise((resolve, reject) => {
+    found[kind].push(() => act(found.core).then(resolve, reject));
+    if (!found.busy) void goOn(found);
+  });
+}
+
+async function goOn(found: Work): Promise<void> {
+  found.busy = true;
+  for (
+    let act = found.stills.shift() ?? found.motions.shift();
+    act;
+    act = found.stills.shift() ?? found.motions.shift()
+  )
+    await act();
+  found.busy = false;
 }
 
 /** End the core of the pictures. */
 export function endPictures(): void {
-  core?.end();
-  core = null;
-  work = Promise.resolve();
+  work?.core.end();
+  work = null;
 }
 
 async function drawn(core: Transport, text: string): Promise<Picture> {
@@ -114,19 +131,21 @@ export class Thumb {
 
   /** Draw the start; without a picture, the place stays empty. */
   async show(): Promise<void> {
-    this.picture ??= next((core) => drawn(core, this.text));
+    this.picture ??= next("stills", (core) => drawn(core, this.text));
     const found = await this.picture;
     if (!this.wanted) this.paint(found, viewOf(found.bounds), found.start);
   }
 
-  /** Play the motion again and again until `stop`, unless the system asks for reduced motion. */
+  /** Play the motion again and again until `stop`, unless the system requests reduced motion. */
   async play(): Promise<void> {
     if (still()) return;
     this.wanted = true;
     await this.show();
     const picture = await this.picture!;
-    this.motion ??= next((core) => moved(core, this.text, picture));
+    // a motion that nobody waits for any more is not computed
+    this.motion ??= next("motions", async (core) => (this.wanted ? moved(core, this.text, picture) : null));
     const found = await this.motion;
+    if (!found) this.motion = null;
     if (!found || !this.wanted) return;
     const [begin, end] = [found.t[0]!, found.t.at(-1)!];
     const seconds = Math.min(PLAYED[1], Math.max(PLAYED[0], end - begin));

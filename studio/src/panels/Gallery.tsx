@@ -1,6 +1,6 @@
 // The gallery: all examples by family, with a search and with pictures that move.
-import { examples } from "virtual:examples";
 import { useEffect, useRef, useState } from "preact/hooks";
+import { type Example, examples, families } from "../gallery/examples";
 import { endPictures, Thumb } from "../gallery/thumbs";
 import { open } from "../store/document";
 import { dialog } from "../store/state";
@@ -8,23 +8,11 @@ import { texts } from "../texts";
 import { Dialog } from "./Dialog";
 import { Button } from "./parts";
 
-type Example = (typeof examples)[number];
-
-const FAMILIES = [...new Set(examples.map(({ family }) => family))];
-
-/** Letters without accents, so that a search is not particular about them. */
-function plain(words: string): string {
-  return words
-    .normalize("NFD")
-    .replace(/[\u0300-\u036f]/g, "")
-    .toLowerCase();
-}
-
 /** The examples that contain each of the words in their name, sentence or family. */
 function matching(words: string): Example[] {
-  const wanted = plain(words).split(/\s+/);
+  const wanted = words.toLowerCase().split(/\s+/);
   return examples.filter(({ name, title, family }) => {
-    const all = plain(`${name} ${title} ${family}`);
+    const all = `${name} ${title} ${family}`.toLowerCase();
     return wanted.every((word) => all.includes(word));
   });
 }
@@ -49,7 +37,7 @@ export function Gallery() {
         <span role="status">{words.count(found.length)}</span>
         <div class="families" role="group" aria-label={words.families}>
           <Button label={words.all} kind="small" pressed={!family} onClick={() => setFamily(null)} />
-          {FAMILIES.map((one) => (
+          {families.map((one) => (
             <Button
               key={one}
               label={one}
@@ -60,7 +48,7 @@ export function Gallery() {
           ))}
         </div>
       </div>
-      {FAMILIES.map((one) => (
+      {families.map((one) => (
         <Family key={one} family={one} members={found.filter((example) => example.family === one)} />
       ))}
     </Dialog>
