@@ -17,7 +17,13 @@ const CORE = process.env.KEMPE_WEB ?? join(ROOT, "target", "web", "kempe_web.was
 /** Largest page, bytes compressed: 1.01 MB. */
 const MOST = 1_012_000;
 
-const OPTIONS = { minify: !process.env.KEMPE_PLAIN, format: "iife", jsx: "automatic", jsxImportSource: "preact" };
+const OPTIONS = {
+  minify: !process.env.KEMPE_PLAIN,
+  format: "iife",
+  jsx: "automatic",
+  jsxImportSource: "preact",
+  charset: "utf8",
+};
 
 /** The texts of the examples of the repository by family and name. */
 function examples() {

@@ -280,7 +280,7 @@ export const texts = {
   gallery: {
     title: "Gallery",
     close: "Close",
-    search: "Search, for example: straight line",
+    search: "Search",
     all: "All",
     families: "Families",
     count: (n: number) => (n === 1 ? "1 mechanism" : `${n} mechanisms`),

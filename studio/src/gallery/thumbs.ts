@@ -54,12 +54,8 @@ function next<T>(kind: "stills" | "motions", act: (core: Transport) => Promise<T
 
 async function goOn(found: Work): Promise<void> {
   found.busy = true;
-  for (
-    let act = found.stills.shift() ?? found.motions.shift();
-    act;
-    act = found.stills.shift() ?? found.motions.shift()
-  )
-    await act();
+  const taken = () => found.stills.shift() ?? found.motions.shift();
+  for (let act = taken(); act; act = taken()) await act();
   found.busy = false;
 }
 
