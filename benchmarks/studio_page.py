@@ -86,6 +86,7 @@ def opened(browser: Browser, **more: Any) -> Page:
     """The page in a context of its own, with its first case drawn."""
     page = browser.new_context(viewport={"width": 1280, "height": 800}, **more).new_page()
     page.add_init_script(WATCH)
+    page.add_init_script("localStorage.setItem('kempe.visited', '1')")
     page.goto(PAGE.as_uri())
     while not page.evaluate("performance.getEntriesByName('first picture').length"):
         page.wait_for_timeout(20)

@@ -12,6 +12,7 @@ its place in ``FAMILIES``.
 from __future__ import annotations
 
 import argparse
+import json
 import re
 import tempfile
 import textwrap
@@ -34,62 +35,40 @@ FRAMES = 121
 WIDTH, COLUMNS = 150, 3
 _STYLE = 'style="width: 100%; height: 44rem; border: 0"'
 
-#: The examples by family, each with the instant of its drawing as a share of the motion.
-FAMILIES: dict[str, dict[str, float]] = {
-    "Four-bar and six-bar linkages": {
-        "four_bar": 0.0,
-        "six_bar": 0.1,
-        "slider_crank": 0.1,
-        "quick_return": 0.1,
-        "wiper": 0.05,
-        "squeezer": 0.0,
-        "garage_door": 0.15,
-    },
-    "Straight lines and other curves": {
-        "watt_six_bar": 0.1,
-        "hoecken": 0.0,
-        "peaucellier": 0.15,
-        "scotch_yoke": 0.1,
-        "elliptical_trammel": 0.0,
-        "cardan_gear": 0.0,
-        "pantograph": 0.0,
-    },
-    "Legs, vehicles and aircraft": {
-        "jansen_leg": 0.0,
-        "klann_leg": 0.1,
-        "bicycle_chain": 0.0,
-        "rack_steering": 0.2,
-        "landing_gear": 0.45,
-    },
-    "Gears, cams and couplings": {
-        "planetary_gear": 0.0,
-        "oldham_coupling": 0.1,
-        "cam_roller": 0.1,
-        "jumping_follower": 0.0,
-        "geneva_drive": 0.1,
-    },
-    "Lifting": {
-        "excavator": 0.3,
-        "boom": 0.5,
-        "scissor_lift": 0.6,
-        "crane_trolley": 0.2,
-        "barrier": 0.0,
-    },
-    "Engines, presses and pumps": {
-        "engine": 0.02,
-        "two_cylinder_engine": 0.1,
-        "motor_press": 0.5,
-        "toggle_press": 0.1,
-        "pump_jack": 0.1,
-    },
-    "Balances and free motion": {
-        "pendulum": 0.0,
-        "double_pendulum": 0.0,
-        "slamming_door": 0.1,
-        "balanced_lamp": 0.5,
-        "roberval_balance": 1.0,
-        "trebuchet": 0.5,
-    },
+CLASSICS = EXAMPLES / "classics"
+#: All mechanisms by family, as the studio shows them.
+FAMILIES: dict[str, list[str]] = json.loads(
+    (ROOT / "studio" / "build" / "families.json").read_text("utf-8")
+)
+#: The instant of the drawing of an example, as a share of the motion; otherwise the start.
+INSTANTS = {
+    "six_bar": 0.1,
+    "slider_crank": 0.1,
+    "quick_return": 0.1,
+    "wiper": 0.05,
+    "garage_door": 0.15,
+    "watt_six_bar": 0.1,
+    "peaucellier": 0.15,
+    "scotch_yoke": 0.1,
+    "klann_leg": 0.1,
+    "rack_steering": 0.2,
+    "landing_gear": 0.45,
+    "oldham_coupling": 0.1,
+    "cam_roller": 0.1,
+    "geneva_drive": 0.1,
+    "excavator": 0.3,
+    "boom": 0.5,
+    "scissor_lift": 0.6,
+    "crane_trolley": 0.2,
+    "engine": 0.02,
+    "two_cylinder_engine": 0.1,
+    "motor_press": 0.5,
+    "toggle_press": 0.1,
+    "pump_jack": 0.1,
+    "slamming_door": 0.1,
+    "balanced_lamp": 0.5,
+    "roberval_balance": 1.0,
+    "trebuchet": 0.5,
 }
 #: Paragraphs of examples whose files have no comment below the title, or a short one.
 PARAGRAPHS = {
@@ -124,19 +103,27 @@ PARAGRAPHS = {
 }
 
 
-def families() -> dict[str, float]:
-    """All examples of the gallery, each with the instant of its drawing."""
-    return {name: at for members in FAMILIES.values() for name, at in members.items()}
+def names() -> list[str]:
+    """All examples that have a page of the gallery."""
+    return [
+        name for members in FAMILIES.values() for name in members if path(name).parent == EXAMPLES
+    ]
+
+
+def path(name: str) -> Path:
+    """The file of a mechanism."""
+    found = CLASSICS / f"{name}.toml"
+    return found if found.exists() else EXAMPLES / f"{name}.toml"
 
 
 def text(name: str) -> str:
-    """The file of an example."""
-    return (EXAMPLES / f"{name}.toml").read_text("utf-8")
+    """The file of a mechanism as text."""
+    return path(name).read_text("utf-8")
 
 
 def title(name: str) -> str:
-    """The title of an example."""
-    return kp.load(EXAMPLES / f"{name}.toml").model.title
+    """The title of a mechanism."""
+    return kp.load(path(name)).model.title
 
 
 def paragraph(name: str) -> str:
@@ -185,8 +172,19 @@ def sheet() -> str:
             "file. The tests compare the mechanics of each with formulas or with an independent "
             "program. `kempe new NAME` writes the file of one; `kempe new` lists all names."
         ),
+        filled(
+            "The lists below the drawings name more mechanisms, whose files are in "
+            "`examples/classics/`. [The studio](../studio.md) shows all of them in motion."
+        ),
     ]
-    for family, members in FAMILIES.items():
+    for family, all_members in FAMILIES.items():
+        members = [name for name in all_members if path(name).parent == EXAMPLES]
+        more = [
+            f"* [{about}](../../examples/classics/{name}.toml):{says}"
+            for name in all_members
+            if name not in members
+            for about, _, says in [title(name).partition(":")]
+        ]
         cells = [
             f"[![{title(name)}](../images/gallery/small/{name}.png)]({name}.md)<br>"
             f"[{title(name).partition(':')[0]}]({name}.md)"
@@ -197,6 +195,8 @@ def sheet() -> str:
         lines = [f"| {' | '.join(row)} |" for row in rows]
         lines.insert(1, "|---" * COLUMNS + "|")
         parts.append(f"## {family}\n\n" + "\n".join(lines) + "\n")
+        if more:
+            parts.append("\n".join(more) + "\n")
     return "\n".join(parts)
 
 
@@ -209,7 +209,7 @@ def motion(name: str) -> kp.Solution:
 def drawings(name: str) -> tuple[Image.Image, Image.Image]:
     """The drawing of an example and its thumbnail, which has no names."""
     shown = scene(motion(name))
-    k = round(families()[name] * (len(shown["frames"]["t"]) - 1))
+    k = round(INSTANTS.get(name, 0.0) * (len(shown["frames"]["t"]) - 1))
     return picture(shown, k, DOTS, labels=True), picture(shown, k, SMALL_DOTS, labels=False)
 
 
@@ -235,7 +235,7 @@ def player(name: str) -> str:
 def main() -> None:
     """Write the gallery, or the players."""
     given = argparse.ArgumentParser(description="Write the gallery.")
-    given.add_argument("names", nargs="*", default=list(families()), metavar="NAME")
+    given.add_argument("names", nargs="*", default=names(), metavar="NAME")
     given.add_argument("--players", type=Path, metavar="FOLDER", help="write players instead")
     chosen = given.parse_args()
     if chosen.players:

@@ -29,6 +29,7 @@ LIVE = 1.3
 def opened(browser: Browser, size: dict[str, int], **more: Any) -> Page:
     """The page in a window of its own, when the core is ready."""
     page = browser.new_page(viewport=size, **more)
+    page.add_init_script("localStorage.setItem('kempe.visited', '1')")
     page.goto(PAGE.as_uri())
     wait(page, "typeof kempe === 'object' && kempe.state().then(state => state !== null)")
     return page

@@ -1,6 +1,6 @@
 // Builds dist/index.html: one file with the style, the script, the worker and the core.
 import { createHash } from "node:crypto";
-import { mkdirSync, readdirSync, readFileSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
@@ -17,17 +17,26 @@ const CORE = process.env.KEMPE_WEB ?? join(ROOT, "target", "web", "kempe_web.was
 /** Largest page, bytes compressed: 1.01 MB. */
 const MOST = 1_012_000;
 
-const OPTIONS = { minify: !process.env.KEMPE_PLAIN, format: "iife", jsx: "automatic", jsxImportSource: "preact" };
+const OPTIONS = {
+  minify: !process.env.KEMPE_PLAIN,
+  format: "iife",
+  jsx: "automatic",
+  jsxImportSource: "preact",
+  charset: "utf8",
+};
 
-/** The examples of the repository, with the titles of their cases. */
+/** The texts of the examples of the repository by family and name. */
 function examples() {
-  const folder = join(ROOT, "examples");
-  const names = readdirSync(folder).filter((name) => name.endsWith(".toml"));
-  return names.sort().map((file) => {
-    const text = readFileSync(join(folder, file), "utf8");
-    const title = /^title = "(.*)"/m.exec(text)?.[1] ?? file;
-    return { name: file.replace(/\.toml$/, ""), title, text };
-  });
+  const examples = join(ROOT, "examples");
+  const folders = [examples, join(examples, "classics")];
+  const families = JSON.parse(readFileSync(join(HERE, "build", "families.json"), "utf8"));
+  const read = (name) => {
+    const folder = folders.find((one) => existsSync(join(one, `${name}.toml`)));
+    return [name, readFileSync(join(folder, `${name}.toml`), "utf8")];
+  };
+  return Object.fromEntries(
+    Object.entries(families).map(([family, names]) => [family, Object.fromEntries(names.map(read))]),
+  );
 }
 
 /** Modules that are made here: the examples, and the worker as a text. */
@@ -36,7 +45,7 @@ const made = {
   setup({ onResolve, onLoad }) {
     onResolve({ filter: /^virtual:/ }, ({ path }) => ({ path, namespace: "made" }));
     onLoad({ filter: /^virtual:examples$/, namespace: "made" }, () => ({
-      contents: `export const examples = ${JSON.stringify(examples())}`,
+      contents: `export default ${JSON.stringify(examples())}`,
     }));
     onLoad({ filter: /^virtual:worker$/, namespace: "made" }, async () => ({
       contents: `export default ${JSON.stringify((await bundle("src/core/worker.ts", OPTIONS)).script)}`,

@@ -1,8 +1,8 @@
 // Puts the page together.
 
-import { examples } from "virtual:examples";
 import { render } from "preact";
 import { failed } from "./coreTexts";
+import { examples } from "./gallery/examples";
 import { EMPTY, take } from "./give/files";
 import { isFramed, textOf } from "./give/link";
 import { enter } from "./modes/modes";
@@ -11,6 +11,7 @@ import { kempe } from "./page/interface";
 import { listenToKeys } from "./page/keyboard";
 import { Page } from "./page/Page";
 import { open, take as show } from "./store/document";
+import { greet, isFirstVisit } from "./store/greeting";
 import { begunWith, keep, restored, tellApart } from "./store/kept";
 import { connect } from "./store/session";
 import { announce } from "./store/state";
@@ -23,6 +24,8 @@ import "./style/panels.css";
 import "./style/phone.css";
 
 const FIRST = "four_bar";
+/** The example that moves at the first visit. */
+const WELCOME = "walker";
 /** Whether this page is in a frame of another page. */
 const framed = isFramed(location.hash);
 
@@ -40,8 +43,8 @@ function givenText(): string | null | undefined {
   }
 }
 
-function first(): string {
-  return examples.find(({ name }) => name === FIRST)?.text ?? EMPTY;
+function first(wanted = FIRST): string {
+  return examples.find(({ name }) => name === wanted)?.text ?? EMPTY;
 }
 
 /** Open and run the case of a frame. Its tab has the work of other pages, which stays as it is. */
@@ -52,7 +55,10 @@ async function beginFramed(): Promise<void> {
   enter("read");
 }
 
-/** Open the text of the link, the text of the page, or the first example, unless this tab has begun with it. */
+/**
+ * Open the text of the link, the text of the page, or an example, unless this tab has begun with it. At the first visit
+ * the example moves.
+ */
 async function begin(): Promise<void> {
   const given = givenText();
   const source = given ?? "";
@@ -61,7 +67,12 @@ async function begin(): Promise<void> {
     await show(kept.text, false);
     if (kept.source === source) enter(kept.mode);
   }
-  if (kept?.source !== source) await open(given ?? first());
+  const greets = isFirstVisit() && !kept && given === null;
+  if (kept?.source !== source) await open(given ?? first(greets ? WELCOME : FIRST));
+  if (greets) {
+    enter("live");
+    greet();
+  }
   begunWith(source);
   keep();
   tellApart(kept !== null);

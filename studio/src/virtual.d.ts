@@ -1,6 +1,8 @@
 // Modules that the build makes.
 declare module "virtual:examples" {
-  export const examples: { name: string; title: string; text: string }[];
+  /** Texts by family and name. */
+  const found: Record<string, Record<string, string>>;
+  export default found;
 }
 
 declare module "virtual:worker" {

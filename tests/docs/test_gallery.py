@@ -9,7 +9,7 @@ from sizes import some
 
 from tools import gallery
 
-NAMES = list(gallery.families())
+NAMES = gallery.names()
 #: Tests that compare examples with formulas, published results or another program.
 MECHANICS = (
     *sorted((ROOT / "tests" / "truth").glob("*.py")),

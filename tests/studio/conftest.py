@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from kempe.studio import sources
 from kempe.studio.page import read
-from studio.window import Studio
+from studio.window import VISITED, Studio
 
 sync_api = pytest.importorskip("playwright.sync_api", reason="the package playwright is missing")
 
@@ -30,10 +30,22 @@ def built() -> None:
         refuse("studio/dist/index.html is not of the present sources; run tools/build_studio.sh")
 
 
-def opened(browser: "sync_api.Browser", link: str = "", page: Path = PAGE, **more: Any) -> Studio:
-    """The studio in a window of its own, which notes messages, errors and requests."""
+def opened(
+    browser: "sync_api.Browser",
+    link: str = "",
+    page: Path = PAGE,
+    *,
+    first: bool = False,
+    **more: Any,
+) -> Studio:
+    """The studio in a window of its own, which notes messages, errors and requests.
+
+    At the `first` visit, a mechanism moves.
+    """
     context = browser.new_context(**more)
     context.add_init_script(NO_PICKERS)
+    if not first:
+        context.add_init_script(VISITED)
     one = Studio(context.new_page())
     one.page.on("console", lambda message: one.messages.append(message.text))
     one.page.on("pageerror", lambda error: one.messages.append(str(error)))
@@ -41,7 +53,8 @@ def opened(browser: "sync_api.Browser", link: str = "", page: Path = PAGE, **mor
     context.on("request", lambda request: one.requests.append(request.url))
     one.page.goto(page.as_uri() + link)
     one.wait("typeof kempe === 'object' && kempe.state().then(state => state !== null)", 20.0)
-    one.settle()
+    if not first:
+        one.settle()
     return one
 
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 from studio.conftest import PAGE
-from studio.window import Opener, Studio
+from studio.window import VISITED, Opener, Studio
 
 if TYPE_CHECKING:
     from playwright.sync_api import Browser, Page
@@ -42,6 +42,7 @@ def ready(page: "Page") -> Studio:
 @pytest.fixture(params=["file", "http"])
 def window(request: pytest.FixtureRequest, built: None, browser: "Browser") -> Iterator[Studio]:  # noqa: ARG001
     context = browser.new_context(viewport={"width": 1280, "height": 800})
+    context.add_init_script(VISITED)
     page = context.new_page()
     page.goto(PAGE.as_uri() if request.param == "file" else request.getfixturevalue("site"))
     yield ready(page)

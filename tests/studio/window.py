@@ -12,6 +12,9 @@ import kempe as kp
 if TYPE_CHECKING:
     from playwright.sync_api import Page
 
+#: The browser has shown the page before, so that no mechanism moves when it opens.
+VISITED = "try { localStorage.setItem('kempe.visited', '1') } catch {}"
+
 
 @dataclass
 class Studio:

@@ -90,6 +90,14 @@ export class Transport {
     });
   }
 
+  /** End the worker; open requests are never answered. */
+  end(): void {
+    clearTimeout(this.timer);
+    this.line?.terminate();
+    this.running = null;
+    this.queue = [];
+  }
+
   /** The number of requests that wait or run. */
   get busy(): number {
     return this.queue.length + (this.running ? 1 : 0);

@@ -4,6 +4,7 @@ import { scaling, shifting } from "../store/backdrop";
 import { note } from "../store/note";
 import { goHome, report, showPresent } from "../store/session";
 import { loads, type Mode, mode, panel, tool } from "../store/state";
+import { still } from "../store/still";
 import { edit } from "./edit";
 import type { Handler } from "./handler";
 import * as living from "./live";
@@ -27,17 +28,13 @@ export function enter(next: Mode): void {
   mode.value = next;
   if (next === "edit") void goHome();
   panel.value = next === "read" ? "results" : "properties";
+  // With reduced motion, *Live* waits for Play.
   if (next === "live") void (before === "read" ? goHome() : Promise.resolve()).then(still() ? undefined : living.play);
   if (next === "read") {
     if (reading.course.value) reading.show(reading.time.value);
     else if (reading.found.value) void reading.showPlace(reading.place.value);
     else void (before === "move" ? beginHere() : Promise.resolve()).then(() => reading.run()).catch(report);
   }
-}
-
-/** Whether the system requests reduced motion: then *Live* waits for Play. */
-function still(): boolean {
-  return matchMedia("(prefers-reduced-motion: reduce)").matches;
 }
 
 function leave(before: Mode): void {

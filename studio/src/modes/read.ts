@@ -186,7 +186,7 @@ async function requested(): Promise<Requests["run"]["send"]> {
 }
 
 /** Times and frames in the order of growing times. */
-function inOrder(numbers: Float64Array, width: number): Pick<Course, "t" | "rows" | "backwards"> {
+export function inOrder(numbers: Float64Array, width: number): Pick<Course, "t" | "rows" | "backwards"> {
   const n = Math.floor(numbers.length / width);
   const backwards = n > 1 && numbers[0]! > numbers[(n - 1) * width]!;
   const rows = new Float64Array(numbers.length);
@@ -206,7 +206,7 @@ async function untilTime(t_end?: number): Promise<{ t_end: number; output_step: 
 }
 
 /** The poses at one time, by linear interpolation between frames. */
-export function posesAt({ t, rows, width }: Course, at: number): Pose["poses"] {
+export function posesAt({ t, rows, width }: Pick<Course, "t" | "rows" | "width">, at: number): Pose["poses"] {
   const { low, high, share } = placeIn(t, at);
   return Array.from({ length: (width - 1) / 3 }, (_, body) => {
     const value = (k: number) => {

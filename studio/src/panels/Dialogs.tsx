@@ -1,11 +1,10 @@
 // Dialogs: examples, sharing, keys.
 
-import { examples } from "virtual:examples";
 import { begin } from "../guide/guide";
-import { open } from "../store/document";
 import { dialog } from "../store/state";
 import { texts } from "../texts";
 import { Dialog } from "./Dialog";
+import { Gallery } from "./Gallery";
 import { Button } from "./parts";
 import { Share } from "./Share";
 
@@ -14,30 +13,6 @@ export function Dialogs() {
   if (which === "gallery") return <Gallery />;
   if (which === "share") return <Share />;
   return which === "help" ? <Help /> : null;
-}
-
-function Gallery() {
-  return (
-    <Dialog title={texts.gallery.title}>
-      <ul class="gallery">
-        {examples.map(({ name, title, text: found }) => (
-          <li key={name}>
-            <button
-              type="button"
-              data-example={name}
-              onClick={() => {
-                dialog.value = null;
-                void open(found, { name: `${name}.toml` });
-              }}
-            >
-              <strong>{title}</strong>
-              <span>{name}</span>
-            </button>
-          </li>
-        ))}
-      </ul>
-    </Dialog>
-  );
 }
 
 function Help() {

@@ -4,6 +4,7 @@ import { at, begin, blank, ghost, leave, phase, skip, step, tooled } from "../gu
 import { STEPS } from "../guide/steps";
 import { points } from "../modes/seen";
 import type { Point } from "../plane/points";
+import { greets } from "../store/greeting";
 import { view, viewed } from "../store/sheet";
 import { mode, tool } from "../store/state";
 import { texts } from "../texts";
@@ -15,10 +16,21 @@ const EDGE = 8;
 
 export function Guide() {
   if (step.value) return <Card />;
+  if (greets.value) return <Greeting />;
   if (!blank.value || tool.value || mode.value !== "edit") return null;
   return (
     <div class="guide offer">
       <Button label={texts.guide.begin} kind="main" onClick={() => void begin()} id="guide-begin" />
+    </div>
+  );
+}
+
+function Greeting() {
+  return (
+    <div class="guide offer greeting">
+      <p role="status" id="greeting">
+        {texts.greeting}
+      </p>
     </div>
   );
 }

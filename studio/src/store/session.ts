@@ -25,6 +25,7 @@ import {
 /** After this number of checks without an open request, everything is answered. */
 const QUIET = 5;
 let transport: Transport | null = null;
+let beginning: (() => Line) | null = null;
 /** The last text that the core read without a trap. */
 let accepted = "";
 let size: [number, number] = [800, 600];
@@ -33,11 +34,17 @@ let fetching: Promise<void> = Promise.resolve();
 
 /** Connect to a worker with the core. */
 export function connect(begin: () => Line, limit?: number): void {
+  beginning = begin;
   transport = new Transport(begin, restarted, limit);
   void send("catalogue", {}).then(({ ok }) => {
     catalogue.value = readCatalogue(ok);
     ready.value = true;
   }, report);
+}
+
+/** A core beside that of the sheet, for pictures of other mechanisms. */
+export function another(): Transport {
+  return new Transport(beginning!, () => {});
 }
 
 function restarted(reason: "trap" | "timeout"): void {
