@@ -11,6 +11,7 @@ import kempe as kp
 import pytest
 from command_line import kempe
 from house.places import ROOT
+from kempe.analyses import options
 from kempe.analyses.option import Analysis, Option
 from kempe.base.synonyms import table
 from kempe.model.elements import ElementMethods
@@ -50,7 +51,13 @@ METHODS = [
     for name, method in vars(ElementMethods).items()
     if not name.startswith("_") and callable(method)
 ]
-OPTIONS = [*Option.__subclasses__(), *Analysis.__subclasses__()]
+OPTIONS = [
+    one
+    for one in vars(options).values()
+    if inspect.isclass(one)
+    and issubclass(one, (Option, Analysis))
+    and one.__module__ == options.__name__
+]
 
 
 @pytest.mark.parametrize("element", METHODS)
@@ -93,6 +100,21 @@ def test_an_unknown_argument_of_an_option_is_named(option: type) -> None:
     assert option.__name__ in str(caught.value) and "'nonsense_of_mine'" in str(caught.value)
 
 
+FUNCTIONS = {
+    f"{package.__name__}.{name}": getattr(package, name)
+    for package in (kp, kp.plot, kp.design, kp.report)
+    for name in package.__all__
+    if inspect.isroutine(getattr(package, name))
+}
+
+
+@pytest.mark.parametrize("name", FUNCTIONS)
+def test_an_unknown_argument_of_a_function_is_named(name: str) -> None:
+    with pytest.raises(kp.ModelError) as caught:
+        FUNCTIONS[name](nonsense_of_mine=3)
+    checked(str(caught.value), name.rpartition(".")[2], "'nonsense_of_mine'", "the arguments are")
+
+
 # --- words of other programs ----------------------------------------------------------------------
 
 WORDS: list[tuple[str, Callable[[kp.Model], object], str, str]] = [
@@ -117,6 +139,15 @@ WORDS: list[tuple[str, Callable[[kp.Model], object], str, str]] = [
     ("rate", lambda m: kp.assemble(m, {"rod.angle": 0.1}, rate={}), "'rate'", "'set'"),  # type: ignore[call-arg]
     ("parameter", lambda m: m.parameter("k", 2), "'parameter'", "kp.Model(parameters={'k': 2})"),  # type: ignore[attr-defined]
     ("missing", lambda m: m.revolute("B", "ground.O"), "revolute: missing", "'j'"),  # type: ignore[call-arg]
+    ("save", lambda m: kp.load(ROOT / "examples/four_bar.toml").run(dt=1), "'dt'", "progress"),  # type: ignore[call-arg]
+    ("view", lambda m: start(m)["A"].force(body="rod"), "'body'", "on, frame, about"),
+    ("solution", lambda m: start(m).joint("A").torque(), "torque: missing", "on"),  # type: ignore[call-arg]
+    (
+        "event",
+        lambda m: kp.Event("rod.angle", terminal=True),
+        "'terminal'",
+        "condition, direction, stop",
+    ),
     ("many", lambda m: m.bar("r", 1, 2, 3, 4, 5), "bar: too many", "the arguments are"),  # type: ignore[call-arg]
 ]
 
@@ -143,8 +174,7 @@ def test_synonyms_lead_to_existing_names() -> None:
             arguments |= set(inspect.signature(one).parameters)
         except (TypeError, ValueError):
             continue
-    options = [*Option.__subclasses__(), *Analysis.__subclasses__()]
-    arguments |= {field for option in options for field in option.shapes}
+    arguments |= {field for option in OPTIONS for field in option.shapes}
     assert not {name for names in table("arguments").values() for name in names} - arguments
 
 
