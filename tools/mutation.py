@@ -66,6 +66,7 @@ TESTS = {
         "tests/python/test_motor.py",
     ),
     "plot": (
+        "tests/plot/test_contents.py",
         "tests/plot/test_time_axis.py",
         "tests/plot/test_peaks.py",
         "tests/plot/test_dimensions.py",
