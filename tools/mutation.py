@@ -47,6 +47,7 @@ TESTS = {
     "results/summary.py": (
         "tests/python/test_settling.py",
         "tests/python/test_summary.py",
+        "tests/python/test_driven_or_not.py",
         "tests/python/test_measures.py",
         "tests/python/test_extremes.py",
         "tests/python/test_solution.py",
@@ -91,6 +92,7 @@ TESTS = {
         "tests/python/test_design_dynamics.py",
         "tests/python/test_design_example.py",
         "tests/python/test_pin_loads.py",
+        "tests/python/test_driven_or_not.py",
         "tests/python/test_motor.py",
     ),
 }
