@@ -104,5 +104,7 @@ def _explain(
             message = f"{name}: unknown argument {unknown[0]!r}"
         else:
             message, hint = f"{name}: {fault}", there_are
+            if str(fault).startswith("too many"):
+                hint += "; write them by name, such as " + f"{known[-1]}=…"
         raise ArgumentError(message, name=name, hint=hint) from None
     raise error
