@@ -43,6 +43,7 @@ TESTS = {
         "tests/python/test_friction_at_rest.py",
         "tests/python/test_action_points.py",
         "tests/python/test_point_mass.py",
+        "tests/python/test_mistakes.py",
     ),
     "results/summary.py": (
         "tests/python/test_settling.py",

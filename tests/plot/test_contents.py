@@ -52,6 +52,31 @@ def of_axes(fixture: str, draw: Any) -> Callable[[Any], list[Figure]]:
     return lambda get: [figure_of(draw(get(fixture)))]
 
 
+DESIGN = ("effort", "transmission", "velocity_polygon", "acceleration_polygon")
+DESIGN += ("instant_centres", "duty", "pin_load", "shaking_force")
+
+
+def of_design(get: Any) -> list[Figure]:
+    """One page of each kind."""
+    found = {}
+    for page in plot.pages(get("turn")):
+        kind = next((kind for kind in DESIGN if page.name.startswith(kind)), "")
+        found.setdefault(kind, page)
+    assert set(DESIGN) <= set(found)
+    return [found[kind].figure() for kind in DESIGN]
+
+
+def of_slide(_: Any) -> list[Figure]:
+    """A force drives a slide."""
+    m = kp.Model("lift", gravity=(0, -9.81))
+    m.ground.points(O=(0, 0))
+    m.body("cage", mass=100, inertia=1, points={"P": (0, 0)})
+    m.translational("guide", "ground.O", "cage.P", axes=("90 deg", 0))
+    m.coordinate_driver("winch", "guide.displacement", value="step5(t, 0, 0, 2, 3)")
+    sol = kp.dynamics(m, kp.assemble(m), t_end=2, output_step=0.02)
+    return [figure_of(draw(sol, "winch")) for draw in (plot.effort, plot.torque_speed)]
+
+
 SWEEPS: dict[str, Callable[[Any], list[Figure]]] = {
     "lines": of_axes("grid", lambda of: plot.sweep_lines(of, "pin.max")),
     "map": of_axes("grid", lambda of: plot.sweep_map(of, "pin.max")),
@@ -71,6 +96,8 @@ DRAWN: dict[str, Callable[[Any], list[Figure]]] = {
     **{name: of_axes(of, draw) for name, (of, draw) in FIGURES.items()},
     **SWEEPS,
     **RESULTS,
+    "pages of a design": of_design,
+    "drive of a slide": of_slide,
     "pages of the flagship": of_pages("flagship"),
     "pages of the slider-crank": of_pages("crank"),
 }
