@@ -1,4 +1,4 @@
-"""Settling is told unless drivers determine the motion; and where forces and instants lie."""
+"""Settling is reported unless drivers determine the motion; places of forces and instants."""
 
 from typing import Any
 

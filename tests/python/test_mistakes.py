@@ -13,7 +13,6 @@ from command_line import kempe
 from house.places import ROOT
 from kempe.analyses import options
 from kempe.analyses.option import Analysis, Option
-from kempe.base.synonyms import table
 from kempe.model.elements import ElementMethods
 
 FOUR_BAR = (ROOT / "examples" / "four_bar.toml").read_text("utf-8")
@@ -100,21 +99,6 @@ def test_an_unknown_argument_of_an_option_is_named(option: type) -> None:
     assert option.__name__ in str(caught.value) and "'nonsense_of_mine'" in str(caught.value)
 
 
-FUNCTIONS = {
-    f"{package.__name__}.{name}": getattr(package, name)
-    for package in (kp, kp.plot, kp.design, kp.report)
-    for name in package.__all__
-    if inspect.isroutine(getattr(package, name))
-}
-
-
-@pytest.mark.parametrize("name", FUNCTIONS)
-def test_an_unknown_argument_of_a_function_is_named(name: str) -> None:
-    with pytest.raises(kp.ModelError) as caught:
-        FUNCTIONS[name](nonsense_of_mine=3)
-    checked(str(caught.value), name.rpartition(".")[2], "'nonsense_of_mine'", "the arguments are")
-
-
 # --- words of other programs ----------------------------------------------------------------------
 
 WORDS: list[tuple[str, Callable[[kp.Model], object], str, str]] = [
@@ -161,21 +145,6 @@ def test_a_word_of_another_program_is_translated(
     with pytest.raises((kp.ModelError, AttributeError)) as caught:
         act(pendulum())
     checked(str(caught.value), thing, remedy)
-
-
-def test_synonyms_lead_to_existing_names() -> None:
-    known = {*dir(kp), *dir(kp.Model)}
-    assert not {name for names in table("names").values() for name in names} - known
-    arguments = {"of", "path", "set", "value", "t", "points"}
-    functions = [getattr(kp, name) for name in kp.__all__ if callable(getattr(kp, name))]
-    methods = [getattr(kp.Model, name) for name in dir(kp.Model) if name[0] != "_"]
-    for one in [*functions, *filter(callable, methods)]:
-        try:
-            arguments |= set(inspect.signature(one).parameters)
-        except (TypeError, ValueError):
-            continue
-    arguments |= {field for option in OPTIONS for field in option.shapes}
-    assert not {name for names in table("arguments").values() for name in names} - arguments
 
 
 # --- values ---------------------------------------------------------------------------------------

@@ -1,4 +1,4 @@
-"""The remedy that a message names works: each mistake is mended as its message says."""
+"""The remedy that a message names works: each mistake is mended with it."""
 # ruff: noqa: ARG005 - each remedy is an act on a model
 
 import inspect
