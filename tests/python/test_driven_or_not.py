@@ -6,7 +6,7 @@ import kempe as kp
 import numpy as np
 import pytest
 from kempe import design
-from kempe.design.locate import instants, integral
+from kempe.design.locate import instants, integral, zeros
 from kempe.design.wrenches import loads
 from kempe.report import summary
 
@@ -111,3 +111,28 @@ def test_polygons_have_the_same_images_at_every_size() -> None:
         assert told.keys() == wanted[0].keys() == {"o", "A", "B"}
         for name, image in told.items():
             assert image == pytest.approx(wanted[0][name], abs=1e-8)
+
+
+@pytest.mark.parametrize("scale", [1e-3, 1.0, 1e3])
+def test_zeros_are_found_wherever_they_lie_between_the_instants(scale: float) -> None:
+    m = arm(driven=True)
+    sol = kp.kinematics(m, kp.assemble(m), over="arm.angle", range=(0.1, 0.9), n=3)
+    for at in np.random.default_rng(38).uniform(0.1, 0.9, 40):
+
+        def read(motion: Any, at: float = at) -> Any:
+            return scale * np.sin(np.asarray(motion["arm.angle"]) - at)
+
+        assert zeros(sol, read) == pytest.approx([at], abs=1e-13)
+
+
+def test_a_cusp_at_the_end_of_a_path_is_no_part_of_its_own() -> None:
+    """A wheel of radius r rolls from cusp to cusp: one arch of the cycloid, 8 r."""
+    m = kp.Model("wheel")
+    m.ground.points(O=(0, 0))
+    m.body("wheel", mass=1, inertia=0.01, points={"C": (0, 0), "P": (0.25, 0)})
+    m.rolling("roll", "ground.O", "wheel.C", radius=0.25)
+    m.coordinate_driver("d", "wheel.angle", value="-t")
+    start = kp.assemble(m, guess={"wheel.y": 0.25})
+    ends = (-0.5 * np.pi, -2.5 * np.pi)
+    sol = kp.kinematics(m, start, over="wheel.angle", range=ends)
+    assert design.coupler_curve(sol, "wheel.P").length == pytest.approx(2.0, rel=1e-12)
