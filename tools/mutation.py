@@ -3,8 +3,9 @@
     .venv/bin/python tools/mutation.py --sample 20 --seed 1 [MODULE …]
 
 Cosmic Ray makes the mutants: another operator, another number, a condition negated, a loop without
-a turn. They are made in a copy of the working tree. Each one runs the tests of its module until
-the first fails. `pip install cosmic-ray` installs it.
+a turn. `mutation_operators.py` swaps arguments and leaves out statements. The mutants are made in a
+copy of the working tree. Each one runs the tests of its module until the first fails.
+`pip install cosmic-ray` installs it.
 """
 
 import argparse
@@ -22,6 +23,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+import mutation_operators  # noqa: F401 - registers its operators
 from cosmic_ray.commands.init import init
 from cosmic_ray.mutating import mutate_and_test
 from cosmic_ray.work_db import WorkDB
@@ -36,10 +38,18 @@ TESTS = {
         "tests/python/test_solution.py",
         "tests/python/test_states.py",
         "tests/python/test_table.py",
+        "tests/python/test_reaction_frames.py",
+        "tests/python/test_element_energies.py",
+        "tests/python/test_friction_at_rest.py",
+        "tests/python/test_action_points.py",
+        "tests/python/test_point_mass.py",
+        "tests/python/test_mistakes.py",
     ),
     "results/summary.py": (
         "tests/python/test_settling.py",
         "tests/python/test_summary.py",
+        "tests/python/test_driven_or_not.py",
+        "tests/python/test_measures.py",
         "tests/python/test_extremes.py",
         "tests/python/test_solution.py",
         "tests/python/test_show.py",
@@ -47,12 +57,18 @@ TESTS = {
     "results/table.py": (
         "tests/python/test_table.py",
         "tests/python/test_display_units.py",
+        "tests/python/test_xarray.py",
+        "tests/python/test_variable.py",
     ),
     "results/archive.py": (
         "tests/python/test_archive.py",
+        "tests/python/test_parts_of_an_archive.py",
         "tests/python/test_copies.py",
+        "tests/python/test_event_files.py",
+        "tests/python/test_motor.py",
     ),
     "plot": (
+        "tests/plot/test_contents.py",
         "tests/plot/test_time_axis.py",
         "tests/plot/test_peaks.py",
         "tests/plot/test_dimensions.py",
@@ -63,6 +79,11 @@ TESTS = {
         "tests/plot/test_functions.py",
         "tests/plot/test_drawings.py",
         "tests/plot/test_units.py",
+        "tests/plot/test_design_figures.py",
+        "tests/plot/test_key_figures.py",
+        "tests/plot/test_marks.py",
+        "tests/plot/test_names_of_events.py",
+        "tests/sweeps/test_figures.py",
         "tests/study",
     ),
     "sweeps/studies": ("tests/study",),
@@ -72,6 +93,7 @@ TESTS = {
         "tests/python/test_design_dynamics.py",
         "tests/python/test_design_example.py",
         "tests/python/test_pin_loads.py",
+        "tests/python/test_driven_or_not.py",
         "tests/python/test_motor.py",
     ),
 }

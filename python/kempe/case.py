@@ -25,7 +25,7 @@ from kempe.analyses.record import Progress, Record, run_analysis
 from kempe.analyses.sequence import of_type, read_entries
 from kempe.analyses.start import Start, read_start
 from kempe.base import files
-from kempe.base.arguments import explained
+from kempe.base.arguments import explain_methods, explained
 from kempe.base.names import entry as named
 from kempe.base.names import few, one_of
 from kempe.errors import FileError, KempeError, ModelError
@@ -77,6 +77,7 @@ class Results(Mapping[str, Any]):
         return "\n".join(["<Results", *lines]) + ">"
 
 
+@explain_methods
 class Case:
     """A model, a start and analyses. Each analysis starts where the one before it ended.
 

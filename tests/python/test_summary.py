@@ -30,6 +30,8 @@ def test_the_head_of_a_summary(sol: kp.Solution, told: dict) -> None:
     assert told["time"] == {"start": 0.0, "end": 1.0, "outputs": 101}
     assert told["title"] == sol.model.title
     assert (told["success"], told["message"]) == (True, sol.message)
+    assert told["statistics"] == {k: v for k, v in sol.statistics.items() if k != "singular"}
+    assert {"steps", "rejected", "method"} <= told["statistics"].keys()
     model = sol.model
     assert told["mechanism"] == {
         "bodies": list(model.bodies),

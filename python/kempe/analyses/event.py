@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, get_args
 
+from kempe.base.arguments import Explained
 from kempe.base.names import one_of
 from kempe.errors import ModelError
 from kempe.model.values import mapping, reference
@@ -25,7 +26,7 @@ _FIELDS = ("condition", "direction", "stop")
 
 
 @dataclass(frozen=True)
-class Event:
+class Event(metaclass=Explained):
     """An event that a run detects.
 
     Attributes:

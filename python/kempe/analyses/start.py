@@ -7,12 +7,13 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from kempe.analyses.assembly import Coordinates
+from kempe.base.arguments import Explained
 from kempe.base.names import unknown
 from kempe.model.values import mapping, numbers
 
 
 @dataclass(frozen=True)
-class Start:
+class Start(metaclass=Explained):
     """The request for assembly before the first analysis.
 
     Attributes:

@@ -35,13 +35,21 @@ def explained(function: Callable[P, R]) -> Callable[P, R]:
     return call
 
 
-def explain_methods(kind: type) -> None:
+def explain_methods(kind: type[R]) -> type[R]:
     """Explain wrong calls of the public methods of a class, also of inherited ones."""
     for name in dir(kind):
         method = inspect.getattr_static(kind, name)
         public = not name.startswith("_") and isinstance(method, FunctionType)
         if public and not hasattr(method, _MARK):
             setattr(kind, name, explained(method))
+    return kind
+
+
+def explain_functions(package: dict[str, Any]) -> None:
+    """Explain wrong calls of the public functions of a package, given its ``globals()``."""
+    for name in package["__all__"]:
+        if isinstance(package[name], FunctionType) and not hasattr(package[name], _MARK):
+            package[name] = explained(package[name])
 
 
 class Explained(type):
@@ -96,5 +104,7 @@ def _explain(
             message = f"{name}: unknown argument {unknown[0]!r}"
         else:
             message, hint = f"{name}: {fault}", there_are
+            if str(fault).startswith("too many"):
+                hint += "; write them by name, such as " + f"{known[-1]}=…"
         raise ArgumentError(message, name=name, hint=hint) from None
     raise error

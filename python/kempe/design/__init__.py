@@ -23,6 +23,7 @@ Pin loads:
     load_cases, export_load_cases
 """
 
+from kempe.base.arguments import explain_functions
 from kempe.design.centres import InstantCentre, instant_centre
 from kempe.design.coupler_curve import CouplerCurve, coupler_curve
 from kempe.design.duty import Duty, Flywheel, duty, flywheel
@@ -83,3 +84,5 @@ __all__ = [
     "velocity_ratio",
     "write_pin_loads",
 ]
+
+explain_functions(globals())

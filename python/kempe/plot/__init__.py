@@ -4,6 +4,7 @@ Every function takes ``ax=`` and returns the axes. Without ``ax=`` it draws in a
 axes are compressed after ``cut=``; ``transient(solution)`` returns a suitable time.
 """
 
+from kempe.base.arguments import explain_functions
 from kempe.plot.body_motion import accelerations, positions, velocities
 from kempe.plot.centres import instant_centres
 from kempe.plot.configuration import configuration
@@ -68,3 +69,5 @@ __all__ = [
     "velocities",
     "velocity_polygon",
 ]
+
+explain_functions(globals())

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from kempe.base.arguments import explain_functions
 from kempe.model.values import instance
 from kempe.results import summary as _summary
 from kempe.results.solution import Solution
@@ -20,3 +21,6 @@ def summary(solution: Solution) -> dict[str, Any]:
     """
     instance(solution, Solution, "a solution")
     return _summary.summary(solution)
+
+
+explain_functions(globals())

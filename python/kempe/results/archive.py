@@ -182,9 +182,8 @@ def _check_header(
             sizes.setdefault(size, min(count, _HIGHEST_DEGREE) if size == "degree" else count)
             if size == "k + 1":
                 sizes["k"] = count - 1
-    must = tuple(sizes.get(size, -1) if isinstance(size, str) else size for size in shape)
-    if found != must:
-        told = tuple(sizes.get(size, size) if isinstance(size, str) else size for size in shape)
+    told = tuple(sizes.get(size, size) if isinstance(size, str) else size for size in shape)
+    if found != told:
         _refuse(f"{name} is {found}, must be {told}".replace("'", ""))
 
 
@@ -242,16 +241,17 @@ def _events(about: Mapping[str, Any], arrays: Mapping[str, Floats]) -> list[Even
         _refuse("its events are damaged")
     if sum(n for _, n in counts) != len(arrays.get("event_t", ())):
         _refuse("its events are damaged")
-    ends = np.cumsum([n for _, n in counts])
-    widths = [arrays[name].shape[1] for name in ("q", "v", "z", "lam")]
-    empty = dict(zip(EVENTS, [np.zeros(0), *(np.zeros((0, n)) for n in widths)], strict=True))
+    if "event_t" in arrays:
+        t, q, v, z, impulses = (arrays[name] for name in EVENTS)
+    else:  # no event occurred
+        t = np.zeros(0)
+        q, v, z, impulses = (arrays[name][:0] for name in ("q", "v", "z", "lam"))
     found: list[EventRows] = []
-    for (name, n), end in zip(counts, ends, strict=True):
-        t, *rows = (arrays.get(part, none)[end - n : end] for part, none in empty.items())
-        q, v, z, impulses = rows
-        found.append(
-            (str(name), t, q, v, z, impulses if len(impulses) == n else np.zeros((n, widths[-1])))
-        )
+    begin = 0
+    for name, n in counts:
+        rows = slice(begin, begin + n)
+        found.append((str(name), t[rows], q[rows], v[rows], z[rows], impulses[rows]))
+        begin += n
     return found
 
 

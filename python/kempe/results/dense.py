@@ -62,4 +62,5 @@ class DenseOutput:
             raise ModelError(
                 f"t = {wrong:g} s is outside the solution, {self.t[0]:g} to {self.t[-1]:g} s",
                 t=wrong,
+                hint="choose a time within it, or compute a longer motion",
             )

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from kempe._upwards import CALLS
+from kempe.base.arguments import explain_methods
 from kempe.base.arrays import Floats, fixed
 from kempe.errors import IntegrationError, KempeError, ModelError, SingularityError
 from kempe.model.compiled import CompiledModel
@@ -39,6 +40,7 @@ if TYPE_CHECKING:
     from kempe.results.views.frames import Frame
 
 
+@explain_methods
 class Solution(Motion):
     """The solution of a simulation: arrays with time first, read-only, SI units.
 

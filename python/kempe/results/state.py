@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from kempe._upwards import CALLS
+from kempe.base.arguments import explain_methods
 from kempe.base.arrays import Floats
 from kempe.base.display_units import display, heading
 from kempe.base.names import few
@@ -31,6 +32,7 @@ _COLUMNS = (
 )
 
 
+@explain_methods
 class State(Motion):
     """A mechanism at one time: ``state["crank.angle"]``, ``state["C"].residual``.
 

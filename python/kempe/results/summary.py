@@ -180,7 +180,7 @@ def energy(sampled: Sampled) -> dict[str, float]:
         "dissipated": float(found.dissipated[-1]),
         "work": float(found.work[-1]),
         "scale": found.scale,
-        "largest_imbalance": float(np.abs(found.balance).max(initial=0.0)),
+        "largest_imbalance": float(np.abs(found.balance).max()),
     }
 
 
@@ -221,7 +221,7 @@ def _turning_by_violation(sampled: Sampled) -> float:
     model = sampled.solution.compiled
     points = [point for body in model.all_bodies.values() for point in body.points.values()]
     size = float(np.ptp(np.array([(0.0, 0.0), *points]), axis=0).max())
-    opening = float(sampled.solution.drift.position.max(initial=0.0))
+    opening = float(sampled.solution.drift.position.max())
     return 2.0 * opening / size if size > 0.0 else 0.0
 
 

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from kempe._upwards import CALLS
 from kempe.base import files
+from kempe.base.arguments import explain_methods
 from kempe.base.arrays import Floats, fixed
 from kempe.base.display_units import units
 from kempe.base.names import entry
@@ -36,6 +37,7 @@ if TYPE_CHECKING:
 _CACHED = ("_by_name", "succeeded", "_tables", "choices", "unbounded", "remarks")
 
 
+@explain_methods
 class SweepResult:
     """The variants of a case: a row for each, in the order of the design.
 

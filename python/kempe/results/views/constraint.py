@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Generic, cast
 
 import numpy as np
 
+from kempe.base.arguments import explain_methods
 from kempe.base.arrays import Floats, fixed, scalar
 from kempe.errors import ModelError
 from kempe.model.compiled import ConstraintInfo
@@ -26,6 +27,7 @@ if TYPE_CHECKING:
     from kempe.results.motion import Motion
 
 
+@explain_methods
 class ConstraintView(Generic[S]):
     """A joint or driver of a motion.
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any, Generic, Literal, cast
 
 import numpy as np
 
+from kempe.base.arguments import explain_methods
 from kempe.base.arrays import Floats, fixed, scalar
 from kempe.base.names import one_of
 from kempe.model.compiled import ForceInfo
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 _FRAMES = ("global", "body")
 
 
+@explain_methods
 class ForceView(Generic[S]):
     """A force element of a motion.
 
