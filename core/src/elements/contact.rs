@@ -54,7 +54,7 @@ pub(super) fn curvature(terms: &[Local; 4]) -> f64 {
 }
 
 /// "u = 0.3 at (0.1, 0.2) m".
-pub(super) fn place(curve: &Curve, u: f64) -> String {
+pub(crate) fn place(curve: &Curve, u: f64) -> String {
     let p = curve.point(u);
     let [u, x, y] = each([u, p.x, p.y], |x| (1e6 * x).round() / 1e6 + 0.0);
     format!("u = {u:.6} at ({x:.6}, {y:.6}) m")

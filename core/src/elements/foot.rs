@@ -103,6 +103,17 @@ impl Rim {
         }
     }
 
+    /// The place u of the point nearest to p. None for a line or circle, which has no second foot.
+    pub fn foot(&self, p: Local) -> Option<f64> {
+        (!self.is_closed_form()).then(|| self.searches()[0].nearest(p).u())
+    }
+
+    /// Another foot of p than the foot `own`, and the place between them that is farthest from p. The other foot is
+    /// within a distance of p, or beside the place `from`.
+    pub fn other_foot(&self, p: Local, own: f64, place: (f64, f64)) -> Option<[f64; 2]> {
+        self.searches()[0].other_foot(p, own, place)
+    }
+
     fn searched_apart(&self, curve: &Curve, p: Local, side: Side, (way, far): (Way, f64)) -> Apart {
         let (search, within) = (&self.searches()[0], way.within);
         let out = if side == Side::Right { 1.0 } else { -1.0 };

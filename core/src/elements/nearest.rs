@@ -21,6 +21,10 @@ const MARGIN: f64 = 1.5;
 /// Largest number of steps of Newton's method.
 const STEPS: usize = 20;
 
+/// Number of parts in which the curve between two feet is compared with them, and the least ratio of the distances.
+const PARTS: usize = 32;
+const APART: f64 = 1.0 + 1e-9;
+
 /// A circle around a part of the curve.
 #[derive(Clone, Copy, Debug)]
 struct Circle {
@@ -37,6 +41,14 @@ pub(super) enum AlongCurve {
     First(f64),
     /// At the last end.
     Last(f64),
+}
+
+impl AlongCurve {
+    /// The place u.
+    pub fn u(self) -> f64 {
+        let (Self::Within(u) | Self::First(u) | Self::Last(u)) = self;
+        u
+    }
 }
 
 /// The curve around a foot, and the rest of the curve.
@@ -204,12 +216,44 @@ impl CurveSearch {
         if !(p.x.is_finite() && p.y.is_finite()) {
             return AlongCurve::Within(f64::NAN);
         }
-        self.refined(p, self.start(p).0)
+        let [first, second] = self.starts(p);
+        let found = self.refined(p, self.place(first.1));
+        if second.0 > first.0 + 2.0 * self.rise {
+            return found;
+        }
+        // the chords do not tell which of two distant parts of the curve is nearer
+        let other = self.refined(p, self.place(second.1));
+        let far = |of: AlongCurve| apart(p, self.curve.point(of.u()));
+        if far(other) < far(found) {
+            other
+        } else {
+            found
+        }
+    }
+
+    /// Another foot of p than the foot `own`, and the place between them that is farthest from p. It is searched from
+    /// the places `from`, and on all parts of the curve within a distance of p.
+    pub fn other_foot(&self, p: Local, own: f64, (from, within): (f64, f64)) -> Option<[f64; 2]> {
+        let ([a, b], count) = (self.range, self.points.len() - 1);
+        let pieces = self.pieces(p, within);
+        let parts = pieces.chunk_by(|k, next| k + 1 == *next).map(|part| part[part.len() / 2]);
+        let starts = parts.map(|k| a + (b - a) * (k as f64 + 0.5) / count as f64);
+        let turns = if self.curve.periodic() { b - a } else { f64::INFINITY };
+        std::iter::once(from).chain(starts).find_map(|start| {
+            let u = self.refined(p, start).u();
+            let by = own - u - turns.min(f64::MAX) * ((own - u) / turns).round();
+            let far = |share: f64| apart(p, self.curve.point(u + share * by));
+            let inner = (1..PARTS).map(|k| k as f64 / PARTS as f64);
+            let middle = inner.max_by(|s, t| far(*s).total_cmp(&far(*t)))?;
+            let away = [0.0, 1.0].iter().all(|end| far(middle) > APART * far(*end));
+            let touches = start == from || far(0.0) <= within;
+            (away && touches).then_some([u, u + middle * by])
+        })
     }
 
     /// The distance of p from the chords, positive on their right, and its error.
     pub fn rough(&self, p: Local) -> (f64, f64) {
-        let share = self.start(p).1;
+        let share = self.starts(p)[0].1;
         let k = (share as usize).min(self.points.len() - 2);
         let (from, to) = (self.points[k], self.points[k + 1]);
         let away = p - between(from, to, share - k as f64);
@@ -217,24 +261,36 @@ impl CurveSearch {
         (sign * away.norm(), self.rise)
     }
 
-    /// The u of the nearest point of the chords, and its place among them.
-    fn start(&self, p: Local) -> (f64, f64) {
+    /// The u of a place among the chords.
+    fn place(&self, share: f64) -> f64 {
+        let [a, b] = self.range;
+        a + (b - a) * share / (self.points.len() - 1) as f64
+    }
+
+    /// The distance of the nearest chord and the place of its nearest point among the chords; and those of another
+    /// chord that is not beside it, if it is hardly farther.
+    fn starts(&self, p: Local) -> [(f64, f64); 2] {
         let leaves = self.points.len() - 1;
-        let (mut best, mut share) = (f64::INFINITY, 0.0);
+        let [mut best, mut second] = [(f64::INFINITY, 0.0); 2];
         let mut stack = [(0_usize, 0.0_f64); 64];
         let mut open = 1;
         while open > 0 {
             open -= 1;
             let (k, bound) = stack[open];
-            if bound >= best {
+            if bound >= best.0 + 2.0 * self.rise {
                 continue;
             }
             if k >= leaves - 1 {
                 let piece = k + 1 - leaves;
                 let (distance, along) = to_chord(p, self.points[piece], self.points[piece + 1]);
-                if distance < best {
-                    (best, share) = (distance, piece as f64 + along);
-                }
+                let own = (distance, piece as f64 + along);
+                let beside = (own.1 - best.1).abs() < 2.0;
+                (best, second) = match own.0 < best.0 {
+                    true if beside => (own, second),
+                    true => (own, best),
+                    false if beside || own.0 >= second.0 => (best, second),
+                    false => (best, own),
+                };
                 continue;
             }
             let child = |k: usize| (k, apart(p, self.tree[k].center) - self.tree[k].radius);
@@ -243,8 +299,7 @@ impl CurveSearch {
             (stack[open], stack[open + 1]) = (far, near);
             open += 2;
         }
-        let [a, b] = self.range;
-        (a + (b - a) * share / leaves as f64, share)
+        [best, second]
     }
 
     /// Newton's method from u.

@@ -42,6 +42,7 @@ mod energies;
 mod event_list;
 mod examined_rows;
 mod failure;
+mod feet;
 mod guard;
 mod implicit_motion;
 mod initial_stiffness;

@@ -2,6 +2,7 @@
 
 use super::event_list::{EventList, StepEvents, Watched};
 use super::failure::Failure;
+use super::feet::Feet;
 use super::model_cache::ModelCache;
 use super::motion_ode::MotionOde;
 use super::motion_stepper::MotionStepper;
@@ -157,6 +158,7 @@ pub(super) struct PhaseSteps<'a> {
     pub stepper: MotionStepper<'a>,
     events: Option<EventList<'a>>,
     ranges: Ranges,
+    feet: Feet,
     /// The start of the phase, for messages.
     start: (f64, Vec<f64>),
     /// The end of the run.
@@ -179,8 +181,9 @@ impl<'a> PhaseSteps<'a> {
             .map_err(|cause| Failure::of_integrator(model, cause, at.t, &at.y))?;
         let start = (at.t, at.y.clone());
         let (ranges, t_end, fired) = (Ranges::of(model), options.t_end, Vec::new());
+        let feet = Feet::of(model, model.layout.split(&at.y)[0]);
         let motions = Motions::new(&model.layout);
-        Ok(Self { stepper, events, ranges, start, t_end, fired, motions })
+        Ok(Self { stepper, events, ranges, feet, start, t_end, fired, motions })
     }
 
     /// How the phase ended, if the last step reached its end.
@@ -221,7 +224,8 @@ impl<'a> PhaseSteps<'a> {
                 let beyond = self.ranges.beyond(model, q);
                 let failure =
                     |(_, message): (_, String)| Failure::off_the_curve(self.stepper.t(), &message);
-                beyond.map(failure).map_or(Ok(None), Err)
+                let wedged = || self.feet.look(model, self.stepper.t(), q);
+                beyond.map(failure).or_else(wedged).map_or(Ok(None), Err)
             }
             Ok(Next::Step(Flow::Stop)) => Ok(Some(PhaseEnd::Stopped)),
             Ok(Next::TooFast(index)) => {
