@@ -367,12 +367,8 @@ impl From<f64> for Tape {
 impl Tape {
     /// A tape that consists of one symbol.
     pub fn of(symbol: Symbol) -> Self {
-        Self {
-            code: vec![Instruction::Load(symbol)],
-            operands: 1,
-            symbols: vec![symbol],
-            ..Self::default()
-        }
+        let (code, symbols) = (vec![Instruction::Load(symbol)], vec![symbol]);
+        Self { code, operands: 1, symbols, ..Self::default() }
     }
 
     /// The sum of a symbol and a number.
@@ -384,8 +380,8 @@ impl Tape {
 
     /// The law position + rate (t - t0).
     pub fn line(position: f64, rate: f64, t0: f64) -> Self {
-        let mut line = Self::growing(Instruction::Constant(rate), t0);
         let add = Instruction::Binary(super::operation::Binary::Add);
+        let mut line = Self::growing(Instruction::Constant(rate), t0);
         line.code.extend([Instruction::Constant(position), add]);
         line
     }
@@ -398,9 +394,8 @@ impl Tape {
     }
 
     fn growing(rate: Instruction, t0: f64) -> Self {
-        use super::operation::Binary::Multiply;
         let mut law = Self::shifted(Symbol::Time, -t0);
-        law.code.extend([rate, Instruction::Binary(Multiply)]);
+        law.code.extend([rate, Instruction::Binary(super::operation::Binary::Multiply)]);
         law
     }
 }
