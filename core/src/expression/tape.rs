@@ -388,9 +388,8 @@ impl Tape {
 
     /// The law symbol × (t - t0).
     pub fn growing_by(symbol: Symbol, t0: f64) -> Self {
-        let mut law = Self::growing(Instruction::Load(symbol), t0);
-        law.symbols.push(symbol);
-        law
+        let law = Self::growing(Instruction::Load(symbol), t0);
+        Self { symbols: vec![Symbol::Time, symbol], ..law }
     }
 
     fn growing(rate: Instruction, t0: f64) -> Self {
