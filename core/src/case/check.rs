@@ -5,7 +5,7 @@ use super::names::{self, Namespace};
 use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
 use super::values::{number, pair, word, wrong};
-use super::{fields, start, sweep, tables, Case, Format, FORMAT_VERSION};
+use super::{columns, fields, start, sweep, tables, Case, Format, FORMAT_VERSION};
 use crate::analyses;
 use crate::elements::{catalogue, Group, Table as Declaration};
 use crate::expression::suggest::{closest, did_you_mean};
@@ -15,7 +15,7 @@ use crate::model::{table_fields, Entry, Problem, Value};
 /// Words for the key `redundancy`.
 pub(super) const REDUNDANCY: [&str; 2] = ["refuse", "allow"];
 
-const SECTIONS: [&str; 14] = [
+const SECTIONS: [&str; 15] = [
     "kempe",
     "title",
     "gravity",
@@ -30,6 +30,7 @@ const SECTIONS: [&str; 14] = [
     "start",
     "analyses",
     "sweep",
+    "gradient",
 ];
 
 /// The case that a tree contains, with the problems of its structure and the number of further problems that are not
@@ -96,6 +97,7 @@ fn section(
         "start" => case.start = start::read(report, node, root),
         "analyses" => case.analyses = analyses(report, node),
         "sweep" => case.sweep = sweep::read(report, node, root),
+        "gradient" => case.gradient = columns::gradient(report, node, root),
         _ => {
             let message = format!("unknown key '{}'", super::shown(key));
             // the key may be the singular of a section, or a part of its name
