@@ -101,7 +101,9 @@ fn section(
         _ => {
             let message = format!("unknown key '{}'", super::shown(key));
             // the key may be the singular of a section, or a part of its name
-            match SECTIONS.iter().find(|s| key.len() > 2 && s.get(..3) == key.get(..3)) {
+            let alike =
+                SECTIONS.iter().filter(|s| key.len() > 2 && s.get(..3) == key.get(..3)).list();
+            match closest(key, &alike).or_else(|| alike.first().map(|s| (**s).to_string())) {
                 Some(meant) => {
                     let hint = format!("did you mean '{meant}'?");
                     report.add(report.here(message).at_key().hint(hint));

@@ -150,7 +150,7 @@ class Gradient:
             return Shown("1", top.divisor / bottom.divisor)
         if below == "1":
             return Shown(above, top.divisor / bottom.divisor)
-        below = f"({below})" if bottom.unit and {"*", "/"} & set(below) else below
+        below = f"({below})" if bottom.unit and {"*", "/", "^"} & set(below) else below
         return Shown(f"{above}/{below}", top.divisor / bottom.divisor)
 
     def _tabulated(self, values: list[float], units: Mapping[str, str]) -> Any:
