@@ -126,7 +126,7 @@ def test_it_is_shown_and_copied(case: kp.Case) -> None:
 
 def test_unknown_pairs_are_refused(case: kp.Case) -> None:
     g = found(case)
-    with pytest.raises(KeyError, match="unknown measure 'pin.mx'") as caught:
+    with pytest.raises(KeyError, match=r"unknown measure 'pin\.mx'") as caught:
         g["pin.mx", "mass"]
     assert "pin.max" in str(caught.value.hint)
     with pytest.raises(KeyError, match="unknown variable 'masses'"):
@@ -193,7 +193,7 @@ def test_a_coordinate_that_others_determine_is_refused(case: kp.Case) -> None:
 
 
 def test_python_functions_are_refused_by_name(case: kp.Case) -> None:
-    case.model.torque("brake", "rod", torque=lambda t, state: -0.1 * state["rod.omega"])
+    case.model.torque("brake", "rod", torque=lambda _, state: -0.1 * state["rod.omega"])
     with pytest.raises(kp.ModelError, match=r"forces\.brake\.torque is a Python function") as told:
         kp.gradient(case, ["pin.max"], ["mass"], analysis="swing")
     assert told.value.hint == "write a formula or a table in its place"

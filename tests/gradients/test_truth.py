@@ -49,9 +49,9 @@ def pendulum(size: float, mass: float, rate: float) -> tuple[kp.Case, dict[str, 
     return kp.Case(m, {"set": start}, [run]), {**numbers, "rod.angle": start["rod.angle"]}
 
 
-def rate_below(m: Any, J: Any, d: Any, g: Any, angle: Any) -> Any:
+def rate_below(m: Any, inertia: Any, d: Any, g: Any, angle: Any) -> Any:
     """The rate of a pendulum at its lowest point, from energy."""
-    return np.sqrt(2.0 * m * g * d * (1.0 - np.sin(-angle)) / (J + m * d**2))
+    return np.sqrt(2.0 * m * g * d * (1.0 - np.sin(-angle)) / (inertia + m * d**2))
 
 
 @pytest.mark.parametrize("scale", SCALES)
@@ -121,12 +121,12 @@ def test_a_damped_oscillator(scale: tuple[float, float, float]) -> None:
 
 def slider_crank(size: float, mass: float, rate: float, analysis: str) -> tuple[kp.Case, Any]:
     """A slider-crank whose only mass is its slider; the crank turns once and a bit."""
-    numbers = {"r": 0.2 * size, "l": 0.5 * size, "M": 3.0 * mass, "w": 4.0 * rate}
+    numbers = {"r": 0.2 * size, "l": 0.5 * size, "load": 3.0 * mass, "w": 4.0 * rate}
     m = kp.Model("slider-crank", gravity=(0, 0), parameters=numbers)
     m.ground.points(O=(0, 0))
     m.body("crank", mass=0, inertia=0, points={"O": (0, 0), "A": ("r", 0)})
     m.body("rod", mass=0, inertia=0, points={"A": (0, 0), "B": ("l", 0)})
-    m.body("slider", mass="M", inertia=mass * size**2, points={"B": (0, 0)})
+    m.body("slider", mass="load", inertia=mass * size**2, points={"B": (0, 0)})
     m.revolute("O", "ground.O", "crank.O")
     m.revolute("A", "crank.A", "rod.A")
     m.revolute("B", "rod.B", "slider.B")
@@ -153,13 +153,13 @@ def test_position_and_force_of_a_slider_crank(scale: tuple[float, float, float])
     measures = ["slider.x.final", "slider.x.max", "slider.x.min", "B.force.final"]
     g = kp.gradient(case, measures, list(numbers))
     t = 1.7 / scale[2]
-    agrees(g, "slider.x.final", lambda M, **of: slide(**of, t=t)[0] + 0 * M, numbers, 1e-9)
-    agrees(g, "slider.x.max", lambda r, l, w, M: r + l + 0 * w * M, numbers, 1e-9)  # noqa: E741
-    agrees(g, "slider.x.min", lambda r, l, w, M: l - r + 0 * w * M, numbers, 1e-9)  # noqa: E741
+    agrees(g, "slider.x.final", lambda load, **of: slide(**of, t=t)[0] + 0 * load, numbers, 1e-9)
+    agrees(g, "slider.x.max", lambda **of: of["r"] + of["l"], numbers, 1e-9)
+    agrees(g, "slider.x.min", lambda **of: of["l"] - of["r"], numbers, 1e-9)
 
-    def force(M: Any, **of: Any) -> Any:
+    def force(load: Any, **of: Any) -> Any:
         _, acceleration, cosine = slide(**of, t=t)
-        found = M * acceleration / cosine
+        found = load * acceleration / cosine
         return found * np.sign(np.real(found))
 
     agrees(g, "B.force.final", force, numbers, 1e-8)
