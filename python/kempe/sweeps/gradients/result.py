@@ -150,6 +150,8 @@ class Gradient:
             return Shown("1", top.divisor / bottom.divisor)
         if below == "1":
             return Shown(above, top.divisor / bottom.divisor)
+        if below.endswith("^-1"):
+            return Shown(f"{above}*{below[:-3]}", top.divisor / bottom.divisor)
         below = f"({below})" if bottom.unit and {"*", "/", "^"} & set(below) else below
         return Shown(f"{above}/{below}", top.divisor / bottom.divisor)
 
