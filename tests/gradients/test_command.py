@@ -55,8 +55,8 @@ def test_remarks_are_printed(folder: Path, capsys: pytest.CaptureFixture[str]) -
     words = ["--measure", "energy.kinetic.max", "--over", "mass", "--analysis", "swing"]
     assert run(["gradient", "rod.toml", *words]) == 0
     told = capsys.readouterr().out
-    assert "mass *" in told and "* mass: kempe has no derivatives of this number yet" in told
-    assert rows()[0]["slope"] == "" and "no derivatives" in rows()[0]["remark"]
+    assert "mass *" in told and "* mass: of a quantity of a whole run, only final" in told
+    assert rows()[0]["slope"] == "" and "only final values" in rows()[0]["remark"]
 
 
 @pytest.mark.parametrize(

@@ -21,7 +21,8 @@ def differences(case: kp.Case, g: kp.Gradient) -> tuple[Floats, Floats]:
     for of, (name, x) in enumerate(g.variables.items()):
         size = abs(x) or 1.0
         levels = [x + sign * step * size for step in STEPS for sign in (-1.0, 1.0)]
-        swept = kp.sweep(case, {name: levels}, list(g.measures))
+        held = {other: [value] * len(levels) for other, value in g.variables.items()}
+        swept = kp.sweep(case, {**held, name: levels}, list(g.measures), design="paired")
         for k, measure in enumerate(g.measures):
             below, above = swept[measure][::2], swept[measure][1::2]
             first = (above - below) / (2.0 * np.array(STEPS) * size)

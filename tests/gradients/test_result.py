@@ -197,3 +197,56 @@ def test_python_functions_are_refused_by_name(case: kp.Case) -> None:
     with pytest.raises(kp.ModelError, match=r"forces\.brake\.torque is a Python function") as told:
         kp.gradient(case, ["pin.max"], ["mass"], analysis="swing")
     assert told.value.hint == "write a formula or a table in its place"
+
+
+def test_variables_in_the_formulas_of_an_analysis_have_a_remark(case: kp.Case) -> None:
+    """The end of such a run moves."""
+    case = case.with_analysis("swing", t_end="0.01*stiffness*length", output_step=0.01)
+    g = kp.gradient(case, ["rod.angle.final"], ["stiffness", "mass"], analysis="swing")
+    assert np.isnan(g["rod.angle.final", "stiffness"])
+    told = g.remarks["rod.angle.final", "stiffness"]
+    assert told.startswith("swing.t_end depends on it")
+    same = kp.gradient(
+        case.with_analysis("swing", t_end=0.4), ["rod.angle.final"], ["mass"], analysis="swing"
+    )
+    assert g["rod.angle.final", "mass"] == pytest.approx(same["rod.angle.final", "mass"], rel=1e-9)
+
+
+def test_variables_that_depend_on_each_other_are_held() -> None:
+    """As in a sweep, a variable that is given does not follow its formula."""
+    parameters = {"m": 2.0, "k": "20*m"}
+    m = kp.Model("rod", gravity=(0, -9.81), parameters=parameters)
+    m.ground.points(O=(0, 0))
+    m.bar("rod", mass="m", length=1, ends=("O", "P"))
+    m.revolute("O", "ground.O", "rod.O")
+    m.torsion_spring("spring", "ground", "rod", stiffness="k", free_angle=0)
+    case = kp.Case(m, {"set": {"rod.angle": 0}}, [kp.Equilibrium()])
+    alone = kp.gradient(case, ["rod.angle"], ["m"])
+    both = kp.gradient(case, ["rod.angle"], ["m", "k"])
+    assert abs(alone["rod.angle", "m"]) < 1e-12  # spring and weight grow alike
+    chained = both["rod.angle", "m"] + 20 * both["rod.angle", "k"]
+    assert chained == pytest.approx(0, abs=1e-12) and both["rod.angle", "m"] < -0.01
+
+
+def test_redundant_joints_and_their_numbers() -> None:
+    m = kp.Model("beam", gravity=(0, -9.81), parameters={"a": 1.0}, redundancy="allow")
+    m.ground.points(A=(0, 0), B=(1, 0), C=(2, 0))
+    m.body("beam", mass=1, inertia=1, points={"A": (0, 0), "B": (1, 0), "C": (2, 0)})
+    for name in "ABC":
+        m.bar(f"l{name}", mass=1, length="a", ends=("O", "P"))
+        m.revolute(f"g{name}", f"ground.{name}", f"l{name}.O")
+        m.revolute(f"p{name}", f"l{name}.P", f"beam.{name}")
+    run = kp.Dynamics(t_end=0.1, output_step=0.1, name="run")
+    case = kp.Case(m, {"set": {"lA.angle": 1.0}}, [run])
+    g = kp.gradient(case, ["beam.x.final"], ["a"])
+    assert g.measures["beam.x.final"] == case.run()["run"]["beam.x"][-1]
+    assert np.isnan(g["beam.x.final", "a"]) and ("beam.x.final", "a") in g.remarks
+
+
+def test_the_error_of_a_run_that_fails_is_its_own(case: kp.Case) -> None:
+    case.model.torque("brake", "rod", torque="sqrt(0.2 - t)")  # no number after 0.2 s
+    with pytest.raises(kp.IntegrationError) as told:
+        case.run()
+    with pytest.raises(kp.IntegrationError) as caught:
+        kp.gradient(case, ["rod.angle.final"], ["mass"], analysis="swing")
+    assert caught.value.args[0] == told.value.args[0]

@@ -195,3 +195,55 @@ def test_the_angle_of_a_four_bar(scale: tuple[float, float, float]) -> None:
     g = kp.gradient(kp.Case(m, start, [run]), ["rocker.angle.final"], list(numbers))
 
     agrees(g, "rocker.angle.final", rocker, numbers, 1e-10)
+
+
+def rod(size: float, mass: float, rate: float, **statics: Any) -> tuple[kp.Case, dict[str, float]]:
+    """A rod on a torsion spring that rests, and its numbers."""
+    torque = mass * size**2 * rate**2
+    numbers = {"m": 2.0 * mass, "l": 1.3 * size, "k": 12.0 * torque, "g": 8.0 * size * rate**2}
+    m = kp.Model("rod", gravity=(0, "-g"), parameters=numbers)
+    m.ground.points(O=(0, 0))
+    m.bar("rod", mass="m", length="l", ends=("O", "P"))
+    m.revolute("O", "ground.O", "rod.O")
+    m.torsion_spring("spring", "ground", "rod", stiffness="k", free_angle=0)
+    rest = kp.Equilibrium(**statics)
+    return kp.Case(m, {"set": {"rod.angle": -0.3}}, [rest]), numbers
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_a_rod_at_rest(scale: tuple[float, float, float]) -> None:
+    case, numbers = rod(*scale)
+    g = kp.gradient(case, ["rod.angle", "O.force", "rod.P.y", "spring.torque"], list(numbers))
+    angle, (m, length, k, gravity) = g.measures["rod.angle"], numbers.values()
+    moment = m * gravity * length / 2
+    assert k * angle + moment * np.cos(angle) == pytest.approx(0.0, abs=1e-9 * moment)
+    stiffness = k - moment * np.sin(angle)
+    of_moment = -moment * np.cos(angle) / stiffness
+    true = {"m": of_moment / m, "l": of_moment / length, "g": of_moment / gravity}
+    true["k"] = -angle / stiffness
+    for name, x in true.items():
+        assert g["rod.angle", name] == pytest.approx(x, rel=1e-9), name
+        assert g["spring.torque", name] == pytest.approx(
+            -k * x - (angle if name == "k" else 0.0), rel=1e-9
+        )
+        height = length * np.cos(angle) * x + (np.sin(angle) if name == "l" else 0.0)
+        assert g["rod.P.y", name] == pytest.approx(height, rel=1e-9), name
+    force = {"m": gravity, "g": m, "l": 0.0, "k": 0.0}
+    for name, x in force.items():
+        assert g["O.force", name] == pytest.approx(x, rel=1e-9, abs=1e-9 * m * gravity / length)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_the_effort_that_holds_a_rod(scale: tuple[float, float, float]) -> None:
+    case, numbers = rod(*scale, hold=["rod.angle"])
+    names = [*numbers, "rod.angle"]
+    g = kp.gradient(case, ["effort.rod.angle"], names)
+    angle, (m, length, k, gravity) = -0.3, numbers.values()
+    moment = m * gravity * length / 2
+
+    assert g.measures["effort.rod.angle"] == pytest.approx(k * angle + moment * np.cos(angle))
+    whole = moment * np.cos(angle)
+    true = {"m": whole / m, "l": whole / length, "g": whole / gravity, "k": angle}
+    true["rod.angle"] = k - moment * np.sin(angle)
+    for name, x in true.items():
+        assert g["effort.rod.angle", name] == pytest.approx(x, rel=1e-9), name

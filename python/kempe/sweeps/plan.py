@@ -115,6 +115,15 @@ class Plan:
         """
         return self._run(row)[0]
 
+    def read(self, row: Floats) -> list[tuple[float, int]]:
+        """The wanted numbers of a single run with the values of a row, and their marks.
+
+        Raises:
+            KempeError: the run fails, or a number has no value.
+        """
+        found, number = self._run(row)
+        return [one.read(found, number) for one in self.wanted]
+
     def _run(self, row: Floats) -> tuple[Solution | Result, Number]:
         """The result, and the function that reads its numbers."""
         *_, (_, found, number) = self.variant(row).found()
@@ -226,9 +235,7 @@ class Plan:
             try:
                 with warnings.catch_warnings():
                     warnings.simplefilter("ignore")
-                    found, number = self._run(values)
-                    read = [one.read(found, number) for one in self.wanted]
-                block.values[row], block.marks[row] = zip(*read, strict=True)
+                    block.values[row], block.marks[row] = zip(*self.read(values), strict=True)
             except InternalError:
                 raise
             except KempeError as error:
