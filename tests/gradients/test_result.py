@@ -223,7 +223,7 @@ def test_variables_that_depend_on_each_other_are_held() -> None:
     case = kp.Case(m, {"set": {"rod.angle": 0}}, [kp.Equilibrium()])
     alone = kp.gradient(case, ["rod.angle"], ["m"])
     both = kp.gradient(case, ["rod.angle"], ["m", "k"])
-    assert abs(alone["rod.angle", "m"]) < 1e-12  # spring and weight grow alike
+    assert abs(alone["rod.angle", "m"]) < 1e-12  # spring and weight grow together
     chained = both["rod.angle", "m"] + 20 * both["rod.angle", "k"]
     assert chained == pytest.approx(0, abs=1e-12) and both["rod.angle", "m"] < -0.01
 

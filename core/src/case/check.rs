@@ -98,19 +98,21 @@ fn section(
         "analyses" => case.analyses = analyses(report, node),
         "sweep" => case.sweep = sweep::read(report, node, root),
         "gradient" => case.gradient = columns::gradient(report, node, root),
-        _ => {
-            let message = format!("unknown key '{}'", super::shown(key));
-            // the key may be the singular of a section, or a part of its name
-            let alike =
-                SECTIONS.iter().filter(|s| key.len() > 2 && s.get(..3) == key.get(..3)).list();
-            match closest(key, &alike).or_else(|| alike.first().map(|s| (**s).to_string())) {
-                Some(meant) => {
-                    let hint = format!("did you mean '{meant}'?");
-                    report.add(report.here(message).at_key().hint(hint));
-                }
-                None => report.unknown_key(message, key, &SECTIONS),
-            }
+        _ => unknown(report, key),
+    }
+}
+
+/// Reports a key that is no section.
+fn unknown(report: &mut ProblemList, key: &str) {
+    let message = format!("unknown key '{}'", super::shown(key));
+    // the key may be the singular of a section, or a part of its name
+    let near = SECTIONS.iter().filter(|s| key.len() > 2 && s.get(..3) == key.get(..3)).list();
+    match closest(key, &near).or_else(|| near.first().map(|s| (**s).to_string())) {
+        Some(meant) => {
+            let hint = format!("did you mean '{meant}'?");
+            report.add(report.here(message).at_key().hint(hint));
         }
+        None => report.unknown_key(message, key, &SECTIONS),
     }
 }
 
