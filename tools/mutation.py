@@ -86,6 +86,7 @@ TESTS = {
         "tests/sweeps/test_figures.py",
         "tests/study",
     ),
+    "sweeps/gradients": ("tests/gradients",),
     "sweeps/studies": ("tests/study",),
     "sweeps": ("tests/sweeps",),
     "design": (

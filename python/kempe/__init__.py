@@ -118,7 +118,6 @@ if TYPE_CHECKING:
     from kempe.base.display_units import Units as Units
     from kempe.base.display_units import units as units
     from kempe.case import Case as Case
-    from kempe.case import Results as Results
     from kempe.case import load as load
     from kempe.draw.animate import animate as animate
     from kempe.draw.player import player as player
@@ -146,12 +145,15 @@ if TYPE_CHECKING:
     from kempe.results.matrices.labelled import show as show
     from kempe.results.matrices.values import Matrices as Matrices
     from kempe.results.motion import Motion as Motion
+    from kempe.results.named_results import Results as Results
     from kempe.results.solution import Solution as Solution
     from kempe.results.state import State as State
     from kempe.sweeps import SweepResult as SweepResult
     from kempe.sweeps import Tolerances as Tolerances
     from kempe.sweeps import sweep as sweep
     from kempe.sweeps import tolerances as tolerances
+    from kempe.sweeps.gradients import Gradient as Gradient
+    from kempe.sweeps.gradients import gradient as gradient
     from kempe.sweeps.studies import Study as Study
     from kempe.sweeps.studies import study as study
 
@@ -178,6 +180,7 @@ _HOME = {
     "FileError": "errors",
     "FunctionWarning": "model.functions",
     "GeneralizedAlpha": "analyses.options",
+    "Gradient": "sweeps.gradients",
     "HHT": "analyses.options",
     "IntegrationError": "errors",
     "InternalError": "errors",
@@ -205,7 +208,7 @@ _HOME = {
     "RK45": "analyses.options",
     "Radau": "analyses.options",
     "RedundancyError": "errors",
-    "Results": "case",
+    "Results": "results.named_results",
     "Sampled": "model.functions",
     "SingularityError": "errors",
     "Solution": "results.solution",
@@ -224,6 +227,7 @@ _HOME = {
     "equations": "results.matrices.equations",
     "equilibrium": "analyses.equilibrium",
     "errors": "",
+    "gradient": "sweeps.gradients",
     "inverse_dynamics": "analyses.kinematics",
     "kinematics": "analyses.kinematics",
     "limits": "analyses.limits",

@@ -107,6 +107,30 @@ def sweep(
         decides.
     """
 
+def gradient(
+    model: Model,
+    start: str,
+    guess: str,
+    analyses: str,
+    measures: list[str],
+    wanted: list[tuple[int | None, str]],
+    parameters: list[str],
+    coordinates: list[str],
+    row: _F,
+) -> tuple[_F, _F, list[tuple[int, int, str]]]:
+    """The numbers of a case and their derivatives; the arguments are those of ``sweep``.
+
+    Args:
+        row: values of the parameters, then of the coordinates, (n_variables,).
+
+    Returns:
+        The numbers, (n_wanted,); their derivatives, (n_wanted, n_variables), NaN where there is
+        none; remarks with the places of number and variable.
+
+    Raises:
+        KempeError: the run fails.
+    """
+
 def measure(model: Model, text: str) -> tuple[list[str], str, bool, bool]:
     """Quantities of an expression, and its SI unit.
 

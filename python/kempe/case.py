@@ -26,17 +26,19 @@ from kempe.analyses.sequence import of_type, read_entries
 from kempe.analyses.start import Start, read_start
 from kempe.base import files
 from kempe.base.arguments import explain_methods, explained
-from kempe.base.names import entry as named
 from kempe.base.names import few, one_of
 from kempe.errors import FileError, KempeError, ModelError
 from kempe.model.compiled import CompiledModel
 from kempe.model.model import Model
 from kempe.model.values import Number, data, mapping, numbers, plain
+from kempe.results.named_results import Results
 from kempe.results.result import Result
 from kempe.results.solution import Solution
 from kempe.results.state import State
 
 FORMATS = {".toml": "toml", ".json": "json"}
+#: The sections that ask for many variants or for slopes, and an example of one.
+_REQUESTS, _FORM = ("sweep", "gradient"), "{'variables': …, 'measures': […]}"
 
 #: The class of each result that is not a motion, by the type of the analysis.
 _RESULTS: dict[str, Callable[[Record], Result]] = {
@@ -49,34 +51,6 @@ _RESULTS: dict[str, Callable[[Record], Result]] = {
 }
 
 
-class Results(Mapping[str, Any]):
-    """Solutions and other results of a case: by name, or by position as in a list."""
-
-    def __init__(self, solutions: Mapping[str, Solution | Result]) -> None:
-        self._solutions = dict(solutions)
-
-    def __getitem__(self, key: str | int) -> Any:
-        """A ``Solution`` or ``Result`` by the name of its analysis or by its position.
-
-        Raises:
-            ModelError: there is no analysis of that name; the error is a ``KeyError`` too.
-            IndexError: there is no analysis at that position.
-        """
-        if isinstance(key, int):
-            return list(self._solutions.values())[key]
-        return named("analysis", key, self._solutions)
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._solutions)
-
-    def __len__(self) -> int:
-        return len(self._solutions)
-
-    def __repr__(self) -> str:
-        lines = [f"  {name}: {solution!r}" for name, solution in self.items()]
-        return "\n".join(["<Results", *lines]) + ">"
-
-
 @explain_methods
 class Case:
     """A model, a start and analyses. Each analysis starts where the one before it ended.
@@ -87,6 +61,7 @@ class Case:
         analyses: ``Dynamics`` or other analyses, in order; or a mapping of names to entries as in
             a file.
         sweep: the default sweep of the case, as in a file: ``{"variables": …, "measures": …}``.
+        gradient: the default gradient, as in a file: ``{"measures": […], "variables": […]}``.
 
     Attributes:
         model: the mechanism.
@@ -101,13 +76,15 @@ class Case:
         start: Start | Mapping[str, Coordinates] | None = None,
         analyses: Sequence[Analysis] | Mapping[str, Mapping[str, Any]] = (),
         sweep: Mapping[str, Any] | None = None,
+        gradient: Mapping[str, Any] | None = None,
     ) -> None:
         if not isinstance(model, Model):
             raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) makes one")
         self.model = model
         self._start = read_start(start)
         self._entries = read_entries(analyses)
-        self._sweep = plain(mapping(sweep or {}, "sweep", "{'variables': {…}}"), "sweep")
+        asked = zip(_REQUESTS, (sweep, gradient), strict=True)
+        self._asked = {key: plain(mapping(of or {}, key, _FORM), key) for key, of in asked}
         self._core().check(model.compile().core)
 
     @classmethod
@@ -117,7 +94,7 @@ class Case:
         case.model = Model.from_tree(tree, core, folder)
         case._start = read_start(tree.get("start"))
         case._entries = dict(tree.get("analyses", {}))
-        case._sweep = dict(tree.get("sweep", {}))
+        case._asked = {key: dict(tree.get(key, {})) for key in _REQUESTS}
         return case
 
     def __copy__(self) -> Case:
@@ -132,7 +109,12 @@ class Case:
     @property
     def sweep(self) -> Mapping[str, Any]:
         """The sweep of the file, which ``kp.sweep(case)`` runs; a copy."""
-        return copy.deepcopy(self._sweep)
+        return copy.deepcopy(self._asked["sweep"])
+
+    @property
+    def gradient(self) -> Mapping[str, Any]:
+        """The gradient of the file, which ``kp.gradient(case)`` computes; a copy."""
+        return copy.deepcopy(self._asked["gradient"])
 
     def tree(self) -> dict[str, Any]:
         """A copy of the case as nested mappings, structured as a file.
@@ -147,8 +129,7 @@ class Case:
         start = self._start.tree()
         tree |= {"start": start} if start else {}
         tree |= {"analyses": data(self._entries)} if self._entries else {}
-        tree |= {"sweep": data(self._sweep)} if self._sweep else {}
-        return tree
+        return tree | {key: data(of) for key, of in self._asked.items() if of}
 
     def start(self) -> State:
         """The assembled mechanism.
@@ -237,7 +218,7 @@ class Case:
     def _with(self, **parts: Any) -> Case:
         """A copy of the case with another ``model``, ``start`` or ``analyses``."""
         kept = {"model": self.model, "start": self._start, "analyses": self._entries}
-        return Case(**{**kept, **parts}, sweep=self._sweep)
+        return Case(**{**kept, **parts}, **self._asked)
 
     def with_analysis(self, name: str, **changes: Any) -> Case:
         """A copy of the case with some fields of one analysis changed, such as ``t_end=30``.

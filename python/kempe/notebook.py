@@ -19,6 +19,7 @@ from kempe.results.matrices.values import Matrices
 from kempe.results.result import Result
 from kempe.results.solution import Solution
 from kempe.results.state import State
+from kempe.sweeps.gradients.result import Gradient
 from kempe.sweeps.result import SweepResult
 
 #: Width of a drawing, pixels.
@@ -27,7 +28,7 @@ _WIDTH = 480
 _WIDEST, _MOST_VARIANTS = 24, 10
 
 
-def html(of: Model | State | Solution | Result | Matrices | SweepResult) -> str:
+def html(of: Model | State | Solution | Result | Matrices | SweepResult | Gradient) -> str:
     """What a notebook shows of an object: a block of HTML."""
     if isinstance(of, Model):
         return of_model(of)
@@ -37,6 +38,8 @@ def html(of: Model | State | Solution | Result | Matrices | SweepResult) -> str:
         return of_matrices(of)
     if isinstance(of, SweepResult):
         return of_sweep(of)
+    if isinstance(of, Gradient):
+        return of_gradient(of)
     return of_solution(of) if isinstance(of, Solution) else of_result(of)
 
 
@@ -131,6 +134,16 @@ def of_sweep(result: SweepResult) -> str:
     return block(
         told, table(header, ranges), paragraph("the first rows; result.table has all"), first
     )
+
+
+def of_gradient(found: Gradient) -> str:
+    """The derivatives with their units, and relative."""
+    rows = []
+    for one in found.slopes():
+        numbers = f"{one.value:.6g}", one.unit.symbol, f"{one.relative:.4g}"
+        rows.append((one.measure, one.variable, *numbers, one.remark))
+    header = ("measure", "variable", "slope", "unit", "relative", "remark")
+    return block(repr(found).strip("<>"), table(header, rows))
 
 
 def drawing(state: State) -> str:

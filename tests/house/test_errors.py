@@ -83,6 +83,9 @@ CALLS: dict[str, Callable[[], object]] = {
     "sweep": lambda: _core.sweep(
         MODEL, "{}", "{}", '{"type": "dynamics", "t_end": 1}', [], [], [], [], np.zeros((0, 0)), 1
     ),
+    "gradient": lambda: _core.gradient(
+        MODEL, "{}", "{}", '{"type": "dynamics", "t_end": 1}', [], [], [], [], ROW[0, :0]
+    ),
     "States": lambda: _core.States(MODEL, TIMES, ROW, ROW, STATES),
     "States.evaluate": lambda: AT_ONCE.evaluate(False),
     "States.project": lambda: AT_ONCE.project(1e-12),

@@ -48,6 +48,7 @@ USERS = {
     "kempe.results.result",
     "kempe.results.solution",
     "kempe.results.state",
+    "kempe.sweeps.gradients.result",
     "kempe.sweeps.result",
 }
 

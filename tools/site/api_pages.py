@@ -67,6 +67,8 @@ PAGES = {
             "kempe.Study",
             "kempe.sweep",
             "kempe.SweepResult",
+            "kempe.gradient",
+            "kempe.Gradient",
             "kempe.tolerances",
             "kempe.Tolerances",
         ),

@@ -5,7 +5,7 @@ use super::names::{self, Namespace};
 use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
 use super::values::{number, pair, word, wrong};
-use super::{fields, start, sweep, tables, Case, Format, FORMAT_VERSION};
+use super::{columns, fields, start, sweep, tables, Case, Format, FORMAT_VERSION};
 use crate::analyses;
 use crate::elements::{catalogue, Group, Table as Declaration};
 use crate::expression::suggest::{closest, did_you_mean};
@@ -15,7 +15,7 @@ use crate::model::{table_fields, Entry, Problem, Value};
 /// Words for the key `redundancy`.
 pub(super) const REDUNDANCY: [&str; 2] = ["refuse", "allow"];
 
-const SECTIONS: [&str; 14] = [
+const SECTIONS: [&str; 15] = [
     "kempe",
     "title",
     "gravity",
@@ -30,6 +30,7 @@ const SECTIONS: [&str; 14] = [
     "start",
     "analyses",
     "sweep",
+    "gradient",
 ];
 
 /// The case that a tree contains, with the problems of its structure and the number of further problems that are not
@@ -96,17 +97,22 @@ fn section(
         "start" => case.start = start::read(report, node, root),
         "analyses" => case.analyses = analyses(report, node),
         "sweep" => case.sweep = sweep::read(report, node, root),
-        _ => {
-            let message = format!("unknown key '{}'", super::shown(key));
-            // the key may be the singular of a section, or a part of its name
-            match SECTIONS.iter().find(|s| key.len() > 2 && s.get(..3) == key.get(..3)) {
-                Some(meant) => {
-                    let hint = format!("did you mean '{meant}'?");
-                    report.add(report.here(message).at_key().hint(hint));
-                }
-                None => report.unknown_key(message, key, &SECTIONS),
-            }
+        "gradient" => case.gradient = columns::gradient(report, node, root),
+        _ => unknown(report, key),
+    }
+}
+
+/// Reports a key that is no section.
+fn unknown(report: &mut ProblemList, key: &str) {
+    let message = format!("unknown key '{}'", super::shown(key));
+    // the key may be the singular of a section, or a part of its name
+    let near = SECTIONS.iter().filter(|s| key.len() > 2 && s.get(..3) == key.get(..3)).list();
+    match closest(key, &near).or_else(|| near.first().map(|s| (**s).to_string())) {
+        Some(meant) => {
+            let hint = format!("did you mean '{meant}'?");
+            report.add(report.here(message).at_key().hint(hint));
         }
+        None => report.unknown_key(message, key, &SECTIONS),
     }
 }
 

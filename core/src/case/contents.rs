@@ -28,6 +28,8 @@ pub struct Case {
     pub analyses: Vec<Entry>,
     /// The sweep: variables, measures and the design; empty without one.
     pub sweep: Vec<(String, Value)>,
+    /// The gradient: measures and variables; empty without one.
+    pub gradient: Vec<(String, Value)>,
 }
 
 /// Coordinates and rates for the assembly; keys are `body.coordinate`.

@@ -1,12 +1,12 @@
 //! The faults of a case that can be found only with its model.
 
-use super::{sweep, Case};
+use super::{columns, Case};
 use crate::analyses::{self, assemble, measures};
 use crate::math::Listed;
 use crate::model::{Model, Problem, Value};
 
 impl Case {
-    /// All faults of the measures, the start, the analyses and the sweep that can be found without an assembly or a
+    /// All faults of the measures, the start, the analyses, the sweep and the gradient that can be found without an assembly or a
     /// run.
     pub fn faults(&self, model: &Model) -> Vec<Problem> {
         let start = [("set", &self.start.set), ("guess", &self.start.guess)];
@@ -24,6 +24,9 @@ impl Case {
             })
             .list();
         let measures = &self.definition.measures;
-        found.chain(sweep::faults(model, &self.sweep, measures, &kinds)).list()
+        let sections = [("sweep", self.sweep.as_slice()), ("gradient", &self.gradient)];
+        let of_sections =
+            sections.into_iter().flat_map(|one| columns::faults(model, one, measures, &kinds));
+        found.chain(of_sections).list()
     }
 }

@@ -21,6 +21,7 @@ mod body_builder;
 mod builder;
 mod catalogue;
 mod check;
+mod columns;
 mod contents;
 mod diagnostic;
 mod document;

@@ -90,6 +90,9 @@ fn sections() -> Map<String, Value> {
     analyses["propertyNames"] = folders();
     sections["analyses"] = analyses;
     sections["sweep"] = sweep();
+    let variables = described(texts(), "Parameters, or coordinates and rates at the start.");
+    let words = "A gradient: derivatives of measures by variables.";
+    sections["gradient"] = of_columns(json!({ "variables": variables }), words);
     object(sections)
 }
 
@@ -109,23 +112,30 @@ fn sweep() -> Value {
         closed(object(json!({ "uniform": two })), json!({ "required": ["uniform"] })),
     ];
     let values = json!({ "anyOf": [list(1), range, normal, uniform] });
-    let text = json!({ "type": "string" });
     let fields = json!({
         "variables": described(
             json!({ "type": "object", "additionalProperties": values }),
             "Parameters, or coordinates and rates at the start, with lists, ranges or distributions."
         ),
-        "measures": described(
-            json!({ "type": "array", "items": text.clone(), "minItems": 1 }),
-            "Statistics such as pin.max."
-        ),
         "design": { "enum": DESIGNS },
         "n": described(whole(1), "Number of variants of a random, latin or sobol design."),
         "seed": whole(0),
-        "analysis": described(text, "Name of the analysis; the last one if absent."),
     });
-    let needed = json!({ "required": ["variables", "measures"] });
-    described(closed(object(fields), needed), "A sweep: many variants of the case.")
+    of_columns(fields, "A sweep: many variants of the case.")
+}
+
+/// A section with variables, measures and an analysis.
+fn of_columns(fields: Value, words: &str) -> Value {
+    let mut fields = object(fields);
+    fields.insert("measures".into(), described(texts(), "Statistics such as pin.max."));
+    let about = "Name of the analysis; the last one if absent.";
+    fields.insert("analysis".into(), described(json!({ "type": "string" }), about));
+    described(closed(fields, json!({ "required": ["variables", "measures"] })), words)
+}
+
+/// A list of texts that is not empty.
+fn texts() -> Value {
+    json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 })
 }
 
 /// Tables by name. Formulas call them, so that their names must be identifiers.

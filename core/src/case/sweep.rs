@@ -1,12 +1,10 @@
 //! The section `[sweep]`: variables with their values, measures, and the design.
 
+use super::columns;
 use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
 use super::values::{word, wrong};
-use crate::analyses::{is_motion, sweep};
-use crate::expression::suggest::did_you_mean;
-use crate::math::Listed;
-use crate::model::{Model, Problem, Value};
+use crate::model::Value;
 
 /// The keys of the section.
 const KEYS: [&str; 6] = ["variables", "measures", "design", "n", "seed", "analysis"];
@@ -14,33 +12,15 @@ const KEYS: [&str; 6] = ["variables", "measures", "design", "n", "seed", "analys
 pub(super) const DESIGNS: [&str; 5] = ["grid", "paired", "random", "latin", "sobol"];
 /// Words for the scale of a range.
 pub(super) const SCALES: [&str; 2] = ["linear", "log"];
-/// Quantities of the driver of a motion over a driven value. The model of the case does not contain this driver.
-const OVER: &str = "over.";
 
 /// Checks the structure of the section.
 pub(super) fn read(report: &mut ProblemList, node: &Node, root: &Table) -> Vec<(String, Value)> {
-    let Data::Table(table) = &node.data else {
-        wrong(report, node, "a table with variables and measures");
-        return Vec::new();
-    };
-    for (key, value) in &table.entries {
-        report.within(key, |report| match key.as_str() {
-            "variables" => variables(report, value),
-            "measures" => texts(report, value),
-            "design" => word(report, value, &DESIGNS),
-            "n" => whole(report, value, 1.0),
-            "seed" => whole(report, value, 0.0),
-            "analysis" => analysis(report, value, root),
-            _ => {
-                let message = format!("unknown key '{}' of a sweep", super::shown(key));
-                report.unknown_key(message, key, &KEYS);
-            }
-        });
-    }
-    for key in ["variables", "measures"].into_iter().filter(|key| table.get(key).is_none()) {
-        report.say(format!("{key} is missing"));
-    }
-    table.values()
+    columns::read(report, (node, root), ("sweep", &KEYS), |report, key, value| match key {
+        "variables" => variables(report, value),
+        "design" => word(report, value, &DESIGNS),
+        "n" => whole(report, value, 1.0),
+        _ => whole(report, value, 0.0),
+    })
 }
 
 fn variables(report: &mut ProblemList, node: &Node) {
@@ -106,80 +86,10 @@ fn numbers(report: &mut ProblemList, node: &Node, count: Option<usize>) {
     }
 }
 
-fn texts(report: &mut ProblemList, node: &Node) {
-    let Data::List(items) = &node.data else {
-        return wrong(report, node, "a list of measures [\"C.force.max\"]");
-    };
-    for (k, item) in items.iter().enumerate() {
-        report.within(&k.to_string(), |report| {
-            if !matches!(item.data, Data::Text(_)) {
-                wrong(report, item, "a measure such as \"C.force.max\"");
-            }
-        });
-    }
-    if items.is_empty() {
-        report.say("an empty list; must have a measure such as \"C.force.max\"");
-    }
-}
-
 fn whole(report: &mut ProblemList, node: &Node, least: f64) {
     match &node.data {
         Data::Number(x) if x.fract() == 0.0 && *x >= least => {}
         Data::Number(x) => report.say(format!("{x}; must be a whole number from {least}")),
         _ => wrong(report, node, &format!("a whole number from {least}")),
     }
-}
-
-fn analysis(report: &mut ProblemList, node: &Node, root: &Table) {
-    let Data::Text(name) = &node.data else { return wrong(report, node, "a name") };
-    let known: Vec<&str> = match root.get("analyses").map(|node| &node.data) {
-        Some(Data::Table(table)) => table.entries.iter().map(|(known, _)| known.as_str()).list(),
-        _ => Vec::new(),
-    };
-    if !known.contains(&name.as_str()) {
-        let message = format!("no analysis '{}'", super::shown(name));
-        let hint = did_you_mean(name, &known);
-        let hint = hint.unwrap_or_else(|| "write the name of an analysis of this case".to_string());
-        report.add(report.here(message).hint(hint));
-    }
-}
-
-/// The faults that can be found with the model: names that it does not contain, and faulty measures. `kinds` contains
-/// the names and types of the analyses.
-pub(super) fn faults(
-    model: &Model,
-    section: &[(String, Value)],
-    measures: &[(String, Value)],
-    kinds: &[(String, String)],
-) -> Vec<Problem> {
-    let get = |key: &str| section.iter().find(|(known, _)| known == key).map(|(_, value)| value);
-    let names: Vec<&str> = match get("variables") {
-        Some(Value::Table(entries)) => entries.iter().map(|(name, _)| name.as_str()).list(),
-        _ => Vec::new(),
-    };
-    let under = |key: &str, last: &str, problem: Problem| Problem {
-        path: ["sweep", key, last].map(str::to_string).to_vec(),
-        ..problem
-    };
-    let mut found: Vec<Problem> = names
-        .iter()
-        .filter_map(|name| Some(under("variables", name, sweep::variable_fault(model, name)?)))
-        .list();
-    let swept = match get("analysis") {
-        Some(Value::Text(name)) => kinds.iter().find(|(known, _)| known == name),
-        _ => kinds.last(),
-    };
-    let Some(Value::List(texts)) = get("measures") else { return found };
-    let Some((_, kind)) = swept.filter(|(_, kind)| is_motion(kind)) else {
-        return found;
-    };
-    for (k, text) in texts.iter().enumerate() {
-        let Value::Text(text) = text else { continue };
-        if kind != "dynamics" && text.starts_with(OVER) {
-            continue;
-        }
-        let fault = sweep::measure_fault(model, measures, text);
-        found.extend(fault.map(|problem| under("measures", &k.to_string(), problem)));
-    }
-    found
 }

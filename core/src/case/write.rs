@@ -45,6 +45,7 @@ fn tree(case: &Case) -> Vec<(String, Value)> {
         ("start", Some(Value::Table(start.list()))),
         ("analyses", entries(&case.analyses)),
         ("sweep", table(&case.sweep)),
+        ("gradient", table(&case.gradient)),
     ];
     let empty = |value: &Value| matches!(value, Value::Table(fields) if fields.is_empty());
     let sections = sections.into_iter().filter_map(|(key, value)| Some((key.to_string(), value?)));

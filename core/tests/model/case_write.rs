@@ -272,7 +272,7 @@ impl Dice {
         analyses.iter_mut().for_each(|entry| entry.name = self.folder(used));
         let start = Start { set: self.coordinates(used), guess: self.coordinates(used) };
         let analyses = analyses.into_iter().map(consistent).collect();
-        Case { definition, start, analyses, sweep: Vec::new() }
+        Case { definition, start, analyses, ..Case::default() }
     }
 
     fn measure(&mut self, used: &mut usize) -> (String, Value) {

@@ -71,11 +71,11 @@ def check(  # noqa: PLR0917 - typer distinguishes options by their annotations
             console.print(Text(f"  {line}"))
         _refuse_undetermined(case, state, freedom)
         check_beginnings(case, state)
-        swept = _sweep(case, found)
+        asked = _sweep(case, found) + _gradient(case, found)
     analyses = ", ".join(f"{name} ({entry['type']})" for name, entry in case.analyses.items())
     console.print()
     name = "standard input" if str(file) == STDIN else file
-    console.print(Text(f"{name}: OK; analyses: {analyses or 'none'}{swept}"))
+    console.print(Text(f"{name}: OK; analyses: {analyses or 'none'}{asked}"))
 
 
 def _sweep(case: Case, found: dict[str, Any]) -> str:
@@ -87,6 +87,18 @@ def _sweep(case: Case, found: dict[str, Any]) -> str:
     count, names = check_sweep(case)
     found["sweep"] = {"variants": count, "variables": names}
     return f"; sweep: {count} variants over {', '.join(names)}"
+
+
+def _gradient(case: Case, found: dict[str, Any]) -> str:
+    """The gradient of a case, checked, as ``_sweep``."""
+    if not case.gradient:
+        return ""
+    from kempe.sweeps.gradients.asked import check as check_gradient
+
+    plan = check_gradient(case)
+    measures = [one.text for one in plan.wanted]
+    found["gradient"] = {"measures": measures, "variables": list(plan.names)}
+    return f"; gradient: {', '.join(measures)} over {', '.join(plan.names)}"
 
 
 def _refuse_undetermined(case: Case, state: State, freedom: MobilityResult) -> None:

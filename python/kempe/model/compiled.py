@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from kempe import _core
 from kempe._upwards import CALLS
 from kempe.base.names import entry
-from kempe.model.functions import Functions, refuse_saving
+from kempe.model.functions import FunctionLaw, Functions, refuse_saving
 from kempe.model.infos import (
     ACCELERATIONS,
     COORDINATES,
@@ -102,9 +102,14 @@ class CompiledModel:
         """A run of the model; gives a text for each controller that remembers an earlier one."""
         return nullcontext([]) if self._functions is None else self._functions.run()
 
+    @property
+    def functions(self) -> list[FunctionLaw]:
+        """The laws of forces that are Python functions."""
+        return [] if self._functions is None else self._functions.listed()
+
     def _refuse_functions(self) -> None:
-        if self._functions is not None and self._functions.laws:
-            refuse_saving(self._functions.listed())
+        if self.functions:
+            refuse_saving(self.functions)
 
     @cached_property
     def tree(self) -> Mapping[str, Any]:

@@ -187,14 +187,23 @@ def _content(cell: Any) -> Any:
 
 def refuse_saving(laws: list[FunctionLaw]) -> NoReturn:
     """Raise the ``ModelError`` for saving a model with Python functions."""
+    _refuse_functions(laws, "cannot be saved or pickled", ", or save the arrays of the solution")
+
+
+def refuse_derivatives(laws: list[FunctionLaw]) -> NoReturn:
+    """Raise the ``ModelError`` for derivatives of a model with Python functions."""
+    _refuse_functions(laws, "cannot be differentiated", "")
+
+
+def _refuse_functions(laws: list[FunctionLaw], cannot: str, otherwise: str) -> NoReturn:
     named = ", ".join(law.path for law in laws)
     is_one = len(laws) == 1
     what = f"is a Python function, {laws[0]!r}" if is_one else "are Python functions"
     raise ModelError(
-        f"{named} {what}, which cannot be saved or pickled",
+        f"{named} {what}, which {cannot}",
         hint=f"write {'a formula or a table in its' if is_one else 'formulas or tables in their'} "
-        "place, or save the arrays of the solution",
-        problems=tuple(Problem(f"{law!r} cannot be saved", law.path) for law in laws),
+        f"place{otherwise}",
+        problems=tuple(Problem(f"{law!r} {cannot}", law.path) for law in laws),
     )
 
 

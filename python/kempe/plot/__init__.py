@@ -13,6 +13,7 @@ from kempe.plot.efforts import effort, torque_speed
 from kempe.plot.energy import energy, energy_balance
 from kempe.plot.equilibrium import path, rest_position
 from kempe.plot.free_body import draw_free_body, free_body
+from kempe.plot.gradients import gradient
 from kempe.plot.measures import measure
 from kempe.plot.mechanism import mechanism
 from kempe.plot.modes import mode_shape
@@ -42,6 +43,7 @@ __all__ = [
     "energy",
     "energy_balance",
     "free_body",
+    "gradient",
     "instant_centres",
     "measure",
     "mechanism",

@@ -1,10 +1,12 @@
 """Sweeps: many variants of a case, with statistics of measures of each.
 
 ``kp.sweep`` runs them on the threads of one machine, or on the machines of a Dask cluster.
+``kp.gradient`` differentiates the same numbers with respect to the same variables.
 """
 
+from kempe.sweeps.gradients import Gradient, gradient
 from kempe.sweeps.result import SweepResult
 from kempe.sweeps.run import sweep
 from kempe.sweeps.scatter import Tolerances, tolerances
 
-__all__ = ["SweepResult", "Tolerances", "sweep", "tolerances"]
+__all__ = ["Gradient", "SweepResult", "Tolerances", "gradient", "sweep", "tolerances"]

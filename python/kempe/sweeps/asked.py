@@ -1,9 +1,12 @@
-"""The request for a sweep: arguments, or the section ``[sweep]`` of a case, with all checks."""
+"""The request for a sweep: arguments, or the section ``[sweep]`` of a case, with all checks.
+
+Requests for gradients share its parts.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from kempe.errors import ModelError
@@ -30,10 +33,7 @@ def asked_of(case: Case, *given: Any) -> dict[str, Any]:
     instance(case, Case, "a case, as kp.load(path) returns")
     asked = dict(zip(_NAMES, given, strict=True))
     if not case.sweep:
-        for key in ("variables", "measures"):
-            if not asked[key]:
-                raise ModelError(f"sweep: no {key}", hint=f"pass {key}=, or declare [sweep]")
-        return asked
+        return complete("sweep", asked)
     if asked["variables"]:  # a design belongs to its variables
         kept = {"measures": case.sweep.get("measures"), "analysis": case.sweep.get("analysis")}
     else:
@@ -41,6 +41,18 @@ def asked_of(case: Case, *given: Any) -> dict[str, Any]:
     return {key: asked[key] or kept.get(key) for key in _NAMES} | {
         key: asked[key] if asked[key] is not None else kept.get(key) for key in ("n", "seed")
     }
+
+
+def complete(section: str, asked: dict[str, Any]) -> dict[str, Any]:
+    """The request, which must have variables and measures.
+
+    Raises:
+        ModelError: there are none.
+    """
+    for key in ("variables", "measures"):
+        if not asked[key]:
+            raise ModelError(f"{section}: no {key}", hint=f"pass {key}=, or declare [{section}]")
+    return asked
 
 
 def design_of(asked: Mapping[str, Any]) -> tuple[str, int | None, int | None]:
@@ -54,15 +66,25 @@ def planned(case: Case, asked: Mapping[str, Any]) -> tuple[Plan, list[Variable]]
     Raises:
         ModelError: a variable, a measure or the design is invalid.
     """
-    name = chosen(case, asked["analysis"])
-    case = without_later(case, name)
     known = read_variables(case, asked["variables"])
-    wanted = read_wanted(case.model.compile(), case.analyses[name], asked["measures"])
+    plan = plan_of(case, asked, (one.name for one in known))
     designs.count_of(known, *design_of(asked))
-    plan = Plan(case, name, tuple(v.name for v in known), tuple(wanted))
-    plan.check()
     warn_of_degrees(plan, known)
     return plan, known
+
+
+def plan_of(case: Case, asked: Mapping[str, Any], names: Iterable[str]) -> Plan:
+    """The plan for the measures and the analysis of a request, with these names of variables.
+
+    Raises:
+        ModelError: the analysis, a measure or a coordinate is invalid.
+    """
+    name = chosen(case, asked["analysis"])
+    case = without_later(case, name)
+    wanted = read_wanted(case.model.compile(), case.analyses[name], asked["measures"])
+    plan = Plan(case, name, tuple(names), tuple(wanted))
+    plan.check()
+    return plan
 
 
 def check(case: Case) -> tuple[int, list[str]]:
@@ -80,17 +102,17 @@ def check(case: Case) -> tuple[int, list[str]]:
         _, known = planned(case, asked)
         return designs.count_of(known, *design_of(asked)), [one.name for one in known]
     except ModelError as error:
-        error.args = (_located(case, str(error.args[0])), *error.args[1:])
+        error.args = (located(case, "sweep", str(error.args[0])), *error.args[1:])
         raise
 
 
-def _located(case: Case, message: str) -> str:
-    """A message with its place in the section, and in the file if there is one."""
+def located(case: Case, section: str, message: str) -> str:
+    """A message with its place in a section, and in the file if there is one."""
     match = _PLACE.match(message)
-    text = f"sweep.{message}" if match else f"sweep: {message}"
+    text = f"{section}.{message}" if match else f"{section}: {message}"
     source = case.model._source
-    where = f"sweep.{match[0]}" if match else "sweep"
-    found = source and (source[0].place(where) or source[0].place("sweep"))
+    where = f"{section}.{match[0]}" if match else section
+    found = source and (source[0].place(where) or source[0].place(section))
     if not found:
         return text
     file, line, column = found

@@ -26,7 +26,7 @@ NUMBERS: Mapping[str, Mapping[str, str]] = {
     kind: dict(analysis.get("numbers", ())) for kind, analysis in declared("analyses").items()
 }
 #: The way to measure the result of another analysis.
-_ANOTHER = 'name another analysis: analysis="NAME", or kempe sweep --analysis NAME'
+_ANOTHER = 'name another analysis: analysis="NAME", or --analysis NAME'
 #: The force or torque of a holder or driver at rest, such as ``effort.crank.angle``.
 _EFFORT = "effort."
 _PLACED = re.compile(r"(.+?)(?:\[(-?\d+)\])?")

@@ -115,6 +115,15 @@ class Plan:
         """
         return self._run(row)[0]
 
+    def read(self, row: Floats) -> list[tuple[float, int]]:
+        """The wanted numbers of a single run with the values of a row, and their marks.
+
+        Raises:
+            KempeError: the run fails, or a number has no value.
+        """
+        found, number = self._run(row)
+        return [one.read(found, number) for one in self.wanted]
+
     def _run(self, row: Floats) -> tuple[Solution | Result, Number]:
         """The result, and the function that reads its numbers."""
         *_, (_, found, number) = self.variant(row).found()
@@ -193,12 +202,32 @@ class Plan:
         """The columns of parameters, then those of start values."""
         return sorted(range(len(self.names)), key=lambda k: "." in self.names[k])
 
+    @cached_property
+    def _columns(self) -> tuple[list[str], list[str]]:
+        """The names of parameters, and those of start values."""
+        of_start = ["." in name for name in self.names]
+        pairs = list(zip(self.names, of_start, strict=True))
+        return [name for name, of in pairs if not of], [name for name, of in pairs if of]
+
     def _native(self, given: Floats, workers: int) -> tuple[Floats, list[tuple[int, str]], Any]:
-        names = [self.names[k] for k in self._order]
-        parameters = [name for name in names if "." not in name]
-        coordinates = [name for name in names if "." in name]
         ordered = np.ascontiguousarray(given[:, self._order])
-        return _core.sweep(*self._request, parameters, coordinates, ordered, workers)
+        return _core.sweep(*self._request, *self._columns, ordered, workers)
+
+    def slopes(self, row: Floats) -> tuple[Floats, Floats, dict[tuple[int, int], str]]:
+        """The wanted numbers with these values of the variables, and their derivatives.
+
+        Returns:
+            The numbers, (n_wanted,); the derivatives, (n_wanted, n_variables), NaN where there is
+            none; remarks by the places of number and variable.
+
+        Raises:
+            KempeError: the run fails.
+        """
+        ordered = np.ascontiguousarray(row[self._order])
+        values, ordered_slopes, remarks = _core.gradient(*self._request, *self._columns, ordered)
+        slopes = np.empty_like(ordered_slopes)
+        slopes[:, self._order] = ordered_slopes
+        return values, slopes, {(k, self._order[of]): text for k, of, text in remarks}
 
     def _singly(self, given: Floats) -> Block:
         block = Block.of(np.full((len(given), len(self.wanted)), np.nan))
@@ -206,9 +235,7 @@ class Plan:
             try:
                 with warnings.catch_warnings():
                     warnings.simplefilter("ignore")
-                    found, number = self._run(values)
-                    read = [one.read(found, number) for one in self.wanted]
-                block.values[row], block.marks[row] = zip(*read, strict=True)
+                    block.values[row], block.marks[row] = zip(*self.read(values), strict=True)
             except InternalError:
                 raise
             except KempeError as error:
@@ -232,14 +259,14 @@ def _unit_of_coordinate(model: CompiledModel, name: str) -> str:
 
 
 def chosen(case: Case, analysis: str | None) -> str:
-    """The analysis that is swept: the last one by default.
+    """The analysis of a sweep or gradient: the last one by default.
 
     Raises:
         ModelError: there is none of this name, or the case has none.
     """
     names = list(case.analyses)
     if not names:
-        raise ModelError("the case has no analysis to sweep", hint="add one, such as kp.Dynamics")
+        raise ModelError("the case has no analysis", hint="add one, such as kp.Dynamics")
     return names[-1] if analysis is None else one_of("analysis", analysis, names)
 
 

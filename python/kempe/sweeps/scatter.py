@@ -14,6 +14,7 @@ from kempe.errors import ModelError
 from kempe.model.values import mapping, numbers
 from kempe.sweeps.result import SweepResult
 from kempe.sweeps.run import sweep
+from kempe.sweeps.variables import present
 
 if TYPE_CHECKING:
     from kempe.case import Case
@@ -95,7 +96,7 @@ def tolerances(
             itself or a variant for a slope fails; the message has its reason.
     """
     given = numbers(mapping(deviations, "deviations", "{'L2': 0.05}"), "deviations")
-    middle = {name: _nominal(case, name) for name in given}
+    middle = present(case, given)  # the sweep refuses unknown names
     spread = {name: {"normal": [middle[name], x]} for name, x in given.items()}
     sample = sweep(
         case, spread, [measure], design="random", n=n, seed=seed, analysis=analysis, **options
@@ -140,13 +141,3 @@ def _slopes(
     values = near[measure]
     slopes: Floats = (values[2::2] - values[1::2]) / (2.0 * _STEP * widths)
     return float(values[0]), slopes
-
-
-def _nominal(case: Case, name: str) -> float:
-    """The value of a parameter or start value in the case."""
-    parameters = case.model.parameters
-    if name in parameters:
-        return float(parameters[name])
-    if "." not in name:
-        return float("nan")  # the sweep refuses the name
-    return float(case.start()[name])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from statistics import NormalDist
 from typing import TYPE_CHECKING, Any, TypeAlias
@@ -87,15 +87,49 @@ def read_variables(case: Case, variables: Mapping[str, Values]) -> list[Variable
     Raises:
         ModelError: a name is neither a parameter nor a coordinate or rate, or values are invalid.
     """
-    given = mapping(variables, "variables", "{'L2': [25, 26, 27]}")
-    if not given:
-        raise ModelError("variables: there are none", hint="give one: {'L2': [25, 26, 27]}")
+    form = "{'L2': [25, 26, 27]}"
+    given = mapping(variables, "variables", form)
+    check_names(case, given, form)
+    return [_variable(name, values) for name, values in given.items()]
+
+
+def check_names(case: Case, names: Collection[str], form: str) -> None:
+    """Refuse names of variables that cannot be parameters, coordinates or rates.
+
+    Args:
+        case: the case.
+        names: the names.
+        form: an example of variables.
+
+    Raises:
+        ModelError: there are none, or one is neither a parameter nor has a point.
+    """
+    if not names:
+        raise ModelError("variables: there are none", hint=f"give one: {form}")
     compiled = case.model.compile()
     known = [*compiled.parameters, *compiled.column_names(), *compiled.rate_names()]
-    for name in given:
+    for name in names:
         if name not in compiled.parameters and (not isinstance(name, str) or "." not in name):
             raise unknown("variable", name, known)
-    return [_variable(name, values) for name, values in given.items()]
+
+
+def present(case: Case, names: Iterable[str]) -> dict[str, float]:
+    """The values of parameters, and of coordinates and rates at the start, in the case.
+
+    A name without a point that is no parameter has the value NaN.
+
+    Raises:
+        KempeError: the mechanism does not close, or there is no such coordinate.
+    """
+    parameters, start = case.model.parameters, None
+    found = {}
+    for name in names:
+        if name in parameters or "." not in name:
+            found[name] = float(parameters.get(name, np.nan))
+            continue
+        start = start or case.start()
+        found[name] = float(start[name])
+    return found
 
 
 def _variable(name: str, values: Values) -> Variable:
