@@ -15,6 +15,7 @@ import numpy as np
 
 from kempe._upwards import CALLS
 from kempe.base import files
+from kempe.base.arguments import explain_methods
 from kempe.base.arrays import Floats, fixed
 from kempe.base.display_units import Shown, display
 from kempe.base.names import entry, few
@@ -45,6 +46,7 @@ class Slope:
     remark: str
 
 
+@explain_methods
 class Gradient:
     """The derivatives of measures with respect to variables.
 
