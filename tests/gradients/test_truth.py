@@ -247,3 +247,26 @@ def test_the_effort_that_holds_a_rod(scale: tuple[float, float, float]) -> None:
     true["rod.angle"] = k - moment * np.sin(angle)
     for name, x in true.items():
         assert g["effort.rod.angle", name] == pytest.approx(x, rel=1e-9), name
+
+
+def test_the_slider_crank_of_the_sensitivity_solvers() -> None:
+    """The slider-crank of the sensitivity examples of SUNDIALS (`idasSlCrank_FSA_dns`).
+
+    The numbers were computed apart from kempe, by complex steps and by extrapolation.
+    """
+    m = kp.Model("slider-crank", parameters={"k": 1.0, "c": 1.0})
+    m.ground.points(O=(0, 0))
+    m.body("crank", mass=1, inertia=1, points={"O": (0, 0), "M": (0.25, 0), "B": (0.5, 0)})
+    ends = {"P": (0, 0), "A": (-1, 0), "H": (-0.5, 0), "F": (1, 0)}
+    m.body("rod", mass=1, inertia=2, points=ends)
+    m.revolute("O", "ground.O", "crank.O")
+    m.revolute("A", "crank.B", "rod.A")
+    m.pin_in_slot("slide", "ground.O", "rod.P")
+    m.spring_damper("spring", "crank.M", "rod.H", stiffness="k", damping="c", free_length=1)
+    m.force("push", "rod.F", force=(1, 0))
+    run = kp.Dynamics(t_end=10, method=kp.DOP853(rtol=1e-13, atol=1e-14), name="run")
+    start = {"set": {"crank.angle": np.pi / 2}, "guess": {"rod.x": 1.0, "rod.angle": -0.5}}
+    g = kp.gradient(kp.Case(m, start, [run]), ["crank.angle.final"], ["k", "c"])
+    assert g.measures["crank.angle.final"] == pytest.approx(1.2756758486502, abs=1e-12)
+    assert g["crank.angle.final", "k"] == pytest.approx(-0.1739779292603, abs=1e-12)
+    assert g["crank.angle.final", "c"] == pytest.approx(-0.2687606670919, abs=1e-12)
