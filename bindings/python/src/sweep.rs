@@ -131,7 +131,9 @@ pub fn gradient<'py>(
         let Gradient { values, jacobian, remarks } = found.map_err(|outcome| {
             let message = match outcome {
                 Outcome::Failed(reason) => reason,
-                _ => "no derivatives are available for this mechanism".to_string(),
+                _ => "derivatives are not available yet where joints are redundant, where a driver holds friction \
+                      at rest, or near singular positions"
+                    .to_string(),
             };
             Failure::new(Kind::Integration, message).raise(py)
         })?;

@@ -6,7 +6,7 @@ use super::reader::{Reader, StateSlopes, States};
 use super::statistics::{Found, RunTimes, SlopePlan, SlopeRows};
 use super::variables::parameters;
 use crate::analyses::assemble::{self, set_slopes, StartSlopes};
-use crate::analyses::dynamics::{Options, Run};
+use crate::analyses::dynamics::{Options, Run, Scheme};
 use crate::analyses::equilibrium::Options as EquilibriumOptions;
 use crate::analyses::measures::Measure;
 use crate::analyses::record::Record;
@@ -290,6 +290,11 @@ impl Sweep {
         let AnyAnalysis::Dynamics(Options { method: scheme, .. }) = &ready.analysis else {
             return Err("the motion is not integrated".to_string());
         };
+        if matches!(scheme, Scheme::GeneralizedAlpha(_)) {
+            let text =
+                "slopes do not follow steps of generalized_alpha; choose method auto or radau";
+            return Err(text.to_string());
+        }
         let implicit = run.statistics.jacobians > 0;
         let last = last_state(model, run);
         MotionSlopes::new(model, blocks, (dense, last), &starts, (scheme, implicit))
@@ -380,7 +385,10 @@ fn gathered(values: Vec<f64>, found: Vec<Found>, count: usize) -> Gradient {
         };
         for (variable, x) in slopes.iter().enumerate().filter(|(_, x)| !x.is_finite()) {
             if !remarks.iter().any(|one| (one.number, one.variable) == (number, variable)) {
-                let text = format!("the derivative is {x}");
+                let text = match values[number] == 0.0 {
+                    true => "the value is zero, where a magnitude has no derivative".to_string(),
+                    false => format!("the derivative is {x}"),
+                };
                 remarks.push(Remark { number, variable, text });
             }
         }
