@@ -270,3 +270,30 @@ def test_the_slider_crank_of_the_sensitivity_solvers() -> None:
     assert g.measures["crank.angle.final"] == pytest.approx(1.2756758486502, abs=1e-12)
     assert g["crank.angle.final", "k"] == pytest.approx(-0.1739779292603, abs=1e-12)
     assert g["crank.angle.final", "c"] == pytest.approx(-0.2687606670919, abs=1e-12)
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_a_condition_ends_the_motion_at_a_time_that_moves(
+    scale: tuple[float, float, float],
+) -> None:
+    size, mass, rate = scale
+    numbers = {"g": 9.0 * size * rate**2, "h": 2.0 * size, "low": 0.5 * size}
+    m = kp.Model("drop", gravity=(0, "-g"), parameters=numbers)
+    m.body("ball", mass=mass, inertia=mass * size**2)
+    vx = 3.0 * size * rate
+    start = {"ball.y": "h", "ball.vx": vx}
+    run = kp.Dynamics(
+        t_end=10 / rate, output_step=0.01 / rate, method=EXACT, stop="ball.y < low", name="fall"
+    )
+    case = kp.Case(m, {"set": start}, [run])
+    measures = ["ball.x.final", "ball.vy.final", "ball.x.max", "ball.vy.t_min", "ball.x.mean"]
+    g = kp.gradient(case, measures, list(numbers))
+
+    def time(**of: Any) -> Any:
+        return np.sqrt(2.0 * (of["h"] - of["low"]) / of["g"])
+
+    agrees(g, "ball.x.final", lambda **of: vx * time(**of), numbers, 1e-9)
+    agrees(g, "ball.x.max", lambda **of: vx * time(**of), numbers, 1e-9)
+    agrees(g, "ball.vy.final", lambda **of: -of["g"] * time(**of), numbers, 1e-9)
+    agrees(g, "ball.vy.t_min", time, numbers, 1e-9)
+    agrees(g, "ball.x.mean", lambda **of: vx * time(**of) / 2.0, numbers, 1e-9)

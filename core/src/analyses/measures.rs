@@ -37,8 +37,20 @@ impl Measure {
         Self::compile(model, text).map_err(Problem::from)
     }
 
+    /// The function of a condition, whose changes of sign are the events, without the sign of the comparison.
+    ///
+    /// # Errors
+    /// The errors of [`read`](Self::read).
+    pub(super) fn of_condition(model: &Model, text: &str) -> Result<Self, Problem> {
+        let expression = Expression::parse_condition(text).map_err(Problem::from)?.0;
+        Self::of(model, &expression).map_err(Problem::from)
+    }
+
     fn compile(model: &Model, text: &str) -> Result<Self, ExpressionError> {
-        let expression = Expression::parse(text)?;
+        Self::of(model, &Expression::parse(text)?)
+    }
+
+    fn of(model: &Model, expression: &Expression) -> Result<Self, ExpressionError> {
         let names = QuantityNames::of(model, &[]);
         let tape = expression.compile(&names)?;
         let found = names.found.borrow().clone();

@@ -27,8 +27,10 @@ _PANEL, _BAR = 18.0, 6.0
 _HATCH = "////"
 #: In place of a bar.
 _NONE = "no derivative"
+#: Part of the largest slope of a panel below which a slope is a rounding error, written as 0.
+_ROUNDING = 1e-10
 #: Room for numbers beside the bars, as a share of the width.
-_ROOM = 0.14
+_ROOM = 0.2
 
 
 def gradient(result: Gradient, measures: Sequence[str] | None = None) -> Figure:
@@ -65,13 +67,14 @@ def gradient(result: Gradient, measures: Sequence[str] | None = None) -> Figure:
 def _bars(axes: Axes, measure: str, ordered: Sequence[Slope]) -> None:
     """A panel: a bar for each variable, from below."""
     lengths = [one.relative if isfinite(one.relative) else 0.0 for one in ordered]
+    largest = max(map(abs, lengths), default=0.0)
     bars = axes.barh(range(len(ordered)), lengths, color=style.COLOURS[0], height=0.6)
     axes.set_yticks(range(len(ordered)), [style.short(one.variable) for one in ordered])
     for bar, one in zip(bars, ordered, strict=True):
         if one.remark and isfinite(one.relative):
             bar.set(hatch=_HATCH, facecolor="white", edgecolor=style.COLOURS[0])
         axes.annotate(
-            _beside(one),
+            _beside(one, _ROUNDING * largest),
             (bar.get_width(), bar.get_y() + bar.get_height() / 2.0),
             (-3 if bar.get_width() < 0.0 else 3, 0),
             ha="right" if bar.get_width() < 0.0 else "left",
@@ -88,10 +91,11 @@ def _bars(axes: Axes, measure: str, ordered: Sequence[Slope]) -> None:
     axes.set_title(style.short(measure), loc="left")
 
 
-def _beside(one: Slope) -> str:
-    """The number beside a bar, or the words in its place."""
+def _beside(one: Slope, least: float) -> str:
+    """The number beside a bar, 0 below the least one, or the words in its place."""
     if isfinite(one.relative):
-        return f"{one.relative:.3g}".replace("-", "−")
+        number = one.relative if abs(one.relative) > least else 0.0
+        return f"{number:.3g}".replace("-", "−")
     return "the measure is 0" if isfinite(one.value) else _NONE
 
 

@@ -1,17 +1,15 @@
 //! All numbers of a request with their derivatives by all variables.
 
-use super::at_rest::AtRest;
 use super::motion::{joined, MotionSlopes};
 use super::reader::{Reader, StateSlopes, States};
 use super::statistics::{Found, RunTimes, SlopePlan, SlopeRows};
 use super::variables::parameters;
 use crate::analyses::assemble::{self, set_slopes, StartSlopes};
 use crate::analyses::dynamics::{Options, Run, Scheme};
-use crate::analyses::equilibrium::Options as EquilibriumOptions;
 use crate::analyses::measures::Measure;
 use crate::analyses::record::Record;
 use crate::analyses::sweep::{
-    Outcome, PreparedModel, Readings, Ready, Series, Statistic, Sweep, VariantRow, Wanted,
+    Outcome, PreparedModel, Readings, Ready, Series, Statistic, Sweep, VariantRow,
 };
 use crate::analyses::{chain, AnyAnalysis};
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
@@ -135,9 +133,19 @@ impl Sweep {
                 )?)),
             };
             let measures = (0..self.measures.len()).map(|k| between.readings.measure(k).clone());
-            let mut reader = Reader::new(model, measures.list(), course);
-            let t = plans.iter().flat_map(|plan| plan.times(times)).list();
-            SlopeRows::read(&mut reader, t, count)
+            let ends = ending(model, &run, &ready.analysis)?;
+            let measures: Vec<Measure> = measures.chain(ends.iter().cloned()).list();
+            let (last, mut reader) = (measures.len() - 1, Reader::new(model, measures, course));
+            let all = plans.iter().flat_map(|plan| plan.times(times));
+            let rows = SlopeRows::read(
+                &mut reader,
+                all.chain(run.trajectory.t.last().copied()).list(),
+                count,
+            )?;
+            match ends {
+                None => Ok(rows),
+                Some(_) => rows.ending_at_zero_of(last),
+            }
         });
         let found = plans.iter().zip(self.statistics()).map(|(plan, (k, one))| match &rows {
             Ok(rows) => plan.slopes(rows, (k, one == Statistic::Peak), times),
@@ -154,7 +162,7 @@ impl Sweep {
     }
 
     /// The names of the variables, in blocks.
-    fn names(row: &VariantRow) -> Vec<Vec<String>> {
+    pub(super) fn names(row: &VariantRow) -> Vec<Vec<String>> {
         let names: Vec<String> = row.0.iter().chain(&row.1).map(|(name, _)| name.clone()).list();
         names.chunks(ABREAST).map(<[String]>::to_vec).list()
     }
@@ -168,50 +176,8 @@ impl Sweep {
         Self::names(row).iter().map(of).collect()
     }
 
-    /// The derivatives of the numbers of an equilibrium.
-    fn of_equilibrium(
-        &self,
-        ready: &Ready,
-        options: &EquilibriumOptions,
-        record: &Record,
-        row: &VariantRow,
-        stop: &(dyn Fn() -> bool + Sync),
-    ) -> Vec<Found> {
-        let model = self.subject(ready).released(&ready.start);
-        let mut blocks = match self.rests((ready, options, record), row, stop) {
-            Ok(blocks) => blocks,
-            Err(reason) => return vec![Err(reason); self.wanted.len()],
-        };
-        let mut read = |text: &str| -> Found {
-            let mut slopes = Vec::new();
-            for (block, count) in &mut blocks {
-                let holder = |name| options.hold.iter().position(|held| held == name);
-                let found = match text.strip_prefix("effort.").map(holder) {
-                    Some(Some(holder)) => block.effort(holder),
-                    Some(None) => return Err("it has no derivatives yet".to_string()),
-                    None => {
-                        let declared = self.definition.measures.iter().find(|(of, _)| of == text);
-                        let text = match declared {
-                            Some((_, crate::model::Value::Text(text))) => text,
-                            _ => text,
-                        };
-                        let measure = Measure::read(&model, text);
-                        block.read(&measure.map_err(|_| "it has no derivatives yet")?)
-                    }
-                };
-                slopes.extend(&found.slope[..*count]);
-            }
-            Ok(slopes)
-        };
-        let each = self.wanted.iter().map(|one| match one {
-            Wanted::Number(text) => read(text),
-            Wanted::Statistic(..) => Err("an equilibrium has no statistics".to_string()),
-        });
-        each.list()
-    }
-
     /// The derivatives of the start of an analysis, in blocks of variables.
-    fn starts(
+    pub(super) fn starts(
         &self,
         ready: &Ready,
         row: &VariantRow,
@@ -256,25 +222,6 @@ impl Sweep {
         Self::names(row).iter().map(of).collect()
     }
 
-    /// The derivatives of an equilibrium, in blocks of variables, each with the number of its variables.
-    fn rests(
-        &self,
-        (ready, options, record): (&Ready, &EquilibriumOptions, &Record),
-        row: &VariantRow,
-        stop: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Vec<(AtRest, usize)>, String> {
-        let starts = self.starts(ready, row, stop)?;
-        let model = self.subject(ready).released(&ready.start);
-        let lam = multipliers(record).ok_or("its multipliers are not known")?;
-        let names = Self::names(row);
-        let of = |(names, slopes): (&Vec<String>, &StartSlopes)| {
-            let (start, state) = (&ready.start.state, &record.end.state);
-            let found = AtRest::find((&model, options), names, (start, slopes), (state, &lam));
-            Ok((found?, names.len()))
-        };
-        names.iter().zip(&starts).map(of).collect()
-    }
-
     /// The derivatives along a run of forward dynamics.
     fn along<'a>(
         &self,
@@ -299,16 +246,6 @@ impl Sweep {
         let last = last_state(model, run);
         MotionSlopes::new(model, blocks, (dense, last), &starts, (scheme, implicit))
     }
-}
-
-/// The multipliers of an equilibrium: those of the joints and drivers, then those of the holders.
-fn multipliers(record: &Record) -> Option<Vec<f64>> {
-    let point = record.findings["points"].as_array()?.first()?;
-    let read = |name: &str| -> Option<Vec<f64>> {
-        point[name].as_array()?.iter().map(serde_json::Value::as_f64).collect()
-    };
-    let holders = read("holders")?;
-    Some(read("lam")?.into_iter().chain(holders.iter().map(|effort| -effort)).list())
 }
 
 /// The last state of a run, with its works.
@@ -355,13 +292,24 @@ fn of_whole_run(last: Option<&SlopeRows>, k: usize, found: Found) -> (f64, Found
     }
 }
 
+/// The function of the condition that ended a run, if one did.
+///
+/// # Errors
+/// The condition cannot be read.
+fn ending(model: &Model, run: &Run, analysis: &AnyAnalysis) -> Result<Option<Measure>, String> {
+    let (Some(name), AnyAnalysis::Dynamics(options)) = (&run.stopped_by, analysis) else {
+        return Ok(None);
+    };
+    let event = options.events.iter().find(|event| event.name == *name);
+    let text = event.map_or(options.stop.as_ref(), |event| Some(&event.condition));
+    let read = text.and_then(|text| Measure::of_condition(model, text).ok());
+    read.map(Some).ok_or_else(|| format!("the motion ends at {name}"))
+}
+
 /// Why a run has no derivatives; None if it has.
 fn refusal(model: &Model, run: &Run, is_driven: bool) -> Option<String> {
     if run.phases.len() > 1 || run.settings.iter().any(|setting| !setting.is_plain()) {
         return Some("the motion has phases, between which its derivatives jump".to_string());
-    }
-    if run.stopped_by.is_some() {
-        return Some("an event ends the motion, and its time moves".to_string());
     }
     if let Some(passed) = run.passed.first() {
         return Some(format!("the motion passes the singular position at t = {:.6} s", passed.t));

@@ -9,6 +9,7 @@
 //! | `ode` | the equations of motion together with their derivatives |
 //! | `motion` | the derivatives of a motion along its steps |
 //! | `at_rest` | the derivatives of an equilibrium |
+//! | `equilibrium` | the numbers of an equilibrium |
 //! | `driven` | the derivatives of a motion that drivers determine |
 //! | `reader` | measures with derivatives |
 //! | `statistics` | statistics with derivatives |
@@ -16,6 +17,7 @@
 
 mod at_rest;
 mod driven;
+mod equilibrium;
 mod gradient;
 mod motion;
 mod ode;

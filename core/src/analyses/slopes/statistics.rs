@@ -1,7 +1,7 @@
 //! Statistics of measures with derivatives.
 
 use super::reader::{Reader, SlopeRow};
-use crate::analyses::statistics::{Extreme, BAND};
+use crate::analyses::statistics::{self, Extreme, BAND};
 use crate::analyses::sweep::{Series, Statistic};
 use crate::math::{Listed, Ordered};
 
@@ -19,8 +19,8 @@ pub(super) type Found = Result<Vec<f64>, String>;
 
 /// What a statistic needs.
 pub(super) enum SlopePlan {
-    /// The value at a time that does not move, or at which the measure is stationary.
-    At(f64),
+    /// The value at the last time.
+    Final(f64),
     /// The largest or the least value, with the times of rivals.
     Extreme(Extreme, Vec<f64>),
     /// The time of the largest or the least value.
@@ -72,7 +72,7 @@ impl SlopePlan {
         let missing = || Self::None("the number itself is not known".to_string());
         let last = times.outputs[times.outputs.len() - 1];
         match statistic {
-            Statistic::Final => Self::At(last),
+            Statistic::Final => Self::Final(last),
             Statistic::Mean => Self::Mean,
             Statistic::Rms => Self::Rms,
             Statistic::Max => {
@@ -128,7 +128,7 @@ impl SlopePlan {
     /// The times at which the measure is needed.
     pub fn times(&self, times: RunTimes<'_>) -> Vec<f64> {
         match self {
-            Self::At(t) => vec![*t],
+            Self::Final(t) => vec![*t],
             Self::Extreme(at, rivals) | Self::TimeOf(at, rivals) => {
                 let each = std::iter::once(at.t).chain(rivals.iter().copied());
                 each.flat_map(|t| [&[t], &times.beside(t)[..]].concat()).list()
@@ -150,23 +150,23 @@ impl SlopePlan {
         match self {
             Self::None(reason) => Err(reason.clone()),
             Self::Zero => Ok(vec![0.0; rows.variables]),
-            Self::At(t) => Ok(at(*t).slopes[k].clone()),
+            Self::Final(_) => Ok(rows.final_slopes(k)),
             Self::Extreme(found, rivals) => {
                 let slopes = agreed(rows, k, (found.t, rivals), times)?.of_value;
                 let sign = if is_peak && found.value < 0.0 { -1.0 } else { 1.0 };
                 Ok(slopes.iter().map(|slope| sign * slope).list())
             }
             Self::TimeOf(found, rivals) => Ok(agreed(rows, k, (found.t, rivals), times)?.of_time),
-            Self::Mean => Ok(mean(rows, k, times, &|_| 1.0)),
+            Self::Mean => Ok(mean(rows, k, times, |x| [x, 1.0])),
             Self::Rms => {
-                let t = times.outputs;
-                let squares = t.iter().map(|t| at(*t).values[k][0].powi(2)).list();
-                let size = crate::analyses::statistics::mean(t, &squares).sqrt();
+                let squares = times.outputs.iter().map(|t| at(*t).values[k][0].powi(2)).list();
+                let size = statistics::mean(times.outputs, &squares).sqrt();
+                let of_square = mean(rows, k, times, |x| [x * x, 2.0 * x]);
                 match size == 0.0 {
                     true => {
                         Err("the value is zero, where a magnitude has no derivative".to_string())
                     }
-                    false => Ok(mean(rows, k, times, &|row| row.values[k][0] / size)),
+                    false => Ok(of_square.iter().map(|slope| slope / (2.0 * size)).list()),
                 }
             }
             Self::Settling([t, most, last]) => {
@@ -174,7 +174,8 @@ impl SlopePlan {
                 let away = |row: &SlopeRow| (row.values[k][0] - end.values[k][0]).signum();
                 let rate = away(entry) * entry.values[k][1];
                 let of = |j: usize| {
-                    let by = |row: &SlopeRow| away(row) * (row.slopes[k][j] - end.slopes[k][j]);
+                    let last = rows.final_slopes(k)[j];
+                    let by = |row: &SlopeRow| away(row) * (row.slopes[k][j] - last);
                     (BAND * by(peak) - by(entry)) / rate
                 };
                 Ok((0..rows.variables).map(of).list())
@@ -183,25 +184,27 @@ impl SlopePlan {
     }
 }
 
-/// The mean over the outputs of weighted derivatives.
-fn mean(
-    rows: &SlopeRows,
-    k: usize,
-    times: RunTimes<'_>,
-    weight: &dyn Fn(&SlopeRow) -> f64,
-) -> Vec<f64> {
-    let of = |j: usize| {
-        let values: Vec<f64> = times
-            .outputs
-            .iter()
-            .map(|t| {
-                let row = rows.at(*t);
-                weight(row) * row.slopes[k][j]
-            })
-            .list();
-        crate::analyses::statistics::mean(times.outputs, &values)
+/// The derivatives of the mean of a function of measure `k` over the outputs, whose last time may move. `of` gives the
+/// function and its derivative.
+fn mean(rows: &SlopeRows, k: usize, times: RunTimes<'_>, of: impl Fn(f64) -> [f64; 2]) -> Vec<f64> {
+    let t = times.outputs;
+    let all: Vec<&SlopeRow> = t.iter().map(|t| rows.at(*t)).list();
+    let values: Vec<[f64; 2]> = all.iter().map(|row| of(row.values[k][0])).list();
+    let (last, whole) = (t.len() - 1, statistics::mean(t, &values.iter().map(|x| x[0]).list()));
+    // what the last panel grows by while the end moves
+    let grows = match last {
+        0 => 0.0,
+        _ => {
+            let rate = values[last][1] * all[last].values[k][1];
+            let middle = (values[last][0] + values[last - 1][0]) / 2.0;
+            (middle + (t[last] - t[last - 1]) * rate / 2.0 - whole) / (t[last] - t[0])
+        }
     };
-    (0..rows.variables).map(of).list()
+    let slope = |j: usize| {
+        let slopes = all.iter().zip(&values).map(|(row, x)| x[1] * row.slopes[k][j]).list();
+        statistics::mean(t, &slopes) + grows * rows.end[j]
+    };
+    (0..rows.variables).map(slope).list()
 }
 
 /// The derivatives of an extreme value and of its time.
@@ -218,6 +221,9 @@ impl Stationary {
     fn at(rows: &SlopeRows, k: usize, t: f64, times: RunTimes<'_>) -> Result<Self, String> {
         let (row, beside) = (rows.at(t), times.beside(t));
         let fixed = || Self { of_value: row.slopes[k].clone(), of_time: vec![0.0; rows.variables] };
+        if times.outputs.last() == Some(&t) {
+            return Ok(Self { of_value: rows.final_slopes(k), of_time: rows.end.clone() });
+        }
         let d = beside[2] - t;
         let change = (row.values[k][1] * times.step(t)).abs();
         if times.is_end(t) || d <= 0.0 || rows.span[k] == 0.0 {
@@ -303,6 +309,8 @@ pub(super) struct SlopeRows {
     pub variables: usize,
     /// The largest magnitude of each measure at the times read.
     span: Vec<f64>,
+    /// The derivatives of the time at which a condition ends the run; zero if its end is given.
+    end: Vec<f64>,
 }
 
 impl SlopeRows {
@@ -325,8 +333,29 @@ impl SlopeRows {
         }
         let span = (0..reader.measures.len())
             .map(|k| rows.iter().fold(0.0_f64, |most, row| most.max(row.values[k][0].abs())));
-        let span = span.list();
-        Ok(Self { rows, variables, span })
+        let (span, end) = (span.list(), vec![0.0; variables]);
+        Ok(Self { rows, variables, span, end })
+    }
+
+    /// The rows of a run that ends where measure `k` becomes zero. The last of them is at the end.
+    ///
+    /// # Errors
+    /// The function of the condition is stationary there, so that its end has no derivative.
+    pub fn ending_at_zero_of(self, k: usize) -> Result<Self, String> {
+        let Some(last) = self.rows.last() else { return Ok(self) };
+        let rate = last.values[k][1];
+        let end: Vec<f64> = last.slopes[k].iter().map(|slope| -slope / rate).list();
+        match end.iter().all(|x| x.is_finite()) {
+            true => Ok(Self { end, ..self }),
+            false => Err("the condition that ends the motion only touches zero".to_string()),
+        }
+    }
+
+    /// The derivatives of the last value of measure `k`, whose time may move.
+    fn final_slopes(&self, k: usize) -> Vec<f64> {
+        let Some(last) = self.rows.last() else { return Vec::new() };
+        let moves = |(slope, end): (&f64, &f64)| slope + last.values[k][1] * end;
+        last.slopes[k].iter().zip(&self.end).map(moves).list()
     }
 
     /// The last value of measure `k`.
