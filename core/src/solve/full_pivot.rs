@@ -5,6 +5,8 @@
 pub struct AnyRank {
     /// The columns that no equation determines. They are zero in each solution.
     pub free: Vec<usize>,
+    /// Those of them that occur in an equation, so that other columns depend on them.
+    pub coupled: Vec<usize>,
     /// For each right side: whether the equations agree.
     pub consistent: Vec<bool>,
 }
@@ -57,7 +59,9 @@ pub fn solve_any_rank(
         x.iter_mut().zip(&scales).for_each(|(x, scale)| *x /= scale);
         *b = x;
     }
-    AnyRank { free: order[rank..].to_vec(), consistent }
+    let free = order[rank..].to_vec();
+    let occurs = |at: &&usize| (0..rank).any(|row| a[row * columns + **at].abs() > tolerance);
+    AnyRank { coupled: free.iter().filter(occurs).copied().collect(), free, consistent }
 }
 
 /// Divides each row and then each column by its largest magnitude. Returns the scales of the columns.
@@ -114,7 +118,7 @@ mod tests {
         let mut right = vec![vec![4.0e9, 5.0], vec![0.0, 6.0]];
         let found = solve_any_rank(&mut a, 2, &mut right, 1e-12);
         assert_eq!(right, [[1.0, 2.0], [2.0, 0.0]]);
-        assert_eq!(found, AnyRank { free: vec![], consistent: vec![true, true] });
+        assert_eq!(found, AnyRank { free: vec![], coupled: vec![], consistent: vec![true, true] });
     }
 
     #[test]
@@ -123,7 +127,7 @@ mod tests {
         let mut right = vec![vec![1.0, 2.0], vec![1.0, 3.0]];
         let found = solve_any_rank(&mut a, 3, &mut right, 1e-12);
         assert_eq!(found.consistent, [true, false]);
-        assert_eq!(found.free.len(), 2);
+        assert_eq!((found.free.len(), found.coupled.len()), (2, 1));
         assert_eq!(right[0][0] + right[0][1], 1.0);
     }
 }

@@ -22,15 +22,15 @@ const DEPENDENT: f64 = 1e-9;
 /// A start with derivatives: coordinates, rates and first-order states.
 pub type StartSlopes = [Vec<Slope>; 3];
 
-/// The values of `set` with their derivatives, in the order of the request. The variable of `seeds` with this name has
-/// the derivative one.
+/// The values of a section, `set` or `guess`, with their derivatives, in the order of the request. The variable of
+/// `seeds` with this name has the derivative one.
 pub fn set_slopes(
     model: &Model,
-    written: &[(String, Value)],
+    (section, written): (&str, &[(String, Value)]),
     parameters: &[Slope],
     seeds: &[String],
 ) -> Option<Vec<Slope>> {
-    let found = formulas(model, "set", written).ok()?;
+    let found = formulas(model, section, written).ok()?;
     let of = |((_, tape), (name, _)): (&(_, Tape), &(String, Value))| {
         let value = tape.evaluate(&at(parameters, &[], &[], Slope::zero()));
         match seeds.iter().position(|seed| seed == name) {
@@ -170,7 +170,8 @@ fn implicit_in(
         (0..ABREAST).map(|k| residual.iter().map(|r| -r.slope[k]).list()).list();
     let zero = right.iter().all(|b| b.iter().all(|x| *x == 0.0));
     let found = solve_any_rank(&mut matrix, x.len(), &mut right, DEPENDENT);
-    if !zero && found.free.iter().any(|column| *column < needed) {
+    // a coordinate that is in no equation stays where it is
+    if !zero && found.coupled.iter().any(|column| *column < needed) {
         return Err("the equations do not determine it; prescribe more of the start".to_string());
     }
     if !found.consistent.iter().all(|agree| *agree) {

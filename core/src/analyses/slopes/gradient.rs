@@ -216,7 +216,13 @@ impl Sweep {
         let of = |names: &Vec<String>| -> Result<StartSlopes, String> {
             let own = ready.prepared.model();
             let numbers = parameters(own, names).ok_or_else(unread)?;
-            let values = set_slopes(own, &set, &numbers, names).ok_or_else(unread)?;
+            let values = set_slopes(own, ("set", &set), &numbers, names).ok_or_else(unread)?;
+            let guess =
+                set_slopes(own, ("guess", &self.guess), &numbers, &[]).ok_or_else(unread)?;
+            let varies = guess.iter().position(|x| x.slope.iter().any(|slope| *slope != 0.0));
+            if let Some(name) = varies.map(|k| &self.guess[k].0) {
+                return Err(format!("the guess of {name} depends on it; prescribe {name} in set"));
+            }
             assemble::slopes(own, &request, (&numbers, &values), start)
         };
         Self::names(row).iter().map(of).collect()
