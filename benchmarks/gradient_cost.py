@@ -28,8 +28,7 @@ def main() -> None:
     case = kp.load(ROOT / "examples" / "four_bar.toml")
     names = ["k", "c", "L2", "G", "L1", "L3", "crank.angle"]
     measure = ["rocker.angle.final"]
-    variant = {"k": [1e6 * (1 + 1e-9 * row) for row in range(100)]}
-    run = seconds(lambda: kp.sweep(case, variant, measure, workers=1)) / 100
+    run = seconds(lambda: kp.sweep(case, {"k": [1e6]}, measure, workers=1))
     print(f"run: {1e3 * run:.2f} ms")
     for count in (1, 3, 4, 7):
         chosen = names[:count]
