@@ -102,7 +102,6 @@ impl Sweep {
         let Record { motion: Some(run), driven, responses, .. } = record else {
             return Err(Outcome::Single);
         };
-        let is_driven = !matches!(ready.analysis, AnyAnalysis::Dynamics(_));
         let rests = driven.as_ref().is_some_and(|driven| driven.variable.rests);
         let whole = driven.map(|driven| Arc::new(PreparedModel::new(driven.model)));
         let whole = whole.as_ref().unwrap_or(&ready.prepared);
@@ -119,34 +118,9 @@ impl Sweep {
             .statistics()
             .map(|(of, statistic)| SlopePlan::of(&series[of], statistic, times))
             .list();
-        let rows = refusal(whole.model(), &run, is_driven).map_or(Ok(()), Err).and_then(|()| {
-            let states = |t: f64| state_at(whole, &run, t, rests);
-            let (model, blocks): (&Model, _) = (whole.model(), self.blocks(whole.model(), row)?);
-            let course = match is_driven {
-                true => StateSlopes::Driven(blocks, &states as States<'_>),
-                false => StateSlopes::Dynamics(Box::new(self.along(
-                    (model, &run),
-                    ready,
-                    blocks,
-                    row,
-                    stop,
-                )?)),
-            };
-            let measures = (0..self.measures.len()).map(|k| between.readings.measure(k).clone());
-            let ends = ending(model, &run, &ready.analysis)?;
-            let measures: Vec<Measure> = measures.chain(ends.iter().cloned()).list();
-            let (last, mut reader) = (measures.len() - 1, Reader::new(model, measures, course));
-            let all = plans.iter().flat_map(|plan| plan.times(times));
-            let rows = SlopeRows::read(
-                &mut reader,
-                all.chain(run.trajectory.t.last().copied()).list(),
-                count,
-            )?;
-            match ends {
-                None => Ok(rows),
-                Some(_) => rows.ending_at_zero_of(last),
-            }
-        });
+        let measures = (0..self.measures.len()).map(|k| between.readings.measure(k).clone()).list();
+        let needed = plans.iter().flat_map(|plan| plan.times(times)).list();
+        let rows = self.rows((whole, &run, rests), ready, (measures, needed), row, stop);
         let found = plans.iter().zip(self.statistics()).map(|(plan, (k, one))| match &rows {
             Ok(rows) => plan.slopes(rows, (k, one == Statistic::Peak), times),
             Err(reason) => Err(reason.clone()),
@@ -159,6 +133,40 @@ impl Sweep {
             }
         }
         Ok(gathered(values, found, count))
+    }
+
+    /// Measures with their derivatives at some times of a run and at its end.
+    fn rows(
+        &self,
+        (whole, run, rests): (&PreparedModel, &Run, bool),
+        ready: &Ready,
+        (mut measures, mut t): (Vec<Measure>, Vec<f64>),
+        row: &VariantRow,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<SlopeRows, String> {
+        let (model, is_driven): (&Model, _) =
+            (whole.model(), !matches!(ready.analysis, AnyAnalysis::Dynamics(_)));
+        if let Some(reason) = refusal(model, run, is_driven) {
+            return Err(reason);
+        }
+        let states = |t: f64| state_at(whole, run, t, rests);
+        let blocks = self.blocks(model, row)?;
+        let course = match is_driven {
+            true => StateSlopes::Driven(blocks, &states as States<'_>),
+            false => {
+                let along = self.along((model, run), ready, blocks, row, stop)?;
+                StateSlopes::Dynamics(Box::new(along))
+            }
+        };
+        let (ends, condition) = (ending(model, run, &ready.analysis)?, measures.len());
+        measures.extend(ends.iter().cloned());
+        t.extend(run.trajectory.t.last());
+        let count = row.0.len() + row.1.len();
+        let rows = SlopeRows::read(&mut Reader::new(model, measures, course), t, count)?;
+        match ends {
+            None => Ok(rows),
+            Some(_) => rows.ending_at_zero_of(condition),
+        }
     }
 
     /// The names of the variables, in blocks.
