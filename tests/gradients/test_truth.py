@@ -297,3 +297,48 @@ def test_a_condition_ends_the_motion_at_a_time_that_moves(
     agrees(g, "ball.vy.final", lambda **of: -of["g"] * time(**of), numbers, 1e-9)
     agrees(g, "ball.vy.t_min", time, numbers, 1e-9)
     agrees(g, "ball.x.mean", lambda **of: vx * time(**of) / 2.0, numbers, 1e-9)
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0])
+def test_implicit_steps_give_the_slopes_of_explicit_steps(size: float) -> None:
+    numbers = {"l": size, "m": 2.0, "k": 4e4 * size**2, "c": 300.0 * size**2}
+    m = kp.Model("stiff", gravity=(0, -9.81 * size), parameters=numbers)
+    m.ground.points(O=(0, 0))
+    m.bar("upper", mass="m", length="l", ends=("O", "A"))
+    m.bar("lower", mass="m", length="l", ends=("A", "B"))
+    m.revolute("O", "ground.O", "upper.O")
+    m.revolute("A", "upper.A", "lower.A")
+    m.torsion_spring("hinge", "upper", "lower", stiffness="k", damping="c")
+    start = {"upper.angle": -1.0, "lower.angle": -0.9, "upper.omega": 0.0, "lower.omega": 0.0}
+    measures = [
+        "upper.angle.final",
+        "lower.omega.final",
+        "O.force.final",
+        "energy.dissipated.final",
+    ]
+    found = [
+        kp.gradient(
+            kp.Case(m, {"set": start}, [kp.Dynamics(t_end=1, method=method, name="run")]),
+            measures,
+            [*numbers, "upper.angle"],
+        )
+        for method in (EXACT, kp.Radau(rtol=1e-10, atol=1e-12 * size))
+    ]
+    explicit, implicit = (one.jacobian for one in found)
+    scale = np.abs(explicit * [*numbers.values(), 1.0]).max(axis=1, keepdims=True)
+    error = np.abs(implicit - explicit) * [*numbers.values(), 1.0] / scale
+    assert error.max() < 1e-7
+    assert not found[1].remarks
+
+
+def test_a_driven_motor_with_a_current_has_no_slopes_yet() -> None:
+    m = kp.Model("drive", parameters={"J": 0.1})
+    m.ground.points(O=(0, 0))
+    m.body("rotor", mass=1, inertia="J", points={"O": (0, 0)})
+    m.revolute("O", "ground.O", "rotor.O")
+    m.motor("motor", "rotor", torque_constant=0.1, resistance=1, inductance=0.1, voltage=5)
+    m.coordinate_driver("turn", coordinate="rotor.angle", value="2*t")
+    run = kp.InverseDynamics(t_end=1, output_step=0.1, name="turns")
+    g = kp.gradient(kp.Case(m, None, [run]), ["turn.effort.final"], ["J"])
+    assert np.isnan(g["turn.effort.final", "J"])
+    assert "first-order states" in g.remarks["turn.effort.final", "J"]

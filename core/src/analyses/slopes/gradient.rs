@@ -258,7 +258,10 @@ impl Sweep {
         }
         let implicit = run.statistics.jacobians > 0;
         let last = last_state(model, run);
-        MotionSlopes::new(model, blocks, (dense, last), &starts, (scheme, implicit))
+        let values = row.0.iter().chain(&row.1).map(|(_, x)| if *x == 0.0 { 1.0 } else { x.abs() });
+        let padding = std::iter::repeat(1.0);
+        let sizes: Vec<f64> = values.chain(padding).take(ABREAST * blocks.len()).list();
+        MotionSlopes::new(model, blocks, (dense, last), &starts, (scheme, implicit, &sizes))
     }
 }
 
@@ -327,6 +330,9 @@ fn refusal(model: &Model, run: &Run, is_driven: bool) -> Option<String> {
     }
     if let Some(passed) = run.passed.first() {
         return Some(format!("the motion passes the singular position at t = {:.6} s", passed.t));
+    }
+    if is_driven && model.layout.n_z > 0 {
+        return Some("first-order states of elements grow along a driven motion".to_string());
     }
     if !is_driven && !model.switches.is_empty() {
         return Some("laws or forces switch, so that derivatives jump".to_string());

@@ -9,12 +9,12 @@ use crate::analyses::assemble::StartSlopes;
 use crate::analyses::dynamics::{PiecewiseInterpolant, Scheme};
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
 use crate::equations::Workspace;
-use crate::integrate::{BoxedStepper, Dop853, ExplicitMethod, Rk4, Rk45, StepControl};
+use crate::integrate::{Atol, BoxedStepper, Dop853, ExplicitMethod, Rk4, Rk45, StepControl};
 use crate::math::Listed;
-use crate::model::Model;
+use crate::model::{column_scales, usual_energy, Model, WORKS};
 use crate::solve::Breakdown;
 
-/// Tolerances of derivatives along implicit steps.
+/// Tolerances of states and derivatives along implicit steps, relative to their scales.
 const CONTROLLED: f64 = 1e-10;
 /// Largest number of steps within an implicit step.
 const MOST: usize = 100_000;
@@ -36,6 +36,7 @@ pub(super) struct MotionSlopes<'a> {
 impl<'a> MotionSlopes<'a> {
     /// Begins at the start of a run without phases; `start` contains the derivatives of its start, one block after the
     /// other. The steps are those of a `scheme`; `implicit` states whether some were implicit.
+    /// `sizes` are the magnitudes of the variables of all blocks.
     ///
     /// # Errors
     /// The reason for which there are no derivatives.
@@ -44,7 +45,7 @@ impl<'a> MotionSlopes<'a> {
         blocks: Vec<Sensitivity>,
         (steps, last): (&'a PiecewiseInterpolant, Vec<f64>),
         start: &[Vec<Slope>],
-        (scheme, implicit): (&Scheme, bool),
+        (scheme, implicit, sizes): (&Scheme, bool, &[f64]),
     ) -> Result<Self, String> {
         let workspace = Workspace::new(model);
         let ode = SlopeOde::new(model, workspace, blocks);
@@ -59,8 +60,8 @@ impl<'a> MotionSlopes<'a> {
         let span = (steps.t[0], steps.t[steps.t.len() - 1]);
         let control = match implicit {
             true => {
-                let control = StepControl::new(CONTROLLED, CONTROLLED);
-                StepControl { max_steps: Some(MOST), ..control }
+                let atol = Atol::Each(scales(model, sizes).iter().map(|x| CONTROLLED * x).list());
+                StepControl { atol, max_steps: Some(MOST), ..StepControl::new(CONTROLLED, 0.0) }
             }
             false => StepControl::constant((span.1 - span.0).abs()),
         };
@@ -126,6 +127,15 @@ impl<'a> MotionSlopes<'a> {
 
 fn singular(t: f64) -> String {
     format!("it has no bound: the position at t = {t:.6} s is singular, or the forces there have no derivative")
+}
+
+/// The scale of each component of (state, derivatives of the state by the first variable, and so on).
+fn scales(model: &Model, sizes: &[f64]) -> Vec<f64> {
+    let of_q = column_scales(model);
+    let (states, works) = (vec![1.0; model.layout.n_z], vec![usual_energy(model); WORKS]);
+    let own = [&of_q[..], &of_q, &states, &works].concat();
+    let slopes = sizes.iter().flat_map(|size| own.iter().map(move |scale| scale / size));
+    own.iter().copied().chain(slopes).list()
 }
 
 /// A start as one row: q, v and z.
