@@ -329,16 +329,3 @@ def test_implicit_steps_give_the_slopes_of_explicit_steps(size: float) -> None:
     error = np.abs(implicit - explicit) * [*numbers.values(), 1.0] / scale
     assert error.max() < 1e-7
     assert not found[1].remarks
-
-
-def test_a_driven_motor_with_a_current_has_no_slopes_yet() -> None:
-    m = kp.Model("drive", parameters={"J": 0.1})
-    m.ground.points(O=(0, 0))
-    m.body("rotor", mass=1, inertia="J", points={"O": (0, 0)})
-    m.revolute("O", "ground.O", "rotor.O")
-    m.motor("motor", "rotor", torque_constant=0.1, resistance=1, inductance=0.1, voltage=5)
-    m.coordinate_driver("turn", coordinate="rotor.angle", value="2*t")
-    run = kp.InverseDynamics(t_end=1, output_step=0.1, name="turns")
-    g = kp.gradient(kp.Case(m, None, [run]), ["turn.effort.final"], ["J"])
-    assert np.isnan(g["turn.effort.final", "J"])
-    assert "first-order states" in g.remarks["turn.effort.final", "J"]

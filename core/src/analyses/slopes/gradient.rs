@@ -331,9 +331,6 @@ fn refusal(model: &Model, run: &Run, is_driven: bool) -> Option<String> {
     if let Some(passed) = run.passed.first() {
         return Some(format!("the motion passes the singular position at t = {:.6} s", passed.t));
     }
-    if is_driven && model.layout.n_z > 0 {
-        return Some("first-order states of elements grow along a driven motion".to_string());
-    }
     if !is_driven && !model.switches.is_empty() {
         return Some("laws or forces switch, so that derivatives jump".to_string());
     }

@@ -1,0 +1,82 @@
+"""Slopes that need a device of their own, against extrapolated differences and closed forms."""
+
+import kempe as kp
+import numpy as np
+import pytest
+from gradients.test_random import differences
+
+EXACT = kp.DOP853(rtol=1e-12, atol=1e-14)
+DRIVEN = kp.InverseDynamics(t_end=0.5, output_step=0.01, name="run")
+FORWARD = kp.Dynamics(t_end=0.5, output_step=0.01, method=EXACT, name="run")
+
+
+def compare(case: kp.Case, measures: list[str], variables: list[str], most: float) -> None:
+    g = kp.gradient(case, measures, variables)
+    assert not g.remarks
+    true, _ = differences(case, g)
+    given = np.abs(list(g.variables.values()))
+    scale = np.abs(true * given).max(axis=1, keepdims=True) / given
+    assert (np.abs(g.jacobian - true) <= most * scale).all()
+
+
+@pytest.mark.parametrize("size", [1e-2, 1.0, 1e2])
+@pytest.mark.parametrize("analysis", [DRIVEN, FORWARD])
+def test_friction_that_depends_on_its_reaction(
+    analysis: kp.InverseDynamics | kp.Dynamics, size: float
+) -> None:
+    numbers = {"r": 0.1 * size, "l": 0.3 * size, "mu": 0.2, "m": 2.0}
+    m = kp.Model("rubbing", gravity=(0, -9.81 * size), parameters=numbers)
+    m.ground.points(O=(0, 0), S=(0, 0.02 * size))
+    m.bar("crank", mass=1, length="r", ends=("O", "A"))
+    m.bar("rod", mass="m", length="l", ends=("A", "B"))
+    m.body("piston", mass=1, inertia=0.01 * size**2, points={"B": (0, 0)})
+    m.revolute("O", "ground.O", "crank.O")
+    m.revolute("A", "crank.A", "rod.A")
+    m.revolute("B", "rod.B", "piston.B")
+    m.translational("P", "ground.S", "piston.B")
+    m.friction("rub", joint="P", kinetic="mu", velocity=0.01 * size)
+    m.coordinate_driver("drive", coordinate="crank.angle", value="0.4+9*t")
+    case = kp.Case(m, {"guess": {"rod.angle": 0.0, "piston.x": 0.4 * size}}, [analysis])
+    compare(case, ["drive.effort.final", "P.force.final", "A.force.final"], list(numbers), 1e-8)
+
+
+@pytest.mark.parametrize("mass", [1e-3, 1.0, 1e3])
+def test_rates_that_are_nearest_to_a_guess(mass: float) -> None:
+    m = kp.Model("two links", parameters={"l": 0.5, "m": 2.0 * mass})
+    m.ground.points(O=(0, 0))
+    m.bar("upper", mass=mass, length=0.4, ends=("O", "A"))
+    m.bar("lower", mass="m", length="l", ends=("A", "B"))
+    m.revolute("O", "ground.O", "upper.O")
+    m.revolute("A", "upper.A", "lower.A")
+    start = {
+        "set": {"upper.angle": -1.0, "lower.angle": -0.2, "lower.B.vy": 1.0},
+        "guess": {"lower.omega": 2.0},
+    }
+    case = kp.Case(m, start, [kp.Dynamics(t_end=1e-6, method=EXACT, name="run")])
+    variables = ["l", "m", "lower.B.vy", "upper.angle"]
+    compare(case, ["upper.omega.final", "lower.omega.final"], variables, 1e-8)
+
+
+def test_the_work_of_a_driver() -> None:
+    numbers = {"J": 0.3, "w": 4.0}
+    m = kp.Model("flywheel", parameters=numbers)
+    m.ground.points(O=(0, 0))
+    m.body("wheel", mass=1, inertia="J", points={"O": (0, 0)})
+    m.revolute("O", "ground.O", "wheel.O")
+    m.coordinate_driver("turn", coordinate="wheel.angle", value="w*t^2/2")
+    case = kp.Case(m, None, [kp.Dynamics(t_end=2, output_step=0.1, method=EXACT, name="run")])
+    g = kp.gradient(case, ["energy.work.final"], list(numbers))
+    assert g.measures["energy.work.final"] == pytest.approx(0.5 * 0.3 * 8.0**2, rel=1e-10)
+    assert g["energy.work.final", "J"] == pytest.approx(0.5 * 8.0**2, rel=1e-10)
+    assert g["energy.work.final", "w"] == pytest.approx(0.3 * 4.0 * 2.0**2, rel=1e-10)
+
+
+def test_a_law_that_switches_has_a_remark() -> None:
+    m = kp.Model("pushed", parameters={"F": 2.0, "at": 0.5})
+    m.body("ball", mass=1, inertia=1, points={"P": (0, 0)})
+    m.force("push", "ball.P", force=("if(t > at, F, 0)", 0))
+    case = kp.Case(m, {"set": {"ball.x": 0}}, [kp.Dynamics(t_end=1, name="run")])
+    g = kp.gradient(case, ["ball.x.final"], ["F", "at"])
+    assert g.measures["ball.x.final"] == pytest.approx(0.25)
+    assert np.isnan(g.jacobian).all()
+    assert {text.split(",")[0] for text in g.remarks.values()} == {"laws or forces switch"}
