@@ -80,3 +80,24 @@ def test_a_law_that_switches_has_a_remark() -> None:
     assert g.measures["ball.x.final"] == pytest.approx(0.25)
     assert np.isnan(g.jacobian).all()
     assert {text.split(",")[0] for text in g.remarks.values()} == {"laws or forces switch"}
+
+
+def test_slopes_of_a_long_run_meet_the_joints() -> None:
+    numbers = {"crank": 1.0, "rod": 2.5, "k": 20.0}
+    m = kp.Model("swinging", gravity=(0, -9.81), parameters=numbers)
+    m.ground.points(O=(0, 0), D=(2, 0))
+    m.bar("crank", mass=1, length="crank", ends=("O", "A"))
+    m.bar("rod", mass=2, length="rod", ends=("A", "B"))
+    m.bar("rocker", mass=1.5, length=2, ends=("B", "D"))
+    m.revolute("O", "ground.O", "crank.O")
+    m.revolute("A", "crank.A", "rod.A")
+    m.revolute("B", "rod.B", "rocker.B")
+    m.revolute("D", "ground.D", "rocker.D")
+    m.torsion_spring("hinge", "ground", "crank", stiffness="k")
+    start = {"set": {"crank.angle": 1.2}, "guess": {"rod.angle": 0.3, "rocker.angle": -1.9}}
+    loose = kp.DOP853(rtol=1e-4, atol=1e-6)
+    case = kp.Case(m, start, [kp.Dynamics(t_end=20, method=loose, name="run")])
+    both = ["rod.B.y.final", "rocker.B.y.final", "rod.B.vy.final", "rocker.B.vy.final"]
+    one, other, of_one, of_other = kp.gradient(case, both, list(numbers)).jacobian
+    assert one == pytest.approx(other, rel=1e-9)
+    assert of_one == pytest.approx(of_other, rel=1e-9)
