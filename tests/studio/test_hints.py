@@ -29,6 +29,7 @@ def test_a_hint_is_dismissed_and_stays_so_after_a_reload(fresh: Opener) -> None:
     assert hint(one)
     one.page.locator("#hint button").click()
     assert hint(one) == ""
+    one.page.wait_for_timeout(1000)  # a browser stores at its leisure
     one.page.reload()
     one.wait("typeof kempe === 'object' && kempe.state().then(state => state !== null)", 20.0)
     assert hint(one) == ""

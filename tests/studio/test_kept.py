@@ -114,7 +114,8 @@ def test_a_duplicated_tab_is_a_copy_and_says_so(window: Studio) -> None:
         one.page.evaluate("void window.open(location.href)")  # with a copy of the tab's storage
     other = ready(opened.value)
     assert other.toml() == text
-    assert "copy of another open tab" in other.message()
+    # the other tab has to answer first
+    other.wait("document.querySelector('#message').innerText.includes('copy of another open tab')")
     assert "copy of another" not in one.message()
     other.page.keyboard.press("Control+z")
     other.settle()

@@ -149,6 +149,8 @@ export function restored(): Pick<Kept, "source" | "text" | "mode"> | null {
 
 /** The place in the storage of all tabs where one tab calls the others; a page from a disk has no channel for it. */
 const CALLS = "kempe.tabs";
+/** A busy tab answers a call within this time, ms. */
+const ANSWERS = 10_000;
 
 /** A tab with the work of another open tab is a copy of it, with a file of its own. */
 export function tellApart(copied: boolean): void {
@@ -170,5 +172,5 @@ export function tellApart(copied: boolean): void {
     } else if (said("asks")) call("taken");
   });
   if (copied) call("asks");
-  setTimeout(() => (asks = false), 2000);
+  setTimeout(() => (asks = false), ANSWERS);
 }
