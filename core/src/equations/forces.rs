@@ -236,14 +236,19 @@ pub fn side(model: &Model, k: usize, motions: &Motions, acting: Acting<'_, f64>)
 }
 
 /// The reserve of a holding force `k`. It is positive until friction slips or a contact separates.
-pub fn reserve(model: &Model, k: usize, motions: &Motions, acting: Acting<'_, f64>) -> f64 {
+pub fn reserve<S: Real>(
+    model: &Model<S>,
+    k: usize,
+    motions: &Motions<S>,
+    acting: Acting<'_, S>,
+) -> S {
     let item = &model.forces[k];
     let element = at_state(model, item, motions, acting);
     let at = reported(model, k, motions, acting);
     match (item.mode, element.behaviour()) {
         (Mode::Holds(_), Some(Behaviour::Sticks)) => element.limit(&at).0 - at.multiplier.abs(),
-        (Mode::Holds(side), _) => side * at.multiplier,
-        _ => f64::INFINITY,
+        (Mode::Holds(side), _) => S::constant(side) * at.multiplier,
+        _ => S::constant(f64::INFINITY),
     }
 }
 

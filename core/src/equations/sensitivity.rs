@@ -67,9 +67,11 @@ impl Sensitivity {
         }
     }
 
-    /// Sets positions and rates without solving the equations of motion; a and λ are unknown.
-    pub fn place(&mut self, q: &[Slope], v: &[Slope]) {
+    /// Sets positions, rates and the pieces of switches without solving the equations of motion; a and λ are unknown.
+    pub fn place(&mut self, q: &[Slope], v: &[Slope], pieces: &[f64]) {
         self.motions.place(&self.model.layout, q, v);
+        self.motions.pieces.clear();
+        self.motions.pieces.extend_from_slice(pieces);
         self.a.fill(Slope::constant(f64::NAN));
         self.lam.fill(Slope::constant(f64::NAN));
     }

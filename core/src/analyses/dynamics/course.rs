@@ -11,6 +11,7 @@ use super::model_cache::ModelCache;
 use super::modes::{self, watched_mode, StateAt};
 use super::option_checks::check_lengths;
 use super::options::Options;
+use super::passages::Passage;
 use super::run::{run_phase, Phase, PhaseEnd, Progress};
 use super::run_results::{EventStates, Run};
 use super::setting::Setting;
@@ -38,7 +39,7 @@ pub type Act<'a> = &'a mut dyn FnMut(&str, &State, &Setting) -> Option<Change>;
 
 /// The effect of an event.
 #[derive(Clone, PartialEq)]
-enum Effect {
+pub(in crate::analyses) enum Effect {
     /// The event is listed, and nothing else.
     None,
     /// The run ends when the event occurs this number of times.
@@ -52,11 +53,11 @@ enum Effect {
 }
 
 /// An event of the whole run.
-struct Planned {
-    name: String,
-    condition: String,
+pub(in crate::analyses) struct Planned {
+    pub name: String,
+    pub condition: String,
     direction: Direction,
-    effect: Effect,
+    pub effect: Effect,
 }
 
 /// Largest error of a step at which a gap counts as open, relative to the size of the mechanism.
@@ -68,7 +69,7 @@ fn release_of(driver: &str) -> String {
 }
 
 /// The events of a run, in the order in which they take effect.
-fn planned(model: &Model, options: &Options) -> Vec<Planned> {
+pub(in crate::analyses) fn planned(model: &Model, options: &Options) -> Vec<Planned> {
     let listed = options.events.iter().map(|event| Planned {
         name: event.name.clone(),
         condition: event.condition.clone(),
@@ -148,8 +149,11 @@ pub(super) fn run(
     let (mut stall, mut guard) = (Stall::default(), Guard::new(usual_energy(base.0), options));
     if modes::has_modes(base.0) {
         check_modes(own.as_ref().map_or(base.0, |own| &own.model), start, options, &mut at)?;
-        settle(&events, &mut at, (base.0, &mut setting), &mut run)?;
+        let passage = settle(&events, &mut at, (base.0, &mut setting), &mut run)?;
+        run.note(passage);
         own = Own::of(base.0, &setting, at.t)?;
+    } else {
+        run.note(Passage::default());
     }
     loop {
         let (model, cache) = own.as_ref().map_or(base, |own| (&own.model, &own.cache));
@@ -169,11 +173,14 @@ pub(super) fn run(
             PhaseEnd::Event => {
                 let before = setting.clone();
                 let (changing, calls) = ((base.0, &mut setting), (&mut act, &mut guard));
-                let flow = take_effect(&events, &mut at, changing, options, calls, &mut run)?;
+                let (flow, replaced) =
+                    take_effect(&events, &mut at, changing, options, calls, &mut run)?;
+                let mut passage = Passage::default();
                 if flow == Flow::Continue && modes::has_modes(base.0) {
                     stall.look(base.0, at.t, &setting)?;
-                    settle(&events, &mut at, (base.0, &mut setting), &mut run)?;
+                    passage = settle(&events, &mut at, (base.0, &mut setting), &mut run)?;
                 }
+                run.note(Passage { fired: at.fired.clone(), replaced, ..passage });
                 Ok((flow == Flow::Continue).then_some(before))
             }
         });
@@ -290,7 +297,7 @@ fn settle(
     at: &mut Progress,
     (base, setting): (&Model, &mut Setting),
     run: &mut Run,
-) -> Result<(), Box<Failure>> {
+) -> Result<Passage, Box<Failure>> {
     let open = setting.open(base).map_err(|problems| impossible(&problems, at.t))?;
     let of_force = |index: &usize| match events[*index].effect {
         Effect::Mode { force, .. } => Some(force),
@@ -313,10 +320,11 @@ fn settle(
         run.add_event(&base.layout, index(*k, *of), t, &before);
     }
     setting.modes = settled.modes;
-    Ok(())
+    Ok(settled.passage)
 }
 
-/// Carries out the events that ended a phase, in their order. Returns whether the run continues.
+/// Carries out the events that ended a phase, in their order. Returns whether the run continues, and whether the state
+/// was replaced.
 fn take_effect(
     events: &[Planned],
     at: &mut Progress,
@@ -324,7 +332,8 @@ fn take_effect(
     options: &Options,
     (act, guard): (&mut Option<Act<'_>>, &mut Guard),
     run: &mut Run,
-) -> Result<Flow, Box<Failure>> {
+) -> Result<(Flow, bool), Box<Failure>> {
+    let mut replaced = false;
     for index in at.fired.clone() {
         let event = &events[index];
         match &event.effect {
@@ -333,13 +342,13 @@ fn take_effect(
             Effect::Stop(count) if run.events[index].states.t.len() < *count => {}
             Effect::Stop(_) => {
                 run.stopped_by = Some(event.name.clone());
-                return Ok(Flow::Stop);
+                return Ok((Flow::Stop, replaced));
             }
             Effect::Act => {
                 let [q, v, z, _] = base.layout.split(&at.y).map(<[f64]>::to_vec);
                 let state = State { t: at.t, q, v, z };
                 let change = act.as_mut().and_then(|act| act(&event.name, &state, setting));
-                let Some(change) = change else { return Ok(Flow::Stop) };
+                let Some(change) = change else { return Ok((Flow::Stop, replaced)) };
                 let energy = |setting: &Setting, at: &Progress| {
                     let found = setting.energy(base, at.t, &at.y);
                     found.map_err(|problems| impossible(&problems, at.t))
@@ -347,13 +356,14 @@ fn take_effect(
                 let before = energy(setting, at)?;
                 setting.parameters.extend(change.parameters);
                 if let Some(state) = change.state {
+                    replaced = true;
                     put(base, setting, options, at, &state)?;
                 }
                 guard.allow(energy(setting, at)? - before);
             }
         }
     }
-    Ok(Flow::Continue)
+    Ok((Flow::Continue, replaced))
 }
 
 /// Replaces the state; it must meet the constraints.

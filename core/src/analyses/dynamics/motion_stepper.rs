@@ -8,6 +8,7 @@ use super::method_switching::MethodSwitching;
 use super::methods::Scheme;
 use super::motion_ode::MotionOde;
 use super::options::Options;
+use super::passages::HeldPieces;
 use super::run_results::Passed;
 use super::sampling::Sample;
 use super::singularity_handover::{Method, SingularityHandover};
@@ -128,6 +129,12 @@ impl<'a> MotionStepper<'a> {
             stepper.go_on_from(t, y)?;
         }
         Ok(stepper)
+    }
+
+    /// The pieces of switches that the last step held, from the given step on. None for a model without switches.
+    pub fn held(&mut self, step: usize) -> Option<HeldPieces> {
+        let causes = std::mem::take(&mut self.switching.as_mut()?.causes);
+        Some(HeldPieces { step, pieces: self.ode.workspace.motions.pieces.clone(), causes })
     }
 
     /// Takes the next accepted step. Where the model has switches, steps end at them.

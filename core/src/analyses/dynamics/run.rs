@@ -312,6 +312,11 @@ fn observe(
     if flow == Flow::Continue {
         flow = recorder.step(&step, watch);
     }
+    let steps = recorder.dense.as_ref().map_or(0, |dense| dense.t.len() - 1);
+    if steps > 0 {
+        run.held.extend(stepper.held(steps - 1).filter(|held| held.is_new(run.held.last())));
+    }
+    let step = stepper.last_step().expect("a step was taken");
     let listed = |index: usize| events.as_ref().is_some_and(|events| events.lists(index));
     for event in happened.iter().filter(|event| listed(event.index)) {
         let y = recorder.state_in(&step, event.t);

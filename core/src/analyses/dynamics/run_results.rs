@@ -1,5 +1,6 @@
 //! The outcome of a run.
 
+use super::passages::{HeldPieces, Passage};
 use super::setting::Setting;
 use super::stiffness_detection::MethodChoice;
 use super::trajectory::{PiecewiseInterpolant, States, Trajectory};
@@ -81,6 +82,10 @@ pub struct Run {
     pub stopped_by: Option<String>,
     /// Interpolants of all steps, if the options request them.
     pub dense: Option<PiecewiseInterpolant>,
+    /// What happened where each phase begins; empty without interpolants or events.
+    pub passages: Vec<Passage>,
+    /// The pieces of switches along the steps; empty without interpolants or switches.
+    pub held: Vec<HeldPieces>,
     /// Counts.
     pub statistics: Statistics,
     /// The largest kinetic energy and work at the ends of the steps, J.
@@ -105,6 +110,13 @@ impl Run {
     pub(super) fn add_event(&mut self, layout: &StateLayout, index: usize, t: f64, y: &[f64]) {
         if let Some(event) = self.events.get_mut(index) {
             event.states.add(layout, t, y);
+        }
+    }
+
+    /// Notes what happened where the next phase begins, if the run keeps interpolants.
+    pub(super) fn note(&mut self, passage: Passage) {
+        if self.dense.is_some() {
+            self.passages.push(passage);
         }
     }
 

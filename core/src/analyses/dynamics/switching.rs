@@ -85,6 +85,8 @@ pub(super) struct Switching {
     forms: Vec<SwitchForm>,
     history: Vec<History>,
     due: Option<Due>,
+    /// The switches that have changed since the last accepted step.
+    pub causes: Vec<usize>,
     /// Evaluates the functions of switches.
     workspace: Option<Box<Workspace>>,
     steps: StepChoice,
@@ -128,6 +130,7 @@ impl Switching {
             forms: on_state.iter().map(|k| SwitchForm::of(model, *k)).list(),
             on_state,
             due: None,
+            causes: Vec::new(),
             workspace: reactive.then(|| Box::new(ode.workspace.clone())),
             steps,
             graded: Vec::new(),
@@ -241,6 +244,7 @@ impl Switching {
     ) -> Result<(), Cause<Breakdown>> {
         let model = ode.model;
         let before = self.pieces.clone();
+        self.causes.extend(changes.iter().map(|(switch, _)| switch));
         changes.iter().for_each(|(switch, piece)| self.pieces[*switch] = *piece);
         self.follow_jumps(model, (t, y), &before, changes);
         let [q, v, ..] = model.layout.split(y);

@@ -42,7 +42,7 @@ impl AtRest {
         if reactive::depends(model) || !model.switches.is_empty() {
             return Err("forces switch or depend on reactions".to_string());
         }
-        let numbers = parameters(model, names).ok_or("its parameters cannot be read")?;
+        let numbers = parameters(model, names, &[]).ok_or("its parameters cannot be read")?;
         let (blueprint, held) = Self::held(model, options, &numbers, start)?;
         let all = [&numbers[..], &held].concat();
         let values: Vec<f64> = all.iter().map(|x| x.value).list();
@@ -90,7 +90,7 @@ impl AtRest {
     /// A quantity with its derivatives.
     pub fn read(&mut self, measure: &Measure) -> Slope {
         let rest = vec![Slope::constant(0.0); self.q.len()];
-        self.over.place(&self.q, &rest);
+        self.over.place(&self.q, &rest, &[]);
         let motions = &self.over.motions;
         let (state, solved) = ([&self.q[..], &rest, &self.z], [&rest[..], &self.lam]);
         let seen = Seen { t: self.t, state, works: &[], motions, solved, so_far: None };

@@ -69,7 +69,7 @@ impl Sweep {
             let found = AtRest::find((&model, options), names, (start, slopes), (state, &lam));
             Ok((found?, names.len()))
         };
-        names.iter().zip(&starts).map(of).collect()
+        names.iter().zip(&starts.states).map(of).collect()
     }
 }
 

@@ -1,20 +1,20 @@
 //! All numbers of a request with their derivatives by all variables.
 
-use super::motion::{joined, MotionSlopes};
+use super::motion::{joined, AskedRun, MotionSlopes};
 use super::reader::{Reader, StateSlopes, States};
+use super::starts::{with_interpolant, Starts};
 use super::statistics::{Found, RunTimes, SlopePlan, SlopeRows};
-use super::variables::parameters;
-use crate::analyses::assemble::{self, set_slopes, StartSlopes};
-use crate::analyses::dynamics::{Options, Run, Scheme};
+use super::variables::{parameters, replacements};
+use crate::analyses::dynamics::{Run, Setting};
 use crate::analyses::measures::Measure;
 use crate::analyses::record::Record;
 use crate::analyses::sweep::{
     Outcome, PreparedModel, Readings, Ready, Series, Statistic, Sweep, VariantRow,
 };
-use crate::analyses::{chain, AnyAnalysis};
+use crate::analyses::AnyAnalysis;
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
-use crate::math::Listed;
-use crate::model::Model;
+use crate::math::{Listed, Ordered};
+use crate::model::{Model, Value};
 use std::sync::Arc;
 
 /// Why a number has no derivative by a variable.
@@ -39,6 +39,13 @@ pub struct Gradient {
     pub remarks: Vec<Remark>,
 }
 
+/// Why a magnitude has no derivative.
+const ZERO: &str = "the value is zero, where a magnitude has no derivative";
+/// Part of the largest value below which a value is a rounding error.
+const ROUNDED: f64 = 1e-10;
+/// Part of the largest value by which a value changes at least, relative to the change of a variable, if it changes.
+const STEEP: f64 = 1e-6;
+
 /// The outcome of a gradient.
 type Outcomes = Result<Gradient, Outcome>;
 
@@ -52,10 +59,8 @@ impl Sweep {
         let ready = self.ready(row, stop)?;
         let count = row.0.len() + row.1.len();
         match &ready.analysis {
-            AnyAnalysis::Dynamics(options) => {
-                let options = Options { dense_output: true, ..options.clone() };
-                let analysis = AnyAnalysis::Dynamics(options);
-                let record = self.run(&ready, &analysis, stop);
+            AnyAnalysis::Dynamics(_) => {
+                let record = self.run(&ready, &with_interpolant(&ready.analysis), stop);
                 self.of_record(&ready, record.map_err(Outcome::from)?, row, stop)
             }
             analysis => {
@@ -113,7 +118,8 @@ impl Sweep {
             self.statistics().map(|(of, statistic)| series[of].statistic(statistic)).collect();
         let (mut values, count) = (values?, row.0.len() + row.1.len());
         let steps = run.dense.as_ref().map_or(&run.trajectory.t[..], |dense| &dense.t);
-        let times = RunTimes { outputs: &run.trajectory.t, steps };
+        let changes = changes(&run, steps);
+        let times = RunTimes { outputs: &run.trajectory.t, steps, changes: &changes };
         let plans: Vec<SlopePlan> = self
             .statistics()
             .map(|(of, statistic)| SlopePlan::of(&series[of], statistic, times))
@@ -127,9 +133,12 @@ impl Sweep {
         });
         let mut found = found.list();
         for (number, (k, one)) in self.statistics().enumerate() {
+            let (value, slopes) = (values[number], found[number].clone());
             if between.readings.measure(k).is_of_run() {
                 let last = rows.as_ref().ok().filter(|_| one == Statistic::Final);
-                (values[number], found[number]) = of_whole_run(last, k, found[number].clone());
+                (values[number], found[number]) = of_whole_run(last, k, slopes);
+            } else if slopes.is_ok_and(|slopes| is_cusp(series[k].outputs(), value, &slopes, row)) {
+                found[number] = Err(ZERO.to_string());
             }
         }
         Ok(gathered(values, found, count))
@@ -146,15 +155,14 @@ impl Sweep {
     ) -> Result<SlopeRows, String> {
         let (model, is_driven): (&Model, _) =
             (whole.model(), !matches!(ready.analysis, AnyAnalysis::Dynamics(_)));
-        if let Some(reason) = refusal(model, run, is_driven) {
+        if let Some(reason) = refusal(run, is_driven) {
             return Err(reason);
         }
         let states = |t: f64| state_at(whole, run, t, rests);
-        let blocks = self.blocks(model, row)?;
         let course = match is_driven {
-            true => StateSlopes::Driven(blocks, &states as States<'_>),
+            true => StateSlopes::Driven(Self::blocks(model, row)?, &states as States<'_>),
             false => {
-                let along = self.along((model, run), ready, blocks, row, stop)?;
+                let along = self.along((model, run), ready, row, stop)?;
                 StateSlopes::Dynamics(Box::new(along))
             }
         };
@@ -162,7 +170,7 @@ impl Sweep {
         measures.extend(ends.iter().cloned());
         t.extend(run.trajectory.t.last());
         let count = row.0.len() + row.1.len();
-        let rows = SlopeRows::read(&mut Reader::new(model, measures, course), t, count)?;
+        let rows = SlopeRows::read(&mut Reader::new(whole.model(), measures, course), t, count)?;
         match ends {
             None => Ok(rows),
             Some(_) => rows.ending_at_zero_of(condition),
@@ -176,110 +184,74 @@ impl Sweep {
     }
 
     /// The equations of a model with derivatives, for blocks of variables.
-    fn blocks(&self, model: &Model, row: &VariantRow) -> Result<Vec<Sensitivity>, String> {
-        let of = |names: &Vec<String>| {
-            let numbers = parameters(model, names).ok_or("its parameters cannot be read")?;
-            Ok(Sensitivity::new(Model::new(&model.blueprint, &numbers)))
-        };
-        Self::names(row).iter().map(of).collect()
-    }
-
-    /// The derivatives of the start of an analysis, in blocks of variables.
-    pub(super) fn starts(
-        &self,
-        ready: &Ready,
-        row: &VariantRow,
-        stop: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Vec<StartSlopes>, String> {
-        let places = chain(&self.analyses, self.analyses.len() - 1);
-        match places[..] {
-            [_] => self.assembled(ready, row),
-            [first, _] => {
-                let analyses = vec![self.analyses[first].clone()];
-                let before = Self { analyses, wanted: Vec::new(), ..self.clone() };
-                let unfinished = || "the analysis before has no derivatives".to_string();
-                let ready = before.ready(row, stop).map_err(|_| unfinished())?;
-                let AnyAnalysis::Equilibrium(options) = &ready.analysis else {
-                    return Err("its start is the end of a motion".to_string());
-                };
-                if options.over.is_some() || ready.prepared.model().driven {
-                    return Err("its start is the end of a path, or drivers move it".to_string());
-                }
-                let record = before.run(&ready, &ready.analysis, stop);
-                let record = record.map_err(|_| unfinished())?;
-                let found = before.rests((&ready, options, &record), row, stop)?;
-                Ok(found.into_iter().map(|(rest, _)| rest.start()).list())
-            }
-            _ => Err("its start is the end of several analyses".to_string()),
-        }
-    }
-
-    /// The derivatives of an assembled start, in blocks of variables.
-    fn assembled(&self, ready: &Ready, row: &VariantRow) -> Result<Vec<StartSlopes>, String> {
-        let unread = || "the start cannot be read".to_string();
-        let set = self.set_of(&row.1).ok_or_else(unread)?;
-        let start = &ready.start.state;
-        let mut request = self.request(ready.prepared.model(), &set).ok_or_else(unread)?;
-        request.t = start.t;
-        let of = |names: &Vec<String>| -> Result<StartSlopes, String> {
-            let own = ready.prepared.model();
-            let numbers = parameters(own, names).ok_or_else(unread)?;
-            let values = set_slopes(own, ("set", &set), &numbers, names).ok_or_else(unread)?;
-            let guess =
-                set_slopes(own, ("guess", &self.guess), &numbers, &[]).ok_or_else(unread)?;
-            let varies = guess.iter().position(|x| x.slope.iter().any(|slope| *slope != 0.0));
-            if let Some(name) = varies.map(|k| &self.guess[k].0) {
-                return Err(format!("the guess of {name} depends on it; prescribe {name} in set"));
-            }
-            assemble::slopes(own, &request, (&numbers, &values), start)
-        };
+    pub(super) fn blocks(model: &Model, row: &VariantRow) -> Result<Vec<Sensitivity>, String> {
+        let of = |names: &Vec<String>| equations(model, names, &[]);
         Self::names(row).iter().map(of).collect()
     }
 
     /// The derivatives along a run of forward dynamics.
-    fn along<'a>(
-        &self,
+    pub(super) fn along<'a>(
+        &'a self,
         (model, run): (&'a Model, &'a Run),
-        ready: &Ready,
-        blocks: Vec<Sensitivity>,
-        row: &VariantRow,
+        ready: &'a Ready,
+        row: &'a VariantRow,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Result<MotionSlopes<'a>, String> {
-        let starts = self.starts(ready, row, stop)?;
-        let starts: Vec<Vec<Slope>> = starts.into_iter().map(joined).list();
-        let dense = run.dense.as_ref().ok_or_else(|| "the run has no interpolant".to_string())?;
-        let AnyAnalysis::Dynamics(Options { method: scheme, .. }) = &ready.analysis else {
+        let AnyAnalysis::Dynamics(options) = &ready.analysis else {
             return Err("the motion is not integrated".to_string());
         };
-        if matches!(scheme, Scheme::GeneralizedAlpha(_)) {
-            let text =
-                "slopes do not follow steps of generalized_alpha; choose method auto or radau";
-            return Err(text.to_string());
-        }
-        let implicit = run.statistics.jacobians > 0;
-        let last = last_state(model, run);
+        let Starts { states, late } = self.starts(ready, row, stop)?;
+        let late = if options.t_start.is_some() { vec![0.0; late.len()] } else { late };
+        let starts: Vec<Vec<Slope>> = states.into_iter().map(joined).list();
         let values = row.0.iter().chain(&row.1).map(|(_, x)| if *x == 0.0 { 1.0 } else { x.abs() });
         let padding = std::iter::repeat(1.0);
-        let sizes: Vec<f64> = values.chain(padding).take(ABREAST * blocks.len()).list();
-        MotionSlopes::new(model, blocks, (dense, last), &starts, (scheme, implicit, &sizes))
+        let sizes: Vec<f64> = values.chain(padding).take(ABREAST * starts.len()).list();
+        let written = match self.analyses.last().and_then(|entry| entry.get("parameters")) {
+            Some(Value::Table(written)) => &written[..],
+            _ => &[],
+        };
+        let equations = Box::new(move |phase: &Model, setting: &Setting| {
+            let of = |names: &Vec<String>| {
+                let replaced = replacements(model, names, (written, &setting.parameters));
+                equations(phase, names, &replaced.ok_or_else(unread)?)
+            };
+            Self::names(row).iter().map(of).collect()
+        });
+        let starts = (starts, late);
+        MotionSlopes::new(AskedRun { model, run, options, starts, sizes, equations })
     }
 }
 
-/// The last state of a run, with its works.
-fn last_state(model: &Model, run: &Run) -> Vec<f64> {
-    let (of, layout) = (&run.trajectory, &model.layout);
-    let row = |table: &[f64], width: usize| table[table.len() - width..].to_vec();
-    let parts = [
-        row(&of.q, layout.n_q),
-        row(&of.v, layout.n_q),
-        row(&of.z, layout.n_z),
-        row(&of.works, layout.n_works),
-    ];
-    parts.concat()
+/// The equations of a model with derivatives by some variables. Some parameters have other values.
+fn equations(
+    model: &Model,
+    names: &[String],
+    replaced: &[(String, Slope)],
+) -> Result<Sensitivity, String> {
+    let numbers = parameters(model, names, replaced).ok_or_else(unread)?;
+    Ok(Sensitivity::new(Model::new(&model.blueprint, &numbers)))
+}
+
+fn unread() -> String {
+    "its parameters cannot be read".to_string()
+}
+
+/// The times at which a motion changes: phases begin, or other pieces of switches hold.
+fn changes(run: &Run, steps: &[f64]) -> Vec<f64> {
+    let phases = run.phases.iter().skip(1).filter_map(|row| run.trajectory.t.get(*row));
+    let pieces = run.held.iter().skip(1).filter_map(|held| steps.get(held.step));
+    let mut all: Vec<f64> = phases.chain(pieces).copied().list();
+    all.order_by(f64::total_cmp);
+    all
 }
 
 /// A state within a driven run.
-fn state_at(whole: &PreparedModel, run: &Run, t: f64, rests: bool) -> Option<[Vec<f64>; 3]> {
+pub(super) fn state_at(
+    whole: &PreparedModel,
+    run: &Run,
+    t: f64,
+    rests: bool,
+) -> Option<[Vec<f64>; 3]> {
     let layout = &whole.model().layout;
     if let Some(k) = run.trajectory.t.iter().position(|known| *known == t) {
         let of = &run.trajectory;
@@ -313,7 +285,11 @@ fn of_whole_run(last: Option<&SlopeRows>, k: usize, found: Found) -> (f64, Found
 ///
 /// # Errors
 /// The condition cannot be read.
-fn ending(model: &Model, run: &Run, analysis: &AnyAnalysis) -> Result<Option<Measure>, String> {
+pub(super) fn ending(
+    model: &Model,
+    run: &Run,
+    analysis: &AnyAnalysis,
+) -> Result<Option<Measure>, String> {
     let (Some(name), AnyAnalysis::Dynamics(options)) = (&run.stopped_by, analysis) else {
         return Ok(None);
     };
@@ -324,17 +300,24 @@ fn ending(model: &Model, run: &Run, analysis: &AnyAnalysis) -> Result<Option<Mea
 }
 
 /// Why a run has no derivatives; None if it has.
-fn refusal(model: &Model, run: &Run, is_driven: bool) -> Option<String> {
-    if run.phases.len() > 1 || run.settings.iter().any(|setting| !setting.is_plain()) {
-        return Some("the motion has phases, between which its derivatives jump".to_string());
+pub(super) fn refusal(run: &Run, is_driven: bool) -> Option<String> {
+    let has_phases = run.phases.len() > 1 || run.settings.iter().any(|one| !one.is_plain());
+    if is_driven && has_phases {
+        return Some("drivers end their motion along the way".to_string());
     }
     if let Some(passed) = run.passed.first() {
         return Some(format!("the motion passes the singular position at t = {:.6} s", passed.t));
     }
-    if !is_driven && !model.switches.is_empty() {
-        return Some("laws or forces switch, so that derivatives jump".to_string());
-    }
     None
+}
+
+/// Whether a value is the zero of a magnitude, up to rounding errors, which has no derivative there. A quantity without
+/// negative values that is zero in all its derivatives has one.
+fn is_cusp(outputs: &[f64], value: f64, slopes: &[f64], row: &VariantRow) -> bool {
+    let most = outputs.iter().fold(0.0_f64, |most, x| most.max(*x));
+    let sizes = row.0.iter().chain(&row.1).map(|(_, x)| x.abs());
+    let steep = slopes.iter().zip(sizes).any(|(slope, size)| slope.abs() * size > STEEP * most);
+    steep && value <= ROUNDED * most && outputs.iter().all(|x| *x >= 0.0)
 }
 
 fn gathered(values: Vec<f64>, found: Vec<Found>, count: usize) -> Gradient {
@@ -351,7 +334,7 @@ fn gathered(values: Vec<f64>, found: Vec<Found>, count: usize) -> Gradient {
         for (variable, x) in slopes.iter().enumerate().filter(|(_, x)| !x.is_finite()) {
             if !remarks.iter().any(|one| (one.number, one.variable) == (number, variable)) {
                 let text = match values[number] == 0.0 {
-                    true => "the value is zero, where a magnitude has no derivative".to_string(),
+                    true => ZERO.to_string(),
                     false => format!("the derivative is {x}"),
                 };
                 remarks.push(Remark { number, variable, text });

@@ -7,6 +7,9 @@
 //! |---|---|
 //! | `variables` | parameters and start values as numbers with derivatives |
 //! | `ode` | the equations of motion together with their derivatives |
+//! | `starts` | the derivatives of a start |
+//! | `triggers` | the functions whose zeros change a motion |
+//! | `impacts` | the derivatives of impacts |
 //! | `motion` | the derivatives of a motion along its steps |
 //! | `at_rest` | the derivatives of an equilibrium |
 //! | `equilibrium` | the numbers of an equilibrium |
@@ -19,10 +22,13 @@ mod at_rest;
 mod driven;
 mod equilibrium;
 mod gradient;
+mod impacts;
 mod motion;
 mod ode;
 mod reader;
+mod starts;
 mod statistics;
+mod triggers;
 mod variables;
 
 pub use gradient::{Gradient, Remark};

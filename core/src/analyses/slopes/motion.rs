@@ -4,24 +4,41 @@
 //! implicit steps, which are too long for an explicit method, the equations and their derivatives are integrated
 //! together with an error control of their own.
 
+use super::impacts;
 use super::ode::SlopeOde;
+use super::triggers::Trigger;
 use crate::analyses::assemble::StartSlopes;
-use crate::analyses::dynamics::{PiecewiseInterpolant, Scheme};
+use crate::analyses::dynamics::{Options, Passage, PiecewiseInterpolant, Run, Scheme, Setting};
+use crate::elements::Behaviour;
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
-use crate::equations::Workspace;
 use crate::integrate::{Atol, BoxedStepper, Dop853, ExplicitMethod, Rk4, Rk45, StepControl};
 use crate::math::Listed;
-use crate::model::{column_scales, usual_energy, Model, WORKS};
+use crate::model::{column_scales, usual_energy, ForceMode, Model, WORKS};
 use crate::solve::Breakdown;
+use std::sync::Arc;
 
 /// Tolerances of states and derivatives along implicit steps, relative to their scales.
 const CONTROLLED: f64 = 1e-10;
 /// Largest number of steps within an implicit step.
 const MOST: usize = 100_000;
 
+/// The run of forward dynamics whose derivatives are asked for.
+pub(super) struct AskedRun<'a> {
+    pub model: &'a Model,
+    pub run: &'a Run,
+    pub options: &'a Options,
+    /// The derivatives of the start, one block after the other, and of its time.
+    pub starts: (Vec<Vec<Slope>>, Vec<f64>),
+    /// The magnitudes of the variables of all blocks.
+    pub sizes: Vec<f64>,
+    /// The equations of the model of a phase, for blocks of variables.
+    pub equations: Box<dyn Fn(&Model, &Setting) -> Result<Vec<Sensitivity>, String> + 'a>,
+}
+
 /// A run whose derivatives are computed at ascending times.
 pub(super) struct MotionSlopes<'a> {
-    ode: SlopeOde<'a>,
+    asked: AskedRun<'a>,
+    ode: SlopeOde,
     /// The ends of the steps, and the states at their starts.
     steps: &'a PiecewiseInterpolant,
     /// The state at the end of the run.
@@ -30,51 +47,98 @@ pub(super) struct MotionSlopes<'a> {
     step: usize,
     /// The state at the start of this step, with its derivatives.
     y: Vec<f64>,
-    stepper: BoxedStepper<SlopeOde<'a>, Breakdown>,
+    stepper: BoxedStepper<SlopeOde, Breakdown>,
+    /// The first step of each phase, and the present phase.
+    begins: Vec<usize>,
+    phase: usize,
+    /// The index of the held pieces of switches; those of the next index follow.
+    held: usize,
+    /// The time and the state at which the motion has changed last.
+    since: (f64, Vec<f64>),
 }
 
 impl<'a> MotionSlopes<'a> {
-    /// Begins at the start of a run without phases; `start` contains the derivatives of its start, one block after the
-    /// other. The steps are those of a `scheme`; `implicit` states whether some were implicit.
-    /// `sizes` are the magnitudes of the variables of all blocks.
+    /// Begins at the start of a run.
     ///
     /// # Errors
     /// The reason for which there are no derivatives.
-    pub fn new(
-        model: &'a Model,
-        blocks: Vec<Sensitivity>,
-        (steps, last): (&'a PiecewiseInterpolant, Vec<f64>),
-        start: &[Vec<Slope>],
-        (scheme, implicit, sizes): (&Scheme, bool, &[f64]),
-    ) -> Result<Self, String> {
-        let workspace = Workspace::new(model);
-        let ode = SlopeOde::new(model, workspace, blocks);
-        let n_y = model.layout.n_y();
-        let mut y = steps.y[..n_y].to_vec();
-        y.resize(n_y * (1 + ABREAST * ode.blocks.len()), 0.0);
-        for (b, slopes) in start.iter().enumerate() {
-            let mut state = ode.state(b, &y);
-            state.iter_mut().zip(slopes).for_each(|(to, of)| to.slope = of.slope);
-            ode.put(b, &state, &mut y);
+    pub fn new(asked: AskedRun<'a>) -> Result<Self, String> {
+        let AskedRun { model, run, options, starts, sizes, .. } = &asked;
+        let steps = run.dense.as_ref().ok_or_else(|| "the run has no interpolant".to_string())?;
+        let scheme = &options.method;
+        if matches!(scheme, Scheme::GeneralizedAlpha(_)) {
+            let text =
+                "slopes do not follow steps of generalized_alpha; choose method auto or radau";
+            return Err(text.to_string());
         }
-        let span = (steps.t[0], steps.t[steps.t.len() - 1]);
-        let control = match implicit {
+        let (first, last) = (steps.t[0], steps.t[steps.t.len() - 1]);
+        if last < first {
+            return Err("the run goes backward in time".to_string());
+        }
+        let begins = run.phases.iter().map(|row| {
+            let t = run.trajectory.t[*row];
+            steps.t.partition_point(|end| *end < t)
+        });
+        let begins: Vec<usize> = begins.list();
+        let ode = Self::equations_of(&asked, 0)?;
+        let n_y = model.layout.n_y();
+        let mut y = vec![0.0; n_y * (1 + ABREAST * ode.blocks.len())];
+        for (b, slopes) in starts.0.iter().enumerate() {
+            let mut state = ode.state(b, &y);
+            state.iter_mut().zip(slopes).for_each(|(to, of)| *to = *of);
+            ode.put(b, &state, &mut y);
+            y.iter_mut().zip(slopes).for_each(|(y, of)| *y = of.value);
+        }
+        let control = match run.statistics.jacobians > 0 {
             true => {
                 let atol = Atol::Each(scales(model, sizes).iter().map(|x| CONTROLLED * x).list());
                 StepControl { atol, max_steps: Some(MOST), ..StepControl::new(CONTROLLED, 0.0) }
             }
-            false => StepControl::constant((span.1 - span.0).abs()),
+            false => StepControl::constant((last - first).abs()),
         };
         let stepper = match scheme {
-            Scheme::Rk45(_) => Rk45 { control }.start(&ode, span, &y),
-            Scheme::Rk4(_) => Rk4 { control }.start(&ode, span, &y),
-            _ => Dop853 { control }.start(&ode, span, &y),
+            Scheme::Rk45(_) => Rk45 { control }.start(&ode, (first, last), &y),
+            Scheme::Rk4(_) => Rk4 { control }.start(&ode, (first, last), &y),
+            _ => Dop853 { control }.start(&ode, (first, last), &y),
         };
         let stepper = stepper.map_err(|_| "the run has no steps".to_string())?;
-        Ok(Self { ode, steps, last, step: 0, y, stepper })
+        let last = last_state(model, run);
+        let (phase, held, since) = (0, 0, (first, y.clone()));
+        let late = starts.1.clone();
+        let mut slopes =
+            Self { asked, ode, steps, last, step: 0, y, stepper, begins, phase, held, since };
+        slopes.begin_phase(&late)?;
+        slopes.leave_behind(&late)?;
+        Ok(slopes)
     }
 
-    /// The state with its derivatives at a time that is not before the last one.
+    /// The equations of a phase.
+    fn equations_of(asked: &AskedRun<'a>, phase: usize) -> Result<SlopeOde, String> {
+        let setting = asked.run.settings.get(phase).cloned().unwrap_or_default();
+        let model = setting.model(asked.model).map_err(|_| impossible(phase))?;
+        let blocks = (asked.equations)(&model, &setting)?;
+        Ok(SlopeOde::new(Arc::new(model), blocks))
+    }
+
+    /// The time at which the motion changes next: a phase ends, or a switch changes its piece.
+    pub fn corner(&self) -> Option<f64> {
+        let steps = [self.begins.get(self.phase + 1).copied(), self.next_pieces()];
+        let next = steps.into_iter().flatten().min()?;
+        self.steps.t.get(next).copied()
+    }
+
+    /// The step at which other pieces of switches hold.
+    fn next_pieces(&self) -> Option<usize> {
+        self.asked.run.held.get(self.held + 1).map(|held| held.step)
+    }
+
+    /// Whether a phase ends at the present step.
+    fn ends_phase(&self, step: usize) -> bool {
+        self.begins.get(self.phase + 1) == Some(&step)
+    }
+
+    /// The state with its derivatives at a time that is not before the last one, and not beyond the next corner. At a
+    /// corner it is the state before the change.
     ///
     /// # Errors
     /// The reason for which there are no derivatives.
@@ -87,11 +151,11 @@ impl<'a> MotionSlopes<'a> {
             let mut y = self.advance(end)?;
             let n_y = self.ode.model.layout.n_y();
             self.step += 1;
-            let known = match self.step < ends {
-                true => &self.steps.y[self.step * n_y..][..n_y],
-                false => &self.last[..],
-            };
-            y[..n_y].copy_from_slice(known);
+            match self.step < ends {
+                _ if self.ends_phase(self.step) => {}
+                true => y[..n_y].copy_from_slice(&self.steps.y[self.step * n_y..][..n_y]),
+                false => y[..n_y].copy_from_slice(&self.last),
+            }
             self.project(end, &mut y)?;
             self.y = y;
         }
@@ -104,7 +168,8 @@ impl<'a> MotionSlopes<'a> {
     }
 
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), String> {
-        self.ode.project(t, y).map_err(|_| singular(t))
+        let late = vec![0.0; self.asked.sizes.len()];
+        self.ode.project((t, &late), y).map_err(|_| singular(t))
     }
 
     /// The state at a time within the present step.
@@ -119,10 +184,127 @@ impl<'a> MotionSlopes<'a> {
         Ok(stepper.y().to_vec())
     }
 
+    /// The functions whose zeros determine the time of the present corner.
+    ///
+    /// # Errors
+    /// The reason for which this time has no derivatives.
+    pub fn triggers(&self) -> Result<Vec<Trigger>, String> {
+        let AskedRun { model, run, options, .. } = &self.asked;
+        let (mut all, t) = (Vec::new(), self.steps.t[self.step]);
+        if self.next_pieces() == Some(self.step) {
+            all.extend(Trigger::of_switches(&run.held[self.held + 1]));
+        }
+        if self.ends_phase(self.step) {
+            let passage = run.passages.get(self.phase + 1);
+            let passage =
+                passage.ok_or_else(|| format!("the change at t = {t:.6} s is not known"))?;
+            if let Some(name) = self.ends_rebounds(passage) {
+                return Err(format!(
+                    "{name} comes to rest at t = {t:.6} s after impacts without end, which derivatives do not follow"
+                ));
+            }
+            if passage.replaced {
+                return Err(format!("an action replaces the state at t = {t:.6} s"));
+            }
+            all.extend(Trigger::of_events((model, &self.ode.model), options, &passage.fired)?);
+        }
+        Ok(all)
+    }
+
+    /// The contact with restitution that comes to rest in the next phase.
+    fn ends_rebounds(&self, passage: &Passage) -> Option<&str> {
+        let after = self.asked.run.settings.get(self.phase + 1)?;
+        let rebounds = |force: usize| match self.ode.model.forces[force].element.behaviour() {
+            Some(Behaviour::Impacts { restitution, .. }) => restitution > 0.0,
+            _ => false,
+        };
+        let was_free = |force: usize| !self.ode.model.forces[force].mode.holds();
+        let rests = |own: &&ForceMode| {
+            let rests = own.mode.holds() && was_free(own.force);
+            rebounds(own.force) && (rests || passage.collapsed)
+        };
+        let own = after.modes.iter().find(rests)?;
+        Some(&self.ode.model.forces[own.force].name)
+    }
+
+    /// Goes beyond the present corner, whose time has the derivatives `late`: the derivatives of the state jump by the
+    /// difference of the rates before and after (saltation).
+    ///
+    /// # Errors
+    /// The reason for which there are no derivatives beyond it.
+    pub fn turn(&mut self, late: &[f64]) -> Result<(), String> {
+        let t = self.steps.t[self.step];
+        let failed = |_| singular(t);
+        let rates = self.ode.rates(t, &self.y).map_err(failed)?;
+        self.ode.shift((&rates, late), 1.0, &mut self.y);
+        if self.next_pieces() == Some(self.step) {
+            self.held += 1;
+        }
+        match self.ends_phase(self.step) {
+            true => {
+                self.phase += 1;
+                self.begin_phase(late)?;
+            }
+            false => self.hold_pieces(),
+        }
+        self.leave_behind(late)
+    }
+
+    /// Changes the whole derivatives of the state at the present corner to those at a fixed time.
+    fn leave_behind(&mut self, late: &[f64]) -> Result<(), String> {
+        let t = self.steps.t[self.step];
+        let rates = self.ode.rates(t, &self.y).map_err(|_| singular(t))?;
+        self.ode.shift((&rates, late), -1.0, &mut self.y);
+        self.since = (t, self.y.clone());
+        Ok(())
+    }
+
+    /// Begins the present phase at a time with derivatives `late`, at which the state has its whole derivatives.
+    fn begin_phase(&mut self, late: &[f64]) -> Result<(), String> {
+        let Self { asked, steps, .. } = self;
+        let (t, n_y) = (steps.t[self.step], asked.model.layout.n_y());
+        let failed = |_| singular(t);
+        let setting = asked.run.settings.get(self.phase).cloned().unwrap_or_default();
+        if let Some(passage) = asked.run.passages.get(self.phase) {
+            for struck in &passage.impacts {
+                let setting = Setting { modes: Vec::new(), ..setting.clone() };
+                let open = setting.model(asked.model).map_err(|_| impossible(self.phase))?;
+                let closed = impacts::closed(&open, struck);
+                let mut blocks = (asked.equations)(&closed, &setting)?;
+                let at = (t, late);
+                impacts::strike(&self.ode, (&closed, &mut blocks), struck, at, &mut self.y)
+                    .map_err(failed)?;
+            }
+        }
+        if self.phase > 0 {
+            self.ode = Self::equations_of(asked, self.phase)?;
+        }
+        if let Some(known) = steps.y.get(self.step * n_y..(self.step + 1) * n_y) {
+            self.y[..n_y].copy_from_slice(known);
+        }
+        self.hold_pieces();
+        self.ode.anchor((t, late), &self.y);
+        self.ode.project((t, late), &mut self.y).map_err(failed)
+    }
+
+    fn hold_pieces(&mut self) {
+        let pieces = self.asked.run.held.get(self.held).map(|held| &held.pieces[..]);
+        self.ode.workspace.motions.pieces = pieces.unwrap_or_default().to_vec();
+    }
+
+    /// The time and the state at which the motion has changed last.
+    pub fn since(&self) -> (f64, &[f64]) {
+        (self.since.0, &self.since.1)
+    }
+
     /// The equations with derivatives.
-    pub fn ode(&mut self) -> &mut SlopeOde<'a> {
+    pub fn ode(&mut self) -> &mut SlopeOde {
         &mut self.ode
     }
+}
+
+fn impossible(phase: usize) -> String {
+    format!("phase {phase} of the run has no model")
 }
 
 fn singular(t: f64) -> String {
@@ -136,6 +318,19 @@ fn scales(model: &Model, sizes: &[f64]) -> Vec<f64> {
     let own = [&of_q[..], &of_q, &states, &works].concat();
     let slopes = sizes.iter().flat_map(|size| own.iter().map(move |scale| scale / size));
     own.iter().copied().chain(slopes).list()
+}
+
+/// The last state of a run, with its works.
+fn last_state(model: &Model, run: &Run) -> Vec<f64> {
+    let (of, layout) = (&run.trajectory, &model.layout);
+    let row = |table: &[f64], width: usize| table[table.len() - width..].to_vec();
+    let parts = [
+        row(&of.q, layout.n_q),
+        row(&of.v, layout.n_q),
+        row(&of.z, layout.n_z),
+        row(&of.works, layout.n_works),
+    ];
+    parts.concat()
 }
 
 /// A start as one row: q, v and z.

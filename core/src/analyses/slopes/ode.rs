@@ -1,28 +1,79 @@
 //! The equations of motion together with their derivatives, as one system of differential equations.
 
+use crate::elements::{Behaviour, Mode};
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
 use crate::equations::{forces, Gains, Workspace};
 use crate::integrate::Ode;
-use crate::math::{Dual, Real};
-use crate::model::Model;
+use crate::math::{Dual, Listed, Real};
+use crate::model::{ForceItem, Model};
 use crate::solve::Breakdown;
+use std::sync::Arc;
 
 /// y = (state, derivatives of the state by the first variable, by the second variable, and so on). A state is
 /// (q, v, z, works).
-pub(super) struct SlopeOde<'a> {
-    pub model: &'a Model,
+pub(super) struct SlopeOde {
+    pub model: Arc<Model>,
     pub workspace: Workspace,
     /// The equations with derivatives, for [`ABREAST`] variables each.
     pub blocks: Vec<Sensitivity>,
+    /// The derivatives of the equations with which friction sticks: it holds where it was when it came to rest, which
+    /// depends on the variables. One row for each block; empty if no friction sticks.
+    anchors: Vec<Vec<Slope>>,
     n_y: usize,
     /// The state with derivatives by the variables of one block.
     state: Vec<Slope>,
 }
 
-impl<'a> SlopeOde<'a> {
-    pub fn new(model: &'a Model, workspace: Workspace, blocks: Vec<Sensitivity>) -> Self {
-        let n_y = model.layout.n_y();
-        Self { model, workspace, blocks, n_y, state: vec![Slope::constant(0.0); n_y] }
+impl SlopeOde {
+    pub fn new(model: Arc<Model>, blocks: Vec<Sensitivity>) -> Self {
+        let (n_y, workspace) = (model.layout.n_y(), Workspace::new(&model));
+        let (state, anchors) = (vec![Slope::constant(0.0); n_y], Vec::new());
+        Self { model, workspace, blocks, anchors, n_y, state }
+    }
+
+    /// A time whose derivatives by the variables of block `b` are in `late`.
+    pub fn time(t: f64, late: &[f64], b: usize) -> Slope {
+        let mut at = Slope::constant(t);
+        at.slope.copy_from_slice(&late[ABREAST * b..][..ABREAST]);
+        at
+    }
+
+    /// Friction that sticks holds where it is in a state at a time with derivatives `late`.
+    pub fn anchor(&mut self, (t, late): (f64, &[f64]), y: &[f64]) {
+        let sticks = |item: &&ForceItem<f64>| {
+            matches!(item.element.behaviour(), Some(Behaviour::Sticks))
+                && matches!(item.mode, Mode::Holds(_))
+        };
+        let rows: Vec<usize> =
+            self.model.forces.iter().filter(sticks).filter_map(|item| item.held_row).list();
+        if rows.is_empty() {
+            return;
+        }
+        let n = self.model.layout.n_q;
+        for b in 0..self.blocks.len() {
+            let state = self.state(b, y);
+            let open = self.blocks[b].open(Self::time(t, late, b), &state[..n]);
+            let mut anchors = vec![Slope::constant(0.0); open.len()];
+            rows.iter().for_each(|row| anchors[*row] = open[*row]);
+            self.anchors.push(anchors);
+        }
+    }
+
+    /// The rates of a state, without those of its derivatives.
+    pub fn rates(&mut self, t: f64, y: &[f64]) -> Result<Vec<f64>, Breakdown> {
+        let mut dy = vec![0.0; y.len()];
+        self.rate(t, y, &mut dy)?;
+        dy.truncate(self.n_y);
+        Ok(dy)
+    }
+
+    /// Adds rates times the derivatives of a time, times `sign`, to the derivatives of a state.
+    pub fn shift(&self, (rates, late): (&[f64], &[f64]), sign: f64, y: &mut [f64]) {
+        for (j, late) in late.iter().enumerate().filter(|(_, late)| **late != 0.0) {
+            for (k, rate) in rates.iter().enumerate() {
+                y[self.n_y * (1 + j) + k] += sign * rate * late;
+            }
+        }
     }
 
     /// The state with derivatives by the variables of block `b`.
@@ -41,14 +92,17 @@ impl<'a> SlopeOde<'a> {
         }
     }
 
-    /// Makes the derivatives meet the derivatives of the constraints.
-    pub fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), Breakdown> {
+    /// Makes the derivatives meet the derivatives of the constraints, at a time with derivatives `late`.
+    pub fn project(&mut self, (t, late): (f64, &[f64]), y: &mut [f64]) -> Result<(), Breakdown> {
         let [q, v, z, _] = self.model.layout.split(&y[..self.n_y]);
-        self.workspace.accelerate(self.model, t, [q, v, z], Gains::default())?;
-        let (at, n) = (Slope::constant(t), self.model.layout.n_q);
+        self.workspace.accelerate(&self.model, t, [q, v, z], Gains::default())?;
+        let n = self.model.layout.n_q;
         for b in 0..self.blocks.len() {
-            let mut state = self.state(b, y);
-            let open = self.blocks[b].open(at, &state[..n]);
+            let (mut state, at) = (self.state(b, y), Self::time(t, late, b));
+            let mut open = self.blocks[b].open(at, &state[..n]);
+            if let Some(anchors) = self.anchors.get(b) {
+                open.iter_mut().zip(anchors).for_each(|(open, anchor)| *open -= *anchor);
+            }
             self.close(&open, &mut state[..n])?;
             let (q, rest) = state.split_at_mut(n);
             let opening = self.blocks[b].opening(at, q, &rest[..n]);
@@ -63,7 +117,7 @@ impl<'a> SlopeOde<'a> {
         for place in 0..ABREAST {
             let mut change = vec![0.0; x.len()];
             change.extend(open.iter().map(|open| -open.slope[place]));
-            self.workspace.solve(self.model, &mut change)?;
+            self.workspace.solve(&self.model, &mut change)?;
             x.iter_mut().zip(&change).for_each(|(x, dx)| x.slope[place] += dx);
         }
         Ok(())
@@ -81,7 +135,7 @@ fn gather(n_y: usize, b: usize, y: &[f64], state: &mut [Slope]) {
     }
 }
 
-impl Ode for SlopeOde<'_> {
+impl Ode for SlopeOde {
     type Stop = Breakdown;
 
     fn len(&self) -> usize {
@@ -89,7 +143,8 @@ impl Ode for SlopeOde<'_> {
     }
 
     fn rate(&mut self, t: f64, y: &[f64], dy: &mut [f64]) -> Result<(), Breakdown> {
-        let Self { model, workspace, blocks, n_y, state } = self;
+        let Self { model, workspace, blocks, n_y, state, .. } = self;
+        let model: &Model = model;
         let (layout, n_y, at) = (&model.layout, *n_y, Slope::constant(t));
         let [q, v, z, _] = layout.split(&y[..n_y]);
         workspace.accelerate(model, t, [q, v, z], Gains::default())?;

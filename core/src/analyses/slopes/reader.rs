@@ -2,12 +2,14 @@
 
 use super::driven;
 use super::motion::MotionSlopes;
+use super::triggers::Trigger;
 use crate::analyses::measures::Measure;
 use crate::analyses::signals::Seen;
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
 use crate::equations::Workspace;
 use crate::math::{Dual, Listed, Real};
 use crate::model::Model;
+use std::sync::Arc;
 
 /// How the derivatives of the states are found.
 pub(super) enum StateSlopes<'a> {
@@ -22,13 +24,28 @@ pub(super) type States<'a> = &'a dyn Fn(f64) -> Option<[Vec<f64>; 3]>;
 
 /// Reads measures with derivatives.
 pub(super) struct Reader<'a> {
-    pub model: &'a Model,
+    model: Arc<Model>,
     pub measures: Vec<Measure>,
-    pub course: StateSlopes<'a>,
+    course: StateSlopes<'a>,
+    /// The changes of the motion so far.
+    pub corners: Vec<Corner>,
     workspace: Workspace,
     /// The equations with derivatives by the time.
     over_time: Sensitivity,
 }
+
+/// A time at which the motion changes.
+pub(super) struct Corner {
+    /// Its derivatives by each variable.
+    pub late: Vec<f64>,
+    /// The measures before and after the change.
+    pub sides: [SlopeRow; 2],
+}
+
+/// Part of its value at the last change below which the rate of a function, over the time since, counts as zero.
+const GRAZES: f64 = 1e-6;
+/// Part of the largest derivative by which derivatives of one time may differ.
+const TOGETHER: f64 = 1e-9;
 
 /// The values of all measures at a time.
 #[derive(Clone, Debug)]
@@ -38,37 +55,121 @@ pub(super) struct SlopeRow {
     pub slopes: Vec<Vec<f64>>,
     /// The value, and its derivative by the time, for each measure.
     pub values: Vec<[f64; 2]>,
+    /// The number of variables of all blocks.
+    variables: usize,
 }
 
 impl<'a> Reader<'a> {
-    pub fn new(model: &'a Model, measures: Vec<Measure>, course: StateSlopes<'a>) -> Self {
-        let over_time = Sensitivity::new(model.lift());
-        Self { model, measures, course, workspace: Workspace::new(model), over_time }
+    pub fn new(model: &Arc<Model>, measures: Vec<Measure>, course: StateSlopes<'a>) -> Self {
+        let (workspace, over_time) = (Workspace::new(model), Sensitivity::new(model.lift()));
+        let (model, corners) = (Arc::clone(model), Vec::new());
+        let mut reader = Self { model, measures, course, corners, workspace, over_time };
+        reader.follow();
+        reader
     }
 
-    /// The measures at a time; times ascend from call to call.
+    /// Takes the model and the pieces of the present phase.
+    fn follow(&mut self) {
+        let StateSlopes::Dynamics(motion) = &mut self.course else { return };
+        let (ode, pieces) =
+            (motion.ode(), |workspace: &Workspace| workspace.motions.pieces.clone());
+        if !Arc::ptr_eq(&self.model, &ode.model) {
+            self.model = Arc::clone(&ode.model);
+            self.measures = self.measures.iter().map(|of| of.in_phase(&self.model)).list();
+            self.workspace = Workspace::new(&self.model);
+            self.over_time = Sensitivity::new(self.model.lift());
+        }
+        self.workspace.motions.pieces = pieces(&ode.workspace);
+    }
+
+    /// The measures at a time; times ascend from call to call. Where the motion changes, those after it.
     ///
     /// # Errors
     /// The reason for which there are no derivatives.
     pub fn at(&mut self, t: f64) -> Result<SlopeRow, String> {
-        let (model, layout) = (self.model, &self.model.layout);
-        let failed = |_| format!("the equations of motion have no unique solution at t = {t:.6} s");
-        let mut states: Vec<Vec<Slope>> = match &mut self.course {
+        while let StateSlopes::Dynamics(motion) = &mut self.course {
+            match motion.corner().filter(|corner| *corner <= t) {
+                Some(corner) => self.turn(corner)?,
+                None => break,
+            }
+        }
+        let states = self.states(t)?;
+        self.row(t, states, &[])
+    }
+
+    /// The state at the end of the motion with its whole derivatives, in blocks of variables, and the derivatives of
+    /// this time. The motion ends where the first measure is zero, if there are measures.
+    ///
+    /// # Errors
+    /// The reason for which there are no derivatives.
+    pub fn end(&mut self, t: f64) -> Result<(Vec<Vec<Slope>>, Vec<f64>), String> {
+        let late = self.at(t)?.late((0, &[0.0]), 0.0)?;
+        let mut states = self.states(t)?;
+        if let StateSlopes::Dynamics(motion) = &mut self.course {
+            let mut y = motion.at(t)?;
+            let ode = motion.ode();
+            let rates = ode.rates(t, &y).map_err(|_| format!("{t:.6} s is a singular position"))?;
+            ode.shift((&rates, &late), 1.0, &mut y);
+            states = (0..ode.blocks.len()).map(|b| ode.state(b, &y)).list();
+        }
+        Ok((states, late))
+    }
+
+    /// Goes beyond a change of the motion.
+    fn turn(&mut self, t: f64) -> Result<(), String> {
+        let states = self.states(t)?;
+        let StateSlopes::Dynamics(motion) = &mut self.course else { return Ok(()) };
+        let triggers = motion.triggers()?;
+        let (begun, start) = motion.since();
+        let (n_y, start) = (self.model.layout.n_y(), start.to_vec());
+        let first = self.over_time(begun, &start[..n_y], (true, &triggers));
+        let mut before = self.row(t, states, &triggers)?;
+        let first: Vec<f64> = match first {
+            Ok(values) => values[self.measures.len()..].iter().map(|x| x[0]).list(),
+            Err(_) => vec![0.0; triggers.len()],
+        };
+        let late = before.late((self.measures.len(), &first), t - begun)?;
+        let StateSlopes::Dynamics(motion) = &mut self.course else { return Ok(()) };
+        motion.turn(&late)?;
+        self.follow();
+        let states = self.states(t)?;
+        let after = self.row(t, states, &[])?;
+        before.slopes.truncate(self.measures.len());
+        before.values.truncate(self.measures.len());
+        self.corners.push(Corner { late, sides: [before, after] });
+        Ok(())
+    }
+
+    /// The states with derivatives by the variables of each block.
+    fn states(&mut self, t: f64) -> Result<Vec<Vec<Slope>>, String> {
+        match &mut self.course {
             StateSlopes::Dynamics(motion) => {
                 let y = motion.at(t)?;
                 let ode = motion.ode();
-                (0..ode.blocks.len()).map(|b| ode.state(b, &y)).list()
+                Ok((0..ode.blocks.len()).map(|b| ode.state(b, &y)).list())
             }
             StateSlopes::Driven(blocks, states) => {
                 let [q, v, z] = states(t).ok_or("its state is not known")?;
-                let of = |block| driven::state(model, block, t, [&q, &v, &z]);
-                blocks.iter_mut().map(of).collect::<Result<_, _>>()?
+                let of = |block| driven::state(&self.model, block, t, [&q, &v, &z]);
+                blocks.iter_mut().map(of).collect()
             }
-        };
+        }
+    }
+
+    /// The measures and the functions of triggers at a state.
+    fn row(
+        &mut self,
+        t: f64,
+        mut states: Vec<Vec<Slope>>,
+        triggers: &[Trigger],
+    ) -> Result<SlopeRow, String> {
+        let (model, layout) = (&*self.model, &self.model.layout);
+        let failed = |_| format!("the equations of motion have no unique solution at t = {t:.6} s");
         let values: Vec<f64> = states[0].iter().map(|x| x.value).list();
         let [q, v, z, _] = layout.split(&values);
         let solved = self.workspace.react(model, t, [q, v, z]);
-        let solves = self.measures.iter().any(|measure| measure.needs_solution(model));
+        let solves = self.measures.iter().any(|measure| measure.needs_solution(model))
+            || triggers.iter().any(|trigger| trigger.needs_solution(model));
         if solves {
             solved.map_err(failed)?;
         }
@@ -76,7 +177,7 @@ impl<'a> Reader<'a> {
             StateSlopes::Dynamics(motion) => &mut motion.ode().blocks,
             StateSlopes::Driven(blocks, _) => blocks,
         };
-        let mut slopes = vec![Vec::new(); self.measures.len()];
+        let mut slopes = vec![Vec::new(); self.measures.len() + triggers.len()];
         for (block, state) in blocks.iter_mut().zip(&mut states) {
             let at = Slope::constant(t);
             let [q, v, z, works] = layout.split(state);
@@ -84,21 +185,29 @@ impl<'a> Reader<'a> {
                 true => {
                     block.respond((model, &mut self.workspace), at, [q, v, z]).map_err(failed)?
                 }
-                false => block.place(q, v),
+                false => block.place(q, v, &self.workspace.motions.pieces),
             }
-            for (measure, slopes) in self.measures.iter().zip(&mut slopes) {
-                slopes.extend(read(measure, block, at, [q, v, z, works]).slope);
-            }
+            let all = read((&self.measures, triggers), block, at, [q, v, z, works]);
+            slopes.iter_mut().zip(all).for_each(|(slopes, found)| slopes.extend(found.slope));
         }
-        let values = self.over_time(t, &values, solves)?;
-        Ok(SlopeRow { t, slopes, values })
+        let values = self.over_time(t, &values, (solves, triggers))?;
+        Ok(SlopeRow { t, slopes, values, variables: ABREAST * states.len() })
     }
 
     /// The measures and their derivatives by the time.
-    fn over_time(&mut self, t: f64, y: &[f64], solves: bool) -> Result<Vec<[f64; 2]>, String> {
+    fn over_time(
+        &mut self,
+        t: f64,
+        y: &[f64],
+        (solves, triggers): (bool, &[Trigger]),
+    ) -> Result<Vec<[f64; 2]>, String> {
         let Self { model, workspace, over_time, measures, .. } = self;
+        let model: &Model = model;
         let failed = |_| format!("the equations of motion have no unique solution at t = {t:.6} s");
-        let [_, v, z, works] = model.layout.split(y);
+        let [q, v, z, works] = model.layout.split(y);
+        if solves {
+            workspace.react(model, t, [q, v, z]).map_err(failed)?;
+        }
         let mut dz = vec![0.0; z.len()];
         workspace.state_rates(model, t, &mut dz);
         let powers = workspace.powers(model, v);
@@ -115,24 +224,56 @@ impl<'a> Reader<'a> {
         let [q, v, z, works] = model.layout.split(&state);
         match solves {
             true => over_time.respond((model, workspace), at, [q, v, z]).map_err(failed)?,
-            false => over_time.place(q, v),
+            false => over_time.place(q, v, &workspace.motions.pieces),
         }
-        let all = measures.iter().map(|measure| {
-            let found = read(measure, over_time, at, [q, v, z, works]);
-            [found.value, found.slope[0]]
-        });
-        Ok(all.list())
+        let all = read((measures, triggers), over_time, at, [q, v, z, works]);
+        Ok(all.iter().map(|found| [found.value, found.slope[0]]).list())
     }
 }
 
-/// A measure at a state whose accelerations and multipliers are known.
+impl SlopeRow {
+    /// The derivatives of the time at which the functions from index `first` on become zero. `before` are their values
+    /// at the last change, a time `since` ago.
+    ///
+    /// # Errors
+    /// They only touch zero, or several become zero at one time that do not stay together.
+    fn late(&self, (first, before): (usize, &[f64]), since: f64) -> Result<Vec<f64>, String> {
+        let (t, mut agreed) = (self.t, None::<Vec<f64>>);
+        for ((slopes, values), before) in
+            self.slopes.iter().zip(&self.values).skip(first).zip(before)
+        {
+            let rate = values[1];
+            if !((rate * since).abs() >= GRAZES * before.abs() && rate != 0.0) {
+                return Err(format!(
+                    "what changes the motion at t = {t:.6} s only touches its limit"
+                ));
+            }
+            let own: Vec<f64> = slopes.iter().map(|slope| -slope / rate).list();
+            let size = own.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+            let near = |(a, b): (&f64, &f64)| (a - b).abs() <= TOGETHER * size;
+            match &agreed {
+                Some(known) if !known.iter().zip(&own).all(near) => {
+                    return Err(format!(
+                        "two changes happen together at t = {t:.6} s, and their order may change"
+                    ))
+                }
+                _ => agreed = Some(own),
+            }
+        }
+        Ok(agreed.unwrap_or_else(|| vec![0.0; self.variables]))
+    }
+}
+
+/// The measures and the functions of triggers at a state whose accelerations and multipliers are known.
 fn read(
-    measure: &Measure,
+    (measures, triggers): (&[Measure], &[Trigger]),
     block: &Sensitivity,
     t: Slope,
     [q, v, z, works]: [&[Slope]; 4],
-) -> Slope {
+) -> Vec<Slope> {
     let (motions, solved) = (&block.motions, [&block.a[..], &block.lam]);
     let seen = Seen { t, state: [q, v, z], works, motions, solved, so_far: None };
-    measure.value_at(&block.model, &seen)
+    let of_measures = measures.iter().map(|measure| measure.value_at(&block.model, &seen));
+    let of_triggers = triggers.iter().map(|trigger| trigger.value(&block.model, &seen));
+    of_measures.chain(of_triggers).list()
 }

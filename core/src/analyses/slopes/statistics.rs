@@ -1,12 +1,14 @@
 //! Statistics of measures with derivatives.
 
-use super::reader::{Reader, SlopeRow};
+use super::reader::{Corner, Reader, SlopeRow};
 use crate::analyses::statistics::{self, Extreme, BAND};
 use crate::analyses::sweep::{Series, Statistic};
 use crate::math::{Listed, Ordered};
 
 /// Distance of the times that give the second derivative at an extreme value, in steps of the run.
 const BESIDE: f64 = 1.0 / 32.0;
+/// Accuracy of the time of an extreme value, in steps of the run.
+const SEARCHED: f64 = 1e-4;
 /// Part of the span of a measure by which it may change within a step at the time of its extreme value.
 const FLAT: f64 = 1e-4;
 /// Values that differ by less than this fraction are equally large.
@@ -39,6 +41,8 @@ pub(super) enum SlopePlan {
 pub(super) struct RunTimes<'a> {
     pub outputs: &'a [f64],
     pub steps: &'a [f64],
+    /// The times at which the motion changes.
+    pub changes: &'a [f64],
 }
 
 impl RunTimes<'_> {
@@ -56,10 +60,21 @@ impl RunTimes<'_> {
         }
     }
 
-    /// RunTimes around an extreme value.
+    /// A time, or the time of a change of the motion if it is there up to the accuracy of the search.
+    fn at_change(&self, t: f64) -> f64 {
+        let next = self.changes.partition_point(|change| *change < t);
+        let beside = [next.checked_sub(1), Some(next)].into_iter().flatten();
+        let near = |change: &f64| (change - t).abs() <= SEARCHED * self.step(*change);
+        beside.filter_map(|k| self.changes.get(k).copied()).find(near).unwrap_or(t)
+    }
+
+    /// Times around an extreme value.
     fn beside(&self, t: f64) -> [f64; 4] {
         let last = self.outputs.len() - 1;
-        let room = (t - self.outputs[0]).min(self.outputs[last] - t) / 2.0;
+        let next = self.changes.partition_point(|change| *change <= t);
+        let before = next.checked_sub(1).map_or(self.outputs[0], |k| self.changes[k]);
+        let after = self.changes.get(next).copied().unwrap_or(self.outputs[last]);
+        let room = (t - before).min(after - t) / 2.0;
         let d = (BESIDE * self.step(t)).min(room);
         [t - 2.0 * d, t - d, t + d, t + 2.0 * d]
     }
@@ -68,7 +83,13 @@ impl RunTimes<'_> {
 impl SlopePlan {
     /// The plan of a statistic.
     pub fn of(series: &Series<'_>, statistic: Statistic, times: RunTimes<'_>) -> Self {
-        let extreme = |place: usize| series.known(place).ok().cloned();
+        let extreme = |place: usize| {
+            let (mut most, mut rivals) = series.known(place).ok().cloned()?;
+            most.t = times.at_change(most.t);
+            rivals.iter_mut().for_each(|t| *t = times.at_change(*t));
+            rivals.retain(|t| *t != most.t);
+            Some((most, rivals))
+        };
         let missing = || Self::None("the number itself is not known".to_string());
         let last = times.outputs[times.outputs.len() - 1];
         match statistic {
@@ -150,18 +171,19 @@ impl SlopePlan {
         match self {
             Self::None(reason) => Err(reason.clone()),
             Self::Zero => Ok(vec![0.0; rows.variables]),
-            Self::Final(_) => Ok(rows.final_slopes(k)),
+            Self::Final(_) => rows.final_slopes(k),
             Self::Extreme(found, rivals) => {
-                let slopes = agreed(rows, k, (found.t, rivals), times)?.of_value;
+                let slopes = agreed(rows, k, (found, rivals), times)?.of_value;
                 let sign = if is_peak && found.value < 0.0 { -1.0 } else { 1.0 };
                 Ok(slopes.iter().map(|slope| sign * slope).list())
             }
-            Self::TimeOf(found, rivals) => Ok(agreed(rows, k, (found.t, rivals), times)?.of_time),
-            Self::Mean => Ok(mean(rows, k, times, |x| [x, 1.0])),
+            Self::TimeOf(found, rivals) => Ok(agreed(rows, k, (found, rivals), times)?.of_time),
+            Self::Mean => mean(rows, k, times, |x| [x, 1.0]),
             Self::Rms => {
-                let squares = times.outputs.iter().map(|t| at(*t).values[k][0].powi(2)).list();
+                let of_square = mean(rows, k, times, |x| [x * x, 2.0 * x])?;
+                let squares = times.outputs.iter().map(|t| Ok(at(*t)?.values[k][0].powi(2)));
+                let squares = squares.collect::<Result<Vec<f64>, String>>()?;
                 let size = statistics::mean(times.outputs, &squares).sqrt();
-                let of_square = mean(rows, k, times, |x| [x * x, 2.0 * x]);
                 match size == 0.0 {
                     true => {
                         Err("the value is zero, where a magnitude has no derivative".to_string())
@@ -170,12 +192,12 @@ impl SlopePlan {
                 }
             }
             Self::Settling([t, most, last]) => {
-                let [entry, peak, end] = [t, most, last].map(|t| at(*t));
+                let [entry, peak, end] = [at(*t)?, at(*most)?, at(*last)?];
+                let last = rows.final_slopes(k)?;
                 let away = |row: &SlopeRow| (row.values[k][0] - end.values[k][0]).signum();
                 let rate = away(entry) * entry.values[k][1];
                 let of = |j: usize| {
-                    let last = rows.final_slopes(k)[j];
-                    let by = |row: &SlopeRow| away(row) * (row.slopes[k][j] - last);
+                    let by = |row: &SlopeRow| away(row) * (row.slopes[k][j] - last[j]);
                     (BAND * by(peak) - by(entry)) / rate
                 };
                 Ok((0..rows.variables).map(of).list())
@@ -186,9 +208,9 @@ impl SlopePlan {
 
 /// The derivatives of the mean of a function of measure `k` over the outputs, whose last time may move. `of` gives the
 /// function and its derivative.
-fn mean(rows: &SlopeRows, k: usize, times: RunTimes<'_>, of: impl Fn(f64) -> [f64; 2]) -> Vec<f64> {
+fn mean(rows: &SlopeRows, k: usize, times: RunTimes<'_>, of: impl Fn(f64) -> [f64; 2]) -> Found {
     let t = times.outputs;
-    let all: Vec<&SlopeRow> = t.iter().map(|t| rows.at(*t)).list();
+    let all: Vec<&SlopeRow> = t.iter().map(|t| rows.at(*t)).collect::<Result<_, _>>()?;
     let values: Vec<[f64; 2]> = all.iter().map(|row| of(row.values[k][0])).list();
     let (last, whole) = (t.len() - 1, statistics::mean(t, &values.iter().map(|x| x[0]).list()));
     // what the last panel grows by while the end moves
@@ -204,7 +226,7 @@ fn mean(rows: &SlopeRows, k: usize, times: RunTimes<'_>, of: impl Fn(f64) -> [f6
         let slopes = all.iter().zip(&values).map(|(row, x)| x[1] * row.slopes[k][j]).list();
         statistics::mean(t, &slopes) + grows * rows.end[j]
     };
-    (0..rows.variables).map(slope).list()
+    Ok((0..rows.variables).map(slope).list())
 }
 
 /// The derivatives of an extreme value and of its time.
@@ -218,11 +240,19 @@ impl Stationary {
     ///
     /// # Errors
     /// The measure is not stationary there: it has a kink, which may move.
-    fn at(rows: &SlopeRows, k: usize, t: f64, times: RunTimes<'_>) -> Result<Self, String> {
-        let (row, beside) = (rows.at(t), times.beside(t));
+    fn at(
+        rows: &SlopeRows,
+        k: usize,
+        (t, value): (f64, f64),
+        times: RunTimes<'_>,
+    ) -> Result<Self, String> {
+        if let Some(corner) = rows.corner(t) {
+            return Ok(Self { of_value: corner.whole(k, value), of_time: corner.late.clone() });
+        }
+        let (row, beside) = (rows.at(t)?, times.beside(t));
         let fixed = || Self { of_value: row.slopes[k].clone(), of_time: vec![0.0; rows.variables] };
         if times.outputs.last() == Some(&t) {
-            return Ok(Self { of_value: rows.final_slopes(k), of_time: rows.end.clone() });
+            return Ok(Self { of_value: rows.final_slopes(k)?, of_time: rows.end.clone() });
         }
         let d = beside[2] - t;
         let change = (row.values[k][1] * times.step(t)).abs();
@@ -232,10 +262,10 @@ impl Stationary {
         if change > FLAT * rows.span[k] {
             return Err(format!("the value has a kink at t = {t:.6} s, which may move"));
         }
-        let sample = |of: &dyn Fn(&SlopeRow) -> f64| {
-            let [a, b, c, e] = beside.map(|t| of(rows.at(t)));
-            Quartic::through([a, b, of(row), c, e])
-        };
+        let [a, b, c, e] = beside.map(|t| rows.at(t));
+        let [a, b, c, e] = [a?, b?, c?, e?];
+        let sample =
+            |of: &dyn Fn(&SlopeRow) -> f64| Quartic::through([of(a), of(b), of(row), of(c), of(e)]);
         let rate = sample(&|row| row.values[k][1]);
         let second = rate.slope(0.0);
         if second == 0.0 {
@@ -286,13 +316,14 @@ impl Quartic {
 fn agreed(
     rows: &SlopeRows,
     k: usize,
-    (t, rivals): (f64, &[f64]),
+    (found, rivals): (&Extreme, &[f64]),
     times: RunTimes<'_>,
 ) -> Result<Stationary, String> {
-    let first = Stationary::at(rows, k, t, times)?;
+    let (t, value) = (found.t, found.value);
+    let first = Stationary::at(rows, k, (t, value), times)?;
     let size = first.of_value.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
     for rival in rivals {
-        let other = Stationary::at(rows, k, *rival, times)?;
+        let other = Stationary::at(rows, k, (*rival, value), times)?;
         let both = first.of_value.iter().zip(&other.of_value);
         if both.into_iter().any(|(a, b)| (a - b).abs() > ALIKE * size) {
             return Err(format!(
@@ -311,6 +342,25 @@ pub(super) struct SlopeRows {
     span: Vec<f64>,
     /// The derivatives of the time at which a condition ends the run; zero if its end is given.
     end: Vec<f64>,
+    /// The changes of the motion.
+    corners: Vec<Corner>,
+    /// Why there are no derivatives after the rows.
+    failed: String,
+}
+
+impl Corner {
+    fn t(&self) -> f64 {
+        self.sides[0].t
+    }
+
+    /// The derivatives of the value of measure `k` at the change, whose time may move, on the side with this value.
+    fn whole(&self, k: usize, value: f64) -> Vec<f64> {
+        let away = |row: &SlopeRow| (row.values[k][0] - value).abs();
+        let [before, after] = &self.sides;
+        let row = if away(before) <= away(after) { before } else { after };
+        let moves = |(slope, late): (&f64, &f64)| slope + row.values[k][1] * late;
+        row.slopes[k].iter().zip(&self.late).map(moves).list()
+    }
 }
 
 impl SlopeRows {
@@ -325,16 +375,27 @@ impl SlopeRows {
     ) -> Result<Self, String> {
         t.order_by(f64::total_cmp);
         t.dedup();
-        let mut rows = Vec::with_capacity(t.len());
+        let (mut rows, mut failed) = (Vec::with_capacity(t.len()), String::new());
         for t in t {
-            let mut row = reader.at(t)?;
-            row.slopes.iter_mut().for_each(|of| of.truncate(variables));
-            rows.push(row);
+            match reader.at(t) {
+                Ok(row) => rows.push(row),
+                Err(reason) if rows.is_empty() => return Err(reason),
+                Err(reason) => {
+                    failed = reason;
+                    break;
+                }
+            }
         }
+        let mut corners = std::mem::take(&mut reader.corners);
+        let sides = corners.iter_mut().flat_map(|corner| &mut corner.sides);
+        for row in rows.iter_mut().chain(sides) {
+            row.slopes.iter_mut().for_each(|of| of.truncate(variables));
+        }
+        corners.iter_mut().for_each(|corner| corner.late.truncate(variables));
         let span = (0..reader.measures.len())
             .map(|k| rows.iter().fold(0.0_f64, |most, row| most.max(row.values[k][0].abs())));
         let (span, end) = (span.list(), vec![0.0; variables]);
-        Ok(Self { rows, variables, span, end })
+        Ok(Self { rows, variables, span, end, corners, failed })
     }
 
     /// The rows of a run that ends where measure `k` becomes zero. The last of them is at the end.
@@ -342,7 +403,9 @@ impl SlopeRows {
     /// # Errors
     /// The function of the condition is stationary there, so that its end has no derivative.
     pub fn ending_at_zero_of(self, k: usize) -> Result<Self, String> {
-        let Some(last) = self.rows.last() else { return Ok(self) };
+        let Some(last) = self.rows.last().filter(|_| self.failed.is_empty()) else {
+            return Ok(self);
+        };
         let rate = last.values[k][1];
         let end: Vec<f64> = last.slopes[k].iter().map(|slope| -slope / rate).list();
         match end.iter().all(|x| x.is_finite()) {
@@ -352,10 +415,16 @@ impl SlopeRows {
     }
 
     /// The derivatives of the last value of measure `k`, whose time may move.
-    fn final_slopes(&self, k: usize) -> Vec<f64> {
-        let Some(last) = self.rows.last() else { return Vec::new() };
+    fn final_slopes(&self, k: usize) -> Found {
+        let last = self.at(f64::INFINITY)?;
         let moves = |(slope, end): (&f64, &f64)| slope + last.values[k][1] * end;
-        last.slopes[k].iter().zip(&self.end).map(moves).list()
+        Ok(last.slopes[k].iter().zip(&self.end).map(moves).list())
+    }
+
+    /// The change of the motion at a time.
+    fn corner(&self, t: f64) -> Option<&Corner> {
+        let place = self.corners.partition_point(|corner| corner.t() < t);
+        self.corners.get(place).filter(|corner| corner.t() == t)
     }
 
     /// The last value of measure `k`.
@@ -363,9 +432,17 @@ impl SlopeRows {
         self.rows.last().map_or(f64::NAN, |row| row.values[k][0])
     }
 
-    fn at(&self, t: f64) -> &SlopeRow {
+    /// The row at a time that was read.
+    ///
+    /// # Errors
+    /// The reason for which there are no derivatives.
+    fn at(&self, t: f64) -> Result<&SlopeRow, String> {
         let place = self.rows.partition_point(|row| row.t < t);
-        &self.rows[place.min(self.rows.len() - 1)]
+        match self.rows.get(place) {
+            Some(row) => Ok(row),
+            None if self.failed.is_empty() => Ok(&self.rows[self.rows.len() - 1]),
+            None => Err(self.failed.clone()),
+        }
     }
 }
 

@@ -116,9 +116,12 @@ def _left(plan: Plan, one: Wanted) -> str:
 
 
 def _fields(case: Case) -> dict[str, float]:
-    """The values of the formulas in the analyses, by their places."""
+    """The values of the formulas in the analyses, by their places, but those of parameters."""
     core, found = case.model.compile().core, dict[str, float]()
-    ahead: list[tuple[str, Any]] = list(case.analyses.items())
+    ahead: list[tuple[str, Any]] = [
+        (name, {key: entry for key, entry in of.items() if key != "parameters"})
+        for name, of in case.analyses.items()
+    ]
     while ahead:
         place, of = ahead.pop()
         if isinstance(of, Mapping):

@@ -26,6 +26,7 @@
 
 use super::super::failure::Failure;
 use super::super::model_cache::ModelCache;
+use super::super::passages::Struck;
 use super::super::redundant_rows::workspace_at;
 use super::place::{mode_of, with_modes, StateAt};
 use crate::elements::{Behaviour, Mode};
@@ -49,6 +50,8 @@ type Restitutions<'r> = &'r dyn Fn(usize) -> f64;
 pub(super) struct Hits {
     pub hits: Vec<usize>,
     pub impulses: Vec<f64>,
+    /// The contacts of each impact, in order.
+    pub impacts: Vec<Vec<Struck>>,
     /// Contacts at which a sequence of impacts without end has been replaced by its limit.
     pub ended: Vec<usize>,
 }
@@ -62,6 +65,8 @@ struct Impact {
     /// The velocities after the impact, and the energy that it takes.
     after: Vec<f64>,
     loss: f64,
+    /// The contact whose restitution all have; None if each has its own.
+    common: Option<usize>,
 }
 
 /// The approaches of a contact at one time: their number, and the rates of all gaps at the last of them.
@@ -118,6 +123,7 @@ pub(super) fn resolve(
             }
         };
         impact.apply(model, place, &mut found.impulses);
+        found.impacts.push(impact.struck(plastic || endless));
         found.hits.extend(&impact.contacts);
         if plastic || endless {
             found.ended = if plastic { Vec::new() } else { impact.contacts };
@@ -231,7 +237,7 @@ fn hit(
     let closed = model.in_modes(&modes).allowing_redundancy();
     let [q, v, z] = place.state(model);
     let mut workspace = workspace_at((&closed, &ModelCache::default()), t, [q, v, z]);
-    let least = approach.iter().map(|(k, _)| own(*k)).fold(1.0, f64::min);
+    let least = contacts.iter().copied().min_by(|a, b| own(*a).total_cmp(&own(*b)));
     let kinetic = |v: &[f64]| energy::kinetic(model, &Motions::at(&model.layout, q, v));
     let before = kinetic(v);
     let mut rates = vec![0.0; closed.layout.n_rows];
@@ -240,7 +246,7 @@ fn hit(
     for common in [false, true] {
         for ((k, rate), side) in approach.iter().zip(&sides) {
             let row = closed.forces[*k].held_row.expect("it holds");
-            let e = if common { least } else { own(*k) };
+            let e = own(least.filter(|_| common).unwrap_or(*k));
             // the gap of an upper limit grows as its coordinate falls
             rates[row] = side * (1.0 + e) * rate;
         }
@@ -249,16 +255,29 @@ fn hit(
         let after: Vec<f64> = v.iter().zip(&dv).map(|(v, dv)| v + dv).list();
         let loss = before - kinetic(&after);
         let grows = loss < -1e-13 * before;
-        outcome = Some((after, found, loss));
+        outcome = Some((after, found, loss, least.filter(|_| common)));
         if !grows {
             break;
         }
     }
-    let (after, found, loss) = outcome.expect("it was computed");
-    Ok(Impact { contacts, closed, found, after, loss })
+    let (after, found, loss, common) = outcome.expect("it was computed");
+    Ok(Impact { contacts, closed, found, after, loss, common })
 }
 
 impl Impact {
+    /// Its contacts, without restitution if it is plastic.
+    fn struck(&self, plastic: bool) -> Vec<Struck> {
+        let of = |force: &usize| {
+            let restitution = (!plastic).then(|| self.common.unwrap_or(*force));
+            let side = match self.closed.forces[*force].mode {
+                Mode::Holds(side) => side,
+                _ => 0.0,
+            };
+            Struck { force: *force, side, restitution }
+        };
+        self.contacts.iter().map(of).list()
+    }
+
     /// The impulse with which each of its contacts pushes.
     fn pushes(&self) -> Vec<f64> {
         let push = |k: &usize| match (self.closed.forces[*k].mode, self.closed.forces[*k].held_row)

@@ -17,13 +17,15 @@ mod mode_events;
 mod place;
 
 pub use at_rest::{can_stick, friction_modes};
-pub(super) use mode_events::{watched_mode, ModeFunction, COLLAPSE, GRAZE};
+pub(in crate::analyses) use mode_events::{watched_mode, ModeFunction};
+pub(super) use mode_events::{COLLAPSE, GRAZE};
 pub(super) use place::{has_mode, is_contact, unit as gap_unit, StateAt};
 
 use crate::math::Listed;
 use place::{largest, with_modes};
 
 use super::failure::{Failure, Reason};
+use super::passages::Passage;
 use crate::elements::Behaviour;
 use crate::model::{ForceMode, Model};
 use dependence::holders;
@@ -38,6 +40,8 @@ pub(super) struct Settled {
     pub hits: Vec<usize>,
     /// The impulses of the joints and contacts, shape (n_multipliers).
     pub impulses: Vec<f64>,
+    /// The impacts.
+    pub passage: Passage,
     /// Other changes: the force, and the place of its event.
     pub changed: Vec<(usize, usize)>,
 }
@@ -55,9 +59,10 @@ pub(super) fn settle(
 ) -> Result<Settled, Box<Failure>> {
     let touching = impacts::touching(model, place, before);
     let fastest = largest(place.state(model)[1]);
-    let Hits { hits, impulses, ended } = impacts::resolve(model, place, &touching)?;
+    let Hits { hits, impulses, impacts, ended } = impacts::resolve(model, place, &touching)?;
     let jumped = (!hits.is_empty()).then_some(fastest);
     let modes = holding::decide(model, place, before, (&touching, fired, jumped))?;
+    let passage = Passage { impacts, collapsed: !ended.is_empty(), ..Passage::default() };
     let mut changed = ended.into_iter().map(|k| (k, COLLAPSE)).list();
     for (old, new) in before.iter().zip(&modes) {
         let sticks = matches!(model.forces[old.force].element.behaviour(), Some(Behaviour::Sticks));
@@ -67,7 +72,7 @@ pub(super) fn settle(
             _ => {}
         }
     }
-    Ok(Settled { modes, hits, impulses, changed })
+    Ok(Settled { modes, hits, impulses, passage, changed })
 }
 
 /// Refuses a start beyond a stop or contact with restitution, and a stop whose coordinate is held by drivers.

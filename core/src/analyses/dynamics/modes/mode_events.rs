@@ -3,7 +3,7 @@
 use super::place::drivers_rest;
 use crate::analyses::signals::Seen;
 use crate::elements::{Behaviour, Mode};
-use crate::equations::forces::{self, Acting};
+use crate::equations::forces;
 use crate::integrate::{Bounds, Direction};
 use crate::math::Real;
 use crate::model::{DriverSet, Model};
@@ -68,21 +68,35 @@ impl ModeFunction {
 
     /// The value of the function at a state.
     pub fn value(self, model: &Model, seen: &Seen<'_>) -> f64 {
-        let acting = Acting { z: seen.state[2], lam: Some(seen.solved[1]), t: seen.t };
         let rests = |drivers| drivers_rest(model, drivers, seen.t, seen.state[0]);
         match self {
             Self::Threshold { held_by, .. } if rests(held_by) => -1.0,
+            Self::Begins { at, held_by, .. } if rests(held_by) => at,
+            _ => self.while_moving(model, seen),
+        }
+    }
+
+    /// The value of the function at a state in which no drivers stand still.
+    pub fn while_moving<S: Real>(self, model: &Model<S>, seen: &Seen<'_, S>) -> S {
+        let acting = seen.acting();
+        let threshold = |force: usize| forces::threshold(model, force, seen.motions, acting);
+        match self {
             Self::Threshold { force, sign, slack, .. } => {
-                sign * forces::threshold(model, force, seen.motions, acting) + slack
+                S::constant(sign) * threshold(force) + S::constant(slack)
             }
             Self::Reserve { force, slack } => {
-                forces::reserve(model, force, seen.motions, acting) + slack
+                forces::reserve(model, force, seen.motions, acting) + S::constant(slack)
             }
-            Self::Begins { at, held_by, .. } if rests(held_by) => at,
-            Self::Begins { force, at, .. } => {
-                at - forces::threshold(model, force, seen.motions, acting).abs()
-            }
-            Self::Never => 1.0,
+            Self::Begins { force, at, .. } => S::constant(at) - threshold(force).abs(),
+            Self::Never => S::constant(1.0),
+        }
+    }
+
+    /// Whether drivers that stand still decide its value.
+    pub fn is_held(self) -> bool {
+        match self {
+            Self::Threshold { held_by, .. } | Self::Begins { held_by, .. } => !held_by.is_empty(),
+            Self::Reserve { .. } | Self::Never => false,
         }
     }
 }
