@@ -15,17 +15,19 @@ STEPS = (1e-3, 2e-3, 4e-3)
 MOST = 1e-6
 
 
-def differences(case: kp.Case, g: kp.Gradient) -> tuple[Floats, Floats]:
+def differences(
+    case: kp.Case, g: kp.Gradient, steps: tuple[float, ...] = STEPS
+) -> tuple[Floats, Floats]:
     """The slopes from runs beside the case, and how far the last extrapolation changed them."""
     found = np.full((2, *g.jacobian.shape), np.nan)
     for of, (name, x) in enumerate(g.variables.items()):
         size = abs(x) or 1.0
-        levels = [x + sign * step * size for step in STEPS for sign in (-1.0, 1.0)]
+        levels = [x + sign * step * size for step in steps for sign in (-1.0, 1.0)]
         held = {other: [value] * len(levels) for other, value in g.variables.items()}
         swept = kp.sweep(case, {**held, name: levels}, list(g.measures), design="paired")
         for k, measure in enumerate(g.measures):
             below, above = swept[measure][::2], swept[measure][1::2]
-            first = (above - below) / (2.0 * np.array(STEPS) * size)
+            first = (above - below) / (2.0 * np.array(steps) * size)
             second = (4.0 * first[:-1] - first[1:]) / 3.0
             found[0, k, of] = (16.0 * second[0] - second[1]) / 15.0
             found[1, k, of] = abs(found[0, k, of] - second[0])

@@ -107,10 +107,10 @@ impl Sensitivity {
                 }
             }
             let relative = if change == 0.0 { 0.0 } else { change / size };
-            if !self.depends || relative <= SETTLED || turn > 2 && relative >= 0.5 * last {
-                break;
+            if !self.depends || relative <= SETTLED {
+                return Ok(());
             }
-            if turn == MOST {
+            if turn > 2 && relative >= 0.5 * last || turn == MOST {
                 break;
             }
             last = relative;
