@@ -122,6 +122,10 @@ impl<P: RungeKutta, Y: Ode> Stepper<Y, Y::Stop> for ExplicitStepper<P> {
         &(if self.accepted.is_some() { y_new } else { y }).as_flattened()[..self.n]
     }
 
+    fn next_size(&self) -> Option<f64> {
+        self.size.as_ref().map(|size| size.size)
+    }
+
     fn restart_until(&mut self, t: f64, y: &[f64], t_end: f64) -> Result<(), Cause<Y::Stop>> {
         let controlled = self.work.tolerances.controlled;
         self.grid = self.control.restart((t, t_end), (y, self.n), controlled)?;

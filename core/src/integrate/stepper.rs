@@ -41,6 +41,11 @@ pub trait Stepper<Y, E> {
     /// State reached.
     fn y(&self) -> &[f64];
 
+    /// The size of the next trial step, if the error control has chosen one.
+    fn next_size(&self) -> Option<f64> {
+        None
+    }
+
     /// Continues from a state `y` at a time `t` within the last step, for instance after an event that changes the
     /// velocities. The solution then has two states at this time: the end of the last step and `y`.
     ///

@@ -1,8 +1,7 @@
 //! The derivatives of a motion along the steps of its run.
 //!
-//! A step is repeated from its recorded start, so that the motion itself is that of the run. Where the run took
-//! implicit steps, which are too long for an explicit method, the equations and their derivatives are integrated
-//! together with an error control of their own.
+//! The equations and their derivatives are integrated together, with an error control of their own, between ends of steps
+//! of the run. There the motion takes the states of the run.
 
 use super::impacts;
 use super::ode::SlopeOde;
@@ -11,16 +10,18 @@ use crate::analyses::assemble::StartSlopes;
 use crate::analyses::dynamics::{Options, Passage, PiecewiseInterpolant, Run, Scheme, Setting};
 use crate::elements::Behaviour;
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
-use crate::integrate::{Atol, BoxedStepper, Dop853, ExplicitMethod, Rk4, Rk45, StepControl};
+use crate::integrate::{Atol, BoxedStepper, Dop853, ExplicitMethod, StepControl};
 use crate::math::Listed;
 use crate::model::{column_scales, usual_energy, ForceMode, Model, WORKS};
 use crate::solve::Breakdown;
 use std::sync::Arc;
 
-/// Tolerances of states and derivatives along implicit steps, relative to their scales.
-const CONTROLLED: f64 = 1e-10;
-/// Largest number of steps within an implicit step.
-const MOST: usize = 100_000;
+/// Largest and least tolerance of states and derivatives, relative to each.
+const TOLERANCES: [f64; 2] = [1e-7, 1e-12];
+/// Absolute tolerance, as a part of the relative one and of the scale.
+const ABSOLUTE: f64 = 1e-3;
+/// Largest number of steps.
+const MOST: usize = 1_000_000;
 
 /// The run of forward dynamics whose derivatives are asked for.
 pub(super) struct AskedRun<'a> {
@@ -43,9 +44,11 @@ pub(super) struct MotionSlopes<'a> {
     steps: &'a PiecewiseInterpolant,
     /// The state at the end of the run.
     last: Vec<f64>,
-    /// The index of the step that begins at the present state.
+    /// The index of the step that begins at the last state that was taken from the run, and of the one that begins at the
+    /// next.
     step: usize,
-    /// The state at the start of this step, with its derivatives.
+    next: usize,
+    /// The last state that was taken from the run, with its derivatives.
     y: Vec<f64>,
     stepper: BoxedStepper<SlopeOde, Breakdown>,
     /// The first step of each phase, and the present phase.
@@ -89,24 +92,33 @@ impl<'a> MotionSlopes<'a> {
             ode.put(b, &state, &mut y);
             y.iter_mut().zip(slopes).for_each(|(y, of)| *y = of.value);
         }
-        let control = match run.statistics.jacobians > 0 {
-            true => {
-                let atol = Atol::Each(scales(model, sizes).iter().map(|x| CONTROLLED * x).list());
-                StepControl { atol, max_steps: Some(MOST), ..StepControl::new(CONTROLLED, 0.0) }
-            }
-            false => StepControl::constant((last - first).abs()),
+        let [loose, tight] = TOLERANCES;
+        let rtol = scheme.control().rtol.clamp(tight, loose);
+        let atol = scales(model, sizes).iter().map(|x| ABSOLUTE * rtol * x).list();
+        let control = StepControl {
+            atol: Atol::Each(atol),
+            max_steps: Some(MOST),
+            ..StepControl::new(rtol, 0.0)
         };
-        let stepper = match scheme {
-            Scheme::Rk45(_) => Rk45 { control }.start(&ode, (first, last), &y),
-            Scheme::Rk4(_) => Rk4 { control }.start(&ode, (first, last), &y),
-            _ => Dop853 { control }.start(&ode, (first, last), &y),
-        };
+        let stepper = Dop853 { control }.start(&ode, (first, last), &y);
         let stepper = stepper.map_err(|_| "the run has no steps".to_string())?;
         let last = last_state(model, run);
         let (phase, held, since) = (0, 0, (first, y.clone()));
         let late = starts.1.clone();
-        let mut slopes =
-            Self { asked, ode, steps, last, step: 0, y, stepper, begins, phase, held, since };
+        let mut slopes = Self {
+            asked,
+            ode,
+            steps,
+            last,
+            step: 0,
+            next: 0,
+            y,
+            stepper,
+            begins,
+            phase,
+            held,
+            since,
+        };
         slopes.begin_phase(&late)?;
         slopes.leave_behind(&late)?;
         Ok(slopes)
@@ -143,45 +155,58 @@ impl<'a> MotionSlopes<'a> {
     /// # Errors
     /// The reason for which there are no derivatives.
     pub fn at(&mut self, t: f64) -> Result<Vec<f64>, String> {
-        let ends = self.steps.t.len() - 1;
-        while self.step + 1 < ends && t >= self.steps.t[self.step + 1]
-            || self.step + 1 == ends && t == self.steps.t[ends]
-        {
-            let end = self.steps.t[self.step + 1];
-            let mut y = self.advance(end)?;
-            let n_y = self.ode.model.layout.n_y();
-            self.step += 1;
-            match self.step < ends {
-                _ if self.ends_phase(self.step) => {}
-                true => y[..n_y].copy_from_slice(&self.steps.y[self.step * n_y..][..n_y]),
-                false => y[..n_y].copy_from_slice(&self.last),
+        while t > self.steps.t[self.step] {
+            if t < self.stepper.t() {
+                let Self { stepper, ode, .. } = self;
+                stepper.prepare_interpolant(ode).map_err(|_| singular(t))?;
+                let mut y = stepper.y().to_vec();
+                if let Some(step) = stepper.last_step() {
+                    step.interpolate(t, &mut y);
+                }
+                self.project(t, &mut y)?;
+                return Ok(y);
+            } else if self.stepper.t() == self.steps.t[self.next] {
+                self.arrive()?;
+            } else {
+                let failed = |_| singular(self.steps.t[self.step]);
+                self.stepper.step(&mut self.ode).map_err(failed)?;
             }
-            self.project(end, &mut y)?;
-            self.y = y;
         }
-        if self.step == ends || t == self.steps.t[self.step] {
-            return Ok(self.y.clone());
+        Ok(self.y.clone())
+    }
+
+    /// Takes the state of the run at the end of steps.
+    fn arrive(&mut self) -> Result<(), String> {
+        let (n_y, end) = (self.ode.model.layout.n_y(), self.steps.t[self.next]);
+        let mut y = self.stepper.y().to_vec();
+        self.step = self.next;
+        match self.step + 1 < self.steps.t.len() {
+            _ if self.ends_phase(self.step) => {}
+            true => y[..n_y].copy_from_slice(&self.steps.y[self.step * n_y..][..n_y]),
+            false => y[..n_y].copy_from_slice(&self.last),
         }
-        let mut y = self.advance(t)?;
-        self.project(t, &mut y)?;
-        Ok(y)
+        self.project(end, &mut y)?;
+        self.y = y;
+        self.go_on()
+    }
+
+    /// Continues from the present state, to the end of as many steps of the run as fit into one step.
+    fn go_on(&mut self) -> Result<(), String> {
+        let (t, ends) = (&self.steps.t, self.steps.t.len() - 1);
+        let (begin, last) = (t[self.step], self.corner().unwrap_or(t[ends]));
+        if self.step == ends || begin == last {
+            return Ok(());
+        }
+        let size = self.stepper.next_size().unwrap_or(0.0);
+        let most = t.partition_point(|end| *end <= last && end - begin <= size);
+        self.next = most.saturating_sub(1).max(self.step + 1);
+        let again = self.stepper.restart_until(begin, &self.y, t[self.next]);
+        again.map_err(|_| singular(begin))
     }
 
     fn project(&mut self, t: f64, y: &mut [f64]) -> Result<(), String> {
         let late = vec![0.0; self.asked.sizes.len()];
         self.ode.project((t, &late), y).map_err(|_| singular(t))
-    }
-
-    /// The state at a time within the present step.
-    fn advance(&mut self, t: f64) -> Result<Vec<f64>, String> {
-        let Self { ode, stepper, .. } = self;
-        let begin = self.steps.t[self.step];
-        let failed = |_| singular(begin);
-        stepper.restart_until(begin, &self.y, t).map_err(failed)?;
-        while stepper.t() != t {
-            stepper.step(ode).map_err(failed)?;
-        }
-        Ok(stepper.y().to_vec())
     }
 
     /// The functions whose zeros determine the time of the present corner.
@@ -256,7 +281,7 @@ impl<'a> MotionSlopes<'a> {
         let rates = self.ode.rates(t, &self.y).map_err(|_| singular(t))?;
         self.ode.shift((&rates, late), -1.0, &mut self.y);
         self.since = (t, self.y.clone());
-        Ok(())
+        self.go_on()
     }
 
     /// Begins the present phase at a time with derivatives `late`, at which the state has its whole derivatives.
