@@ -2,15 +2,23 @@
 
 from __future__ import annotations
 
+import json
 import statistics
+import sys
+import tempfile
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from pathlib import Path
+from typing import Any
 
 import kempe as kp
 
 ROOT = Path(__file__).parents[1]
-REPEATS = 9
+sys.path.insert(0, str(ROOT / "examples"))
+import n_four_bar  # noqa: E402
+
+REPEATS = 7
+COUNTS = (1, 2, 4, 8, 16)
 
 
 def seconds(work: Callable[[], object]) -> float:
@@ -23,17 +31,50 @@ def seconds(work: Callable[[], object]) -> float:
     return statistics.median(found)
 
 
+def with_variables(case: kp.Case) -> tuple[kp.Case, list[str]]:
+    """The case with masses and inertias as parameters, and their names."""
+    tree: dict[str, Any] = json.loads(json.dumps(case.tree()))
+    parameters = tree.setdefault("parameters", {})
+    names = []
+    for body, entry in tree["bodies"].items():
+        for key in ("mass", "inertia"):
+            if isinstance(entry, Mapping) and isinstance(entry.get(key), float | int):
+                names.append(f"{key}_{body}")
+                parameters[names[-1]], entry[key] = entry[key], names[-1]
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "case.json"
+        path.write_text(json.dumps(tree), encoding="utf-8")
+        return kp.load(path), names
+
+
+def row_of_windows(count: int) -> kp.Case:
+    """The N-four-bar mechanism for one second, before its first singular position."""
+    guess = {f"coupler{k}.angle": 0 for k in range(count)}
+    start = {"set": {"crank0.angle": "90*deg", "crank0.omega": -1}, "guess": guess}
+    run = kp.Dynamics(t_end=0.3, output_step=0.01)
+    return kp.Case(n_four_bar.windows(count), start, [run])
+
+
 def main() -> None:
-    """Print the ratios for the four-bar linkage, by number of variables."""
-    case = kp.load(ROOT / "examples" / "four_bar.toml")
-    names = ["k", "c", "L2", "G", "L1", "L3", "crank.angle"]
-    measure = ["rocker.angle.final"]
-    run = seconds(lambda: kp.sweep(case, {"k": [1e6]}, measure, workers=1))
-    print(f"run: {1e3 * run:.2f} ms")
-    for count in (1, 3, 4, 7):
-        chosen = names[:count]
-        taken = seconds(lambda chosen=chosen: kp.gradient(case, measure, chosen))  # type: ignore[misc]
-        print(f"{count} variables: {taken / run:.1f} runs")
+    """Print the ratios by number of variables."""
+    four_bar = kp.load(ROOT / "examples" / "four_bar.toml")
+    first = ["k", "c", "L2", "G", "L1", "L3", "crank.angle"]
+    flagship, masses = with_variables(four_bar)
+    cases = {
+        "four-bar linkage": (flagship, first + masses, "rocker.angle.final"),
+        "squeezer": (
+            *with_variables(kp.load(ROOT / "examples" / "squeezer.toml")),
+            "K1.angle.final",
+        ),
+        "100 windows": (*with_variables(row_of_windows(100)), "crank0.angle.final"),
+    }
+    for title, (case, names, measure) in cases.items():
+        level = {names[0]: [kp.gradient(case, [measure], names[:1]).variables[names[0]]]}
+        run = seconds(lambda: kp.sweep(case, level, [measure], workers=1))  # noqa: B023
+        print(f"{title}: run {1e3 * run:.2f} ms")
+        for count in [count for count in COUNTS if count <= len(names)]:
+            taken = seconds(lambda: kp.gradient(case, [measure], names[:count]))  # noqa: B023
+            print(f"  {count:2} variables: {taken / run:5.1f} runs")
 
 
 if __name__ == "__main__":

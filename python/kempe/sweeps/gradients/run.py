@@ -71,14 +71,31 @@ def gradient(
     plan = planned(case, measures, variables, analysis)
     row = np.array(list(present(plan.case, plan.names).values()))
     values, slopes, remarks = _slopes(plan, row)
-    for of in range(len(row)):
-        fields = _fields(plan.case)
-        moved = sorted(fields.items() - _fields(_changed(plan, row, of)).items())
-        if moved:
-            slopes[:, of] = np.nan
-            told = f"{moved[0][0]} depends on it, and such slopes are not available yet"
-            remarks |= {(k, of): told for k in range(len(values))}
+    for of, place in _moved(plan, row).items():
+        slopes[:, of] = np.nan
+        told = f"{place} depends on it, and such slopes are not available yet"
+        remarks |= {(k, of): told for k in range(len(values))}
     return Gradient(plan, row, values, slopes, remarks)
+
+
+def _moved(plan: Plan, row: Floats) -> dict[int, str]:
+    """A formula of an analysis for each variable on which one depends, by index of the variable.
+
+    Raises:
+        ModelError: a variable cannot be changed a little.
+    """
+    fields = _fields(plan.case)
+    try:  # all at once, which is cheaper
+        if _fields(_changed(plan, row, range(len(row)))) == fields:
+            return {}
+    except ModelError:
+        pass
+    found = {}
+    for of in range(len(row)):
+        moved = sorted(fields.items() - _fields(_changed(plan, row, [of])).items())
+        if moved:
+            found[of] = moved[0][0]
+    return found
 
 
 def _slopes(plan: Plan, row: Floats) -> tuple[Floats, Floats, dict[tuple[int, int], str]]:
@@ -135,8 +152,8 @@ def _fields(case: Case) -> dict[str, float]:
     return found
 
 
-def _changed(plan: Plan, row: Floats, k: int) -> Case:
-    """The case with a small change of a variable.
+def _changed(plan: Plan, row: Floats, of: Sequence[int]) -> Case:
+    """The case with a small change of some variables.
 
     Raises:
         ModelError: the mechanism exists neither above nor below, such as for a number of teeth; the
@@ -145,7 +162,9 @@ def _changed(plan: Plan, row: Floats, k: int) -> Case:
     faults = []
     for sign in (1.0, -1.0):
         changed = row.copy()
-        changed[k] += sign * _CHANGE * (abs(row[k]) or 1.0)
+        for k in of:
+            # different parts, so that two changes do not cancel
+            changed[k] += sign * _CHANGE * (1.0 + 0.37 * k) * (abs(row[k]) or 1.0)
         try:
             with warnings.catch_warnings():
                 warnings.simplefilter("ignore")
@@ -155,7 +174,7 @@ def _changed(plan: Plan, row: Floats, k: int) -> Case:
             faults.append(reason(str(error.args[0]), origin_of(plan.case.model)))
         else:
             return case
-    name = plan.names[k]
+    name = plan.names[of[0]]
     raise ModelError(
         f"variables.{name}: it has no derivative, because it cannot be changed a little: "
         f"{faults[0]}",
