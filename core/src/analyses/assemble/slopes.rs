@@ -9,7 +9,7 @@ use crate::analyses::State;
 use crate::elements::Followed;
 use crate::equations::kinematics::Motions;
 use crate::equations::sensitivity::{Sensitivity, Slope, ABREAST};
-use crate::equations::{at, dense, mass};
+use crate::equations::{at, dense, mass, Workspace};
 use crate::expression::{Symbol, Tape};
 use crate::math::{Dual, Listed, Real};
 use crate::model::{Blueprint, Model, Value};
@@ -99,6 +99,9 @@ impl StartNumbers<'_> {
         let (model, mut over) = self.holding(of_positions(&self.request.set), Tape::of);
         let constant: Vec<Slope> = q.iter().map(|q| Slope::constant(*q)).list();
         let phi = over.open(Slope::constant(self.t), &constant);
+        if let Some(found) = determined(&model, (self.t, q), q, &phi) {
+            return Ok(found);
+        }
         let motions = Motions::at_rest(&model.layout, q);
         let jacobian = dense::jacobian(&model, &motions, self.t);
         implicit(jacobian, q, &phi)
@@ -112,6 +115,9 @@ impl StartNumbers<'_> {
         let open = over.opening(Slope::constant(t0), q, &constant);
         let values: Vec<f64> = q.iter().map(|q| q.value).list();
         let motions = Motions::at(&model.layout, &values, v);
+        if let Some(found) = determined(&model, (t0, &values), v, &open) {
+            return Ok(found);
+        }
         let jacobian = dense::jacobian(&model, &motions, t0);
         let (n, m) = (v.len(), model.layout.n_rows);
         // Mᵢ (v - w) + Φ_qᵀ σ = 0, where w are the rates that are approached
@@ -150,6 +156,32 @@ impl StartNumbers<'_> {
         found.truncate(n);
         Ok(found)
     }
+}
+
+/// The derivatives of coordinates or rates `x` that the constraints of a model determine at a position, from the
+/// derivatives of the constraints at constant x. None if the constraints do not determine them clearly; the general
+/// elimination then finds out why. The factors are those of the equations of motion.
+pub fn determined(
+    model: &Model,
+    (t, q): (f64, &[f64]),
+    x: &[f64],
+    residual: &[Slope],
+) -> Option<Vec<Slope>> {
+    if model.layout.n_rows != x.len() {
+        return None;
+    }
+    let mut workspace = Workspace::new(model);
+    let mut found: Vec<Slope> = x.iter().map(|x| Slope::constant(*x)).list();
+    for k in 0..ABREAST {
+        let rates = residual.iter().map(|r| -r.slope[k]).list();
+        let [change, _] = workspace.jump(model, t, q, &rates).ok()?;
+        let lost = workspace.matrix.cancellation().is_some_and(|(_, ratio)| ratio < DEPENDENT);
+        if lost || workspace.matrix.regularised() || change.iter().any(|x| !x.is_finite()) {
+            return None;
+        }
+        found.iter_mut().zip(&change).for_each(|(to, x)| to.slope[k] = *x);
+    }
+    Some(found)
 }
 
 /// The derivatives of the solution `x` of r(x, p) = 0, from ∂r/∂x and the derivatives of r at constant x.
