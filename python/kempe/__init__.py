@@ -154,6 +154,9 @@ if TYPE_CHECKING:
     from kempe.sweeps import tolerances as tolerances
     from kempe.sweeps.gradients import Gradient as Gradient
     from kempe.sweeps.gradients import gradient as gradient
+    from kempe.sweeps.problems import Optimum as Optimum
+    from kempe.sweeps.problems import Path as Path
+    from kempe.sweeps.problems import optimize as optimize
     from kempe.sweeps.studies import Study as Study
     from kempe.sweeps.studies import study as study
 
@@ -202,6 +205,8 @@ _HOME = {
     "ModesResult": "analyses.modes",
     "Motion": "results.motion",
     "NoStabilization": "analyses.options",
+    "Optimum": "sweeps.problems",
+    "Path": "sweeps.problems",
     "PointStiffness": "analyses.equilibrium",
     "Projection": "analyses.options",
     "RK4": "analyses.options",
@@ -236,6 +241,7 @@ _HOME = {
     "load_solution": "results.archive",
     "modes": "analyses.modes",
     "mobility": "analyses.mobility",
+    "optimize": "sweeps.problems",
     "player": "draw.player",
     "plot": "",
     "report": "",

@@ -22,6 +22,8 @@ from kempe.cli.gradient import EXAMPLES as GRADIENT_EXAMPLES
 from kempe.cli.gradient import gradient as gradient_command
 from kempe.cli.new import EXAMPLES as NEW_EXAMPLES
 from kempe.cli.new import new as new_command
+from kempe.cli.optimize import EXAMPLES as OPTIMIZE_EXAMPLES
+from kempe.cli.optimize import optimize as optimize_command
 from kempe.cli.plot import EXAMPLES as PLOT_EXAMPLES
 from kempe.cli.plot import plot as plot_command
 from kempe.cli.report import EXAMPLES as REPORT_EXAMPLES
@@ -70,6 +72,7 @@ app.command("report", epilog=REPORT_EXAMPLES)(report_command)
 app.command("study", epilog=STUDY_EXAMPLES)(study_command)
 app.command("sweep", epilog=SWEEP_EXAMPLES)(sweep_command)
 app.command("gradient", epilog=GRADIENT_EXAMPLES)(gradient_command)
+app.command("optimize", epilog=OPTIMIZE_EXAMPLES)(optimize_command)
 app.command("studio", epilog=STUDIO_EXAMPLES)(studio_command)
 app.command("new", epilog=NEW_EXAMPLES)(new_command)
 app.command("schema", epilog=SCHEMA_EXAMPLES)(schema_command)

@@ -17,6 +17,7 @@ from kempe.plot.gradients import gradient
 from kempe.plot.measures import measure
 from kempe.plot.mechanism import mechanism
 from kempe.plot.modes import mode_shape
+from kempe.plot.optimization import optimization
 from kempe.plot.page import Page, save, select
 from kempe.plot.pages import pages
 from kempe.plot.pin_loads import pin_load
@@ -48,6 +49,7 @@ __all__ = [
     "measure",
     "mechanism",
     "mode_shape",
+    "optimization",
     "pages",
     "path",
     "pin_load",

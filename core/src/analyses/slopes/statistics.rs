@@ -363,7 +363,8 @@ impl SlopeRows {
         self.rows.last().map_or(f64::NAN, |row| row.values[k][0])
     }
 
-    fn at(&self, t: f64) -> &SlopeRow {
+    /// The row at a time that was read.
+    pub fn at(&self, t: f64) -> &SlopeRow {
         let place = self.rows.partition_point(|row| row.t < t);
         &self.rows[place.min(self.rows.len() - 1)]
     }
