@@ -79,6 +79,7 @@ class Case:
         analyses: Sequence[Analysis] | Mapping[str, Mapping[str, Any]] = (),
         sweep: Mapping[str, Any] | None = None,
         gradient: Mapping[str, Any] | None = None,
+        *,
         optimize: Mapping[str, Any] | None = None,
         fit: Mapping[str, Any] | None = None,
     ) -> None:

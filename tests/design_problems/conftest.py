@@ -14,7 +14,8 @@ gravity = [0, -9.81]
 k = "0.3 kN/m"                                  # to be chosen
 h = "200 mm"                                    # of its anchor
 mass = "1.2 kg"
-weight = "9.81*mass"                            # N
+g = "9.81 m/s^2"
+weight = "g*mass"
 
 [bodies.ground]
 points = { O = [0, 0], H = [0, "h"] }

@@ -9,7 +9,7 @@ from design_problems.machines import SCALES, four_bar, lamp, path_generator, sli
 @pytest.mark.parametrize("scale", SCALES)
 def test_counterweights_of_berkof_and_lowen(scale: tuple[float, float, float]) -> None:
     case, exact = four_bar(*scale)
-    bounds = {name: (-3 * scale[1], 3 * scale[1]) for name in exact}
+    bounds = dict.fromkeys(exact, (-3 * scale[1], 3 * scale[1]))
     best = kp.optimize(case, bounds, target={"shake_x.rms": 0, "shake_y.rms": 0})
     assert dict(best.values) == pytest.approx(exact, rel=1e-6)
     assert best.success and best.runs < 60
@@ -54,7 +54,7 @@ def test_lamp_by_evolution_and_as_a_target() -> None:
 POINTS = [(3, 3), (2.759, 3.363), (2.372, 3.663), (1.890, 3.862), (1.355, 3.943)]
 ANGLES = np.radians([30, 45, 60, 75, 90])
 ORDER = ["r2 <= r3", "r3 <= r4", "r4 <= r1", "r1 + r2 <= r3 + r4"]
-BOUNDS = {name: (0.5, 50) for name in ("r1", "r2", "r3", "r4")} | {
+BOUNDS = dict.fromkeys(("r1", "r2", "r3", "r4"), (0.5, 50)) | {
     "rcx": (-50, 50), "rcy": (-50, 50),
 }  # fmt: skip
 

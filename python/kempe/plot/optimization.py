@@ -6,6 +6,7 @@ import warnings
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from kempe.base.arrays import Floats
 from kempe.base.display_units import display
@@ -45,7 +46,7 @@ def optimization(result: Optimum) -> Figure:
     with style.applied():
         above = _ABOVE + _VARIABLE * max(0, len(result.values) - 3)
         made = style.figure(above + _BELOW)
-        upper, lower = made.subfigures(2, 1, height_ratios=(above, _BELOW))
+        upper, lower = made.subfigures(2, 1, height_ratios=(above, _BELOW))  # type: ignore[misc]
         left, right = upper.subplots(1, 2, width_ratios=(1.0, 1.1))
         _history(left, result)
         _candidates(right, result)
@@ -93,11 +94,11 @@ def _history(axes: Axes, result: Optimum) -> None:
         axes.set_yscale("log")
     axes.set_xlabel("run")
     axes.set_ylabel(f"{style.short(result.label, 40)} / {unit.symbol or '1'}")
-    axes.xaxis.get_major_locator().set_params(integer=True)
+    axes.xaxis.get_major_locator().set_params(integer=True)  # type: ignore[call-arg]
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2)
 
 
-def _best_so_far(objective: Floats, holds: Floats, sign: float) -> Floats:
+def _best_so_far(objective: Floats, holds: NDArray[np.bool_], sign: float) -> Floats:
     """The best objective up to each run; NaN before the first run within the limits."""
     held = np.where(holds, sign * objective, np.inf)
     best = sign * np.minimum.accumulate(held)

@@ -93,8 +93,8 @@ def optimize(
         analysis=analysis,
     )
     problem = problem_of(case, asked)
-    count = whole(asked["starts"] or 1, "starts", 1, MOST_STARTS)
-    seed = whole(asked["seed"] or 0, "seed", 0, 2**31)
+    count = whole(1 if asked["starts"] is None else asked["starts"], "starts", 1, MOST_STARTS)
+    seed = whole(0 if asked["seed"] is None else asked["seed"], "seed", 0, 2**31)
     check_method(problem, asked["method"])
     scipy()
     storage = None if out is None else Storage(out, _key(problem, asked))
@@ -126,8 +126,9 @@ def _solved(runs: Evaluations, method: str | None, how: tuple[int, int, int]) ->
         return None
 
     with ThreadPoolExecutor(min(count, workers)) as pool:
-        futures = [pool.submit(search, start) for start in range(count)]
+        futures: list[Future[Run | None]] = []
         try:
+            futures += [pool.submit(search, start) for start in range(count)]
             found = [run for future in futures if (run := future.result()) is not None]
         except BaseException as error:
             runs.stop.set()
