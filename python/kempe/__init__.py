@@ -152,6 +152,9 @@ if TYPE_CHECKING:
     from kempe.sweeps import Tolerances as Tolerances
     from kempe.sweeps import sweep as sweep
     from kempe.sweeps import tolerances as tolerances
+    from kempe.sweeps.fits import Data as Data
+    from kempe.sweeps.fits import Fit as Fit
+    from kempe.sweeps.fits import fit as fit
     from kempe.sweeps.gradients import Gradient as Gradient
     from kempe.sweeps.gradients import gradient as gradient
     from kempe.sweeps.problems import Optimum as Optimum
@@ -174,6 +177,7 @@ _HOME = {
     "Configurations": "analyses.options",
     "ConfigurationsResult": "analyses.configurations",
     "DOP853": "analyses.options",
+    "Data": "sweeps.fits",
     "Dynamics": "analyses.options",
     "Energy": "results.energy",
     "Equilibrium": "analyses.options",
@@ -182,6 +186,7 @@ _HOME = {
     "EventWarning": "results.events",
     "FileError": "errors",
     "FunctionWarning": "model.functions",
+    "Fit": "sweeps.fits",
     "GeneralizedAlpha": "analyses.options",
     "Gradient": "sweeps.gradients",
     "HHT": "analyses.options",
@@ -232,6 +237,7 @@ _HOME = {
     "equations": "results.matrices.equations",
     "equilibrium": "analyses.equilibrium",
     "errors": "",
+    "fit": "sweeps.fits",
     "gradient": "sweeps.gradients",
     "inverse_dynamics": "analyses.kinematics",
     "kinematics": "analyses.kinematics",

@@ -14,7 +14,7 @@
 //! | `write_value`, `write_json`, `write_toml`, `write` | [`Case`] → text |
 //! | `faults` | faults of the start and the analyses that can be found only with the model |
 //! | `run` | the analyses of a case in their order |
-//! | `schema`, `schema_requests`, `json_literal`, `catalogue` | the JSON Schema; the declarations of the possible contents of a case |
+//! | `schema`, `schema_parts`, `schema_requests`, `json_literal`, `catalogue` | the JSON Schema; the declarations of the possible contents of a case |
 
 mod bodies;
 mod body_builder;
@@ -36,6 +36,7 @@ mod problems;
 mod report;
 mod run;
 mod schema;
+mod schema_parts;
 mod schema_requests;
 mod start;
 mod start_builder;

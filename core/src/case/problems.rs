@@ -114,7 +114,7 @@ fn bounds(report: &mut ProblemList, node: &Node) {
 /// `"free"` or `[least, largest]`, each of which may be `"free"`.
 fn range(report: &mut ProblemList, node: &Node) {
     let is_free = |node: &Node| matches!(&node.data, Data::Text(word) if word == FREE);
-    let expected = "\"free\", or a list [least, largest] in which \"free\" is no bound";
+    let expected = "\"free\", or a list [least, largest] in which \"free\" means no bound";
     match &node.data {
         Data::List(items) if items.len() == 2 => {
             for (k, item) in items.iter().enumerate().filter(|(_, item)| !is_free(item)) {

@@ -5,6 +5,7 @@ use serde_json::{Map, Value};
 use super::check::REDUNDANCY;
 use super::json_literal::json;
 use super::names::{HIDDEN, MOST_CHARACTERS, RESERVED};
+use super::schema_parts::{closed, described, object};
 use super::schema_requests as requests;
 use super::FORMAT_VERSION;
 use crate::analyses::options::Declaration;
@@ -57,11 +58,6 @@ fn by_name(value: Value, except: &[&str]) -> Value {
     json!({ "type": "object", "propertyNames": names(except), "additionalProperties": value })
 }
 
-pub(super) fn described(mut schema: Value, words: &str) -> Value {
-    schema["description"] = json!(words);
-    schema
-}
-
 fn sections() -> Map<String, Value> {
     let start = json!({ "set": by_coordinate(), "guess": by_coordinate() });
     let (ground, typed): (Vec<_>, Vec<_>) =
@@ -111,13 +107,6 @@ fn tables() -> Value {
     })
 }
 
-pub(super) fn object(value: Value) -> Map<String, Value> {
-    match value {
-        Value::Object(entries) => entries,
-        _ => Map::new(),
-    }
-}
-
 /// `body.coordinate`, or a table for each body.
 fn by_coordinate() -> Value {
     json!({
@@ -155,20 +144,6 @@ fn one_of<'t>(tables: impl IntoIterator<Item = &'t Table>, absent: Option<&str>)
         choice["required"] = json!(["type"]);
     }
     closed(properties, choice)
-}
-
-/// An object with exactly these properties. The schema `besides` applies only if all keys are known. An unknown key,
-/// which may be misspelt, is then the only error.
-pub(super) fn closed(properties: Map<String, Value>, besides: Value) -> Value {
-    let keys = properties.keys().map(String::as_str).list();
-    let known = json!({ "propertyNames": { "enum": keys } });
-    json!({
-        "type": "object",
-        "properties": properties,
-        "additionalProperties": false,
-        "if": known,
-        "then": besides,
-    })
 }
 
 /// One of the `known` sets of options.

@@ -4,7 +4,7 @@ use serde_json::Value;
 
 use super::json_literal::json;
 use super::problems::{FREE, LOSSES, METHODS};
-use super::schema::{closed, described, object};
+use super::schema_parts::{closed, described, object};
 use super::sweep::{DESIGNS, SCALES};
 
 /// The words about `analysis`.

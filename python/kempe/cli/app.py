@@ -18,6 +18,8 @@ from kempe.cli.animate import animate as animate_command
 from kempe.cli.check import EXAMPLES as CHECK_EXAMPLES
 from kempe.cli.check import check as check_command
 from kempe.cli.failure import exit_code, print_error, print_json
+from kempe.cli.fit import EXAMPLES as FIT_EXAMPLES
+from kempe.cli.fit import fit as fit_command
 from kempe.cli.gradient import EXAMPLES as GRADIENT_EXAMPLES
 from kempe.cli.gradient import gradient as gradient_command
 from kempe.cli.new import EXAMPLES as NEW_EXAMPLES
@@ -73,6 +75,7 @@ app.command("study", epilog=STUDY_EXAMPLES)(study_command)
 app.command("sweep", epilog=SWEEP_EXAMPLES)(sweep_command)
 app.command("gradient", epilog=GRADIENT_EXAMPLES)(gradient_command)
 app.command("optimize", epilog=OPTIMIZE_EXAMPLES)(optimize_command)
+app.command("fit", epilog=FIT_EXAMPLES)(fit_command)
 app.command("studio", epilog=STUDIO_EXAMPLES)(studio_command)
 app.command("new", epilog=NEW_EXAMPLES)(new_command)
 app.command("schema", epilog=SCHEMA_EXAMPLES)(schema_command)

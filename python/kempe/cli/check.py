@@ -71,7 +71,8 @@ def check(  # noqa: PLR0917 - typer distinguishes options by their annotations
             console.print(Text(f"  {line}"))
         _refuse_undetermined(case, state, freedom)
         check_beginnings(case, state)
-        asked = _sweep(case, found) + _gradient(case, found) + _optimize(case, found)
+        asked = _sweep(case, found) + _gradient(case, found)
+        asked += _optimize(case, found) + _fit(case, found)
     analyses = ", ".join(f"{name} ({entry['type']})" for name, entry in case.analyses.items())
     console.print()
     name = "standard input" if str(file) == STDIN else file
@@ -115,6 +116,17 @@ def _optimize(case: Case, found: dict[str, Any]) -> str:
         "subject_to": [limit.text for limit in problem.limits],
     }
     return f"; optimize: {objective} over {', '.join(names)}"
+
+
+def _fit(case: Case, found: dict[str, Any]) -> str:
+    """The fit of a case, checked without data, as ``_sweep``."""
+    if not case.fit:
+        return ""
+    from kempe.sweeps.fits.run import check as check_fit
+
+    told = check_fit(case)
+    found["fit"] = {"parameters": list(case.fit["parameters"]), "columns": case.fit["columns"]}
+    return f"; fit: {told}"
 
 
 def _refuse_undetermined(case: Case, state: State, freedom: MobilityResult) -> None:

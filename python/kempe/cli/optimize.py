@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
-from math import isclose
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -12,19 +11,18 @@ import typer
 from rich.text import Text
 
 from kempe.cli.arguments import (
-    STDIN,
     AsJson,
     Changes,
     File,
     Settings,
     Units,
     read_case,
-    setting,
     shown_in,
     stem,
 )
 from kempe.cli.console import answers, figure, heading, remarks, table
 from kempe.cli.failure import document
+from kempe.cli.rewriting import save_changed
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -107,48 +105,11 @@ def _write(best: Optimum, file: Path, settings: list[str] | None, folder: Path) 
     from kempe.plot import save
     from kempe.plot.optimization import optimization_pages
 
-    changed = dict(best.values)
-    for text in settings or []:
-        name, value = setting(text)
-        if isinstance(value, float):
-            changed.setdefault(name, value)
     path = folder / "optimized.toml"
-    _save(best, file, changed, path)
+    save_changed(best.case, file, best.values, settings, path)
     best.to_csv(folder / "history.csv")
     figures = save(optimization_pages(best), folder / "figures")
     return [path, folder / "history.csv", *figures]
-
-
-def _save(best: Optimum, file: Path, changed: dict[str, float], path: Path) -> None:
-    """Write the case as the file with other numbers, or as a whole if that is another case."""
-    from kempe.base import files
-    from kempe.case import load
-    from kempe.errors import KempeError
-    from kempe.sweeps.problems.rewritten import rewritten
-
-    text = None
-    if str(file) != STDIN and file.suffix.lower() == ".toml":
-        text = rewritten(files.read_text(file), changed)
-    if text is not None:
-        files.write_text(path, text)
-        try:
-            if _is_same(load(path), best.case):
-                return
-        except KempeError:
-            pass
-    best.case.save(path)
-
-
-def _is_same(one: Any, other: Any) -> bool:
-    """Whether two cases have equal parameters and starts, up to rounding."""
-    pairs = [
-        (one.model.parameters, other.model.parameters),
-        (one.start().coordinates(), other.start().coordinates()),
-    ]
-    return all(
-        a.keys() == b.keys() and all(isclose(a[k], b[k], rel_tol=1e-9, abs_tol=1e-12) for k in a)
-        for a, b in pairs
-    )
 
 
 @contextmanager

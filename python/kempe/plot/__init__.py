@@ -12,6 +12,7 @@ from kempe.plot.coupler_curves import coupler_curve
 from kempe.plot.efforts import effort, torque_speed
 from kempe.plot.energy import energy, energy_balance
 from kempe.plot.equilibrium import path, rest_position
+from kempe.plot.fits import fit
 from kempe.plot.free_body import draw_free_body, free_body
 from kempe.plot.gradients import gradient
 from kempe.plot.measures import measure
@@ -43,6 +44,7 @@ __all__ = [
     "effort",
     "energy",
     "energy_balance",
+    "fit",
     "free_body",
     "gradient",
     "instant_centres",

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from kempe.sweeps.problems import Optimum
 
 #: Heights of the upper row without variables, of a variable, and of the drawings, mm.
-_ABOVE, _VARIABLE, _BELOW = 52.0, 6.0, 68.0
+_ABOVE, _VARIABLE, _BELOW = 60.0, 6.0, 68.0
 #: Most candidates, and most variables with their bounds as numbers.
 _MOST = 5
 #: Ratio of objectives above which their axis is logarithmic.

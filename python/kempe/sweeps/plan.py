@@ -40,6 +40,10 @@ if TYPE_CHECKING:
 FORMAT = 3
 
 
+class NoSlopesError(IntegrationError):
+    """A motion has no derivatives."""
+
+
 @dataclass(frozen=True)
 class Block:
     """Rows of results.
@@ -243,13 +247,14 @@ class Plan:
             (n_times, n_measures) and (n_times, n_measures, n_variables).
 
         Raises:
-            KempeError: the run fails, or there are no derivatives.
+            NoSlopesError: there are no derivatives.
+            KempeError: the run fails.
         """
         core, start, guess, analyses, *_ = self._request
         request = (core, start, guess, analyses, list(measures), times)
         values, slopes, reason = _core.slopes_at(*request, *self._columns, row[self._order])
         if reason:
-            raise IntegrationError(f"{', '.join(measures)}: no derivatives: {reason}")
+            raise NoSlopesError(f"{', '.join(measures)}: no derivatives: {reason}")
         slopes = slopes.reshape(len(times), len(measures), len(row))
         ordered = np.empty_like(slopes)
         ordered[..., self._order] = slopes

@@ -34,11 +34,13 @@ if TYPE_CHECKING:
 METHODS = ("slsqp", "trust-constr", "least-squares", "differential-evolution")
 #: The aims, of which there is one.
 AIMS = ("minimize", "maximize", "target")
+#: The arguments that the section can have too.
+_NAMES = ("variables", *AIMS, "subject_to", "starts", "seed", "method", "analysis")
 #: Largest number of starts.
 MOST_STARTS = 10_000
 
 
-def asked_of(case: Case, **given: Any) -> dict[str, Any]:
+def asked_of(case: Case, *arguments: Any) -> dict[str, Any]:
     """The arguments; the section of the case replaces those that are missing.
 
     Raises:
@@ -47,7 +49,7 @@ def asked_of(case: Case, **given: Any) -> dict[str, Any]:
     from kempe.case import Case
 
     instance(case, Case, "a case, as kp.load(path) returns")
-    section = dict(case.optimize)
+    section, given = dict(case.optimize), dict(zip(_NAMES, arguments, strict=True))
     if any(given[aim] is not None for aim in AIMS):
         section = {key: of for key, of in section.items() if key not in (*AIMS, "subject_to")}
     asked = {key: section.get(key) if of is None or of == () else of for key, of in given.items()}
@@ -191,9 +193,8 @@ def check(case: Case) -> Problem:
     Raises:
         ModelError: something is invalid. The message has the file and the line.
     """
-    keys = ("variables", *AIMS, "subject_to", "analysis", "method")
     try:
-        asked = asked_of(case, **dict.fromkeys(keys))
+        asked = asked_of(case, *(None for _ in _NAMES))
         problem = problem_of(case, asked)
         check_method(problem, asked["method"])
     except ModelError as error:

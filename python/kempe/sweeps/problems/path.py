@@ -27,7 +27,7 @@ class Path(metaclass=Explained):
         points: the points, (n, 2), m.
         of: the point that should pass through them, such as ``"coupler.P"``.
         angles: the value of the quantity over which the analysis runs, or the time, at which the
-            point should be there, for each point; None asks for the distance from its curve.
+            point should be there, for each point; None means the distance from its curve.
 
     Raises:
         ModelError: the arguments have other shapes, or numbers that are not finite.

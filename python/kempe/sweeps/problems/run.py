@@ -52,8 +52,7 @@ def optimize(
 ) -> Optimum:
     """The values of variables with the best objective within limits.
 
-    A run that fails is a row of the history with its reason, and the search goes on. Without
-    arguments, ``[optimize]`` of the case is solved.
+    A run that fails is a row of the history. Without arguments, ``[optimize]`` is solved.
 
     Args:
         case: the case.
@@ -74,24 +73,13 @@ def optimize(
         progress: called with the numbers of runs and of failed runs, and the best objective.
 
     Raises:
-        ModelError: a variable, a formula or a unit is invalid, SciPy is not installed, or no run
-            succeeds.
+        ModelError: an argument is invalid, SciPy is not installed, or no run succeeds.
         FileError: ``out`` cannot be written, or contains another search.
         KeyboardInterrupt: Ctrl-C was pressed; ``result`` is the best so far, None before the first
             run that succeeds.
     """
-    asked = asked_of(
-        case,
-        variables=variables,
-        minimize=minimize,
-        maximize=maximize,
-        target=target,
-        subject_to=subject_to,
-        starts=starts,
-        seed=seed,
-        method=method,
-        analysis=analysis,
-    )
+    aims = (minimize, maximize, target)
+    asked = asked_of(case, variables, *aims, subject_to, starts, seed, method, analysis)
     problem = problem_of(case, asked)
     count = whole(1 if asked["starts"] is None else asked["starts"], "starts", 1, MOST_STARTS)
     seed = whole(0 if asked["seed"] is None else asked["seed"], "seed", 0, 2**31)
