@@ -80,9 +80,9 @@ class Data(metaclass=Explained):
         for name in spread:
             if name not in values:
                 raise unknown("quantity in sigma", name, values)
-        self.sigma: Mapping[str, float] = MappingProxyType(
-            {name: _sigma(name, of, units) for name, of in spread.items()}
-        )
+        read = {name: _sigma(name, of) for name, of in spread.items()}
+        self.sigma: Mapping[str, float] = MappingProxyType({k: of for k, (of, _) in read.items()})
+        self._units_of_sigma = {name: unit for name, (_, unit) in read.items()}
 
     def check(self, units: Mapping[str, str], of_t: str) -> None:
         """Refuse columns whose units are not those of their quantities.
@@ -95,6 +95,7 @@ class Data(metaclass=Explained):
             ModelError: a unit does not fit.
         """
         pairs = [(f"columns.{name}", self._units[name], units[name]) for name in self.values]
+        pairs += [(f"sigma.{name}", of, units[name]) for name, of in self._units_of_sigma.items()]
         for path, own, needed in [*pairs, ("t", self._unit_of_t, of_t)]:
             if own:
                 _refuse_other(path, own, needed)
@@ -112,10 +113,11 @@ def _refuse_other(path: str, own: str, needed: str) -> None:
     try:
         _core.formula_unit("a - b", ["a", "b"], [own, needed])
     except KempeError:
-        refuse(path, f"the header has a unit of {own}, but the quantity is in {needed}")
+        refuse(path, f"it is in {own} as written, but the quantity is in {needed}")
 
 
-def _sigma(name: str, given: float | str, units: Mapping[str, str]) -> float:
+def _sigma(name: str, given: float | str) -> tuple[float, str]:
+    """A standard deviation in SI units and rad, and its unit; empty without one."""
     path, unit = f"sigma.{name}", ""
     if isinstance(given, str):
         try:
@@ -126,9 +128,7 @@ def _sigma(name: str, given: float | str, units: Mapping[str, str]) -> float:
         value = float(given)
     if not value > 0.0 or not np.isfinite(value):
         refuse(path, f"{given}; must be > 0")
-    if unit and units[name]:
-        _refuse_other(path, unit, units[name])
-    return value
+    return value, unit
 
 
 def _table(table: Any) -> dict[str, Any]:
