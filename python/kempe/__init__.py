@@ -148,8 +148,10 @@ if TYPE_CHECKING:
     from kempe.results.named_results import Results as Results
     from kempe.results.solution import Solution as Solution
     from kempe.results.state import State as State
+    from kempe.sweeps import Allocation as Allocation
     from kempe.sweeps import SweepResult as SweepResult
     from kempe.sweeps import Tolerances as Tolerances
+    from kempe.sweeps import allocate as allocate
     from kempe.sweeps import sweep as sweep
     from kempe.sweeps import tolerances as tolerances
     from kempe.sweeps.fits import Data as Data
@@ -167,6 +169,7 @@ if TYPE_CHECKING:
 # needs one line in ``_HOME`` and one in the block for type checkers.
 #: Public name → module of kempe that defines it; "" if the name itself is a module.
 _HOME = {
+    "Allocation": "sweeps",
     "AssemblyError": "errors",
     "AssemblyReport": "results.assembly_report",
     "AccuracyWarning": "analyses.dynamics",
@@ -228,6 +231,7 @@ _HOME = {
     "SweepResult": "sweeps",
     "Tolerances": "sweeps",
     "Units": "base.display_units",
+    "allocate": "sweeps",
     "animate": "draw.animate",
     "assemble": "analyses.assembly",
     "configurations": "analyses.configurations",

@@ -18,6 +18,7 @@ from kempe.sweeps.problems.formulas import (
     Formula,
     Limit,
     Parameters,
+    Units,
     read_formula,
     read_limit,
     with_unit,
@@ -77,9 +78,7 @@ def problem_of(case: Case, asked: Mapping[str, Any]) -> Problem:
     columns = () if entry["type"] in MOTIONS else tuple(NUMBERS[entry["type"]])
     aim = next(aim for aim in AIMS if asked[aim] is not None)
     objective = _objective(case, aim, asked[aim], columns)
-    given = asked["subject_to"] or ()
-    given = [given] if isinstance(given, str) else given
-    limits = [read_limit(model, text, columns) for text in given]
+    limits = limits_of(case, asked["subject_to"] or (), asked["analysis"])
     plan = Plan(own, analysis, tuple(bound.name for bound in bounds), ())
     draft = Problem(case, plan, tuple(bounds), aim, objective, tuple(limits), Parameters(plan))
     wanted = dict.fromkeys(
@@ -91,18 +90,43 @@ def problem_of(case: Case, asked: Mapping[str, Any]) -> Problem:
     return _with_units(replace(draft, plan=plan, parameters=Parameters(plan)))
 
 
-def _with_units(problem: Problem) -> Problem:
-    """The problem with the units of its formulas, which must fit each other."""
-    known = {one.text: one.unit for one in problem.plan.wanted}
+def limits_of(case: Case, texts: str | Sequence[str], analysis: str | None) -> list[Limit]:
+    """Limits in formulas of columns and parameters; their units are not known yet.
 
-    def unit(name: str) -> str:
-        return known[name] if name in known else problem.parameters.unit(name)
+    Raises:
+        ModelError: one is invalid.
+    """
+    name = chosen(case, analysis)
+    entry, model = case.analyses[name], case.model.compile()
+    columns = () if entry["type"] in MOTIONS else tuple(NUMBERS[entry["type"]])
+    given = [texts] if isinstance(texts, str) else texts
+    return [read_limit(model, text, columns) for text in given]
+
+
+def units_of(plan: Plan) -> Units:
+    """The units of the columns and parameters of a plan, by their names."""
+    known, parameters = {one.text: one.unit for one in plan.wanted}, Parameters(plan)
+    return lambda name: known[name] if name in known else parameters.unit(name)
+
+
+def with_units(limits: Sequence[Limit], plan: Plan) -> tuple[Limit, ...]:
+    """Limits with the units of their formulas, which must fit each other.
+
+    Raises:
+        ModelError: they do not.
+    """
+    unit = units_of(plan)
 
     def of_limit(limit: Limit) -> Limit:
         small, large = (with_unit(side, unit) for side in limit.sides)
         return Limit(limit.text, with_unit(limit.room, unit), (small, large))
 
-    limits = tuple(map(of_limit, problem.limits))
+    return tuple(map(of_limit, limits))
+
+
+def _with_units(problem: Problem) -> Problem:
+    """The problem with the units of its formulas, which must fit each other."""
+    unit, limits = units_of(problem.plan), with_units(problem.limits, problem.plan)
     objective = problem.objective
     if isinstance(objective, Formula):
         objective = with_unit(objective, unit)
