@@ -182,7 +182,7 @@ def test_data_beyond_the_motion_and_other_analyses() -> None:
         whole = kp.Data({"t": [1, 2], "a": [0, 0]}, columns={"energy.total": "a"})
         kp.fit(rod(), whole, {"J": (0, None)})
     rest = rod().with_start({})._with(analyses={"rest": {"type": "equilibrium"}})
-    with pytest.raises(kp.ModelError, match="equilibrium is no motion"):
+    with pytest.raises(kp.ModelError, match="equilibrium is not a motion"):
         kp.fit(rest, angle(film(0)), {"J": (0, None)})
 
 

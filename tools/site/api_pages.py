@@ -72,8 +72,13 @@ PAGES = {
             "kempe.optimize",
             "kempe.Path",
             "kempe.Optimum",
+            "kempe.fit",
+            "kempe.Data",
+            "kempe.Fit",
             "kempe.tolerances",
             "kempe.Tolerances",
+            "kempe.allocate",
+            "kempe.Allocation",
         ),
     ),
     "options": ApiPage(

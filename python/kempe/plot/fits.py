@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from kempe.base.display_units import display
+from kempe.base.display_units import Shown, display
 from kempe.model.values import instance
 from kempe.plot import style
 from kempe.plot.page import Page
@@ -45,7 +45,7 @@ def fit(result: Fit) -> Figure:
             _quantity(rows[2 * k], rows[2 * k + 1], result, name)
         of = result._experiments[0].plan.case.analyses[result._experiments[0].plan.analysis]
         over = of.get("over")
-        unit = display("s" if over is None else result._experiments[0].unit_of_t)
+        unit = _shown("s" if over is None else result._experiments[0].unit_of_t)
         rows[-1].set_xlabel(f"{'time t' if over is None else style.short(over)} / {unit.symbol}")
         rows[0].legend(loc="lower right", bbox_to_anchor=(1.0, 1.0), ncols=4)
     return made
@@ -53,14 +53,14 @@ def fit(result: Fit) -> Figure:
 
 def _quantity(above: Axes, below: Axes, result: Fit, name: str) -> None:
     """The panels of a quantity: values, and residuals with two standard deviations."""
-    unit = display(result.units[name])
+    unit = _shown(result.units[name])
     values = np.array(list(result.values.values()))
     begin = 0
     for k, one in enumerate(result._experiments):
         if name not in one.data.values:
             continue
         t, data = one.data.t[name], one.data.values[name]
-        of_t = display(one.unit_of_t).divisor
+        of_t = _shown(one.unit_of_t).divisor
         colour, mark = style.COLOURS[k % len(style.COLOURS)], f" {k + 1}"
         mark = mark if len(result._experiments) > 1 else ""
         above.plot(
@@ -84,6 +84,11 @@ def _quantity(above: Axes, below: Axes, result: Fit, name: str) -> None:
     symbol = unit.symbol or "1"
     above.set_ylabel(f"{style.short(name, 30)} / {symbol}")
     below.set_ylabel(f"residual / {symbol}")
+
+
+def _shown(unit: str) -> Shown:
+    """The display unit; degrees for angles, as in other figures."""
+    return display(unit, "deg" if unit == "rad" else None)
 
 
 def fit_pages(result: Fit) -> list[Page]:

@@ -125,9 +125,31 @@ def tolerances(
     nominal, slopes = _exact(plan, middle)
     if not np.isfinite(slopes).all():
         nominal, slopes = _slopes(case, middle, widths, (measure, analysis))
+    corners = _corners(plan, middle, slopes, widths)
+    held = _share(sample, plan, limits) if limits else np.nan
+    return _told(sample, (nominal, slopes, widths), (corners, held))
+
+
+def _told(
+    sample: SweepResult,
+    first: tuple[float, Floats, Floats],
+    rest: tuple[tuple[float, float], float],
+) -> Tolerances:
+    """The scatter of the first measure of a sample.
+
+    Args:
+        sample: the random variants.
+        first: the value of the case, the slopes, and the standard deviations of the variables.
+        rest: the worst case and the yield.
+
+    Raises:
+        ModelError: fewer than two variants succeed.
+    """
+    (nominal, slopes, widths), names = first, [one.name for one in sample.variables]
     variances = (slopes * widths) ** 2
     total = float(variances.sum())
     shares = variances / total if total > 0.0 else np.zeros(len(widths))
+    measure = sample.measures[0]
     found = sample[measure][sample.succeeded]
     if len(found) < 2:
         raise ModelError(
@@ -142,11 +164,10 @@ def tolerances(
         float(found.mean()),
         float(found.std(ddof=1)),
         float(np.sqrt(total)),
-        dict(zip(given, slopes.tolist(), strict=True)),
-        dict(zip(given, shares.tolist(), strict=True)),
+        dict(zip(names, slopes.tolist(), strict=True)),
+        dict(zip(names, shares.tolist(), strict=True)),
         sample,
-        _corners(plan, middle, slopes, widths),
-        _share(sample, plan, limits) if limits else np.nan,
+        *rest,
     )
 
 

@@ -98,13 +98,13 @@ def experiment(case: Case, data: Data, names: Sequence[str], analysis: str | Non
     """A case with data, checked.
 
     Raises:
-        ModelError: the analysis is no motion, a quantity is unknown, or a unit does not fit.
+        ModelError: the analysis is not a motion, a quantity is unknown, or a unit does not fit.
     """
     name = chosen(case, analysis)
     own = without_later(case, name)
     entry = own.analyses[name]
     if entry["type"] not in MOTIONS:
-        told = f"analyses.{name}: {entry['type']} is no motion, which data are compared with"
+        told = f"analyses.{name}: {entry['type']} is not a motion, which data need"
         raise ModelError(told, hint='name another one: analysis="NAME"')
     model, of_t = own.model.compile(), TIME
     if entry.get("over") is not None:
