@@ -148,12 +148,20 @@ if TYPE_CHECKING:
     from kempe.results.named_results import Results as Results
     from kempe.results.solution import Solution as Solution
     from kempe.results.state import State as State
+    from kempe.sweeps import Allocation as Allocation
     from kempe.sweeps import SweepResult as SweepResult
     from kempe.sweeps import Tolerances as Tolerances
+    from kempe.sweeps import allocate as allocate
     from kempe.sweeps import sweep as sweep
     from kempe.sweeps import tolerances as tolerances
+    from kempe.sweeps.fits import Data as Data
+    from kempe.sweeps.fits import Fit as Fit
+    from kempe.sweeps.fits import fit as fit
     from kempe.sweeps.gradients import Gradient as Gradient
     from kempe.sweeps.gradients import gradient as gradient
+    from kempe.sweeps.problems import Optimum as Optimum
+    from kempe.sweeps.problems import Path as Path
+    from kempe.sweeps.problems import optimize as optimize
     from kempe.sweeps.studies import Study as Study
     from kempe.sweeps.studies import study as study
 
@@ -161,6 +169,7 @@ if TYPE_CHECKING:
 # needs one line in ``_HOME`` and one in the block for type checkers.
 #: Public name → module of kempe that defines it; "" if the name itself is a module.
 _HOME = {
+    "Allocation": "sweeps",
     "AssemblyError": "errors",
     "AssemblyReport": "results.assembly_report",
     "AccuracyWarning": "analyses.dynamics",
@@ -171,6 +180,7 @@ _HOME = {
     "Configurations": "analyses.options",
     "ConfigurationsResult": "analyses.configurations",
     "DOP853": "analyses.options",
+    "Data": "sweeps.fits",
     "Dynamics": "analyses.options",
     "Energy": "results.energy",
     "Equilibrium": "analyses.options",
@@ -179,6 +189,7 @@ _HOME = {
     "EventWarning": "results.events",
     "FileError": "errors",
     "FunctionWarning": "model.functions",
+    "Fit": "sweeps.fits",
     "GeneralizedAlpha": "analyses.options",
     "Gradient": "sweeps.gradients",
     "HHT": "analyses.options",
@@ -202,6 +213,8 @@ _HOME = {
     "ModesResult": "analyses.modes",
     "Motion": "results.motion",
     "NoStabilization": "analyses.options",
+    "Optimum": "sweeps.problems",
+    "Path": "sweeps.problems",
     "PointStiffness": "analyses.equilibrium",
     "Projection": "analyses.options",
     "RK4": "analyses.options",
@@ -218,6 +231,7 @@ _HOME = {
     "SweepResult": "sweeps",
     "Tolerances": "sweeps",
     "Units": "base.display_units",
+    "allocate": "sweeps",
     "animate": "draw.animate",
     "assemble": "analyses.assembly",
     "configurations": "analyses.configurations",
@@ -227,6 +241,7 @@ _HOME = {
     "equations": "results.matrices.equations",
     "equilibrium": "analyses.equilibrium",
     "errors": "",
+    "fit": "sweeps.fits",
     "gradient": "sweeps.gradients",
     "inverse_dynamics": "analyses.kinematics",
     "kinematics": "analyses.kinematics",
@@ -236,6 +251,7 @@ _HOME = {
     "load_solution": "results.archive",
     "modes": "analyses.modes",
     "mobility": "analyses.mobility",
+    "optimize": "sweeps.problems",
     "player": "draw.player",
     "plot": "",
     "report": "",

@@ -131,6 +131,36 @@ def gradient(
         KempeError: the run fails.
     """
 
+def slopes_at(
+    model: Model,
+    start: str,
+    guess: str,
+    analyses: str,
+    measures: list[str],
+    times: _F,
+    parameters: list[str],
+    coordinates: list[str],
+    row: _F,
+) -> tuple[_F, _F, str]:
+    """Measures of the motion of the last analysis at times, and their derivatives.
+
+    Returns:
+        (n_times, n_measures); (n_times × n_measures, n_variables); why there are no derivatives,
+        with empty tables, otherwise an empty text.
+
+    Raises:
+        KempeError: the run fails, or has no value at a time.
+    """
+
+def formula_names(text: str) -> list[str]:
+    """The names in a formula, each once."""
+
+def formula_unit(text: str, names: list[str], units: list[str]) -> str:
+    """The SI unit of a formula whose names have these units; empty if it is not known."""
+
+def formula_value(text: str, names: list[str], values: list[float]) -> tuple[float, list[float]]:
+    """The value of a formula, and its derivatives by its names."""
+
 def measure(model: Model, text: str) -> tuple[list[str], str, bool, bool]:
     """Quantities of an expression, and its SI unit.
 

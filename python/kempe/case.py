@@ -37,8 +37,8 @@ from kempe.results.solution import Solution
 from kempe.results.state import State
 
 FORMATS = {".toml": "toml", ".json": "json"}
-#: The sections that ask for many variants or for slopes, and an example of one.
-_REQUESTS, _FORM = ("sweep", "gradient"), "{'variables': …, 'measures': […]}"
+#: The sections that ask for many runs or for slopes, and an example of one.
+_REQUESTS, _FORM = ("sweep", "gradient", "optimize", "fit"), "{'variables': …, 'measures': […]}"
 
 #: The class of each result that is not a motion, by the type of the analysis.
 _RESULTS: dict[str, Callable[[Record], Result]] = {
@@ -62,6 +62,8 @@ class Case:
             a file.
         sweep: the default sweep of the case, as in a file: ``{"variables": …, "measures": …}``.
         gradient: the default gradient, as in a file: ``{"measures": […], "variables": […]}``.
+        optimize: the default optimisation, as in a file: ``{"variables": …, "minimize": …}``.
+        fit: the default fit, as in a file: ``{"columns": …, "parameters": …}``.
 
     Attributes:
         model: the mechanism.
@@ -77,13 +79,16 @@ class Case:
         analyses: Sequence[Analysis] | Mapping[str, Mapping[str, Any]] = (),
         sweep: Mapping[str, Any] | None = None,
         gradient: Mapping[str, Any] | None = None,
+        *,
+        optimize: Mapping[str, Any] | None = None,
+        fit: Mapping[str, Any] | None = None,
     ) -> None:
         if not isinstance(model, Model):
             raise ModelError(f"{model!r} is not a model", hint="kp.Model(…) makes one")
         self.model = model
         self._start = read_start(start)
         self._entries = read_entries(analyses)
-        asked = zip(_REQUESTS, (sweep, gradient), strict=True)
+        asked = zip(_REQUESTS, (sweep, gradient, optimize, fit), strict=True)
         self._asked = {key: plain(mapping(of or {}, key, _FORM), key) for key, of in asked}
         self._core().check(model.compile().core)
 
@@ -115,6 +120,16 @@ class Case:
     def gradient(self) -> Mapping[str, Any]:
         """The gradient of the file, which ``kp.gradient(case)`` computes; a copy."""
         return copy.deepcopy(self._asked["gradient"])
+
+    @property
+    def optimize(self) -> Mapping[str, Any]:
+        """The optimisation of the file, which ``kp.optimize(case)`` solves; a copy."""
+        return copy.deepcopy(self._asked["optimize"])
+
+    @property
+    def fit(self) -> Mapping[str, Any]:
+        """The fit of the file, for ``kp.fit(case, data)``; a copy."""
+        return copy.deepcopy(self._asked["fit"])
 
     def tree(self) -> dict[str, Any]:
         """A copy of the case as nested mappings, structured as a file.

@@ -86,6 +86,12 @@ CALLS: dict[str, Callable[[], object]] = {
     "gradient": lambda: _core.gradient(
         MODEL, "{}", "{}", '{"type": "dynamics", "t_end": 1}', [], [], [], [], ROW[0, :0]
     ),
+    "slopes_at": lambda: _core.slopes_at(
+        MODEL, "{}", "{}", '{"type": "dynamics", "t_end": 1}', [], TIMES, [], [], ROW[0, :0]
+    ),
+    "formula_names": lambda: _core.formula_names("a + 2*b"),
+    "formula_unit": lambda: _core.formula_unit("a + 2*b", ["a", "b"], ["m", "m"]),
+    "formula_value": lambda: _core.formula_value("a + 2*b", ["a", "b"], [1.0, 2.0]),
     "States": lambda: _core.States(MODEL, TIMES, ROW, ROW, STATES),
     "States.evaluate": lambda: AT_ONCE.evaluate(False),
     "States.project": lambda: AT_ONCE.project(1e-12),

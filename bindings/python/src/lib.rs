@@ -8,6 +8,7 @@ mod active;
 mod assemble;
 mod attended;
 mod case;
+mod column_formulas;
 mod compliance;
 mod convert;
 mod drawing;
@@ -92,6 +93,10 @@ fn add_drawing_and_sweeps(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(sweep::sweeps, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::sweep, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::gradient, module)?)?;
+    module.add_function(wrap_pyfunction!(sweep::slopes_at, module)?)?;
+    module.add_function(wrap_pyfunction!(column_formulas::formula_names, module)?)?;
+    module.add_function(wrap_pyfunction!(column_formulas::formula_unit, module)?)?;
+    module.add_function(wrap_pyfunction!(column_formulas::formula_value, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::scene, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::display, module)?)?;
     module.add_function(wrap_pyfunction!(drawing::view_around, module)?)?;

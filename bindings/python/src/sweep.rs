@@ -121,25 +121,78 @@ pub fn gradient<'py>(
         }
         let numbers = wanted.len();
         let sweep = request(py, model, [start, guess, analyses], measures, wanted)?;
-        let (of_parameters, of_start) = row.split_at(parameters.len());
-        let named = |names: &[String], values: &[f64]| -> Vec<(String, f64)> {
-            names.iter().cloned().zip(values.iter().copied()).collect()
-        };
-        let row = (named(&parameters, of_parameters), named(&coordinates, of_start));
+        let row = variant(&parameters, &coordinates, &row);
         let found = attended(py, move |stop| caught(|| sweep.gradient(&row, stop)))?;
         let found = found.unwrap_or_else(|panic| panic.resume());
-        let Gradient { values, jacobian, remarks } = found.map_err(|outcome| {
-            let message = match outcome {
-                Outcome::Failed(reason) => reason,
-                _ => "derivatives are not available yet where joints are redundant, where a driver holds friction \
-                      at rest, or near singular positions"
-                    .to_string(),
-            };
-            Failure::new(Kind::Integration, message).raise(py)
-        })?;
+        let Gradient { values, jacobian, remarks } =
+            found.map_err(|outcome| failed(py, outcome))?;
         let remarks = remarks.into_iter().map(|one| (one.number, one.variable, one.text));
         let table = table(py, jacobian, (numbers, variables))?;
         Ok((values.into_pyarray(py), table, remarks.collect()))
+    })
+}
+
+/// The error for a variant without derivatives.
+fn failed(py: Python<'_>, outcome: Outcome) -> PyErr {
+    let message = match outcome {
+        Outcome::Failed(reason) => reason,
+        _ => "derivatives are not available yet where joints are redundant, where a driver holds friction \
+              at rest, or near singular positions"
+            .to_string(),
+    };
+    Failure::new(Kind::Integration, message).raise(py)
+}
+
+/// A variant with these values of its parameters, then of its coordinates.
+fn variant(parameters: &[String], coordinates: &[String], values: &[f64]) -> VariantRow {
+    let (of_parameters, of_start) = values.split_at(parameters.len());
+    let named = |names: &[String], values: &[f64]| -> Vec<(String, f64)> {
+        names.iter().cloned().zip(values.iter().copied()).collect()
+    };
+    (named(parameters, of_parameters), named(coordinates, of_start))
+}
+
+/// Values of measures at times, their derivatives (a row for each measure of each time), and why there are none.
+type Timed<'py> = (Table<'py>, Table<'py>, String);
+
+/// Runs a case and returns measures of the motion of its last analysis at given times, with their derivatives. The other
+/// arguments are those of `gradient`. Without derivatives, both tables are empty.
+#[pyfunction]
+#[pyo3(signature = (model, start, guess, analyses, measures, times, parameters, coordinates, row))]
+#[allow(clippy::too_many_arguments)] // the arguments of Python
+pub fn slopes_at<'py>(
+    py: Python<'py>,
+    model: &PyModel,
+    start: &str,
+    guess: &str,
+    analyses: &str,
+    measures: Vec<String>,
+    times: Vec<f64>,
+    parameters: Vec<String>,
+    coordinates: Vec<String>,
+    row: Vec<f64>,
+) -> PyResult<Timed<'py>> {
+    guard("slopes_at", || {
+        let (count, variables) = (measures.len(), parameters.len() + coordinates.len());
+        if row.len() != variables {
+            return Err(refuse(py, "row", format!("{} numbers do not fit the names", row.len())));
+        }
+        let sweep = request(py, model, [start, guess, analyses], measures, Vec::new())?;
+        let row = variant(&parameters, &coordinates, &row);
+        let n = times.len();
+        let found = attended(py, move |stop| caught(|| sweep.slopes_at(&times, &row, stop)))?;
+        let found = found.unwrap_or_else(|panic| panic.resume());
+        match found.map_err(|outcome| failed(py, outcome))? {
+            Ok((values, slopes)) => {
+                let slopes = table(py, slopes, (n * count, variables))?;
+                Ok((table(py, values, (n, count))?, slopes, String::new()))
+            }
+            Err(reason) => Ok((
+                table(py, Vec::new(), (0, count))?,
+                table(py, Vec::new(), (0, variables))?,
+                reason,
+            )),
+        }
     })
 }
 

@@ -5,7 +5,7 @@ use super::names::{self, Namespace};
 use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
 use super::values::{number, pair, word, wrong};
-use super::{columns, fields, start, sweep, tables, Case, Format, FORMAT_VERSION};
+use super::{columns, fields, problems, start, sweep, tables, Case, Format, FORMAT_VERSION};
 use crate::analyses;
 use crate::elements::{catalogue, Group, Table as Declaration};
 use crate::expression::suggest::{closest, did_you_mean};
@@ -15,7 +15,7 @@ use crate::model::{table_fields, Entry, Problem, Value};
 /// Words for the key `redundancy`.
 pub(super) const REDUNDANCY: [&str; 2] = ["refuse", "allow"];
 
-const SECTIONS: [&str; 15] = [
+const SECTIONS: [&str; 17] = [
     "kempe",
     "title",
     "gravity",
@@ -31,6 +31,8 @@ const SECTIONS: [&str; 15] = [
     "analyses",
     "sweep",
     "gradient",
+    "optimize",
+    "fit",
 ];
 
 /// The case that a tree contains, with the problems of its structure and the number of further problems that are not
@@ -98,6 +100,8 @@ fn section(
         "analyses" => case.analyses = analyses(report, node),
         "sweep" => case.sweep = sweep::read(report, node, root),
         "gradient" => case.gradient = columns::gradient(report, node, root),
+        "optimize" => case.optimize = problems::optimize(report, node, root),
+        "fit" => case.fit = problems::fit(report, node, root),
         _ => unknown(report, key),
     }
 }

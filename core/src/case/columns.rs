@@ -1,4 +1,4 @@
-//! Common parts of the sections `[sweep]` and `[gradient]`: measures, the names of variables, and the analysis.
+//! Common parts of the sections that ask for many runs or for slopes: measures, the names of variables, and the analysis.
 
 use super::report::ProblemList;
 use super::tree::{Data, Node, Table};
@@ -18,25 +18,29 @@ pub(super) fn gradient(
     root: &Table,
 ) -> Vec<(String, Value)> {
     let keys = ["measures", "variables", "analysis"];
-    read(report, (node, root), ("gradient", &keys), |report, _, value| {
+    let section = ("gradient", &keys[..], &keys[..2]);
+    read(report, (node, root), section, |report, _, value| {
         texts(report, value, ("variable", "L2"));
     })
 }
 
-/// Checks the structure of a section with a name and keys. `own` checks the keys that the sections do not share.
+/// Checks the structure of a section with a name, its keys and those that it must have. `own` checks the keys that the
+/// sections do not share.
 pub(super) fn read(
     report: &mut ProblemList,
     (node, root): (&Node, &Table),
-    (name, keys): (&str, &[&str]),
+    (name, keys, required): (&str, &[&str], &[&str]),
     mut own: impl FnMut(&mut ProblemList, &str, &Node),
 ) -> Vec<(String, Value)> {
     let Data::Table(table) = &node.data else {
-        wrong(report, node, "a table with variables and measures");
+        wrong(report, node, &format!("a table with {}", required.join(" and ")));
         return Vec::new();
     };
     for (key, value) in &table.entries {
         report.within(key, |report| match key.as_str() {
-            "measures" => texts(report, value, ("measure", "C.force.max")),
+            "measures" if keys.contains(&"measures") => {
+                texts(report, value, ("measure", "C.force.max"))
+            }
             "analysis" => analysis(report, value, root),
             key if keys.contains(&key) => own(report, key, value),
             _ => {
@@ -45,14 +49,14 @@ pub(super) fn read(
             }
         });
     }
-    for key in ["variables", "measures"].into_iter().filter(|key| table.get(key).is_none()) {
+    for key in required.iter().filter(|key| table.get(key).is_none()) {
         report.say(format!("{key} is missing"));
     }
     table.values()
 }
 
 /// A list of texts such as `example`, which has the noun `what`.
-fn texts(report: &mut ProblemList, node: &Node, (what, example): (&str, &str)) {
+pub(super) fn texts(report: &mut ProblemList, node: &Node, (what, example): (&str, &str)) {
     let Data::List(items) = &node.data else {
         return wrong(report, node, &format!("a list of {what}s [\"{example}\"]"));
     };
@@ -96,11 +100,11 @@ pub(super) fn faults(
         ..problem
     };
     let fault = |name: &str| sweep::variable_fault(model, name);
-    let mut found: Vec<Problem> = match get("variables") {
-        Some(Value::Table(entries)) => entries
-            .iter()
-            .filter_map(|(name, _)| Some(under("variables", name, fault(name)?)))
-            .list(),
+    let key = if section == "fit" { "parameters" } else { "variables" };
+    let mut found: Vec<Problem> = match get(key) {
+        Some(Value::Table(entries)) => {
+            entries.iter().filter_map(|(name, _)| Some(under(key, name, fault(name)?))).list()
+        }
         Some(Value::List(names)) => texts_of(names)
             .filter_map(|(k, name)| Some(under("variables", &k.to_string(), fault(name)?)))
             .list(),

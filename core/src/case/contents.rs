@@ -30,6 +30,10 @@ pub struct Case {
     pub sweep: Vec<(String, Value)>,
     /// The gradient: measures and variables; empty without one.
     pub gradient: Vec<(String, Value)>,
+    /// The optimisation: variables, an objective and limits; empty without one.
+    pub optimize: Vec<(String, Value)>,
+    /// The fit: columns of data, and parameters; empty without one.
+    pub fit: Vec<(String, Value)>,
 }
 
 /// Coordinates and rates for the assembly; keys are `body.coordinate`.

@@ -6,8 +6,8 @@ use crate::math::Listed;
 use crate::model::{Model, Problem, Value};
 
 impl Case {
-    /// All faults of the measures, the start, the analyses, the sweep and the gradient that can be found without an assembly or a
-    /// run.
+    /// All faults of the measures, the start, the analyses and the requests for many runs that can be found without an
+    /// assembly or a run.
     pub fn faults(&self, model: &Model) -> Vec<Problem> {
         let start = [("set", &self.start.set), ("guess", &self.start.guess)];
         let start = start.into_iter().flat_map(|(section, targets)| {
@@ -24,7 +24,12 @@ impl Case {
             })
             .list();
         let measures = &self.definition.measures;
-        let sections = [("sweep", self.sweep.as_slice()), ("gradient", &self.gradient)];
+        let sections = [
+            ("sweep", &self.sweep[..]),
+            ("gradient", &self.gradient),
+            ("optimize", &self.optimize),
+            ("fit", &self.fit),
+        ];
         let of_sections =
             sections.into_iter().flat_map(|one| columns::faults(model, one, measures, &kinds));
         found.chain(of_sections).list()

@@ -10,11 +10,11 @@
 //! | `json`, `toml`, `toml_tables` | text → tree |
 //! | `diagnostic`, `document` | places → line, column, excerpt |
 //! | `report` | problems by path |
-//! | `names`, `values`, `fields`, `tables`, `bodies`, `start`, `check` | tree → [`Case`], with every fault of structure |
+//! | `names`, `values`, `fields`, `tables`, `bodies`, `start`, `sweep`, `columns`, `problems`, `check` | tree → [`Case`], with every fault of structure |
 //! | `write_value`, `write_json`, `write_toml`, `write` | [`Case`] → text |
 //! | `faults` | faults of the start and the analyses that can be found only with the model |
 //! | `run` | the analyses of a case in their order |
-//! | `schema`, `json_literal`, `catalogue` | the JSON Schema; the declarations of the possible contents of a case |
+//! | `schema`, `schema_parts`, `schema_requests`, `json_literal`, `catalogue` | the JSON Schema; the declarations of the possible contents of a case |
 
 mod bodies;
 mod body_builder;
@@ -32,9 +32,12 @@ mod fields;
 mod json;
 mod json_literal;
 mod names;
+mod problems;
 mod report;
 mod run;
 mod schema;
+mod schema_parts;
+mod schema_requests;
 mod start;
 mod start_builder;
 mod sweep;

@@ -5,7 +5,8 @@ use serde_json::{Map, Value};
 use super::check::REDUNDANCY;
 use super::json_literal::json;
 use super::names::{HIDDEN, MOST_CHARACTERS, RESERVED};
-use super::sweep::{DESIGNS, SCALES};
+use super::schema_parts::{closed, described, object};
+use super::schema_requests as requests;
 use super::FORMAT_VERSION;
 use crate::analyses::options::Declaration;
 use crate::analyses::{declarations, option_families, DIRECTIONS};
@@ -57,11 +58,6 @@ fn by_name(value: Value, except: &[&str]) -> Value {
     json!({ "type": "object", "propertyNames": names(except), "additionalProperties": value })
 }
 
-fn described(mut schema: Value, words: &str) -> Value {
-    schema["description"] = json!(words);
-    schema
-}
-
 fn sections() -> Map<String, Value> {
     let start = json!({ "set": by_coordinate(), "guess": by_coordinate() });
     let (ground, typed): (Vec<_>, Vec<_>) =
@@ -89,53 +85,8 @@ fn sections() -> Map<String, Value> {
     let mut analyses = by_name(options(declarations()), &[]);
     analyses["propertyNames"] = folders();
     sections["analyses"] = analyses;
-    sections["sweep"] = sweep();
-    let variables = described(texts(), "Parameters, or coordinates and rates at the start.");
-    let words = "A gradient: derivatives of measures by variables.";
-    sections["gradient"] = of_columns(json!({ "variables": variables }), words);
+    requests::add(&mut sections);
     object(sections)
-}
-
-/// Variables with their values, measures, and the design of a sweep.
-fn sweep() -> Value {
-    let list =
-        |count: u32| json!({ "type": "array", "items": { "type": "number" }, "minItems": count });
-    let mut two = list(2);
-    two["maxItems"] = json!(2);
-    let number = || json!({ "type": "number" });
-    let whole = |least: u32| json!({ "type": "integer", "minimum": least });
-    let range =
-        json!({ "from": number(), "to": number(), "n": whole(2), "scale": { "enum": SCALES } });
-    let [range, normal, uniform] = [
-        closed(object(range), json!({ "required": ["from", "to"] })),
-        closed(object(json!({ "normal": two.clone() })), json!({ "required": ["normal"] })),
-        closed(object(json!({ "uniform": two })), json!({ "required": ["uniform"] })),
-    ];
-    let values = json!({ "anyOf": [list(1), range, normal, uniform] });
-    let fields = json!({
-        "variables": described(
-            json!({ "type": "object", "additionalProperties": values }),
-            "Parameters, or coordinates and rates at the start, with lists, ranges or distributions."
-        ),
-        "design": { "enum": DESIGNS },
-        "n": described(whole(1), "Number of variants of a random, latin or sobol design."),
-        "seed": whole(0),
-    });
-    of_columns(fields, "A sweep: many variants of the case.")
-}
-
-/// A section with variables, measures and an analysis.
-fn of_columns(fields: Value, words: &str) -> Value {
-    let mut fields = object(fields);
-    fields.insert("measures".into(), described(texts(), "Statistics such as pin.max."));
-    let about = "Name of the analysis; the last one if absent.";
-    fields.insert("analysis".into(), described(json!({ "type": "string" }), about));
-    described(closed(fields, json!({ "required": ["variables", "measures"] })), words)
-}
-
-/// A list of texts that is not empty.
-fn texts() -> Value {
-    json!({ "type": "array", "items": { "type": "string" }, "minItems": 1 })
 }
 
 /// Tables by name. Formulas call them, so that their names must be identifiers.
@@ -154,13 +105,6 @@ fn tables() -> Value {
         "propertyNames": { "pattern": pattern, "maxLength": MOST_CHARACTERS },
         "additionalProperties": described(closed(properties, either), &table.doc),
     })
-}
-
-fn object(value: Value) -> Map<String, Value> {
-    match value {
-        Value::Object(entries) => entries,
-        _ => Map::new(),
-    }
 }
 
 /// `body.coordinate`, or a table for each body.
@@ -200,20 +144,6 @@ fn one_of<'t>(tables: impl IntoIterator<Item = &'t Table>, absent: Option<&str>)
         choice["required"] = json!(["type"]);
     }
     closed(properties, choice)
-}
-
-/// An object with exactly these properties. The schema `besides` applies only if all keys are known. An unknown key,
-/// which may be misspelt, is then the only error.
-fn closed(properties: Map<String, Value>, besides: Value) -> Value {
-    let keys = properties.keys().map(String::as_str).list();
-    let known = json!({ "propertyNames": { "enum": keys } });
-    json!({
-        "type": "object",
-        "properties": properties,
-        "additionalProperties": false,
-        "if": known,
-        "then": besides,
-    })
 }
 
 /// One of the `known` sets of options.

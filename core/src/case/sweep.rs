@@ -15,7 +15,8 @@ pub(super) const SCALES: [&str; 2] = ["linear", "log"];
 
 /// Checks the structure of the section.
 pub(super) fn read(report: &mut ProblemList, node: &Node, root: &Table) -> Vec<(String, Value)> {
-    columns::read(report, (node, root), ("sweep", &KEYS), |report, key, value| match key {
+    let section = ("sweep", &KEYS[..], &KEYS[..2]);
+    columns::read(report, (node, root), section, |report, key, value| match key {
         "variables" => variables(report, value),
         "design" => word(report, value, &DESIGNS),
         "n" => whole(report, value, 1.0),
@@ -67,13 +68,14 @@ fn values(report: &mut ProblemList, node: &Node) {
 }
 
 /// A number, not a formula.
-fn plain(report: &mut ProblemList, node: &Node) {
+pub(super) fn plain(report: &mut ProblemList, node: &Node) {
     if !matches!(node.data, Data::Number(_)) {
         wrong(report, node, "a number, in SI units and rad");
     }
 }
 
-fn numbers(report: &mut ProblemList, node: &Node, count: Option<usize>) {
+/// A list of numbers, of this count if there is one.
+pub(super) fn numbers(report: &mut ProblemList, node: &Node, count: Option<usize>) {
     let Data::List(items) = &node.data else {
         return wrong(report, node, "a list of numbers");
     };
@@ -86,7 +88,8 @@ fn numbers(report: &mut ProblemList, node: &Node, count: Option<usize>) {
     }
 }
 
-fn whole(report: &mut ProblemList, node: &Node, least: f64) {
+/// A whole number from the least one.
+pub(super) fn whole(report: &mut ProblemList, node: &Node, least: f64) {
     match &node.data {
         Data::Number(x) if x.fract() == 0.0 && *x >= least => {}
         Data::Number(x) => report.say(format!("{x}; must be a whole number from {least}")),

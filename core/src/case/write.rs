@@ -46,6 +46,8 @@ fn tree(case: &Case) -> Vec<(String, Value)> {
         ("analyses", entries(&case.analyses)),
         ("sweep", table(&case.sweep)),
         ("gradient", table(&case.gradient)),
+        ("optimize", table(&case.optimize)),
+        ("fit", table(&case.fit)),
     ];
     let empty = |value: &Value| matches!(value, Value::Table(fields) if fields.is_empty());
     let sections = sections.into_iter().filter_map(|(key, value)| Some((key.to_string(), value?)));

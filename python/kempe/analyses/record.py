@@ -24,7 +24,7 @@ Acting: TypeAlias = "tuple[list[str], Callable[..., object]]"
 #: Sections in which a mechanism over a driven value differs.
 _DRIVEN = ("joints", "drivers", "measures")
 #: Sections of a case that are not its mechanism.
-_OTHERS = ("start", "analyses", "sweep", "gradient")
+_OTHERS = ("start", "analyses", "sweep", "gradient", "optimize", "fit")
 
 
 class AssemblyWarning(UserWarning):

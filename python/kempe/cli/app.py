@@ -18,10 +18,14 @@ from kempe.cli.animate import animate as animate_command
 from kempe.cli.check import EXAMPLES as CHECK_EXAMPLES
 from kempe.cli.check import check as check_command
 from kempe.cli.failure import exit_code, print_error, print_json
+from kempe.cli.fit import EXAMPLES as FIT_EXAMPLES
+from kempe.cli.fit import fit as fit_command
 from kempe.cli.gradient import EXAMPLES as GRADIENT_EXAMPLES
 from kempe.cli.gradient import gradient as gradient_command
 from kempe.cli.new import EXAMPLES as NEW_EXAMPLES
 from kempe.cli.new import new as new_command
+from kempe.cli.optimize import EXAMPLES as OPTIMIZE_EXAMPLES
+from kempe.cli.optimize import optimize as optimize_command
 from kempe.cli.plot import EXAMPLES as PLOT_EXAMPLES
 from kempe.cli.plot import plot as plot_command
 from kempe.cli.report import EXAMPLES as REPORT_EXAMPLES
@@ -70,6 +74,8 @@ app.command("report", epilog=REPORT_EXAMPLES)(report_command)
 app.command("study", epilog=STUDY_EXAMPLES)(study_command)
 app.command("sweep", epilog=SWEEP_EXAMPLES)(sweep_command)
 app.command("gradient", epilog=GRADIENT_EXAMPLES)(gradient_command)
+app.command("optimize", epilog=OPTIMIZE_EXAMPLES)(optimize_command)
+app.command("fit", epilog=FIT_EXAMPLES)(fit_command)
 app.command("studio", epilog=STUDIO_EXAMPLES)(studio_command)
 app.command("new", epilog=NEW_EXAMPLES)(new_command)
 app.command("schema", epilog=SCHEMA_EXAMPLES)(schema_command)

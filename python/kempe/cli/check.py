@@ -72,6 +72,7 @@ def check(  # noqa: PLR0917 - typer distinguishes options by their annotations
         _refuse_undetermined(case, state, freedom)
         check_beginnings(case, state)
         asked = _sweep(case, found) + _gradient(case, found)
+        asked += _optimize(case, found) + _fit(case, found)
     analyses = ", ".join(f"{name} ({entry['type']})" for name, entry in case.analyses.items())
     console.print()
     name = "standard input" if str(file) == STDIN else file
@@ -99,6 +100,33 @@ def _gradient(case: Case, found: dict[str, Any]) -> str:
     measures = [one.text for one in plan.wanted]
     found["gradient"] = {"measures": measures, "variables": list(plan.names)}
     return f"; gradient: {', '.join(measures)} over {', '.join(plan.names)}"
+
+
+def _optimize(case: Case, found: dict[str, Any]) -> str:
+    """The optimisation of a case, checked, as ``_sweep``."""
+    if not case.optimize:
+        return ""
+    from kempe.sweeps.problems.asked import check as check_problem
+
+    problem = check_problem(case)
+    objective, names = f"{problem.aim} {problem.label}", list(problem.plan.names)
+    found["optimize"] = {
+        "objective": objective,
+        "variables": names,
+        "subject_to": [limit.text for limit in problem.limits],
+    }
+    return f"; optimize: {objective} over {', '.join(names)}"
+
+
+def _fit(case: Case, found: dict[str, Any]) -> str:
+    """The fit of a case, checked without data, as ``_sweep``."""
+    if not case.fit:
+        return ""
+    from kempe.sweeps.fits.run import check as check_fit
+
+    told = check_fit(case)
+    found["fit"] = {"parameters": list(case.fit["parameters"]), "columns": case.fit["columns"]}
+    return f"; fit: {told}"
 
 
 def _refuse_undetermined(case: Case, state: State, freedom: MobilityResult) -> None:

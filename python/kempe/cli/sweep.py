@@ -136,13 +136,21 @@ def _range(text: str) -> tuple[str, Mapping[str, Any]]:
 @contextmanager
 def _guarded(folder: Path) -> Iterator[None]:
     """Keep finished rows, and name --anew where the folder has another or a damaged sweep."""
+    try:
+        with naming_anew():
+            yield
+    except KeyboardInterrupt as error:
+        _keep(getattr(error, "result", None), folder)
+        raise
+
+
+@contextmanager
+def naming_anew() -> Iterator[None]:
+    """Name --anew as the remedy where a folder has other or damaged results."""
     from kempe.sweeps.storage import CHANGED, DELETE
 
     try:
         yield
-    except KeyboardInterrupt as error:
-        _keep(getattr(error, "result", None), folder)
-        raise
     except FileError as error:
         way = "--anew discards its results, and --output names another folder"
         if (error.hint or "").startswith(CHANGED):

@@ -12,11 +12,13 @@ from kempe.plot.coupler_curves import coupler_curve
 from kempe.plot.efforts import effort, torque_speed
 from kempe.plot.energy import energy, energy_balance
 from kempe.plot.equilibrium import path, rest_position
+from kempe.plot.fits import fit
 from kempe.plot.free_body import draw_free_body, free_body
 from kempe.plot.gradients import gradient
 from kempe.plot.measures import measure
 from kempe.plot.mechanism import mechanism
 from kempe.plot.modes import mode_shape
+from kempe.plot.optimization import optimization
 from kempe.plot.page import Page, save, select
 from kempe.plot.pages import pages
 from kempe.plot.pin_loads import pin_load
@@ -42,12 +44,14 @@ __all__ = [
     "effort",
     "energy",
     "energy_balance",
+    "fit",
     "free_body",
     "gradient",
     "instant_centres",
     "measure",
     "mechanism",
     "mode_shape",
+    "optimization",
     "pages",
     "path",
     "pin_load",

@@ -7,6 +7,15 @@
 from kempe.sweeps.gradients import Gradient, gradient
 from kempe.sweeps.result import SweepResult
 from kempe.sweeps.run import sweep
-from kempe.sweeps.scatter import Tolerances, tolerances
+from kempe.sweeps.scatter import Allocation, Tolerances, allocate, tolerances
 
-__all__ = ["Gradient", "SweepResult", "Tolerances", "gradient", "sweep", "tolerances"]
+__all__ = [
+    "Allocation",
+    "Gradient",
+    "SweepResult",
+    "Tolerances",
+    "allocate",
+    "gradient",
+    "sweep",
+    "tolerances",
+]

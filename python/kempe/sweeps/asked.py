@@ -22,8 +22,9 @@ if TYPE_CHECKING:
 
 #: The arguments that the section ``[sweep]`` can have too.
 _NAMES = ("variables", "measures", "design", "n", "seed", "analysis")
-#: The place in the section with which a message begins.
-_PLACE = re.compile(rf"({'|'.join(_NAMES)})(\.[^:]+)?(?=: )")
+#: The place in a section with which a message begins; sections of problems have more keys.
+_OTHERS = "minimize maximize target subject_to starts method t columns sigma parameters robust"
+_PLACE = re.compile(rf"({'|'.join((*_NAMES, *_OTHERS.split()))})(\.[^:]+)?(?=: )")
 
 
 def asked_of(case: Case, *given: Any) -> dict[str, Any]:

@@ -22,7 +22,7 @@ from kempe._version import __version__
 from kempe.analyses.request_cache import encode
 from kempe.base.arrays import Floats
 from kempe.base.names import one_of
-from kempe.errors import InternalError, KempeError, ModelError
+from kempe.errors import IntegrationError, InternalError, KempeError, ModelError
 from kempe.model.measure_infos import measure_info, parameter_unit
 from kempe.model.values import numbers
 from kempe.sweeps.numbers import reads_quantities
@@ -38,6 +38,10 @@ if TYPE_CHECKING:
 
 #: The format of files of sweeps: 3 since rows have checksums.
 FORMAT = 3
+
+
+class NoSlopesError(IntegrationError):
+    """A motion has no derivatives."""
 
 
 @dataclass(frozen=True)
@@ -228,6 +232,33 @@ class Plan:
         slopes = np.empty_like(ordered_slopes)
         slopes[:, self._order] = ordered_slopes
         return values, slopes, {(k, self._order[of]): text for k, of, text in remarks}
+
+    def slopes_at(
+        self, measures: Sequence[str], times: Floats, row: Floats
+    ) -> tuple[Floats, Floats]:
+        """Measures of the motion at given times, and their derivatives.
+
+        Args:
+            measures: expressions of quantities.
+            times: times within the motion, or values of the quantity over which it goes.
+            row: values of the variables.
+
+        Returns:
+            (n_times, n_measures) and (n_times, n_measures, n_variables).
+
+        Raises:
+            NoSlopesError: there are no derivatives.
+            KempeError: the run fails.
+        """
+        core, start, guess, analyses, *_ = self._request
+        request = (core, start, guess, analyses, list(measures), times)
+        values, slopes, reason = _core.slopes_at(*request, *self._columns, row[self._order])
+        if reason:
+            raise NoSlopesError(f"{', '.join(measures)}: no derivatives: {reason}")
+        slopes = slopes.reshape(len(times), len(measures), len(row))
+        ordered = np.empty_like(slopes)
+        ordered[..., self._order] = slopes
+        return values, ordered
 
     def _singly(self, given: Floats) -> Block:
         block = Block.of(np.full((len(given), len(self.wanted)), np.nan))

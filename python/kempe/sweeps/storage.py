@@ -54,7 +54,8 @@ class Storage:
         self._data: sqlite3.Connection | None = None
         try:
             self.path.parent.mkdir(parents=True, exist_ok=True)
-            self._data = sqlite3.connect(self.path)
+            # the threads of a search take turns
+            self._data = sqlite3.connect(self.path, check_same_thread=False)
             known = self._key(self._data, key)
         except OSError as error:
             raise files.trouble(path, "write", error) from error

@@ -145,7 +145,7 @@ impl Sweep {
     }
 
     /// Measures with their derivatives at some times of a run and at its end.
-    fn rows(
+    pub(super) fn rows(
         &self,
         (whole, run, rests): (&PreparedModel, &Run, bool),
         ready: &Ready,

@@ -17,8 +17,10 @@
 //! | `reader` | measures with derivatives |
 //! | `statistics` | statistics with derivatives |
 //! | `gradient` | all numbers and all variables of a request |
+//! | `at_times` | measures and all variables of a request at given times |
 
 mod at_rest;
+mod at_times;
 mod driven;
 mod equilibrium;
 mod gradient;
@@ -31,4 +33,5 @@ mod statistics;
 mod triggers;
 mod variables;
 
+pub use at_times::AtTimes;
 pub use gradient::{Gradient, Remark};

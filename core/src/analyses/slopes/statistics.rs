@@ -436,7 +436,7 @@ impl SlopeRows {
     ///
     /// # Errors
     /// The reason for which there are no derivatives.
-    fn at(&self, t: f64) -> Result<&SlopeRow, String> {
+    pub fn at(&self, t: f64) -> Result<&SlopeRow, String> {
         let place = self.rows.partition_point(|row| row.t < t);
         match self.rows.get(place) {
             Some(row) => Ok(row),

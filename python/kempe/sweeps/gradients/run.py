@@ -70,19 +70,18 @@ def gradient(
         )
     plan = planned(case, measures, variables, analysis)
     row = np.array(list(present(plan.case, plan.names).values()))
-    values, slopes, remarks = _slopes(plan, row)
-    for of, place in _moved(plan, row).items():
+    values, slopes, remarks = numbers_and_slopes(plan, row)
+    for of, told in in_analyses(plan, row).items():
         slopes[:, of] = np.nan
-        told = f"{place} depends on it, and such slopes are not available yet"
         remarks |= {(k, of): told for k in range(len(values))}
     return Gradient(plan, row, values, slopes, remarks)
 
 
-def _moved(plan: Plan, row: Floats) -> dict[int, str]:
-    """A formula of an analysis for each variable on which one depends, by index of the variable.
+def in_analyses(plan: Plan, row: Floats) -> dict[int, str]:
+    """Why there are no derivatives by variables in the formulas of an analysis, by their places.
 
     Raises:
-        ModelError: a variable cannot be changed a little.
+        ModelError: a variable can be changed neither up nor down.
     """
     fields = _fields(plan.case)
     try:  # all at once, which is cheaper
@@ -94,12 +93,18 @@ def _moved(plan: Plan, row: Floats) -> dict[int, str]:
     for of in range(len(row)):
         moved = sorted(fields.items() - _fields(_changed(plan, row, [of])).items())
         if moved:
-            found[of] = moved[0][0]
+            found[of] = f"{moved[0][0]} depends on it, and such slopes are not available yet"
     return found
 
 
-def _slopes(plan: Plan, row: Floats) -> tuple[Floats, Floats, dict[tuple[int, int], str]]:
-    """The numbers, their derivatives, and remarks; see ``Plan.slopes``."""
+def numbers_and_slopes(
+    plan: Plan, row: Floats
+) -> tuple[Floats, Floats, dict[tuple[int, int], str]]:
+    """The numbers, their derivatives, and remarks; see ``Plan.slopes``.
+
+    Raises:
+        KempeError: the run fails.
+    """
     left = {k: told for k, one in enumerate(plan.wanted) if (told := _left(plan, one))}
     values = np.full(len(plan.wanted), np.nan)
     slopes = np.full((len(values), len(row)), np.nan)

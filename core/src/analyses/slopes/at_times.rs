@@ -1,0 +1,59 @@
+//! Measures of a motion and their derivatives at given times.
+
+use super::starts::with_interpolant;
+use super::statistics::SlopeRows;
+use crate::analyses::measures::Measure;
+use crate::analyses::record::Record;
+use crate::analyses::sweep::{Outcome, PreparedModel, Sweep, VariantRow};
+use std::sync::Arc;
+
+/// Values and derivatives: a row of all measures for each time, and for each measure in it a row of all variables.
+pub type AtTimes = (Vec<f64>, Vec<f64>);
+
+impl Sweep {
+    /// The measures of a variant at given times, and their derivatives by its variables: first the parameters, then
+    /// the entries of `set`. The inner error is the reason for which there are no derivatives.
+    ///
+    /// # Errors
+    /// The outcomes of [`variants`](Self::variants) other than values.
+    pub fn slopes_at(
+        &self,
+        times: &[f64],
+        row: &VariantRow,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Result<AtTimes, String>, Outcome> {
+        let ready = self.ready(row, stop)?;
+        let record =
+            self.run(&ready, &with_interpolant(&ready.analysis), stop).map_err(Outcome::from)?;
+        let Record { motion: Some(run), driven, .. } = record else {
+            return Err(Outcome::Single);
+        };
+        let ends =
+            [&run.trajectory.t[..1], &run.trajectory.t[run.trajectory.t.len() - 1..]].concat();
+        let (first, last) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+        if let Some(t) = times.iter().find(|t| !(first..=last).contains(*t)) {
+            let text = format!("the motion has no value at {t}: it goes from {first} to {last}");
+            return Err(Outcome::Failed(text));
+        }
+        let rests = driven.as_ref().is_some_and(|driven| driven.variable.rests);
+        let whole = driven.map(|driven| Arc::new(PreparedModel::new(driven.model)));
+        let whole = whole.as_ref().unwrap_or(&ready.prepared);
+        let read = |text: &String| Measure::read(whole.model(), text);
+        let measures: Result<Vec<Measure>, _> = self.measures.iter().map(read).collect();
+        let measures = measures.map_err(|problem| Outcome::Failed(problem.to_string()))?;
+        if measures.iter().any(Measure::is_of_run) {
+            return Ok(Err("of a whole run, only final values have derivatives".to_string()));
+        }
+        let count = measures.len();
+        let wanted = (measures, times.to_vec());
+        let rows = self.rows((whole, &run, rests), &ready, wanted, row, stop);
+        Ok(rows.and_then(|rows| gathered(&rows, times, count)))
+    }
+}
+
+fn gathered(rows: &SlopeRows, times: &[f64], count: usize) -> Result<AtTimes, String> {
+    let all: Vec<_> = times.iter().map(|t| rows.at(*t)).collect::<Result<_, _>>()?;
+    let values = all.iter().flat_map(|row| row.values[..count].iter().map(|of| of[0]));
+    let slopes = all.iter().flat_map(|row| row.slopes[..count].iter().flatten().copied());
+    Ok((values.collect(), slopes.collect()))
+}

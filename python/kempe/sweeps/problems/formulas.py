@@ -1,0 +1,204 @@
+"""Formulas of the columns of a sweep and of parameters, with their derivatives."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from kempe import _core
+from kempe.base.arrays import Floats
+from kempe.base.names import few
+from kempe.errors import KempeError, ModelError
+from kempe.model.compiled import CompiledModel
+from kempe.model.measure_infos import parameter_unit
+from kempe.model.values import refuse
+from kempe.sweeps.plan import Plan
+
+#: A comparison at the top of a formula.
+_COMPARISON = re.compile(r"<=|>=|==|=|<|>")
+#: A name that a formula can use without backticks.
+_PLAIN = re.compile(r"[A-Za-z_]\w*(\.[A-Za-z_]\w*)*")
+
+#: The unit of a column or a parameter, by its name.
+Units = Callable[[str], str]
+
+
+@dataclass(frozen=True)
+class Formula:
+    """A formula.
+
+    Attributes:
+        text: as the user wrote it.
+        of: the text for the core.
+        names: the columns and parameters in it.
+        unit: its SI unit; empty if it is not known.
+    """
+
+    text: str
+    of: str
+    names: tuple[str, ...]
+    unit: str
+
+    def at(self, slopes: Mapping[str, tuple[float, Floats]]) -> tuple[float, Floats]:
+        """The value, and the derivatives by the variables, from those of its names."""
+        known = [slopes[name] for name in self.names]
+        value, partial = _core.formula_value(self.of, list(self.names), [x for x, _ in known])
+        width = len(next(iter(slopes.values()))[1])
+        parts = (p * of if p else 0.0 * of for p, (_, of) in zip(partial, known, strict=True))
+        return value, sum(parts, np.zeros(width))
+
+    @property
+    def columns(self) -> list[str]:
+        """The names that are columns, not parameters."""
+        return [name for name in self.names if "." in name or "[" in name]
+
+
+def read_formula(model: CompiledModel, text: str, columns: Iterable[str]) -> Formula:
+    """A formula; its unit is not known yet.
+
+    Args:
+        model: the model, whose parameters the formula may contain.
+        text: the text.
+        columns: names without a point that are columns, such as ``lower`` of limits.
+
+    Raises:
+        ModelError: the text is not a formula.
+    """
+    if not isinstance(text, str) or not text.strip():
+        refuse("formula", f"{text!r}; must be a text such as 'C.force.max'")
+    written = text.strip()
+    if "[" in written and re.fullmatch(r"[\w.]+\[-?\d+\]", written):
+        return Formula(text, f"`{written}`", (written,), "")
+    names = [_quoted(name, model, set(columns)) for name in _core.formula_names(written)]
+    return Formula(text, written, tuple(names), "")
+
+
+def with_unit(formula: Formula, unit: Units) -> Formula:
+    """The formula with its unit.
+
+    Raises:
+        ModelError: its units contradict each other.
+    """
+    units = [unit(name) for name in formula.names]
+    try:
+        found = _core.formula_unit(formula.of, list(formula.names), units)
+    except KempeError as error:
+        told = ", ".join(
+            f"{name} is in {of}" for name, of in zip(formula.names, units, strict=True) if of
+        )
+        raise ModelError(f"{formula.text!r}: {error.args[0]}; {told}", hint=error.hint) from error
+    single = formula.names and formula.of.strip(" `") == formula.names[0]
+    of = units[0] if single else found
+    return Formula(formula.text, formula.of, formula.names, "" if of == "SI" else of)
+
+
+def _quoted(name: str, model: CompiledModel, columns: set[str]) -> str:
+    """A name as a column is written, or the name of a parameter.
+
+    Raises:
+        ModelError: it is neither.
+    """
+    if name in model.parameters or name in columns:
+        return name
+    if "." not in name:
+        hint = f"parameters are {few(model.parameters)}" if model.parameters else None
+        told = f"{name!r} is neither a parameter nor a column such as C.force.max"
+        raise ModelError(told, name=name, hint=hint)
+    return name
+
+
+@dataclass(frozen=True)
+class Limit:
+    """A comparison that the best values must satisfy: ``room`` is at least 0.
+
+    Attributes:
+        text: as the user wrote it.
+        room: the larger side minus the smaller one.
+        sides: both sides, the smaller one first.
+    """
+
+    text: str
+    room: Formula
+    sides: tuple[Formula, Formula]
+
+
+def read_limit(model: CompiledModel, text: str, columns: Sequence[str]) -> Limit:
+    """A limit such as ``"C.force.max <= 2e4"``; its unit is not known yet.
+
+    Raises:
+        ModelError: it is not a comparison of two formulas.
+    """
+    form = "must be a comparison such as 'C.force.max <= 2e4'"
+    if not isinstance(text, str):
+        refuse("subject_to", f"{text!r}; {form}")
+    found = [m for m in _COMPARISON.finditer(text) if _is_outside(text, m.start())]
+    if len(found) != 1:
+        refuse("subject_to", f"{text!r}; {form}")
+    (sign,) = found
+    if "=" in sign[0] and len(sign[0].strip("<>")) == len(sign[0]):
+        raise ModelError(
+            f"subject_to: {text!r} is an equation",
+            hint="write two comparisons for a band, or target={'C.force.max': 2e4} for a value",
+        )
+    left, right = text[: sign.start()].strip(), text[sign.end() :].strip()
+    small, large = (left, right) if sign[0].startswith("<") else (right, left)
+    sides = [read_formula(model, side, columns) for side in (small, large)]
+    whole = f"({sides[1].of}) - ({sides[0].of})"
+    names = tuple(dict.fromkeys(name for side in sides for name in side.names))
+    if not names:
+        refuse("subject_to", f"{text!r} has no column and no parameter")
+    return Limit(text, Formula(text, whole, names, ""), (sides[0], sides[1]))
+
+
+def _is_outside(text: str, place: int) -> bool:
+    """Whether a place is neither within parentheses nor within backticks."""
+    before = text[:place]
+    return before.count("(") == before.count(")") and before.count("`") % 2 == 0
+
+
+class Parameters:
+    """The parameters of a case in formulas: variables, numbers, and formulas of these.
+
+    Args:
+        plan: the plan, whose variables may be parameters.
+    """
+
+    def __init__(self, plan: Plan) -> None:
+        self._plan = plan
+        self._model = plan.case.model.compile()
+
+    def unit(self, name: str) -> str:
+        """The SI unit; empty if it is not known."""
+        return parameter_unit(self._model, name)
+
+    def at(self, row: Floats, names: Iterable[str]) -> dict[str, tuple[float, Floats]]:
+        """Values and derivatives by the variables."""
+        found: dict[str, tuple[float, Floats]] = {}
+        for name in names:
+            self._add(found, name, row)
+        return found
+
+    def _add(self, found: dict[str, tuple[float, Floats]], name: str, row: Floats) -> None:
+        if name in found:
+            return
+        if name in self._plan.names:
+            k = self._plan.names.index(name)
+            found[name] = float(row[k]), np.eye(len(row))[k]
+        elif (formula := self._formulas.get(name)) is not None:
+            for each in formula.names:
+                self._add(found, each, row)
+            found[name] = formula.at(found)
+        else:
+            found[name] = self._model.parameters[name], np.zeros(len(row))
+
+    @cached_property
+    def _formulas(self) -> dict[str, Formula]:
+        """The parameters that depend on others."""
+        written = self._plan.case.model.shown().get("parameters", {})
+        texts = {name: text for name, text in written.items() if isinstance(text, str)}
+        read = {name: read_formula(self._model, text, ()) for name, text in texts.items()}
+        return {name: formula for name, formula in read.items() if formula.names}

@@ -1,0 +1,271 @@
+"""The result of an optimisation: values, what limits them, and the runs of the search."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from kempe.base import files
+from kempe.base.arguments import explain_methods
+from kempe.base.arrays import Floats
+from kempe.base.display_units import display
+from kempe.sweeps.problems.problem import TOLERANCE, Problem, Run
+from kempe.sweeps.problems.search import scipy
+from kempe.sweeps.variables import present
+
+if TYPE_CHECKING:
+    from kempe.case import Case
+
+#: Parts of a range, and of the objective, by which candidates differ at least.
+_APART, _ALIKE = 1e-3, 1e-4
+#: Room in a limit, as a part of its size, with which it holds with equality.
+_TIGHT = 1e-4
+
+
+@dataclass(frozen=True, repr=False)
+class Candidate:
+    """A local optimum.
+
+    Attributes:
+        values: the values of the variables by name, in SI units and rad.
+        objective: the objective.
+        case: the case with these values.
+    """
+
+    _problem: Problem
+    _run: Run
+
+    @property
+    def values(self) -> Mapping[str, float]:  # noqa: D102 - see Attributes
+        return MappingProxyType(_values(self._problem, self._run))
+
+    @property
+    def objective(self) -> float:  # noqa: D102
+        return self._run.objective
+
+    @cached_property
+    def case(self) -> Case:  # noqa: D102
+        return self._problem.changed(self._run.row)
+
+    @property
+    def holds(self) -> bool:
+        """Whether all limits hold."""
+        return self._run.holds
+
+    def __repr__(self) -> str:
+        told = ", ".join(f"{name} = {x:.6g}" for name, x in self.values.items())
+        return f"<Candidate {self._problem.label} = {self.objective:.6g}: {told}>"
+
+
+@explain_methods
+class Optimum:
+    """The best values that a search found.
+
+    Attributes:
+        values: the values of the variables by name, in SI units and rad.
+        measures: the columns in the objective and in the limits, with these values.
+        objective: the objective itself, also if it is maximised.
+        active: the bounds and limits that hold with equality, and by how much the objective gains
+            per unit by which one of them is relaxed, at least 0.
+        case: the case with these values.
+        candidates: the local optima, best first.
+        history: every run: start, run, variables, columns, objective, violation and reason; a data
+            frame, or a structured array without pandas.
+        runs: number of runs; one with derivatives counts as one.
+        success: whether all limits hold.
+        message: how the search ended.
+        units: SI units of variables and columns; empty for an unknown one.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        found: Sequence[Run],
+        history: Sequence[tuple[int, int, Run]],
+        message: str = "",
+    ) -> None:
+        self._problem = problem
+        runs = _distinct(problem, found)
+        self._run, self._history = runs[0], sorted(history, key=lambda one: one[:2])
+        self.candidates = tuple(Candidate(problem, run) for run in runs)
+        self.values: Mapping[str, float] = self.candidates[0].values
+        self.measures: Mapping[str, float] = MappingProxyType(dict(self._run.columns))
+        self.objective = self._run.objective
+        self.runs = len(history)
+        self.success = self._run.holds
+        self.message = message or _told(problem, self._run)
+        plan = problem.plan
+        known = {name: plan.unit_of(name) for name in plan.names}
+        known |= {one.text: "" if one.unit == "SI" else one.unit for one in plan.wanted}
+        self.units: Mapping[str, str] = MappingProxyType(known)
+
+    @property
+    def case(self) -> Case:  # noqa: D102 - see Attributes
+        return self.candidates[0].case
+
+    @property
+    def label(self) -> str:
+        """The objective in words."""
+        return self._problem.label
+
+    @property
+    def unit(self) -> str:
+        """The SI unit of the objective; empty if it is not known."""
+        return self._problem.unit
+
+    @cached_property
+    def active(self) -> Mapping[str, float]:  # noqa: D102
+        return MappingProxyType(_active(self._problem, self._run))
+
+    @property
+    def start(self) -> Case:
+        """The case before the search."""
+        return self._problem.case
+
+    @cached_property
+    def before(self) -> Mapping[str, float]:
+        """The values of the variables before the search."""
+        return MappingProxyType(present(self._problem.case, self._problem.plan.names))
+
+    @cached_property
+    def bounds(self) -> Mapping[str, tuple[float, float]]:
+        """The bounds of the variables."""
+        return MappingProxyType({b.name: (b.least, b.largest) for b in self._problem.bounds})
+
+    @property
+    def columns(self) -> tuple[str, ...]:
+        """The names of the columns of numbers in ``history``."""
+        names = [one.text for one in self._problem.plan.wanted]
+        return ("start", "run", *self._problem.plan.names, *names, "objective", "violation")
+
+    @cached_property
+    def _table(self) -> Floats:
+        names = [one.text for one in self._problem.plan.wanted]
+        rows = []
+        for start, k, run in self._history:
+            columns = [run.columns.get(name, np.nan) for name in names]
+            violation = np.nan if run.reason else run.violation
+            rows.append([start, k, *run.row, *columns, run.objective, violation])
+        return np.array(rows).reshape(len(rows), len(self.columns))
+
+    @cached_property
+    def reasons(self) -> tuple[str, ...]:
+        """Why each run failed, in the order of ``history``; empty for the others."""
+        return tuple(run.reason for *_, run in self._history)
+
+    @cached_property
+    def history(self) -> Any:  # noqa: D102
+        pairs = list(zip(self.columns, self._table.T, strict=True))
+        try:
+            import pandas
+        except ImportError:
+            kinds = [*((name, np.float64) for name in self.columns), ("reason", object)]
+            found = np.empty(len(self._table), np.dtype(kinds))
+            for name, of in pairs:
+                found[name] = of
+            found["reason"] = self.reasons
+            return found
+        frame = pandas.DataFrame(dict(pairs) | {"reason": list(self.reasons)})
+        return frame.astype({"start": int, "run": int})
+
+    def to_csv(self, path: Path | str) -> None:
+        """Write the history as CSV with 17 digits, in SI units and rad.
+
+        Raises:
+            FileError: the file cannot be written; an existing file is not changed.
+        """
+        text = io.StringIO()
+        write = csv.writer(text, lineterminator="\n").writerow
+        write([*self.columns, "reason"])
+        for row, told in zip(self._table.tolist(), self.reasons, strict=True):
+            write([*("" if np.isnan(x) else f"{x:.17g}" for x in row), told])
+        files.write_text(path, text.getvalue())
+
+    def __repr__(self) -> str:
+        told = ", ".join(f"{name} = {x:.6g}" for name, x in self.values.items())
+        unit = display(self.unit)
+        return (
+            f"<Optimum: {self.label} = {self.objective:.6g} {self.unit or unit.unit}".rstrip()
+            + f" at {told}; {self.runs} runs; {self.message}>"
+        )
+
+
+def _values(problem: Problem, run: Run) -> dict[str, float]:
+    return dict(zip(problem.plan.names, run.row.tolist(), strict=True))
+
+
+def _distinct(problem: Problem, found: Sequence[Run]) -> list[Run]:
+    """Runs in order, best first, without those that are near to a better one."""
+    if any(run.holds for run in found):
+        found = [run for run in found if run.holds]
+    else:
+        found = [min(found, key=lambda run: run.violation)]
+    kept: list[Run] = []
+    for run in sorted(found, key=lambda run: problem.sign * run.objective):
+        shares = problem.shares(run.row)
+        scale = max(abs(run.objective), abs(kept[0].objective) if kept else 0.0)
+        near = (
+            np.abs(problem.shares(one.row) - shares).max() < _APART
+            and abs(one.objective - run.objective) <= _ALIKE * scale
+            for one in kept
+        )
+        if not any(near):
+            kept.append(run)
+    return kept
+
+
+def _told(problem: Problem, run: Run) -> str:
+    """How a search ended: done, or which limit cannot be met and by how much."""
+    if run.holds:
+        return "all limits hold" if problem.limits else "done"
+    beyond = []
+    for limit, room, size in zip(problem.limits, run.room, run.sizes, strict=True):
+        if -room > TOLERANCE * size:
+            unit = display(limit.room.unit)
+            told = f"{-room / unit.divisor:.4g} {unit.symbol}".rstrip()
+            beyond.append(f"{limit.text} is missed by {told}")
+    return "no values within the bounds satisfy all limits: at the nearest, " + ", ".join(beyond)
+
+
+def _active(problem: Problem, run: Run) -> dict[str, float]:
+    """What holds with equality, with the multipliers of Karush, Kuhn and Tucker.
+
+    At the optimum, the slope of the objective is a sum of the slopes of these bounds and limits
+    with factors that are not negative. Least squares finds the factors.
+    """
+    shares, rates = problem.shares(run.row), problem.rates(run.row)
+    texts, slopes, per_unit = [], [], []
+    for k, bound in enumerate(problem.bounds):
+        for end, sign, value in ((0.0, 1.0, bound.least), (1.0, -1.0, bound.largest)):
+            if abs(shares[k] - end) < 1e-9:
+                texts.append(f"{bound.name} {'>=' if sign > 0.0 else '<='} {_short(value)}")
+                slopes.append(sign * np.eye(len(shares))[k])
+                per_unit.append(1.0 / rates[k])
+    for k, limit in enumerate(problem.limits):
+        if run.room[k] <= _TIGHT * run.sizes[k]:
+            slope = np.nan_to_num(run.room_slopes[k]) * rates
+            size = float(np.abs(slope).max()) or 1.0
+            texts.append(limit.text)
+            slopes.append(slope / size)
+            per_unit.append(1.0 / size)
+    if not texts or not np.isfinite(run.slope).all():
+        return dict.fromkeys(texts, float("nan"))
+    aim = problem.sign * run.slope * rates
+    scale = float(np.abs(aim).max()) or 1.0
+    factors, _ = scipy().nnls(np.array(slopes).T, aim / scale)
+    pairs = zip(texts, factors, per_unit, strict=True)
+    return {text: float(factor * scale * abs(unit)) for text, factor, unit in pairs}
+
+
+def _short(value: float) -> str:
+    """A number as in a file: ``1e7``, not ``1e+07``."""
+    mantissa, _, power = f"{value:.6g}".partition("e")
+    return f"{mantissa}e{int(power)}" if power else mantissa

@@ -1,0 +1,289 @@
+"""Searches from one start: SciPy's methods on a problem in the unit cube."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from kempe.base.arrays import Floats
+from kempe.errors import KempeError, ModelError
+from kempe.sweeps.problems.evaluate import Evaluations
+from kempe.sweeps.problems.problem import Run
+from kempe.sweeps.reasons import reason
+
+#: Relative change of the scaled objective at which a method ends; most iterations; most rounds.
+_SMALL, _MOST, _ROUNDS = 1e-10, 300, 4
+#: A gap in a message.
+_GAP = re.compile(r"\bby (\d[\d.]*(?:e-?\d+)?) (?:m|rad)\b")
+#: Members of a population for each variable, and generations.
+_MEMBERS, _GENERATIONS = 15, 200
+#: Spread of the objectives of a population, relative to their mean and to the first objective.
+_SPREAD = 1e-6
+#: Distance from a bound, as a part of its range, within which the bound itself is tried.
+_NEAR = 1e-3
+
+
+def scipy() -> Any:
+    """SciPy's optimisers.
+
+    Raises:
+        ModelError: SciPy is not installed.
+    """
+    try:
+        import scipy.optimize
+    except ImportError as error:
+        raise ModelError(
+            "kp.optimize and kp.fit need SciPy, which is not installed",
+            hint="pip install 'kempe[design]'",
+        ) from error
+    return scipy.optimize
+
+
+class Search:
+    """A search from one start.
+
+    Args:
+        runs: the runs.
+        start: the number of the start.
+        method: the name of the method.
+        seed: for random methods.
+    """
+
+    def __init__(self, runs: Evaluations, start: int, method: str, seed: int) -> None:
+        self.runs, self.start, self.method, self.seed = runs, start, method, seed
+        self.problem = runs.problem
+        self.best: Run | None = None
+        self._last: Run | None = None
+        self._seen: tuple[bytes, Run] | None = None
+
+    def at(self, shares: Floats) -> Run:
+        """The run at a point of the unit cube."""
+        key = np.asarray(shares).tobytes()  # methods ask for objective, limits and slopes apart
+        if self._seen is None or self._seen[0] != key:
+            self._seen = key, self.runs.at(self.start, self.problem.row(np.asarray(shares)))
+            self._note(self._seen[1])
+        return self._seen[1]
+
+    def _note(self, run: Run) -> None:
+        if not run.reason:
+            self._last = run
+        if self.best is None or self._is_better(run, self.best):
+            self.best = run
+
+    def _is_better(self, one: Run, other: Run) -> bool:
+        if one.reason or other.reason:
+            return bool(other.reason) and not one.reason
+        if not one.holds or not other.holds:
+            return one.violation < other.violation
+        return self.problem.sign * (one.objective - other.objective) < 0.0
+
+    def run(self, shares: Floats) -> Run | None:
+        """Search from a point; the best run, or None if all fail."""
+        if self.method == "differential-evolution":
+            self._evolve(shares)
+            return self.best
+        first = self.at(shares)
+        if first.reason:
+            closer = self._closed(shares)
+            first = self.at(closer) if closer is not None else first
+        if first.reason:
+            return None
+        solve = {"least-squares": self._squares, "slsqp": self._slsqp}.get(self.method, self._trust)
+        for _ in range(_ROUNDS):
+            before = self.best
+            assert before is not None
+            solve(self.problem.shares(before.row), before)
+            self._snap()
+            if self.best is before or self._is_close(before):
+                break
+        return self.best
+
+    def _is_close(self, before: Run) -> bool:
+        """Whether the best run is hardly better than an earlier one."""
+        assert self.best is not None
+        gain = abs(self.best.objective - before.objective)
+        return before.holds and gain <= 1e-9 * abs(before.objective)
+
+    def _snap(self) -> None:
+        """Try the bounds to which the best run is near; methods may end a little before them."""
+        assert self.best is not None
+        shares = self.problem.shares(self.best.row)
+        near = np.where(shares < _NEAR, 0.0, np.where(shares > 1.0 - _NEAR, 1.0, shares))
+        if (near != shares).any():
+            self.at(near)
+
+    def _closed(self, shares: Floats) -> Floats | None:
+        """A point near a given one where the mechanism closes: least squares of its gap."""
+
+        def gap(at: Floats) -> Floats:
+            found = self._gap(at)
+            return np.array([found + 1e-3 if found else 0.0])
+
+        if not self._gap(shares):
+            return None
+        found = scipy().least_squares(
+            gap, shares, bounds=(-1e-12, 1.0 + 1e-12), diff_step=1e-4, max_nfev=50
+        )
+        return None if found.fun[0] else np.asarray(found.x)
+
+    def _gap(self, shares: Floats) -> float:
+        """The gap that stays open in the assembly, m or rad; 0 if it closes."""
+        try:
+            self.problem.plan.variant(self.problem.row(shares)).start()
+        except KempeError as error:
+            told = _GAP.search(reason(str(error.args[0])))
+            return float(told[1]) if told else 0.0
+        return 0.0
+
+    def _functions(self, first: Run) -> tuple[Callable[..., Any], Callable[..., Any] | None]:
+        """The scaled objective and the scaled room in the limits, each with its derivatives.
+
+        A failed run is a wall: larger than the last objective, without slopes.
+        """
+        sign, rates = self.problem.sign, self.problem.rates
+        power = 2 if self.problem.is_square else 1
+
+        def smooth(run: Run) -> tuple[float, Floats]:
+            slope = np.nan_to_num(run.slope) * rates(run.row)
+            if power == 1:
+                return sign * run.objective, sign * slope
+            return sign * run.objective**2, sign * 2.0 * run.objective * slope
+
+        value, slope = smooth(first)
+        scale = max(abs(value), float(np.abs(slope).max(initial=0.0))) or 1.0
+
+        def objective(shares: Floats) -> tuple[float, Floats]:
+            run = self.at(shares)
+            if not run.reason:
+                value, slope = smooth(run)
+                return value / scale, slope / scale
+            known = smooth(self._last or first)[0] / scale
+            return known + 1.0 + abs(known), np.zeros(len(shares))
+
+        if not len(first.room):
+            return objective, None
+        of_limits = np.abs(first.room_slopes * rates(first.row)).max(axis=1)
+        sizes = np.maximum(np.maximum(first.sizes, np.nan_to_num(of_limits)), 1e-300)
+
+        def room(shares: Floats) -> tuple[Floats, Floats]:
+            run = self.at(shares)
+            run = (self._last or first) if run.reason else run
+            slopes = np.nan_to_num(run.room_slopes) * rates(run.row)
+            return run.room / sizes, slopes / sizes[:, None]
+
+        return objective, room
+
+    def _slsqp(self, shares: Floats, first: Run) -> None:
+        objective, room = self._functions(first)
+        limits = (
+            []
+            if room is None
+            else [{"type": "ineq", "fun": lambda u: room(u)[0], "jac": lambda u: room(u)[1]}]
+        )
+        scipy().minimize(
+            objective,
+            shares,
+            jac=True,
+            bounds=[(0.0, 1.0)] * len(shares),
+            constraints=limits,
+            method="SLSQP",
+            options={"ftol": _SMALL, "maxiter": _MOST},
+        )
+
+    def _trust(self, shares: Floats, first: Run) -> None:
+        objective, room = self._functions(first)
+        optimize = scipy()
+        limits = (
+            []
+            if room is None
+            else [
+                optimize.NonlinearConstraint(
+                    lambda u: room(u)[0], 0.0, np.inf, jac=lambda u: room(u)[1]
+                )
+            ]
+        )
+        optimize.minimize(
+            objective,
+            np.clip(shares, 1e-6, 1.0 - 1e-6),
+            jac=True,
+            bounds=optimize.Bounds(0.0, 1.0, keep_feasible=True),
+            constraints=limits,
+            method="trust-constr",
+            options={"gtol": 1e-10, "xtol": 1e-12, "maxiter": _MOST},
+        )
+
+    def _squares(self, shares: Floats, first: Run) -> None:
+        size = float(np.linalg.norm(first.residuals[0])) or 1.0
+
+        def residuals(at: Floats) -> Floats:
+            run = self.at(at)
+            if not run.reason:
+                return run.residuals[0] / size
+            known = (self._last or first).residuals[0] / size
+            return known * 10.0 + 1.0
+
+        def slopes(at: Floats) -> Floats:
+            run = self.at(at)
+            run = (self._last or first) if run.reason else run
+            return np.asarray(run.residuals[1] * self.problem.rates(run.row) / size)
+
+        scipy().least_squares(
+            residuals,
+            shares,
+            jac=slopes,
+            bounds=(0.0, 1.0),
+            x_scale="jac",
+            ftol=_SMALL,
+            xtol=_SMALL,
+            gtol=1e-15,
+            max_nfev=_MOST,
+        )
+
+    def _evolve(self, shares: Floats) -> None:
+        """Differential evolution: points that fail are worst, then those beyond limits."""
+        (first,) = self.runs.values(self.start, self.problem.row(shares)[None])
+        self._note(first)
+        size = 0.0 if first.reason else abs(first.objective)
+        sign, worst = self.problem.sign, 1e100
+
+        def objective(points: Floats) -> Floats:
+            rows = np.array([self.problem.row(point) for point in points.T])
+            found = self.runs.values(self.start, rows)
+            for run in found:
+                self._note(run)
+            return np.array(
+                [
+                    worst
+                    if run.reason
+                    else sign * run.objective
+                    if run.holds
+                    else 1e-6 * worst * (1.0 + min(run.violation, 1e5))
+                    for run in found
+                ]
+            )
+
+        scipy().differential_evolution(
+            objective,
+            [(0.0, 1.0)] * len(self.problem.bounds),
+            vectorized=True,
+            updating="deferred",
+            polish=False,
+            init="sobol",
+            popsize=_MEMBERS,
+            maxiter=_GENERATIONS,
+            x0=shares,
+            tol=_SPREAD,
+            atol=_SPREAD * size,
+            **_seed(self.seed),
+        )
+
+
+def _seed(seed: int) -> dict[str, Any]:
+    """The argument of SciPy for the seed, which has another name since version 1.15."""
+    import inspect
+
+    known = inspect.signature(scipy().differential_evolution).parameters
+    return {"rng" if "rng" in known else "seed": seed}

@@ -1,0 +1,148 @@
+"""Optima that are known in closed form or published."""
+
+import kempe as kp
+import numpy as np
+import pytest
+from design_problems.machines import SCALES, four_bar, lamp, path_generator, slider_crank
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_counterweights_of_berkof_and_lowen(scale: tuple[float, float, float]) -> None:
+    case, exact = four_bar(*scale)
+    bounds = dict.fromkeys(exact, (-3 * scale[1], 3 * scale[1]))
+    best = kp.optimize(case, bounds, target={"shake_x.rms": 0, "shake_y.rms": 0})
+    assert dict(best.values) == pytest.approx(exact, rel=1e-6)
+    assert best.success and best.runs < 60
+
+
+@pytest.mark.parametrize("scale", SCALES)
+def test_spring_with_least_torque(scale: tuple[float, float, float]) -> None:
+    case, exact = slider_crank(*scale)
+    bounds = {"k": (exact["k"] / 10, exact["k"] * 10, "log"), "free": (0, scale[1])}
+    best = kp.optimize(case, bounds, minimize="drive.effort.rms")
+    assert dict(best.values) == pytest.approx(exact, rel=1e-6)
+    assert best.runs < 80 and not best.active
+
+
+@pytest.mark.parametrize("method", [None, "slsqp", "trust-constr"])
+@pytest.mark.parametrize("scale", SCALES[:2])
+def test_balanced_lamp(scale: tuple[float, float, float], method: str | None) -> None:
+    case, exact = lamp(*scale)
+    bounds = {"k": (0, 10 * exact["k"]), "free": (-scale[1], scale[1])}
+    best = kp.optimize(case, bounds, minimize="over.effort.rms", method=method)
+    precise = 1e-4 if method == "trust-constr" else 1e-6
+    assert best.values["k"] == pytest.approx(exact["k"], rel=precise)
+    assert best.values["free"] == pytest.approx(0, abs=precise * scale[1])
+
+
+def test_lamp_by_evolution_and_as_a_target() -> None:
+    case, exact = lamp(1, 1, 9.81)
+    bounds = {"k": (0, 10 * exact["k"]), "free": (-1, 1)}
+    found = kp.optimize(
+        case, bounds, minimize="over.effort.rms", method="differential-evolution", seed=3
+    )
+    assert found.values["k"] == pytest.approx(exact["k"], rel=1e-2)
+    again = kp.optimize(
+        case, bounds, minimize="over.effort.rms", method="differential-evolution", seed=3
+    )
+    assert found.values == again.values
+    best = kp.optimize(case, bounds, target={"over.effort.rms": 0})
+    assert best.values["k"] == pytest.approx(exact["k"], rel=1e-6)
+
+
+#: Problem 2 of Cabrera, Simon and Prado (2002).
+POINTS = [(3, 3), (2.759, 3.363), (2.372, 3.663), (1.890, 3.862), (1.355, 3.943)]
+ANGLES = np.radians([30, 45, 60, 75, 90])
+ORDER = ["r2 <= r3", "r3 <= r4", "r4 <= r1", "r1 + r2 <= r3 + r4"]
+BOUNDS = dict.fromkeys(("r1", "r2", "r3", "r4"), (0.5, 50)) | {
+    "rcx": (-50, 50), "rcy": (-50, 50),
+}  # fmt: skip
+
+
+def closed_form(values: dict[str, float]) -> float:
+    """The sum of the squared distances, from the triangles of the linkage."""
+    r1, r2, r3, r4 = (values[f"r{k}"] for k in range(1, 5))
+    total = 0.0
+    for angle, point in zip(ANGLES, POINTS, strict=True):
+        pin = r2 * np.exp(1j * angle)
+        across = r1 - pin
+        cosine = (r3**2 + abs(across) ** 2 - r4**2) / (2 * r3 * abs(across))
+        turn = across / abs(across) * np.exp(1j * np.arccos(cosine))
+        place = pin + (values["rcx"] + 1j * values["rcy"]) * turn
+        total += abs(place - complex(*point)) ** 2
+    return total
+
+
+def test_published_path() -> None:
+    case = path_generator(np.pi / 6, np.pi / 2)
+    path = kp.Path(POINTS, of="coupler.P", angles=ANGLES)
+    best = kp.optimize(case, BOUNDS, minimize=path, subject_to=ORDER)
+    assert 5 * best.objective**2 == pytest.approx(0.00262807883, rel=1e-6)
+    assert closed_form(dict(best.values)) == pytest.approx(5 * best.objective**2, rel=1e-6)
+    values = [best.values[name] for name in ("r1", "r3", "r4", "r2", "rcx", "rcy")]
+    assert values == pytest.approx([14.3145, 14.3145, 14.3145, 2.2112, 2.1744, 0.0222], abs=2e-3)
+    assert best.runs < 1000 and {"r3 <= r4", "r4 <= r1"} == set(best.active)
+
+
+def test_a_better_path_than_the_published_one() -> None:
+    path = kp.Path(POINTS, of="coupler.P", angles=ANGLES)
+    best = kp.optimize(
+        path_generator(np.pi / 6, np.pi / 2), BOUNDS, minimize=path, subject_to=ORDER, starts=4,
+        seed=1,
+    )  # fmt: skip
+    objectives = [one.objective for one in best.candidates]
+    assert objectives == sorted(objectives) and len(objectives) > 1
+    assert 5 * objectives[0] ** 2 < 3e-4
+    assert any(5 * one**2 == pytest.approx(0.00262807883, rel=1e-4) for one in objectives)
+    for one in best.candidates:
+        assert closed_form(dict(one.values)) == pytest.approx(5 * one.objective**2, rel=1e-5)
+
+
+def test_a_curve_without_timing() -> None:
+    """Points of the curve of a linkage are met by it again, from other lengths."""
+    true = {"r1": 4.0, "r2": 1.5, "r3": 3.0, "r4": 3.5, "rcx": 1.2, "rcy": 1.0}
+    turn = path_generator(0.0, 2 * np.pi).with_parameters(true)
+    places = turn.run()["turn"](np.linspace(0.3, 5.8, 12))["coupler"].point("P").position
+    path = kp.Path(places, of="coupler.P")
+    near = turn.with_parameters({"r3": 3.1, "rcx": 1.3, "rcy": 0.9, "r4": 3.4})
+    bounds = {"r3": (2.7, 3.4), "r4": (3.2, 3.8), "rcx": (0.5, 2), "rcy": (0.5, 1.5)}
+    best = kp.optimize(near, bounds, minimize=path)
+    assert best.objective < 1e-6
+    assert {name: best.values[name] for name in bounds} == pytest.approx(
+        {name: true[name] for name in bounds}, rel=1e-4
+    )
+
+
+def test_a_target_with_a_formula() -> None:
+    case, _ = lamp(1, 1, 9.81)
+    best = kp.optimize(
+        case, {"k": (10, 1000)}, target={"spring.force.min": -40.0}, subject_to="free >= 0"
+    )
+    assert best.measures["spring.force.min"] == pytest.approx(-40.0, rel=1e-6)
+    assert best.objective < 1e-6
+
+
+def test_multipliers_are_what_the_objective_gains(case: kp.Case) -> None:
+    """Relax a bound and a limit, and search again."""
+
+    def best(height: float, most: float) -> kp.Optimum:
+        bounds = {"k": (50, most, "log"), "h": (0.05, 0.3)}
+        return kp.optimize(case, bounds, minimize="over.effort.rms", subject_to=[f"h <= {height}"])
+
+    tight = best(0.25, 150.0)
+    assert set(tight.active) == {"h <= 0.25", "k <= 150"}
+    gains = {
+        "h <= 0.25": (tight.objective - best(0.251, 150.0).objective) / 1e-3,
+        "k <= 150": (tight.objective - best(0.25, 150.5).objective) / 0.5,
+    }
+    assert dict(tight.active) == pytest.approx(gains, rel=2e-2)
+    assert min(gains.values()) > 0
+
+
+def test_maximum(case: kp.Case) -> None:
+    """The largest effort between bounds; its multiplier is positive too."""
+    best = kp.optimize(case, {"k": (50, 2000)}, maximize="over.effort.rms")
+    assert best.objective == pytest.approx(best.measures["over.effort.rms"])
+    assert best.values["k"] == 2000 and best.active["k <= 2000"] > 0
+    more = kp.optimize(case, {"k": (50, 2001)}, maximize="over.effort.rms")
+    assert more.objective - best.objective == pytest.approx(best.active["k <= 2000"], rel=1e-3)

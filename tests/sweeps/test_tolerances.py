@@ -1,0 +1,111 @@
+"""Tolerances by exact slopes, the yield, the worst case, and the cheapest tolerances."""
+
+import kempe as kp
+import numpy as np
+import pytest
+from scipy.optimize import minimize
+from scipy.stats import norm
+
+
+def rest(force: float = 4.0, stiffness: float = 50.0) -> kp.Case:
+    """A mass on a spring under a force: it rests at F/k."""
+    parameters = {"F": force, "k": stiffness, "idle": 1.0, "most": f"1.02*{force}/{stiffness}"}
+    m = kp.Model("spring", parameters=parameters)
+    m.ground.points(O=(0, 0))
+    m.body("mass", mass=2, inertia=1, points={"P": (0, 0)})
+    m.translational("guide", "ground.O", "mass.P")
+    law = "F - k*guide.displacement"
+    m.generalized_force("push", "guide.displacement", value=law)
+    return kp.Case(m, None, [kp.Equilibrium()])
+
+
+@pytest.mark.parametrize("scale", [1.0, 1e-6, 1e3])
+def test_first_order_and_worst_case(scale: float) -> None:
+    force, k, of_f, of_k = 4.0 * scale, 50.0, 0.04 * scale, 0.3
+    found = kp.tolerances(rest(force), {"F": of_f, "k": of_k}, "mass.x", n=50)
+    slopes = {"F": 1 / k, "k": -force / k**2}
+    assert dict(found.slopes) == pytest.approx(slopes, rel=1e-12)  # differences have 1e-5
+    assert found.first_order == pytest.approx(np.hypot(of_f / k, force / k**2 * of_k), rel=1e-12)
+    worst = [(force + s * 3 * of_f) / (k - s * 3 * of_k) for s in (-1, 1)]
+    assert list(found.worst_case) == pytest.approx(worst, rel=1e-12)
+    assert np.isnan(found.yield_)
+
+
+def test_yield() -> None:
+    """The share of a normal distribution below a limit, with a formula and a parameter."""
+    case, n = rest(), 4000
+    ask = {"n": n, "seed": 5}
+    found = kp.tolerances(case, {"F": 0.04}, "mass.x", subject_to="mass.x <= most", **ask)
+    share = norm.cdf(2.0)  # 2 % are two standard deviations of 1 %
+    assert abs(found.yield_ - share) < 4 * np.sqrt(share * (1 - share) / n)
+    both = ["mass.x <= most", "mass.x >= 0.99*F/k + 0*most"]
+    assert kp.tolerances(case, {"F": 0.04}, "mass.x", subject_to=both, **ask).yield_ == found.yield_
+    none = kp.tolerances(case, {"F": 0.04}, "mass.x", subject_to="mass.x < 0*most", **ask)
+    assert none.yield_ == 0.0
+    with pytest.raises(kp.ModelError, match="must be a comparison"):
+        kp.tolerances(case, {"F": 0.04}, "mass.x", subject_to="mass.x", **ask)
+
+
+def test_variants_that_fail_satisfy_no_limit() -> None:
+    m = kp.Model("dyad", gravity=(0, -9.81), parameters={"a": 0.5, "b": 0.52})
+    m.ground.points(A=(0, 0), B=(1, 0))
+    m.bar("one", mass=1, length="a", ends=("A", "C"))
+    m.bar("two", mass=1, length="b", ends=("B", "C"))
+    for name, i, j in (("A", "ground.A", "one.A"), ("B", "ground.B", "two.B")):
+        m.revolute(name, i, j)
+    m.revolute("C", "one.C", "two.C")
+    guess = {"one.angle": 0.2, "two.angle": 2.9}
+    case = kp.Case(m, {"guess": guess}, [kp.Equilibrium()])
+    found = kp.tolerances(case, {"a": 0.01}, "one.C.y", n=400, subject_to="one.C.y >= 0", seed=1)
+    assert found.yield_ == found.sample.succeeded.mean() < 0.99
+    assert np.isnan(found.worst_case[0]) and found.worst_case[1] > found.nominal
+
+
+def test_measures_without_slopes_keep_differences() -> None:
+    m = kp.Model("mass before a stop", parameters={"k": 60.0})
+    m.ground.points(O=(0, 0))
+    m.body("mass", mass=2, inertia=1, points={"P": (0, 0)})
+    m.translational("guide", "ground.O", "mass.P")
+    m.stop("stop", "guide.displacement", upper=0.0, stiffness="k")
+    start = {"set": {"guide.displacement": -0.1, "mass.vx": 1}}
+    case = kp.Case(m, start, [kp.Dynamics(t_end=1, output_step=0.01)])
+    found = kp.tolerances(case, {"k": 0.6}, "mass.x.max", n=10)
+    assert found.slopes["k"] == pytest.approx(-0.5 * np.sqrt(2 / 60) / 60, rel=1e-4)
+
+
+@pytest.mark.parametrize("limit", [0.085, 0.07])
+def test_the_cheapest_tolerances(limit: float) -> None:
+    costs = {"F": 0.02, "k": 1.5, "idle": 2.0}
+    found = kp.allocate(rest(), "mass.x", limit, costs)
+    slopes = np.array([1 / 50, -4 / 50**2])
+    prices = np.array([0.02, 1.5])
+
+    def cost(log: np.ndarray) -> float:
+        return float((prices / np.exp(log)).sum())
+
+    def room(log: np.ndarray) -> float:
+        return float(abs(limit - 0.08) - 3 * np.linalg.norm(slopes * np.exp(log)))
+
+    start = np.log([0.01, 0.1])
+    best = minimize(
+        cost, start, constraints={"type": "ineq", "fun": lambda x: 1e3 * room(x)}, tol=1e-12
+    )
+    sigma = [found.deviations["F"], found.deviations["k"]]
+    assert sigma == pytest.approx(np.exp(best.x), rel=1e-4)
+    assert found.cost == pytest.approx(best.fun, rel=1e-6) and found.deviations["idle"] == np.inf
+    spread = np.linalg.norm(slopes * sigma)
+    assert 3 * spread == pytest.approx(abs(limit - found.nominal), rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("costs", "limit", "message"),
+    [
+        ({"F": 0}, 0.09, r"costs.F: 0; must be > 0"),
+        ({"F": 1}, 0.08, "no tolerance is left"),
+        ({"idle": 1}, 0.09, "does not depend on idle"),
+        ({"G": 1}, 0.09, "unknown variable 'G'"),
+    ],
+)
+def test_wrong_allocations(costs: dict[str, float], limit: float, message: str) -> None:
+    with pytest.raises(kp.ModelError, match=message):
+        kp.allocate(rest(), "mass.x", limit, costs)
