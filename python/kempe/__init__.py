@@ -304,7 +304,13 @@ def _state(*parts: Any, **more: Any) -> Any:
     return State(*parts, **more)
 
 
-_upwards.CALLS.update(html=_html, model=_model, state=_state)
+def _slopes(*parts: Any) -> Any:
+    from kempe.sweeps.gradients.along import SlopesAlong
+
+    return SlopesAlong.of(*parts)
+
+
+_upwards.CALLS.update(html=_html, model=_model, slopes=_slopes, state=_state)
 
 
 def __dir__() -> list[str]:

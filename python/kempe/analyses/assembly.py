@@ -18,6 +18,7 @@ from kempe.model.compiled import CompiledModel
 from kempe.model.model import Model, Redundancy, compiled_model
 from kempe.model.values import number, numbers
 from kempe.results.assembly_report import AssemblyReport
+from kempe.results.origin import Origin
 from kempe.results.state import State
 
 Coordinates: TypeAlias = "Mapping[str, float | str]"
@@ -75,7 +76,10 @@ def assemble(
     report = AssemblyReport.from_json(text)
     for warning in report.warnings:
         warn(warning, AssemblyWarning)
-    return State(compiled, t_found, q_found, v_found, report, z=z_found)
+    state = State(compiled, t_found, q_found, v_found, report, z=z_found)
+    if from_state is None and not from_guess and not t:
+        state.origin = Origin(dict(set or {}), dict(guess or {}))
+    return state
 
 
 def allowing(model: CompiledModel, redundancy: str | None) -> CompiledModel:

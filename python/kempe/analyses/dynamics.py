@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any, Literal
 
+from kempe._upwards import CALLS
 from kempe.analyses.assembly import allowing
 from kempe.analyses.event import Action, Events, with_actions
 from kempe.analyses.option import Option, core_options
@@ -53,6 +54,7 @@ def dynamics(
     stop: str | None = None,
     release: Sequence[str] = (),
     parameters: Mapping[str, Number] | None = None,
+    slopes: Sequence[str] = (),
     progress: Progress | None = None,
     **limits: Number,
 ) -> Solution:
@@ -76,6 +78,7 @@ def dynamics(
         stop: condition at which the run ends, the event ``stop``.
         release: drivers that no longer act, in this run and in runs that start from its states.
         parameters: other values of parameters; the start must satisfy the constraints with them.
+        slopes: variables whose slopes are kept, such as ``["k", "L2"]``; see ``Solution.slope``.
         progress: function that is called often with the time reached, s; an exception ends the run.
         limits: ``force_limit``, ``joint_limit``, ``penetration_limit``, ``energy_limit`` of
             ``kp.Dynamics``; beyond them an IntegrationError, or an ``AccuracyWarning``.
@@ -96,7 +99,19 @@ def dynamics(
     more = {name: value for name, value in given.items() if value} | limits
     wanted = request(fields, dense_output, singularity, more)
     model = compiled.with_analyses({Dynamics.name: wanted.entry})
-    return _simulate(model, start, wanted, progress, actions=actions)
+    if slopes and actions:
+        raise ModelError("slopes: not together with actions of events, whose slopes are not known")
+    along = slopes_along(compiled, start, wanted.entry, slopes)
+    solution = _simulate(model, start, wanted, progress, actions=actions)
+    solution._slopes = along
+    return solution
+
+
+def slopes_along(
+    model: CompiledModel, start: State, entry: Mapping[str, Any], variables: Sequence[str]
+) -> Any:
+    """The slopes of a run by some variables; None without variables."""
+    return CALLS["slopes"](model, start, entry, variables) if variables else None
 
 
 def simulate(

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+from kempe.analyses.dynamics import slopes_along
 from kempe.analyses.options import InverseDynamics, Kinematics
 from kempe.analyses.record import Progress, keep_solution, run_analysis, solution_of
 from kempe.base.arguments import explained
@@ -31,6 +32,7 @@ def kinematics(
     over: str | None = None,
     range: tuple[Number, Number] | None = None,  # noqa: A002 - as in a file
     n: int = POINTS,
+    slopes: Sequence[str] = (),
     progress: Progress | None = None,
 ) -> Solution:
     """Positions, velocities and accelerations of a mechanism whose drivers determine its motion.
@@ -51,6 +53,7 @@ def kinematics(
         over: name of a driver, or a position quantity such as ``"crank.angle"``.
         range: first and last value, in SI units and rad.
         n: number of values in the range, both ends included.
+        slopes: variables whose slopes are kept, such as ``["L2"]``; see ``Solution.slope``.
         progress: function that is called repeatedly with the time reached.
 
     Raises:
@@ -60,7 +63,7 @@ def kinematics(
         ModelError: the drivers leave a freedom, or an argument is invalid.
     """
     entry = Kinematics(t_end, output_step, over, range, n).tree()
-    return follow(compiled_model(model), start, entry, progress)
+    return _with_slopes(compiled_model(model), start, entry, slopes, progress)
 
 
 @explained
@@ -74,6 +77,7 @@ def inverse_dynamics(
     range: tuple[Number, Number] | None = None,  # noqa: A002 - as in a file
     n: int = POINTS,
     static: bool = False,
+    slopes: Sequence[str] = (),
     progress: Progress | None = None,
 ) -> Solution:
     """Efforts of the drivers and reactions of the joints for the motion that the drivers prescribe.
@@ -95,6 +99,7 @@ def inverse_dynamics(
         range: first and last value, in SI units and rad.
         n: number of values in the range, both ends included.
         static: whether the mechanism is at rest at each value; needs ``over``.
+        slopes: variables whose slopes are kept, such as ``["L2"]``; see ``Solution.slope``.
         progress: function that is called repeatedly with the time reached.
 
     Raises:
@@ -102,7 +107,21 @@ def inverse_dynamics(
             follow from the motion.
     """
     entry = InverseDynamics(t_end, output_step, over, range, n, static=static).tree()
-    return follow(compiled_model(model), start, entry, progress)
+    return _with_slopes(compiled_model(model), start, entry, slopes, progress)
+
+
+def _with_slopes(
+    model: CompiledModel,
+    start: State,
+    entry: Mapping[str, Any],
+    slopes: Sequence[str],
+    progress: Progress | None,
+) -> Solution:
+    """The motion with the options of an entry, and its slopes by some variables."""
+    along = slopes_along(model, start, entry, slopes)
+    solution = follow(model, start, entry, progress)
+    solution._slopes = along
+    return solution
 
 
 def follow(

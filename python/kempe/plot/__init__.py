@@ -26,6 +26,7 @@ from kempe.plot.polygons import acceleration_polygon, velocity_polygon
 from kempe.plot.reactions import all_reactions, reactions
 from kempe.plot.residual import residual
 from kempe.plot.shaking import shaking_force
+from kempe.plot.slopes import slopes
 from kempe.plot.sweep_pages import sweep_pages
 from kempe.plot.sweep_scatter import sweep_scatter
 from kempe.plot.sweeps import sweep_contributions, sweep_histogram, sweep_lines, sweep_map
@@ -62,6 +63,7 @@ __all__ = [
     "save",
     "select",
     "shaking_force",
+    "slopes",
     "sweep_contributions",
     "sweep_histogram",
     "sweep_lines",

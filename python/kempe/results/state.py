@@ -17,6 +17,7 @@ from kempe.model.values import Number, mapping
 from kempe.results.assembly_report import AssemblyReport
 from kempe.results.matrices.values import Matrices, matrices
 from kempe.results.motion import Motion
+from kempe.results.origin import Origin
 from kempe.results.views.body import BodyView
 from kempe.results.views.constraint import ConstraintView
 from kempe.results.views.force import ForceView
@@ -71,10 +72,12 @@ class State(Motion):
         super().__init__(model, t, q, v, z)
         self.t = float(self.t)
         self.report = report
+        #: How it was made; None if this is not known.
+        self.origin: Origin | None = None
 
     def __reduce__(self) -> tuple[Any, ...]:
         made = self.compiled, self.t, self.q, self.v, self.report, self.z
-        return _restored, made, {"variable": self.variable}
+        return _restored, made, {"variable": self.variable, "origin": self.origin}
 
     def body(self, name: str) -> BodyView[float]:  # type: ignore[override]
         """A body by name, including ground.

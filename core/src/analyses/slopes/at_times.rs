@@ -51,8 +51,13 @@ impl Sweep {
     }
 }
 
+/// The rows at times. Where the motion changes, a time that is given twice has the rows before and after the change.
 fn gathered(rows: &SlopeRows, times: &[f64], count: usize) -> Result<AtTimes, String> {
-    let all: Vec<_> = times.iter().map(|t| rows.at(*t)).collect::<Result<_, _>>()?;
+    let of = |(k, t): (usize, &f64)| match rows.corner(*t) {
+        Some(corner) if times.get(k + 1) == Some(t) => Ok(&corner.sides[0]),
+        _ => rows.at(*t),
+    };
+    let all: Vec<_> = times.iter().enumerate().map(of).collect::<Result<_, _>>()?;
     let values = all.iter().flat_map(|row| row.values[..count].iter().map(|of| of[0]));
     let slopes = all.iter().flat_map(|row| row.slopes[..count].iter().flatten().copied());
     Ok((values.collect(), slopes.collect()))

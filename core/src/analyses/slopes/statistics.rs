@@ -422,7 +422,7 @@ impl SlopeRows {
     }
 
     /// The change of the motion at a time.
-    fn corner(&self, t: f64) -> Option<&Corner> {
+    pub fn corner(&self, t: f64) -> Option<&Corner> {
         let place = self.corners.partition_point(|corner| corner.t() < t);
         self.corners.get(place).filter(|corner| corner.t() == t)
     }
