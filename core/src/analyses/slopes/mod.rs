@@ -16,6 +16,7 @@
 //! | `driven` | the derivatives of a motion that drivers determine |
 //! | `reader` | measures with derivatives |
 //! | `statistics` | statistics with derivatives |
+//! | `integrals` | integrals, means and root mean squares with derivatives |
 //! | `gradient` | all numbers and all variables of a request |
 //! | `at_times` | measures and all variables of a request at given times |
 
@@ -25,6 +26,7 @@ mod driven;
 mod equilibrium;
 mod gradient;
 mod impacts;
+mod integrals;
 mod motion;
 mod ode;
 mod reader;

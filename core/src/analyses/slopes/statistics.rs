@@ -1,7 +1,7 @@
 //! Statistics of measures with derivatives.
 
 use super::reader::{Corner, Reader, SlopeRow};
-use crate::analyses::statistics::{self, Extreme, BAND};
+use crate::analyses::statistics::{Extreme, Integrals, BAND};
 use crate::analyses::sweep::{Series, Statistic};
 use crate::math::{Listed, Ordered};
 
@@ -27,8 +27,8 @@ pub(super) enum SlopePlan {
     Extreme(Extreme, Vec<f64>),
     /// The time of the largest or the least value.
     TimeOf(Extreme, Vec<f64>),
-    Mean,
-    Rms,
+    /// An integral, a mean or a root mean square, from values at points with weights.
+    Integral(Statistic, Integrals),
     /// The settling time, the time of the largest deviation, and the last time.
     Settling([f64; 3]),
     /// The reason for which there is no derivative.
@@ -94,8 +94,9 @@ impl SlopePlan {
         let last = times.outputs[times.outputs.len() - 1];
         match statistic {
             Statistic::Final => Self::Final(last),
-            Statistic::Mean => Self::Mean,
-            Statistic::Rms => Self::Rms,
+            Statistic::Integral | Statistic::Mean | Statistic::Rms => {
+                Self::of_integral(series, statistic).unwrap_or_else(missing)
+            }
             Statistic::Max => {
                 extreme(0).map_or_else(missing, |(at, rivals)| Self::Extreme(at, rivals))
             }
@@ -154,10 +155,20 @@ impl SlopePlan {
                 let each = std::iter::once(at.t).chain(rivals.iter().copied());
                 each.flat_map(|t| [&[t], &times.beside(t)[..]].concat()).list()
             }
-            Self::Mean | Self::Rms => times.outputs.to_vec(),
+            Self::Integral(_, found) => found.t.clone(),
             Self::Settling(all) => all.to_vec(),
             Self::None(_) | Self::Zero => Vec::new(),
         }
+    }
+
+    /// The value of measure `k` from its rows; NaN if it does not follow from them.
+    pub fn value(&self, rows: &SlopeRows, k: usize) -> f64 {
+        let found = match self {
+            Self::Final(_) => rows.end_row().map(|row| row.values[k][0]),
+            Self::Integral(of, found) => rows.integral(*of, k, found),
+            _ => return f64::NAN,
+        };
+        found.unwrap_or(f64::NAN)
     }
 
     /// The derivatives of measure `k`, or of its magnitude if it is a peak, from its rows at all times.
@@ -178,19 +189,7 @@ impl SlopePlan {
                 Ok(slopes.iter().map(|slope| sign * slope).list())
             }
             Self::TimeOf(found, rivals) => Ok(agreed(rows, k, (found, rivals), times)?.of_time),
-            Self::Mean => mean(rows, k, times, |x| [x, 1.0]),
-            Self::Rms => {
-                let of_square = mean(rows, k, times, |x| [x * x, 2.0 * x])?;
-                let squares = times.outputs.iter().map(|t| Ok(at(*t)?.values[k][0].powi(2)));
-                let squares = squares.collect::<Result<Vec<f64>, String>>()?;
-                let size = statistics::mean(times.outputs, &squares).sqrt();
-                match size == 0.0 {
-                    true => {
-                        Err("the value is zero, where a magnitude has no derivative".to_string())
-                    }
-                    false => Ok(of_square.iter().map(|slope| slope / (2.0 * size)).list()),
-                }
-            }
+            Self::Integral(of, found) => rows.slopes_of_integral(*of, k, found),
             Self::Settling([t, most, last]) => {
                 let [entry, peak, end] = [at(*t)?, at(*most)?, at(*last)?];
                 let last = rows.final_slopes(k)?;
@@ -204,29 +203,6 @@ impl SlopePlan {
             }
         }
     }
-}
-
-/// The derivatives of the mean of a function of measure `k` over the outputs, whose last time may move. `of` gives the
-/// function and its derivative.
-fn mean(rows: &SlopeRows, k: usize, times: RunTimes<'_>, of: impl Fn(f64) -> [f64; 2]) -> Found {
-    let t = times.outputs;
-    let all: Vec<&SlopeRow> = t.iter().map(|t| rows.at(*t)).collect::<Result<_, _>>()?;
-    let values: Vec<[f64; 2]> = all.iter().map(|row| of(row.values[k][0])).list();
-    let (last, whole) = (t.len() - 1, statistics::mean(t, &values.iter().map(|x| x[0]).list()));
-    // what the last panel grows by while the end moves
-    let grows = match last {
-        0 => 0.0,
-        _ => {
-            let rate = values[last][1] * all[last].values[k][1];
-            let middle = (values[last][0] + values[last - 1][0]) / 2.0;
-            (middle + (t[last] - t[last - 1]) * rate / 2.0 - whole) / (t[last] - t[0])
-        }
-    };
-    let slope = |j: usize| {
-        let slopes = all.iter().zip(&values).map(|(row, x)| x[1] * row.slopes[k][j]).list();
-        statistics::mean(t, &slopes) + grows * rows.end[j]
-    };
-    Ok((0..rows.variables).map(slope).list())
 }
 
 /// The derivatives of an extreme value and of its time.
@@ -337,13 +313,15 @@ fn agreed(
 /// The rows of all measures at all times.
 pub(super) struct SlopeRows {
     rows: Vec<SlopeRow>,
+    /// The index of the row at the end of the run.
+    last: usize,
     pub variables: usize,
     /// The largest magnitude of each measure at the times read.
     span: Vec<f64>,
     /// The derivatives of the time at which a condition ends the run; zero if its end is given.
-    end: Vec<f64>,
+    pub(super) end: Vec<f64>,
     /// The changes of the motion.
-    corners: Vec<Corner>,
+    pub(super) corners: Vec<Corner>,
     /// Why there are no derivatives after the rows.
     failed: String,
 }
@@ -364,7 +342,7 @@ impl Corner {
 }
 
 impl SlopeRows {
-    /// Reads all measures at some times.
+    /// Reads all measures at some times, the last of which is the end of the run.
     ///
     /// # Errors
     /// The reason for which there are no derivatives.
@@ -373,8 +351,10 @@ impl SlopeRows {
         mut t: Vec<f64>,
         variables: usize,
     ) -> Result<Self, String> {
+        let end_of_run = t.last().copied();
         t.order_by(f64::total_cmp);
         t.dedup();
+        let last = t.iter().position(|t| Some(*t) == end_of_run).unwrap_or(0);
         let (mut rows, mut failed) = (Vec::with_capacity(t.len()), String::new());
         for t in t {
             match reader.at(t) {
@@ -395,17 +375,15 @@ impl SlopeRows {
         let span = (0..reader.measures.len())
             .map(|k| rows.iter().fold(0.0_f64, |most, row| most.max(row.values[k][0].abs())));
         let (span, end) = (span.list(), vec![0.0; variables]);
-        Ok(Self { rows, variables, span, end, corners, failed })
+        Ok(Self { rows, last, variables, span, end, corners, failed })
     }
 
-    /// The rows of a run that ends where measure `k` becomes zero. The last of them is at the end.
+    /// The rows of a run that ends where measure `k` becomes zero.
     ///
     /// # Errors
     /// The function of the condition is stationary there, so that its end has no derivative.
     pub fn ending_at_zero_of(self, k: usize) -> Result<Self, String> {
-        let Some(last) = self.rows.last().filter(|_| self.failed.is_empty()) else {
-            return Ok(self);
-        };
+        let Ok(last) = self.end_row() else { return Ok(self) };
         let rate = last.values[k][1];
         let end: Vec<f64> = last.slopes[k].iter().map(|slope| -slope / rate).list();
         match end.iter().all(|x| x.is_finite()) {
@@ -415,8 +393,8 @@ impl SlopeRows {
     }
 
     /// The derivatives of the last value of measure `k`, whose time may move.
-    fn final_slopes(&self, k: usize) -> Found {
-        let last = self.at(f64::INFINITY)?;
+    pub(super) fn final_slopes(&self, k: usize) -> Found {
+        let last = self.end_row()?;
         let moves = |(slope, end): (&f64, &f64)| slope + last.values[k][1] * end;
         Ok(last.slopes[k].iter().zip(&self.end).map(moves).list())
     }
@@ -427,16 +405,22 @@ impl SlopeRows {
         self.corners.get(place).filter(|corner| corner.t() == t)
     }
 
-    /// The last value of measure `k`.
-    pub fn last(&self, k: usize) -> f64 {
-        self.rows.last().map_or(f64::NAN, |row| row.values[k][0])
+    /// The row at the end of the run.
+    ///
+    /// # Errors
+    /// The reason for which there are no derivatives there.
+    pub(super) fn end_row(&self) -> Result<&SlopeRow, String> {
+        match self.failed.is_empty() {
+            true => Ok(&self.rows[self.last]),
+            false => Err(self.failed.clone()),
+        }
     }
 
     /// The row at a time that was read.
     ///
     /// # Errors
     /// The reason for which there are no derivatives.
-    pub fn at(&self, t: f64) -> Result<&SlopeRow, String> {
+    pub(super) fn at(&self, t: f64) -> Result<&SlopeRow, String> {
         let place = self.rows.partition_point(|row| row.t < t);
         match self.rows.get(place) {
             Some(row) => Ok(row),
