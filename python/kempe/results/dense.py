@@ -32,7 +32,7 @@ class DenseOutput:
     @property
     def degree(self) -> int:
         """The degree of the polynomials."""
-        return self.c.shape[2]
+        return int(self.c.shape[2])
 
     @classmethod
     def of_an_instant(cls, t: float, y: Floats) -> DenseOutput:

@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 #: The statistics of a measure, in the order of tables.
 STATISTICS = ("max", "min", "peak", "mean", "rms", "integral", "final", "settling", "frequency")
-#: The last parts of quantities with values at the outputs only; other dissipated energies are works.
+#: The last parts of quantities of a run that have values at the outputs only, of one element.
 _AT_OUTPUTS = ("balance", "dissipated")
 
 
