@@ -1,5 +1,6 @@
 //! Statistics of measures with derivatives.
 
+use super::extremes::agreed;
 use super::reader::{Corner, Reader, SlopeRow};
 use crate::analyses::statistics::{Extreme, Integrals, BAND};
 use crate::analyses::sweep::{Series, Statistic};
@@ -9,12 +10,8 @@ use crate::math::{Listed, Ordered};
 const BESIDE: f64 = 1.0 / 32.0;
 /// Accuracy of the time of an extreme value, in steps of the run.
 const SEARCHED: f64 = 1e-4;
-/// Part of the span of a measure by which it may change within a step at the time of its extreme value.
-const FLAT: f64 = 1e-4;
 /// Values that differ by less than this fraction are equally large.
 const RIVAL: f64 = 1e-9;
-/// Derivatives of two equally large maxima that differ by less than this fraction are equal.
-const ALIKE: f64 = 1e-6;
 
 /// The derivatives of a number by each variable, or the reason for which there are none.
 pub(super) type Found = Result<Vec<f64>, String>;
@@ -46,12 +43,12 @@ pub(super) struct RunTimes<'a> {
 }
 
 impl RunTimes<'_> {
-    fn is_end(&self, t: f64) -> bool {
+    pub(super) fn is_end(&self, t: f64) -> bool {
         let last = self.outputs.len() - 1;
         t == self.outputs[0] || t == self.outputs[last]
     }
 
-    fn step(&self, t: f64) -> f64 {
+    pub(super) fn step(&self, t: f64) -> f64 {
         let ends = self.steps.len() - 1;
         let after = self.steps.partition_point(|end| *end <= t).clamp(1, ends.max(1));
         match ends {
@@ -69,7 +66,7 @@ impl RunTimes<'_> {
     }
 
     /// Times around an extreme value.
-    fn beside(&self, t: f64) -> [f64; 4] {
+    pub(super) fn beside(&self, t: f64) -> [f64; 4] {
         let last = self.outputs.len() - 1;
         let next = self.changes.partition_point(|change| *change <= t);
         let before = next.checked_sub(1).map_or(self.outputs[0], |k| self.changes[k]);
@@ -97,53 +94,41 @@ impl SlopePlan {
             Statistic::Integral | Statistic::Mean | Statistic::Rms => {
                 Self::of_integral(series, statistic).unwrap_or_else(missing)
             }
-            Statistic::Max => {
-                extreme(0).map_or_else(missing, |(at, rivals)| Self::Extreme(at, rivals))
+            Statistic::Max | Statistic::Min => {
+                let place = usize::from(statistic == Statistic::Min);
+                extreme(place).map_or_else(missing, |(at, rivals)| Self::Extreme(at, rivals))
             }
-            Statistic::Min => {
-                extreme(1).map_or_else(missing, |(at, rivals)| Self::Extreme(at, rivals))
-            }
-            Statistic::TimeOfMax => {
-                extreme(0).map_or_else(missing, |(at, rivals)| Self::TimeOf(at, rivals))
-            }
-            Statistic::TimeOfMin => {
-                extreme(1).map_or_else(missing, |(at, rivals)| Self::TimeOf(at, rivals))
+            Statistic::TimeOfMax | Statistic::TimeOfMin => {
+                let place = usize::from(statistic == Statistic::TimeOfMin);
+                extreme(place).map_or_else(missing, |(at, rivals)| Self::TimeOf(at, rivals))
             }
             Statistic::Peak => match (extreme(0), extreme(1)) {
-                (Some((most, mut rivals)), Some((least, others))) => {
-                    let [high, low] = [most, least].map(|one| one.value.abs());
-                    let equal = (high - low).abs() <= RIVAL * high.max(low) && most.t != least.t;
-                    match (equal, high >= low) {
-                        (true, _) => {
-                            let text = "the magnitude is reached with both signs";
-                            Self::None(text.to_string())
-                        }
-                        (false, true) => Self::Extreme(most, std::mem::take(&mut rivals)),
-                        (false, false) => Self::Extreme(least, others),
-                    }
-                }
+                (Some(most), Some(least)) => Self::of_peak(most, least),
                 _ => missing(),
             },
-            Statistic::Settling => {
-                match series.statistic(statistic) {
-                    Ok(t) if t.is_nan() => Self::None("the motion does not settle".to_string()),
-                    Ok(t) if t == times.outputs[0] => Self::Zero,
-                    Ok(t) => {
-                        let values = series.outputs();
-                        let end = values[values.len() - 1];
-                        let away = |k: &usize| (values[*k] - end).abs();
-                        let most = (0..values.len()).fold(0, |best, k| {
-                            if away(&k) > away(&best) {
-                                k
-                            } else {
-                                best
-                            }
-                        });
-                        Self::Settling([t, times.outputs[most], last])
-                    }
-                    Err(_) => missing(),
+            Statistic::Settling => match series.statistic(statistic) {
+                Ok(t) if t.is_nan() => Self::None("the motion does not settle".to_string()),
+                Ok(t) if t == times.outputs[0] => Self::Zero,
+                Ok(t) => {
+                    let values = series.outputs();
+                    let end = values[values.len() - 1];
+                    let away = |k: usize| (values[k] - end).abs();
+                    let later = |best, k| if away(k) > away(best) { k } else { best };
+                    Self::Settling([t, times.outputs[(0..values.len()).fold(0, later)], last])
                 }
-            }
+                Err(_) => missing(),
+            },
+        }
+    }
+
+    /// The plan of the largest magnitude, from the largest and the least value.
+    fn of_peak(most: (Extreme, Vec<f64>), least: (Extreme, Vec<f64>)) -> Self {
+        let [high, low] = [most.0, least.0].map(|one| one.value.abs());
+        let equal = (high - low).abs() <= RIVAL * high.max(low) && most.0.t != least.0.t;
+        let larger = if high >= low { most } else { least };
+        match equal {
+            true => Self::None("the magnitude is reached with both signs".to_string()),
+            false => Self::Extreme(larger.0, larger.1),
         }
     }
 
@@ -205,111 +190,6 @@ impl SlopePlan {
     }
 }
 
-/// The derivatives of an extreme value and of its time.
-struct Stationary {
-    of_value: Vec<f64>,
-    of_time: Vec<f64>,
-}
-
-impl Stationary {
-    /// The derivatives of an extreme value near `t`.
-    ///
-    /// # Errors
-    /// The measure is not stationary there: it has a kink, which may move.
-    fn at(
-        rows: &SlopeRows,
-        k: usize,
-        (t, value): (f64, f64),
-        times: RunTimes<'_>,
-    ) -> Result<Self, String> {
-        if let Some(corner) = rows.corner(t) {
-            return Ok(Self { of_value: corner.whole(k, value), of_time: corner.late.clone() });
-        }
-        let (row, beside) = (rows.at(t)?, times.beside(t));
-        let fixed = || Self { of_value: row.slopes[k].clone(), of_time: vec![0.0; rows.variables] };
-        if times.outputs.last() == Some(&t) {
-            return Ok(Self { of_value: rows.final_slopes(k)?, of_time: rows.end.clone() });
-        }
-        let d = beside[2] - t;
-        let change = (row.values[k][1] * times.step(t)).abs();
-        if times.is_end(t) || d <= 0.0 || rows.span[k] == 0.0 {
-            return Ok(fixed());
-        }
-        if change > FLAT * rows.span[k] {
-            return Err(format!("the value has a kink at t = {t:.6} s, which may move"));
-        }
-        let [a, b, c, e] = beside.map(|t| rows.at(t));
-        let [a, b, c, e] = [a?, b?, c?, e?];
-        let sample =
-            |of: &dyn Fn(&SlopeRow) -> f64| Quartic::through([of(a), of(b), of(row), of(c), of(e)]);
-        let rate = sample(&|row| row.values[k][1]);
-        let second = rate.slope(0.0);
-        if second == 0.0 {
-            return Ok(fixed()); // a constant value
-        }
-        // the value is stationary at t + late d
-        let late = -row.values[k][1] / second;
-        if late.abs() > 1.0 {
-            return Err(format!("the value has a kink near t = {t:.6} s, which may move"));
-        }
-        let second = rate.slope(late);
-        let (mut of_value, mut of_time) = (Vec::new(), Vec::new());
-        for j in 0..rows.variables {
-            let slopes = sample(&|row| row.slopes[k][j]);
-            of_value.push(slopes.value(late));
-            of_time.push(-slopes.slope(late) / second);
-        }
-        Ok(Self { of_value, of_time })
-    }
-}
-
-/// A polynomial through values at -2, -1, 0, 1 and 2.
-struct Quartic([f64; 5]);
-
-impl Quartic {
-    fn through([a, b, o, c, e]: [f64; 5]) -> Self {
-        let first = (8.0 * (c - b) - (e - a)) / 12.0;
-        let second = (16.0 * (b + c) - (a + e) - 30.0 * o) / 24.0;
-        let third = ((e - a) - 2.0 * (c - b)) / 12.0;
-        let fourth = ((a + e) - 4.0 * (b + c) + 6.0 * o) / 24.0;
-        Self([o, first, second, third, fourth])
-    }
-
-    fn value(&self, x: f64) -> f64 {
-        self.0.iter().rev().fold(0.0, |sum, c| sum * x + c)
-    }
-
-    fn slope(&self, x: f64) -> f64 {
-        let [_, a, b, c, d] = self.0;
-        a + x * (2.0 * b + x * (3.0 * c + x * 4.0 * d))
-    }
-}
-
-/// The derivatives of an extreme value that is reached at one time or more.
-///
-/// # Errors
-/// It has a kink, or the values at the times change differently, so that there is no derivative.
-fn agreed(
-    rows: &SlopeRows,
-    k: usize,
-    (found, rivals): (&Extreme, &[f64]),
-    times: RunTimes<'_>,
-) -> Result<Stationary, String> {
-    let (t, value) = (found.t, found.value);
-    let first = Stationary::at(rows, k, (t, value), times)?;
-    let size = first.of_value.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    for rival in rivals {
-        let other = Stationary::at(rows, k, (*rival, value), times)?;
-        let both = first.of_value.iter().zip(&other.of_value);
-        if both.into_iter().any(|(a, b)| (a - b).abs() > ALIKE * size) {
-            return Err(format!(
-                "the value is reached at t = {t:.6} s and at t = {rival:.6} s, and changes differently there"
-            ));
-        }
-    }
-    Ok(first)
-}
-
 /// The rows of all measures at all times.
 pub(super) struct SlopeRows {
     rows: Vec<SlopeRow>,
@@ -317,7 +197,7 @@ pub(super) struct SlopeRows {
     last: usize,
     pub variables: usize,
     /// The largest magnitude of each measure at the times read.
-    span: Vec<f64>,
+    pub(super) span: Vec<f64>,
     /// The derivatives of the time at which a condition ends the run; zero if its end is given.
     pub(super) end: Vec<f64>,
     /// The changes of the motion.
@@ -332,7 +212,7 @@ impl Corner {
     }
 
     /// The derivatives of the value of measure `k` at the change, whose time may move, on the side with this value.
-    fn whole(&self, k: usize, value: f64) -> Vec<f64> {
+    pub(super) fn whole(&self, k: usize, value: f64) -> Vec<f64> {
         let away = |row: &SlopeRow| (row.values[k][0] - value).abs();
         let [before, after] = &self.sides;
         let row = if away(before) <= away(after) { before } else { after };
@@ -400,7 +280,7 @@ impl SlopeRows {
     }
 
     /// The change of the motion at a time.
-    fn corner(&self, t: f64) -> Option<&Corner> {
+    pub(super) fn corner(&self, t: f64) -> Option<&Corner> {
         let place = self.corners.partition_point(|corner| corner.t() < t);
         self.corners.get(place).filter(|corner| corner.t() == t)
     }
@@ -426,22 +306,6 @@ impl SlopeRows {
             Some(row) => Ok(row),
             None if self.failed.is_empty() => Ok(&self.rows[self.rows.len() - 1]),
             None => Err(self.failed.clone()),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_polynomial_of_fourth_degree_is_reproduced() {
-        let of = |x: f64| 1.0 + x * (2.0 - x * (3.0 + x * (0.5 - 0.25 * x)));
-        let rate = |x: f64| 2.0 - x * (6.0 + x * (1.5 - x));
-        let found = Quartic::through([-2.0, -1.0, 0.0, 1.0, 2.0].map(of));
-        for x in [-1.5, 0.0, 0.3, 0.9] {
-            assert!((found.value(x) - of(x)).abs() < 1e-14, "{x}");
-            assert!((found.slope(x) - rate(x)).abs() < 1e-14, "{x}");
         }
     }
 }
