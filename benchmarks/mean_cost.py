@@ -24,6 +24,10 @@ def main() -> None:
         run = swept("final")
         told = ", ".join(f"{one} {swept(one) / run:.2f}" for one in ("max", "mean", "integral"))
         print(f"{name}: {1e3 * run:.2f} ms; {told} runs")
+        for one in ("final", "mean"):
+            text = [f"{quantity}.{one}"]
+            taken = seconds(lambda text=text: kp.gradient(case, text, [parameter]))  # type: ignore[misc]  # noqa: B023
+            print(f"  gradient of {one}: {taken / run:.1f} runs")
 
 
 if __name__ == "__main__":
