@@ -89,29 +89,31 @@ impl Quartic {
     }
 }
 
-/// The derivatives of an extreme value that is reached at one time or more.
-///
-/// # Errors
-/// It has a kink, or the values at the times change differently, so that there is no derivative.
-pub(super) fn agreed(
-    rows: &SlopeRows,
-    k: usize,
-    (found, rivals): (&Extreme, &[f64]),
-    times: RunTimes<'_>,
-) -> Result<Stationary, String> {
-    let (t, value) = (found.t, found.value);
-    let first = Stationary::at(rows, k, (t, value), times)?;
-    let size = first.of_value.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    for rival in rivals {
-        let other = Stationary::at(rows, k, (*rival, value), times)?;
-        let both = first.of_value.iter().zip(&other.of_value);
-        if both.into_iter().any(|(a, b)| (a - b).abs() > ALIKE * size) {
-            return Err(format!(
-                "the value is reached at t = {t:.6} s and at t = {rival:.6} s, and changes differently there"
-            ));
+impl SlopeRows {
+    /// The derivatives of an extreme value that is reached at one time or more.
+    ///
+    /// # Errors
+    /// It has a kink, or the values at the times change differently, so that there is no derivative.
+    pub(super) fn agreed(
+        &self,
+        k: usize,
+        (found, rivals): (&Extreme, &[f64]),
+        times: RunTimes<'_>,
+    ) -> Result<Stationary, String> {
+        let (t, value) = (found.t, found.value);
+        let first = Stationary::at(self, k, (t, value), times)?;
+        let size = first.of_value.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
+        for rival in rivals {
+            let other = Stationary::at(self, k, (*rival, value), times)?;
+            let both = first.of_value.iter().zip(&other.of_value);
+            if both.into_iter().any(|(a, b)| (a - b).abs() > ALIKE * size) {
+                return Err(format!(
+                    "the value is reached at t = {t:.6} s and at t = {rival:.6} s, and changes differently there"
+                ));
+            }
         }
+        Ok(first)
     }
-    Ok(first)
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! Statistics of measures with derivatives.
 
-use super::extremes::agreed;
 use super::reader::{Corner, Reader, SlopeRow};
 use crate::analyses::statistics::{Extreme, Integrals, BAND};
 use crate::analyses::sweep::{Series, Statistic};
@@ -169,11 +168,11 @@ impl SlopePlan {
             Self::Zero => Ok(vec![0.0; rows.variables]),
             Self::Final(_) => rows.final_slopes(k),
             Self::Extreme(found, rivals) => {
-                let slopes = agreed(rows, k, (found, rivals), times)?.of_value;
+                let slopes = rows.agreed(k, (found, rivals), times)?.of_value;
                 let sign = if is_peak && found.value < 0.0 { -1.0 } else { 1.0 };
                 Ok(slopes.iter().map(|slope| sign * slope).list())
             }
-            Self::TimeOf(found, rivals) => Ok(agreed(rows, k, (found, rivals), times)?.of_time),
+            Self::TimeOf(found, rivals) => Ok(rows.agreed(k, (found, rivals), times)?.of_time),
             Self::Integral(of, found) => rows.slopes_of_integral(*of, k, found),
             Self::Settling([t, most, last]) => {
                 let [entry, peak, end] = [at(*t)?, at(*most)?, at(*last)?];
