@@ -57,11 +57,15 @@ def extreme(
 def changes(values: _F) -> bool:
     """Whether values differ by more than rounding errors."""
 
-def mean(t: _F, values: _F) -> float:
-    """The mean over time by the trapezoidal rule."""
+def integrals(
+    t: _F, values: _F, between: tuple[_F, int, _F, Callable[[_F], _F]] | None = None
+) -> list[float] | None:
+    """The integral, the mean and the root mean square of values at outputs.
 
-def root_mean_square(t: _F, values: _F) -> float:
-    """The root of the mean square over time."""
+    ``between`` are ends of steps, the degree of their interpolant, times at which steps are not
+    halved, and a function that gives values at times: the integrals are then those in the steps,
+    None without a value.
+    """
 
 def row_norms(rows: _F) -> _F:
     """The lengths of rows, (n,)."""

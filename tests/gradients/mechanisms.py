@@ -7,7 +7,7 @@ import numpy as np
 
 #: A method whose error is far below that of a difference of runs.
 EXACT = kp.DOP853(rtol=1e-13, atol=1e-15)
-STATISTICS = ("final", "final", "max", "min", "peak", "mean", "rms")
+STATISTICS = ("final", "final", "max", "min", "peak", "mean", "rms", "integral")
 
 
 class Random:

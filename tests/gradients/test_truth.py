@@ -266,7 +266,11 @@ def test_the_slider_crank_of_the_sensitivity_solvers() -> None:
     m.force("push", "rod.F", force=(1, 0))
     run = kp.Dynamics(t_end=10, method=kp.DOP853(rtol=1e-13, atol=1e-14), name="run")
     start = {"set": {"crank.angle": np.pi / 2}, "guess": {"rod.x": 1.0, "rod.angle": -0.5}}
-    g = kp.gradient(kp.Case(m, start, [run]), ["crank.angle.final"], ["k", "c"])
+    whole = "energy.kinetic.integral"
+    g = kp.gradient(kp.Case(m, start, [run]), ["crank.angle.final", whole], ["k", "c"])
+    assert g.measures[whole] == pytest.approx(3.3366067994828, abs=1e-12)
+    assert g[whole, "k"] == pytest.approx(0.3334481061284, abs=1e-12)
+    assert g[whole, "c"] == pytest.approx(-0.3637540339710, abs=1e-12)
     assert g.measures["crank.angle.final"] == pytest.approx(1.2756758486502, abs=1e-12)
     assert g["crank.angle.final", "k"] == pytest.approx(-0.1739779292603, abs=1e-12)
     assert g["crank.angle.final", "c"] == pytest.approx(-0.2687606670919, abs=1e-12)
@@ -287,6 +291,7 @@ def test_a_condition_ends_the_motion_at_a_time_that_moves(
     )
     case = kp.Case(m, {"set": start}, [run])
     measures = ["ball.x.final", "ball.vy.final", "ball.x.max", "ball.vy.t_min", "ball.x.mean"]
+    measures += ["ball.x.rms", "ball.x.integral", "energy.kinetic.integral"]
     g = kp.gradient(case, measures, list(numbers))
 
     def time(**of: Any) -> Any:
@@ -297,6 +302,14 @@ def test_a_condition_ends_the_motion_at_a_time_that_moves(
     agrees(g, "ball.vy.final", lambda **of: -of["g"] * time(**of), numbers, 1e-9)
     agrees(g, "ball.vy.t_min", time, numbers, 1e-9)
     agrees(g, "ball.x.mean", lambda **of: vx * time(**of) / 2.0, numbers, 1e-9)
+    agrees(g, "ball.x.rms", lambda **of: vx * time(**of) / np.sqrt(3.0), numbers, 1e-9)
+    agrees(g, "ball.x.integral", lambda **of: vx * time(**of) ** 2 / 2.0, numbers, 1e-9)
+
+    def kinetic(**of: Any) -> Any:
+        t = time(**of)
+        return mass / 2.0 * (vx**2 * t + of["g"] ** 2 * t**3 / 3.0)
+
+    agrees(g, "energy.kinetic.integral", kinetic, numbers, 1e-9)
 
 
 @pytest.mark.parametrize("size", [1e-3, 1.0])

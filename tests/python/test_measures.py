@@ -9,6 +9,7 @@ import pytest
 from house.places import ROOT
 from kempe.results import quantities
 from kempe.results.dominant_frequency import dominant_frequency
+from kempe.results.variable import TIME, Variable
 
 SPEED = 2 * np.pi  # rad/s: one period a second
 
@@ -66,13 +67,75 @@ def test_extremes_lie_between_the_outputs_too() -> None:
     assert (x.max, x.t_max) == pytest.approx((0.32, 0.25), abs=1e-5)
 
 
-def test_mean_and_rms_are_trapezoidal_over_the_outputs() -> None:
-    m = shaker(x="block.x")
-    sol = kp.dynamics(m, kp.assemble(m), t_end=0.7, output_step=0.1)
-    x, y = sol.measure("x"), 0.02 + 0.3 * np.sin(SPEED * np.arange(8) / 10)
-    weights = np.array([0.5, 1, 1, 1, 1, 1, 1, 0.5]) / 7
-    assert x.mean == pytest.approx(weights @ y, abs=1e-9)
-    assert x.rms == pytest.approx(np.sqrt(weights @ y**2), abs=1e-9)
+@pytest.mark.parametrize("analysis", ["kinematics", "inverse_dynamics", "dynamics"])
+def test_integrals_do_not_depend_on_the_outputs(analysis: str) -> None:
+    texts = {"x": "block.x", "effort": "motor.effort", "way": "abs(block.vx)"}
+    m = shaker(**texts, high="if(block.x > 0.1, 1, 0)", motion="energy.kinetic")
+    end = 0.7
+    few, many = (
+        getattr(kp, analysis)(m, kp.assemble(m), t_end=end, output_step=end / (n - 1))
+        for n in (11, 1001)
+    )
+    for name in (*texts, "high", "motion"):
+        one, other = few.measure(name), many.measure(name)
+        for of in ("integral", "mean", "rms"):
+            assert getattr(one, of) == pytest.approx(getattr(other, of), rel=1e-9), (name, of)
+    sine, cosine = np.sin(SPEED * end), np.cos(SPEED * end)
+    half = end / 2 - sine * cosine / (2 * SPEED)  # the integral of the square of the sine
+    x = few.measure("x")
+    integral = 0.02 * end + 0.3 * (1 - cosine) / SPEED
+    square = 0.02**2 * end + 2 * 0.02 * 0.3 * (1 - cosine) / SPEED + 0.09 * half
+    assert (x.integral, x.integral_unit) == (pytest.approx(integral, rel=1e-9), "m*s")
+    assert x.mean == pytest.approx(integral / end, rel=1e-9)
+    assert x.rms == pytest.approx(np.sqrt(square / end), rel=1e-9)
+    way = few.measure("way")
+    assert way.integral == pytest.approx(0.3 * (2 - sine), rel=1e-9)
+    high = (np.pi - 2 * np.arcsin(0.08 / 0.3)) / SPEED
+    assert few.measure("high").integral == pytest.approx(high, rel=1e-9)
+    kinetic = 2 * (0.3 * SPEED) ** 2 * (end - half)
+    assert few.measure("motion").integral == pytest.approx(kinetic, rel=1e-9)
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+@pytest.mark.parametrize("rate", [1e-2, 1.0, 1e2])
+def test_a_bounce_costs_integrals_no_accuracy(size: float, rate: float) -> None:
+    """A ball falls on ground and rises to a share of its height; its velocity jumps."""
+    m = kp.Model("ball", gravity=(0, -2 * size * rate**2))
+    m.body("ball", mass=2, inertia=size**2)
+    m.stop("floor", "ball.y", lower=0, restitution=0.5)
+    m.measures(v="ball.vy", speed="abs(ball.vy)", energy="energy.kinetic")
+    method = kp.DOP853(rtol=1e-11, atol=1e-13 * size)
+    # it falls for 1/rate and rises for 1/2 of that
+    sol = kp.dynamics(
+        m, kp.assemble(m, set={"ball.y": size}), t_end=1.5 / rate, method=method,
+        output_step=0.7 / rate,
+    )  # fmt: skip
+    v, speed, energy = (sol.measure(name) for name in ("v", "speed", "energy"))
+    assert v.integral == pytest.approx(-0.75 * size, rel=1e-8)
+    assert speed.integral == pytest.approx(1.25 * size, rel=1e-8)
+    # v² falls from 4 and 1 (size rate)²
+    square = (4 / 3 + 1 / 6) * size**2 * rate
+    assert v.rms == pytest.approx(np.sqrt(square * rate / 1.5), rel=1e-8)
+    assert energy.integral == pytest.approx(square, rel=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("unit", "over_time", "over_angle"),
+    [
+        ("N", "N*s", "N*rad"),
+        ("m/s", "m", "m/s*rad"),
+        ("m/s^2", "m/s", "m/s^2*rad"),
+        ("W", "J", "J"),
+        ("1", "s", "rad"),
+        ("rad", "rad*s", "rad^2"),
+        ("J/rad", "J/rad*s", "J"),
+        ("m/s or rad/s", "m or rad", "m/s*rad or rad/s*rad"),
+        ("SI", "SI", "SI"),
+    ],
+)
+def test_the_unit_of_an_integral(unit: str, over_time: str, over_angle: str) -> None:
+    assert TIME.integral(unit) == over_time
+    assert Variable("crank.angle", "rad").integral(unit) == over_angle
 
 
 def test_a_damped_oscillator_has_its_frequency_and_settling_time() -> None:

@@ -91,7 +91,7 @@ def test_the_printed_measures_state_the_times() -> None:
     show_findings(Console(file=text, width=250), "run", dict(sol.summary))
     rows = text.getvalue().partition("\nMeasures")[2].partition("\nAccuracy")[0]
     first, last = (f"{sol.measure('pin').unbounded_at[k]:.6g} s" for k in (0, -1))
-    counted = "counted in mean and rms only"
+    counted = "counted in integrals and means only"
     passed = f"without bound at singular positions, {counted} (first at {first}, last at {last})"
     assert f"{passed}: pin\n" in rows
 

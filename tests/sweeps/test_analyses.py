@@ -13,7 +13,7 @@ from kempe.sweeps.wanted import read_wanted
 from sizes import only_full
 
 #: Statistics of a motion.
-STATISTICS = ("max", "min", "mean", "rms", "final", "t_max", "settling")
+STATISTICS = ("max", "min", "mean", "rms", "integral", "final", "t_max", "settling")
 FEW = ("four_bar", "slider_crank", "motor_press")
 ALL = sorted(path.stem for path in (ROOT / "examples").glob("*.toml"))
 KINDS = ("mobility", "equilibrium", "path", "modes", "limits", "configurations")

@@ -12,7 +12,7 @@ from sizes import only_full
 from sweeps.conftest import flagship
 
 #: Statistics that the core computes without Python.
-NATIVE = ["max", "min", "peak", "mean", "rms", "final", "t_max", "t_min", "settling"]
+NATIVE = ["max", "min", "peak", "mean", "rms", "integral", "final", "t_max", "t_min", "settling"]
 
 
 def single(result: kp.SweepResult, k: int) -> list[float]:

@@ -107,7 +107,7 @@ def test_the_command(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None
         told = capsys.readouterr().out
         assert app.run([*line, "-o", str(tmp_path / "out"), "--json"]) == 0
     counted = f"({len(passing())} of {len(RATES)} variants)"
-    expected = "without bound at singular positions, counted in mean and rms only: "
+    expected = "without bound at singular positions, counted in integrals and means only: "
     assert f"  {expected}{PIN[0]} {counted}\n" in told
     assert json.loads(capsys.readouterr().out)["remarks"] == {PIN[0]: remark()}
 

@@ -86,8 +86,7 @@ fn add_drawing_and_sweeps(module: &Bound<'_, PyModule>) -> PyResult<()> {
     module.add_function(wrap_pyfunction!(statistics::singular_instants, module)?)?;
     module.add_function(wrap_pyfunction!(statistics::extreme, module)?)?;
     module.add_function(wrap_pyfunction!(statistics::changes, module)?)?;
-    module.add_function(wrap_pyfunction!(statistics::mean, module)?)?;
-    module.add_function(wrap_pyfunction!(statistics::root_mean_square, module)?)?;
+    module.add_function(wrap_pyfunction!(statistics::integrals, module)?)?;
     module.add_function(wrap_pyfunction!(statistics::row_norms, module)?)?;
     module.add_function(wrap_pyfunction!(statistics::settling, module)?)?;
     module.add_function(wrap_pyfunction!(sweep::sweeps, module)?)?;

@@ -3,7 +3,10 @@
 use crate::convert::{refuse, Row, Rows};
 use crate::guard::guard;
 use kempe::analyses::dynamics::Steps;
-use kempe::analyses::statistics::{self as core, Maxima, Samples, Settling, SingularInstants};
+use kempe::analyses::statistics::{
+    self as core, Integrals, Maxima, Samples, Settling, SingularInstants,
+};
+use kempe::analyses::sweep::Statistic;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray3};
 use pyo3::prelude::*;
 
@@ -196,19 +199,36 @@ pub fn changes(values: Row<'_>) -> PyResult<bool> {
     guard("changes", || Ok(core::changes(&values.as_array().to_vec())))
 }
 
-/// The mean over time by the trapezoidal rule.
+/// The integral, the mean and the root mean square of a quantity. `between` contains the ends of steps, the degree of their interpolant, times at which
+/// steps are not halved, and a function that returns values at times; None if this function has no value. Without it, the
+/// values at the outputs are used.
 #[pyfunction]
-#[pyo3(signature = (t, values))]
-pub fn mean(py: Python<'_>, t: Row<'_>, values: Row<'_>) -> PyResult<f64> {
-    guard("mean", || series(py, &t, &values).map(|(t, values)| core::mean(&t, &values)))
-}
-
-/// The root of the mean square over time.
-#[pyfunction]
-#[pyo3(signature = (t, values))]
-pub fn root_mean_square(py: Python<'_>, t: Row<'_>, values: Row<'_>) -> PyResult<f64> {
-    guard("root_mean_square", || {
-        series(py, &t, &values).map(|(t, values)| core::root_mean_square(&t, &values))
+#[pyo3(signature = (t, values, between=None))]
+pub fn integrals<'py>(
+    py: Python<'py>,
+    t: Row<'py>,
+    values: Row<'py>,
+    between: Option<(Row<'py>, usize, Row<'py>, Bound<'py, PyAny>)>,
+) -> PyResult<Option<[f64; 3]>> {
+    guard("integrals", || {
+        let (t, values) = series(py, &t, &values)?;
+        let mut found = Some(Integrals::of_outputs(&t, &values));
+        if let Some((bounds, degree, near, call)) = between {
+            let (bounds, near) = (bounds.as_array().to_vec(), near.as_array().to_vec());
+            if bounds.len() < 2 {
+                return Err(refuse(py, "bounds", format!("{} numbers; at least 2", bounds.len())));
+            }
+            let mut caller = Caller::new(call);
+            let read = &mut |t: &[f64]| caller.read(t);
+            let at_points = core::in_blocks(&Integrals::points(&bounds, degree), read);
+            found =
+                at_points.and_then(|of| Integrals::of_steps((&bounds, degree), &of, &near, read));
+            if let Some(error) = caller.raised {
+                return Err(error);
+            }
+        }
+        let all = [Statistic::Integral, Statistic::Mean, Statistic::Rms];
+        Ok(found.map(|found| all.map(|statistic| statistic.of_integrals(&found))))
     })
 }
 

@@ -117,13 +117,14 @@ def _show_measures(console: Console, measures: list[dict[str, Any]], over: Varia
             starred(of["name"], unique=of["unique"]),
             display(of["unit"]).symbol,
             *(_number(of[name], of["unit"]) for name in of_unit),
+            f"{_number(of['integral'], of['integral_unit'])} {display(of['integral_unit']).symbol}",
             *(_over_time(of) if over.is_time else ()),
         )
         for of in measures
     ]
     over_time = (_header("settled at", "s"), "frequency / Hz") if over.is_time else ()
-    table(console, ("measure", "unit", *of_unit, *over_time), rows, left=2)
-    _show_remarks(console, measures, "name", over, "counted in mean and rms only")
+    table(console, ("measure", "unit", *of_unit, "integral", *over_time), rows, left=2)
+    _show_remarks(console, measures, "name", over, "counted in integrals and means only")
 
 
 def _over_time(of: dict[str, Any]) -> tuple[str, str]:

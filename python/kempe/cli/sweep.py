@@ -235,7 +235,7 @@ def _show_unbounded(console: Console, found: SweepResult) -> None:
         told = [
             f"{text} ({len(rows)} of {count} variants)" for text, rows in found.unbounded.items()
         ]
-        counted = "without bound at singular positions, counted in mean and rms only"
+        counted = "without bound at singular positions, counted in integrals and means only"
         console.print(Text(f"  {counted}: {few(told)}"))
 
 

@@ -83,8 +83,6 @@ def coupler_curve(solution: Solution, point: Place) -> CouplerCurve:
     cusps = _cusps(solution, point, float(speed.max()))
     first, last = (point_of(solution(t[[k]]), point) for k in (0, -1))
     closed = bool(np.abs(first.position - last.position).max() <= _CLOSED * size)
-    smooth = bool(np.abs(first.velocity - last.velocity).max() <= 1e-9 * speed.max())
-    periodic = closed and smooth and not len(cusps)
     ends = [float(t[0]), *cusps[(cusps != t[0]) & (cusps != t[-1])], float(t[-1])]
 
     def rate(motion: Motion) -> Floats:
@@ -98,9 +96,8 @@ def coupler_curve(solution: Solution, point: Place) -> CouplerCurve:
         (x, y), (vx, vy) = (at.position - origin).T, at.velocity.T
         return 0.5 * np.asarray(x * vy - y * vx)
 
-    length = abs(float(integral(solution, rate, ends, periodic=periodic).sum()))
-    # a curve that stands still at a cusp is smooth as a function of time
-    around = integral(solution, swept, [ends[0], ends[-1]], periodic=closed and smooth)
+    length = abs(float(integral(solution, rate, ends).sum()))
+    around = integral(solution, swept, [ends[0], ends[-1]])
     return CouplerCurve(
         name,
         solution.variable,

@@ -8,9 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
+from kempe import _core
 from kempe.base.arrays import Floats
-from kempe.errors import ModelError
+from kempe.errors import KempeError, ModelError
 from kempe.model.values import instance
+from kempe.results.dense import DenseOutput
 from kempe.results.extrema import Extreme, largest, least
 from kempe.results.motion import Motion
 from kempe.results.solution import Solution
@@ -25,14 +27,8 @@ _PARTS, _ROUNDS = 32, 10
 #: Parts into which the bracket of a maximum is divided; two of them form the next bracket. The
 #: value converges in four rounds.
 _TOPS = 6
-#: Gauss nodes in a panel, initial number of panels, and largest number of panels in all parts.
-_NODES, _PANELS, _MOST_PANELS = 16, 8, 1024
-#: Largest number of times that the points of the trapezoidal rule are doubled.
-_DOUBLINGS = 9
 #: A quantity below this fraction of its largest value counts as zero.
 _NOISE = 1e-12
-#: An integral converges when its change is below this fraction of the integral of the magnitude.
-_CONVERGED = 1e-13
 
 
 class Limits(NamedTuple):
@@ -137,54 +133,38 @@ def _top(solution: Solution, read: Read, t: Floats, values: Floats, sign: float)
     return Extreme(float(sign * top[first]), float(at[first]))
 
 
-def integral(
-    solution: Solution, read: Read, ends: Sequence[float], *, periodic: bool = False
-) -> Floats:
+def integral(solution: Solution, read: Read, ends: Sequence[float]) -> Floats:
     """Integrals of a quantity over t between neighbouring instants, (n - 1,).
 
-    A smooth periodic quantity is integrated over its period by the trapezoidal rule, which
-    converges exponentially. Any other quantity is integrated by Gauss's rule in panels. The number
-    of points is doubled until the value no longer changes.
+    They are those of measures (docs/measures.md): Gauss's rule in each step of the interpolant.
 
     Args:
         solution: the solution.
-        read: the quantity; it is smooth between neighbouring instants.
+        read: the quantity.
         ends: instants, ascending or descending.
-        periodic: whether the quantity is smooth and periodic from the first to the last instant.
     """
-    if periodic and len(ends) == 2:
-        return np.array([_trapezoid(solution, read, ends[0], ends[1])])
-    most = max(_PANELS, _MOST_PANELS // max(len(ends) - 1, 1))
-    return np.array([_gauss(solution, read, (a, b), most) for a, b in pairwise(ends)])
+    dense = interpolated(solution).dense
+    assert dense is not None
+    return np.array([_integral(solution, read, dense, pair) for pair in pairwise(ends)])
 
 
-def _trapezoid(solution: Solution, read: Read, a: float, b: float) -> float:
-    count = 128
-    sums = float(np.sum(read(solution(a + (b - a) * np.arange(count) / count))))
-    value = sums * (b - a) / count
-    for _ in range(_DOUBLINGS):
-        middle = np.asarray(read(solution(a + (b - a) * (np.arange(count) + 0.5) / count)))
-        sums, count, before = sums + float(np.sum(middle)), 2 * count, value
-        value = sums * (b - a) / count
-        if abs(value - before) <= _CONVERGED * float(np.abs(middle).mean()) * abs(b - a):
-            break
-    return value
+def _integral(
+    solution: Solution, read: Read, dense: DenseOutput, ends: tuple[float, float]
+) -> float:
+    low, high, steps = *sorted(ends), dense.t
+    bounds = np.array([low, *np.unique(steps[(steps > low) & (steps < high)]), high])
+    bounds = bounds if ends[0] == low else bounds[::-1].copy()
+    failed: list[KempeError] = []
 
+    def values(t: Floats) -> Floats:
+        try:
+            return np.ascontiguousarray(read(solution(t)), dtype=np.float64)
+        except KempeError as error:
+            failed.append(error)
+            raise
 
-def _gauss(solution: Solution, read: Read, ends: tuple[float, float], most: int) -> float:
-    """Gauss's rule in equal panels, up to a largest number of panels."""
-    if ends[0] == ends[1]:
-        return 0.0
-    nodes, weights = np.polynomial.legendre.leggauss(_NODES)
-    panels, value, before = _PANELS, 0.0, np.inf
-    while panels <= most:
-        bounds = np.linspace(*ends, panels + 1)
-        half = np.diff(bounds)[:, None] / 2.0
-        times = (bounds[:-1, None] + half) + half * nodes
-        values = np.asarray(read(solution(times.ravel()))).reshape(times.shape)
-        value = float((half * weights * values).sum())
-        size = float((np.abs(half) * weights * np.abs(values)).sum())
-        if abs(value - before) <= _CONVERGED * size:
-            break
-        panels, before = 2 * panels, value
-    return value
+    nothing = np.zeros(1)
+    found = _core.integrals(nothing, nothing, (bounds, dense.degree, np.empty(0), values))
+    if found is None:
+        raise failed[-1]
+    return found[0]

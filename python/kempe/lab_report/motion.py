@@ -9,7 +9,7 @@ import numpy as np
 
 from kempe.base.display_units import display, heading
 from kempe.base.names import few
-from kempe.lab_report.blocks import Block, Cell, Paragraph, Section, Table
+from kempe.lab_report.blocks import Block, Cell, Number, Paragraph, Section, Table
 from kempe.lab_report.figures import MOST, Figures
 from kempe.lab_report.printed import FEW, ROUNDING, number, quantity
 from kempe.results.remarks import by_choice, starred, when
@@ -187,11 +187,14 @@ def _measures(told: Told) -> list[Block]:
             "–" if of.get(name) is None else number(of[name], unit)
             for name, unit in (("settling", "s"), ("frequency", "Hz"))
         )
+        whole = of["integral_unit"]
+        integral = Number(of["integral"], quantity(of["integral"], whole))
         unit = display(of["unit"]).symbol if of["unit"] else ""
         name = starred(of["name"], unique=of["unique"])
-        rows.append((name, of["expression"], unit, *values, *times))
-    header = ("measure", "expression", "unit", *_STATISTICS, "settled at / s", "frequency / Hz")
-    counted = "which only mean and rms include"
+        rows.append((name, of["expression"], unit, *values, integral, *times))
+    others = ("integral", "settled at / s", "frequency / Hz")
+    header = ("measure", "expression", "unit", *_STATISTICS, *others)
+    counted = "which only integrals and means include"
     remarks = _remarks(told, told.summary["measures"], "name", counted)
     return [Table("Measures", header, rows), *remarks]
 

@@ -29,13 +29,18 @@ class DenseOutput:
     y: Floats
     c: Floats
 
+    @property
+    def degree(self) -> int:
+        """The degree of the polynomials."""
+        return int(self.c.shape[2])
+
     @classmethod
     def of_an_instant(cls, t: float, y: Floats) -> DenseOutput:
         """The interpolant of a simulation that makes no steps."""
         return cls(np.array([t, t]), y[None], np.zeros((1, len(y), 1)))
 
     def __repr__(self) -> str:
-        return f"<DenseOutput: {len(self.y)} steps, degree {self.c.shape[2]}>"
+        return f"<DenseOutput: {len(self.y)} steps, degree {self.degree}>"
 
     def __call__(self, t: Floats) -> Floats:
         """State y at times of any shape, (…, n_y).

@@ -39,7 +39,9 @@ def dominant_frequency(t: Floats, values: Floats) -> float:
         The frequency. NaN if the values cross their mean fewer than three times, so that they
         contain no whole oscillation.
     """
-    mean = _core.mean(t, values)
+    level = _core.integrals(t, values)
+    assert level is not None
+    mean = level[1]
     side = np.sign(values - mean)[np.abs(values - mean) > NOISE * np.abs(values).max(initial=0.0)]
     if np.count_nonzero(np.diff(side)) < CROSSINGS:
         return float("nan")

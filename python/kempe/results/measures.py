@@ -12,11 +12,12 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from kempe import _core
+from kempe.base.arrays import Floats
 from kempe.base.names import entry
 from kempe.model.measure_infos import MeasureInfo
 from kempe.results import remarks
 from kempe.results.dominant_frequency import dominant_frequency
-from kempe.results.extrema import Extreme, largest, least
+from kempe.results.extrema import Extreme, largest, least, singular_times
 from kempe.results.quantities import values_of
 from kempe.results.settling import settling
 
@@ -24,15 +25,17 @@ if TYPE_CHECKING:
     from kempe.results.solution import Solution
 
 #: The statistics of a measure, in the order of tables.
-STATISTICS = ("max", "min", "peak", "mean", "rms", "final", "settling", "frequency")
+STATISTICS = ("max", "min", "peak", "mean", "rms", "integral", "final", "settling", "frequency")
+#: The last parts of quantities of a run that have values at the outputs only, of one element.
+_AT_OUTPUTS = ("balance", "dissipated")
 
 
 class Measure:
     """A measure of a solution: its values at the outputs and their statistics.
 
     ``max``, ``min`` and ``peak`` are found on the interpolant, also between the outputs, as in the
-    summary. ``mean`` and ``rms`` are integrals by the trapezoidal rule over the outputs. In a
-    motion over a value instead of time, ``t`` is this value.
+    summary. ``integral``, ``mean`` and ``rms`` are integrals of the interpolant and do not depend
+    on the outputs either. In a motion over a value instead of time, ``t`` is this value.
 
     Attributes:
         info: the measure.
@@ -74,8 +77,7 @@ class Measure:
     def unbounded_at(self) -> tuple[float, ...]:
         """Times of singular positions beside which it has no bound, s.
 
-        ``max``, ``min`` and ``peak`` exclude the values there; ``mean`` and ``rms`` include the
-        outputs there.
+        ``max``, ``min`` and ``peak`` exclude the values there; integrals include them.
         """
         return remarks.measure_unbounded_at(self._solution, self.info)
 
@@ -119,15 +121,54 @@ class Measure:
         """The largest magnitude."""
         return max(abs(self.max), abs(self.min))
 
+    @cached_property
+    def _integrals(self) -> list[float]:
+        """The integral, the mean and the root mean square."""
+        solution, found = self._solution, None
+        if solution.dense is not None and self._is_continuous:
+            near = singular_times(solution) if self.info.solves else np.empty(0)
+            found = _core.integrals(
+                self.t, self.values, (solution.dense.t, solution.dense.degree, near, self._between)
+            )
+        # a value between the outputs that is not unique leaves the outputs
+        found = found or _core.integrals(self.t, self.values)
+        assert found is not None
+        return found
+
+    @property
+    def _is_continuous(self) -> bool:
+        """Whether it has values between the outputs."""
+        parts = [name.rpartition(".") for name in self.info.quantities if self.info.is_of_run]
+        return all(
+            last not in _AT_OUTPUTS or (owner, last) == ("energy", "dissipated")
+            for owner, _, last in parts
+        )
+
+    def _between(self, t: Floats) -> Floats:
+        """The values at any times."""
+        solution = self._solution
+        energy = solution.energy_at(t) if self.info.is_of_run else None
+        return values_of(solution(t), self.info, energy)
+
+    @property
+    def integral_unit(self) -> str:
+        """SI unit of the integral, such as N*s for a force over time."""
+        return self._solution.variable.integral(self.unit)
+
+    @property
+    def integral(self) -> float:
+        """Integral over time, in ``integral_unit``."""
+        return self._integrals[0]
+
     @property
     def mean(self) -> float:
         """Mean over time."""
-        return _core.mean(self.t, self.values)
+        return self._integrals[1]
 
     @property
     def rms(self) -> float:
         """Root of the mean square over time."""
-        return _core.root_mean_square(self.t, self.values)
+        return self._integrals[2]
 
     @property
     def final(self) -> float:
@@ -147,7 +188,7 @@ class Measure:
         found = settling(
             self.t,
             self.values,
-            between=(lambda t: values_of(solution(t), self.info)) if continuous else None,
+            between=self._between if continuous else None,
         )
         if not found.moves:
             return float(self.t[0])

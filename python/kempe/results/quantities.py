@@ -30,6 +30,7 @@ from kempe.results.views.frames import FRAMES
 
 if TYPE_CHECKING:
     from kempe.model.measure_infos import MeasureInfo
+    from kempe.results.energy import Energy
     from kempe.results.motion import Motion
 
 UNITS = (("m", "m", "rad"), ("m/s", "m/s", "rad/s"), ("m/s^2", "m/s^2", "rad/s^2"))
@@ -103,14 +104,25 @@ def measure_values(motion: Motion, name: str) -> Floats:
     return values_of(motion, entry("measure", name, motion.compiled.measures))
 
 
-def values_of(motion: Motion, info: MeasureInfo) -> Floats:
-    """Values of an expression of quantities, as ``measure_values``."""
+def values_of(motion: Motion, info: MeasureInfo, energy: Energy | None = None) -> Floats:
+    """Values of an expression of quantities, as ``measure_values``.
+
+    Args:
+        motion: the motion.
+        info: the expression.
+        energy: its energies, if it is not a solution.
+    """
     t = np.atleast_1d(motion.t)
     if not info.is_of_run and motion.compiled.redundancy == "refuse":
         a, lam = (motion.a, motion.lam) if info.solves else (None, None)
         (found,) = motion._asked(lambda states: [states.measure(info.expression)], a=a, lam=lam)
         return fixed(found)
-    columns = [np.atleast_1d(_named(motion, one).read()) for one in info.quantities]
+    columns = [
+        getattr(energy, one.removeprefix("energy."))
+        if energy is not None and one.startswith("energy.")
+        else np.atleast_1d(_named(motion, one).read())
+        for one in info.quantities
+    ]
     given = np.column_stack(columns) if columns else np.empty((len(t), 0))
     (found,) = motion._by_phase(
         lambda core, *of: (_core.measure_values(core, info.expression, *of),),

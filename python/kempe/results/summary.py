@@ -68,6 +68,7 @@ def measure(solution: Solution, name: str) -> dict[str, Any]:
     """
     found = solution.measure(name)
     about = {"name": name, "expression": found.info.expression, "unit": found.unit}
+    about["integral_unit"] = found.integral_unit
     remarked = {
         "unbounded_at": list(found.unbounded_at),
         "unique": found.unique,

@@ -39,6 +39,22 @@ class Variable:
         """The SI unit of a rate: m/s over time, m/rad over an angle, and so on; W becomes J/rad."""
         return unit if self.is_time else _core.rate_unit(unit, self.unit)
 
+    def integral(self, unit: str) -> str:
+        """The SI unit of an integral: N*s over time, N*m*rad over an angle, and so on.
+
+        A rate becomes the quantity itself, W becomes J, and an unknown unit remains unknown.
+        """
+        if unit in ("", "SI"):
+            return unit
+        if " or " in unit:
+            return " or ".join(map(self.integral, unit.split(" or ")))
+        if unit in ("1", "W", self.unit):
+            return {"1": self.unit, "W": "J"}.get(unit, f"{unit}^2")
+        whole, rate, order = unit.rpartition(f"/{self.unit}")
+        if rate and order in ("", "^2"):
+            return whole + (rate if order else "")
+        return f"{unit}*{self.unit}"
+
     @property
     def condition(self) -> str:
         """What forces over a driven quantity contain, in words; empty over time."""

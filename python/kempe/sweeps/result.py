@@ -80,8 +80,8 @@ class SweepResult:
         """The rows in which a measure has no bound, by its text; see ``Measure.unbounded_at``.
 
         These variants pass a singular position beside which the measure has no bound. Extreme
-        values exclude the values there; ``mean`` and ``rms`` include the outputs there. Final
-        values are not marked.
+        values exclude the values there; integrals and means include them. Final values are not
+        marked.
         """
         return remarked.unbounded(self)
 

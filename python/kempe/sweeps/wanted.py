@@ -14,7 +14,7 @@ from kempe.model.measure_infos import MeasureInfo, measure_info
 from kempe.model.values import refuse, texts
 from kempe.results.measures import STATISTICS, Measure
 from kempe.results.solution import Solution
-from kempe.results.variable import TIME
+from kempe.results.variable import TIME, Variable
 from kempe.sweeps.numbers import driven_model, unit_of
 from kempe.sweeps.remarked import mark_of_measure, mark_of_number
 
@@ -82,7 +82,7 @@ def read_wanted(
     if is_motion and entry.get("over") is not None:  # the motion has the driver `over`
         model, variable = driven_model(model, entry["over"])
     found = [
-        _statistic(model, text, variable.unit)
+        _statistic(model, text, variable)
         if is_motion
         else Wanted(text, text, "", unit_of(model, entry, text))
         for text in texts(measures, "measures")
@@ -98,8 +98,8 @@ def read_wanted(
 _CALLED = re.compile(rf"({'|'.join(ALL)})(?:\s*\(|\s)\s*([^()]+?)\s*\)?")
 
 
-def _statistic(model: CompiledModel, text: str, of_t: str) -> Wanted:
-    """A statistic of a measure over a variable with the unit ``of_t``."""
+def _statistic(model: CompiledModel, text: str, variable: Variable) -> Wanted:
+    """A statistic of a measure over a variable."""
     name, _, statistic = text.rpartition(".")
     if called := _CALLED.fullmatch(text):
         hint = f"write {called[2]}.{called[1]}"
@@ -107,6 +107,7 @@ def _statistic(model: CompiledModel, text: str, of_t: str) -> Wanted:
     if statistic not in ALL:
         raise unknown(f"statistic in measures ({text!r})", statistic, ALL)
     info = model.measures.get(name) or measure_info(model, name)
-    timed = dict.fromkeys(("t_max", "t_min", "settling"), of_t)
-    timed["frequency"] = "Hz" if of_t == TIME.unit else f"1/{of_t}"
+    timed = dict.fromkeys(("t_max", "t_min", "settling"), variable.unit)
+    timed["frequency"] = "Hz" if variable.is_time else f"1/{variable.unit}"
+    timed["integral"] = variable.integral(variable.rate(info.unit))
     return Wanted(text, info.expression, statistic, timed.get(statistic, info.unit), info.is_of_run)

@@ -46,6 +46,10 @@ const ROUNDED: f64 = 1e-10;
 /// Part of the largest value by which a value changes at least, relative to the change of a variable, if it changes.
 const STEEP: f64 = 1e-6;
 
+/// Works since the start are known along the steps of the derivatives only, which have no extreme values.
+const OF_RUN: &str =
+    "of a quantity of a whole run, only final values and integrals have derivatives";
+
 /// The outcome of a gradient.
 type Outcomes = Result<Gradient, Outcome>;
 
@@ -132,11 +136,14 @@ impl Sweep {
             Err(reason) => Err(reason.clone()),
         });
         let mut found = found.list();
-        for (number, (k, one)) in self.statistics().enumerate() {
+        for (number, (k, _)) in self.statistics().enumerate() {
             let (value, slopes) = (values[number], found[number].clone());
             if between.readings.measure(k).is_of_run() {
-                let last = rows.as_ref().ok().filter(|_| one == Statistic::Final);
-                (values[number], found[number]) = of_whole_run(last, k, slopes);
+                values[number] =
+                    rows.as_ref().map_or(f64::NAN, |rows| plans[number].value(rows, k));
+                if values[number].is_nan() && slopes.is_ok() {
+                    found[number] = Err(OF_RUN.to_string());
+                }
             } else if slopes.is_ok_and(|slopes| is_cusp(series[k].outputs(), value, &slopes, row)) {
                 found[number] = Err(ZERO.to_string());
             }
@@ -269,16 +276,6 @@ pub(super) fn state_at(
         v.fill(0.0);
     }
     Some([q, v, z.to_vec()])
-}
-
-/// The value and the derivatives of a measure of works or losses since the start, which are known along the steps
-/// only. `last` are the rows of a final value.
-fn of_whole_run(last: Option<&SlopeRows>, k: usize, found: Found) -> (f64, Found) {
-    match last {
-        Some(rows) => (rows.last(k), found),
-        None if found.is_err() => (f64::NAN, found),
-        None => (f64::NAN, Err("of a whole run, only final values have derivatives".to_string())),
-    }
 }
 
 /// The function of the condition that ended a run, if one did.

@@ -16,6 +16,8 @@
 //! | `driven` | the derivatives of a motion that drivers determine |
 //! | `reader` | measures with derivatives |
 //! | `statistics` | statistics with derivatives |
+//! | `extremes` | extreme values with derivatives |
+//! | `integrals` | integrals, means and root mean squares with derivatives |
 //! | `gradient` | all numbers and all variables of a request |
 //! | `at_times` | measures and all variables of a request at given times |
 
@@ -23,8 +25,10 @@ mod at_rest;
 mod at_times;
 mod driven;
 mod equilibrium;
+mod extremes;
 mod gradient;
 mod impacts;
+mod integrals;
 mod motion;
 mod ode;
 mod reader;

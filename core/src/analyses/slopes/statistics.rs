@@ -1,7 +1,7 @@
 //! Statistics of measures with derivatives.
 
 use super::reader::{Corner, Reader, SlopeRow};
-use crate::analyses::statistics::{self, Extreme, BAND};
+use crate::analyses::statistics::{Extreme, Integrals, BAND};
 use crate::analyses::sweep::{Series, Statistic};
 use crate::math::{Listed, Ordered};
 
@@ -9,12 +9,8 @@ use crate::math::{Listed, Ordered};
 const BESIDE: f64 = 1.0 / 32.0;
 /// Accuracy of the time of an extreme value, in steps of the run.
 const SEARCHED: f64 = 1e-4;
-/// Part of the span of a measure by which it may change within a step at the time of its extreme value.
-const FLAT: f64 = 1e-4;
 /// Values that differ by less than this fraction are equally large.
 const RIVAL: f64 = 1e-9;
-/// Derivatives of two equally large maxima that differ by less than this fraction are equal.
-const ALIKE: f64 = 1e-6;
 
 /// The derivatives of a number by each variable, or the reason for which there are none.
 pub(super) type Found = Result<Vec<f64>, String>;
@@ -27,8 +23,8 @@ pub(super) enum SlopePlan {
     Extreme(Extreme, Vec<f64>),
     /// The time of the largest or the least value.
     TimeOf(Extreme, Vec<f64>),
-    Mean,
-    Rms,
+    /// An integral, a mean or a root mean square, from values at points with weights.
+    Integral(Statistic, Integrals),
     /// The settling time, the time of the largest deviation, and the last time.
     Settling([f64; 3]),
     /// The reason for which there is no derivative.
@@ -46,12 +42,12 @@ pub(super) struct RunTimes<'a> {
 }
 
 impl RunTimes<'_> {
-    fn is_end(&self, t: f64) -> bool {
+    pub(super) fn is_end(&self, t: f64) -> bool {
         let last = self.outputs.len() - 1;
         t == self.outputs[0] || t == self.outputs[last]
     }
 
-    fn step(&self, t: f64) -> f64 {
+    pub(super) fn step(&self, t: f64) -> f64 {
         let ends = self.steps.len() - 1;
         let after = self.steps.partition_point(|end| *end <= t).clamp(1, ends.max(1));
         match ends {
@@ -69,7 +65,7 @@ impl RunTimes<'_> {
     }
 
     /// Times around an extreme value.
-    fn beside(&self, t: f64) -> [f64; 4] {
+    pub(super) fn beside(&self, t: f64) -> [f64; 4] {
         let last = self.outputs.len() - 1;
         let next = self.changes.partition_point(|change| *change <= t);
         let before = next.checked_sub(1).map_or(self.outputs[0], |k| self.changes[k]);
@@ -94,55 +90,44 @@ impl SlopePlan {
         let last = times.outputs[times.outputs.len() - 1];
         match statistic {
             Statistic::Final => Self::Final(last),
-            Statistic::Mean => Self::Mean,
-            Statistic::Rms => Self::Rms,
-            Statistic::Max => {
-                extreme(0).map_or_else(missing, |(at, rivals)| Self::Extreme(at, rivals))
+            Statistic::Integral | Statistic::Mean | Statistic::Rms => {
+                Self::of_integral(series, statistic).unwrap_or_else(missing)
             }
-            Statistic::Min => {
-                extreme(1).map_or_else(missing, |(at, rivals)| Self::Extreme(at, rivals))
+            Statistic::Max | Statistic::Min => {
+                let place = usize::from(statistic == Statistic::Min);
+                extreme(place).map_or_else(missing, |(at, rivals)| Self::Extreme(at, rivals))
             }
-            Statistic::TimeOfMax => {
-                extreme(0).map_or_else(missing, |(at, rivals)| Self::TimeOf(at, rivals))
-            }
-            Statistic::TimeOfMin => {
-                extreme(1).map_or_else(missing, |(at, rivals)| Self::TimeOf(at, rivals))
+            Statistic::TimeOfMax | Statistic::TimeOfMin => {
+                let place = usize::from(statistic == Statistic::TimeOfMin);
+                extreme(place).map_or_else(missing, |(at, rivals)| Self::TimeOf(at, rivals))
             }
             Statistic::Peak => match (extreme(0), extreme(1)) {
-                (Some((most, mut rivals)), Some((least, others))) => {
-                    let [high, low] = [most, least].map(|one| one.value.abs());
-                    let equal = (high - low).abs() <= RIVAL * high.max(low) && most.t != least.t;
-                    match (equal, high >= low) {
-                        (true, _) => {
-                            let text = "the magnitude is reached with both signs";
-                            Self::None(text.to_string())
-                        }
-                        (false, true) => Self::Extreme(most, std::mem::take(&mut rivals)),
-                        (false, false) => Self::Extreme(least, others),
-                    }
-                }
+                (Some(most), Some(least)) => Self::of_peak(most, least),
                 _ => missing(),
             },
-            Statistic::Settling => {
-                match series.statistic(statistic) {
-                    Ok(t) if t.is_nan() => Self::None("the motion does not settle".to_string()),
-                    Ok(t) if t == times.outputs[0] => Self::Zero,
-                    Ok(t) => {
-                        let values = series.outputs();
-                        let end = values[values.len() - 1];
-                        let away = |k: &usize| (values[*k] - end).abs();
-                        let most = (0..values.len()).fold(0, |best, k| {
-                            if away(&k) > away(&best) {
-                                k
-                            } else {
-                                best
-                            }
-                        });
-                        Self::Settling([t, times.outputs[most], last])
-                    }
-                    Err(_) => missing(),
+            Statistic::Settling => match series.statistic(statistic) {
+                Ok(t) if t.is_nan() => Self::None("the motion does not settle".to_string()),
+                Ok(t) if t == times.outputs[0] => Self::Zero,
+                Ok(t) => {
+                    let values = series.outputs();
+                    let end = values[values.len() - 1];
+                    let away = |k: usize| (values[k] - end).abs();
+                    let later = |best, k| if away(k) > away(best) { k } else { best };
+                    Self::Settling([t, times.outputs[(0..values.len()).fold(0, later)], last])
                 }
-            }
+                Err(_) => missing(),
+            },
+        }
+    }
+
+    /// The plan of the largest magnitude, from the largest and the least value.
+    fn of_peak(most: (Extreme, Vec<f64>), least: (Extreme, Vec<f64>)) -> Self {
+        let [high, low] = [most.0, least.0].map(|one| one.value.abs());
+        let equal = (high - low).abs() <= RIVAL * high.max(low) && most.0.t != least.0.t;
+        let larger = if high >= low { most } else { least };
+        match equal {
+            true => Self::None("the magnitude is reached with both signs".to_string()),
+            false => Self::Extreme(larger.0, larger.1),
         }
     }
 
@@ -154,10 +139,20 @@ impl SlopePlan {
                 let each = std::iter::once(at.t).chain(rivals.iter().copied());
                 each.flat_map(|t| [&[t], &times.beside(t)[..]].concat()).list()
             }
-            Self::Mean | Self::Rms => times.outputs.to_vec(),
+            Self::Integral(_, found) => found.t.clone(),
             Self::Settling(all) => all.to_vec(),
             Self::None(_) | Self::Zero => Vec::new(),
         }
+    }
+
+    /// The value of measure `k` from its rows; NaN if it does not follow from them.
+    pub fn value(&self, rows: &SlopeRows, k: usize) -> f64 {
+        let found = match self {
+            Self::Final(_) => rows.end_row().map(|row| row.values[k][0]),
+            Self::Integral(of, found) => rows.integral(*of, k, found),
+            _ => return f64::NAN,
+        };
+        found.unwrap_or(f64::NAN)
     }
 
     /// The derivatives of measure `k`, or of its magnitude if it is a peak, from its rows at all times.
@@ -173,24 +168,12 @@ impl SlopePlan {
             Self::Zero => Ok(vec![0.0; rows.variables]),
             Self::Final(_) => rows.final_slopes(k),
             Self::Extreme(found, rivals) => {
-                let slopes = agreed(rows, k, (found, rivals), times)?.of_value;
+                let slopes = rows.agreed(k, (found, rivals), times)?.of_value;
                 let sign = if is_peak && found.value < 0.0 { -1.0 } else { 1.0 };
                 Ok(slopes.iter().map(|slope| sign * slope).list())
             }
-            Self::TimeOf(found, rivals) => Ok(agreed(rows, k, (found, rivals), times)?.of_time),
-            Self::Mean => mean(rows, k, times, |x| [x, 1.0]),
-            Self::Rms => {
-                let of_square = mean(rows, k, times, |x| [x * x, 2.0 * x])?;
-                let squares = times.outputs.iter().map(|t| Ok(at(*t)?.values[k][0].powi(2)));
-                let squares = squares.collect::<Result<Vec<f64>, String>>()?;
-                let size = statistics::mean(times.outputs, &squares).sqrt();
-                match size == 0.0 {
-                    true => {
-                        Err("the value is zero, where a magnitude has no derivative".to_string())
-                    }
-                    false => Ok(of_square.iter().map(|slope| slope / (2.0 * size)).list()),
-                }
-            }
+            Self::TimeOf(found, rivals) => Ok(rows.agreed(k, (found, rivals), times)?.of_time),
+            Self::Integral(of, found) => rows.slopes_of_integral(*of, k, found),
             Self::Settling([t, most, last]) => {
                 let [entry, peak, end] = [at(*t)?, at(*most)?, at(*last)?];
                 let last = rows.final_slopes(k)?;
@@ -206,144 +189,18 @@ impl SlopePlan {
     }
 }
 
-/// The derivatives of the mean of a function of measure `k` over the outputs, whose last time may move. `of` gives the
-/// function and its derivative.
-fn mean(rows: &SlopeRows, k: usize, times: RunTimes<'_>, of: impl Fn(f64) -> [f64; 2]) -> Found {
-    let t = times.outputs;
-    let all: Vec<&SlopeRow> = t.iter().map(|t| rows.at(*t)).collect::<Result<_, _>>()?;
-    let values: Vec<[f64; 2]> = all.iter().map(|row| of(row.values[k][0])).list();
-    let (last, whole) = (t.len() - 1, statistics::mean(t, &values.iter().map(|x| x[0]).list()));
-    // what the last panel grows by while the end moves
-    let grows = match last {
-        0 => 0.0,
-        _ => {
-            let rate = values[last][1] * all[last].values[k][1];
-            let middle = (values[last][0] + values[last - 1][0]) / 2.0;
-            (middle + (t[last] - t[last - 1]) * rate / 2.0 - whole) / (t[last] - t[0])
-        }
-    };
-    let slope = |j: usize| {
-        let slopes = all.iter().zip(&values).map(|(row, x)| x[1] * row.slopes[k][j]).list();
-        statistics::mean(t, &slopes) + grows * rows.end[j]
-    };
-    Ok((0..rows.variables).map(slope).list())
-}
-
-/// The derivatives of an extreme value and of its time.
-struct Stationary {
-    of_value: Vec<f64>,
-    of_time: Vec<f64>,
-}
-
-impl Stationary {
-    /// The derivatives of an extreme value near `t`.
-    ///
-    /// # Errors
-    /// The measure is not stationary there: it has a kink, which may move.
-    fn at(
-        rows: &SlopeRows,
-        k: usize,
-        (t, value): (f64, f64),
-        times: RunTimes<'_>,
-    ) -> Result<Self, String> {
-        if let Some(corner) = rows.corner(t) {
-            return Ok(Self { of_value: corner.whole(k, value), of_time: corner.late.clone() });
-        }
-        let (row, beside) = (rows.at(t)?, times.beside(t));
-        let fixed = || Self { of_value: row.slopes[k].clone(), of_time: vec![0.0; rows.variables] };
-        if times.outputs.last() == Some(&t) {
-            return Ok(Self { of_value: rows.final_slopes(k)?, of_time: rows.end.clone() });
-        }
-        let d = beside[2] - t;
-        let change = (row.values[k][1] * times.step(t)).abs();
-        if times.is_end(t) || d <= 0.0 || rows.span[k] == 0.0 {
-            return Ok(fixed());
-        }
-        if change > FLAT * rows.span[k] {
-            return Err(format!("the value has a kink at t = {t:.6} s, which may move"));
-        }
-        let [a, b, c, e] = beside.map(|t| rows.at(t));
-        let [a, b, c, e] = [a?, b?, c?, e?];
-        let sample =
-            |of: &dyn Fn(&SlopeRow) -> f64| Quartic::through([of(a), of(b), of(row), of(c), of(e)]);
-        let rate = sample(&|row| row.values[k][1]);
-        let second = rate.slope(0.0);
-        if second == 0.0 {
-            return Ok(fixed()); // a constant value
-        }
-        // the value is stationary at t + late d
-        let late = -row.values[k][1] / second;
-        if late.abs() > 1.0 {
-            return Err(format!("the value has a kink near t = {t:.6} s, which may move"));
-        }
-        let second = rate.slope(late);
-        let (mut of_value, mut of_time) = (Vec::new(), Vec::new());
-        for j in 0..rows.variables {
-            let slopes = sample(&|row| row.slopes[k][j]);
-            of_value.push(slopes.value(late));
-            of_time.push(-slopes.slope(late) / second);
-        }
-        Ok(Self { of_value, of_time })
-    }
-}
-
-/// A polynomial through values at -2, -1, 0, 1 and 2.
-struct Quartic([f64; 5]);
-
-impl Quartic {
-    fn through([a, b, o, c, e]: [f64; 5]) -> Self {
-        let first = (8.0 * (c - b) - (e - a)) / 12.0;
-        let second = (16.0 * (b + c) - (a + e) - 30.0 * o) / 24.0;
-        let third = ((e - a) - 2.0 * (c - b)) / 12.0;
-        let fourth = ((a + e) - 4.0 * (b + c) + 6.0 * o) / 24.0;
-        Self([o, first, second, third, fourth])
-    }
-
-    fn value(&self, x: f64) -> f64 {
-        self.0.iter().rev().fold(0.0, |sum, c| sum * x + c)
-    }
-
-    fn slope(&self, x: f64) -> f64 {
-        let [_, a, b, c, d] = self.0;
-        a + x * (2.0 * b + x * (3.0 * c + x * 4.0 * d))
-    }
-}
-
-/// The derivatives of an extreme value that is reached at one time or more.
-///
-/// # Errors
-/// It has a kink, or the values at the times change differently, so that there is no derivative.
-fn agreed(
-    rows: &SlopeRows,
-    k: usize,
-    (found, rivals): (&Extreme, &[f64]),
-    times: RunTimes<'_>,
-) -> Result<Stationary, String> {
-    let (t, value) = (found.t, found.value);
-    let first = Stationary::at(rows, k, (t, value), times)?;
-    let size = first.of_value.iter().fold(0.0_f64, |most, x| most.max(x.abs()));
-    for rival in rivals {
-        let other = Stationary::at(rows, k, (*rival, value), times)?;
-        let both = first.of_value.iter().zip(&other.of_value);
-        if both.into_iter().any(|(a, b)| (a - b).abs() > ALIKE * size) {
-            return Err(format!(
-                "the value is reached at t = {t:.6} s and at t = {rival:.6} s, and changes differently there"
-            ));
-        }
-    }
-    Ok(first)
-}
-
 /// The rows of all measures at all times.
 pub(super) struct SlopeRows {
     rows: Vec<SlopeRow>,
+    /// The index of the row at the end of the run.
+    last: usize,
     pub variables: usize,
     /// The largest magnitude of each measure at the times read.
-    span: Vec<f64>,
+    pub(super) span: Vec<f64>,
     /// The derivatives of the time at which a condition ends the run; zero if its end is given.
-    end: Vec<f64>,
+    pub(super) end: Vec<f64>,
     /// The changes of the motion.
-    corners: Vec<Corner>,
+    pub(super) corners: Vec<Corner>,
     /// Why there are no derivatives after the rows.
     failed: String,
 }
@@ -354,7 +211,7 @@ impl Corner {
     }
 
     /// The derivatives of the value of measure `k` at the change, whose time may move, on the side with this value.
-    fn whole(&self, k: usize, value: f64) -> Vec<f64> {
+    pub(super) fn whole(&self, k: usize, value: f64) -> Vec<f64> {
         let away = |row: &SlopeRow| (row.values[k][0] - value).abs();
         let [before, after] = &self.sides;
         let row = if away(before) <= away(after) { before } else { after };
@@ -364,7 +221,7 @@ impl Corner {
 }
 
 impl SlopeRows {
-    /// Reads all measures at some times.
+    /// Reads all measures at some times, the last of which is the end of the run.
     ///
     /// # Errors
     /// The reason for which there are no derivatives.
@@ -373,8 +230,10 @@ impl SlopeRows {
         mut t: Vec<f64>,
         variables: usize,
     ) -> Result<Self, String> {
+        let end_of_run = t.last().copied();
         t.order_by(f64::total_cmp);
         t.dedup();
+        let last = t.iter().position(|t| Some(*t) == end_of_run).unwrap_or(0);
         let (mut rows, mut failed) = (Vec::with_capacity(t.len()), String::new());
         for t in t {
             match reader.at(t) {
@@ -395,17 +254,15 @@ impl SlopeRows {
         let span = (0..reader.measures.len())
             .map(|k| rows.iter().fold(0.0_f64, |most, row| most.max(row.values[k][0].abs())));
         let (span, end) = (span.list(), vec![0.0; variables]);
-        Ok(Self { rows, variables, span, end, corners, failed })
+        Ok(Self { rows, last, variables, span, end, corners, failed })
     }
 
-    /// The rows of a run that ends where measure `k` becomes zero. The last of them is at the end.
+    /// The rows of a run that ends where measure `k` becomes zero.
     ///
     /// # Errors
     /// The function of the condition is stationary there, so that its end has no derivative.
     pub fn ending_at_zero_of(self, k: usize) -> Result<Self, String> {
-        let Some(last) = self.rows.last().filter(|_| self.failed.is_empty()) else {
-            return Ok(self);
-        };
+        let Ok(last) = self.end_row() else { return Ok(self) };
         let rate = last.values[k][1];
         let end: Vec<f64> = last.slopes[k].iter().map(|slope| -slope / rate).list();
         match end.iter().all(|x| x.is_finite()) {
@@ -415,49 +272,39 @@ impl SlopeRows {
     }
 
     /// The derivatives of the last value of measure `k`, whose time may move.
-    fn final_slopes(&self, k: usize) -> Found {
-        let last = self.at(f64::INFINITY)?;
+    pub(super) fn final_slopes(&self, k: usize) -> Found {
+        let last = self.end_row()?;
         let moves = |(slope, end): (&f64, &f64)| slope + last.values[k][1] * end;
         Ok(last.slopes[k].iter().zip(&self.end).map(moves).list())
     }
 
     /// The change of the motion at a time.
-    pub fn corner(&self, t: f64) -> Option<&Corner> {
+    pub(super) fn corner(&self, t: f64) -> Option<&Corner> {
         let place = self.corners.partition_point(|corner| corner.t() < t);
         self.corners.get(place).filter(|corner| corner.t() == t)
     }
 
-    /// The last value of measure `k`.
-    pub fn last(&self, k: usize) -> f64 {
-        self.rows.last().map_or(f64::NAN, |row| row.values[k][0])
+    /// The row at the end of the run.
+    ///
+    /// # Errors
+    /// The reason for which there are no derivatives there.
+    pub(super) fn end_row(&self) -> Result<&SlopeRow, String> {
+        match self.failed.is_empty() {
+            true => Ok(&self.rows[self.last]),
+            false => Err(self.failed.clone()),
+        }
     }
 
     /// The row at a time that was read.
     ///
     /// # Errors
     /// The reason for which there are no derivatives.
-    pub fn at(&self, t: f64) -> Result<&SlopeRow, String> {
+    pub(super) fn at(&self, t: f64) -> Result<&SlopeRow, String> {
         let place = self.rows.partition_point(|row| row.t < t);
         match self.rows.get(place) {
             Some(row) => Ok(row),
             None if self.failed.is_empty() => Ok(&self.rows[self.rows.len() - 1]),
             None => Err(self.failed.clone()),
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_polynomial_of_fourth_degree_is_reproduced() {
-        let of = |x: f64| 1.0 + x * (2.0 - x * (3.0 + x * (0.5 - 0.25 * x)));
-        let rate = |x: f64| 2.0 - x * (6.0 + x * (1.5 - x));
-        let found = Quartic::through([-2.0, -1.0, 0.0, 1.0, 2.0].map(of));
-        for x in [-1.5, 0.0, 0.3, 0.9] {
-            assert!((found.value(x) - of(x)).abs() < 1e-14, "{x}");
-            assert!((found.slope(x) - rate(x)).abs() < 1e-14, "{x}");
         }
     }
 }

@@ -55,7 +55,7 @@ fn with_jumps(mut instants: Vec<f64>, outputs: &[f64]) -> Vec<f64> {
 }
 
 /// The largest floating-point number below a finite number.
-fn below(x: f64) -> f64 {
+pub(super) fn below(x: f64) -> f64 {
     if x == 0.0 {
         return -f64::from_bits(1);
     }

@@ -1,19 +1,21 @@
-//! Statistics of a quantity over a run: extreme values on the interpolant, means, and the settling time.
+//! Statistics of a quantity over a run: extreme values and integrals on the interpolant, and the settling time.
 //!
 //! A quantity is evaluated through a function of times, so that the same code works for measures of the core and for
 //! functions of the caller.
 
 mod extreme;
 mod instants;
+mod integrals;
 mod maxima;
-mod means;
+mod norms;
 mod settling;
 mod singular_instants;
 
 pub use extreme::{changes, extreme, Extreme, Samples};
 pub use instants::instants;
+pub use integrals::{in_blocks, Integrals};
 pub use maxima::Maxima;
-pub use means::{mean, root_mean_square, row_norms};
+pub use norms::row_norms;
 pub use settling::{settling, Settling, BAND};
 pub use singular_instants::{SingularInstants, EXAMINED};
 

@@ -1,7 +1,9 @@
 //! The measures of a run at closely spaced instants.
 
 use super::readings::{Missing, Readings};
-use crate::analyses::statistics::{changes, instants, Maxima, SingularInstants, EXAMINED};
+use crate::analyses::statistics::{
+    changes, in_blocks, instants, Integrals, Maxima, SingularInstants, EXAMINED,
+};
 use crate::math::{Listed, Ordered};
 use std::cell::OnceCell;
 
@@ -20,11 +22,20 @@ pub struct Between<'a> {
     pub readings: Readings<'a>,
     /// None without an interpolant.
     fine: OnceCell<Option<Fine>>,
+    /// The values of each measure whose integrals are required, at the points of Gauss's rule.
+    at_points: OnceCell<AtPoints>,
+}
+
+/// Values at the points of Gauss's rule.
+struct AtPoints {
+    values: Vec<Vec<f64>>,
+    /// Whether no position is close to a singular one, as far as accelerations were needed.
+    is_regular: bool,
 }
 
 impl<'a> Between<'a> {
     pub fn new(readings: Readings<'a>) -> Self {
-        Self { readings, fine: OnceCell::new() }
+        Self { readings, fine: OnceCell::new(), at_points: OnceCell::new() }
     }
 
     /// The measures at closely spaced instants, computed at the first call. None without an interpolant.
@@ -34,6 +45,47 @@ impl<'a> Between<'a> {
         }
         let found = Fine::read(&self.readings)?;
         Ok(self.fine.get_or_init(|| found).as_ref())
+    }
+
+    /// The integrals of a measure over the steps; None without an interpolant.
+    pub fn integrals(&self, measure: usize) -> Result<Option<Integrals>, Missing> {
+        let (run, solves) = (self.readings.run, self.readings.solves(measure));
+        let dense = run.dense.as_ref().filter(|dense| dense.t.len() > 1);
+        let Some(dense) = dense else { return Ok(None) };
+        let steps = (&dense.t[..], dense.degree);
+        let known = match self.at_points.get() {
+            Some(known) => known,
+            None => {
+                let found = AtPoints::read(&self.readings, steps).ok_or(Missing::Single)?;
+                self.at_points.get_or_init(|| found)
+            }
+        };
+        let passes = || Ok(self.fine()?.is_some_and(|fine| !fine.near.near.is_empty()));
+        if solves && !known.is_regular && passes()? {
+            // a single run of the case finds out whether the measure has a bound there
+            return Err(Missing::Single);
+        }
+        let mut read = |t: &[f64]| self.readings.at(t, solves, &[measure])?.values.pop();
+        let found = Integrals::of_steps(steps, &known.values[measure], &[], &mut read);
+        found.map(Some).ok_or(Missing::Single)
+    }
+}
+
+impl AtPoints {
+    /// None if a value cannot be computed.
+    fn read(readings: &Readings<'_>, (bounds, degree): (&[f64], usize)) -> Option<Self> {
+        let all = 0..readings.wanted.len();
+        let wanted: Vec<usize> = all.filter(|k| readings.wanted[*k][2]).list();
+        let solves = wanted.iter().any(|k| readings.solves(*k));
+        let mut found = Self { values: vec![Vec::new(); readings.wanted.len()], is_regular: true };
+        let mut read = |t: &[f64]| {
+            let rows = readings.at(t, solves, &wanted)?;
+            wanted.iter().zip(rows.values).for_each(|(k, of)| found.values[*k].extend(of));
+            Some(rows.regularity)
+        };
+        let regularity = in_blocks(&Integrals::points(bounds, degree), &mut read)?;
+        found.is_regular = regularity.iter().all(|s| *s >= EXAMINED);
+        Some(found)
     }
 }
 
@@ -56,7 +108,7 @@ impl Fine {
         let layout = &readings.model().layout;
         let t = instants(&dense.t, outputs, 4 * layout.n_q + layout.n_rows + 1);
         let wanted: Vec<usize> =
-            (0..readings.wanted.len()).filter(|k| readings.wanted[*k] != [false; 2]).list();
+            (0..readings.wanted.len()).filter(|k| readings.wanted[*k][..2] != [false; 2]).list();
         let steps = dense.t.len().max(2) - 1;
         let every = if readings.is_smooth() { (t.len() / steps).div_ceil(IN_A_STEP) } else { 1 };
         let mut some = Sampled { places: Vec::new(), columns: vec![Vec::new(); 2 + wanted.len()] };
@@ -117,7 +169,7 @@ impl Sampled {
 
     /// The instants that were left out where a measure may exceed its extreme values, the multipliers their largest
     /// norm, or the position may be singular.
-    fn between(&self, wanted: impl Iterator<Item = [bool; 2]>) -> Vec<usize> {
+    fn between(&self, wanted: impl Iterator<Item = [bool; 3]>) -> Vec<usize> {
         let (sizes, regularity) = (&self.columns[0][..], &self.columns[1][..]);
         let mut searched = vec![(1.0, sizes, most(1.0, sizes)), (-1.0, regularity, -EXAMINED)];
         for (column, signs) in self.columns[2..].iter().zip(wanted) {

@@ -91,8 +91,13 @@ impl Sweep {
         let measures = self.measures.iter().enumerate().map(|(k, text)| {
             // measures are read for each variant, because the position of a point may depend on a parameter
             let measure = Measure::read(readings.model(), text).map_err(|_| Missing::Single)?;
-            let own = self.statistics().filter(|(of, _)| *of == k).map(|(_, one)| one.extremes());
-            Ok((measure, own.fold([false; 2], |all, own| each([0, 1], |k| all[k] || own[k]))))
+            let own = self.statistics().filter(|(of, _)| *of == k);
+            let own = own.map(|(_, one)| {
+                let [most, least] = one.extremes();
+                [most, least, one.is_integral()]
+            });
+            let all = own.fold([false; 3], |all, own| each([0, 1, 2], |k| all[k] || own[k]));
+            Ok((measure, all))
         });
         let (measures, wanted) = measures.collect::<Result<Vec<_>, _>>()?.into_iter().unzip();
         Ok(Between::new(readings.of(measures, wanted)))

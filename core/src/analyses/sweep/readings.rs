@@ -45,8 +45,8 @@ struct ReadPhase {
 pub struct Readings<'a> {
     phases: Vec<ReadPhase>,
     pub run: &'a Run,
-    /// Whether the largest and the least value of each measure are required.
-    pub wanted: Vec<[bool; 2]>,
+    /// Whether the largest value, the least value and the integrals of each measure are required.
+    pub wanted: Vec<[bool; 3]>,
     /// The first output and the time between outputs, if the run has left them out.
     grid: Option<(f64, f64)>,
     /// Whether the mechanism is at rest at each value of the quantity that replaces the time.
@@ -92,8 +92,8 @@ impl<'a> Readings<'a> {
         }
     }
 
-    /// The readings of measures, and whether the extreme values of each are required.
-    pub fn of(mut self, measures: Vec<Measure>, wanted: Vec<[bool; 2]>) -> Self {
+    /// The readings of measures, and what is required of each.
+    pub fn of(mut self, measures: Vec<Measure>, wanted: Vec<[bool; 3]>) -> Self {
         for phase in &mut self.phases {
             let own = phase.prepared.model();
             phase.measures = measures.iter().map(|of| of.in_phase(own)).list();

@@ -4,7 +4,7 @@ use super::fine::{Between, Fine};
 use super::readings::{Missing, Readings};
 use super::statistic::Statistic;
 use crate::analyses::statistics::{
-    changes, extreme, mean, root_mean_square, settling, Extreme, Maxima, Samples, Settling,
+    changes, extreme, settling, Extreme, Integrals, Maxima, Samples, Settling,
 };
 use crate::math::Listed;
 use std::cell::OnceCell;
@@ -21,6 +21,7 @@ pub struct Series<'a> {
     outputs: Vec<f64>,
     /// The largest and the least value, each with the times of other maxima that are as large.
     extremes: [OnceCell<(Extreme, Vec<f64>)>; 2],
+    integrals: OnceCell<Integrals>,
 }
 
 /// Maxima that differ by less than this fraction are equally large.
@@ -30,7 +31,15 @@ impl<'a> Series<'a> {
     pub fn new(between: &'a Between<'a>, place: usize) -> Result<Self, Missing> {
         let readings = &between.readings;
         let (outputs, solves) = (readings.outputs(place)?, readings.solves(place));
-        Ok(Self { between, readings, place, solves, outputs, extremes: Default::default() })
+        Ok(Self {
+            between,
+            readings,
+            place,
+            solves,
+            outputs,
+            extremes: Default::default(),
+            integrals: OnceCell::new(),
+        })
     }
 
     /// The values at other times. None if a value cannot be computed.
@@ -40,15 +49,16 @@ impl<'a> Series<'a> {
 
     /// A statistic of the measure.
     pub fn statistic(&self, statistic: Statistic) -> Result<f64, Missing> {
-        let (t, outputs) = (&self.readings.run.trajectory.t, &self.outputs);
+        let outputs = &self.outputs;
         Ok(match statistic {
             Statistic::Max => self.most()?.value,
             Statistic::Min => self.least()?.value,
             Statistic::Peak => self.most()?.value.abs().max(self.least()?.value.abs()),
             Statistic::TimeOfMax => self.most()?.t,
             Statistic::TimeOfMin => self.least()?.t,
-            Statistic::Mean => mean(t, outputs),
-            Statistic::Rms => root_mean_square(t, outputs),
+            Statistic::Integral | Statistic::Mean | Statistic::Rms => {
+                statistic.of_integrals(self.integrals()?)
+            }
             Statistic::Final => outputs[outputs.len() - 1],
             Statistic::Settling => self.settling()?,
         })
@@ -69,6 +79,17 @@ impl<'a> Series<'a> {
             return Ok(self.extremes[place].get_or_init(|| found));
         }
         self.extremes[place].get().ok_or(Missing::Single)
+    }
+
+    /// The values at points with weights, which give the integrals.
+    pub fn integrals(&self) -> Result<&Integrals, Missing> {
+        if let Some(known) = self.integrals.get() {
+            return Ok(known);
+        }
+        let t = &self.readings.run.trajectory.t;
+        let found = self.between.integrals(self.place)?;
+        let found = found.unwrap_or_else(|| Integrals::of_outputs(t, &self.outputs));
+        Ok(self.integrals.get_or_init(|| found))
     }
 
     /// The values at the outputs.

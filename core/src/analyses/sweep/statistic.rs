@@ -1,5 +1,7 @@
 //! The statistics of a measure by name.
 
+use crate::analyses::statistics::Integrals;
+
 /// A statistic of a measure over a run.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Statistic {
@@ -9,6 +11,8 @@ pub enum Statistic {
     Min,
     /// The largest magnitude.
     Peak,
+    /// The integral over time.
+    Integral,
     /// The mean over time.
     Mean,
     /// The root mean square over time.
@@ -25,10 +29,11 @@ pub enum Statistic {
 
 impl Statistic {
     /// All, with their names.
-    pub const ALL: [(&'static str, Self); 9] = [
+    pub const ALL: [(&'static str, Self); 10] = [
         ("max", Self::Max),
         ("min", Self::Min),
         ("peak", Self::Peak),
+        ("integral", Self::Integral),
         ("mean", Self::Mean),
         ("rms", Self::Rms),
         ("final", Self::Final),
@@ -53,8 +58,22 @@ impl Statistic {
         self.extremes() != [false; 2]
     }
 
+    /// Whether it follows from integrals over the run.
+    pub fn is_integral(self) -> bool {
+        [Self::Integral, Self::Mean, Self::Rms].contains(&self)
+    }
+
+    /// The one that follows from integrals.
+    pub fn of_integrals(self, found: &Integrals) -> f64 {
+        match self {
+            Self::Integral => found.of_power(1),
+            Self::Mean => found.mean_of_power(1),
+            _ => found.mean_of_power(2).sqrt(),
+        }
+    }
+
     /// Whether it depends on values between the outputs.
     pub fn looks_between_outputs(self) -> bool {
-        self.is_extreme() || self == Self::Settling
+        self.is_extreme() || self.is_integral() || self == Self::Settling
     }
 }

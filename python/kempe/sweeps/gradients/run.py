@@ -28,7 +28,8 @@ if TYPE_CHECKING:
 #: Relative change of a variable for which the mechanism must exist.
 _CHANGE = 1e-6
 #: The remarks on numbers that the core does not differentiate.
-_OF_RUN = "of a quantity of a whole run, only final values have derivatives"
+_OF_RUN = "of a quantity of a whole run, only final values and integrals have derivatives"
+_ALONG = ("final", "integral", "mean", "rms")
 _SINGLE = "kempe has no derivatives of this number yet"
 #: The time and the quantities at which formulas without these are evaluated.
 _AT, _NONE = np.zeros(1), np.zeros((1, 0))
@@ -130,7 +131,7 @@ def _only(plan: Plan, places: Iterable[int]) -> Plan:
 
 def _left(plan: Plan, one: Wanted) -> str:
     """Why a number is left to a single run; empty if the core differentiates it."""
-    if one.of_run and one.statistic != "final":
+    if one.of_run and one.statistic not in _ALONG:
         return _OF_RUN
     kind = plan.case.analyses[plan.analysis]["type"]
     statistics, reads = [one.statistic] if one.statistic else [], reads_quantities(kind, [one.text])

@@ -1,0 +1,61 @@
+//! Integrals, means and root mean squares with derivatives.
+
+use super::statistics::{Found, SlopePlan, SlopeRows};
+use crate::analyses::statistics::Integrals;
+use crate::analyses::sweep::{Series, Statistic};
+use crate::math::Listed;
+
+impl SlopePlan {
+    /// The plan of a statistic that follows from integrals.
+    pub(super) fn of_integral(series: &Series<'_>, statistic: Statistic) -> Option<Self> {
+        let found = series.integrals().ok()?;
+        Some(match found.jumps.first() {
+            None => Self::Integral(statistic, found.clone()),
+            Some(t) => Self::None(format!("the value jumps at t = {t:.6} s, which may move")),
+        })
+    }
+}
+
+impl SlopeRows {
+    /// Integrals with the values of measure `k`.
+    fn integrals(&self, k: usize, at: &Integrals) -> Result<Integrals, String> {
+        let values = at.t.iter().map(|t| Ok(self.at(*t)?.values[k][0]));
+        Ok(Integrals { values: values.collect::<Result<_, String>>()?, ..at.clone() })
+    }
+
+    /// A statistic that follows from integrals of measure `k`.
+    pub(super) fn integral(&self, of: Statistic, k: usize, at: &Integrals) -> Result<f64, String> {
+        Ok(of.of_integrals(&self.integrals(k, at)?))
+    }
+
+    /// The derivatives of a statistic that follows from integrals of measure `k`: those within the run, and those of
+    /// the times at which the motion changes or the run ends.
+    pub(super) fn slopes_of_integral(&self, of: Statistic, k: usize, at: &Integrals) -> Found {
+        let found = self.integrals(k, at)?;
+        let (value, span) = (of.of_integrals(&found), found.weights.iter().sum::<f64>());
+        let last = self.end_row()?.values[k][0];
+        // the integral of f(x), a factor on it, and its change with the last time
+        let (power, factor, grows) = match of {
+            Statistic::Integral => (1, 1.0, last),
+            _ if span == 0.0 => return self.final_slopes(k),
+            Statistic::Mean => (1, 1.0 / span, last - value),
+            _ if value == 0.0 => {
+                return Err("the value is zero, where a magnitude has no derivative".to_string())
+            }
+            _ => (2, 0.5 / (span * value), last * last - value * value),
+        };
+        let f = |x: f64| [x.powi(power), f64::from(power) * x.powi(power - 1)];
+        let mut slopes: Vec<f64> = self.end.iter().map(|end| grows * end).list();
+        let mut add = |factor: f64, of: &[f64]| {
+            slopes.iter_mut().zip(of).for_each(|(sum, slope)| *sum += factor * slope);
+        };
+        for (t, (weight, x)) in found.t.iter().zip(found.weights.iter().zip(&found.values)) {
+            add(weight * f(*x)[1], &self.at(*t)?.slopes[k]);
+        }
+        for corner in &self.corners {
+            let [before, after] = [0, 1].map(|side| f(corner.sides[side].values[k][0])[0]);
+            add(before - after, &corner.late);
+        }
+        Ok(slopes.iter().map(|slope| factor * slope).list())
+    }
+}
