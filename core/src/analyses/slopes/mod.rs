@@ -13,9 +13,13 @@
 //! | `motion` | the derivatives of a motion along its steps |
 //! | `at_rest` | the derivatives of an equilibrium |
 //! | `equilibrium` | the numbers of an equilibrium |
+//! | `limits`, `turning` | limits of motions |
+//! | `modes` | the numbers of modes |
+//! | `spectrum` | the derivatives of eigenvalues |
 //! | `driven` | the derivatives of a motion that drivers determine |
 //! | `reader` | measures with derivatives |
 //! | `statistics` | statistics with derivatives |
+//! | `numbers` | the numbers of results that are not motions |
 //! | `gradient` | all numbers and all variables of a request |
 //! | `at_times` | measures and all variables of a request at given times |
 
@@ -25,12 +29,17 @@ mod driven;
 mod equilibrium;
 mod gradient;
 mod impacts;
+mod limits;
+mod modes;
 mod motion;
+mod numbers;
 mod ode;
 mod reader;
+mod spectrum;
 mod starts;
 mod statistics;
 mod triggers;
+mod turning;
 mod variables;
 
 pub use at_times::AtTimes;
