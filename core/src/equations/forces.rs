@@ -60,9 +60,8 @@ fn body_forces<S: Real>(
 
 /// Weight and centrifugal force m A c′ φ̇² of one body whose mass centre is not the origin of the frame.
 #[inline]
-fn off_center<S: Real>(body: &Body<S>, motion: &Motion<S>, weight: Vec2<S>) -> Wrench<S> {
-    let arm = motion.pose.global(body.center);
-    let omega = motion.twist.omega;
+pub(super) fn off_center<S: Real>(body: &Body<S>, at: &Motion<S>, weight: Vec2<S>) -> Wrench<S> {
+    let (arm, omega) = (at.pose.global(body.center), at.twist.omega);
     let centrifugal = arm.scale(body.mass * omega * omega);
     Wrench { force: weight + centrifugal, torque: arm.cross(weight) }
 }

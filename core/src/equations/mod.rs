@@ -33,6 +33,7 @@ pub mod reactive;
 pub mod refine;
 mod residuals;
 mod roles;
+pub mod second;
 pub mod sensitivity;
 mod static_ratio;
 pub mod switches;

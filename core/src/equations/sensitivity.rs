@@ -40,7 +40,8 @@ pub struct Sensitivity {
     /// Powers of forces and drivers.
     pub powers: Powers<Slope>,
     compiled: Compiled<Slope>,
-    jacobian: Vec<Slope>,
+    /// Φ_q at the last state.
+    pub(super) jacobian: Vec<Slope>,
     gamma: Vec<Slope>,
     applied: Vec<Slope>,
     /// (r, s), shape (n_q + n_rows).
@@ -167,11 +168,17 @@ impl Sensitivity {
 
     /// Φ_q v + Φ_t with derivatives, shape (n_rows).
     pub fn opening(&self, t: Slope, q: &[Slope], v: &[Slope]) -> Vec<Slope> {
+        let [_, rate, _] = self.terms(t, q, v);
+        rate
+    }
+
+    /// Φ, Φ_q v + Φ_t and γ with derivatives.
+    pub(super) fn terms(&self, t: Slope, q: &[Slope], v: &[Slope]) -> [Vec<Slope>; 3] {
         let motions = Motions::at(&self.model.layout, q, v);
         let mut terms = [(); 3].map(|()| vec![Slope::constant(0.0); self.model.layout.n_rows]);
         let [phi, rate, gamma] = &mut terms;
         constraints::velocity_terms(&self.model, &motions, t, phi, rate, gamma);
-        std::mem::take(rate)
+        terms
     }
 
     /// M x + Φ_qᵀ y with derivatives at a state, shape (n_q).

@@ -44,6 +44,13 @@ impl Model {
 }
 
 impl Model {
+    /// The model with the formulas of parameters of another one, which give the same values.
+    pub fn with_formulas_of(self, other: &Self) -> Self {
+        let formulas = other.blueprint.formulas.clone();
+        let blueprint = Blueprint { formulas, ..Blueprint::clone(&self.blueprint) };
+        Self { blueprint: Arc::new(blueprint), ..self }
+    }
+
     /// The model in which the phases of meshed wheels are changed, by the names of the joints, m.
     pub fn with_phases(&self, changes: Vec<(String, f64)>) -> Self {
         let mut blueprint = Blueprint::clone(&self.blueprint);

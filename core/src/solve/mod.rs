@@ -57,6 +57,7 @@
 //! | `block_lu` | its factors, real or complex |
 //! | `dense` | small dense systems |
 //! | `symmetric` | eigenvalues and eigenvectors of dense symmetric matrices |
+//! | `null_space` | null vectors of a matrix whose rank is known |
 //! | `newton` | damped Newton and Gauss–Newton iteration |
 //! | `breakdown` | reasons why a system has no usable solution |
 //! | `rank` | numerical rank, dependent rows and left null vectors |
@@ -71,6 +72,7 @@ mod full_pivot;
 mod lu_symbolic;
 mod mass_block;
 pub mod newton;
+mod null_space;
 mod order;
 mod pattern;
 mod pin_block;
@@ -96,6 +98,7 @@ pub use full_pivot::{solve_any_rank, AnyRank};
 pub use lu_symbolic::LuPlan;
 pub use mass_block::{InverseMass, PIVOT_TOLERANCE};
 pub use newton::Newton;
+pub use null_space::{null_space, NullSpace};
 pub use order::{groups_first, touched_first};
 pub use pattern::Pattern;
 pub use rank::{normalize_rows, rank, Rank, RANK_TOLERANCE};

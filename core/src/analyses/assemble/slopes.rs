@@ -63,6 +63,19 @@ pub fn slopes(
     Ok([q, v, z])
 }
 
+/// The derivatives of the rates that were made consistent for a request without `set`, at positions with derivatives.
+///
+/// # Errors
+/// The reason for which the rates have no derivatives.
+pub fn rate_slopes(
+    model: &Model,
+    request: &Request,
+    parameters: &[Slope],
+    (q, v): (&[Slope], &[f64]),
+) -> Result<Vec<Slope>, String> {
+    StartNumbers { model, request, parameters, set: &[], t: request.t }.rates(q, v)
+}
+
 struct StartNumbers<'a> {
     model: &'a Model,
     request: &'a Request,

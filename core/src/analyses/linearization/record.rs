@@ -128,7 +128,10 @@ fn mode(number: usize, s: Complex) -> Vec<Fact> {
 
 impl Options {
     /// The model whose motions are small, and the names of the forces that lock joints in it.
-    fn model(
+    ///
+    /// # Errors
+    /// The forces that hold cannot be determined.
+    pub(in crate::analyses) fn model(
         &self,
         subject: &Subject<'_>,
         start: &StartState,

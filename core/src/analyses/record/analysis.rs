@@ -99,7 +99,7 @@ impl<'a> Subject<'a> {
         definition
     }
 
-    /// The model of a changed definition, with the same values of the parameters.
+    /// The model of a changed definition, with the same parameters.
     ///
     /// # Errors
     /// The faults of the definition.
@@ -107,7 +107,7 @@ impl<'a> Subject<'a> {
         let model = self.model();
         let values = model.parameters.iter().map(|x| Value::Number(*x));
         let values: Vec<_> = model.blueprint.parameters.iter().cloned().zip(values).list();
-        let built = build(definition, &values)?;
+        let built = build(definition, &values)?.with_formulas_of(model);
         let built = if model.allow_redundancy { built.allowing_redundancy() } else { built };
         Ok(Arc::new(built.with_phases(model.blueprint.phases.clone())))
     }

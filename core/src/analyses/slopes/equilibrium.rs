@@ -1,17 +1,34 @@
 //! The numbers of an equilibrium with their derivatives.
 
-use super::at_rest::AtRest;
+use super::at_rest::{AtRest, RestPoint};
 use super::statistics::Found;
-use crate::analyses::assemble::StartSlopes;
+use super::variables::parameters;
+use crate::analyses::assemble::{rate_slopes, state_until, Request, StartSlopes};
 use crate::analyses::equilibrium::Options;
 use crate::analyses::measures::Measure;
-use crate::analyses::record::Record;
+use crate::analyses::record::{parts, Record};
 use crate::analyses::sweep::{Ready, Sweep, VariantRow, Wanted};
-use crate::math::Listed;
-use crate::model::Value;
+use crate::analyses::State;
+use crate::equations::sensitivity::Slope;
+use crate::math::{Listed, Real};
+use crate::model::{Model, Value};
+
+/// The numbers that count, say yes or no, or belong to the search.
+const FLAGS: [&str; 5] = ["stable", "steps", "relaxed", "complete", "residual"];
+
+/// What the numbers of an equilibrium, or of a path of equilibria, follow from.
+struct Rests<'a> {
+    sweep: &'a Sweep,
+    ready: &'a Ready,
+    options: &'a Options,
+    record: &'a Record,
+    model: &'a Model,
+    /// The variables and the derivatives of the start, in blocks.
+    blocks: Vec<(Vec<String>, StartSlopes)>,
+}
 
 impl Sweep {
-    /// The derivatives of the numbers of an equilibrium.
+    /// The derivatives of the numbers of an equilibrium, or of a path of equilibria.
     pub(super) fn of_equilibrium(
         &self,
         ready: &Ready,
@@ -20,65 +37,189 @@ impl Sweep {
         row: &VariantRow,
         stop: &(dyn Fn() -> bool + Sync),
     ) -> Vec<Found> {
-        let model = self.subject(ready).released(&ready.start);
-        let mut blocks = match self.rests((ready, options, record), row, stop) {
+        let blocks = match self.before_rest(ready, options, row, stop) {
             Ok(blocks) => blocks,
             Err(reason) => return vec![Err(reason); self.wanted.len()],
         };
-        let mut read = |text: &str| -> Found {
-            let mut slopes = Vec::new();
-            for (block, count) in &mut blocks {
-                let holder = |name| options.hold.iter().position(|held| held == name);
-                let found = match text.strip_prefix("effort.").map(holder) {
-                    Some(Some(holder)) => block.effort(holder),
-                    Some(None) => return Err("it has no derivatives yet".to_string()),
-                    None => {
-                        let declared = self.definition.measures.iter().find(|(of, _)| of == text);
-                        let text = match declared {
-                            Some((_, Value::Text(text))) => text,
-                            _ => text,
-                        };
-                        let measure = Measure::read(&model, text);
-                        block.read(&measure.map_err(|_| "it has no derivatives yet")?)
-                    }
-                };
-                slopes.extend(&found.slope[..*count]);
-            }
-            Ok(slopes)
-        };
+        let model = &*self.subject(ready).released(&ready.start);
+        let rests = Rests { sweep: self, ready, options, record, model, blocks };
+        let mut known = Vec::new();
         let each = self.wanted.iter().map(|one| match one {
-            Wanted::Number(text) => read(text),
+            Wanted::Number(text) => rests.number(text, &mut known),
             Wanted::Statistic(..) => Err("an equilibrium has no statistics".to_string()),
         });
         each.list()
     }
 
-    /// The derivatives of an equilibrium, in blocks of variables, each with the number of its variables.
-    pub(super) fn rests(
+    /// The derivatives of an equilibrium at which another analysis starts, in blocks of variables. Where drivers move,
+    /// the rates at the start are those nearest to rest.
+    pub(super) fn rest_starts(
         &self,
         (ready, options, record): (&Ready, &Options, &Record),
         row: &VariantRow,
         stop: &(dyn Fn() -> bool + Sync),
-    ) -> Result<Vec<(AtRest, usize)>, String> {
-        let starts = self.starts(ready, row, stop)?;
-        let model = self.subject(ready).released(&ready.start);
-        let lam = multipliers(record).ok_or("its multipliers are not known")?;
-        let names = Self::names(row);
-        let of = |(names, slopes): (&Vec<String>, &StartSlopes)| {
-            let (start, state) = (&ready.start.state, &record.end.state);
-            let found = AtRest::find((&model, options), names, (start, slopes), (state, &lam));
-            Ok((found?, names.len()))
+    ) -> Result<Vec<StartSlopes>, String> {
+        let blocks = self.before_rest(ready, options, row, stop)?;
+        let model = &*self.subject(ready).released(&ready.start);
+        let rests = Rests { sweep: self, ready, options, record, model, blocks };
+        let found = rests.at(0)?.into_iter().map(|(rest, _)| rest.start());
+        if !model.driven {
+            return Ok(found.list());
+        }
+        let (t, state) = (record.end.state.t, Some(record.end.state.clone()));
+        let request = Request { state, t, ..Request::default() };
+        let moving = state_until(model, &request, stop).map_err(|failure| failure.message)?;
+        let with_rates = |([q, _, z], (names, _)): (StartSlopes, &(Vec<String>, _))| {
+            let numbers = parameters(model, names, &[]).ok_or("its parameters cannot be read")?;
+            let v = rate_slopes(model, &request, &numbers, (&q, &moving.v))?;
+            Ok([q, v, z])
         };
-        names.iter().zip(&starts.states).map(of).collect()
+        found.zip(&rests.blocks).map(with_rates).collect()
+    }
+
+    /// The variables in blocks, with the derivatives of the start as far as an equilibrium depends on it: by the
+    /// quantities that are held.
+    fn before_rest(
+        &self,
+        ready: &Ready,
+        options: &Options,
+        row: &VariantRow,
+        stop: &(dyn Fn() -> bool + Sync),
+    ) -> Result<Vec<(Vec<String>, StartSlopes)>, String> {
+        let names = Self::names(row).into_iter();
+        let State { q, v, z, .. } = &ready.start.state;
+        let fixed = || [q, v, z].map(|x| x.iter().map(|x| Slope::constant(*x)).list());
+        Ok(match options.hold.is_empty() && !ready.after {
+            true => names.map(|names| (names, fixed())).list(),
+            false => names.zip(self.starts(ready, row, stop)?.in_time()?).list(),
+        })
     }
 }
 
-/// The multipliers of an equilibrium: those of the joints and drivers, then those of the holders.
-fn multipliers(record: &Record) -> Option<Vec<f64>> {
-    let point = record.findings["points"].as_array()?.first()?;
-    let read = |name: &str| -> Option<Vec<f64>> {
-        point[name].as_array()?.iter().map(serde_json::Value::as_f64).collect()
-    };
-    let holders = read("holders")?;
-    Some(read("lam")?.into_iter().chain(holders.iter().map(|effort| -effort)).list())
+/// The derivatives of the equilibria at some points of a path, by their indices.
+type Known = Vec<(usize, Result<Vec<(AtRest, usize)>, String>)>;
+
+impl Rests<'_> {
+    /// The derivatives of a number.
+    fn number(&self, text: &str, known: &mut Known) -> Found {
+        let (name, place) = parts(text);
+        if FLAGS.contains(&name) {
+            return Err("it counts, or belongs to the search, and does not change gradually".into());
+        }
+        let points = self.list("points").len();
+        let of_path = ["values", "folds", "branches"].contains(&name);
+        let count = if of_path { self.list(name).len() } else { points };
+        let place = match (&self.options.over, place) {
+            (None, _) => 0,
+            (Some(_), Some(place)) if place < 0 => (count as i64 + place) as usize,
+            (Some(_), place) => place.unwrap_or(0) as usize,
+        };
+        let folds = self.list("folds");
+        let fold = |k: usize| folds.get(k).and_then(serde_json::Value::as_u64).map(|k| k as usize);
+        let given = place == 0 || place + 1 == points && self.ends_in_range();
+        match name {
+            "folds" => self.fold(fold(place).ok_or("there is no such fold")?),
+            "branches" => Err("it has no bound: other paths cross there".to_string()),
+            "values" if (0..folds.len()).any(|k| fold(k) == Some(place)) => self.fold(place),
+            "values" if given => Ok(vec![0.0; self.variables()]),
+            _ if !given => {
+                Err("the path chooses this point; its ends have derivatives".to_string())
+            }
+            _ => {
+                if !known.iter().any(|(k, _)| *k == place) {
+                    known.push((place, self.at(place)));
+                }
+                let found = known.iter_mut().find(|(k, _)| *k == place);
+                let (_, found) = found.ok_or("its position is not known")?;
+                let text = if self.options.over.is_some() { name } else { text };
+                self.read(found.as_mut().map_err(|reason| reason.clone())?, text)
+            }
+        }
+    }
+
+    fn read(&self, blocks: &mut [(AtRest, usize)], text: &str) -> Found {
+        let mut slopes = Vec::new();
+        for (block, count) in blocks {
+            let holder = |name| self.options.hold.iter().position(|held| held == name);
+            let found = match text.strip_prefix("effort.").map(|name| (name, holder(name))) {
+                Some((_, Some(holder))) => block.effort(holder),
+                Some((name, None)) => block.effort_of(name).ok_or("there is no such driver")?,
+                None => {
+                    let declared = &self.sweep.definition.measures;
+                    let declared = declared.iter().find(|(of, _)| of == text);
+                    let text = match declared {
+                        Some((_, Value::Text(text))) => text,
+                        _ => text,
+                    };
+                    let measure = Measure::read(&block.base, text);
+                    block.read(&measure.map_err(|_| "it has no derivatives yet")?)
+                }
+            };
+            slopes.extend(&found.slope[..*count]);
+        }
+        Ok(slopes)
+    }
+
+    fn variables(&self) -> usize {
+        self.blocks.iter().map(|(names, _)| names.len()).sum()
+    }
+
+    /// A finding that is a list.
+    fn list(&self, name: &str) -> &[serde_json::Value] {
+        self.record.findings[name].as_array().map_or(&[], Vec::as_slice)
+    }
+
+    /// Whether the last point of a path has the first or the last value of the range.
+    fn ends_in_range(&self) -> bool {
+        matches!(self.record.findings["end"].as_str(), Some("last" | "first"))
+    }
+
+    /// The derivatives of the equilibrium at a point, in blocks.
+    fn at(&self, point: usize) -> Result<Vec<(AtRest, usize)>, String> {
+        self.with(point, |rest| {
+            let of = |(names, start): &(Vec<String>, StartSlopes)| {
+                Ok((AtRest::find(rest, names, start)?, names.len()))
+            };
+            self.blocks.iter().map(of).collect()
+        })
+    }
+
+    /// The derivatives of the value of the parameter at a fold.
+    fn fold(&self, point: usize) -> Found {
+        let over = self.options.over.as_ref().ok_or("the result is not a path")?;
+        self.with(point, |rest| {
+            let mut slopes = Vec::new();
+            for (names, start) in &self.blocks {
+                slopes.extend(&AtRest::fold(rest, (over, names), start)?[..names.len()]);
+            }
+            Ok(slopes)
+        })
+    }
+
+    /// Calls `f` with the equilibrium at a point.
+    fn with<R>(
+        &self,
+        point: usize,
+        f: impl FnOnce(&RestPoint<'_>) -> Result<R, String>,
+    ) -> Result<R, String> {
+        let Self { options, model: before, ready, .. } = *self;
+        let of = &self.list("points")[point];
+        let numbers = |name: &str| -> Option<Vec<f64>> {
+            of[name].as_array()?.iter().map(serde_json::Value::as_f64).collect()
+        };
+        let read = || {
+            // the multipliers of the joints and drivers, then those of the holders
+            let holders = numbers("holders")?.into_iter().map(|effort| -effort);
+            Some((numbers("q")?, numbers("z")?, numbers("lam")?.into_iter().chain(holders).list()))
+        };
+        let (q, z, lam) = read().ok_or("its multipliers are not known")?;
+        let (v, start) = (vec![0.0; q.len()], &ready.start.state);
+        let state = &State { t: start.t, q, v, z };
+        let value = self.list("values").get(point).and_then(serde_json::Value::as_f64);
+        let change = options.over.clone().zip(value);
+        let own = change.map(|change| before.with_values(&[change])).transpose();
+        let own = own.map_err(|_| "its parameters cannot be read")?;
+        let model = own.as_ref().unwrap_or(before);
+        f(&RestPoint { model, options, state, lam: &lam, before, start })
+    }
 }

@@ -1,6 +1,7 @@
 //! All numbers of a request with their derivatives by all variables.
 
 use super::motion::{joined, AskedRun, MotionSlopes};
+use super::numbers::listed;
 use super::reader::{Reader, StateSlopes, States};
 use super::starts::{with_interpolant, Starts};
 use super::statistics::{Found, RunTimes, SlopePlan, SlopeRows};
@@ -73,12 +74,23 @@ impl Sweep {
                     return self.of_record(&ready, record, row, stop);
                 }
                 match analysis {
-                    AnyAnalysis::Equilibrium(options) if options.over.is_none() => {
+                    AnyAnalysis::Equilibrium(options) => {
                         let values = self.without(row, stop, count, "")?.values;
                         let found = self.of_equilibrium(&ready, options, &record, row, stop);
                         Ok(gathered(values, found, count))
                     }
-                    _ => self.without(row, stop, count, "this analysis has no derivatives yet"),
+                    analysis => {
+                        let values = self.without(row, stop, count, "")?.values;
+                        let found = self.of_numbers(&ready, analysis, &record, row, stop);
+                        let (jacobian, reasons) = listed(found);
+                        let remark = |([number, variable], text): ([usize; 2], String)| Remark {
+                            number,
+                            variable,
+                            text,
+                        };
+                        let remarks = reasons.into_iter().map(remark).list();
+                        Ok(Gradient { values, jacobian, remarks })
+                    }
                 }
             }
         }

@@ -13,11 +13,15 @@
 //! | `motion` | the derivatives of a motion along its steps |
 //! | `at_rest` | the derivatives of an equilibrium |
 //! | `equilibrium` | the numbers of an equilibrium |
+//! | `limits`, `turning` | limits of motions |
+//! | `modes` | the numbers of modes |
+//! | `spectrum` | the derivatives of eigenvalues |
 //! | `driven` | the derivatives of a motion that drivers determine |
 //! | `reader` | measures with derivatives |
 //! | `statistics` | statistics with derivatives |
 //! | `extremes` | extreme values with derivatives |
 //! | `integrals` | integrals, means and root mean squares with derivatives |
+//! | `numbers` | the numbers of results that are not motions |
 //! | `gradient` | all numbers and all variables of a request |
 //! | `at_times` | measures and all variables of a request at given times |
 
@@ -29,12 +33,17 @@ mod extremes;
 mod gradient;
 mod impacts;
 mod integrals;
+mod limits;
+mod modes;
 mod motion;
+mod numbers;
 mod ode;
 mod reader;
+mod spectrum;
 mod starts;
 mod statistics;
 mod triggers;
+mod turning;
 mod variables;
 
 pub use at_times::AtTimes;

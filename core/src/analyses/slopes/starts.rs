@@ -22,6 +22,14 @@ pub(super) struct Starts {
 }
 
 impl Starts {
+    /// The states, if the time of the start does not move.
+    pub fn in_time(self) -> Result<Vec<StartSlopes>, String> {
+        match self.late.iter().all(|late| *late == 0.0) {
+            true => Ok(self.states),
+            false => Err("the time of its start moves".to_string()),
+        }
+    }
+
     /// A start at a given time.
     fn at_once(states: Vec<StartSlopes>) -> Self {
         let late = vec![0.0; ABREAST * states.len()];
@@ -52,11 +60,10 @@ impl Sweep {
         let record = record.map_err(|_| unfinished())?;
         match &ready.analysis {
             AnyAnalysis::Equilibrium(options) => {
-                if options.over.is_some() || ready.prepared.model().driven {
-                    return Err("its start is the end of a path, or drivers move it".to_string());
+                if options.over.is_some() {
+                    return Err("its start is the end of a path of equilibria".to_string());
                 }
-                let found = before.rests((&ready, options, &record), row, stop)?;
-                let states = found.into_iter().map(|(rest, _)| rest.start()).list();
+                let states = before.rest_starts((&ready, options, &record), row, stop)?;
                 Ok(Starts::at_once(states))
             }
             _ => before.end_of_motion(&ready, record, row, stop),

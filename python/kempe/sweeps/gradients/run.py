@@ -151,7 +151,7 @@ def _fields(case: Case) -> dict[str, float]:
             ahead += [(f"{place}.{key}", entry) for key, entry in of.items()]
         elif isinstance(of, list | tuple):
             ahead += [(f"{place}[{k}]", entry) for k, entry in enumerate(of)]
-        elif isinstance(of, str):
+        elif isinstance(of, str) and not place.endswith(".over"):
             with suppress(KempeError):  # a name, or a condition
                 if not _core.measure(core, of)[0]:
                     (found[place],) = _core.measure_values(core, of, _AT, _NONE)
