@@ -36,11 +36,13 @@ TYPES = {
 CALLS = {
     "html": "a model, a state or a solution shows a drawing in a notebook",
     "model": "a compiled model that was read from a text has a Model when a user needs it",
+    "slopes": "a run keeps its slopes, which sweeps compute",
     "state": "a Python function as a law of a force receives a State",
 }
 
 #: The modules that call upwards.
 USERS = {
+    "kempe.analyses.dynamics",
     "kempe.model.compiled",
     "kempe.model.functions",
     "kempe.model.model",

@@ -62,32 +62,27 @@ def dynamics(
 
     Args:
         model: the mechanism.
-        start: the initial state, for example from ``assemble``. Its joints must be closed, to 1e-9
-            of the size of the mechanism.
+        start: the initial state, from ``assemble``; joints closed to 1e-9 of the mechanism's size.
         t_end: end time, s.
         output_step: time between outputs, s; None stores an output after every step.
         method: the integrator.
         stabilization: stabilization of the constraints; None for no stabilization.
         max_steps: largest number of steps; see ``kp.Dynamics`` for None and for rejected steps.
         dense_output: keep the interpolant for ``sol(t)``.
-        redundancy: "allow" accepts redundant constraints; None uses the setting of ``start``.
-        singularity: behaviour at a singular position where the velocity does not determine the
-            branch of the motion: "stop" with a SingularityError, or "pass".
-        events: events by name: conditions such as ``"rocker.angle > 270*deg"``, or ``kp.Event``
-            with a direction, a stop or an action; see ``Solution.events``.
+        redundancy: "allow" accepts redundant constraints; by default the setting of ``start``.
+        singularity: "stop" with an error where the velocity does not determine the branch, "pass".
+        events: conditions such as ``"rocker.angle > 270*deg"``, or ``kp.Event``, by name.
         stop: condition at which the run ends, the event ``stop``.
         release: drivers that no longer act, in this run and in runs that start from its states.
         parameters: other values of parameters; the start must satisfy the constraints with them.
         slopes: variables whose slopes are kept, such as ``["k", "L2"]``; see ``Solution.slope``.
-        progress: function that is called often with the time reached, s; an exception ends the run.
-        limits: ``force_limit``, ``joint_limit``, ``penetration_limit``, ``energy_limit`` of
-            ``kp.Dynamics``; beyond them an IntegrationError, or an ``AccuracyWarning``.
+        progress: function of the time reached, s; an exception ends the run.
+        limits: ``force_limit`` and others of ``kp.Dynamics``; an error or warning beyond them.
 
     Raises:
         AssemblyError: the start violates the constraints; see ``from_state`` of ``assemble``.
         IntegrationError: the integrator cannot continue, or the result exceeds a limit. Its
-            ``solution`` contains the solution up to that time, as in a SingularityError and in a
-            ``KeyboardInterrupt``.
+            ``solution`` is the motion up to that time, as in the others and in KeyboardInterrupt.
         SingularityError: the motion is not unique in a singular position.
         ModelError: an option is invalid.
     """
@@ -96,22 +91,32 @@ def dynamics(
     fields = (t_end, output_step, method, stabilization, max_steps)
     plain, actions = with_actions(events)
     given = {"events": plain, "stop": stop, "release": release, "parameters": parameters}
-    more = {name: value for name, value in given.items() if value} | limits
-    wanted = request(fields, dense_output, singularity, more)
+    given = {name: value for name, value in given.items() if value} | limits
+    wanted = request(fields, dense_output, singularity, given)
     model = compiled.with_analyses({Dynamics.name: wanted.entry})
-    if slopes and actions:
-        raise ModelError("slopes: not together with actions of events, whose slopes are not known")
-    along = slopes_along(compiled, start, wanted.entry, slopes)
+    along = slopes_along(compiled, start, wanted.entry, slopes, actions)
     solution = _simulate(model, start, wanted, progress, actions=actions)
     solution._slopes = along
     return solution
 
 
 def slopes_along(
-    model: CompiledModel, start: State, entry: Mapping[str, Any], variables: Sequence[str]
+    model: CompiledModel,
+    start: State,
+    entry: Mapping[str, Any],
+    variables: Sequence[str],
+    actions: Mapping[str, Action] = MappingProxyType({}),
 ) -> Any:
-    """The slopes of a run by some variables; None without variables."""
-    return CALLS["slopes"](model, start, entry, variables) if variables else None
+    """The slopes of a run by some variables; None without variables.
+
+    Raises:
+        ModelError: a variable is invalid, or the slopes are not known.
+    """
+    if not variables:
+        return None
+    if actions:
+        raise ModelError("slopes: not together with actions of events, whose slopes are not known")
+    return CALLS["slopes"](model, start, entry, variables)
 
 
 def simulate(

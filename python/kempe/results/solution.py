@@ -24,7 +24,7 @@ from kempe.results.energy import Energy
 from kempe.results.events import EventTimes, events
 from kempe.results.measures import Measure
 from kempe.results.motion import Motion
-from kempe.results.origin import KeptSlopes
+from kempe.results.origin import WithSlopes
 from kempe.results.phases import Phases, phases
 from kempe.results.runs import REACHED, STATUS, PartialRun, StoredRun
 from kempe.results.saving import save
@@ -42,7 +42,7 @@ if TYPE_CHECKING:
 
 
 @explain_methods
-class Solution(Motion):
+class Solution(WithSlopes, Motion):
     """The solution of a simulation: arrays with time first, read-only, SI units.
 
     Examples: ``sol["rocker"].angle``, ``sol["C"].force(on="coupler")``,
@@ -77,7 +77,6 @@ class Solution(Motion):
         self._passing = run.projection is not None
         self._method = method
         self.variable = variable
-        self._slopes: KeptSlopes | None = None
         self.status = STATUS[run.status]
         self.message = run.message
 
@@ -229,36 +228,6 @@ class Solution(Motion):
         state = self._state_of(-1)
         state.origin = self._slopes.origin if self._slopes else None
         return state
-
-    @property
-    def variables_of_slopes(self) -> Mapping[str, float]:
-        """The variables of ``slopes=`` and their values; empty for a run without slopes."""
-        return MappingProxyType(self._slopes.variables if self._slopes else {})
-
-    def slope(self, quantity: str, variable: str) -> Floats:
-        """The derivative of a quantity with respect to a variable over time; it is exact.
-
-        The run must have been asked for it: ``kp.dynamics(…, slopes=["L2"])``. The derivative is
-        that at a fixed time. It jumps where the motion changes, such as at a hit.
-
-        Args:
-            quantity: ``"rocker.angle"``, ``"C.force"``, ``"motor.effort"``; a measure too.
-            variable: a parameter, or a coordinate or rate that is set at the start.
-
-        Returns:
-            (n_t,), the SI unit of the quantity per SI unit of the variable.
-
-        Raises:
-            ModelError: the run has no slopes, or not these; there is no such quantity.
-            NoSlopesError: a derivative does not exist; the message has the reason.
-        """
-        if self._slopes is None:
-            raise ModelError(
-                "the run has no slopes",
-                hint=f'pass slopes=["{variable}"] to kp.dynamics, kp.kinematics or '
-                "kp.inverse_dynamics",
-            )
-        return self._slopes.read(quantity, variable, np.asarray(self.t))
 
     def _state_of(self, row: int) -> State:
         model = self.compiled

@@ -147,14 +147,13 @@ pub(super) fn run(
     options.check(own.as_ref().map_or(base.0, |own| &own.model), start)?;
     let mut at = Progress::begin(base.0, start, options, &mut run);
     let (mut stall, mut guard) = (Stall::default(), Guard::new(usual_energy(base.0), options));
+    let mut passage = Passage::default();
     if modes::has_modes(base.0) {
         check_modes(own.as_ref().map_or(base.0, |own| &own.model), start, options, &mut at)?;
-        let passage = settle(&events, &mut at, (base.0, &mut setting), &mut run)?;
-        run.note(passage);
+        settle(&events, &mut at, (base.0, &mut setting), (&mut run, &mut passage))?;
         own = Own::of(base.0, &setting, at.t)?;
-    } else {
-        run.note(Passage::default());
     }
+    run.note(passage);
     loop {
         let (model, cache) = own.as_ref().map_or(base, |own| (&own.model, &own.cache));
         let conditions = conditions(model, &setting, &events)?;
@@ -173,14 +172,8 @@ pub(super) fn run(
             PhaseEnd::Event => {
                 let before = setting.clone();
                 let (changing, calls) = ((base.0, &mut setting), (&mut act, &mut guard));
-                let (flow, replaced) =
-                    take_effect(&events, &mut at, changing, options, calls, &mut run)?;
-                let mut passage = Passage::default();
-                if flow == Flow::Continue && modes::has_modes(base.0) {
-                    stall.look(base.0, at.t, &setting)?;
-                    passage = settle(&events, &mut at, (base.0, &mut setting), &mut run)?;
-                }
-                run.note(Passage { fired: at.fired.clone(), replaced, ..passage });
+                let flow =
+                    pass(&events, &mut at, changing, (options, &mut stall), calls, &mut run)?;
                 Ok((flow == Flow::Continue).then_some(before))
             }
         });
@@ -196,6 +189,26 @@ pub(super) fn run(
             };
         }
     }
+}
+
+/// Goes from a phase to the next one. Returns whether the run continues.
+fn pass(
+    events: &[Planned],
+    at: &mut Progress,
+    (base, setting): (&Model, &mut Setting),
+    (options, stall): (&Options, &mut Stall),
+    calls: (&mut Option<Act<'_>>, &mut Guard),
+    run: &mut Run,
+) -> Result<Flow, Box<Failure>> {
+    let mut passage = Passage { fired: at.fired.clone(), ..Passage::default() };
+    let notes = (&mut *run, &mut passage);
+    let flow = take_effect(events, at, (base, setting), options, calls, notes)?;
+    if flow == Flow::Continue && modes::has_modes(base) {
+        stall.look(base, at.t, setting)?;
+        settle(events, at, (base, setting), (run, &mut passage))?;
+    }
+    run.note(passage);
+    Ok(flow)
 }
 
 /// Checks a start with forces that have modes.
@@ -296,8 +309,8 @@ fn settle(
     events: &[Planned],
     at: &mut Progress,
     (base, setting): (&Model, &mut Setting),
-    run: &mut Run,
-) -> Result<Passage, Box<Failure>> {
+    (run, passage): (&mut Run, &mut Passage),
+) -> Result<(), Box<Failure>> {
     let open = setting.open(base).map_err(|problems| impossible(&problems, at.t))?;
     let of_force = |index: &usize| match events[*index].effect {
         Effect::Mode { force, .. } => Some(force),
@@ -320,20 +333,19 @@ fn settle(
         run.add_event(&base.layout, index(*k, *of), t, &before);
     }
     setting.modes = settled.modes;
-    Ok(settled.passage)
+    (passage.impacts, passage.collapsed) = (settled.impacts, settled.collapsed);
+    Ok(())
 }
 
-/// Carries out the events that ended a phase, in their order. Returns whether the run continues, and whether the state
-/// was replaced.
+/// Carries out the events that ended a phase, in their order. Returns whether the run continues.
 fn take_effect(
     events: &[Planned],
     at: &mut Progress,
     (base, setting): (&Model, &mut Setting),
     options: &Options,
     (act, guard): (&mut Option<Act<'_>>, &mut Guard),
-    run: &mut Run,
-) -> Result<(Flow, bool), Box<Failure>> {
-    let mut replaced = false;
+    (run, passage): (&mut Run, &mut Passage),
+) -> Result<Flow, Box<Failure>> {
     for index in at.fired.clone() {
         let event = &events[index];
         match &event.effect {
@@ -342,13 +354,13 @@ fn take_effect(
             Effect::Stop(count) if run.events[index].states.t.len() < *count => {}
             Effect::Stop(_) => {
                 run.stopped_by = Some(event.name.clone());
-                return Ok((Flow::Stop, replaced));
+                return Ok(Flow::Stop);
             }
             Effect::Act => {
                 let [q, v, z, _] = base.layout.split(&at.y).map(<[f64]>::to_vec);
                 let state = State { t: at.t, q, v, z };
                 let change = act.as_mut().and_then(|act| act(&event.name, &state, setting));
-                let Some(change) = change else { return Ok((Flow::Stop, replaced)) };
+                let Some(change) = change else { return Ok(Flow::Stop) };
                 let energy = |setting: &Setting, at: &Progress| {
                     let found = setting.energy(base, at.t, &at.y);
                     found.map_err(|problems| impossible(&problems, at.t))
@@ -356,14 +368,14 @@ fn take_effect(
                 let before = energy(setting, at)?;
                 setting.parameters.extend(change.parameters);
                 if let Some(state) = change.state {
-                    replaced = true;
+                    passage.replaced = true;
                     put(base, setting, options, at, &state)?;
                 }
                 guard.allow(energy(setting, at)? - before);
             }
         }
     }
-    Ok((Flow::Continue, replaced))
+    Ok(Flow::Continue)
 }
 
 /// Replaces the state; it must meet the constraints.

@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `variables` | parameters and start values as numbers with derivatives |
 //! | `ode` | the equations of motion together with their derivatives |
+//! | `run_ends` | the end of a run and its states |
 //! | `starts` | the derivatives of a start |
 //! | `triggers` | the functions whose zeros change a motion |
 //! | `impacts` | the derivatives of impacts |
@@ -39,6 +40,7 @@ mod motion;
 mod numbers;
 mod ode;
 mod reader;
+mod run_ends;
 mod spectrum;
 mod starts;
 mod statistics;

@@ -23,7 +23,10 @@ const ABSOLUTE: f64 = 1e-3;
 /// Largest number of steps.
 const MOST: usize = 1_000_000;
 
-/// The run of forward dynamics whose derivatives are asked for.
+/// The equations of the model of a phase, for blocks of variables.
+type PhaseEquations<'a> = Box<dyn Fn(&Model, &Setting) -> Result<Vec<Sensitivity>, String> + 'a>;
+
+/// The run of forward dynamics whose derivatives are requested.
 pub(super) struct AskedRun<'a> {
     pub model: &'a Model,
     pub run: &'a Run,
@@ -32,8 +35,7 @@ pub(super) struct AskedRun<'a> {
     pub starts: (Vec<Vec<Slope>>, Vec<f64>),
     /// The magnitudes of the variables of all blocks.
     pub sizes: Vec<f64>,
-    /// The equations of the model of a phase, for blocks of variables.
-    pub equations: Box<dyn Fn(&Model, &Setting) -> Result<Vec<Sensitivity>, String> + 'a>,
+    pub equations: PhaseEquations<'a>,
 }
 
 /// A run whose derivatives are computed at ascending times.

@@ -1,7 +1,7 @@
 //! The derivatives of the start of an analysis: an assembled state, or the end of the analysis before.
 
-use super::gradient::{ending, refusal, state_at};
 use super::reader::{Reader, StateSlopes, States};
+use super::run_ends::{ending, refusal, state_at};
 use super::variables::parameters;
 use crate::analyses::assemble::{self, set_slopes, StartSlopes};
 use crate::analyses::dynamics::Options;

@@ -29,7 +29,8 @@ pub(super) fn parameters(
 pub(super) fn replacements(
     model: &Model,
     seeds: &[String],
-    (written, values): (&[(String, Value)], &[(String, f64)]),
+    written: &[(String, Value)],
+    values: &[(String, f64)],
 ) -> Option<Vec<(String, Slope)>> {
     let formula = |value: &Value| match value {
         Value::Text(text) => Expression::parse(text).ok(),

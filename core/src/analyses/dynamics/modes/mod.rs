@@ -25,7 +25,7 @@ use crate::math::Listed;
 use place::{largest, with_modes};
 
 use super::failure::{Failure, Reason};
-use super::passages::Passage;
+use super::passages::Struck;
 use crate::elements::Behaviour;
 use crate::model::{ForceMode, Model};
 use dependence::holders;
@@ -40,8 +40,10 @@ pub(super) struct Settled {
     pub hits: Vec<usize>,
     /// The impulses of the joints and contacts, shape (n_multipliers).
     pub impulses: Vec<f64>,
-    /// The impacts.
-    pub passage: Passage,
+    /// The impacts in order.
+    pub impacts: Vec<Vec<Struck>>,
+    /// Whether a sequence of impacts without end has been replaced by its limit.
+    pub collapsed: bool,
     /// Other changes: the force, and the place of its event.
     pub changed: Vec<(usize, usize)>,
 }
@@ -62,7 +64,7 @@ pub(super) fn settle(
     let Hits { hits, impulses, impacts, ended } = impacts::resolve(model, place, &touching)?;
     let jumped = (!hits.is_empty()).then_some(fastest);
     let modes = holding::decide(model, place, before, (&touching, fired, jumped))?;
-    let passage = Passage { impacts, collapsed: !ended.is_empty(), ..Passage::default() };
+    let collapsed = !ended.is_empty();
     let mut changed = ended.into_iter().map(|k| (k, COLLAPSE)).list();
     for (old, new) in before.iter().zip(&modes) {
         let sticks = matches!(model.forces[old.force].element.behaviour(), Some(Behaviour::Sticks));
@@ -72,7 +74,7 @@ pub(super) fn settle(
             _ => {}
         }
     }
-    Ok(Settled { modes, hits, impulses, passage, changed })
+    Ok(Settled { modes, hits, impulses, impacts, collapsed, changed })
 }
 
 /// Refuses a start beyond a stop or contact with restitution, and a stop whose coordinate is held by drivers.

@@ -1,0 +1,63 @@
+//! The end of a run and its states, as gradients and starts read them.
+
+use crate::analyses::dynamics::{Run, States};
+use crate::analyses::measures::Measure;
+use crate::analyses::sweep::PreparedModel;
+use crate::analyses::AnyAnalysis;
+use crate::model::Model;
+
+/// A state within a driven run.
+pub(super) fn state_at(
+    whole: &PreparedModel,
+    run: &Run,
+    t: f64,
+    rests: bool,
+) -> Option<[Vec<f64>; 3]> {
+    let layout = &whole.model().layout;
+    if let Some(k) = run.trajectory.t.iter().position(|known| *known == t) {
+        let of = &run.trajectory;
+        let row = |table: &[f64], width: usize| table[k * width..(k + 1) * width].to_vec();
+        return Some([row(&of.q, layout.n_q), row(&of.v, layout.n_q), row(&of.z, layout.n_z)]);
+    }
+    let y = run.dense.as_ref()?.at(&[t]);
+    let [q, v, z, _] = layout.split(&y);
+    let Some(projection) = run.projection else {
+        return Some([q.to_vec(), v.to_vec(), z.to_vec()]);
+    };
+    let states = States { t: &[t], q, v, z };
+    let [q, mut v] = whole.project(states, projection).ok()?;
+    if rests {
+        v.fill(0.0);
+    }
+    Some([q, v, z.to_vec()])
+}
+
+/// The function of the condition that ended a run, if one did.
+///
+/// # Errors
+/// The condition cannot be read.
+pub(super) fn ending(
+    model: &Model,
+    run: &Run,
+    analysis: &AnyAnalysis,
+) -> Result<Option<Measure>, String> {
+    let (Some(name), AnyAnalysis::Dynamics(options)) = (&run.stopped_by, analysis) else {
+        return Ok(None);
+    };
+    let event = options.events.iter().find(|event| event.name == *name);
+    let text = event.map_or(options.stop.as_ref(), |event| Some(&event.condition));
+    let read = text.and_then(|text| Measure::of_condition(model, text).ok());
+    read.map(Some).ok_or_else(|| format!("the motion ends at {name}"))
+}
+
+/// Why a run has no derivatives; None if it has.
+pub(super) fn refusal(run: &Run, is_driven: bool) -> Option<String> {
+    let has_phases = run.phases.len() > 1 || run.settings.iter().any(|one| !one.is_plain());
+    if is_driven && has_phases {
+        return Some("drivers end their motion along the way".to_string());
+    }
+    if let Some(passed) = run.passed.first() {
+        return Some(format!("the motion passes the singular position at t = {:.6} s", passed.t));
+    }
+    None
+}
