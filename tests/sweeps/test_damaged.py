@@ -4,6 +4,7 @@ import sqlite3
 import warnings
 from collections.abc import Callable
 from contextlib import closing
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -87,7 +88,7 @@ def test_a_file_in_use_is_named(kept: Any, tmp_path: Path, monkeypatch: pytest.M
     path = tmp_path / "s.db"
     path.write_bytes(data[:0])
     connect = sqlite3.connect
-    monkeypatch.setattr(sqlite3, "connect", lambda name: connect(name, timeout=0.05))
+    monkeypatch.setattr(sqlite3, "connect", partial(connect, timeout=0.05))
     with closing(connect(path, isolation_level=None)) as other:
         other.execute("BEGIN EXCLUSIVE")
         with pytest.raises(kp.FileError, match="another sweep writes to it"):
