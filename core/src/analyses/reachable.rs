@@ -63,7 +63,7 @@ options! {
         match place(model, &options.of) {
             None => Some(("of", format!("{}: there is no such point of a body", options.of))),
             _ if over.len() != 2 => Some(("over", two(over.len()))),
-            _ if over[0] == over[1] => Some(("over", "the same quantity twice".to_string())),
+            _ if over[0] == over[1] => Some(("over", "the same quantity twice; name two different ones".to_string())),
             _ if ranges.len() != 2 => Some(("ranges", two(ranges.len()))),
             _ if ranges.iter().any(|[first, last]| first >= last) => {
                 Some(("ranges", "the first value must be below the last one".to_string()))

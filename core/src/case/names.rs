@@ -106,7 +106,7 @@ impl Namespace {
             }
             Some(other) => {
                 let message = format!("'{}' is already the name of a {other}", super::shown(name));
-                let hint = "bodies, joints, drivers, forces and measures share one namespace";
+                let hint = "choose another name: bodies, joints, drivers, forces and measures share one namespace";
                 report.add(report.here(message).at_key().hint(hint));
             }
         }

@@ -72,8 +72,12 @@ fn continued(text: &str, start: usize) -> ExpressionError {
     let word = first_word(&text[start..]);
     let span = start..start + word.len();
     if let Some(product) = spaced(&text[start..]) {
-        return ExpressionError::new(start..text.len(), "units are separated by spaces")
-            .hint(format!("write '{product}'"));
+        let once = text[start..].split_whitespace().all(|unit| unit == word);
+        let hint = match once {
+            true => format!("write '{word}' once, or the product '{product}'"),
+            false => format!("write '{product}'"),
+        };
+        return ExpressionError::new(start..text.len(), "units are separated by spaces").hint(hint);
     }
     let hint = multiplied(text, span.clone()).map(|text| format!("write {text}"));
     ExpressionError::new(span, "a unit may follow only a number that stands alone").hint(hint)

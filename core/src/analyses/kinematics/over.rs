@@ -66,6 +66,14 @@ impl DrivenQuantity {
         let quantity = known.and_then(|entry| text(entry, "coordinate")).unwrap_or(name);
         let found = readings::find(model, quantity)
             .map_err(|problem| Problem { path: vec!["over".to_string()], ..problem })?;
+        if let Some((owner, rate)) = name.rsplit_once('.') {
+            let positions = [("omega", "angle"), ("vx", "x"), ("vy", "y")];
+            if let Some((_, position)) = positions.iter().find(|(known, _)| *known == rate) {
+                let message = format!("'{rate}' is a rate; must be a position");
+                let hint = format!("name '{owner}.{position}'");
+                return Err(Problem::at(&["over"], message).hint(hint));
+            }
+        }
         let own = drivers.iter().find(|entry| text(entry, "coordinate") == Some(quantity));
         Ok(Self {
             quantity: quantity.to_string(),
