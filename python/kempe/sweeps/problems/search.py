@@ -223,7 +223,7 @@ class Search:
             if not run.reason:
                 return run.residuals[0] / size
             known = (self._last or first).residuals[0] / size
-            return known * 10.0 + 1.0
+            return np.abs(known) * 10.0 + 1.0
 
         def slopes(at: Floats) -> Floats:
             run = self.at(at)
