@@ -72,17 +72,17 @@ def test_an_objective_without_a_value_at_the_start() -> None:
 
 
 def test_a_measure_without_slopes_is_evolved() -> None:
-    """A stop switches, so that the core has no slopes."""
-    m = kp.Model("mass before a stop", parameters={"v": 1.0, "k": 50.0})
+    """A frequency has no slopes yet."""
+    m = kp.Model("mass on a spring", parameters={"k": 20.0})
     m.ground.points(O=(0, 0))
     m.body("mass", mass=2, inertia=1, points={"P": (0, 0)})
     m.translational("guide", "ground.O", "mass.P")
-    m.stop("stop", "guide.displacement", upper=0.1, stiffness="k")
-    start = {"set": {"guide.displacement": 0, "mass.vx": "v"}}
-    case = kp.Case(m, start, [kp.Dynamics(t_end=1, output_step=0.01)])
-    best = kp.optimize(case, {"k": (10, 1000, "log")}, target={"guide.displacement.max": 0.25})
-    # the energy of the spring is that of the mass: k 0.15²/2 = m v²/2
-    assert best.values["k"] == pytest.approx(2 / 0.15**2, rel=1e-3)
+    m.spring_damper("spring", "ground.O", "mass.P", stiffness="k")
+    m.generalized_force("push", "guide.displacement", value="k")  # it rests 1 m away
+    case = kp.Case(m, {"set": {"guide.displacement": 1}}, [kp.Equilibrium(), kp.Modes()])
+    best = kp.optimize(case, {"k": (10, 1000, "log")}, target={"frequency[0]": 1.5})
+    assert best.values["k"] == pytest.approx(2 * (2 * np.pi * 1.5) ** 2, rel=1e-4)
+    assert best.runs > 50
 
 
 def test_runs_that_fail_are_rows() -> None:
