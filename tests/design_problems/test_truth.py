@@ -146,3 +146,30 @@ def test_maximum(case: kp.Case) -> None:
     assert best.values["k"] == 2000 and best.active["k <= 2000"] > 0
     more = kp.optimize(case, {"k": (50, 2001)}, maximize="over.effort.rms")
     assert more.objective - best.objective == pytest.approx(best.active["k <= 2000"], rel=1e-3)
+
+
+def bumps(*heights: str) -> kp.Case:
+    """A driven slide whose displacement has a peak of each height."""
+    m = kp.Model("bumps", parameters={"a": 0.3, "b": 0.4})
+    m.ground.points(O=(0, 0))
+    m.body("slide", mass=1, inertia=1, points={"P": (0, 0)})
+    m.translational("guide", "ground.O", "slide.P")
+    law = " + ".join(f"({of})*exp(-20*(t - {1 + 2 * k})^2)" for k, of in enumerate(heights))
+    m.coordinate_driver("drive", "guide.displacement", value=law)
+    return kp.Case(m, None, [kp.Kinematics(t_end=2.0 * len(heights), output_step=0.02)])
+
+
+def test_an_optimum_where_peaks_are_equally_high() -> None:
+    """Three planes meet in a corner, where the objective has no slope and limits no worth."""
+    case = bumps("1 + a + 2*b", "3 - a", "2 - b + 0.2*a")
+    bounds = {"a": (-1, 2), "b": (-1, 2)}
+    best = kp.optimize(case, bounds, minimize="guide.displacement.max")
+    assert best.objective == pytest.approx(23 / 11, rel=1e-6)
+    assert list(best.values.values()) == pytest.approx([10 / 11, 1 / 11], abs=1e-4)
+    assert best.active == {}
+    best = kp.optimize(
+        bumps("1 + a", "3 - a"), {"a": (-1, 2), "b": (0, 0.5)}, minimize="guide.displacement.max",
+        subject_to="b >= 0.4",
+    )  # fmt: skip
+    assert best.objective == pytest.approx(2, rel=1e-6) and best.success
+    assert all(np.isnan(gain) or gain == 0 for gain in best.active.values()), best.active
