@@ -1,6 +1,7 @@
 """Objectives without values, limits that cannot be met, bounds without a mechanism."""
 
 import re
+import sys
 
 import kempe as kp
 import numpy as np
@@ -72,16 +73,18 @@ def test_an_objective_without_a_value_at_the_start() -> None:
 
 
 def test_a_measure_without_slopes_is_evolved() -> None:
-    """A frequency has no slopes yet."""
+    """Steps of generalized-alpha have no slopes."""
     m = kp.Model("mass on a spring", parameters={"k": 20.0})
     m.ground.points(O=(0, 0))
     m.body("mass", mass=2, inertia=1, points={"P": (0, 0)})
     m.translational("guide", "ground.O", "mass.P")
-    m.spring_damper("spring", "ground.O", "mass.P", stiffness="k")
-    m.generalized_force("push", "guide.displacement", value="k")  # it rests 1 m away
-    case = kp.Case(m, {"set": {"guide.displacement": 1}}, [kp.Equilibrium(), kp.Modes()])
-    best = kp.optimize(case, {"k": (10, 1000, "log")}, target={"frequency[0]": 1.5})
-    assert best.values["k"] == pytest.approx(2 * (2 * np.pi * 1.5) ** 2, rel=1e-4)
+    m.generalized_force("spring", "guide.displacement", value="-k*guide.displacement")
+    start = {"set": {"guide.displacement": 0, "mass.vx": 1}}
+    run = kp.Dynamics(t_end=1.5, output_step=0.01, method=kp.GeneralizedAlpha(step=2e-3))
+    best = kp.optimize(
+        kp.Case(m, start, [run]), {"k": (10, 100, "log")}, target={"mass.x.max": 0.2}
+    )
+    assert best.values["k"] == pytest.approx(2 / 0.2**2, rel=1e-3)
     assert best.runs > 50
 
 
@@ -149,3 +152,9 @@ def test_ctrl_c_keeps_the_best() -> None:
         )  # fmt: skip
     best = caught.value.result  # type: ignore[attr-defined]
     assert best.message == "interrupted" and best.runs >= 3 and best.case.model is not None
+
+
+def test_scipy_is_named_where_it_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "scipy.optimize", None)
+    with pytest.raises(kp.ModelError, match=r"pip install 'kempe\[design\]'"):
+        kp.optimize(dyad(0.8, 0.7), {"a": (0.6, 0.9)}, minimize="one.C.y")
