@@ -31,6 +31,13 @@ def test_a_search_leaves_values_that_do_not_close() -> None:
     assert reasons and "short by" in reasons[0]
 
 
+def test_a_small_region_in_which_rods_close_is_found() -> None:
+    """Rods close in less than a hundredth of the bounds, which no drawn point meets."""
+    best = kp.optimize(dyad(0.3, 0.4), {"a": (0.1, 0.55), "b": (0.1, 0.5)}, maximize="one.C.y")
+    along = (0.55**2 - 0.5**2 + 1) / 2
+    assert best.objective == pytest.approx(np.sqrt(0.55**2 - along**2), rel=1e-9)
+
+
 def test_an_optimum_at_the_limit_of_assembly() -> None:
     """The lowest C is on the line of the rods, beside values that do not close."""
     best = kp.optimize(dyad(0.8, 0.7), {"a": (0.2, 0.9), "b": (0.2, 0.8)}, minimize="one.C.y")
