@@ -18,8 +18,8 @@ from kempe.sweeps.reasons import reason
 _SMALL, _MOST, _ROUNDS = 1e-10, 300, 4
 #: A gap in a message.
 _GAP = re.compile(r"\bby (\d[\d.]*(?:e-?\d+)?) (?:m|rad)\b")
-#: Step of a difference of gaps, as a part of the range of a variable; part of the first gap by which
-#: the mechanism must close more than just so; most steps.
+#: Step of a difference of gaps, as a part of the range of a variable; part of the first gap by
+#: which a mechanism must be further than closed; most steps.
 _WIDE, _BEYOND, _CLOSING = 0.02, 0.02, 40
 #: Members of a population for each variable, and generations.
 _MEMBERS, _GENERATIONS = 15, 200
