@@ -1,6 +1,7 @@
 """Objectives without values, limits that cannot be met, bounds without a mechanism."""
 
 import re
+import sys
 
 import kempe as kp
 import numpy as np
@@ -28,6 +29,13 @@ def test_a_search_leaves_values_that_do_not_close() -> None:
     assert set(best.active) == {"a <= 0.9", "b <= 0.8"}
     reasons = [text for text in best.reasons if text]
     assert reasons and "short by" in reasons[0]
+
+
+def test_a_small_region_in_which_rods_close_is_found() -> None:
+    """Rods close in less than a hundredth of the bounds, which no drawn point meets."""
+    best = kp.optimize(dyad(0.3, 0.4), {"a": (0.1, 0.55), "b": (0.1, 0.5)}, maximize="one.C.y")
+    along = (0.55**2 - 0.5**2 + 1) / 2
+    assert best.objective == pytest.approx(np.sqrt(0.55**2 - along**2), rel=1e-9)
 
 
 def test_an_optimum_at_the_limit_of_assembly() -> None:
@@ -72,17 +80,19 @@ def test_an_objective_without_a_value_at_the_start() -> None:
 
 
 def test_a_measure_without_slopes_is_evolved() -> None:
-    """A stop switches, so that the core has no slopes."""
-    m = kp.Model("mass before a stop", parameters={"v": 1.0, "k": 50.0})
+    """Steps of generalized-alpha have no slopes."""
+    m = kp.Model("mass on a spring", parameters={"k": 20.0})
     m.ground.points(O=(0, 0))
     m.body("mass", mass=2, inertia=1, points={"P": (0, 0)})
     m.translational("guide", "ground.O", "mass.P")
-    m.stop("stop", "guide.displacement", upper=0.1, stiffness="k")
-    start = {"set": {"guide.displacement": 0, "mass.vx": "v"}}
-    case = kp.Case(m, start, [kp.Dynamics(t_end=1, output_step=0.01)])
-    best = kp.optimize(case, {"k": (10, 1000, "log")}, target={"guide.displacement.max": 0.25})
-    # the energy of the spring is that of the mass: k 0.15²/2 = m v²/2
-    assert best.values["k"] == pytest.approx(2 / 0.15**2, rel=1e-3)
+    m.generalized_force("spring", "guide.displacement", value="-k*guide.displacement")
+    start = {"set": {"guide.displacement": 0, "mass.vx": 1}}
+    run = kp.Dynamics(t_end=1.5, output_step=0.01, method=kp.GeneralizedAlpha(step=2e-3))
+    best = kp.optimize(
+        kp.Case(m, start, [run]), {"k": (10, 100, "log")}, target={"mass.x.max": 0.2}
+    )
+    assert best.values["k"] == pytest.approx(2 / 0.2**2, rel=1e-3)
+    assert best.runs > 50
 
 
 def test_runs_that_fail_are_rows() -> None:
@@ -149,3 +159,9 @@ def test_ctrl_c_keeps_the_best() -> None:
         )  # fmt: skip
     best = caught.value.result  # type: ignore[attr-defined]
     assert best.message == "interrupted" and best.runs >= 3 and best.case.model is not None
+
+
+def test_scipy_is_named_where_it_is_missing(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setitem(sys.modules, "scipy.optimize", None)
+    with pytest.raises(kp.ModelError, match=r"pip install 'kempe\[design\]'"):
+        kp.optimize(dyad(0.8, 0.7), {"a": (0.6, 0.9)}, minimize="one.C.y")

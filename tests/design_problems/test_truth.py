@@ -146,3 +146,73 @@ def test_maximum(case: kp.Case) -> None:
     assert best.values["k"] == 2000 and best.active["k <= 2000"] > 0
     more = kp.optimize(case, {"k": (50, 2001)}, maximize="over.effort.rms")
     assert more.objective - best.objective == pytest.approx(best.active["k <= 2000"], rel=1e-3)
+
+
+def bumps(*heights: str) -> kp.Case:
+    """A driven slide whose displacement has a peak of each height."""
+    m = kp.Model("bumps", parameters={"a": 0.3, "b": 0.4})
+    m.ground.points(O=(0, 0))
+    m.body("slide", mass=1, inertia=1, points={"P": (0, 0)})
+    m.translational("guide", "ground.O", "slide.P")
+    law = " + ".join(f"({of})*exp(-20*(t - {1 + 2 * k})^2)" for k, of in enumerate(heights))
+    m.coordinate_driver("drive", "guide.displacement", value=law)
+    return kp.Case(m, None, [kp.Kinematics(t_end=2.0 * len(heights), output_step=0.02)])
+
+
+def test_an_optimum_where_peaks_are_equally_high() -> None:
+    """Three planes meet in a corner, where the objective has no slope and limits no worth."""
+    case = bumps("1 + a + 2*b", "3 - a", "2 - b + 0.2*a")
+    bounds = {"a": (-1, 2), "b": (-1, 2)}
+    best = kp.optimize(case, bounds, minimize="guide.displacement.max")
+    assert best.objective == pytest.approx(23 / 11, rel=1e-6)
+    assert list(best.values.values()) == pytest.approx([10 / 11, 1 / 11], abs=1e-4)
+    assert best.active == {}
+    best = kp.optimize(
+        bumps("1 + a", "3 - a"), {"a": (-1, 2), "b": (0, 0.5)}, minimize="guide.displacement.max",
+        subject_to="b >= 0.4",
+    )  # fmt: skip
+    assert best.objective == pytest.approx(2, rel=1e-6) and best.success
+    assert all(np.isnan(gain) or gain == 0 for gain in best.active.values()), best.active
+
+
+def test_parameters_with_formulas_follow_the_variables(case: kp.Case) -> None:
+    """The limit is on a parameter that depends on a variable; its worth has the factor."""
+    m = case.model.with_parameters({"weight": "2*h"})
+    own = kp.Case(m, case._start, case.analyses)
+    ask = {"minimize": "over.effort.rms"}
+    bounds = {"k": (50, 2000, "log"), "h": (0.05, 0.3)}
+    best = kp.optimize(own, bounds, subject_to="weight <= 0.5", **ask)
+    plain = kp.optimize(case, bounds, subject_to="h <= 0.25", **ask)
+    assert best.values["h"] == pytest.approx(0.25, rel=1e-9)
+    assert best.active["weight <= 0.5"] == pytest.approx(plain.active["h <= 0.25"] / 2, rel=1e-6)
+
+
+@pytest.mark.parametrize("log", [False, True])
+def test_the_scale_of_a_variable(log: bool) -> None:
+    from kempe.sweeps.problems.problem import Bound
+
+    bound = Bound("k", 2.0, 50.0, log)
+    for share in (0.0, 0.2, 0.7, 1.0):
+        value = bound.at(share)
+        assert bound.share(value) == pytest.approx(share, abs=1e-12)
+        if 0 < share < 1:
+            slope = (bound.at(share + 1e-6) - bound.at(share - 1e-6)) / 2e-6
+            assert bound.rate(value) == pytest.approx(slope, rel=1e-6)
+
+
+def test_slopes_of_a_path_without_timing() -> None:
+    """Derivatives of the distance from a curve, against differences; the points are far away."""
+    path = kp.Path([(0, 3), (1, 4), (-2, 2), (3, 3)], of="coupler.P")
+    case = path_generator(0.0, 2 * np.pi)
+    bounds = {name: (x - 1, x + 1) for name, x in case.model.parameters.items()}
+    best = kp.optimize(case, {"rcx": (1, 3)}, minimize=path)  # it moves one number only
+    plan = best._problem.plan
+    plan = type(plan)(plan.case, plan.analysis, tuple(bounds), ())
+    row = np.array([case.model.parameters[name] for name in bounds])
+    apart, slopes = path.residuals(plan, row)
+    size = np.linalg.norm(apart)
+    for k in range(len(row)):
+        step = 1e-5 * np.eye(len(row))[k]
+        up, down = (np.linalg.norm(path.residuals(plan, row + s * step)[0]) for s in (1, -1))
+        assert apart @ slopes[:, k] / size == pytest.approx((up - down) / 2e-5, abs=1e-6)
+    assert size > 0.3

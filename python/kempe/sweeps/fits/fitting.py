@@ -105,7 +105,7 @@ class Fitting:
         def residuals(at: Floats) -> Floats:
             found = self.scaled(at)
             if found is None:  # a wall
-                return known[-1][0] * 10.0 + 1.0
+                return np.abs(known[-1][0]) * 10.0 + 1.0
             known[-1] = found
             return found[0]
 

@@ -63,8 +63,20 @@ class Evaluations:
     def _key(self, numbers: Floats) -> bytes:
         return np.ascontiguousarray(numbers[: 1 + self._shape[0]]).tobytes()
 
-    def at(self, start: int | None, row: Floats) -> Run:
-        """A run with its derivatives; it is not part of the history without a start.
+    def has_slopes(self, row: Floats) -> bool | None:
+        """Whether the core gives some slope of each column at a point; None if the run fails."""
+        if not self.problem.plan.wanted:
+            return True
+        try:
+            _, slopes, _ = numbers_and_slopes(self.problem.plan, row)
+        except InternalError:
+            raise
+        except KempeError:
+            return None
+        return not np.isnan(slopes).all(axis=1).any()
+
+    def at(self, start: int, row: Floats) -> Run:
+        """A run with its derivatives.
 
         Raises:
             StoppedError: the search was stopped.
@@ -79,7 +91,7 @@ class Evaluations:
         """
         return self._of(start, rows, slopes=False)
 
-    def _of(self, start: int | None, rows: Floats, *, slopes: bool) -> list[Run]:
+    def _of(self, start: int, rows: Floats, *, slopes: bool) -> list[Run]:
         if self.stop.is_set():
             raise StoppedError
         keys = [self._key(np.array([slopes, *row])) for row in rows]
@@ -89,8 +101,7 @@ class Evaluations:
             computed = self._slopes(given[0]) if slopes else self._values(given)
             self._keep(given, computed, slopes=slopes)
         found = [self._judged(row, *self._known[key]) for key, row in zip(keys, rows, strict=True)]
-        if start is not None:
-            self._tell(start, found)
+        self._tell(start, found)
         return found
 
     def _judged(self, row: Floats, numbers: Floats, told: str) -> Run:
@@ -147,13 +158,8 @@ class Evaluations:
         return self._missing
 
     def _mended(self, row: Floats, slopes: Floats) -> Floats:
-        """Slopes with differences in place of those that the core does not give.
-
-        A column without any slope keeps none, so that another method is chosen.
-        """
+        """Slopes with differences in place of those that the core does not give."""
         missing = np.isnan(slopes)
-        if not missing.any() or missing.all(axis=1).any():
-            return slopes
         for of in np.flatnonzero(missing.any(axis=0)):
             bound = self.problem.bounds[of]
             step = _CHANGE * (bound.largest - bound.least)

@@ -26,6 +26,9 @@ if TYPE_CHECKING:
 
 #: Parts of a range, and of the objective, by which candidates differ at least.
 _APART, _ALIKE = 1e-3, 1e-4
+#: Part of the slope of the objective that bounds and limits leave over, and, relative to the
+#: objective, a slope over all bounds that counts as none.
+_REST, _FLAT = 0.05, 1e-6
 #: Room in a limit, as a part of its size, with which it holds with equality.
 _TIGHT = 1e-4
 
@@ -74,7 +77,8 @@ class Optimum:
         measures: the columns in the objective and in the limits, with these values.
         objective: the objective itself, also if it is maximised.
         active: the bounds and limits that hold with equality, and by how much the objective gains
-            per unit by which one of them is relaxed, at least 0.
+            per unit by which one of them is relaxed, at least 0; NaN where that is not known, as at
+            a corner of the objective.
         case: the case with these values.
         candidates: the local optima, best first.
         history: every run: start, run, variables, columns, objective, violation and reason; a data
@@ -260,7 +264,9 @@ def _active(problem: Problem, run: Run) -> dict[str, float]:
         return dict.fromkeys(texts, float("nan"))
     aim = problem.sign * run.slope * rates
     scale = float(np.abs(aim).max()) or 1.0
-    factors, _ = scipy().nnls(np.array(slopes).T, aim / scale)
+    factors, rest = scipy().nnls(np.array(slopes).T, aim / scale)
+    if rest > _REST and scale > _FLAT * abs(run.objective):  # a corner of the objective
+        return dict.fromkeys(texts, float("nan"))
     pairs = zip(texts, factors, per_unit, strict=True)
     return {text: float(factor * scale * abs(unit)) for text, factor, unit in pairs}
 

@@ -170,11 +170,8 @@ def _has_rng(kind: Any) -> bool:
 def _method(runs: Evaluations, points: Sequence[Floats]) -> str:
     """The method that fits a problem: derivatives are needed where the first run succeeds."""
     problem = runs.problem
-    tried = (runs.at(None, problem.row(point)) for point in points)
-    first = next((run for run in tried if not run.reason), None)
-    if first is not None and not (
-        np.isfinite(first.slope).all() and np.isfinite(first.room_slopes).all()
-    ):
+    tried = (runs.has_slopes(problem.row(point)) for point in points)
+    if next((found for found in tried if found is not None), None) is False:
         return "differential-evolution"
     is_squares = not isinstance(problem.objective, Formula) and not problem.limits
     return "least-squares" if is_squares else "slsqp"

@@ -18,6 +18,9 @@ from kempe.sweeps.reasons import reason
 _SMALL, _MOST, _ROUNDS = 1e-10, 300, 4
 #: A gap in a message.
 _GAP = re.compile(r"\bby (\d[\d.]*(?:e-?\d+)?) (?:m|rad)\b")
+#: Step of a difference of gaps, as a part of the range of a variable; part of the first gap by
+#: which a mechanism must be further than closed; most steps.
+_WIDE, _BEYOND, _CLOSING = 0.02, 0.02, 40
 #: Members of a population for each variable, and generations.
 _MEMBERS, _GENERATIONS = 15, 200
 #: Spread of the objectives of a population, relative to their mean and to the first objective.
@@ -116,16 +119,26 @@ class Search:
             self.at(near)
 
     def _closed(self, shares: Floats) -> Floats | None:
-        """A point near a given one where the mechanism closes: least squares of its gap."""
+        """A point near a given one where the mechanism closes: least squares of its gap.
+
+        The gap is known to some digits only, so that its slopes are differences over wide steps.
+        """
+        first = self._gap(shares)
 
         def gap(at: Floats) -> Floats:
             found = self._gap(at)
-            return np.array([found + 1e-3 if found else 0.0])
+            return np.array([found / first + _BEYOND if found else 0.0])
 
-        if not self._gap(shares):
+        def slopes(at: Floats) -> Floats:
+            steps = np.where(at < 1.0 - _WIDE, _WIDE, -_WIDE)
+            points = (at + step * one for step, one in zip(steps, np.eye(len(at)), strict=True))
+            beside = [self._gap(point) for point in points]
+            return (np.array([beside]) - self._gap(at)) / first / steps
+
+        if not first:
             return None
         found = scipy().least_squares(
-            gap, shares, bounds=(-1e-12, 1.0 + 1e-12), diff_step=1e-4, max_nfev=50
+            gap, shares, jac=slopes, bounds=(-1e-12, 1.0 + 1e-12), max_nfev=_CLOSING
         )
         return None if found.fun[0] else np.asarray(found.x)
 
@@ -223,7 +236,7 @@ class Search:
             if not run.reason:
                 return run.residuals[0] / size
             known = (self._last or first).residuals[0] / size
-            return known * 10.0 + 1.0
+            return np.abs(known) * 10.0 + 1.0
 
         def slopes(at: Floats) -> Floats:
             run = self.at(at)
