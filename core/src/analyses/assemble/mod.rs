@@ -54,7 +54,7 @@ pub(super) use placements::{following, following_before};
 pub use placer::place;
 pub use report::{DyadMode, Report};
 pub use request::{doubts, targets, Request};
-pub use slopes::{determined, implicit, rate_slopes, set_slopes, slopes, StartSlopes};
+pub use slopes::{determined, determines, implicit, rate_slopes, set_slopes, slopes, StartSlopes};
 pub(super) use target::trimmed;
 pub use target::{CoordinateTarget, QuantityTarget, Target};
 pub use targets::Targets;

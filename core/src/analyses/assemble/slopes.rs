@@ -112,8 +112,11 @@ impl StartNumbers<'_> {
         let (model, mut over) = self.holding(of_positions(&self.request.set), Tape::of);
         let constant: Vec<Slope> = q.iter().map(|q| Slope::constant(*q)).list();
         let phi = over.open(Slope::constant(self.t), &constant);
-        if let Some(found) = determined(&model, (self.t, q), q, &phi) {
-            return Ok(found);
+        let mut workspace = Workspace::new(&model);
+        if determines(&mut workspace, &model, self.t, q) {
+            if let Some(found) = determined(&mut workspace, &model, q, &phi) {
+                return Ok(found);
+            }
         }
         let motions = Motions::at_rest(&model.layout, q);
         let jacobian = dense::jacobian(&model, &motions, self.t);
@@ -128,8 +131,11 @@ impl StartNumbers<'_> {
         let open = over.opening(Slope::constant(t0), q, &constant);
         let values: Vec<f64> = q.iter().map(|q| q.value).list();
         let motions = Motions::at(&model.layout, &values, v);
-        if let Some(found) = determined(&model, (t0, &values), v, &open) {
-            return Ok(found);
+        let mut workspace = Workspace::new(&model);
+        if determines(&mut workspace, &model, t0, &values) {
+            if let Some(found) = determined(&mut workspace, &model, v, &open) {
+                return Ok(found);
+            }
         }
         let jacobian = dense::jacobian(&model, &motions, t0);
         let (n, m) = (v.len(), model.layout.n_rows);
@@ -171,30 +177,34 @@ impl StartNumbers<'_> {
     }
 }
 
-/// The derivatives of coordinates or rates `x` that the constraints of a model determine at a position, from the
-/// derivatives of the constraints at constant x. None if the constraints do not determine them clearly; the general
-/// elimination then finds out why. The factors are those of the equations of motion.
+/// Factors the equations of motion of a model at a position, if its constraints clearly determine all coordinates.
+/// Otherwise the general elimination finds out why not.
+pub fn determines(workspace: &mut Workspace, model: &Model, t: f64, q: &[f64]) -> bool {
+    let still = vec![0.0; model.layout.n_rows];
+    if still.len() != q.len() || workspace.jump(model, t, q, &still).is_err() {
+        return false;
+    }
+    let lost = workspace.matrix.cancellation().is_some_and(|(_, ratio)| ratio < DEPENDENT);
+    !lost && !workspace.matrix.regularised()
+}
+
+/// The derivatives of coordinates or rates `x` which the factors [determine](determines), from the derivatives of the
+/// constraints at constant x. None if they are not finite.
 pub fn determined(
+    workspace: &mut Workspace,
     model: &Model,
-    (t, q): (f64, &[f64]),
     x: &[f64],
     residual: &[Slope],
 ) -> Option<Vec<Slope>> {
-    if model.layout.n_rows != x.len() {
-        return None;
-    }
-    let mut workspace = Workspace::new(model);
     let mut found: Vec<Slope> = x.iter().map(|x| Slope::constant(*x)).list();
     for k in 0..ABREAST {
-        let rates = residual.iter().map(|r| -r.slope[k]).list();
-        let [change, _] = workspace.jump(model, t, q, &rates).ok()?;
-        let lost = workspace.matrix.cancellation().is_some_and(|(_, ratio)| ratio < DEPENDENT);
-        if lost || workspace.matrix.regularised() || change.iter().any(|x| !x.is_finite()) {
-            return None;
-        }
+        let mut change = vec![0.0; x.len()];
+        change.extend(residual.iter().map(|r| -r.slope[k]));
+        workspace.solve(model, &mut change).ok()?;
         found.iter_mut().zip(&change).for_each(|(to, x)| to.slope[k] = *x);
     }
-    Some(found)
+    let finite = |x: &Slope| x.slope.iter().all(|slope| slope.is_finite());
+    found.iter().all(finite).then_some(found)
 }
 
 /// The derivatives of the solution `x` of r(x, p) = 0, from ∂r/∂x and the derivatives of r at constant x.

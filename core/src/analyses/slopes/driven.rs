@@ -1,9 +1,9 @@
 //! The derivatives of a motion that drivers determine, by the implicit function theorem at each time.
 
-use crate::analyses::assemble::{determined, implicit};
-use crate::equations::dense;
+use crate::analyses::assemble::{determined, determines, implicit};
 use crate::equations::kinematics::Motions;
 use crate::equations::sensitivity::{Sensitivity, Slope};
+use crate::equations::{dense, Workspace};
 use crate::math::{Listed, Real};
 use crate::model::Model;
 
@@ -12,17 +12,17 @@ use crate::model::Model;
 /// # Errors
 /// The reason for which there are no derivatives.
 pub(super) fn state(
-    model: &Model,
+    (model, workspace): (&Model, &mut Workspace),
     block: &mut Sensitivity,
     t: f64,
     [q, v, z]: [&[f64]; 3],
 ) -> Result<Vec<Slope>, String> {
     let constant = |x: &[f64]| -> Vec<Slope> { x.iter().map(|x| Slope::constant(*x)).list() };
-    let at = Slope::constant(t);
+    let (at, clear) = (Slope::constant(t), determines(workspace, model, t, q));
     let general = || dense::jacobian(model, &Motions::at(&model.layout, q, v), t);
-    let follow = |x: &[f64], residual: Vec<Slope>| match determined(model, (t, q), x, &residual) {
-        Some(found) => Ok(found),
-        None => implicit(general(), x, &residual),
+    let mut follow = |x: &[f64], residual: Vec<Slope>| {
+        let found = if clear { determined(workspace, model, x, &residual) } else { None };
+        found.map_or_else(|| implicit(general(), x, &residual), Ok)
     };
     let of_q = follow(q, block.open(at, &constant(q)))?;
     let of_v = follow(v, block.opening(at, &of_q, &constant(v)))?;

@@ -150,7 +150,8 @@ impl<'a> Reader<'a> {
             }
             StateSlopes::Driven(blocks, states) => {
                 let [q, v, z] = states(t).ok_or("its state is not known")?;
-                let of = |block| driven::state(&self.model, block, t, [&q, &v, &z]);
+                let Self { model, workspace, .. } = self;
+                let of = |block| driven::state((model, workspace), block, t, [&q, &v, &z]);
                 blocks.iter_mut().map(of).collect()
             }
         }
