@@ -51,6 +51,12 @@ class Formula:
         parts = (p * of if p else 0.0 * of for p, (_, of) in zip(partial, known, strict=True))
         return value, sum(parts, np.zeros(width))
 
+    def size(self, slopes: Mapping[str, tuple[float, Floats]]) -> float:
+        """The sum of the magnitudes of its terms, to first order; not 0 where they cancel."""
+        values = [slopes[name][0] for name in self.names]
+        _, partial = _core.formula_value(self.of, list(self.names), values)
+        return sum(abs(p * x) for p, x in zip(partial, values, strict=True) if np.isfinite(p))
+
     @property
     def columns(self) -> list[str]:
         """The names that are columns, not parameters."""

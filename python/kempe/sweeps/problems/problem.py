@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 #: Part of the size of a limit by which it may be exceeded.
 TOLERANCE = 1e-6
+#: Part of the change of a limit over the bounds that is its least size.
+_SMALL = 1e-3
 
 
 @dataclass(frozen=True)
@@ -114,7 +116,8 @@ class Run:
             derivatives; empty if it is not of this kind.
         room: the room in each limit, at least 0 where it holds.
         room_slopes: their derivatives.
-        sizes: the larger magnitude of the sides of each limit.
+        sizes: the size of each limit: of the terms that it compares, or of their change over the
+            bounds where they are all near 0.
         reason: why the run failed; empty if it did not.
     """
 
@@ -238,7 +241,15 @@ class Problem:
             value = float(np.linalg.norm(residuals[0]))
             slope = residuals[0] @ residuals[1] / value if value else np.zeros(len(row))
         rooms = [limit.room.at(slopes) for limit in self.limits]
-        sides = [[abs(side.at(slopes)[0]) for side in limit.sides] for limit in self.limits]
+        rates = self.rates(row)
+        sizes = [
+            max(
+                *(abs(side.at(slopes)[0]) for side in limit.sides),
+                limit.room.size(slopes),
+                _SMALL * float(np.abs(np.nan_to_num(slope) * rates).max()),
+            )
+            for limit, (_, slope) in zip(self.limits, rooms, strict=True)
+        ]
         columns = dict(zip(texts, found.columns.tolist(), strict=True))
         for name, number in [(self.label, value)] + [
             (limit.text, room) for limit, (room, _) in zip(self.limits, rooms, strict=True)
@@ -253,7 +264,7 @@ class Problem:
             residuals,
             np.array([room for room, _ in rooms]),
             np.array([slope for _, slope in rooms]).reshape(len(rooms), len(row)),
-            np.array([max(pair) for pair in sides]),
+            np.array(sizes),
         )
 
     @property
