@@ -165,7 +165,10 @@ def _objective(case: Case, aim: str, given: Any, columns: Sequence[str]) -> Any:
             f"{aim}: {len(given)} objectives; kempe optimises one",
             hint="weigh them in a formula, or keep all but one below limits with subject_to=",
         )
-    return read_formula(model, given, columns)
+    formula = read_formula(model, given, columns)
+    if not formula.names:
+        refuse(aim, f"{given!r} has no column and no parameter")
+    return formula
 
 
 def _table(given: Any, key: str) -> Mapping[str, Any]:
