@@ -49,7 +49,7 @@ def test_a_quantity_has_sigma_in_all_experiments_or_in_none() -> None:
 
 
 def test_a_setting_that_is_fitted_is_refused() -> None:
-    with pytest.raises(kp.ModelError, match="sets k to 9.0, but the fit finds k"):
+    with pytest.raises(kp.ModelError, match=r"sets k to 9\.0, but the fit finds k"):
         kp.fit(oscillator(), [({"k": 9.0}, measured(0.01, 0))], {"k": (0, None)})
 
 

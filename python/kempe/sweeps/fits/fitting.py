@@ -196,8 +196,8 @@ class Fitting:
         if self.starved:
             sigma |= {name: np.nan for name in sigma if name not in self.given_sigma}
             remarks.append(
-                f"{len(residuals)} values for {len(self.names)} parameters leave nothing from which "
-                "errors follow: give sigma, or more values"
+                f"{len(residuals)} values for {len(self.names)} parameters leave nothing from "
+                "which errors follow: give sigma, or more values"
             )
         rest = ({name: of for name, (of, _) in raw.items()}, sigma, remarks)
         return Fit(

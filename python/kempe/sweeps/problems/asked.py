@@ -119,7 +119,11 @@ def with_units(limits: Sequence[Limit], plan: Plan) -> tuple[Limit, ...]:
 
     def of_limit(limit: Limit) -> Limit:
         small, large = (with_unit(side, unit) for side in limit.sides)
-        return Limit(limit.text, with_unit(limit.room, unit), (small, large))
+        room, known = with_unit(limit.room, unit), {of.text: of.unit for of in (large, small)}
+        if not (small.names and large.names):  # a number with a unit
+            whole = " - ".join(f"`{text}`" for text in known)
+            with_unit(replace(limit.room, of=whole, names=tuple(known)), known.__getitem__)
+        return Limit(limit.text, room, (small, large))
 
     return tuple(map(of_limit, limits))
 

@@ -241,14 +241,9 @@ class Problem:
             value = float(np.linalg.norm(residuals[0]))
             slope = residuals[0] @ residuals[1] / value if value else np.zeros(len(row))
         rooms = [limit.room.at(slopes) for limit in self.limits]
-        rates = self.rates(row)
         sizes = [
-            max(
-                *(abs(side.at(slopes)[0]) for side in limit.sides),
-                limit.room.size(slopes),
-                _SMALL * float(np.abs(np.nan_to_num(slope) * rates).max()),
-            )
-            for limit, (_, slope) in zip(self.limits, rooms, strict=True)
+            self._size(limit, slopes, (room, slope * self.rates(row)))
+            for limit, (room, slope) in zip(self.limits, rooms, strict=True)
         ]
         columns = dict(zip(texts, found.columns.tolist(), strict=True))
         for name, number in [(self.label, value)] + [
@@ -266,6 +261,17 @@ class Problem:
             np.array([slope for _, slope in rooms]).reshape(len(rooms), len(row)),
             np.array(sizes),
         )
+
+    @staticmethod
+    def _size(
+        limit: Limit, known: Mapping[str, tuple[float, Floats]], room: tuple[float, Floats]
+    ) -> float:
+        """The size of a limit, from its room and the change of this over the bounds."""
+        sides = [abs(side.at(known)[0]) for side in limit.sides]
+        size = max(*sides, limit.room.size(known))
+        if min(sides) == 0.0 and abs(room[0]) > 0.5 * size:  # nothing cancels: it is near 0 itself
+            size = max(size, _SMALL * float(np.abs(np.nan_to_num(room[1])).max()))
+        return size
 
     @property
     def _names(self) -> Sequence[str]:
