@@ -236,7 +236,9 @@ def _told(problem: Problem, run: Run) -> str:
             unit = display(limit.room.unit)
             told = f"{-room / unit.divisor:.4g} {unit.symbol}".rstrip()
             beyond.append(f"{limit.text} is missed by {told}")
-    return "the search found no values that satisfy all limits: at the nearest, " + ", ".join(beyond)
+    return "the search found no values that satisfy all limits: at the nearest, " + ", ".join(
+        beyond
+    )
 
 
 def _active(problem: Problem, run: Run) -> dict[str, float]:
