@@ -106,3 +106,9 @@ def test_the_cheapest_tolerances(limit: float) -> None:
 def test_wrong_allocations(costs: dict[str, float], limit: float, message: str) -> None:
     with pytest.raises(kp.ModelError, match=message):
         kp.allocate(rest(), "mass.x", limit, costs)
+
+
+@pytest.mark.parametrize("limit", [float("nan"), float("inf"), "1 m", None])
+def test_an_allocation_needs_a_finite_limit(limit: object) -> None:
+    with pytest.raises(kp.ModelError, match="limit: it is not a finite number"):
+        kp.allocate(rest(), "mass.x", limit, {"k": 1.0})  # type: ignore[arg-type]

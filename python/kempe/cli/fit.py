@@ -108,7 +108,7 @@ def _summary(found: Fit, measured: Data) -> dict[str, Any]:
         "intervals": {name: [_finite(x) for x in ends] for name, ends in found.intervals.items()},
         "undetermined": list(found.undetermined),
         "remarks": list(found.remarks),
-        "sigma": dict(found.sigma),
+        "sigma": {name: _finite(x) for name, x in found.sigma.items()},
         "missing": dict(measured.missing),
         "success": found.success,
     }

@@ -78,8 +78,9 @@ def _quantity(above: Axes, below: Axes, result: Fit, name: str) -> None:
         apart = result.residuals[name][begin : begin + len(t)]
         below.plot(t / of_t, apart / unit.divisor, ".", color=colour, markersize=3.0)
         begin += len(t)
-    spread = 2.0 * result.sigma[name] / unit.divisor
-    below.axhspan(-spread, spread, color=style.QUIET, zorder=0)
+    spread = 2.0 * np.max(result.sigma[name]) / unit.divisor  # of the least certain experiment
+    if np.isfinite(spread):
+        below.axhspan(-spread, spread, color=style.QUIET, zorder=0)
     below.axhline(0.0, color="black", linewidth=0.7)
     symbol = unit.symbol or "1"
     above.set_ylabel(f"{style.short(name, 30)} / {symbol}")

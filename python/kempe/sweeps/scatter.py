@@ -280,6 +280,12 @@ def allocate(
         ModelError: an argument is invalid, or the value of the case is the limit already.
     """
     given = numbers(mapping(costs, "costs", "{'L2': 1}"), "costs")
+    try:
+        limit = float(limit)
+    except (TypeError, ValueError):
+        limit = np.nan
+    if not np.isfinite(limit):
+        refuse("limit", "it is not a finite number; numbers are in SI units and rad")
     found = gradient(case, [measure], list(given), analysis=analysis)
     prices, slopes = np.array([float(x) for x in given.values()]), found.jacobian[0]
     for name, price, slope in zip(given, prices, slopes, strict=True):
@@ -289,7 +295,7 @@ def allocate(
             told = found.remarks.get((measure, name), "it has no slope")
             raise ModelError(f"costs.{name}: {told}", hint="leave this variable out")
     nominal = next(iter(found.measures.values()))
-    room = abs(float(limit) - nominal)
+    room = abs(limit - nominal)
     if not room > 0.0:
         raise ModelError(
             f"limit: {limit:g} is the value of the case, so that no tolerance is left",
@@ -304,7 +310,7 @@ def allocate(
     return Allocation(
         measure,
         nominal,
-        float(limit),
+        limit,
         dict(zip(given, deviations.tolist(), strict=True)),
         float((prices / deviations).sum()),
         dict(zip(given, slopes.tolist(), strict=True)),

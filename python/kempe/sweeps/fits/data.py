@@ -125,9 +125,12 @@ def _sigma(name: str, given: float | str) -> tuple[float, str]:
         except KempeError as error:
             refuse(path, f"{given!r}: {error.args[0]}")
     else:
-        value = float(given)
+        try:
+            value = float("nan" if isinstance(given, bool) else given)
+        except (TypeError, ValueError):
+            value = float("nan")
     if not value > 0.0 or not np.isfinite(value):
-        refuse(path, f"{given}; must be > 0")
+        refuse(path, f"{given!r}; must be > 0: one number, or a text such as '0.5 deg'")
     return value, unit
 
 
@@ -146,7 +149,10 @@ def _table(table: Any) -> dict[str, Any]:
 def _column(given: Mapping[str, Any], header: str, what: str) -> tuple[Floats, str]:
     """The values of a column in SI units and rad, and the unit; empty if it has none."""
     names = [header] if header in given else [name for name in given if _split(name)[0] == header]
-    if len(names) != 1:
+    if len(names) > 1:
+        hint = "write the header with its unit"
+        raise ModelError(f"{what}: {header!r} may be {' or '.join(map(repr, names))}", hint=hint)
+    if not names:
         raise unknown(what, header, given)
     try:
         values = np.asarray(given[names[0]], dtype=np.float64)

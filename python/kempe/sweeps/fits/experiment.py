@@ -149,6 +149,11 @@ def experiments(
             raise ModelError(f"data: {pair!r}; {form}")
         own, of = pair
         if isinstance(own, Mapping):
+            for both in (name for name in own if name in names):
+                raise ModelError(
+                    f"data: an experiment sets {both} to {own[both]!r}, but the fit finds {both}",
+                    hint=f"leave {both} out of the settings, or out of the parameters",
+                )
             parameters = {name: x for name, x in own.items() if "." not in name}
             start = {name: x for name, x in own.items() if "." in name}
             own = case.with_parameters(parameters) if parameters else case

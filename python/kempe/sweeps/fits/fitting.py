@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from kempe.base.arrays import Floats
-from kempe.errors import InternalError, KempeError
+from kempe.errors import InternalError, KempeError, ModelError
 from kempe.sweeps.fits.experiment import Experiment
 from kempe.sweeps.fits.result import Fit, remarks_on
 from kempe.sweeps.fits.undetermined import determined
@@ -34,17 +34,21 @@ class Fitting:
         self.given, self.bounds, self.priors, self.robust = given, bounds, priors, robust
         self.names = list(bounds)
         self.runs = 0
-        self.sigma: dict[str, float] = {}
+        self.sigma: dict[str, Any] = {}
         self.sizes: dict[str, int] = {}
         known: dict[str, list[float]] = {}
         for one in given:
             for name, of in one.data.values.items():
                 self.sizes[name] = self.sizes.get(name, 0) + len(of)
                 known.setdefault(name, []).append(float(np.std(of)) or 1.0)
-            for name, sigma in one.data.sigma.items():
-                self.sigma[name] = sigma
-        self.given_sigma = set(self.sigma)
-        self.sigma |= {name: max(of) for name, of in known.items() if name not in self.sigma}
+        self.sigma |= {name: max(of) for name, of in known.items()}
+        self.scales = dict(self.sigma)
+        given_sigma = {name: _given_sigma(given, name) for name in known}
+        self.sigma |= {name: of for name, of in given_sigma.items() if of is not None}
+        self.given_sigma = {name for name, of in given_sigma.items() if of is not None}
+        #: Whether no residual is left over from which errors could follow.
+        count = sum(self.sizes.values()) + len(priors)
+        self.starved = count <= len(bounds) and self.given_sigma != set(known)
         self._seen: tuple[bytes, dict[str, tuple[Floats, Floats]] | None] | None = None
 
     def start(self) -> Floats:
@@ -88,7 +92,10 @@ class Fitting:
         found = self._at(values)
         if found is None:
             return None
-        rows = [(of / self.sigma[name], by / self.sigma[name]) for name, (of, by) in found.items()]
+        rows = [
+            (of / self.sigma[name], by / np.reshape(self.sigma[name], (-1, 1)))
+            for name, (of, by) in found.items()
+        ]
         for name, (mean, spread) in self.priors.items():
             k = self.names.index(name)
             rows.append(
@@ -139,7 +146,7 @@ class Fitting:
                 size = 1.4826 * float(np.median(np.abs(of)))
             else:
                 size = float(np.sqrt(of @ of / freedom))
-            size = max(size, 1e-12 * float(np.abs(of).max(initial=0.0)), 1e-300)
+            size = max(size, 1e-14 * self.scales[name])
             changed |= abs(size / self.sigma[name] - 1.0) > 1e-3
             self.sigma[name] = size
         return changed
@@ -156,7 +163,7 @@ class Fitting:
             found = self._searched(values)
             values = found.x
             several = len(self.sizes) > 1 or bool(self.robust) or bool(self.priors)
-            if not self._estimate(values) or not several:
+            if self.starved or not self._estimate(values) or not several:
                 break
         return self._told(values, found.status > 0)
 
@@ -164,14 +171,17 @@ class Fitting:
         scaled, raw = self.scaled(values), self._at(values)
         assert scaled is not None and raw is not None
         residuals, jacobian = scaled
-        known = determined(self.names, values, jacobian)
+        known = determined(self.names, self._magnitudes(), values, jacobian)
         covariance = known.covariance
         if self.robust:
-            covariance = self._robust(residuals, jacobian, known.free)
+            covariance = covariance * self._robust(residuals)
+        if self.starved:
+            covariance = np.full_like(covariance, np.inf)
         errors = np.sqrt(np.diag(covariance))
         with np.errstate(invalid="ignore"):
             correlation = covariance / np.outer(errors, errors)
-        correlation[known.free, :] = correlation[:, known.free] = np.nan
+        free = np.isinf(errors)
+        correlation[free, :] = correlation[:, free] = np.nan
         named = dict(zip(self.names, values.tolist(), strict=True))
         freedom = max(1, len(residuals) - len(self.names))
         width = _quantile(freedom, exact=self.given_sigma == set(self.sizes)) * errors
@@ -182,7 +192,14 @@ class Fitting:
         parts = {name: of / self.sigma[name] for name, (of, _) in raw.items()}
         is_given = self.given_sigma == set(self.sizes)
         remarks = remarks_on(named, self.bounds, parts, (is_given, len(self.names)))
-        rest = ({name: of for name, (of, _) in raw.items()}, self.sigma, remarks)
+        sigma = dict(self.sigma)
+        if self.starved:
+            sigma |= {name: np.nan for name in sigma if name not in self.given_sigma}
+            remarks.append(
+                f"{len(residuals)} values for {len(self.names)} parameters leave nothing from "
+                "which errors follow: give sigma, or more values"
+            )
+        rest = ({name: of for name, (of, _) in raw.items()}, sigma, remarks)
         return Fit(
             self.given,
             named,
@@ -192,27 +209,54 @@ class Fitting:
             (success, self.runs),
         )
 
-    def _robust(self, residuals: Floats, jacobian: Floats, free: Any) -> Floats:
-        """The covariance of a robust fit: the weights of SciPy's loss (Huber's sandwich)."""
-        weights = _weights(str(self.robust), residuals**2)
-        whole = determined(
-            self.names, np.ones(len(self.names)), jacobian * np.sqrt(weights)[:, None]
+    def _magnitudes(self) -> Floats:
+        """How large the parameters are before the fit; 0 where nothing is known."""
+        widths = [largest - least for least, largest in self.bounds.values()]
+        return np.maximum(np.abs(self.start()), np.where(np.isfinite(widths), widths, 0.0))
+
+    def _robust(self, residuals: Floats) -> float:
+        """The factor of the covariance in a fit with a loss (Huber 1981, section 7.6)."""
+        psi, slope = _influence(str(self.robust), residuals)
+        count, mean = len(residuals), float(slope.mean())
+        freedom = max(1, count - len(self.names))
+        spread = float(slope.var()) / max(mean, 1e-300) ** 2
+        more = 1.0 + len(self.names) / count * spread  # for few residuals
+        return more**2 * float(psi @ psi) / freedom / max(mean, 1e-300) ** 2
+
+
+def _given_sigma(given: Sequence[Experiment], name: str) -> Any:
+    """The standard deviation of a quantity, for each value if experiments differ; None without.
+
+    Raises:
+        ModelError: some experiments have one, and others have none.
+    """
+    data = [one.data for one in given if name in one.data.values]
+    found = {one.sigma.get(name) for one in data}
+    if len(found) == 1:
+        return found.pop()
+    if None in found:
+        raise ModelError(
+            f"sigma: {name} has a standard deviation in one experiment and none in another",
+            hint="give sigma in all experiments, or in none",
         )
-        inner = (jacobian * (weights * residuals)[:, None]).T
-        bread = np.where(np.isfinite(whole.covariance), whole.covariance, 0.0)
-        count = len(residuals) / max(1, len(residuals) - len(self.names))
-        found = bread @ (inner @ inner.T) @ bread * count
-        found[free, free] = np.inf
-        return np.asarray(found)
+    return np.concatenate([np.full(len(one.values[name]), one.sigma[name]) for one in data])
 
 
-def _weights(loss: str, square: Floats) -> Floats:
-    """The derivative of a loss of SciPy by the square of a residual."""
+def _influence(loss: str, residuals: Floats) -> tuple[Floats, Floats]:
+    """Half the derivative of a loss of SciPy by a residual, and the derivative of this."""
+    square = residuals**2
     if loss == "soft_l1":
-        return np.asarray((1.0 + square) ** -0.5)
-    if loss == "huber":
-        return np.where(square <= 1.0, 1.0, np.maximum(square, 1.0) ** -0.5)
-    return 1.0 / (1.0 + (square if loss == "cauchy" else square**2))
+        weight, slope = (1.0 + square) ** -0.5, (1.0 + square) ** -1.5
+    elif loss == "huber":
+        inside = square <= 1.0
+        weight = np.where(inside, 1.0, np.maximum(square, 1.0) ** -0.5)
+        slope = inside.astype(np.float64)
+    elif loss == "cauchy":
+        weight, slope = 1.0 / (1.0 + square), (1.0 - square) / (1.0 + square) ** 2
+    else:
+        weight = 1.0 / (1.0 + square**2)
+        slope = (1.0 - 3.0 * square**2) * weight**2
+    return residuals * weight, slope
 
 
 def _quantile(freedom: int, *, exact: bool) -> float:

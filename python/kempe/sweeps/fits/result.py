@@ -7,7 +7,7 @@ import io
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -33,7 +33,8 @@ class Fit:
         undetermined: what the data cannot determine, in words; empty if all is determined.
         residuals: model minus data by quantity, of all experiments one after the other.
         sigma: standard deviation of the measured values by quantity: as given, or from the
-            residuals.
+            residuals; NaN if none are left over for it, and an array in the order of residuals if
+            experiments differ.
         case: the case with the values; of several experiments the first.
         cases: the case of each experiment.
         remarks: what speaks against the model, such as residuals with structure.
@@ -48,7 +49,7 @@ class Fit:
         values: Mapping[str, float],
         found: tuple[Floats, Floats, Mapping[str, tuple[float, float]]],
         undetermined: Sequence[str],
-        rest: tuple[Mapping[str, Floats], Mapping[str, float], Sequence[str]],
+        rest: tuple[Mapping[str, Floats], Mapping[str, Any], Sequence[str]],
         how: tuple[bool, int],
     ) -> None:
         errors, correlation, intervals = found

@@ -161,6 +161,10 @@ def _priors(
     given = mapping(priors or {}, "priors", "{'J': (0.005, 0.0002)}")
     for name, pair in given.items():
         one_of("parameter in priors", name, bounds)
-        if not isinstance(pair, list | tuple) or len(pair) != 2 or not float(pair[1]) > 0.0:
+        try:
+            mean, spread = map(float, pair)
+        except (TypeError, ValueError):
+            mean = spread = np.nan
+        if not (np.isfinite(mean) and 0.0 < spread < np.inf):
             refuse(f"priors.{name}", f"{pair!r}; must be (mean, standard deviation > 0)")
     return {name: (float(mean), float(spread)) for name, (mean, spread) in given.items()}

@@ -36,18 +36,21 @@ class Determined:
     texts: tuple[str, ...]
 
 
-def determined(names: Sequence[str], values: Floats, jacobian: Floats) -> Determined:
+def determined(
+    names: Sequence[str], magnitudes: Floats, values: Floats, jacobian: Floats
+) -> Determined:
     """What residuals with these derivatives determine.
 
     Args:
         names: the parameters.
+        magnitudes: how large they are before the fit; 0 where this is not known.
         values: their values.
         jacobian: the derivatives of residuals in standard deviations, (n_residuals, n).
     """
     n = len(names)
     lengths = np.linalg.norm(jacobian, axis=0)
-    scales = lengths * np.maximum(np.abs(values), np.finfo(float).tiny)
-    idle = (lengths == 0.0) | (scales < SMALL**2 * scales.max(initial=0.0))
+    scales = lengths * magnitudes  # a value that is 0 says nothing about its effect
+    idle = (lengths == 0.0) | ((scales < SMALL**2 * scales.max(initial=0.0)) & (magnitudes > 0.0))
     kept = np.flatnonzero(~idle)
     units = lengths[kept]
     columns = jacobian[:, kept] / units

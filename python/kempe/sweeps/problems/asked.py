@@ -119,7 +119,11 @@ def with_units(limits: Sequence[Limit], plan: Plan) -> tuple[Limit, ...]:
 
     def of_limit(limit: Limit) -> Limit:
         small, large = (with_unit(side, unit) for side in limit.sides)
-        return Limit(limit.text, with_unit(limit.room, unit), (small, large))
+        room, known = with_unit(limit.room, unit), {of.text: of.unit for of in (large, small)}
+        if not (small.names and large.names):  # a number with a unit
+            whole = " - ".join(f"`{text}`" for text in known)
+            with_unit(replace(limit.room, of=whole, names=tuple(known)), known.__getitem__)
+        return Limit(limit.text, room, (small, large))
 
     return tuple(map(of_limit, limits))
 
@@ -165,7 +169,10 @@ def _objective(case: Case, aim: str, given: Any, columns: Sequence[str]) -> Any:
             f"{aim}: {len(given)} objectives; kempe optimises one",
             hint="weigh them in a formula, or keep all but one below limits with subject_to=",
         )
-    return read_formula(model, given, columns)
+    formula = read_formula(model, given, columns)
+    if not formula.names:
+        refuse(aim, f"{given!r} has no column and no parameter")
+    return formula
 
 
 def _table(given: Any, key: str) -> Mapping[str, Any]:

@@ -115,13 +115,9 @@ class Evaluations:
 
     def _values(self, rows: Floats) -> list[tuple[Numbers | None, str]]:
         n, count, _ = self._shape
-        if self.problem.path is not None:
+        if self.problem.path is not None or not count:
             return [self._slopes(row)[0] for row in rows]
-        block = (
-            self.problem.plan.rows(rows, self._workers)
-            if count
-            else Block.of(np.zeros((len(rows), 0)))
-        )
+        block = self.problem.plan.rows(rows, self._workers)
         none = np.full((count, n), np.nan), np.zeros(0), np.zeros((0, n))
         pairs = zip(block.values, block.reasons, strict=True)
         return [(None, told) if told else (Numbers(of, *none), "") for of, told in pairs]
@@ -145,6 +141,8 @@ class Evaluations:
         residuals, of = np.zeros(0), np.zeros((0, n))
         if path is not None:
             residuals, of = path.residuals(plan, row)
+        elif not count:  # an objective of parameters alone; the case must run all the same
+            plan.run(row)
         if not count:
             return Numbers(np.zeros(0), np.zeros((0, n)), residuals, of)
         values, slopes, _ = numbers_and_slopes(plan, row)

@@ -51,6 +51,12 @@ class Formula:
         parts = (p * of if p else 0.0 * of for p, (_, of) in zip(partial, known, strict=True))
         return value, sum(parts, np.zeros(width))
 
+    def size(self, slopes: Mapping[str, tuple[float, Floats]]) -> float:
+        """The sum of the magnitudes of its terms, to first order; not 0 where they cancel."""
+        values = [slopes[name][0] for name in self.names]
+        _, partial = _core.formula_value(self.of, list(self.names), values)
+        return sum(abs(p * x) for p, x in zip(partial, values, strict=True) if np.isfinite(p))
+
     @property
     def columns(self) -> list[str]:
         """The names that are columns, not parameters."""
@@ -147,11 +153,18 @@ def read_limit(model: CompiledModel, text: str, columns: Sequence[str]) -> Limit
     left, right = text[: sign.start()].strip(), text[sign.end() :].strip()
     small, large = (left, right) if sign[0].startswith("<") else (right, left)
     sides = [read_formula(model, side, columns) for side in (small, large)]
-    whole = f"({sides[1].of}) - ({sides[0].of})"
+    whole = f"({_plain(sides[1])}) - ({_plain(sides[0])})"
     names = tuple(dict.fromkeys(name for side in sides for name in side.names))
     if not names:
         refuse("subject_to", f"{text!r} has no column and no parameter")
     return Limit(text, Formula(text, whole, names, ""), (sides[0], sides[1]))
+
+
+def _plain(side: Formula) -> str:
+    """The side of a limit; a number with a unit, which stands alone, in SI units and rad."""
+    if side.names:
+        return side.of
+    return repr(float(_core.formula_value(side.of, [], [])[0]))
 
 
 def _is_outside(text: str, place: int) -> bool:

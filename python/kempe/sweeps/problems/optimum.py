@@ -236,7 +236,9 @@ def _told(problem: Problem, run: Run) -> str:
             unit = display(limit.room.unit)
             told = f"{-room / unit.divisor:.4g} {unit.symbol}".rstrip()
             beyond.append(f"{limit.text} is missed by {told}")
-    return "no values within the bounds satisfy all limits: at the nearest, " + ", ".join(beyond)
+    return "the search found no values that satisfy all limits: at the nearest, " + ", ".join(
+        beyond
+    )
 
 
 def _active(problem: Problem, run: Run) -> dict[str, float]:
@@ -268,7 +270,10 @@ def _active(problem: Problem, run: Run) -> dict[str, float]:
     if rest > _REST and scale > _FLAT * abs(run.objective):  # a corner of the objective
         return dict.fromkeys(texts, float("nan"))
     pairs = zip(texts, factors, per_unit, strict=True)
-    return {text: float(factor * scale * abs(unit)) for text, factor, unit in pairs}
+    found = dict.fromkeys(texts, 0.0)
+    for text, factor, unit in pairs:  # a text may occur twice: a bound is also a limit
+        found[text] += float(factor * scale * abs(unit))
+    return found
 
 
 def _short(value: float) -> str:

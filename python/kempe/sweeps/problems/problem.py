@@ -18,6 +18,8 @@ if TYPE_CHECKING:
 
 #: Part of the size of a limit by which it may be exceeded.
 TOLERANCE = 1e-6
+#: Part of the change of a limit over the bounds that is its least size.
+_SMALL = 1e-3
 
 
 @dataclass(frozen=True)
@@ -114,7 +116,8 @@ class Run:
             derivatives; empty if it is not of this kind.
         room: the room in each limit, at least 0 where it holds.
         room_slopes: their derivatives.
-        sizes: the larger magnitude of the sides of each limit.
+        sizes: the size of each limit: of the terms that it compares, or of their change over the
+            bounds where they are all near 0.
         reason: why the run failed; empty if it did not.
     """
 
@@ -238,7 +241,10 @@ class Problem:
             value = float(np.linalg.norm(residuals[0]))
             slope = residuals[0] @ residuals[1] / value if value else np.zeros(len(row))
         rooms = [limit.room.at(slopes) for limit in self.limits]
-        sides = [[abs(side.at(slopes)[0]) for side in limit.sides] for limit in self.limits]
+        sizes = [
+            self._size(limit, slopes, (room, slope * self.rates(row)))
+            for limit, (room, slope) in zip(self.limits, rooms, strict=True)
+        ]
         columns = dict(zip(texts, found.columns.tolist(), strict=True))
         for name, number in [(self.label, value)] + [
             (limit.text, room) for limit, (room, _) in zip(self.limits, rooms, strict=True)
@@ -253,8 +259,19 @@ class Problem:
             residuals,
             np.array([room for room, _ in rooms]),
             np.array([slope for _, slope in rooms]).reshape(len(rooms), len(row)),
-            np.array([max(pair) for pair in sides]),
+            np.array(sizes),
         )
+
+    @staticmethod
+    def _size(
+        limit: Limit, known: Mapping[str, tuple[float, Floats]], room: tuple[float, Floats]
+    ) -> float:
+        """The size of a limit, from its room and the change of this over the bounds."""
+        sides = [abs(side.at(known)[0]) for side in limit.sides]
+        size = max(*sides, limit.room.size(known))
+        if min(sides) == 0.0 and abs(room[0]) > 0.5 * size:  # nothing cancels: it is near 0 itself
+            size = max(size, _SMALL * float(np.abs(np.nan_to_num(room[1])).max()))
+        return size
 
     @property
     def _names(self) -> Sequence[str]:

@@ -1,0 +1,83 @@
+"""Limits whose sides are zero, have units, or occur twice; objectives without columns or slopes."""
+
+import kempe as kp
+import numpy as np
+import pytest
+from design_problems.test_faults import dyad
+
+
+def oscillator(analysis: kp.Dynamics | None = None) -> kp.Case:
+    """A mass of 1 kg on a spring; its largest speed is √k m/s."""
+    m = kp.Model("oscillator", parameters={"k": 4.0, "zero": 0.0})
+    m.ground.points(O=(0, 0))
+    m.body("b", mass=1, inertia=1, points={"P": (0, 0)})
+    m.translational("guide", "ground.O", "b.P")
+    m.spring_damper("spring", "ground.O", "b.P", stiffness="k", free_length="zero")
+    return kp.Case(m, {"set": {"b.x": 1.0}}, [analysis or kp.Dynamics(t_end=5, output_step=0.05)])
+
+
+@pytest.mark.parametrize("size", [1e-3, 1.0, 1e3])
+def test_limits_whose_side_is_zero(size: float) -> None:
+    """The terms give the size of such a limit, because both sides are zero where it is active."""
+    aims = [
+        ("maximize", f"{25 * size} - k*{size} >= 0", 25.0, 5.0, 0.1 / size),
+        ("maximize", f"0 >= k*{size} - {25 * size}", 25.0, 5.0, 0.1 / size),
+        ("minimize", f"b.vx.max*{size} - {3 * size} >= 0", 9.0, 3.0, 1.0 / size),
+    ]
+    for aim, limit, k, objective, gain in aims:
+        best = kp.optimize(oscillator(), {"k": (1, 100)}, **{aim: "b.vx.max"}, subject_to=limit)
+        assert best.success and best.values["k"] == pytest.approx(k, rel=1e-5)
+        assert best.objective == pytest.approx(objective, rel=1e-5)
+        assert dict(best.active) == {limit: pytest.approx(gain, rel=1e-4)}
+
+
+def test_a_limit_at_zero_of_a_variable() -> None:
+    best = kp.optimize(
+        oscillator(), {"zero": (-0.5, 0.5)}, minimize="b.vx.max - zero*2", subject_to="zero <= 0"
+    )  # the largest speed is 2 |1 - zero|
+    assert best.success and abs(best.values["zero"]) < 1e-8
+    assert dict(best.active) == {"zero <= 0": pytest.approx(4, rel=1e-5)}
+
+
+@pytest.mark.parametrize("method", ["slsqp", "trust-constr"])
+def test_methods_with_slopes_take_differences_where_there_are_none(method: str) -> None:
+    """A frequency of a motion has no slope; the right stiffness is (2 π 0.5)²."""
+    case = oscillator(kp.Dynamics(t_end=20, output_step=0.02))
+    best = kp.optimize(case, {"k": (1, 40)}, target={"b.x.frequency": 0.5}, method=method)
+    assert best.values["k"] == pytest.approx(np.pi**2, rel=2e-2)
+
+
+def test_an_objective_of_parameters_alone_needs_a_case_that_runs() -> None:
+    """C exists from a = 0.3 m, where the rods are in line."""
+    best = kp.optimize(dyad(0.8, 0.7), {"a": (0.1, 0.9)}, minimize="a")
+    assert best.success and best.values["a"] == pytest.approx(0.3, abs=2e-3)
+    best.case.run()
+
+
+def test_an_objective_without_any_name() -> None:
+    with pytest.raises(kp.ModelError, match="'2\\*pi' has no column and no parameter"):
+        kp.optimize(oscillator(), {"k": (1, 100)}, minimize="2*pi")
+
+
+def test_limits_with_units() -> None:
+    for limit in ("b.vx.max >= 3000 mm/s", "3 m/s <= b.vx.max", "b.vx.max - 3 >= 0 m/s"):
+        best = kp.optimize(oscillator(), {"k": (1, 100)}, minimize="k", subject_to=limit)
+        assert best.values["k"] == pytest.approx(9, rel=1e-5)
+    with pytest.raises(kp.ModelError, match=r"b\.vx\.max is in m/s, 3 m is in m|3 m is in m, b"):
+        kp.optimize(oscillator(), {"k": (1, 100)}, minimize="k", subject_to="b.vx.max >= 3 m")
+
+
+@pytest.mark.parametrize("most", [100, 1e5])
+@pytest.mark.parametrize("limit", ["b.vx.max >= 3", "b.vx.max - 3 >= 0"])
+def test_limits_are_kept_however_wide_the_bounds_are(most: float, limit: str) -> None:
+    best = kp.optimize(oscillator(), {"k": (1, most)}, minimize="k", subject_to=limit)
+    assert best.success and best.measures["b.vx.max"] == pytest.approx(3, rel=2e-6)
+
+
+def test_a_limit_that_occurs_twice_or_is_a_bound() -> None:
+    """The multiplier of a text is that of all limits with it."""
+    twice = ["b.vx.max <= 3", "b.vx.max <= 3"]
+    best = kp.optimize(oscillator(), {"k": (1, 100)}, maximize="k", subject_to=twice)
+    assert dict(best.active) == {"b.vx.max <= 3": pytest.approx(6, rel=1e-4)}
+    best = kp.optimize(oscillator(), {"k": (1, 9)}, maximize="k", subject_to="k <= 9")
+    assert dict(best.active) == {"k <= 9": pytest.approx(1)}
