@@ -117,7 +117,7 @@ def yoke(of: Units) -> Made:
     m.pin_in_slot("slot", "yoke.S", "crank.A", axis="tilt")
     m.torque("motor", "crank", torque=f"{of.torque} * sin(w * t)")
     measures = ["yoke.x.final", "slot.force.max", "slot.displacement.final", "slot.rate.final"]
-    return Made(m, [*measures, "slide.torque.final"], {"crank.angle": of.near(0.6)})
+    return Made(m, [*measures, "slide.torque.final"], {"crank.angle": of.near(0.6), "crank.omega": of.rate})
 
 
 def driven_yoke(of: Units) -> Made:
@@ -170,7 +170,7 @@ def crossed_belt(of: Units) -> Made:
         crossed=bool(of.draw.integers(2)),
     )
     measures = ["two.angle.final", "belt.tangential.max", "O.force.final", "belt.tangential.final"]
-    return Made(m, measures, {"one.angle": of.near(0.5)}, end=2.0)
+    return Made(m, measures, {"one.angle": of.near(0.5), "one.omega": of.rate}, end=2.0)
 
 
 def rack_and_pinion(of: Units) -> Made:
@@ -186,7 +186,7 @@ def rack_and_pinion(of: Units) -> Made:
     m.spring_damper("spring", "ground.S", "bar.S", stiffness="k", free_length=0.2 * s)
     measures = ["pinion.angle.final", "bar.x.final", "mesh.tangential.final", "O.fy.max"]
     measures += ["mesh.force.final", "spring.energy.final"]
-    return Made(m, measures, {"bar.x": of.near(0.3) * s})
+    return Made(m, measures, {"bar.x": of.near(0.3) * s, "bar.vx": s * of.rate})
 
 
 def rolling_wheel(of: Units) -> Made:
@@ -282,7 +282,7 @@ def coupled(of: Units) -> Made:
     m.revolute("P", "ground.P", "two.P")
     m.coupling("link", terms={"one.angle": "p", "two.angle": "n"}, value="c * cos(w * t)")
     measures = ["two.angle.final", "O.force.max", "one.omega.final", "energy.work.final"]
-    return Made(m, measures, {"one.angle": of.near(-0.9)}, end=2.0)
+    return Made(m, measures, {"one.angle": of.near(-0.9), "one.omega": of.rate}, end=2.0)
 
 
 def written(of: Units) -> Made:
@@ -293,7 +293,7 @@ def written(of: Units) -> Made:
     residual = ["bead.y - a * bead.x^2 - b * sin(w * t)", "bead.angle - n * bead.x"]
     m.constraint("wire", residual=residual, units=["m", "rad"])
     measures = ["bead.x.final", "bead.P.y.final", "bead.omega.max", "energy.work.final"]
-    return Made(m, measures, {"bead.x": of.near(0.8) * s}, end=2.0)
+    return Made(m, measures, {"bead.x": of.near(0.8) * s, "bead.vx": s * of.rate}, end=2.0)
 
 
 def lifted(of: Units) -> Made:
