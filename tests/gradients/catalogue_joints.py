@@ -117,7 +117,9 @@ def yoke(of: Units) -> Made:
     m.pin_in_slot("slot", "yoke.S", "crank.A", axis="tilt")
     m.torque("motor", "crank", torque=f"{of.torque} * sin(w * t)")
     measures = ["yoke.x.final", "slot.force.max", "slot.displacement.final", "slot.rate.final"]
-    return Made(m, [*measures, "slide.torque.final"], {"crank.angle": of.near(0.6), "crank.omega": of.rate})
+    return Made(
+        m, [*measures, "slide.torque.final"], {"crank.angle": of.near(0.6), "crank.omega": of.rate}
+    )
 
 
 def driven_yoke(of: Units) -> Made:
