@@ -308,7 +308,7 @@ def lifted(of: Units) -> Made:
     m.bar("bar", mass="m", length="L", ends=("O", "A"))
     m.revolute("O", "ground.O", "bar.O")
     m.coordinate_driver("lift", "bar.angle", value="up * rise(t / T)", release="bar.angle > at")
-    measures = ["bar.angle.final", "bar.omega.min", "lift.effort.max", "energy.work.final"]
+    measures = ["bar.angle.final", "bar.omega.min", "lift.power.max", "energy.work.final"]
     return Made(m, [*measures, "O.force.final"], end=2.5, changes=True)
 
 
