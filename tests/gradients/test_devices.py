@@ -101,3 +101,24 @@ def test_slopes_of_a_long_run_meet_the_joints() -> None:
         both = [f"rod.B.{name}", f"rocker.B.{name}"]
         one, other = kp.gradient(case, both, list(numbers)).jacobian
         assert one == pytest.approx(other, rel=1e-9)
+
+
+@pytest.mark.parametrize("mass", [1e-3, 1.0, 1e3])
+def test_rates_that_nothing_holds_stay_where_they_are(mass: float) -> None:
+    m = kp.Model("thrown")
+    m.body("ball", mass=mass, inertia=0.3 * mass, points={"P": (1, 0)}, center=(0.4, 0.1))
+    case = kp.Case(m, {"set": {"ball.vx": 2.0}}, [kp.Dynamics(t_end=1.5, method=EXACT)])
+    g = kp.gradient(case, ["ball.x.final", "ball.y.final", "ball.angle.final"], ["ball.vx"])
+    assert g.jacobian.ravel() == pytest.approx([1.5, 0.0, 0.0], abs=1e-9)
+
+
+def test_a_guess_that_the_start_follows_is_named() -> None:
+    m = kp.Model("bead", parameters={"r": 2.0})
+    m.ground.curves(ring={"circle": [0, 0, "r"]})
+    m.body("bead", mass=1, inertia=0.1, points={"P": (0.1, 0)})
+    m.point_on_curve("on", "bead.P", "ground.ring")
+    start = {"set": {"bead.angle": 0.2, "bead.P.x": 1.0}, "guess": {"on.u_rate": 0.5, "bead.y": 1}}
+    case = kp.Case(m, start, [kp.Dynamics(t_end=0.5, method=EXACT)])
+    g = kp.gradient(case, ["bead.y.final"], ["r"])
+    assert np.isnan(g.jacobian).all()
+    assert "prescribe on.u_rate in set" in str(g.remarks)

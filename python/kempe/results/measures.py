@@ -30,6 +30,15 @@ STATISTICS = ("max", "min", "peak", "mean", "rms", "integral", "final", "settlin
 _AT_OUTPUTS = ("balance", "dissipated")
 
 
+def is_continuous(info: MeasureInfo) -> bool:
+    """Whether a measure has values between the outputs."""
+    parts = [name.rpartition(".") for name in info.quantities if info.is_of_run]
+    return all(
+        last not in _AT_OUTPUTS or (owner, last) == ("energy", "dissipated")
+        for owner, _, last in parts
+    )
+
+
 class Measure:
     """A measure of a solution: its values at the outputs and their statistics.
 
@@ -125,7 +134,7 @@ class Measure:
     def _integrals(self) -> list[float]:
         """The integral, the mean and the root mean square."""
         solution, found = self._solution, None
-        if solution.dense is not None and self._is_continuous:
+        if solution.dense is not None and is_continuous(self.info):
             near = singular_times(solution) if self.info.solves else np.empty(0)
             found = _core.integrals(
                 self.t, self.values, (solution.dense.t, solution.dense.degree, near, self._between)
@@ -134,15 +143,6 @@ class Measure:
         found = found or _core.integrals(self.t, self.values)
         assert found is not None
         return found
-
-    @property
-    def _is_continuous(self) -> bool:
-        """Whether it has values between the outputs."""
-        parts = [name.rpartition(".") for name in self.info.quantities if self.info.is_of_run]
-        return all(
-            last not in _AT_OUTPUTS or (owner, last) == ("energy", "dissipated")
-            for owner, _, last in parts
-        )
 
     def _between(self, t: Floats) -> Floats:
         """The values at any times."""

@@ -21,7 +21,7 @@ pub(super) fn consistent(
     q: &[f64],
     stop: Halt<'_>,
 ) -> Result<Vec<f64>, Box<Failure>> {
-    let mut v = wanted(model, request, q);
+    let (mut v, _) = wanted(model, request, q);
     let extended = holding_rates(model, request, q);
     let left = velocities::project(&extended, request.t, q, &mut v);
     if left <= AGREE && v.iter().all(|v| v.is_finite()) {
@@ -39,7 +39,7 @@ pub(super) fn contradiction(
     stop: Halt<'_>,
 ) -> Option<Failure> {
     let extended = holding_rates(model, request, q);
-    contradiction::of_rates(&extended, request, q, &wanted(model, request, q), stop)
+    contradiction::of_rates(&extended, request, q, &wanted(model, request, q).0, stop)
 }
 
 /// The model with a driver for each rate that is set.
@@ -59,15 +59,20 @@ fn holding<'a>(
     Model::new(&Arc::new(model.blueprint.holding(&held)), &model.parameters)
 }
 
-/// The velocities that are given, set or guessed, before they become consistent.
-pub(super) fn wanted(model: &Model, request: &Request, q: &[f64]) -> Vec<f64> {
+/// The velocities that are given, set or guessed, before they become consistent, and the guessed rates of points and
+/// elements that they meet.
+pub(super) fn wanted<'a>(
+    model: &Model,
+    request: &'a Request,
+    q: &[f64],
+) -> (Vec<f64>, Vec<&'a Target>) {
     let mut v = match &request.state {
         Some(state) => state.v.clone(),
         None => vec![0.0; q.len()],
     };
     for target in of_rates(&request.guess).chain(of_rates(&request.set)) {
         if let Target::Coordinate(target) = target {
-            v[model.layout.bodies[target.body.0].first + target.coordinate.column()] = target.value;
+            v[target.place(model)] = target.value;
         }
     }
     // rates of points and elements are met if they agree with earlier ones
@@ -84,5 +89,5 @@ pub(super) fn wanted(model: &Model, request: &Request, q: &[f64]) -> Vec<f64> {
             met.pop();
         }
     }
-    v
+    (v, met)
 }

@@ -123,6 +123,17 @@ impl StartNumbers<'_> {
         implicit(jacobian, q, &phi)
     }
 
+    /// The rates that are approached. Those of bodies in `set` have the derivatives of their values.
+    fn set_rates(&self, wanted: &[f64]) -> Vec<Slope> {
+        let mut wanted: Vec<Slope> = wanted.iter().map(|w| Slope::constant(*w)).list();
+        for (target, value) in self.request.set.iter().zip(self.set) {
+            if let (true, Target::Coordinate(target)) = (target.is_rate(), target) {
+                wanted[target.place(self.model)] = *value;
+            }
+        }
+        wanted
+    }
+
     fn rates(&self, q: &[Slope], v: &[f64]) -> Result<Vec<Slope>, String> {
         let t0 = self.t;
         let law = |of: Symbol| Tape::growing_by(of, t0);
@@ -140,8 +151,13 @@ impl StartNumbers<'_> {
         let jacobian = dense::jacobian(&model, &motions, t0);
         let (n, m) = (v.len(), model.layout.n_rows);
         // Mᵢ (v - w) + Φ_qᵀ σ = 0, where w are the rates that are approached
-        let wanted = rates::wanted(self.model, self.request, &values);
-        let off: Vec<f64> = v.iter().zip(&wanted).map(|(v, w)| v - w).list();
+        let (wanted, met) = rates::wanted(self.model, self.request, &values);
+        if let Some(guessed) = met.first() {
+            let name = guessed.name(self.model);
+            return Err(format!("the start follows the guess of {name}; prescribe {name} in set"));
+        }
+        let wanted = self.set_rates(&wanted);
+        let off: Vec<f64> = v.iter().zip(&wanted).map(|(v, w)| v - w.value).list();
         let mut balance = vec![0.0; n];
         mass::add_times(&model, &motions, &off, &mut balance);
         let mut transposed = vec![0.0; n * m];
@@ -151,7 +167,7 @@ impl StartNumbers<'_> {
         let mut sigma = vec![balance.iter().map(|x| -x).list()];
         solve_any_rank(&mut transposed, m, &mut sigma, DEPENDENT);
         let sigma: Vec<Slope> = sigma[0].iter().map(|x| Slope::constant(*x)).list();
-        let off: Vec<Slope> = off.iter().map(|x| Slope::constant(*x)).list();
+        let off = constant.iter().zip(&wanted).map(|(v, w)| *v - *w).list();
         let mut residual = over.balance_of((Slope::constant(t0), q, &constant), &off, &sigma);
         residual.extend(open);
         let mut matrix = vec![0.0; (n + m) * (n + m)];

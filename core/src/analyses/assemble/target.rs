@@ -15,6 +15,13 @@ pub struct CoordinateTarget {
     pub value: f64,
 }
 
+impl CoordinateTarget {
+    /// The index of the coordinate, or of the coordinate of the rate.
+    pub(super) fn place(&self, model: &Model) -> usize {
+        model.layout.bodies[self.body.0].first + self.coordinate.column()
+    }
+}
+
 /// A value given for a position quantity of a point or an element, or for its rate.
 #[derive(Clone, Debug)]
 pub struct QuantityTarget {

@@ -147,7 +147,7 @@ impl Ode for SlopeOde {
         let model: &Model = model;
         let (layout, n_y, at) = (&model.layout, *n_y, Slope::constant(t));
         let [q, v, z, _] = layout.split(&y[..n_y]);
-        workspace.accelerate(model, t, [q, v, z], Gains::default())?;
+        workspace.react(model, t, [q, v, z])?;
         let powers = workspace.powers(model, v);
         let [dq, dv, dz, works] = layout.split_mut(&mut dy[..n_y]);
         dq.copy_from_slice(v);

@@ -14,6 +14,8 @@ from kempe import _core
 from kempe.base.arguments import explained
 from kempe.base.arrays import Floats
 from kempe.errors import IntegrationError, KempeError, ModelError
+from kempe.model.measure_infos import measure_info
+from kempe.results.measures import is_continuous
 from kempe.sweeps.gradients.asked import planned
 from kempe.sweeps.gradients.result import Gradient
 from kempe.sweeps.numbers import reads_quantities
@@ -29,6 +31,10 @@ if TYPE_CHECKING:
 _CHANGE = 1e-6
 #: The remarks on numbers that the core does not differentiate.
 _OF_RUN = "of a quantity of a whole run, only final values and integrals have derivatives"
+_AT_OUTPUTS = (
+    "kempe has no derivatives of balances yet, nor of the energy that one element dissipates; "
+    "energy.dissipated, of all elements, has them"
+)
 _ALONG = ("final", "integral", "mean", "rms")
 _SINGLE = "kempe has no derivatives of this number yet"
 #: The time and the quantities at which formulas without these are evaluated.
@@ -133,6 +139,8 @@ def _left(plan: Plan, one: Wanted) -> str:
     """Why a number is left to a single run; empty if the core differentiates it."""
     if one.of_run and one.statistic not in _ALONG:
         return _OF_RUN
+    if one.of_run and not is_continuous(measure_info(plan.case.model.compile(), one.expression)):
+        return _AT_OUTPUTS
     kind = plan.case.analyses[plan.analysis]["type"]
     statistics, reads = [one.statistic] if one.statistic else [], reads_quantities(kind, [one.text])
     return "" if _core.sweeps(plan.case.model.compile().core, statistics, reads) else _SINGLE
