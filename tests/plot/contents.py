@@ -27,10 +27,11 @@ def contents(figure: Figure) -> dict[str, Any]:
     }
 
 
-def numbers(values: Any) -> list[float]:
+def numbers(values: Any, size: float = 0.0) -> list[float]:
+    """Numbers with five digits; rounding errors of the largest, or of a ``size``, are zero."""
     found = np.asarray(values, dtype=np.float64).ravel()
     finite = np.abs(found[np.isfinite(found)])
-    least = 1e-9 * float(finite.max(initial=0.0))
+    least = 1e-9 * float(finite.max(initial=size))
     return [float(f"{x:.5g}") if not abs(x) <= least else 0.0 for x in found]
 
 
@@ -62,8 +63,11 @@ def _text(text: Text) -> list[Any]:
 
 
 def _line(line: Line2D) -> list[Any]:
+    axes = line.axes
+    sizes = [np.ptp(ends) for ends in (axes.get_xlim(), axes.get_ylim())] if axes else [0.0, 0.0]
     data = [
-        numbers([d[0], d[-1], np.nanmin(d), np.nanmax(d)]) for d in map(_plain, line.get_data())
+        numbers([d[0], d[-1], np.nanmin(d), np.nanmax(d)], float(size))
+        for d, size in zip(map(_plain, line.get_data()), sizes, strict=True)
     ]
     look = [line.get_label(), to_hex(line.get_color()), str(line.get_linestyle())]
     look += [str(line.get_marker()), line.get_linewidth(), line.get_markersize(), line.get_zorder()]

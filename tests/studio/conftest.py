@@ -1,6 +1,9 @@
 """The built page of the studio in Chromium, watched for messages, errors and requests."""
 
+import functools
+import http.server
 import os
+import threading
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
@@ -55,6 +58,31 @@ def opened(
     one.wait("typeof kempe === 'object' && kempe.state().then(state => state !== null)", 20.0)
     if not first:
         one.settle()
+    return one
+
+
+class Quiet(http.server.SimpleHTTPRequestHandler):
+    def log_message(self, *_: object) -> None:
+        pass
+
+
+@pytest.fixture(scope="module")
+def site() -> Iterator[str]:
+    """The page at an address of http."""
+    handler = functools.partial(Quiet, directory=str(PAGE.parent))
+    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
+    threading.Thread(target=server.serve_forever, daemon=True).start()
+    yield f"http://127.0.0.1:{server.server_address[1]}/index.html"
+    server.shutdown()
+    server.server_close()
+
+
+def ready(page: "sync_api.Page") -> Studio:
+    """The studio in a page that was opened or loaded again, when it is ready."""
+    one = Studio(page)
+    one.wait("typeof kempe === 'object' && kempe.state().then(state => state !== null)", 20.0)
+    one.settle()
+    page.wait_for_timeout(300)
     return one
 
 

@@ -1,6 +1,12 @@
 """Hints for what is used for the first time."""
 
-from studio.window import Opener, Studio
+from typing import TYPE_CHECKING
+
+from studio.conftest import ready
+from studio.window import VISITED, Opener, Studio
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Browser
 
 
 def hint(one: Studio) -> str:
@@ -24,16 +30,23 @@ def test_each_mode_and_kind_of_tool_has_its_hint_once(fresh: Opener) -> None:
         assert hint(one) == ""
 
 
-def test_a_hint_is_dismissed_and_stays_so_after_a_reload(fresh: Opener) -> None:
-    one = fresh()
+def test_a_hint_is_dismissed_and_stays_so_after_a_reload(
+    built: None,  # noqa: ARG001
+    browser: "Browser",
+    site: str,
+) -> None:
+    # by http, because a browser writes the storage of a page from a disk when it likes
+    context = browser.new_context(viewport={"width": 1280, "height": 800})
+    context.add_init_script(VISITED)
+    page = context.new_page()
+    page.goto(site)
+    one = ready(page)
     assert hint(one)
     one.page.locator("#hint button").click()
     assert hint(one) == ""
-    one.page.wait_for_timeout(1000)  # a browser stores at its leisure
     one.page.reload()
-    one.wait("typeof kempe === 'object' && kempe.state().then(state => state !== null)", 20.0)
-    assert hint(one) == ""
-    one.requests.remove(one.page.url)  # the page was loaded twice
+    assert hint(ready(one.page)) == ""
+    context.close()
 
 
 def test_without_storage_hints_are_remembered_while_the_page_is_open(fresh: Opener) -> None:

@@ -1,42 +1,15 @@
 """Work outlives a reload, the way back, a new case and another tab; a file is written again."""
 
-import functools
-import http.server
-import threading
 from collections.abc import Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
-from studio.conftest import PAGE
+from studio.conftest import PAGE, ready
 from studio.window import VISITED, Opener, Studio
 
 if TYPE_CHECKING:
-    from playwright.sync_api import Browser, Page
-
-
-class Quiet(http.server.SimpleHTTPRequestHandler):
-    def log_message(self, *_: object) -> None:
-        pass
-
-
-@pytest.fixture(scope="module")
-def site() -> Iterator[str]:
-    """The page at an address of http."""
-    handler = functools.partial(Quiet, directory=str(PAGE.parent))
-    server = http.server.ThreadingHTTPServer(("127.0.0.1", 0), handler)
-    threading.Thread(target=server.serve_forever, daemon=True).start()
-    yield f"http://127.0.0.1:{server.server_address[1]}/index.html"
-    server.shutdown()
-    server.server_close()
-
-
-def ready(page: "Page") -> Studio:
-    one = Studio(page)
-    one.wait("typeof kempe === 'object' && kempe.state().then(state => state !== null)", 20.0)
-    one.settle()
-    page.wait_for_timeout(300)
-    return one
+    from playwright.sync_api import Browser
 
 
 @pytest.fixture(params=["file", "http"])
