@@ -80,6 +80,8 @@ def test_work_comes_back_after_leaving_the_page_and_after_a_crash(window: Studio
     assert ready(one.page).toml() == before != text
 
 
+# under load, Chromium does not always pass the calls of tabs between pages from a disk
+@pytest.mark.parametrize("window", ["http"], indirect=True)
 def test_a_duplicated_tab_is_a_copy_and_says_so(window: Studio) -> None:
     one = window
     text = draw_a_bar(one)
